@@ -1,0 +1,86 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/material.h"
+
+namespace viscard {
+
+enum class FitKind { kIndentation, kRelaxation, kCreep, kDma };
+
+// One term of the fitted series; ascending tau. Without punch geometry "modulus" is a stiffness in
+// N/m (FitResult::is_stiffness).
+struct FittedTerm {
+  double modulus_Pa = 0.0;
+  double g = 0.0;
+  double tau_s = 0.0;
+  double modulus_se_Pa = 0.0;
+  double ln_tau_se = 0.0;
+  Interval modulus_Pa_95, g_95, tau_s_95;
+};
+
+// One row of the table of orders tried.
+struct OrderRow {
+  int n_terms = 0;
+  double rss = 0.0;   // all samples, unweighted, unit of the fitted column squared
+  double aicc = 0.0;
+  double bic = 0.0;
+  double cv = 0.0;    // mean squared prediction error of left-out blocks over that of the noise
+  bool is_chosen = false;
+};
+
+struct NoiseEstimate {
+  double sigma = 0.0;      // standard deviation of one sample, unit of the fitted column
+  double inflation = 1.0;  // variance factor for autocorrelation and misfit
+};
+
+// Modulus from two points of the loading line, P = E d h/(1 - nu^2) as in the seed's method: ignores
+// relaxation during the ramp, and the layer unless contact carries it. A cross-check that names its
+// bias, beside the fit.
+struct TwoPointModulus {
+  double modulus_Pa = 0.0;
+  double se_Pa = 0.0;
+  double half_space_modulus_Pa = 0.0;  // the same without layer correction: "apparent"
+  std::string bias;                    // one sentence
+};
+
+// For plots: data and fit at the same (possibly binned) times.
+struct FitCurves {
+  std::vector<double> time_s;    // frequency_Hz for kDma
+  std::vector<double> measured;  // unit of the fitted column
+  std::vector<double> fitted;
+  std::vector<double> sigma;     // standard deviation of each binned value
+  std::string unit;              // "N", "Pa", "1/Pa"
+};
+
+struct FitResult {
+  FitKind kind = FitKind::kIndentation;
+  bool is_stiffness = false;
+  double E0_Pa = 0.0, E_inf_Pa = 0.0;
+  double E0_se_Pa = 0.0, E_inf_se_Pa = 0.0;
+  Interval E0_interval_95, E_inf_interval_95;
+  std::vector<FittedTerm> terms;
+  double rss = 0.0;
+  std::size_t n_samples = 0;
+  std::vector<OrderRow> orders;
+  std::vector<MaterialFlag> flags;
+  NoiseEstimate noise;
+  std::vector<std::string> covariance_parameters;  // e.g. "E_inf_Pa", "E_1_Pa", ..., "ln_tau_1"
+  Eigen::MatrixXd covariance;
+  double systematic_relative = 0.0;  // of all moduli together: geometry, calibration, frame
+  double fit_from_s = 0.0, fit_to_s = 0.0;
+  std::optional<TwoPointModulus> two_point;
+  std::optional<double> contact_position_m;
+  std::size_t n_spikes = 0;  // samples left out as spikes
+  FitCurves curves;
+};
+
+// The material a fit describes, without provenance. Throws std::invalid_argument if the fit is of
+// stiffnesses (no geometry was given).
+Material material_from_fit(const FitResult& fit, double nu, double rho_kg_m3);
+
+}  // namespace viscard

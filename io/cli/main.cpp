@@ -1,0 +1,17 @@
+#include <unistd.h>
+
+#include <iostream>
+
+#include "io/cli/command.h"
+
+int main(int argc, char** argv) {
+  std::ios::sync_with_stdio(false);
+  viscard::Streams streams{std::cout, std::cerr, isatty(STDERR_FILENO) == 1};
+  const int status = viscard::run_viscard({argv + 1, argv + argc}, streams);
+  std::cout.flush();
+  if (!std::cout && status == viscard::kDone) {
+    std::cerr << "viscard: standard output could not be written (disk full, or closed?)\n";
+    return viscard::kFailed;
+  }
+  return status;
+}

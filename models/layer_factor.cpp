@@ -1,0 +1,106 @@
+#include "models/layer_factor.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+struct Quadrature {
+  std::vector<double> points;   // on (0, 1)
+  std::vector<double> weights;  // sum to 1
+};
+
+// Gauss-Legendre by Newton on the Legendre recurrence (Abramowitz & Stegun 25.4.29).
+Quadrature gauss_legendre(int count) {
+  Quadrature rule;
+  for (int i = 0; i < count; ++i) {
+    double x = std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5));
+    double derivative = 0.0;
+    for (int iteration = 0; iteration < 100; ++iteration) {
+      double previous = 1.0;
+      double value = x;
+      for (int n = 2; n <= count; ++n) {
+        const double next = ((2.0 * n - 1.0) * x * value - (n - 1.0) * previous) / n;
+        previous = value;
+        value = next;
+      }
+      derivative = count * (x * value - previous) / (x * x - 1.0);
+      const double step = value / derivative;
+      x -= step;
+      if (std::abs(step) < 1e-16) break;
+    }
+    rule.points.push_back(0.5 * (1.0 - x));
+    rule.weights.push_back(1.0 / ((1.0 - x * x) * derivative * derivative));
+  }
+  return rule;
+}
+
+// 1 - K(x): K is the compliance of the bonded layer in Hankel space over that of the half-space
+// (eq. 10), divided through by cosh 2x so that it never overflows.
+double missing_compliance(double x, double nu) {
+  const double k = 3.0 - 4.0 * nu;
+  const double e = std::exp(-2.0 * x);
+  const double numerator = k * (1.0 - e * e) - 4.0 * x * e;
+  const double denominator =
+      k * (1.0 + e * e) + 2.0 * e * (2.0 * x * x + 5.0 - 12.0 * nu + 8.0 * nu * nu);
+  return 1.0 - numerator / denominator;
+}
+
+}  // namespace
+
+double layer_factor(double radius_over_thickness, double poisson_ratio) {
+  if (!(radius_over_thickness >= 0.0 && radius_over_thickness <= 10.0)) {
+    throw std::invalid_argument("punch radius over layer thickness is " +
+                                std::to_string(radius_over_thickness) +
+                                "; the layer correction holds from 0 to 10");
+  }
+  if (!(poisson_ratio >= 0.0 && poisson_ratio <= 0.5)) {
+    throw std::invalid_argument("Poisson ratio is " + std::to_string(poisson_ratio) +
+                                "; the layer correction holds from 0 to 0.5");
+  }
+  if (radius_over_thickness == 0.0) return 1.0;
+
+  // Transform variable x from 0 to 30, where 1 - K is below 1e-20, in panels of one.
+  static const Quadrature panel = gauss_legendre(24);
+  constexpr int kPanels = 30;
+  std::vector<double> x;
+  std::vector<double> weight;
+  for (int p = 0; p < kPanels; ++p) {
+    for (std::size_t i = 0; i < panel.points.size(); ++i) {
+      x.push_back(p + panel.points[i]);
+      weight.push_back(panel.weights[i] * missing_compliance(x.back(), poisson_ratio));
+    }
+  }
+  const auto kernel = [&](double u) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      sum += weight[i] * std::cos(x[i] * u * radius_over_thickness);
+    }
+    return sum * radius_over_thickness;
+  };
+
+  // chi(t) - (1/pi) int_0^1 [kernel(t - s) + kernel(t + s)] chi(s) ds = 1; kappa = int chi.
+  const int count = radius_over_thickness > 2.0 ? 60 : 24;
+  const Quadrature rule = gauss_legendre(count);
+  Eigen::MatrixXd system = Eigen::MatrixXd::Identity(count, count);
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      const auto ti = rule.points[static_cast<std::size_t>(i)];
+      const auto tj = rule.points[static_cast<std::size_t>(j)];
+      const double value = (kernel(ti - tj) + kernel(ti + tj)) / std::numbers::pi;
+      system(i, j) -= value * rule.weights[static_cast<std::size_t>(j)];
+      if (i != j) system(j, i) -= value * rule.weights[static_cast<std::size_t>(i)];
+    }
+  }
+  const Eigen::VectorXd chi = system.partialPivLu().solve(Eigen::VectorXd::Ones(count));
+  double kappa = 0.0;
+  for (int i = 0; i < count; ++i) kappa += rule.weights[static_cast<std::size_t>(i)] * chi[i];
+  return kappa;
+}
+
+}  // namespace viscard

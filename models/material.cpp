@@ -1,0 +1,135 @@
+#include "models/material.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "models/retardation_spectrum.h"
+
+namespace viscard {
+namespace {
+
+void fail(const std::string& what) { throw std::invalid_argument(what); }
+
+double sum_of(const std::vector<MaterialTerm>& terms, double MaterialTerm::*member) {
+  double sum = 0.0;
+  for (const MaterialTerm& term : terms) sum += term.*member;
+  return sum;
+}
+
+void validate_term(const MaterialTerm& term, std::size_t number) {
+  const std::string where = "term " + std::to_string(number) + ": ";
+  if (!(term.g >= 0.0) || !std::isfinite(term.g)) {
+    fail(where + "g is " + std::to_string(term.g) + "; it must be finite and not negative");
+  }
+  if (!(term.k >= 0.0) || !std::isfinite(term.k)) {
+    fail(where + "k is " + std::to_string(term.k) + "; it must be finite and not negative");
+  }
+  if (!(term.tau_s > 0.0) || !std::isfinite(term.tau_s)) {
+    fail(where + "tau is " + std::to_string(term.tau_s) + " s; it must be positive and finite");
+  }
+}
+
+}  // namespace
+
+void validate(const Material& material) {
+  if (!(material.E0_Pa > 0.0) || !std::isfinite(material.E0_Pa)) {
+    fail("E0 is " + std::to_string(material.E0_Pa) + " Pa; it must be positive and finite");
+  }
+  if (!(material.nu > -1.0 && material.nu <= 0.5)) {
+    fail("Poisson ratio is " + std::to_string(material.nu) + "; it must lie in (-1, 0.5]");
+  }
+  if (!(material.rho_kg_m3 >= 0.0) || !std::isfinite(material.rho_kg_m3)) {
+    fail("density is " + std::to_string(material.rho_kg_m3) + " kg/m3; it must not be negative");
+  }
+  for (std::size_t i = 0; i < material.terms.size(); ++i) validate_term(material.terms[i], i + 1);
+  const double sum_g = sum_of(material.terms, &MaterialTerm::g);
+  const double sum_k = sum_of(material.terms, &MaterialTerm::k);
+  // Rounding of a liquid's shares may add to 1 + 1e-16; a card for it is refused all the same.
+  if (!(sum_g < 1.0)) {
+    fail("the g of all terms add up to " + std::to_string(sum_g) +
+         "; they must stay below 1, or nothing of the modulus is left in the end");
+  }
+  if (!(sum_k < 1.0)) {
+    fail("the k of all terms add up to " + std::to_string(sum_k) + "; they must stay below 1");
+  }
+}
+
+bool has_constant_poisson_ratio(const Material& material) {
+  for (const MaterialTerm& term : material.terms) {
+    if (term.k != term.g) return false;
+  }
+  return true;
+}
+
+DerivedModuli derived_moduli(const Material& material) {
+  DerivedModuli out;
+  out.sum_g = sum_of(material.terms, &MaterialTerm::g);
+  out.sum_k = sum_of(material.terms, &MaterialTerm::k);
+  out.E0_Pa = material.E0_Pa;
+  out.G0_Pa = material.E0_Pa / (2.0 * (1.0 + material.nu));
+  out.G_inf_Pa = out.G0_Pa * (1.0 - out.sum_g);
+  const bool incompressible = material.nu == 0.5;
+  out.K0_Pa = incompressible ? std::numeric_limits<double>::infinity()
+                             : material.E0_Pa / (3.0 * (1.0 - 2.0 * material.nu));
+  out.K_inf_Pa = out.K0_Pa * (1.0 - out.sum_k);
+  if (incompressible) {
+    out.E_inf_Pa = 3.0 * out.G_inf_Pa;
+    out.nu_inf = 0.5;
+  } else {
+    out.E_inf_Pa = 9.0 * out.K_inf_Pa * out.G_inf_Pa / (3.0 * out.K_inf_Pa + out.G_inf_Pa);
+    out.nu_inf = (3.0 * out.K_inf_Pa - 2.0 * out.G_inf_Pa) /
+                 (2.0 * (3.0 * out.K_inf_Pa + out.G_inf_Pa));
+  }
+  if (has_constant_poisson_ratio(material)) {  // without the rounding of the detour
+    out.E_inf_Pa = material.E0_Pa * (1.0 - out.sum_g);
+    out.nu_inf = material.nu;
+  }
+  for (const MaterialTerm& term : material.terms) {
+    out.G_Pa.push_back(term.g * out.G0_Pa);
+    if (!incompressible) out.K_Pa.push_back(term.k * out.K0_Pa);
+    out.beta_1_s.push_back(1.0 / term.tau_s);
+  }
+  return out;
+}
+
+PronySeries shear_series(const Material& material) {
+  const DerivedModuli moduli = derived_moduli(material);
+  PronySeries series{moduli.G_inf_Pa, {}};
+  for (std::size_t i = 0; i < material.terms.size(); ++i) {
+    series.terms.push_back({moduli.G_Pa[i], material.terms[i].tau_s});
+  }
+  return series;
+}
+
+PronySeries young_series(const Material& material) {
+  const DerivedModuli moduli = derived_moduli(material);
+  if (material.nu == 0.5 || has_constant_poisson_ratio(material)) {
+    PronySeries series{moduli.E_inf_Pa, {}};
+    for (const MaterialTerm& term : material.terms) {
+      series.terms.push_back({term.g * material.E0_Pa, term.tau_s});
+    }
+    return series;
+  }
+  for (const MaterialTerm& term : material.terms) {
+    if (term.k != 0.0) {
+      fail("Young's modulus of a material whose bulk and shear terms differ is a Prony series only "
+           "when the bulk modulus is constant (all k = 0) or k = g for every term");
+    }
+  }
+  // 1/E = 1/(3G) + 1/(9K) in the Laplace domain: creep in tension is creep in shear plus a constant,
+  // and the relaxation series follows from that compliance.
+  const PronySeries shear = shear_series(material);
+  const RetardationSpectrum creep = retardation_from_relaxation(shear);
+  RetardationSpectrum uniaxial;
+  uniaxial.instantaneous_compliance_1_Pa =
+      creep.instantaneous_compliance_1_Pa / 3.0 + 1.0 / (9.0 * moduli.K0_Pa);
+  uniaxial.fluidity_1_Pa_s = creep.fluidity_1_Pa_s / 3.0;
+  for (const RetardationTerm& term : creep.terms) {
+    uniaxial.terms.push_back({term.compliance_1_Pa / 3.0, term.retardation_time_s});
+  }
+  return relaxation_from_retardation(uniaxial);
+}
+
+}  // namespace viscard

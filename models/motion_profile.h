@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+namespace viscard {
+
+// One point-to-point move of a motion controller: speed rises at `acceleration` to `speed`, stays,
+// and falls at the same rate (a trapezoid; a triangle when the way is too short for full speed).
+// Positions in m on an axis that grows toward the specimen, times in s, speed > 0, acceleration > 0.
+struct StageMove {
+  double start_time_s = 0.0;
+  double from_m = 0.0;
+  double to_m = 0.0;
+  double speed_m_s = 0.0;
+  double acceleration_m_s2 = 0.0;
+};
+
+// Throws std::invalid_argument unless speed and acceleration are positive and all is finite.
+void validate(const StageMove& move);
+
+double duration_s(const StageMove& move);
+
+// Position at any time: from_m before the start, to_m after the end.
+double position_m(const StageMove& move, double time_s);
+double velocity_m_s(const StageMove& move, double time_s);
+
+// Times at which the acceleration changes (start, ramp ends, end), ascending, absolute. Between
+// them the position is a parabola or a line, so they are the nodes a hereditary integral needs.
+std::vector<double> knots_s(const StageMove& move);
+
+// Position of a stage that makes these moves one after another (ascending start, each from where the
+// last ended): the last move that has begun decides. Before the first, its from_m.
+double position_m(const std::vector<StageMove>& moves, double time_s);
+
+// Nearest position a stage of that many steps per metre can stand at.
+double quantised_m(double position_m, double steps_per_m);
+
+}  // namespace viscard

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+
+#include "models/calibration.h"
+
+namespace viscard {
+
+// What rig.toml says (data/demo/01_rig.toml is the commented example). SI.
+
+struct StageConfig {
+  std::string driver = "grbl";
+  std::string port;                 // path; prefer /dev/serial/by-id/...
+  int baud = 115200;
+  char axis = 'Z';
+  int toward_specimen = -1;         // sign of machine motion that presses into the specimen
+  double travel_m = 10e-3;          // software limit of the way toward the specimen from where it starts
+  double backlash_m = 0.0;
+};
+
+struct LoadCellConfig {
+  std::string driver = "hx711";
+  std::string port;
+  int baud = 115200;
+  std::string line_format = "auto"; // "counts" | "micros,counts" | "millis,counts" | "volts" | "auto"
+  double expected_rate_Hz = 80.0;
+  double volts_per_count = 0.0;     // V per count of the converter
+  bool compression_is_positive = true;
+};
+
+// Compliance of everything between the stage's position and the punch tip (the load cell is one
+// spring of it): depth = stage position - contact position - force/frame_stiffness.
+struct FrameConfig {
+  double stiffness_N_m = 0.0;               // 0: rigid
+  double stiffness_relative_u = 0.0;        // standard uncertainty, relative
+};
+
+struct SafetyConfig {
+  double warn_fraction = 0.70;  // of the cell's capacity
+  double soft_fraction = 0.80;  // decelerating stop
+  double hard_fraction = 0.95;  // immediate stop
+};
+
+struct RigConfig {
+  std::string name;
+  StageConfig stage;
+  LoadCellConfig load_cell;
+  LoadCellCalibration calibration;
+  FrameConfig frame;
+  SafetyConfig safety;
+  double clock_speed = 1.0;  // > 1 only with an emulated rig: its clock over the wall clock
+};
+
+}  // namespace viscard
