@@ -1,12 +1,13 @@
 #pragma once
 
+#include "models/material.h"
+
 #include <Eigen/Core>
+
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "models/material.h"
 
 namespace viscard {
 
@@ -26,10 +27,10 @@ struct FittedTerm {
 // One row of the table of orders tried.
 struct OrderRow {
   int n_terms = 0;
-  double rss = 0.0;   // all samples, unweighted, unit of the fitted column squared
+  double rss = 0.0;  // all samples, unweighted, unit of the fitted column squared
   double aicc = 0.0;
   double bic = 0.0;
-  double cv = 0.0;    // mean squared prediction error of left-out blocks over that of the noise
+  double cv = 0.0;  // mean squared prediction error of left-out blocks over that of the noise
   bool is_chosen = false;
 };
 
@@ -38,9 +39,9 @@ struct NoiseEstimate {
   double inflation = 1.0;  // variance factor for autocorrelation and misfit
 };
 
-// Modulus from two points of the loading line, P = E d h/(1 - nu^2) as in the seed's method: ignores
-// relaxation during the ramp, and the layer unless contact carries it. A cross-check that names its
-// bias, beside the fit.
+// Modulus from two points of the loading line, P = E d h/(1 - nu^2) as in the seed's method:
+// ignores relaxation during the ramp, and the layer unless contact carries it. A cross-check that
+// names its bias, beside the fit.
 struct TwoPointModulus {
   double modulus_Pa = 0.0;
   double se_Pa = 0.0;
@@ -53,8 +54,8 @@ struct FitCurves {
   std::vector<double> time_s;    // frequency_Hz for kDma
   std::vector<double> measured;  // unit of the fitted column
   std::vector<double> fitted;
-  std::vector<double> sigma;     // standard deviation of each binned value
-  std::string unit;              // "N", "Pa", "1/Pa"
+  std::vector<double> sigma;  // standard deviation of each binned value
+  std::string unit;           // "N", "Pa", "1/Pa"
 };
 
 struct FitResult {

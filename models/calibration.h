@@ -8,12 +8,12 @@ namespace viscard {
 //   volts = counts * volts_per_count,   force = (volts - zero_volts)/volts_per_newton.
 // The seed rig's cell gives 0.7255 V/N after its amplifier.
 struct LoadCellCalibration {
-  double volts_per_newton = 0.0;      // V/N
-  double volts_per_newton_u = 0.0;    // standard uncertainty, V/N
-  double zero_volts = 0.0;            // reading at no load; a tare replaces it
-  double capacity_N = 0.0;            // rated load of the cell
-  std::string id;                     // names the calibration record
-  std::string date;                   // ISO 8601
+  double volts_per_newton = 0.0;    // V/N
+  double volts_per_newton_u = 0.0;  // standard uncertainty, V/N
+  double zero_volts = 0.0;          // reading at no load; a tare replaces it
+  double capacity_N = 0.0;          // rated load of the cell
+  std::string id;                   // names the calibration record
+  std::string date;                 // ISO 8601
 };
 
 // Throws std::invalid_argument unless the gain is finite and not zero and the capacity positive.

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include "models/rig_config.h"
 #include "models/run_record.h"
 #include "models/specimen.h"
 #include "models/test_plan.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -21,10 +21,10 @@ struct CapturedRun {
   std::vector<StageReport> stage_reports;
   std::vector<CommandedMove> moves;
   std::vector<RunEvent> events;
-  std::string status;        // "finished" | "interrupted" | "running"
-  std::string started_at;    // ISO 8601, wall clock
-  std::string program;       // "viscard 0.1.0"
-  std::string command;       // command line
+  std::string status;      // "finished" | "interrupted" | "running"
+  std::string started_at;  // ISO 8601, wall clock
+  std::string program;     // "viscard 0.1.0"
+  std::string command;     // command line
   std::size_t n_raw_bytes = 0;
 };
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstdint>
-
 #include "models/material.h"
 #include "models/punch_contact.h"
 #include "models/rig_config.h"
+
+#include <cstdint>
 
 namespace viscard {
 
@@ -14,15 +14,15 @@ struct EmulatedTruth {
   Material material;
   PunchContact contact;
   double frame_stiffness_N_m = 10e3;
-  double surface_position_m = 1.0e-3;    // where the stage touches, on the axis toward the specimen
-  double force_noise_N = 0.0;            // standard deviation of white noise, per reading
+  double surface_position_m = 1.0e-3;  // where the stage touches, on the axis toward the specimen
+  double force_noise_N = 0.0;          // standard deviation of white noise, per reading
   double force_offset_N = 0.0;
-  double drift_relative_per_s = 0.0;     // of the force acting
-  double overload_N = 0.0;               // the cell breaks above this (1.5 x capacity is usual)
-  double sample_rate_Hz = 80.0;          // true rate, on the emulated clock
-  double steps_per_m = 3200e3;           // GRBL $102
-  double acceleration_m_s2 = 0.2;        // GRBL $122
-  double max_rate_m_s = 10e-3;           // GRBL $112
+  double drift_relative_per_s = 0.0;  // of the force acting
+  double overload_N = 0.0;            // the cell breaks above this (1.5 x capacity is usual)
+  double sample_rate_Hz = 80.0;       // true rate, on the emulated clock
+  double steps_per_m = 3200e3;        // GRBL $102
+  double acceleration_m_s2 = 0.2;     // GRBL $122
+  double max_rate_m_s = 10e-3;        // GRBL $112
   std::uint64_t seed = 1;
 };
 

@@ -56,8 +56,7 @@ double HereditaryStress::carried_Pa(double dt_s) const {
   double carried_Pa = 0.0;
   for (std::size_t i = 0; i < branch_Pa_.size(); ++i) {
     const double x = dt_s / series_.terms[i].relaxation_time_s;
-    carried_Pa +=
-        std::exp(-x) * branch_Pa_[i] - series_.terms[i].modulus_Pa * phi1(x) * strain_;
+    carried_Pa += std::exp(-x) * branch_Pa_[i] - series_.terms[i].modulus_Pa * phi1(x) * strain_;
   }
   return carried_Pa;
 }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <vector>
-
 #include "models/prony_series.h"
+
+#include <vector>
 
 namespace viscard {
 

@@ -1,6 +1,7 @@
 #include "models/layer_factor.h"
 
 #include <Eigen/Dense>
+
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -76,31 +77,27 @@ double layer_factor(double radius_over_thickness, double poisson_ratio) {
       weight.push_back(panel.weights[i] * missing_compliance(x.back(), poisson_ratio));
     }
   }
-  const auto kernel = [&](double u) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      sum += weight[i] * std::cos(x[i] * u * radius_over_thickness);
-    }
-    return sum * radius_over_thickness;
-  };
 
-  // chi(t) - (1/pi) int_0^1 [kernel(t - s) + kernel(t + s)] chi(s) ds = 1; kappa = int chi.
+  // chi(t) - (2 r/pi) int_0^1 [int (1 - K(x)) cos(x r t) cos(x r s) dx] chi(s) ds = 1, r = a/H, and
+  // kappa = int chi. The inner integral separates into a product of cosines.
   const int count = radius_over_thickness > 2.0 ? 60 : 24;
   const Quadrature rule = gauss_legendre(count);
-  Eigen::MatrixXd system = Eigen::MatrixXd::Identity(count, count);
-  for (int i = 0; i < count; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      const auto ti = rule.points[static_cast<std::size_t>(i)];
-      const auto tj = rule.points[static_cast<std::size_t>(j)];
-      const double value = (kernel(ti - tj) + kernel(ti + tj)) / std::numbers::pi;
-      system(i, j) -= value * rule.weights[static_cast<std::size_t>(j)];
-      if (i != j) system(j, i) -= value * rule.weights[static_cast<std::size_t>(i)];
+  const auto n_x = static_cast<Eigen::Index>(x.size());
+  Eigen::MatrixXd cosines(count, n_x);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index k = 0; k < n_x; ++k) {
+      cosines(i, k) = std::cos(x[static_cast<std::size_t>(k)] * radius_over_thickness *
+                               rule.points[static_cast<std::size_t>(i)]);
     }
   }
+  const Eigen::Map<const Eigen::VectorXd> x_weights(weight.data(), n_x);
+  const Eigen::Map<const Eigen::VectorXd> t_weights(rule.weights.data(), count);
+  const Eigen::MatrixXd kernel = (2.0 * radius_over_thickness / std::numbers::pi) * cosines *
+                                 x_weights.asDiagonal() * cosines.transpose();
+  const Eigen::MatrixXd system =
+      Eigen::MatrixXd::Identity(count, count) - kernel * t_weights.asDiagonal();
   const Eigen::VectorXd chi = system.partialPivLu().solve(Eigen::VectorXd::Ones(count));
-  double kappa = 0.0;
-  for (int i = 0; i < count; ++i) kappa += rule.weights[static_cast<std::size_t>(i)] * chi[i];
-  return kappa;
+  return t_weights.dot(chi);
 }
 
 }  // namespace viscard

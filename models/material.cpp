@@ -1,16 +1,18 @@
 #include "models/material.h"
 
+#include "models/retardation_spectrum.h"
+
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
-#include "models/retardation_spectrum.h"
-
 namespace viscard {
 namespace {
 
-void fail(const std::string& what) { throw std::invalid_argument(what); }
+void fail(const std::string& what) {
+  throw std::invalid_argument(what);
+}
 
 double sum_of(const std::vector<MaterialTerm>& terms, double MaterialTerm::*member) {
   double sum = 0.0;
@@ -79,8 +81,8 @@ DerivedModuli derived_moduli(const Material& material) {
     out.nu_inf = 0.5;
   } else {
     out.E_inf_Pa = 9.0 * out.K_inf_Pa * out.G_inf_Pa / (3.0 * out.K_inf_Pa + out.G_inf_Pa);
-    out.nu_inf = (3.0 * out.K_inf_Pa - 2.0 * out.G_inf_Pa) /
-                 (2.0 * (3.0 * out.K_inf_Pa + out.G_inf_Pa));
+    out.nu_inf =
+        (3.0 * out.K_inf_Pa - 2.0 * out.G_inf_Pa) / (2.0 * (3.0 * out.K_inf_Pa + out.G_inf_Pa));
   }
   if (has_constant_poisson_ratio(material)) {  // without the rounding of the detour
     out.E_inf_Pa = material.E0_Pa * (1.0 - out.sum_g);
@@ -114,12 +116,13 @@ PronySeries young_series(const Material& material) {
   }
   for (const MaterialTerm& term : material.terms) {
     if (term.k != 0.0) {
-      fail("Young's modulus of a material whose bulk and shear terms differ is a Prony series only "
-           "when the bulk modulus is constant (all k = 0) or k = g for every term");
+      fail(
+          "Young's modulus of a material whose bulk and shear terms differ is a Prony series only "
+          "when the bulk modulus is constant (all k = 0) or k = g for every term");
     }
   }
-  // 1/E = 1/(3G) + 1/(9K) in the Laplace domain: creep in tension is creep in shear plus a constant,
-  // and the relaxation series follows from that compliance.
+  // 1/E = 1/(3G) + 1/(9K) in the Laplace domain: creep in tension is creep in shear plus a
+  // constant, and the relaxation series follows from that compliance.
   const PronySeries shear = shear_series(material);
   const RetardationSpectrum creep = retardation_from_relaxation(shear);
   RetardationSpectrum uniaxial;

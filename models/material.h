@@ -1,11 +1,12 @@
 #pragma once
 
+#include "models/prony_series.h"
+
 #include <Eigen/Core>
+
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "models/prony_series.h"
 
 namespace viscard {
 
@@ -34,9 +35,10 @@ struct TermUncertainty {
 
 struct MaterialUncertainty {
   Interval E0_Pa_95, E_inf_Pa_95;
-  std::vector<TermUncertainty> terms;             // as Material::terms
-  std::vector<std::string> covariance_parameters;  // names of rows, e.g. "E_inf_Pa", "E_1_Pa", "ln_tau_1"
-  Eigen::MatrixXd covariance;                      // square, in the units the names say
+  std::vector<TermUncertainty> terms;  // as Material::terms
+  std::vector<std::string>
+      covariance_parameters;         // names of rows, e.g. "E_inf_Pa", "E_1_Pa", "ln_tau_1"
+  Eigen::MatrixXd covariance;        // square, in the units the names say
   double systematic_relative = 0.0;  // scales all moduli together: geometry, calibration, frame
 };
 
@@ -60,9 +62,9 @@ struct RawFile {
 };
 
 struct Provenance {
-  std::string created_by;   // "viscard 0.1.0"
-  std::string created_at;   // ISO 8601, empty in reproducible mode
-  std::string command;      // command line
+  std::string created_by;  // "viscard 0.1.0"
+  std::string created_at;  // ISO 8601, empty in reproducible mode
+  std::string command;     // command line
   std::vector<RawFile> raw_files;
   double fit_from_s = 0.0, fit_to_s = 0.0;  // fit window
   std::string nu_origin = "assumed";        // assumed | measured
@@ -97,8 +99,8 @@ struct DerivedModuli {
   double K0_Pa = 0.0, K_inf_Pa = 0.0;
   double nu_inf = 0.0;  // long-term Poisson ratio
   double sum_g = 0.0, sum_k = 0.0;
-  std::vector<double> G_Pa, K_Pa;   // branch moduli g_i G_0, k_i K_0
-  std::vector<double> beta_1_s;     // 1/tau_i
+  std::vector<double> G_Pa, K_Pa;  // branch moduli g_i G_0, k_i K_0
+  std::vector<double> beta_1_s;    // 1/tau_i
 };
 DerivedModuli derived_moduli(const Material& material);
 

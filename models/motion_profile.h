@@ -6,7 +6,8 @@ namespace viscard {
 
 // One point-to-point move of a motion controller: speed rises at `acceleration` to `speed`, stays,
 // and falls at the same rate (a trapezoid; a triangle when the way is too short for full speed).
-// Positions in m on an axis that grows toward the specimen, times in s, speed > 0, acceleration > 0.
+// Positions in m on an axis that grows toward the specimen, times in s, speed > 0, acceleration >
+// 0.
 struct StageMove {
   double start_time_s = 0.0;
   double from_m = 0.0;
@@ -28,8 +29,8 @@ double velocity_m_s(const StageMove& move, double time_s);
 // them the position is a parabola or a line, so they are the nodes a hereditary integral needs.
 std::vector<double> knots_s(const StageMove& move);
 
-// Position of a stage that makes these moves one after another (ascending start, each from where the
-// last ended): the last move that has begun decides. Before the first, its from_m.
+// Position of a stage that makes these moves one after another (ascending start, each from where
+// the last ended): the last move that has begun decides. Before the first, its from_m.
 double position_m(const std::vector<StageMove>& moves, double time_s);
 
 // Nearest position a stage of that many steps per metre can stand at.

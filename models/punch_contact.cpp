@@ -1,11 +1,11 @@
 #include "models/punch_contact.h"
 
+#include "models/layer_factor.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
-
-#include "models/layer_factor.h"
 
 namespace viscard {
 
@@ -51,8 +51,7 @@ double relative_uncertainty(const PunchContact& contact) {
     return slope_m * uncertainty / nominal_m;
   };
   constexpr double kNoLimit = 1e300;
-  const double radius =
-      change(&PunchContact::punch_radius_m, contact.punch_radius_u_m, kNoLimit);
+  const double radius = change(&PunchContact::punch_radius_m, contact.punch_radius_u_m, kNoLimit);
   const double thickness =
       contact.layer_thickness_m > 0.0
           ? change(&PunchContact::layer_thickness_m, contact.layer_thickness_u_m, kNoLimit)

@@ -2,8 +2,9 @@
 
 namespace viscard {
 
-// Rigid flat punch of radius a on a layer of thickness H bonded to a rigid base (or on a half-space,
-// thickness 0), frictionless. Force follows depth linearly, so the hereditary integral is exact:
+// Rigid flat punch of radius a on a layer of thickness H bonded to a rigid base (or on a
+// half-space, thickness 0), frictionless. Force follows depth linearly, so the hereditary integral
+// is exact:
 //   F(t) = (2 a kappa(a/H, nu)/(1 - nu^2)) int E(t - s) d(depth)/ds ds   (eq. 8)
 // Source: Sneddon, Int. J. Eng. Sci. 3 (1965) 47 for the half-space; layer_factor.h for kappa.
 struct PunchContact {

@@ -14,8 +14,8 @@ struct Pole {
   double weight = 0.0;  // E_i or J_j
 };
 
-// A rate between two poles, kept as a pole (or zero) and the signed distance from it, because a weak
-// branch puts the zero within rounding of its own pole.
+// A rate between two poles, kept as a pole (or zero) and the signed distance from it, because a
+// weak branch puts the zero within rounding of its own pole.
 struct Rate {
   double base_1_s = 0.0;
   double offset_1_s = 0.0;

@@ -1,13 +1,14 @@
 #pragma once
 
-#include <vector>
-
 #include "models/prony_series.h"
+
+#include <vector>
 
 namespace viscard {
 
-// Creep compliance of the same solid, J(t) = J_g + sum_j J_j (1 - exp(-t/lambda_j)) + t/eta   (eq. 3)
-// Compliances in 1/Pa, times in s. fluidity_1_Pa_s = 1/eta is zero unless the series is a liquid.
+// Creep compliance of the same solid, J(t) = J_g + sum_j J_j (1 - exp(-t/lambda_j)) + t/eta   (eq.
+// 3) Compliances in 1/Pa, times in s. fluidity_1_Pa_s = 1/eta is zero unless the series is a
+// liquid.
 struct RetardationTerm {
   double compliance_1_Pa = 0.0;
   double retardation_time_s = 0.0;
@@ -19,9 +20,9 @@ struct RetardationSpectrum {
   double fluidity_1_Pa_s = 0.0;
 };
 
-// Exact interconversion (eq. 4): the zeros s = -1/lambda_j of s * (Laplace transform of E) interlace
-// the poles -1/tau_i, one in each gap, and J_j follows from the residue there. Terms of equal time
-// are merged and terms of zero modulus dropped first, since neither makes a pole.
+// Exact interconversion (eq. 4): the zeros s = -1/lambda_j of s * (Laplace transform of E)
+// interlace the poles -1/tau_i, one in each gap, and J_j follows from the residue there. Terms of
+// equal time are merged and terms of zero modulus dropped first, since neither makes a pole.
 // Source: Tschoegl (1989), ch. 4; Park & Schapery, Int. J. Solids Struct. 36 (1999) 1653.
 // Throws std::invalid_argument where validate(series) does.
 RetardationSpectrum retardation_from_relaxation(const PronySeries& series);

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include "models/calibration.h"
+
+#include <string>
 
 namespace viscard {
 
@@ -10,11 +10,11 @@ namespace viscard {
 
 struct StageConfig {
   std::string driver = "grbl";
-  std::string port;                 // path; prefer /dev/serial/by-id/...
+  std::string port;  // path; prefer /dev/serial/by-id/...
   int baud = 115200;
   char axis = 'Z';
-  int toward_specimen = -1;         // sign of machine motion that presses into the specimen
-  double travel_m = 10e-3;          // software limit of the way toward the specimen from where it starts
+  int toward_specimen = -1;  // sign of machine motion that presses into the specimen
+  double travel_m = 10e-3;   // software limit of the way toward the specimen from where it starts
   double backlash_m = 0.0;
 };
 
@@ -22,17 +22,18 @@ struct LoadCellConfig {
   std::string driver = "hx711";
   std::string port;
   int baud = 115200;
-  std::string line_format = "auto"; // "counts" | "micros,counts" | "millis,counts" | "volts" | "auto"
+  std::string line_format =
+      "auto";  // "counts" | "micros,counts" | "millis,counts" | "volts" | "auto"
   double expected_rate_Hz = 80.0;
-  double volts_per_count = 0.0;     // V per count of the converter
+  double volts_per_count = 0.0;  // V per count of the converter
   bool compression_is_positive = true;
 };
 
 // Compliance of everything between the stage's position and the punch tip (the load cell is one
 // spring of it): depth = stage position - contact position - force/frame_stiffness.
 struct FrameConfig {
-  double stiffness_N_m = 0.0;               // 0: rigid
-  double stiffness_relative_u = 0.0;        // standard uncertainty, relative
+  double stiffness_N_m = 0.0;         // 0: rigid
+  double stiffness_relative_u = 0.0;  // standard uncertainty, relative
 };
 
 struct SafetyConfig {

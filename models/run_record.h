@@ -1,17 +1,17 @@
 #pragma once
 
+#include "models/motion_profile.h"
+
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
 
-#include "models/motion_profile.h"
-
 namespace viscard {
 
-// What a test run hands out while it happens, in order; the capture file stores each kind in a table
-// of its own. host_time_s is CLOCK_MONOTONIC at the receive call, in s since the run began, times the
-// declared speed of an emulated clock (1 on a real rig).
+// What a test run hands out while it happens, in order; the capture file stores each kind in a
+// table of its own. host_time_s is CLOCK_MONOTONIC at the receive call, in s since the run began,
+// times the declared speed of an emulated clock (1 on a real rig).
 
 enum class Device { kStage = 0, kLoadCell = 1 };
 
@@ -25,13 +25,14 @@ struct RawBytes {
 
 // One reading of the load cell's amplifier.
 struct LoadSample {
-  std::int64_t index = 0;               // counts readings from 0
+  std::int64_t index = 0;  // counts readings from 0
   double host_time_s = 0.0;
-  std::optional<double> device_time_s;  // the amplifier's own clock, unwrapped; none if it sends none
-  std::optional<double> counts;         // raw counts of the converter ...
-  std::optional<double> volts;          // ... or volts, whichever the device sends
-  bool is_saturated = false;            // converter at an end of its range
-  bool is_glitch = false;               // a code the converter makes when its read is interrupted
+  std::optional<double>
+      device_time_s;             // the amplifier's own clock, unwrapped; none if it sends none
+  std::optional<double> counts;  // raw counts of the converter ...
+  std::optional<double> volts;   // ... or volts, whichever the device sends
+  bool is_saturated = false;     // converter at an end of its range
+  bool is_glitch = false;        // a code the converter makes when its read is interrupted
 };
 
 // One status report of the stage. Positions grow toward the specimen.

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include "models/punch_contact.h"
+
+#include <string>
 
 namespace viscard {
 
@@ -10,10 +10,10 @@ namespace viscard {
 // the punch. SI.
 struct Specimen {
   std::string id;
-  std::string material;            // "PDMS"
-  double mixing_ratio = 0.0;       // parts of base to one of curing agent; 0: not given
+  std::string material;       // "PDMS"
+  double mixing_ratio = 0.0;  // parts of base to one of curing agent; 0: not given
   PunchContact contact;
-  double modulus_guess_Pa = 0.0;   // for pre-flight and the stage travel only, never for the fit
+  double modulus_guess_Pa = 0.0;  // for pre-flight and the stage travel only, never for the fit
   double rho_kg_m3 = 0.0;
   double temperature_C = 23.0;
 };

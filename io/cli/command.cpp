@@ -7,7 +7,8 @@ namespace viscard {
 namespace {
 
 void print_overview(std::ostream& out) {
-  out << "viscard " VISCARD_VERSION ": a soft polymer from a load cell to a validated simulation\n\n"
+  out << "viscard " VISCARD_VERSION
+         ": a soft polymer from a load cell to a validated simulation\n\n"
          "usage: viscard COMMAND [OPTIONS]      (viscard COMMAND --help says more)\n\n";
   for (const Command& command : commands()) {
     out << "  " << command.name << std::string(12 - std::string(command.name).size(), ' ')

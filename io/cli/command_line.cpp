@@ -46,7 +46,8 @@ std::optional<po::variables_map> parse_words(CommandSyntax& syntax,
   po::variables_map values;
   try {
     // No guessing of shortened options: a script must not change meaning when an option is added.
-    const int style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
+    const int style =
+        po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
     po::store(po::command_line_parser(words).options(all).positional(positions).style(style).run(),
               values);
   } catch (const po::unknown_option& error) {

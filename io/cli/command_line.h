@@ -1,11 +1,12 @@
 #pragma once
 
+#include "io/cli/command.h"
+
 #include <boost/program_options.hpp>
+
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "io/cli/command.h"
 
 namespace viscard {
 

@@ -1,8 +1,8 @@
+#include "io/cli/command.h"
+
 #include <unistd.h>
 
 #include <iostream>
-
-#include "io/cli/command.h"
 
 int main(int argc, char** argv) {
   std::ios::sync_with_stdio(false);

@@ -14,7 +14,9 @@ Progress::Progress(Streams& streams, std::string title)
       started_(std::chrono::steady_clock::now()),
       last_drawn_(started_ - std::chrono::seconds(1)) {}
 
-Progress::~Progress() { clear(); }
+Progress::~Progress() {
+  clear();
+}
 
 void Progress::show(double fraction, const std::string& note) {
   if (!streams_.err_is_terminal) return;
@@ -27,8 +29,10 @@ void Progress::show(double fraction, const std::string& note) {
   const double spent_s = std::chrono::duration<double>(now - started_).count();
   const std::string left =
       fraction > 0.02 ? fmt::format(" {:.0f} s left", spent_s * (1.0 - fraction) / fraction) : "";
-  streams_.err << fmt::format("\r\033[K{} [{}{}] {:3.0f} %{}  {}", title_, std::string(static_cast<std::size_t>(filled), '#'),
-                              std::string(static_cast<std::size_t>(kWidth - filled), '.'), 100.0 * fraction, left, note)
+  streams_.err << fmt::format("\r\033[K{} [{}{}] {:3.0f} %{}  {}", title_,
+                              std::string(static_cast<std::size_t>(filled), '#'),
+                              std::string(static_cast<std::size_t>(kWidth - filled), '.'),
+                              100.0 * fraction, left, note)
                << std::flush;
   is_drawn_ = true;
 }

@@ -1,14 +1,14 @@
 #pragma once
 
+#include "io/cli/command.h"
+
 #include <chrono>
 #include <string>
 
-#include "io/cli/command.h"
-
 namespace viscard {
 
-// A bar on one line of the terminal, with the time left; silent when stderr is not a terminal. Draws
-// at most ten times a second.
+// A bar on one line of the terminal, with the time left; silent when stderr is not a terminal.
+// Draws at most ten times a second.
 class Progress {
  public:
   Progress(Streams& streams, std::string title);

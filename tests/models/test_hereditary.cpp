@@ -1,8 +1,9 @@
+#include "models/hereditary.h"
+
 #include <catch2/catch.hpp>
+
 #include <cmath>
 #include <stdexcept>
-
-#include "models/hereditary.h"
 
 using namespace viscard;
 
@@ -26,8 +27,8 @@ TEST_CASE("phi functions keep every digit from nothing to infinity", "[models][s
 }
 
 TEST_CASE("ramp and hold gives the effective moduli of the closed form", "[models]") {
-  // E_inf + sum E_i (tau_i/t_R)(1 - exp(-t_R/tau_i)) exp(-(t - t_R)/tau_i): 1.847789124 MPa for a 1 s
-  // ramp at t = 3 s, 1.843283901 for 5 s at 7 s (1:10 material).
+  // E_inf + sum E_i (tau_i/t_R)(1 - exp(-t_R/tau_i)) exp(-(t - t_R)/tau_i): 1.847789124 MPa for a 1
+  // s ramp at t = 3 s, 1.843283901 for 5 s at 7 s (1:10 material).
   const auto effective = [](double ramp_s, double time_s, int steps) {
     HereditaryStress stress(pdms_1to10());
     for (int i = 1; i <= steps; ++i) stress.advance(ramp_s / steps, static_cast<double>(i) / steps);

@@ -1,22 +1,25 @@
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <stdexcept>
-
 #include "models/layer_factor.h"
 #include "models/punch_contact.h"
 
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <stdexcept>
+
 using namespace viscard;
 
-TEST_CASE("the layer factor agrees with an independent solution to its printed digits", "[models]") {
+TEST_CASE("the layer factor agrees with an independent solution to its printed digits",
+          "[models]") {
   // Computed with another quadrature and confirmed by finite elements to four digits; the values of
   // Hayes et al. (1972) agree within 0.3 %.
   struct Row {
     double ratio, at_030, at_045, at_049, at_050;
   };
-  const Row row = GENERATE(Row{0.1, 1.0954, 1.1146, 1.1234, 1.1260}, Row{0.2, 1.2066, 1.2523, 1.2741, 1.2806},
-                           Row{0.5, 1.6240, 1.8063, 1.9028, 1.9329}, Row{1.0, 2.4835, 3.0914, 3.4840, 3.6187},
-                           Row{2.0, 4.3532, 6.4206, 8.3370, 9.1495}, Row{5.0, 10.100, 19.156, 36.263, 50.140},
-                           Row{10.0, 19.716, 42.515, 114.37, 252.898});
+  const Row row =
+      GENERATE(Row{0.1, 1.0954, 1.1146, 1.1234, 1.1260}, Row{0.2, 1.2066, 1.2523, 1.2741, 1.2806},
+               Row{0.5, 1.6240, 1.8063, 1.9028, 1.9329}, Row{1.0, 2.4835, 3.0914, 3.4840, 3.6187},
+               Row{2.0, 4.3532, 6.4206, 8.3370, 9.1495}, Row{5.0, 10.100, 19.156, 36.263, 50.140},
+               Row{10.0, 19.716, 42.515, 114.37, 252.898});
   CAPTURE(row.ratio);
   // Five printed digits: half a unit in the last one.
   CHECK(layer_factor(row.ratio, 0.30) == Approx(row.at_030).epsilon(6e-5));
@@ -28,7 +31,7 @@ TEST_CASE("the layer factor agrees with an independent solution to its printed d
 TEST_CASE("a thick layer is a half-space", "[models][reduction]") {
   CHECK(layer_factor(0.0, 0.5) == 1.0);
   CHECK(layer_factor(0.01, 0.5) == Approx(1.0 + 1.140 * 0.01).epsilon(2e-4));
-  CHECK(layer_factor(0.01, 0.3) == Approx(1.0 + 0.884 * 0.01 ).epsilon(2e-4));
+  CHECK(layer_factor(0.01, 0.3) == Approx(1.0 + 0.884 * 0.01).epsilon(2e-4));
 }
 
 TEST_CASE("the layer factor refuses what it was not made for", "[models]") {

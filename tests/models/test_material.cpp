@@ -1,8 +1,9 @@
+#include "models/material.h"
+
 #include <catch2/catch.hpp>
+
 #include <cmath>
 #include <stdexcept>
-
-#include "models/material.h"
 
 using namespace viscard;
 

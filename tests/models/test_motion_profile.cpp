@@ -1,13 +1,17 @@
-#include <catch2/catch.hpp>
-#include <stdexcept>
-
 #include "models/calibration.h"
 #include "models/motion_profile.h"
+
+#include <catch2/catch.hpp>
+
+#include <stdexcept>
 
 using namespace viscard;
 
 TEST_CASE("a trapezoid takes distance over speed plus speed over acceleration", "[models]") {
-  const StageMove move{.start_time_s = 1.0, .from_m = 0.0, .to_m = 1e-3, .speed_m_s = 1e-3,
+  const StageMove move{.start_time_s = 1.0,
+                       .from_m = 0.0,
+                       .to_m = 1e-3,
+                       .speed_m_s = 1e-3,
                        .acceleration_m_s2 = 0.01};
   CHECK(duration_s(move) == Approx(1.0 + 0.1).epsilon(1e-14));
   CHECK(position_m(move, 0.5) == 0.0);
@@ -27,7 +31,8 @@ TEST_CASE("a way too short for full speed makes a triangle", "[models]") {
 }
 
 TEST_CASE("position is the integral of velocity", "[models]") {
-  const StageMove move{.from_m = 0.2e-3, .to_m = -0.7e-3, .speed_m_s = 2e-3, .acceleration_m_s2 = 0.05};
+  const StageMove move{
+      .from_m = 0.2e-3, .to_m = -0.7e-3, .speed_m_s = 2e-3, .acceleration_m_s2 = 0.05};
   double integrated_m = 0.2e-3;
   const int steps = 100000;
   const double dt_s = duration_s(move) / steps;
@@ -48,7 +53,8 @@ TEST_CASE("a stage stands at whole steps only", "[models]") {
 }
 
 TEST_CASE("volts and force convert both ways through gain and zero", "[models]") {
-  const LoadCellCalibration calibration{.volts_per_newton = 0.7255, .zero_volts = 0.1, .capacity_N = 2.45};
+  const LoadCellCalibration calibration{
+      .volts_per_newton = 0.7255, .zero_volts = 0.1, .capacity_N = 2.45};
   CHECK(force_N_from_volts(calibration, volts_from_force_N(calibration, 1.5)) ==
         Approx(1.5).epsilon(1e-15));
   // The seed: 2.7573 N is 2.0004 V.

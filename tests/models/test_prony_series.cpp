@@ -1,10 +1,11 @@
+#include "models/prony_series.h"
+#include "models/retardation_spectrum.h"
+
 #include <catch2/catch.hpp>
+
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-
-#include "models/prony_series.h"
-#include "models/retardation_spectrum.h"
 
 using namespace viscard;
 
@@ -37,7 +38,8 @@ TEST_CASE("a Prony series starts at E_0 and ends at E_inf", "[models]") {
   CHECK(relaxation_modulus_Pa(series, 1e9) == Approx(1.83851592).epsilon(1e-12));
 }
 
-TEST_CASE("storage and loss moduli keep their digits at both ends of frequency", "[models][stability]") {
+TEST_CASE("storage and loss moduli keep their digits at both ends of frequency",
+          "[models][stability]") {
   const PronySeries series = pdms_1to10();
   CHECK(complex_modulus_Pa(series, 1e300).storage_Pa == Approx(1.88).epsilon(1e-15));
   CHECK(complex_modulus_Pa(series, 1e-300).storage_Pa == Approx(1.83851592).epsilon(1e-12));
@@ -96,15 +98,18 @@ TEST_CASE("relaxation to retardation and back returns thirty terms over twenty d
   REQUIRE(back.terms.size() == 30);
   for (std::size_t i = 0; i < 30; ++i) {
     CAPTURE(i);
-    CHECK(back.terms[i].relaxation_time_s == Approx(series.terms[i].relaxation_time_s).epsilon(1e-9));
+    CHECK(back.terms[i].relaxation_time_s ==
+          Approx(series.terms[i].relaxation_time_s).epsilon(1e-9));
     CHECK(back.terms[i].modulus_Pa == Approx(series.terms[i].modulus_Pa).epsilon(1e-7));
   }
-  CHECK(back.equilibrium_modulus_Pa == Approx(series.equilibrium_modulus_Pa).margin(0).epsilon(1e-12));
+  CHECK(back.equilibrium_modulus_Pa ==
+        Approx(series.equilibrium_modulus_Pa).margin(0).epsilon(1e-12));
 }
 
 TEST_CASE("an unphysical series is refused by name", "[models]") {
   CHECK_THROWS_WITH(validate(PronySeries{1.0, {{1.0, 0.0}}}), Catch::Contains("term 1"));
-  CHECK_THROWS_WITH(validate(PronySeries{1.0, {{1.0, 1.0}, {-1.0, 2.0}}}), Catch::Contains("term 2"));
+  CHECK_THROWS_WITH(validate(PronySeries{1.0, {{1.0, 1.0}, {-1.0, 2.0}}}),
+                    Catch::Contains("term 2"));
   CHECK_THROWS_AS(validate(PronySeries{std::numeric_limits<double>::quiet_NaN(), {}}),
                   std::invalid_argument);
   CHECK_THROWS_AS(validate(PronySeries{0.0, {}}), std::invalid_argument);
