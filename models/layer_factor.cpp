@@ -1,5 +1,7 @@
 #include "models/layer_factor.h"
 
+#include "models/gauss_legendre.h"
+
 #include <Eigen/Dense>
 
 #include <cmath>
@@ -10,36 +12,6 @@
 
 namespace viscard {
 namespace {
-
-struct Quadrature {
-  std::vector<double> points;   // on (0, 1)
-  std::vector<double> weights;  // sum to 1
-};
-
-// Gauss-Legendre by Newton on the Legendre recurrence (Abramowitz & Stegun 25.4.29).
-Quadrature gauss_legendre(int count) {
-  Quadrature rule;
-  for (int i = 0; i < count; ++i) {
-    double x = std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5));
-    double derivative = 0.0;
-    for (int iteration = 0; iteration < 100; ++iteration) {
-      double previous = 1.0;
-      double value = x;
-      for (int n = 2; n <= count; ++n) {
-        const double next = ((2.0 * n - 1.0) * x * value - (n - 1.0) * previous) / n;
-        previous = value;
-        value = next;
-      }
-      derivative = count * (x * value - previous) / (x * x - 1.0);
-      const double step = value / derivative;
-      x -= step;
-      if (std::abs(step) < 1e-16) break;
-    }
-    rule.points.push_back(0.5 * (1.0 - x));
-    rule.weights.push_back(1.0 / ((1.0 - x * x) * derivative * derivative));
-  }
-  return rule;
-}
 
 // 1 - K(x): K is the compliance of the bonded layer in Hankel space over that of the half-space
 // (eq. 10), divided through by cosh 2x so that it never overflows.
@@ -67,7 +39,7 @@ double layer_factor(double radius_over_thickness, double poisson_ratio) {
   if (radius_over_thickness == 0.0) return 1.0;
 
   // Transform variable x from 0 to 30, where 1 - K is below 1e-20, in panels of one.
-  static const Quadrature panel = gauss_legendre(24);
+  static const QuadratureRule panel = gauss_legendre(24);
   constexpr int kPanels = 30;
   std::vector<double> x;
   std::vector<double> weight;
@@ -81,7 +53,7 @@ double layer_factor(double radius_over_thickness, double poisson_ratio) {
   // chi(t) - (2 r/pi) int_0^1 [int (1 - K(x)) cos(x r t) cos(x r s) dx] chi(s) ds = 1, r = a/H, and
   // kappa = int chi. The inner integral separates into a product of cosines.
   const int count = radius_over_thickness > 2.0 ? 60 : 24;
-  const Quadrature rule = gauss_legendre(count);
+  const QuadratureRule rule = gauss_legendre(count);
   const auto n_x = static_cast<Eigen::Index>(x.size());
   Eigen::MatrixXd cosines(count, n_x);
   for (Eigen::Index i = 0; i < count; ++i) {
