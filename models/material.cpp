@@ -33,6 +33,14 @@ void validate_term(const MaterialTerm& term, std::size_t number) {
   }
 }
 
+PronySeries bulk_series(const Material& material, const DerivedModuli& moduli) {
+  PronySeries series{moduli.K_inf_Pa, {}};
+  for (std::size_t i = 0; i < material.terms.size(); ++i) {
+    series.terms.push_back({moduli.K_Pa[i], material.terms[i].tau_s});
+  }
+  return series;
+}
+
 }  // namespace
 
 void validate(const Material& material) {
@@ -70,6 +78,7 @@ DerivedModuli derived_moduli(const Material& material) {
   out.sum_g = sum_of(material.terms, &MaterialTerm::g);
   out.sum_k = sum_of(material.terms, &MaterialTerm::k);
   out.E0_Pa = material.E0_Pa;
+  out.E_rest_Pa = (1.0 - out.sum_g) * material.E0_Pa;
   out.G0_Pa = material.E0_Pa / (2.0 * (1.0 + material.nu));
   out.G_inf_Pa = out.G0_Pa * (1.0 - out.sum_g);
   const bool incompressible = material.nu == 0.5;
@@ -91,7 +100,9 @@ DerivedModuli derived_moduli(const Material& material) {
   for (const MaterialTerm& term : material.terms) {
     out.G_Pa.push_back(term.g * out.G0_Pa);
     if (!incompressible) out.K_Pa.push_back(term.k * out.K0_Pa);
+    out.E_Pa.push_back(term.g * material.E0_Pa);
     out.beta_1_s.push_back(1.0 / term.tau_s);
+    out.norton_1_Pa_s.push_back(1.0 / (3.0 * out.G_Pa.back() * term.tau_s));
   }
   return out;
 }
@@ -114,23 +125,18 @@ PronySeries young_series(const Material& material) {
     }
     return series;
   }
-  for (const MaterialTerm& term : material.terms) {
-    if (term.k != 0.0) {
-      fail(
-          "Young's modulus of a material whose bulk and shear terms differ is a Prony series only "
-          "when the bulk modulus is constant (all k = 0) or k = g for every term");
-    }
-  }
-  // 1/E = 1/(3G) + 1/(9K) in the Laplace domain: creep in tension is creep in shear plus a
-  // constant, and the relaxation series follows from that compliance.
-  const PronySeries shear = shear_series(material);
-  const RetardationSpectrum creep = retardation_from_relaxation(shear);
+  // 1/E = 1/(3G) + 1/(9K) in the Laplace domain: creep in tension is a third of the creep in shear
+  // plus a ninth of that in volume, and the relaxation series follows from that compliance.
+  const RetardationSpectrum shear = retardation_from_relaxation(shear_series(material));
+  const RetardationSpectrum bulk = retardation_from_relaxation(bulk_series(material, moduli));
   RetardationSpectrum uniaxial;
   uniaxial.instantaneous_compliance_1_Pa =
-      creep.instantaneous_compliance_1_Pa / 3.0 + 1.0 / (9.0 * moduli.K0_Pa);
-  uniaxial.fluidity_1_Pa_s = creep.fluidity_1_Pa_s / 3.0;
-  for (const RetardationTerm& term : creep.terms) {
+      shear.instantaneous_compliance_1_Pa / 3.0 + bulk.instantaneous_compliance_1_Pa / 9.0;
+  for (const RetardationTerm& term : shear.terms) {
     uniaxial.terms.push_back({term.compliance_1_Pa / 3.0, term.retardation_time_s});
+  }
+  for (const RetardationTerm& term : bulk.terms) {
+    uniaxial.terms.push_back({term.compliance_1_Pa / 9.0, term.retardation_time_s});
   }
   return relaxation_from_retardation(uniaxial);
 }

@@ -99,15 +99,17 @@ struct DerivedModuli {
   double K0_Pa = 0.0, K_inf_Pa = 0.0;
   double nu_inf = 0.0;  // long-term Poisson ratio
   double sum_g = 0.0, sum_k = 0.0;
-  std::vector<double> G_Pa, K_Pa;  // branch moduli g_i G_0, k_i K_0
-  std::vector<double> beta_1_s;    // 1/tau_i
+  std::vector<double> G_Pa, K_Pa;     // branch moduli g_i G_0, k_i K_0
+  std::vector<double> E_Pa;           // g_i E_0: a branch's share of E_0 at the Poisson ratio nu
+  double E_rest_Pa = 0.0;             // (1 - sum g_i) E_0: the share that never relaxes
+  std::vector<double> beta_1_s;       // 1/tau_i
+  std::vector<double> norton_1_Pa_s;  // 1/(3 G_i tau_i): creep rate per von Mises stress
 };
 DerivedModuli derived_moduli(const Material& material);
 
 PronySeries shear_series(const Material& material);  // G(t)
 // E(t). With constant Poisson ratio the terms carry over; otherwise E(t) follows from G and K by
-// 9KG/(3K + G) in the Laplace domain, which again gives a Prony series (eq. 7b); only k_i = 0 and
-// k_i = g_i are supported there. Throws std::invalid_argument for other mixtures.
+// 9KG/(3K + G) in the Laplace domain, which again gives a Prony series (eq. 7b).
 PronySeries young_series(const Material& material);
 
 }  // namespace viscard

@@ -76,3 +76,25 @@ TEST_CASE("unphysical materials are refused with the value named", "[models]") {
   material.nu = 0.5;  // a material may be incompressible; some cards may not
   CHECK_NOTHROW(validate(material));
 }
+
+TEST_CASE("Young's series of any bulk relaxation obeys 1/E = 1/(3G) + 1/(9K)", "[models]") {
+  Material material = reference_material(false);
+  material.nu = 0.3;
+  material.terms = {{0.2, 0.05, 0.1}, {0.3, 0.0, 1.0}, {0.0, 0.2, 7.0}};
+  const PronySeries young = young_series(material);
+  // s times the Laplace transform at real s, where relaxing branches count M s tau/(1 + s tau).
+  const DerivedModuli moduli = derived_moduli(material);
+  for (const double s : {1e-3, 0.1, 0.9, 5.0, 400.0}) {
+    double G_Pa = moduli.G_inf_Pa, K_Pa = moduli.K_inf_Pa, E_Pa = young.equilibrium_modulus_Pa;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double x = s * material.terms[i].tau_s;
+      G_Pa += moduli.G_Pa[i] * x / (1.0 + x);
+      K_Pa += moduli.K_Pa[i] * x / (1.0 + x);
+    }
+    for (const MaxwellTerm& term : young.terms) {
+      const double x = s * term.relaxation_time_s;
+      E_Pa += term.modulus_Pa * x / (1.0 + x);
+    }
+    CHECK(E_Pa == Approx(9.0 * K_Pa * G_Pa / (3.0 * K_Pa + G_Pa)).epsilon(1e-12));  // rounding
+  }
+}
