@@ -1,5 +1,7 @@
 #pragma once
 
+#include "io/nearest_word.h"
+
 #include <iosfwd>
 #include <stdexcept>
 #include <string>
@@ -36,8 +38,5 @@ const std::vector<Command>& commands();
 
 // Runs `viscard WORDS...` and returns the exit status; prints one clear line on any error.
 int run_viscard(const std::vector<std::string>& words, Streams& streams);
-
-// The nearest of `known` to a misspelt word, or "" if none is near.
-std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace viscard
