@@ -56,6 +56,9 @@ struct FitCurves {
   std::vector<double> fitted;
   std::vector<double> sigma;  // standard deviation of each binned value
   std::string unit;           // "N", "Pa", "1/Pa"
+  // Where time_s a new motion begins (contact, unloading ...): a logarithmic time axis starts anew
+  // there. Empty: at 0 only. All times lie after the first of them.
+  std::vector<double> motion_start_s;
 };
 
 struct FitResult {
