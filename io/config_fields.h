@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace viscard {
+
+// What a configuration struct consists of is said once, by a function that shows each field to a
+// FieldVisitor; one visitor reads TOML into the fields, another writes them as TOML.
+
+enum class Range { kAny, kPositive, kNotNegative, kFraction };  // fraction: [0, 1]
+
+struct QuantityField {
+  const char* key;
+  const char* unit = "1";  // SI
+  Range range = Range::kAny;
+  bool is_required = false;
+  double written_per_value = 1.0;  // 2 for a radius that is written as a diameter
+  const char* word = nullptr;      // a word that may stand for word_value: "rigid"
+  double word_value = 0.0;
+};
+
+struct TextField {
+  const char* key;
+  const char* example;
+  bool is_required = false;
+};
+
+class FieldVisitor {
+ public:
+  virtual ~FieldVisitor() = default;
+  virtual void quantity(const QuantityField& field, double& value) = 0;
+  virtual void text(const TextField& field, std::string& value) = 0;
+  virtual void integer(const char* key, std::int64_t low, std::int64_t high,
+                       std::int64_t& value) = 0;
+  virtual void boolean(const char* key, bool& value) = 0;
+  // [key] with the fields that body shows.
+  virtual void section(const char* key, const std::function<void(FieldVisitor&)>& body) = 0;
+  // [[key]]: resize(n) is called with the number of entries when reading; body shows entry i.
+  virtual void list(const char* key, std::size_t size,
+                    const std::function<void(std::size_t)>& resize,
+                    const std::function<void(FieldVisitor&, std::size_t)>& body) = 0;
+};
+
+using ShowFields = std::function<void(FieldVisitor&)>;
+
+// Throws std::runtime_error with file:line, key and what is expected; name stands for the file.
+void read_toml_fields(const std::string& text, const std::string& name, const ShowFields& show);
+
+std::string toml_from_fields(const ShowFields& show);
+
+}  // namespace viscard

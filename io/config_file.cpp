@@ -1,0 +1,280 @@
+#include "io/config_file.h"
+
+#include "io/atomic_file.h"
+#include "io/config_fields.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+constexpr Range kPositive = Range::kPositive;
+constexpr Range kNotNegative = Range::kNotNegative;
+constexpr Range kFraction = Range::kFraction;
+
+// Shows an integer member of any width.
+template <typename Integer>
+void show_integer(FieldVisitor& fields, const char* key, std::int64_t low, std::int64_t high,
+                  Integer& value) {
+  auto wide = static_cast<std::int64_t>(value);
+  fields.integer(key, low, high, wide);
+  value = static_cast<Integer>(wide);
+}
+
+void show_stage(FieldVisitor& fields, StageConfig& stage) {
+  fields.text({"driver", "grbl"}, stage.driver);
+  fields.text({"port", "/dev/serial/by-id/usb-..."}, stage.port);
+  show_integer(fields, "baud", 300, 4'000'000, stage.baud);
+  std::string axis(1, stage.axis);
+  fields.text({"axis", "Z"}, axis);
+  if (axis.size() != 1) {
+    throw std::runtime_error("stage.axis is '" + axis + "'; expected one letter, such as \"Z\"");
+  }
+  stage.axis = axis.front();
+  show_integer(fields, "toward_specimen", -1, 1, stage.toward_specimen);
+  fields.quantity({"travel", "m", kPositive}, stage.travel_m);
+  fields.quantity({"backlash", "m", kNotNegative}, stage.backlash_m);
+}
+
+void show_load_cell(FieldVisitor& fields, LoadCellConfig& cell) {
+  fields.text({"driver", "hx711"}, cell.driver);
+  fields.text({"port", "/dev/serial/by-id/usb-..."}, cell.port);
+  show_integer(fields, "baud", 300, 4'000'000, cell.baud);
+  fields.text({"line_format", "auto"}, cell.line_format);
+  fields.quantity({"expected_rate", "Hz", kPositive}, cell.expected_rate_Hz);
+  fields.quantity({"volts_per_count", "V"}, cell.volts_per_count);
+  fields.boolean("compression_is_positive", cell.compression_is_positive);
+}
+
+void show_calibration(FieldVisitor& fields, LoadCellCalibration& calibration) {
+  fields.quantity({.key = "volts_per_newton", .unit = "V/N", .is_required = true},
+                  calibration.volts_per_newton);
+  fields.quantity({"volts_per_newton_u", "V/N", kNotNegative}, calibration.volts_per_newton_u);
+  fields.quantity({"zero_volts", "V"}, calibration.zero_volts);
+  fields.quantity({"capacity", "N", kPositive, true}, calibration.capacity_N);
+  fields.text({"id", "cell-7 2026-11"}, calibration.id);
+  fields.text({"date", "2026-11-21"}, calibration.date);
+}
+
+void show_rig(FieldVisitor& fields, RigConfig& rig) {
+  fields.text({"name", "bench 1"}, rig.name);
+  fields.quantity({"clock_speed", "1", kPositive}, rig.clock_speed);
+  fields.section("stage", [&](FieldVisitor& inner) { show_stage(inner, rig.stage); });
+  fields.section("load_cell", [&](FieldVisitor& inner) { show_load_cell(inner, rig.load_cell); });
+  fields.section("calibration",
+                 [&](FieldVisitor& inner) { show_calibration(inner, rig.calibration); });
+  fields.section("frame", [&](FieldVisitor& inner) {
+    // Required: a frame taken as rigid without a word about it can halve the modulus.
+    inner.quantity({.key = "stiffness",
+                    .unit = "N/m",
+                    .range = kPositive,
+                    .is_required = true,
+                    .word = "rigid",
+                    .word_value = 0.0},
+                   rig.frame.stiffness_N_m);
+    inner.quantity({"stiffness_relative_u", "1", kNotNegative}, rig.frame.stiffness_relative_u);
+  });
+  fields.section("safety", [&](FieldVisitor& inner) {
+    inner.quantity({"warn_fraction", "1", kFraction}, rig.safety.warn_fraction);
+    inner.quantity({"soft_fraction", "1", kFraction}, rig.safety.soft_fraction);
+    inner.quantity({"hard_fraction", "1", kFraction}, rig.safety.hard_fraction);
+  });
+}
+
+void show_test(FieldVisitor& fields, TestPlan& plan) {
+  fields.text({"name", "stress relaxation"}, plan.name);
+  fields.section("approach", [&](FieldVisitor& inner) {
+    inner.quantity({"speed", "m/s", kPositive}, plan.approach_speed_m_s);
+    inner.quantity({"limit", "m", kPositive}, plan.approach_limit_m);
+    inner.quantity({"contact_force", "N", kPositive}, plan.contact_force_N);
+    inner.quantity({"gap", "m", kNotNegative}, plan.gap_m);
+    inner.quantity({"baseline", "s", kNotNegative}, plan.baseline_s);
+  });
+  fields.section("ramp", [&](FieldVisitor& inner) {
+    inner.quantity({"depth", "m", kPositive, true}, plan.depth_m);
+    inner.quantity({"duration", "s", kPositive}, plan.ramp_s);
+    inner.quantity({"hold", "s", kNotNegative}, plan.hold_s);
+  });
+  fields.section("recovery", [&](FieldVisitor& inner) {
+    inner.quantity({"unload_to_fraction", "1", kFraction}, plan.unload_to_fraction);
+    inner.quantity({"unload_speed", "m/s", kPositive}, plan.unload_speed_m_s);
+    inner.quantity({"hold", "s", kNotNegative}, plan.recovery_s);
+  });
+  fields.section("retract", [&](FieldVisitor& inner) {
+    inner.quantity({"speed", "m/s", kPositive}, plan.retract_speed_m_s);
+    inner.quantity({"distance", "m", kPositive}, plan.retract_m);
+  });
+}
+
+void show_contact(FieldVisitor& fields, PunchContact& contact) {
+  fields.quantity({"punch_diameter", "m", kPositive, true, 2.0}, contact.punch_radius_m);
+  fields.quantity(
+      {.key = "punch_diameter_u", .unit = "m", .range = kNotNegative, .written_per_value = 2.0},
+      contact.punch_radius_u_m);
+  // Required: a half-space taken for granted overestimates the modulus of a thin layer.
+  fields.quantity({.key = "layer_thickness",
+                   .unit = "m",
+                   .range = kPositive,
+                   .is_required = true,
+                   .word = "half-space",
+                   .word_value = 0.0},
+                  contact.layer_thickness_m);
+  fields.quantity({"layer_thickness_u", "m", kNotNegative}, contact.layer_thickness_u_m);
+  fields.quantity({.key = "poisson_ratio", .range = kNotNegative, .is_required = true},
+                  contact.poisson_ratio);
+  fields.quantity({"poisson_ratio_u", "1", kNotNegative}, contact.poisson_ratio_u);
+}
+
+void show_specimen(FieldVisitor& fields, Specimen& specimen) {
+  fields.text({"id", "pdms-1to10-a", true}, specimen.id);
+  fields.text({"material", "PDMS"}, specimen.material);
+  fields.quantity({"mixing_ratio", "1", kNotNegative}, specimen.mixing_ratio);
+  fields.quantity({"modulus_guess", "Pa", kPositive, true}, specimen.modulus_guess_Pa);
+  fields.quantity({"density", "kg/m3", kNotNegative}, specimen.rho_kg_m3);
+  fields.quantity({"temperature", "degC"}, specimen.temperature_C);
+  fields.section("contact", [&](FieldVisitor& inner) { show_contact(inner, specimen.contact); });
+}
+
+void show_truth_material(FieldVisitor& fields, Material& material) {
+  fields.text({"name", "PDMS 1:10"}, material.name);
+  fields.quantity({"E0", "Pa", kPositive, true}, material.E0_Pa);
+  fields.quantity({"poisson_ratio", "1"}, material.nu);
+  fields.quantity({"density", "kg/m3", kNotNegative}, material.rho_kg_m3);
+  fields.list(
+      "terms", material.terms.size(),
+      [&](std::size_t size) {
+        material.terms.assign(size, {0.0, std::numeric_limits<double>::quiet_NaN(), 0.0});
+      },
+      [&](FieldVisitor& inner, std::size_t i) {
+        MaterialTerm& term = material.terms[i];
+        inner.quantity({"g", "1", kNotNegative, true}, term.g);
+        inner.quantity({"k", "1", kNotNegative}, term.k);
+        inner.quantity({"tau", "s", kPositive, true}, term.tau_s);
+        if (std::isnan(term.k)) term.k = term.g;  // constant Poisson ratio unless said otherwise
+      });
+}
+
+void show_truth(FieldVisitor& fields, EmulatedTruth& truth) {
+  show_integer(fields, "seed", 0, std::numeric_limits<std::int64_t>::max(), truth.seed);
+  fields.section("contact", [&](FieldVisitor& inner) { show_contact(inner, truth.contact); });
+  fields.section("material",
+                 [&](FieldVisitor& inner) { show_truth_material(inner, truth.material); });
+  fields.section("rig", [&](FieldVisitor& inner) {
+    inner.quantity({.key = "frame_stiffness",
+                    .unit = "N/m",
+                    .range = kPositive,
+                    .word = "rigid",
+                    .word_value = 0.0},
+                   truth.frame_stiffness_N_m);
+    inner.quantity({"surface_position", "m", kNotNegative}, truth.surface_position_m);
+    inner.quantity({"force_noise", "N", kNotNegative}, truth.force_noise_N);
+    inner.quantity({"force_offset", "N"}, truth.force_offset_N);
+    inner.quantity({"drift_relative", "1/s"}, truth.drift_relative_per_s);
+    inner.quantity({"overload", "N", kNotNegative}, truth.overload_N);
+    inner.quantity({"sample_rate", "Hz", kPositive}, truth.sample_rate_Hz);
+    inner.quantity({"steps", "1/m", kPositive}, truth.steps_per_m);
+    inner.quantity({"acceleration", "m/s2", kPositive}, truth.acceleration_m_s2);
+    inner.quantity({"max_rate", "m/s", kPositive}, truth.max_rate_m_s);
+  });
+}
+
+// Reads, then checks what no single key can tell; errors of the checks get the file's name.
+template <typename Config>
+Config config_from_toml(const std::string& text, const std::string& name, Config config,
+                        void (*show)(FieldVisitor&, Config&), void (*check)(Config&)) {
+  read_toml_fields(text, name, [&](FieldVisitor& fields) { show(fields, config); });
+  try {
+    check(config);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(name + ": " + error.what());
+  }
+  return config;
+}
+
+template <typename Config>
+std::string toml_from_config(Config config, void (*show)(FieldVisitor&, Config&)) {
+  return toml_from_fields([&](FieldVisitor& fields) { show(fields, config); });
+}
+
+void check_rig(RigConfig& rig) {
+  if (rig.stage.toward_specimen == 0) {
+    throw std::invalid_argument(
+        "stage.toward_specimen is 0; expected 1 or -1, the sign of machine motion that presses "
+        "into the specimen");
+  }
+  validate(rig.calibration);
+  const SafetyConfig& safety = rig.safety;
+  if (!(safety.warn_fraction <= safety.soft_fraction &&
+        safety.soft_fraction < safety.hard_fraction)) {
+    throw std::invalid_argument(
+        "safety: expected warn_fraction <= soft_fraction < hard_fraction, such as 0.7, 0.8, 0.95");
+  }
+}
+
+void check_test(TestPlan& plan) {
+  if (plan.unload_to_fraction >= 1.0 && plan.recovery_s > 0.0) {
+    throw std::invalid_argument(
+        "recovery.unload_to_fraction is 1, so nothing would be unloaded; use 0.1, or recovery.hold "
+        "= 0 to leave it out");
+  }
+}
+
+void check_specimen(Specimen& specimen) {
+  validate(specimen.contact);
+}
+
+void check_truth(EmulatedTruth& truth) {
+  if (std::isnan(truth.material.nu)) truth.material.nu = truth.contact.poisson_ratio;
+  validate(truth.contact);
+  validate(truth.material);
+}
+
+}  // namespace
+
+RigConfig rig_from_toml(const std::string& text, const std::string& name) {
+  return config_from_toml<RigConfig>(text, name, {}, show_rig, check_rig);
+}
+
+TestPlan test_from_toml(const std::string& text, const std::string& name) {
+  return config_from_toml<TestPlan>(text, name, {}, show_test, check_test);
+}
+
+Specimen specimen_from_toml(const std::string& text, const std::string& name) {
+  return config_from_toml<Specimen>(text, name, {}, show_specimen, check_specimen);
+}
+
+EmulatedTruth truth_from_toml(const std::string& text, const std::string& name) {
+  EmulatedTruth unset;
+  unset.material.nu = std::numeric_limits<double>::quiet_NaN();
+  return config_from_toml<EmulatedTruth>(text, name, unset, show_truth, check_truth);
+}
+
+RigConfig read_rig(const std::filesystem::path& path) {
+  return rig_from_toml(read_file(path), path.string());
+}
+TestPlan read_test(const std::filesystem::path& path) {
+  return test_from_toml(read_file(path), path.string());
+}
+Specimen read_specimen(const std::filesystem::path& path) {
+  return specimen_from_toml(read_file(path), path.string());
+}
+EmulatedTruth read_truth(const std::filesystem::path& path) {
+  return truth_from_toml(read_file(path), path.string());
+}
+
+std::string toml_from_rig(const RigConfig& rig) {
+  return toml_from_config(rig, show_rig);
+}
+std::string toml_from_test(const TestPlan& plan) {
+  return toml_from_config(plan, show_test);
+}
+std::string toml_from_specimen(const Specimen& specimen) {
+  return toml_from_config(specimen, show_specimen);
+}
+std::string toml_from_truth(const EmulatedTruth& truth) {
+  return toml_from_config(truth, show_truth);
+}
+
+}  // namespace viscard
