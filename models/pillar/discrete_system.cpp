@@ -1,0 +1,288 @@
+#include "models/pillar/discrete_system.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+// int x^(x_power - k) d^di d^dj on every element of a line: [element][k][di][dj].
+class LineIntegrals {
+ public:
+  LineIntegrals(const LineMesh& line, int x_power, int inverse_powers) {
+    for (int e = 0; e < line.element_count(); ++e) {
+      auto& of_element = values_.emplace_back();
+      for (int k = 0; k < inverse_powers; ++k) {
+        for (int di = 0; di < 2; ++di) {
+          for (int dj = 0; dj < 2; ++dj) {
+            of_element[index(k, di, dj)] = line.integral(e, x_power - k, di, dj);
+          }
+        }
+      }
+    }
+  }
+  const Eigen::MatrixXd& operator()(int element, int k, int di, int dj) const {
+    return values_[static_cast<std::size_t>(element)][index(k, di, dj)];
+  }
+
+ private:
+  static std::size_t index(int k, int di, int dj) {
+    return static_cast<std::size_t>(4 * k + 2 * di + dj);
+  }
+  std::vector<std::array<Eigen::MatrixXd, 12>> values_;
+};
+
+// Coefficients of one pair of fields: [dz_i][dz_j] -> list of (inverse power, dx_i, dx_j, factor).
+struct XTerm {
+  int inverse_x, dx_i, dx_j;
+  double factor;
+};
+struct FieldPair {
+  std::array<std::vector<XTerm>, 4> by_dz;
+};
+
+std::vector<FieldPair> field_pairs(const std::vector<OperatorRow>& rows, const Eigen::MatrixXd& D,
+                                   int field_count) {
+  std::vector<FieldPair> pairs(static_cast<std::size_t>(field_count * field_count));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      const double d = D(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      if (d == 0.0) continue;
+      for (const OperatorTerm& a : rows[i]) {
+        for (const OperatorTerm& b : rows[j]) {
+          auto& list = pairs[static_cast<std::size_t>(a.field * field_count + b.field)]
+                           .by_dz[static_cast<std::size_t>(2 * a.dz + b.dz)];
+          const int k = a.inverse_x + b.inverse_x;
+          const auto same = std::find_if(list.begin(), list.end(), [&](const XTerm& t) {
+            return t.inverse_x == k && t.dx_i == a.dx && t.dx_j == b.dx;
+          });
+          if (same != list.end()) {
+            same->factor += d * a.factor * b.factor;
+          } else {
+            list.push_back({k, a.dx, b.dx, d * a.factor * b.factor});
+          }
+        }
+      }
+    }
+  }
+  return pairs;
+}
+
+// block += kron(z, x) with x fastest.
+void add_kronecker(const Eigen::MatrixXd& z, const Eigen::MatrixXd& x,
+                   Eigen::Ref<Eigen::MatrixXd> block) {
+  const Eigen::Index n = x.rows();
+  for (Eigen::Index jz = 0; jz < n; ++jz) {
+    for (Eigen::Index iz = 0; iz < n; ++iz) {
+      block.block(iz * n, jz * n, n, n) += z(iz, jz) * x;
+    }
+  }
+}
+
+}  // namespace
+
+DiscreteSystem::DiscreteSystem(const Section& section, Kinematics kinematics, DofMap dofs)
+    : section_(&section), kinematics_(std::move(kinematics)), dofs_(std::move(dofs)) {
+  if (dofs_.count() == 0) throw std::invalid_argument("every unknown is held; nothing can move");
+  build_pattern();
+}
+
+std::vector<int> DiscreteSystem::element_dofs(const SectionElement& element) const {
+  std::vector<int> dofs;
+  dofs.reserve(element.nodes.size() * static_cast<std::size_t>(kinematics_.field_count));
+  for (int field = 0; field < kinematics_.field_count; ++field) {
+    for (const int node : element.nodes) dofs.push_back(dofs_.dof(field, node));
+  }
+  return dofs;
+}
+
+void DiscreteSystem::build_pattern() {
+  const auto n = static_cast<std::size_t>(size());
+  std::vector<std::vector<int>> elements_of(n);  // elements that hold each unknown
+  for (std::size_t e = 0; e < section_->elements().size(); ++e) {
+    LocalOrder local{element_dofs(section_->elements()[e]), {}};
+    for (std::size_t i = 0; i < local.dofs.size(); ++i) {
+      if (local.dofs[i] >= 0) local.order.push_back(static_cast<int>(i));
+    }
+    std::sort(local.order.begin(), local.order.end(), [&](int a, int b) {
+      return local.dofs[static_cast<std::size_t>(a)] < local.dofs[static_cast<std::size_t>(b)];
+    });
+    int last = -1;
+    for (const int i : local.order) {
+      const int dof = local.dofs[static_cast<std::size_t>(i)];
+      if (dof != last) elements_of[static_cast<std::size_t>(dof)].push_back(static_cast<int>(e));
+      last = dof;
+    }
+    local_.push_back(std::move(local));
+  }
+  std::vector<int> seen(n, -1);
+  std::vector<int> outer{0};
+  std::vector<int> inner;
+  for (int column = 0; column < size(); ++column) {
+    const std::size_t start = inner.size();
+    for (const int e : elements_of[static_cast<std::size_t>(column)]) {
+      const LocalOrder& local = local_[static_cast<std::size_t>(e)];
+      for (const int i : local.order) {
+        const int row = local.dofs[static_cast<std::size_t>(i)];
+        if (row < column || seen[static_cast<std::size_t>(row)] == column) continue;
+        seen[static_cast<std::size_t>(row)] = column;
+        inner.push_back(row);
+      }
+    }
+    std::sort(inner.begin() + static_cast<std::ptrdiff_t>(start), inner.end());
+    outer.push_back(static_cast<int>(inner.size()));
+  }
+  const std::vector<double> zeros(inner.size(), 0.0);
+  pattern_ = Eigen::Map<const SymmetricSparse>(size(), size(), static_cast<int>(inner.size()),
+                                               outer.data(), inner.data(), zeros.data());
+}
+
+void DiscreteSystem::scatter(std::size_t element, const Eigen::MatrixXd& block,
+                             SymmetricSparse& matrix) const {
+  const LocalOrder& local = local_[element];
+  const int* outer = matrix.outerIndexPtr();
+  const int* inner = matrix.innerIndexPtr();
+  double* values = matrix.valuePtr();
+  for (const int j : local.order) {
+    const int column = local.dofs[static_cast<std::size_t>(j)];
+    int at = outer[column];
+    for (const int i : local.order) {  // rows ascend, so one walk down the column meets them all
+      const int row = local.dofs[static_cast<std::size_t>(i)];
+      if (row < column) continue;
+      while (inner[at] < row) ++at;
+      values[at] += block(i, j);
+    }
+  }
+}
+
+SymmetricSparse DiscreteSystem::form(const std::vector<OperatorRow>& rows,
+                                     const std::vector<Eigen::MatrixXd>& per_region) const {
+  const int fields = kinematics_.field_count;
+  const Eigen::Index n1 = section_->degree() + 1;
+  const Eigen::Index nn = n1 * n1;
+  const LineIntegrals in_x(section_->x(), kinematics_.x_power, kinematics_.x_power == 1 ? 3 : 1);
+  const LineIntegrals in_z(section_->z(), 0, 1);
+  std::vector<std::vector<FieldPair>> pairs;
+  for (const Eigen::MatrixXd& D : per_region) {
+    pairs.push_back(D.size() == 0 ? std::vector<FieldPair>{}
+                                  : field_pairs(rows, kinematics_.measure * D, fields));
+  }
+  SymmetricSparse matrix = pattern_;
+  Eigen::MatrixXd block(fields * nn, fields * nn);
+  Eigen::MatrixXd x(n1, n1);
+  for (std::size_t e = 0; e < section_->elements().size(); ++e) {
+    const SectionElement& element = section_->elements()[e];
+    const auto& of_region = pairs.at(static_cast<std::size_t>(element.region));
+    if (of_region.empty()) continue;
+    block.setZero();
+    for (int f = 0; f < fields; ++f) {
+      for (int g = 0; g < fields; ++g) {
+        const FieldPair& pair = of_region[static_cast<std::size_t>(f * fields + g)];
+        for (int dz = 0; dz < 4; ++dz) {
+          const auto& terms = pair.by_dz[static_cast<std::size_t>(dz)];
+          if (terms.empty()) continue;
+          x.setZero();
+          for (const XTerm& t : terms)
+            x += t.factor * in_x(element.column, t.inverse_x, t.dx_i, t.dx_j);
+          add_kronecker(in_z(element.row, 0, dz / 2, dz % 2), x,
+                        block.block(f * nn, g * nn, nn, nn));
+        }
+      }
+    }
+    scatter(e, block, matrix);
+  }
+  return matrix;
+}
+
+SymmetricSparse DiscreteSystem::volume_form(const std::vector<double>& per_region,
+                                            bool projected) const {
+  if (!projected) {
+    std::vector<Eigen::MatrixXd> D;
+    for (const double factor : per_region) D.push_back(Eigen::MatrixXd::Constant(1, 1, factor));
+    return form({kinematics_.divergence}, D);
+  }
+  const int q = std::max(section_->degree() - 2, 0);
+  const Eigen::Index nq = q + 1;
+  const Eigen::Index n1 = section_->degree() + 1;
+  SymmetricSparse matrix = pattern_;
+  Eigen::MatrixXd B(nq * nq, kinematics_.field_count * n1 * n1);  // int L (div N)
+  Eigen::MatrixXd mass(nq * nq, nq * nq);
+  for (std::size_t e = 0; e < section_->elements().size(); ++e) {
+    const SectionElement& element = section_->elements()[e];
+    const double factor =
+        per_region.at(static_cast<std::size_t>(element.region)) * kinematics_.measure;
+    if (factor == 0.0) continue;
+    B.setZero();
+    for (const OperatorTerm& t : kinematics_.divergence) {
+      const Eigen::MatrixXd x =
+          t.factor * section_->x().legendre_integral(element.column,
+                                                     kinematics_.x_power - t.inverse_x, q, t.dx);
+      const Eigen::MatrixXd z = section_->z().legendre_integral(element.row, 0, q, t.dz);
+      for (Eigen::Index kz = 0; kz < nq; ++kz) {
+        for (Eigen::Index iz = 0; iz < n1; ++iz) {
+          B.block(kz * nq, t.field * n1 * n1 + iz * n1, nq, n1) += z(kz, iz) * x;
+        }
+      }
+    }
+    mass.setZero();
+    add_kronecker(section_->z().legendre_mass(element.row, 0, q),
+                  section_->x().legendre_mass(element.column, kinematics_.x_power, q), mass);
+    scatter(e, factor * (B.transpose() * mass.ldlt().solve(B)), matrix);
+  }
+  return matrix;
+}
+
+Eigen::VectorXd DiscreteSystem::line_load(int field, int break_row, int first_column,
+                                          int last_column) const {
+  const int p = section_->degree();
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(size());
+  for (int column = first_column; column < last_column; ++column) {
+    const Eigen::MatrixXd mass = section_->x().integral(column, kinematics_.x_power, 0, 0);
+    for (int i = 0; i <= p; ++i) {
+      const int node = section_->node(column * p + i, break_row * p);
+      if (node < 0) throw std::invalid_argument("a load acts where there is no material");
+      const int dof = dofs_.dof(field, node);
+      if (dof >= 0) load[dof] += kinematics_.measure * mass.row(i).sum();
+    }
+  }
+  return load;
+}
+
+Eigen::VectorXd DiscreteSystem::field_values(int field, const Eigen::VectorXd& solution) const {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(section_->node_count());
+  for (int node = 0; node < section_->node_count(); ++node) {
+    const int dof = dofs_.dof(field, node);
+    if (dof >= 0) values[node] = solution[dof];
+  }
+  return values;
+}
+
+Eigen::VectorXd DiscreteSystem::rows_at(const std::vector<OperatorRow>& rows,
+                                        const Eigen::VectorXd& solution,
+                                        const SectionElement& element, double x, double z) const {
+  const BasisValues in_x = section_->x().basis_at(element.column, x);
+  const BasisValues in_z = section_->z().basis_at(element.row, z);
+  const Eigen::Index n1 = section_->degree() + 1;
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (const OperatorTerm& t : rows[r]) {
+      const Eigen::MatrixXd& bx = t.dx == 0 ? in_x.value : in_x.derivative;
+      const Eigen::MatrixXd& bz = t.dz == 0 ? in_z.value : in_z.derivative;
+      double sum = 0.0;
+      for (Eigen::Index iz = 0; iz < n1; ++iz) {
+        for (Eigen::Index ix = 0; ix < n1; ++ix) {
+          const int dof = dofs_.dof(t.field, element.nodes[static_cast<std::size_t>(iz * n1 + ix)]);
+          if (dof >= 0) sum += bz(0, iz) * bx(0, ix) * solution[dof];
+        }
+      }
+      values[static_cast<Eigen::Index>(r)] += t.factor * (t.inverse_x == 1 ? 1.0 / x : 1.0) * sum;
+    }
+  }
+  return values;
+}
+
+}  // namespace viscard

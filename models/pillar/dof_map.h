@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace viscard {
+
+// Which unknown each field at each node belongs to: -1 where it is held at zero, a shared number
+// where several are tied (a rigid plate, an electrode).
+class DofMap {
+ public:
+  DofMap(int field_count, int node_count);
+  void fix(int field, int node);
+  // Ties one field at several nodes to one unknown; returns a handle for tied_dof().
+  int tie(int field, const std::vector<int>& nodes);
+  void number();  // call once, last
+
+  int dof(int field, int node) const { return dof_[index(field, node)]; }
+  int tied_dof(int handle) const { return tied_[static_cast<std::size_t>(handle)]; }
+  int count() const { return count_; }
+  int field_count() const { return field_count_; }
+
+ private:
+  std::size_t index(int field, int node) const {
+    return static_cast<std::size_t>(node * field_count_ + field);
+  }
+  int field_count_;
+  int count_ = 0;
+  std::vector<int> dof_;   // node slowest; before number(): 0 free, -1 fixed, -2 - handle tied
+  std::vector<int> tied_;  // per handle
+};
+
+}  // namespace viscard

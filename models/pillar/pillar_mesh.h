@@ -1,0 +1,54 @@
+#pragma once
+
+#include "models/pillar/section.h"
+
+#include <optional>
+#include <vector>
+
+namespace viscard {
+
+// A cylindrical pillar standing on a rigid base or on a film whose bottom is held.
+struct FilmGeometry {
+  double thickness_m = 0.0;
+  double radius_m = 0.0;            // outer edge, free; at least the pillar's radius
+  double electrode_radius_m = 0.0;  // an extra break of the mesh; 0: none
+};
+
+struct PillarGeometry {
+  double diameter_m = 40e-6;
+  double length_m = 120e-6;
+  std::optional<FilmGeometry> film;
+};
+
+// Elements shrink by `ratio` toward the rim of the bond, where stress is singular (clamped-free
+// corner): `layers` of them in each direction.
+struct Discretisation {
+  int degree = 4;
+  int layers = 2;
+  double ratio = 0.15;
+  int shaft_elements = 2;  // along the pillar above the graded foot
+  int film_elements = 1;   // across the film outside the graded part
+};
+
+constexpr int kPillarRegion = 0;
+constexpr int kFilmRegion = 1;
+
+// The meridian section with z = 0 at the bond. Columns [0, pillar_columns) lie under the pillar;
+// rows from bond_row up are the pillar's.
+struct PillarMesh {
+  Section section;
+  int pillar_columns = 0;
+  int bond_row = 0;  // number of the break z = 0
+  int top_row = 0;   // number of the break z = length
+};
+
+// Throws std::invalid_argument naming the length that is not positive and finite, or the film that
+// is narrower than the pillar.
+void validate(const PillarGeometry& geometry);
+PillarMesh pillar_mesh(const PillarGeometry& geometry, const Discretisation& discretisation);
+
+// Nodes on the horizontal line at a break, in the columns given.
+std::vector<int> nodes_on_break(const Section& section, int break_row, int first_column,
+                                int last_column);
+
+}  // namespace viscard
