@@ -67,6 +67,8 @@ struct FitResult {
   double E0_Pa = 0.0, E_inf_Pa = 0.0;
   double E0_se_Pa = 0.0, E_inf_se_Pa = 0.0;
   Interval E0_interval_95, E_inf_interval_95;
+  double sum_g = 0.0;  // 1 - E_inf/E0: the share of the modulus that relaxes
+  Interval sum_g_95;
   std::vector<FittedTerm> terms;
   double rss = 0.0;
   std::size_t n_samples = 0;
@@ -79,7 +81,10 @@ struct FitResult {
   double fit_from_s = 0.0, fit_to_s = 0.0;
   std::optional<TwoPointModulus> two_point;
   std::optional<double> contact_position_m;
-  std::size_t n_spikes = 0;  // samples left out as spikes
+  std::size_t n_spikes = 0;       // samples left out as spikes
+  std::size_t n_left_out = 0;     // samples left out because they were not numbers
+  bool is_converged = true;       // of the chosen order
+  bool is_trustworthy = true;     // false: not converged, saturated, a gap in the ramp (flags say which)
   FitCurves curves;
 };
 

@@ -1,0 +1,137 @@
+#include "fit/indentation_from_capture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace viscard {
+namespace {
+
+const CommandedMove* first_move(const CapturedRun& run, const std::string& purpose) {
+  for (const CommandedMove& move : run.moves) {
+    if (move.purpose == purpose) return &move;
+  }
+  return nullptr;
+}
+
+double volts_of(const LoadSample& sample, const RigConfig& rig) {
+  if (sample.volts) return *sample.volts;
+  if (!(std::abs(rig.load_cell.volts_per_count) > 0.0)) {
+    throw std::runtime_error("the capture holds raw counts, but its rig says no volts_per_count. Add "
+                             "it under [load_cell] in the rig file");
+  }
+  return sample.counts.value_or(0.0) * rig.load_cell.volts_per_count;
+}
+
+struct Readings {
+  std::vector<double> clock_s, host_s, force_N;
+};
+
+Readings good_readings(const CapturedRun& run, IndentationData& data) {
+  Readings readings;
+  const bool has_clock = std::all_of(run.load_samples.begin(), run.load_samples.end(),
+                                     [](const LoadSample& s) { return s.device_time_s.has_value(); });
+  const double sign = run.rig.load_cell.compression_is_positive ? 1.0 : -1.0;
+  double last_clock = -1e300;
+  for (const LoadSample& sample : run.load_samples) {
+    if (sample.is_saturated) ++data.n_saturated;
+    if (sample.is_glitch) ++data.n_glitch;
+    if (sample.is_saturated || sample.is_glitch || !(sample.volts || sample.counts)) continue;
+    const double clock = has_clock ? *sample.device_time_s : static_cast<double>(sample.index);
+    if (!(clock > last_clock)) continue;  // a repeated reading
+    last_clock = clock;
+    readings.clock_s.push_back(clock);
+    readings.host_s.push_back(sample.host_time_s);
+    readings.force_N.push_back(sign *
+                               force_N_from_volts(run.rig.calibration, volts_of(sample, run.rig)));
+  }
+  return readings;
+}
+
+}  // namespace
+
+ClockLine line_from_below(const std::vector<double>& x, const std::vector<double>& y) {
+  if (x.size() < 2) return {x.empty() ? 0.0 : y[0] - x[0], 1.0};
+  std::vector<std::size_t> hull;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    while (hull.size() >= 2) {
+      const std::size_t a = hull[hull.size() - 2];
+      const std::size_t b = hull.back();
+      const double turn = (x[b] - x[a]) * (y[i] - y[a]) - (y[b] - y[a]) * (x[i] - x[a]);
+      if (turn > 0.0) break;
+      hull.pop_back();
+    }
+    hull.push_back(i);
+  }
+  const double mean =
+      std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+  for (std::size_t i = 1; i < hull.size(); ++i) {
+    if (x[hull[i]] < mean) continue;
+    const std::size_t a = hull[i - 1];
+    const std::size_t b = hull[i];
+    const double slope = (y[b] - y[a]) / (x[b] - x[a]);
+    return {y[a] - slope * x[a], slope};
+  }
+  return {y[0] - x[0], 1.0};
+}
+
+IndentationData indentation_from_capture(const CapturedRun& run) {
+  IndentationData data;
+  validate(run.rig.calibration);
+  const CommandedMove* ramp = first_move(run, "ramp");
+  if (ramp == nullptr) {
+    throw std::runtime_error("the capture holds no ramp: the run ended (" + run.status +
+                             ") before the punch was driven in. Repeat it with viscard capture");
+  }
+  const Readings readings = good_readings(run, data);
+  if (readings.clock_s.size() < 20) {
+    throw std::runtime_error("the capture holds only " + std::to_string(readings.clock_s.size()) +
+                             " usable force readings (" + std::to_string(data.n_saturated) +
+                             " saturated, " + std::to_string(data.n_glitch) +
+                             " glitches). Check the amplifier, then repeat the run");
+  }
+  const ClockLine clock = line_from_below(readings.clock_s, readings.host_s);
+
+  const CommandedMove* retract = first_move(run, "retract");
+  data.contact_from_s = ramp->move.start_time_s;
+  data.contact_to_s = clock.at(readings.clock_s.back());
+  double free_again_s = 1e300;
+  if (retract != nullptr) {
+    data.contact_to_s = std::min(data.contact_to_s, retract->move.start_time_s);
+    // Recovery of the surface and the last of the motion are not zero force: leave half a second.
+    free_again_s = retract->move.start_time_s + duration_s(retract->move) +
+                   retract->start_uncertainty_s + 0.5;
+  }
+  double still_since_s = -1e300;
+  for (const CommandedMove& move : run.moves) {
+    if (&move == ramp) break;
+    still_since_s = std::max(still_since_s, move.move.start_time_s + duration_s(move.move) +
+                                                move.start_uncertainty_s + 0.1);
+  }
+  for (const CommandedMove& move : run.moves) {
+    const bool in_contact = move.move.start_time_s >= ramp->move.start_time_s &&
+                            move.move.start_time_s < data.contact_to_s;
+    if (!in_contact) continue;
+    data.moves.push_back(move.move);
+    data.start_late_s = std::max(data.start_late_s, move.start_uncertainty_s);
+  }
+  // The clock line lies early by the smallest delay of a message, which is unknown but short.
+  data.start_early_s = 0.02 * std::max(1.0, run.rig.clock_speed);
+  for (std::size_t i = 0; i < readings.clock_s.size(); ++i) {
+    const double t = clock.at(readings.clock_s[i]);
+    const bool before = t > still_since_s && t < data.contact_from_s;
+    const bool contact = t >= data.contact_from_s && t <= data.contact_to_s;
+    if (!before && !contact && !(t > free_again_s)) continue;
+    data.time_s.push_back(t);
+    data.force_N.push_back(readings.force_N[i]);
+  }
+  data.frame_stiffness_N_m = run.rig.frame.stiffness_N_m;
+  data.frame_stiffness_relative_u = run.rig.frame.stiffness_relative_u;
+  data.force_relative_u = std::abs(run.rig.calibration.volts_per_newton_u / run.rig.calibration.volts_per_newton);
+  if (run.specimen.contact.punch_radius_m > 0.0) data.contact = run.specimen.contact;
+  return data;
+}
+
+}  // namespace viscard

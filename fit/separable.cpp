@@ -1,0 +1,243 @@
+#include "fit/separable.h"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "fit/nnls.h"
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+
+// Derivative of the model by the non-linear parameters at fixed coefficients: ln tau, then nuisances
+// divided by their scale.
+Eigen::MatrixXd nonlinear_slopes(const SpectralModel& model, const ModelColumns& columns,
+                                 const Eigen::VectorXd& coefficients) {
+  const Index n_terms = columns.term_slopes.cols();
+  Eigen::MatrixXd slopes(model.n_rows(), n_terms + model.n_nuisances());
+  for (Index i = 0; i < n_terms; ++i) {
+    slopes.col(i) = columns.term_slopes.col(i) * coefficients[model.n_common() + i];
+  }
+  for (Index k = 0; k < model.n_nuisances(); ++k) {
+    const auto slot = static_cast<std::size_t>(k);
+    slopes.col(n_terms + k) =
+        columns.nuisance_slopes[slot] * coefficients * model.nuisances()[slot].scale;
+  }
+  return slopes;
+}
+
+// Residual of variable projection. p = ln tau, then nuisance/scale. Only |r|, J^T r and J^T J matter to
+// the solver, so the rows are rotated by QR into the smallest problem with the same three.
+class ProjectedCost final : public ceres::CostFunction {
+ public:
+  ProjectedCost(const SpectralModel& model, Index n_terms) : model_(model), n_terms_(n_terms) {
+    const int size = static_cast<int>(n_terms + model.n_nuisances());
+    mutable_parameter_block_sizes()->push_back(size);
+    set_num_residuals(size + 1);
+  }
+
+  bool Evaluate(const double* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const Index size = num_residuals() - 1;
+    const Eigen::Map<const Eigen::VectorXd> p(parameters[0], size);
+    const bool wants_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
+    Eigen::VectorXd nuisance = p.tail(model_.n_nuisances());
+    for (Index k = 0; k < nuisance.size(); ++k) {
+      nuisance[k] *= model_.nuisances()[static_cast<std::size_t>(k)].scale;
+    }
+    const ModelColumns columns = model_.columns(p.head(n_terms_), nuisance, wants_jacobian);
+    if (!columns.values.allFinite()) return false;
+    const Eigen::VectorXd x = least_squares_with_signs(columns.values, model_.data(),
+                                                       free_columns(model_, n_terms_));
+    const Eigen::VectorXd residual = columns.values * x - model_.data();
+    Eigen::Map<Eigen::VectorXd> out(residuals, size + 1);
+    out.setZero();
+    out[size] = residual.norm();
+    if (!std::isfinite(out[size])) return false;
+    if (!wants_jacobian) return true;
+
+    Eigen::MatrixXd stacked(model_.n_rows(), size + 1);
+    stacked.leftCols(size) = nonlinear_slopes(model_, columns, x);
+    stacked.col(size) = residual;
+    stacked.leftCols(size) = without_columns(columns.values, x, stacked.leftCols(size));
+    compress(stacked, out, jacobians[0]);
+    return true;
+  }
+
+ private:
+  // Takes from each vector its part in the space of the columns in use.
+  Eigen::MatrixXd without_columns(const Eigen::MatrixXd& columns, const Eigen::VectorXd& x,
+                                  const Eigen::MatrixXd& vectors) const {
+    const std::vector<bool> is_free = free_columns(model_, n_terms_);
+    Eigen::MatrixXd used(columns.rows(), columns.cols());
+    Index count = 0;
+    for (Index j = 0; j < columns.cols(); ++j) {
+      const double norm = columns.col(j).norm();
+      if ((is_free[static_cast<std::size_t>(j)] || x[j] > 0.0) && norm > 0.0) {
+        used.col(count++) = columns.col(j) / norm;
+      }
+    }
+    if (count == 0) return vectors;
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(used.leftCols(count));
+    Eigen::MatrixXd rotated = qr.householderQ().adjoint() * vectors;
+    rotated.topRows(qr.rank()).setZero();
+    return qr.householderQ() * rotated;
+  }
+
+  // [J r] = Q R: hands R's columns to the solver instead.
+  static void compress(const Eigen::MatrixXd& stacked, Eigen::Map<Eigen::VectorXd>& residual,
+                       double* jacobian) {
+    const Index size = stacked.cols() - 1;
+    Eigen::MatrixXd upper = Eigen::MatrixXd::Zero(size + 1, size + 1);
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stacked);
+    const Index rows = std::min(stacked.rows(), size + 1);
+    upper.topRows(rows) = qr.matrixQR().topRows(rows).triangularView<Eigen::Upper>();
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+        jacobian, size + 1, size) = upper.leftCols(size);
+    residual = upper.col(size);
+  }
+
+  const SpectralModel& model_;
+  const Index n_terms_;
+};
+
+SpectralState sorted_by_time(SpectralState state, Index n_common) {
+  const Index n_terms = state.n_terms();
+  std::vector<Index> order(static_cast<std::size_t>(n_terms));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(),
+            [&](Index a, Index b) { return state.ln_tau[a] < state.ln_tau[b]; });
+  const SpectralState old = state;
+  for (Index i = 0; i < n_terms; ++i) {
+    const Index from = order[static_cast<std::size_t>(i)];
+    state.ln_tau[i] = old.ln_tau[from];
+    state.coefficients[n_common + i] = old.coefficients[n_common + from];
+  }
+  return state;
+}
+
+}  // namespace
+
+std::vector<bool> free_columns(const SpectralModel& model, Index n_terms) {
+  std::vector<bool> is_free;
+  for (const CommonColumn& column : model.common()) {
+    is_free.push_back(column.is_free || model.may_be_negative());
+  }
+  is_free.resize(is_free.size() + static_cast<std::size_t>(n_terms), model.may_be_negative());
+  return is_free;
+}
+
+SpectralState solve_coefficients(const SpectralModel& model, const Eigen::VectorXd& ln_tau,
+                                 const Eigen::VectorXd& nuisance) {
+  SpectralState state{ln_tau, nuisance, {}, 0.0, true};
+  const ModelColumns columns = model.columns(ln_tau, nuisance, /*with_slopes=*/false);
+  state.coefficients = least_squares_with_signs(columns.values, model.data(),
+                                                free_columns(model, ln_tau.size()));
+  state.rss = (columns.values * state.coefficients - model.data()).squaredNorm();
+  return state;
+}
+
+SpectralState refine(const SpectralModel& model, const SpectralState& start,
+                     const RefineOptions& options) {
+  const Index n_terms = start.n_terms();
+  const Index size = n_terms + model.n_nuisances();
+  if (size == 0) return solve_coefficients(model, start.ln_tau, start.nuisance);
+  Eigen::VectorXd p(size);
+  ceres::Problem problem;
+  problem.AddParameterBlock(p.data(), static_cast<int>(size));
+  const auto bound = [&](Index i, double value, double low, double high) {
+    p[i] = std::clamp(value, low, high);
+    problem.SetParameterLowerBound(p.data(), static_cast<int>(i), low);
+    problem.SetParameterUpperBound(p.data(), static_cast<int>(i), high);
+  };
+  for (Index i = 0; i < n_terms; ++i) {
+    bound(i, start.ln_tau[i], model.ln_tau_min(), model.ln_tau_max());
+  }
+  for (Index k = 0; k < model.n_nuisances(); ++k) {
+    const Nuisance& nuisance = model.nuisances()[static_cast<std::size_t>(k)];
+    bound(n_terms + k, start.nuisance[k] / nuisance.scale, nuisance.low / nuisance.scale,
+          nuisance.high / nuisance.scale);
+  }
+  problem.AddResidualBlock(new ProjectedCost(model, n_terms), nullptr, p.data());
+
+  ceres::Solver::Options ceres_options;
+  ceres_options.linear_solver_type = ceres::DENSE_QR;
+  ceres_options.max_num_iterations = options.max_iterations;
+  ceres_options.function_tolerance = options.tolerance;
+  ceres_options.parameter_tolerance = 1e-12;
+  ceres_options.gradient_tolerance = 1e-30;
+  ceres_options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(ceres_options, &problem, &summary);
+
+  Eigen::VectorXd nuisance = p.tail(model.n_nuisances());
+  for (Index k = 0; k < nuisance.size(); ++k) {
+    nuisance[k] *= model.nuisances()[static_cast<std::size_t>(k)].scale;
+  }
+  SpectralState state = solve_coefficients(model, p.head(n_terms), nuisance);
+  state.is_converged = summary.termination_type == ceres::CONVERGENCE;
+  return sorted_by_time(std::move(state), model.n_common());
+}
+
+Eigen::MatrixXd full_jacobian(const SpectralModel& model, const SpectralState& state) {
+  const ModelColumns columns = model.columns(state.ln_tau, state.nuisance, /*with_slopes=*/true);
+  const Index linear = columns.values.cols();
+  const Index n_terms = state.n_terms();
+  Eigen::MatrixXd jacobian(model.n_rows(), linear + n_terms + model.n_nuisances());
+  jacobian.leftCols(linear) = columns.values;
+  jacobian.rightCols(n_terms + model.n_nuisances()) =
+      nonlinear_slopes(model, columns, state.coefficients);
+  for (Index k = 0; k < model.n_nuisances(); ++k) {
+    jacobian.col(linear + n_terms + k) /= model.nuisances()[static_cast<std::size_t>(k)].scale;
+  }
+  return jacobian;
+}
+
+SpectralState polish(const SpectralModel& model, const SpectralState& start) {
+  constexpr int kMaxSteps = 60;
+  constexpr double kSmallStep = 1e-13;
+  const std::vector<bool> is_free = free_columns(model, start.n_terms());
+  const Index linear = start.coefficients.size();
+  const Index n_terms = start.n_terms();
+  for (Index j = 0; j < linear; ++j) {  // on a sign bound there is no interior to step in
+    if (!is_free[static_cast<std::size_t>(j)] && !(start.coefficients[j] > 0.0)) return start;
+  }
+  SpectralState state = start;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const Eigen::MatrixXd jacobian = full_jacobian(model, state);
+    const Eigen::VectorXd residual =
+        model.data() - jacobian.leftCols(linear) * state.coefficients;
+    const Eigen::VectorXd scale = jacobian.colwise().norm().transpose().cwiseMax(1e-300);
+    const Eigen::VectorXd change =
+        (jacobian * scale.cwiseInverse().asDiagonal()).colPivHouseholderQr().solve(residual)
+            .cwiseQuotient(scale);
+    if (!change.allFinite()) return state;
+    SpectralState next = state;
+    next.coefficients += change.head(linear);
+    next.ln_tau += change.segment(linear, n_terms);
+    next.nuisance += change.tail(model.n_nuisances());
+    const bool inside = n_terms == 0 || (next.ln_tau.minCoeff() >= model.ln_tau_min() &&
+                                         next.ln_tau.maxCoeff() <= model.ln_tau_max());
+    if (!inside) return state;
+    for (Index j = 0; j < linear; ++j) {
+      if (!is_free[static_cast<std::size_t>(j)] && !(next.coefficients[j] > 0.0)) return state;
+    }
+    const ModelColumns columns = model.columns(next.ln_tau, next.nuisance, false);
+    next.rss = (columns.values * next.coefficients - model.data()).squaredNorm();
+    // Rounding may raise the sum by a few units in the last place near the optimum.
+    if (!(next.rss <= state.rss * (1.0 + 1e-9) + 1e-300)) return state;
+    state = next;
+    const double largest = change.segment(linear, n_terms).size() > 0
+                               ? change.segment(linear, n_terms).cwiseAbs().maxCoeff()
+                               : 0.0;
+    if (largest < kSmallStep) break;
+  }
+  return state;
+}
+
+}  // namespace viscard

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// Data and a model of them that is linear in everything but the relaxation times and a few nuisances:
+//   y = sum_j x_j A_j(nuisance) + sum_i E_i b(tau_i, nuisance)      (fit/README.md, eq. 1)
+// The x_j are what all orders share: equilibrium modulus, force offset, drift. Every kind of test is
+// one such model. Rows are weighted by 1/sigma, so that residuals have unit variance.
+
+// What the model looks like at one choice of times and nuisances. Rows are those of data().
+struct ModelColumns {
+  Eigen::MatrixXd values;                         // rows x (n_common + n_terms)
+  Eigen::MatrixXd term_slopes;                    // rows x n_terms, d b_i/d ln tau_i
+  std::vector<Eigen::MatrixXd> nuisance_slopes;   // one per nuisance, each like values
+};
+
+// A column that every order has. Columns that are not free may not be negative.
+struct CommonColumn {
+  std::string name;  // "E_inf_Pa", "offset_N", ...
+  bool is_free = true;
+};
+
+// A parameter that enters non-linearly and is of no interest itself, but uncertain: the start of a
+// stage move, the contact position.
+struct Nuisance {
+  std::string name;
+  double start = 0.0;
+  double low = 0.0, high = 0.0;  // bounds
+  double scale = 1.0;            // typical size of a change; parameters are divided by it
+};
+
+class SpectralModel {
+ public:
+  virtual ~SpectralModel() = default;
+
+  const Eigen::VectorXd& data() const { return data_; }
+  Eigen::Index n_rows() const { return data_.size(); }
+  const std::vector<CommonColumn>& common() const { return common_; }
+  const std::vector<Nuisance>& nuisances() const { return nuisances_; }
+  Eigen::Index n_common() const { return static_cast<Eigen::Index>(common_.size()); }
+  Eigen::Index n_nuisances() const { return static_cast<Eigen::Index>(nuisances_.size()); }
+  bool may_be_negative() const { return may_be_negative_; }  // moduli of terms
+
+  // Range of relaxation times that the data can say anything about, ln s.
+  double ln_tau_min() const { return ln_tau_min_; }
+  double ln_tau_max() const { return ln_tau_max_; }
+
+  // Columns at these times (ln s) and nuisances (in their own units); slopes only if asked for.
+  virtual ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                               bool with_slopes) const = 0;
+
+  Eigen::VectorXd nuisance_start() const;
+
+ protected:
+  Eigen::VectorXd data_;
+  std::vector<CommonColumn> common_;
+  std::vector<Nuisance> nuisances_;
+  bool may_be_negative_ = false;
+  double ln_tau_min_ = 0.0;
+  double ln_tau_max_ = 0.0;
+};
+
+}  // namespace viscard

@@ -1,0 +1,236 @@
+#include "fit/stage_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "fit/stage_response.h"
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+
+StageMove shifted(StageMove move, double shift_s) {
+  move.start_time_s += shift_s;
+  return move;
+}
+
+// Sampling interval: the median of the differences, so that a gap does not matter.
+double sampling_interval_s(const std::vector<double>& time_s) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
+  if (steps.empty()) return 0.0;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+double median_force_N(const IndentationData& data, double from_s, double to_s, double otherwise) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < data.time_s.size(); ++i) {
+    if (data.time_s[i] >= from_s && data.time_s[i] <= to_s) values.push_back(data.force_N[i]);
+  }
+  if (values.empty()) return otherwise;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// First time after from_s at which the force passes a level, between samples by straight line.
+double crossing_s(const IndentationData& data, double from_s, double level_N, bool rising) {
+  for (std::size_t i = 1; i < data.time_s.size(); ++i) {
+    if (data.time_s[i] < from_s) continue;
+    const double before = data.force_N[i - 1] - level_N;
+    const double after = data.force_N[i] - level_N;
+    if (rising ? (before < 0.0 && after >= 0.0) : (before > 0.0 && after <= 0.0)) {
+      const double share = before / (before - after);
+      return data.time_s[i - 1] + share * (data.time_s[i] - data.time_s[i - 1]);
+    }
+  }
+  throw std::runtime_error("the force does not follow the " +
+                           std::string(rising ? "ramp" : "unloading") +
+                           ": it never passes half its change. Check the clock of the amplifier and "
+                           "the moves in the capture");
+}
+
+struct Line {
+  double slope = 0.0;
+  double zero = 0.0;  // where it meets zero
+};
+
+// Straight line through the samples of the ramp between two force levels above the zero force.
+Line loading_line(const IndentationData& data, double zero_N, double low_N, double high_N,
+                  double from_s, double to_s) {
+  double n = 0, st = 0, sf = 0, stt = 0, stf = 0;
+  for (std::size_t i = 0; i < data.time_s.size(); ++i) {
+    const double t = data.time_s[i] - from_s;
+    const double force_N = data.force_N[i] - zero_N;
+    if (t < 0.0 || data.time_s[i] > to_s || force_N < low_N || force_N > high_N) continue;
+    n += 1.0;
+    st += t;
+    sf += force_N;
+    stt += t * t;
+    stf += t * force_N;
+  }
+  const double determinant = n * stt - st * st;
+  if (n < 3.0 || !(determinant > 0.0)) {
+    throw std::runtime_error("fewer than three force samples lie on the ramp between 20 % and 80 % of "
+                             "the peak (a gap in the record?). Repeat the run, or lengthen the ramp");
+  }
+  Line line;
+  line.slope = (n * stf - st * sf) / determinant;
+  line.zero = from_s + (st * line.slope - sf) / (n * line.slope);
+  return line;
+}
+
+}  // namespace
+
+Eigen::VectorXd nuisance_start(const IndentationData& data) {
+  const auto n_moves = static_cast<Index>(data.moves.size());
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(n_moves + 1);
+  const StageMove& ramp = data.moves.front();
+  const double zero_N = median_force_N(data, -1e300, data.contact_from_s, 0.0);
+  const double ramp_end_s = ramp.start_time_s + duration_s(ramp) + data.start_late_s;
+  const double after_s = std::max(5.0 * sampling_interval_s(data.time_s), 0.02 * duration_s(ramp));
+  const double peak_N = median_force_N(data, ramp_end_s, ramp_end_s + after_s, 0.0) - zero_N;
+  if (!(peak_N > 0.0)) {
+    throw std::runtime_error("no force rises with the ramp (peak " + std::to_string(peak_N) +
+                             " N). Check the sign of the load cell and that the punch touched");
+  }
+  const double from_s = ramp.start_time_s - data.start_early_s;
+  const Line line = loading_line(data, zero_N, 0.2 * peak_N, 0.8 * peak_N, from_s, ramp_end_s);
+  const double speed_m_s = std::min(ramp.speed_m_s, std::abs(ramp.to_m - ramp.from_m) / (0.5 * duration_s(ramp)));
+  const double way_m = std::abs(ramp.to_m - ramp.from_m);
+  const double gap_m = std::clamp(way_m - peak_N / (line.slope / speed_m_s), 0.0, 0.95 * way_m);
+  start[n_moves] = ramp.from_m + (ramp.to_m > ramp.from_m ? gap_m : -gap_m);
+  start[0] = line.zero - time_at_position_s(ramp, start[n_moves]);
+  for (Index m = 1; m < n_moves; ++m) {
+    const StageMove& move = data.moves[static_cast<std::size_t>(m)];
+    const double begin_s = move.start_time_s - data.start_early_s;
+    const double end_s = move.start_time_s + duration_s(move) + data.start_late_s;
+    const double before_N = median_force_N(data, begin_s - 10.0 * after_s, begin_s, 0.0);
+    const double after_N = median_force_N(data, end_s, end_s + after_s, 0.0);
+    const double half_s = crossing_s(data, begin_s, 0.5 * (before_N + after_N), after_N > before_N);
+    start[m] = half_s - time_at_position_s(move, 0.5 * (move.from_m + move.to_m));
+  }
+  return start;
+}
+
+StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start,
+                       double sigma_resting_N, double sigma_moving_N, const FitOptions& options)
+    : time_s_(data.time_s), moves_(data.moves) {
+  const std::size_t count = time_s_.size();
+  const auto n_moves = static_cast<Index>(moves_.size());
+  const double dt_s = sampling_interval_s(time_s_);
+  with_equilibrium_ = !options.is_liquid;
+  may_be_negative_ = options.allow_negative;
+
+  is_moving_.assign(count, false);
+  is_out_of_contact_.assign(count, false);
+  for (std::size_t i = 0; i < count; ++i) {
+    is_out_of_contact_[i] = time_s_[i] < data.contact_from_s || time_s_[i] > data.contact_to_s;
+    for (Index m = 0; m < n_moves; ++m) {
+      const StageMove move = shifted(moves_[static_cast<std::size_t>(m)], start[m]);
+      is_moving_[i] = is_moving_[i] || (time_s_[i] > move.start_time_s - dt_s &&
+                                        time_s_[i] < move.start_time_s + duration_s(move) + dt_s);
+    }
+  }
+  data_.resize(static_cast<Index>(count));
+  sigma_N_.resize(static_cast<Index>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto row = static_cast<Index>(i);
+    sigma_N_[row] = is_moving_[i] ? sigma_moving_N : sigma_resting_N;
+    data_[row] = data.force_N[i] / sigma_N_[row];
+  }
+
+  if (with_equilibrium_) common_.push_back({"E_inf", false});
+  common_.push_back({"offset_N", true});
+  // Without a stretch out of contact after the test, drift and slow relaxation are one.
+  with_drift_ = options.with_drift && !time_s_.empty() && time_s_.back() > data.contact_to_s;
+  if (with_drift_) common_.push_back({"drift_N_s", true});
+  middle_s_ = 0.5 * (time_s_.front() + time_s_.back());
+
+  for (Index m = 0; m < n_moves; ++m) {
+    nuisances_.push_back({"start_" + std::to_string(m + 1) + "_s", start[m], start[m] - 10.0 * dt_s,
+                          start[m] + 10.0 * dt_s, dt_s});
+  }
+  const double way_m = moves_.front().to_m - moves_.front().from_m;
+  const double step_m = std::min(std::abs(way_m), moves_.front().speed_m_s * dt_s);
+  const double z_c = start[n_moves];
+  // Never before the ramp begins nor beyond its end.
+  const double low = std::max(z_c - 10.0 * step_m, std::min(moves_.front().from_m, moves_.front().to_m));
+  const double high = std::min(z_c + 10.0 * step_m, std::max(moves_.front().from_m, moves_.front().to_m));
+  nuisances_.push_back({"contact_m", z_c, low, high, step_m});
+
+  ln_tau_min_ = std::log(dt_s / 3.0);
+  ln_tau_max_ = std::log(3.0 * (data.contact_to_s - data.contact_from_s));
+}
+
+ModelColumns StageModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                                 bool with_slopes) const {
+  const Index n_terms = ln_tau.size();
+  const Index rows = n_rows();
+  const auto n_moves = static_cast<Index>(moves_.size());
+  ModelColumns out;
+  out.values = Eigen::MatrixXd::Zero(rows, n_common() + n_terms);
+  if (with_slopes) {
+    out.term_slopes = Eigen::MatrixXd::Zero(rows, n_terms);
+    out.nuisance_slopes.assign(static_cast<std::size_t>(n_nuisances()),
+                               Eigen::MatrixXd::Zero(rows, n_common() + n_terms));
+  }
+  std::vector<StageMove> moves;
+  std::vector<StageResponse> responses;
+  std::vector<std::vector<StageResponse::Branch>> branches(moves_.size());
+  const double z_contact_m = nuisance[n_moves];
+  double contact_s = 0.0;
+  for (Index m = 0; m < n_moves; ++m) {
+    moves.push_back(shifted(moves_[static_cast<std::size_t>(m)], nuisance[m]));
+    if (m == 0) contact_s = time_at_position_s(moves[0], z_contact_m);
+    responses.emplace_back(moves.back(), m == 0 ? contact_s : moves.back().start_time_s);
+    for (Index i = 0; i < n_terms; ++i) {
+      branches[static_cast<std::size_t>(m)].push_back(responses.back().branch(std::exp(ln_tau[i])));
+    }
+  }
+  const double direction = moves[0].to_m >= moves[0].from_m ? 1.0 : -1.0;
+  const Index first_term = n_common();
+  const Index offset = with_equilibrium_ ? 1 : 0;
+  for (Index row = 0; row < rows; ++row) {
+    const auto k = static_cast<std::size_t>(row);
+    const double t = time_s_[k];
+    out.values(row, offset) = 1.0;
+    if (with_drift_) out.values(row, offset + 1) = t - middle_s_;
+    if (is_out_of_contact_[k] || !(t > contact_s)) continue;
+    for (std::size_t m = 0; m < moves.size(); ++m) {
+      if (!(t > responses[m].from_s())) continue;
+      const auto shift = with_slopes ? &out.nuisance_slopes[m] : nullptr;
+      if (with_equilibrium_) {
+        const double from_m = m == 0 ? z_contact_m : moves[m].from_m;
+        out.values(row, 0) += direction * (position_m(moves[m], t) - from_m);
+        if (shift) (*shift)(row, 0) -= direction * velocity_m_s(moves[m], t);
+      }
+      for (Index i = 0; i < n_terms; ++i) {
+        const BranchResponse response = responses[m].at(branches[m][static_cast<std::size_t>(i)], t);
+        out.values(row, first_term + i) += direction * response.value_m;
+        if (!with_slopes) continue;
+        out.term_slopes(row, i) += direction * response.slope_m;
+        (*shift)(row, first_term + i) -= direction * response.rate_m_s;
+      }
+    }
+    if (!with_slopes) continue;
+    Eigen::MatrixXd& contact = out.nuisance_slopes.back();
+    if (with_equilibrium_) contact(row, 0) = -direction;
+    for (Index i = 0; i < n_terms; ++i) {
+      contact(row, first_term + i) = -direction * std::exp(-(t - contact_s) / std::exp(ln_tau[i]));
+    }
+  }
+  const auto weight = sigma_N_.cwiseInverse().asDiagonal();
+  out.values = weight * out.values;
+  if (with_slopes) {
+    out.term_slopes = weight * out.term_slopes;
+    for (Eigen::MatrixXd& slopes : out.nuisance_slopes) slopes = weight * slopes;
+  }
+  return out;
+}
+
+}  // namespace viscard

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fit/fit_data.h"
+#include "fit/spectral_model.h"
+
+namespace viscard {
+
+// Force of a punch driven by known stage moves through a frame spring. Specimen and frame in series
+// are again a generalised Maxwell solid, so the force follows the *stage* by
+//   F(t) = int R(t - s) dz(s) + offset + drift t,   z counted from contact   (fit/README.md, eq. 4)
+// with stiffnesses R_inf, R_i in N/m; specimen_series() takes the frame out afterwards. The input z is
+// free of noise, and the residual is the force noise itself.
+//
+// Nuisances: one start time per move (known only roughly on the amplifier's clock) and the contact
+// position; all are sharply seen in the kinks of the force. Out of contact the force is zero.
+class StageModel final : public SpectralModel {
+ public:
+  // sigma_N: standard deviation of each sample. start: of the nuisances, shifts first, in s and m;
+  // half-widths of their bounds from the data.
+  StageModel(const IndentationData& data, const Eigen::VectorXd& nuisance_start, double sigma_resting_N,
+             double sigma_moving_N, const FitOptions& options);
+
+  ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                       bool with_slopes) const override;
+
+  // True for samples while the stage moves (by the start values).
+  const std::vector<bool>& is_moving() const { return is_moving_; }
+  const Eigen::VectorXd& sigma_N() const { return sigma_N_; }
+
+ private:
+  std::vector<double> time_s_;
+  std::vector<StageMove> moves_;
+  std::vector<bool> is_moving_;
+  std::vector<bool> is_out_of_contact_;
+  Eigen::VectorXd sigma_N_;
+  double middle_s_ = 0.0;  // drift counts from here
+  bool with_drift_ = false;
+  bool with_equilibrium_ = true;
+};
+
+// Start values of StageModel's nuisances from the force curve alone: when the ramp and the unloading
+// pass half their force, and where the ramp's line meets zero.
+Eigen::VectorXd nuisance_start(const IndentationData& data);
+
+}  // namespace viscard

@@ -1,0 +1,154 @@
+#include "fit/uncertainty.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+constexpr double kNormal95 = 1.959963984540054;
+
+// E_inf, E_i, ln tau_i of a series.
+Eigen::VectorXd vector_from(const PronySeries& series) {
+  const auto n = static_cast<Index>(series.terms.size());
+  Eigen::VectorXd vector(1 + 2 * n);
+  vector[0] = series.equilibrium_modulus_Pa;
+  for (Index i = 0; i < n; ++i) {
+    vector[1 + i] = series.terms[static_cast<std::size_t>(i)].modulus_Pa;
+    vector[1 + n + i] = std::log(series.terms[static_cast<std::size_t>(i)].relaxation_time_s);
+  }
+  return vector;
+}
+
+// d(E_inf, E_i, ln tau_i)/d(parameters of the state), by central differences.
+Eigen::MatrixXd series_slopes(const SpectralModel& model, const SpectralState& state,
+                              const SeriesFromState& series_from_state) {
+  const Index linear = state.coefficients.size();
+  const Index n_terms = state.n_terms();
+  const Index total = linear + n_terms + model.n_nuisances();
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(1 + 2 * n_terms, total);
+  constexpr double kStep = 1e-5;
+  for (Index j = 0; j < linear + n_terms; ++j) {
+    const bool is_common = j < model.n_common();
+    if (is_common && (j > 0 || model.common()[0].is_free)) continue;  // offset, drift
+    SpectralState up = state;
+    SpectralState down = state;
+    double step = kStep;
+    if (j < linear) {
+      step = kStep * std::abs(state.coefficients[j]);
+      if (!(step > 0.0)) continue;
+      up.coefficients[j] += step;
+      down.coefficients[j] -= step;
+    } else {
+      up.ln_tau[j - linear] += step;
+      down.ln_tau[j - linear] -= step;
+    }
+    slopes.col(j) =
+        (vector_from(series_from_state(up)) - vector_from(series_from_state(down))) / (2.0 * step);
+  }
+  return slopes;
+}
+
+double error_of(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& gradient) {
+  return std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));
+}
+
+Interval symmetric(double value, double error) {
+  return {value - kNormal95 * error, value + kNormal95 * error};
+}
+
+}  // namespace
+
+Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralState& state,
+                                     double variance) {
+  const Eigen::MatrixXd jacobian = full_jacobian(model, state);
+  const Index count = jacobian.cols();
+  std::vector<Index> seen;
+  Eigen::MatrixXd scaled(jacobian.rows(), count);
+  Eigen::VectorXd norm(count);
+  for (Index j = 0; j < count; ++j) {
+    norm[j] = jacobian.col(j).norm();
+    if (!(norm[j] > 0.0)) continue;
+    scaled.col(static_cast<Index>(seen.size())) = jacobian.col(j) / norm[j];
+    seen.push_back(j);
+  }
+  const auto used = static_cast<Index>(seen.size());
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled.leftCols(used));
+  const Eigen::MatrixXd upper = qr.matrixQR().topRows(used).triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd inverse =
+      upper.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(used, used));
+  const Eigen::MatrixXd part = variance * inverse * inverse.transpose();
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
+  covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
+  for (Index a = 0; a < used; ++a) {
+    for (Index b = 0; b < used; ++b) {
+      const Index i = seen[static_cast<std::size_t>(a)];
+      const Index j = seen[static_cast<std::size_t>(b)];
+      covariance(i, j) = part(a, b) / (norm[i] * norm[j]);
+    }
+  }
+  return covariance;
+}
+
+void fill_parameters(const SpectralModel& model, const SpectralState& state,
+                     const Eigen::MatrixXd& covariance, const SeriesFromState& series_from_state,
+                     FitResult& result) {
+  const PronySeries series = series_from_state(state);
+  const Index n = state.n_terms();
+  const Eigen::MatrixXd slopes = series_slopes(model, state, series_from_state);
+  // Products of an unreached parameter with no influence are 0 * inf: take them as 0.
+  Eigen::MatrixXd finite = covariance;
+  for (Index j = 0; j < finite.rows(); ++j) {
+    if (!std::isfinite(finite(j, j))) finite(j, j) = 0.0;
+  }
+  const Eigen::MatrixXd cov = slopes * finite * slopes.transpose();
+
+  result.E_inf_Pa = series.equilibrium_modulus_Pa;
+  result.E0_Pa = instantaneous_modulus_Pa(series);
+  Eigen::VectorXd of_sum = Eigen::VectorXd::Zero(1 + 2 * n);
+  of_sum.head(1 + n).setOnes();
+  result.E0_se_Pa = error_of(cov, of_sum);
+  result.E_inf_se_Pa = std::sqrt(std::max(0.0, cov(0, 0)));
+  result.E0_interval_95 = symmetric(result.E0_Pa, result.E0_se_Pa);
+  result.E_inf_interval_95 = symmetric(result.E_inf_Pa, result.E_inf_se_Pa);
+  const double E0 = result.E0_Pa;
+  const auto relative = [&](const Eigen::VectorXd& gradient, double value) {  // of value/E0
+    return error_of(cov, (gradient - of_sum * (value / E0)) / E0);
+  };
+  Eigen::VectorXd of_inf = Eigen::VectorXd::Zero(1 + 2 * n);
+  of_inf[0] = 1.0;
+  result.sum_g = 1.0 - result.E_inf_Pa / E0;
+  result.sum_g_95 = symmetric(result.sum_g, relative(of_inf, result.E_inf_Pa));
+  result.terms.clear();
+  for (Index i = 0; i < n; ++i) {
+    const MaxwellTerm& from = series.terms[static_cast<std::size_t>(i)];
+    FittedTerm term;
+    term.modulus_Pa = from.modulus_Pa;
+    term.g = from.modulus_Pa / E0;
+    term.tau_s = from.relaxation_time_s;
+    term.modulus_se_Pa = std::sqrt(std::max(0.0, cov(1 + i, 1 + i)));
+    term.ln_tau_se = std::sqrt(std::max(0.0, cov(1 + n + i, 1 + n + i)));
+    term.modulus_Pa_95 = symmetric(term.modulus_Pa, term.modulus_se_Pa);
+    Eigen::VectorXd of_term = Eigen::VectorXd::Zero(1 + 2 * n);
+    of_term[1 + i] = 1.0;
+    term.g_95 = symmetric(term.g, relative(of_term, term.modulus_Pa));
+    term.tau_s_95 = {term.tau_s * std::exp(-kNormal95 * term.ln_tau_se),
+                     term.tau_s * std::exp(kNormal95 * term.ln_tau_se)};
+    result.terms.push_back(term);
+  }
+  const std::string unit = result.is_stiffness ? "_N_m" : "_Pa";
+  result.covariance = cov;
+  result.covariance_parameters = {"E_inf" + unit};
+  for (Index i = 1; i <= n; ++i) {
+    result.covariance_parameters.push_back("E_" + std::to_string(i) + unit);
+  }
+  for (Index i = 1; i <= n; ++i) {
+    result.covariance_parameters.push_back("ln_tau_" + std::to_string(i));
+  }
+}
+
+}  // namespace viscard
