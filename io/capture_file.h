@@ -13,18 +13,18 @@ namespace viscard {
 
 // The capture file *.viscap: an SQLite database in WAL mode (tables: io/README.md).
 //
-// The promise. A record is acknowledged when a sync() that began after its append() has returned,
-// or when append() returned longer ago than commit_interval_s and the disk kept up
-// (is_keeping_up()). kill -9 loses no acknowledged record; a power cut loses at most the records of
-// the last sync_interval_s, and none before the last phase event. A file whose run was not finished
-// opens all the same and says so.
+// The promise. counts().committed records, in the order of append(), survive kill -9: those
+// appended longer ago than commit_interval_s while the disk keeps up, and all when sync() has
+// returned. counts().synced of them survive a power cut: all but the last sync_interval_s, and
+// every one before the last event of the run. A file whose run was not finished opens all the same
+// and says so.
 
 struct CaptureOptions {
   bool overwrite = false;
   double commit_interval_s = 0.05;
-  double sync_interval_s = 0.5;  // at most; phase events sync at once
-  std::size_t queue_capacity =
-      200'000;  // records waiting for the disk; more are dropped and counted
+  double sync_interval_s = 0.5;            // at most; phase events sync at once
+  std::size_t queue_capacity = 200'000;    // records waiting for the disk; more are dropped
+  std::size_t min_free_bytes = 16u << 20;  // refuse to start on a disk with less room
 };
 
 // What became of the records so far.

@@ -1,10 +1,12 @@
 #include "io/cli/command.h"
 
+#include <signal.h>
 #include <unistd.h>
 
 #include <iostream>
 
 int main(int argc, char** argv) {
+  ::signal(SIGXFSZ, SIG_IGN);  // over a file size limit, writes fail like on a full disk
   std::ios::sync_with_stdio(false);
   viscard::Streams streams{std::cout, std::cerr, isatty(STDERR_FILENO) == 1};
   const int status = viscard::run_viscard({argv + 1, argv + argc}, streams);

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace viscard {
+
+// The little of SQLite that captures need, with errors as exceptions.
+class SqliteError : public std::runtime_error {
+ public:
+  SqliteError(const std::string& what, int code) : std::runtime_error(what), code_(code) {}
+  int code() const { return code_; }  // primary result code, SQLITE_FULL ...
+
+ private:
+  int code_;
+};
+
+class Statement {
+ public:
+  Statement(sqlite3* database, const char* sql, std::string file);
+
+  // Parameters from 1; a null for an empty optional.
+  Statement& bind(int place, double value);
+  Statement& bind(int place, std::int64_t value);
+  Statement& bind(int place, bool value);
+  Statement& bind(int place, std::string_view text);
+  Statement& bind(int place, const std::optional<double>& value);
+  Statement& bind_blob(int place, std::string_view bytes);
+
+  // True while there is a row; columns from 0.
+  bool step();
+  // Runs a statement that gives no rows and makes it ready for the next parameters.
+  void run();
+
+  double number(int column) const;
+  std::int64_t integer(int column) const;
+  std::optional<double> maybe_number(int column) const;
+  std::string text(int column) const;  // text or blob
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  void check(int code) const;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  std::string file_;
+};
+
+class Database {
+ public:
+  enum class Access { kReadOnly, kReadWrite };
+  // The file must exist. Errors carry its name.
+  Database(const std::filesystem::path& path, Access access);
+
+  void execute(const char* sql);
+  Statement prepare(const char* sql);
+  // First column of the first row; "" when there is none.
+  std::string text_of(const char* sql);
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+  std::unique_ptr<sqlite3, Close> database_;
+  std::string file_;
+};
+
+}  // namespace viscard
