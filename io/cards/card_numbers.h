@@ -1,0 +1,38 @@
+#pragma once
+
+#include "io/cards/conventions.h"
+#include "io/cards/unit_system.h"
+#include "models/material.h"
+
+#include <vector>
+
+namespace viscard {
+
+// The numbers as they stand in a card: in its unit system and by its target's conventions. Which of
+// them a target states is for its writer and reader; these two functions are the only algebra.
+struct CardBranch {
+  double shear = 0.0;  // g_i, G_i or E_i      (CardTarget::branch)
+  double bulk = 0.0;   // k_i or K_i; kOwnNumbers only
+  double time = 0.0;   // tau_i, beta_i or A_i (CardTarget::time)
+};
+
+struct CardNumbers {
+  double young = 0.0, poisson = 0.0;  // at CardTarget::at
+  double bulk = 0.0, shear = 0.0;     // at CardTarget::at
+  double equilibrium = 0.0;           // like CardBranch::shear, of the branch that never relaxes
+  double density = 0.0;               // 0: not given
+  std::vector<CardBranch> branches;
+};
+
+// The same material under the bulk rule of the target: k_i kept, zero, or g_i.
+Material with_bulk_rule(Material material, BulkRule rule);
+
+CardNumbers numbers_from_material(const Material& material, const CardTarget& target,
+                                  const UnitSystem& units);
+
+// The way back, SI. Only E0, nu, rho and terms are filled. Throws std::invalid_argument when the
+// numbers describe no solid (nothing of the modulus left, a time that is not positive).
+Material material_from_numbers(const CardNumbers& numbers, const CardTarget& target,
+                               const UnitSystem& units);
+
+}  // namespace viscard

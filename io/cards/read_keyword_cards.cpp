@@ -1,0 +1,324 @@
+// Readers of keyword files: Abaqus, CalculiX, FrontISTR, ANSYS MAPDL.
+#include "io/cards/card_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+// A keyword line, its parameters upper-cased without blanks, and the data lines below it.
+struct KeywordBlock {
+  CardLine line;
+  std::string keyword;                  // "*ELASTIC"
+  std::vector<std::string> parameters;  // "MODULI=INSTANTANEOUS"
+  std::vector<CardLine> data;
+
+  bool has(const std::string& parameter) const {
+    return std::find(parameters.begin(), parameters.end(), parameter) != parameters.end();
+  }
+};
+
+std::vector<KeywordBlock> keyword_blocks(const std::vector<CardLine>& lines, char mark) {
+  std::vector<KeywordBlock> blocks;
+  for (const CardLine& line : lines) {
+    const std::string text = trimmed(line.text);
+    if (text.empty()) continue;
+    if (text[0] != mark) {
+      if (!blocks.empty()) blocks.back().data.push_back(line);
+      continue;
+    }
+    KeywordBlock block{line, "", {}, {}};
+    for (std::string word : cells(text, ',')) {
+      word = upper(word);
+      if (block.keyword.empty()) {
+        block.keyword = word;
+      } else {
+        std::erase(word, ' ');
+        block.parameters.push_back(word);
+      }
+    }
+    blocks.push_back(block);
+  }
+  return blocks;
+}
+
+std::string name_of(const KeywordBlock& block) {
+  const std::vector<std::string> words = cells(block.line.text, ',');
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    if (equals != std::string::npos && upper(trimmed(word.substr(0, equals))) == "NAME") {
+      return trimmed(word.substr(equals + 1));
+    }
+  }
+  return "";
+}
+
+const CardLine& first_data(const KeywordBlock& block) {
+  if (block.data.empty()) {
+    throw std::runtime_error("line " + std::to_string(block.line.number) + ": " + block.keyword +
+                             " has no data line");
+  }
+  return block.data.front();
+}
+
+void read_elastic(const KeywordBlock& block, CardNumbers& numbers) {
+  const CardLine& line = first_data(block);
+  const auto row = cells(line.text, ',');
+  numbers.young = cell_number(row, 0, line, "E");
+  numbers.poisson = cell_number(row, 1, line, "nu");
+}
+
+void require(bool is_there, const std::string& what) {
+  if (!is_there) throw std::runtime_error("the card has no " + what);
+}
+
+void note_static_step(const KeywordBlock& block, const char* wanted, ReadCard& card) {
+  if (block.keyword == "*STATIC" && !block.has("LONGTERM")) {
+    card.findings.push_back({"static-step",
+                             "line " + std::to_string(block.line.number) +
+                                 ": a *STATIC step does not relax; use " + wanted,
+                             true});
+  }
+}
+
+}  // namespace
+
+void read_abaqus(const std::string& text, ReadCard& card) {
+  bool has_elastic = false;
+  for (const KeywordBlock& block : keyword_blocks(card_lines(text, "**"), '*')) {
+    if (block.keyword == "*MATERIAL") {
+      card.name = name_of(block);
+    } else if (block.keyword == "*DENSITY") {
+      const CardLine& line = first_data(block);
+      card.numbers.density = cell_number(cells(line.text, ','), 0, line, "density");
+    } else if (block.keyword == "*ELASTIC") {
+      has_elastic = true;
+      read_elastic(block, card.numbers);
+      card.understood.at =
+          block.has("MODULI=INSTANTANEOUS") ? ModulusAt::kInstantaneous : ModulusAt::kLongTerm;
+    } else if (block.keyword == "*VISCOELASTIC") {
+      if (!block.has("TIME=PRONY")) {
+        throw std::runtime_error("line " + std::to_string(block.line.number) +
+                                 ": only *VISCOELASTIC, TIME=PRONY can be read");
+      }
+      for (const CardLine& line : block.data) {
+        const auto row = cells(line.text, ',');
+        card.numbers.branches.push_back({cell_number(row, 0, line, "g_i"),
+                                         cell_number_or_zero(row, 1, line, "k_i"),
+                                         cell_number(row, 2, line, "tau_i")});
+      }
+    }
+    note_static_step(block, "*VISCO or a dynamic step", card);
+  }
+  require(has_elastic, "*ELASTIC");
+  if (card.numbers.branches.empty()) card.understood.at = ModulusAt::kInstantaneous;
+}
+
+void read_calculix(const std::string& text, ReadCard& card) {
+  struct Part {
+    double young = 0.0, creep = 0.0;
+    bool creeps = false;
+  };
+  std::vector<Part> parts;
+  for (const KeywordBlock& block : keyword_blocks(card_lines(text, "**"), '*')) {
+    if (block.keyword == "*MATERIAL") {
+      parts.emplace_back();
+      if (card.name.empty()) card.name = name_of(block);
+    } else if (parts.empty()) {
+      continue;  // mesh and sections before the materials
+    } else if (block.keyword == "*DENSITY") {
+      const CardLine& line = first_data(block);
+      card.numbers.density += cell_number(cells(line.text, ','), 0, line, "density");
+    } else if (block.keyword == "*ELASTIC") {
+      CardNumbers share;
+      read_elastic(block, share);
+      parts.back().young = share.young;
+      if (parts.size() > 1 && share.poisson != card.numbers.poisson) {
+        card.findings.push_back({"poisson-differs",
+                                 "line " + std::to_string(block.line.number + 1) +
+                                     ": all overlaid materials need the same Poisson ratio",
+                                 true});
+      }
+      card.numbers.poisson = share.poisson;
+    } else if (block.keyword == "*CREEP") {
+      const CardLine& line = first_data(block);
+      const auto row = cells(line.text, ',');
+      parts.back().creeps = true;
+      parts.back().creep = cell_number(row, 0, line, "A");
+      if (cell_number(row, 1, line, "n") != 1.0 || cell_number_or_zero(row, 2, line, "m") != 0.0) {
+        card.findings.push_back(
+            {"creep-not-linear",
+             "line " + std::to_string(line.number) + ": a Maxwell branch needs n = 1 and m = 0",
+             true});
+      }
+    }
+    if (block.keyword == "*VISCOELASTIC" || block.has("MODULI=INSTANTANEOUS")) {
+      card.findings.push_back({"calculix-ignores-prony",
+                               "line " + std::to_string(block.line.number) +
+                                   ": CalculiX drops this line with a warning and stays elastic; "
+                                   "use an overlay of Norton-creep materials",
+                               true});
+    }
+    note_static_step(block, "*VISCO", card);
+  }
+  require(!parts.empty(), "*MATERIAL");
+  for (const Part& part : parts) {
+    if (part.creeps) {
+      card.numbers.branches.push_back({part.young, 0.0, part.creep});
+    } else {
+      card.numbers.equilibrium += part.young;
+    }
+  }
+  // Only the first of our names carries the suffix of the elastic part.
+  if (card.name.size() > 4 && card.name.ends_with("_INF")) card.name.resize(card.name.size() - 4);
+}
+
+void read_frontistr(const std::string& text, ReadCard& card) {
+  std::vector<CardLine> lines = card_lines(text, "#");
+  std::erase_if(lines, [](const CardLine& line) { return trimmed(line.text).rfind("!!", 0) == 0; });
+  bool has_elastic = false;
+  for (const KeywordBlock& block : keyword_blocks(lines, '!')) {
+    if (block.keyword == "!MATERIAL") {
+      card.name = name_of(block);
+    } else if (block.keyword == "!ELASTIC") {
+      has_elastic = true;
+      read_elastic(block, card.numbers);
+    } else if (block.keyword == "!DENSITY") {
+      const CardLine& line = first_data(block);
+      card.numbers.density = cell_number(cells(line.text, ','), 0, line, "density");
+    } else if (block.keyword == "!VISCOELASTIC") {
+      for (const CardLine& line : block.data) {
+        const auto row = cells(line.text, ',');
+        card.numbers.branches.push_back(
+            {cell_number(row, 0, line, "mu_i"), 0.0, cell_number(row, 1, line, "tau_i")});
+      }
+    } else if (block.keyword == "!SOLUTION" && block.has("TYPE=STATIC")) {
+      card.findings.push_back({"static-step",
+                               "line " + std::to_string(block.line.number) +
+                                   ": needs !SOLUTION, TYPE=NLSTATIC and !STEP, TYPE=VISCO",
+                               true});
+    }
+  }
+  require(has_elastic, "!ELASTIC");
+}
+
+namespace {
+
+// One TB,PRONY table while its TBDATA lines come in.
+struct PronyTable {
+  CardLine line;
+  bool is_bulk = false;
+  int pairs = 0;
+  int next_location = 1;
+  std::map<int, double> constants;
+};
+
+std::vector<CardBranch> pairs_of(const PronyTable& table) {
+  std::vector<CardBranch> out;
+  for (int pair = 0; pair < table.pairs; ++pair) {
+    const auto alpha = table.constants.find(2 * pair + 1), tau = table.constants.find(2 * pair + 2);
+    if (alpha == table.constants.end() || tau == table.constants.end()) break;
+    out.push_back({alpha->second, 0.0, tau->second});
+  }
+  return out;
+}
+
+void add_constants(const std::vector<std::string>& row, const CardLine& line, PronyTable& table,
+                   ReadCard& card) {
+  int location = row.size() > 1 && !row[1].empty()
+                     ? static_cast<int>(card_number(row[1], line, "location"))
+                     : table.next_location;
+  for (std::size_t i = 2; i < row.size(); ++i, ++location) {
+    if (row[i].empty()) continue;
+    if (!table.constants.emplace(location, card_number(row[i], line, "constant")).second) {
+      card.findings.push_back({"tbdata-overwritten",
+                               "line " + std::to_string(line.number) + ": constant " +
+                                   std::to_string(location) +
+                                   " was given before and is overwritten; count the location on "
+                                   "(1, 3, 5 ...)",
+                               true});
+      table.constants[location] = card_number(row[i], line, "constant");
+    }
+  }
+  table.next_location = location;
+}
+
+void check_pairs(const PronyTable& table, ReadCard& card) {
+  const std::size_t given = (table.constants.size() + 1) / 2;
+  if (static_cast<int>(given) == table.pairs) return;
+  card.findings.push_back({"npts-mismatch",
+                           "line " + std::to_string(table.line.number) + ": TB,PRONY announces " +
+                               std::to_string(table.pairs) + " pairs and " + std::to_string(given) +
+                               " are given",
+                           true});
+}
+
+// The two tables of one material share their times, or they are terms of their own.
+void add_tables(const std::vector<PronyTable>& tables, ReadCard& card) {
+  for (const PronyTable& table : tables) {
+    check_pairs(table, card);
+    for (const CardBranch& pair : pairs_of(table)) {
+      auto& branches = card.numbers.branches;
+      const auto same = std::find_if(branches.begin(), branches.end(), [&](const CardBranch& b) {
+        return b.time == pair.time && (table.is_bulk ? b.bulk : b.shear) == 0.0;
+      });
+      if (same == branches.end()) branches.push_back({0.0, 0.0, pair.time});
+      CardBranch& branch = same == branches.end() ? branches.back() : *same;
+      (table.is_bulk ? branch.bulk : branch.shear) = pair.shear;
+    }
+  }
+}
+
+void read_ansys_property(const std::vector<std::string>& row, const CardLine& line, ReadCard& card,
+                         bool& has_young) {
+  const std::string property = upper(row.size() > 1 ? row[1] : "");
+  const double value = cell_number(row, 3, line, property);
+  if (property == "EX") {
+    card.numbers.young = value;
+    has_young = true;
+  } else if (property == "PRXY" || property == "NUXY") {
+    card.numbers.poisson = value;
+  } else if (property == "DENS") {
+    card.numbers.density = value;
+  }
+}
+
+}  // namespace
+
+void read_ansys(const std::string& text, ReadCard& card) {
+  std::vector<PronyTable> tables;
+  bool in_elastic = false, has_young = false;
+  for (CardLine line : card_lines(text, "!")) {
+    line.text = line.text.substr(0, line.text.find('!'));
+    const std::vector<std::string> row = cells(line.text, ',');
+    const std::string command = upper(row[0]);
+    if (command == "MP") {
+      read_ansys_property(row, line, card, has_young);
+    } else if (command == "TB") {
+      const std::string kind = upper(row.size() > 1 ? row[1] : "").substr(0, 4);
+      in_elastic = kind == "ELAS";
+      if (kind == "PRON") {
+        const std::string part = upper(row.size() > 5 ? row[5] : "SHEAR").substr(0, 4);
+        tables.push_back({line,
+                          part == "BULK",
+                          static_cast<int>(cell_number(row, 4, line, "number of pairs")),
+                          1,
+                          {}});
+      }
+    } else if (command == "TBDATA" && in_elastic) {
+      card.numbers.young = cell_number(row, 2, line, "E");
+      card.numbers.poisson = cell_number(row, 3, line, "nu");
+      has_young = true;
+    } else if (command == "TBDATA" && !tables.empty()) {
+      add_constants(row, line, tables.back(), card);
+    }
+  }
+  require(has_young, "MP,EX and no TB,ELASTIC");
+  add_tables(tables, card);
+}
+
+}  // namespace viscard
