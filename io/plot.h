@@ -40,7 +40,8 @@ struct PlotAxis {
   std::optional<double> min, max;  // from the data, with a margin, unless given
 };
 
-// A thin vertical line with a few words at its top: where a phase begins.
+// A thin vertical line where a phase begins; its name stands above the panel, between this line and
+// the next, unless there is no room for it.
 struct PlotNote {
   double x = 0.0;
   std::string text;
@@ -56,8 +57,8 @@ struct PlotPanel {
 };
 
 struct Plot {
-  std::string title;        // for readers who cannot see it, and as tooltip
-  std::string description;  // what it shows, one or two sentences, likewise
+  std::string title;              // for readers who cannot see it, and as tooltip
+  std::string description;        // what it shows, one or two sentences, likewise
   std::vector<PlotPanel> panels;  // row by row
   int columns = 1;
   int width_px = 1040;

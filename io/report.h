@@ -1,20 +1,20 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "fit/fit_result.h"
 #include "models/captured_run.h"
 #include "models/emulated_specimen.h"
 #include "models/material.h"
 #include "models/specimen.h"
 
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace viscard {
 
-// Creep or relaxation of the pillar: what the solver gave beside the exact answer, one quantity over
-// time, and the largest relative error between them.
+// Creep or relaxation of the pillar: what the solver gave beside the exact answer, one quantity
+// over time, and the largest relative error between them.
 struct PillarCurve {
   std::string quantity;  // "force (uN)", the axis label
   std::vector<double> time_s, solver, exact;
@@ -23,7 +23,8 @@ struct PillarCurve {
 
 struct PillarCheck {
   PillarCurve relaxation, creep;
-  std::string setup;  // one sentence: geometry, load, unknowns, steps
+  double limit = 1e-6;  // of the largest relative error
+  std::string setup;    // one sentence: geometry, load, unknowns, steps
 };
 
 // A card for another solver, as written.
@@ -37,14 +38,14 @@ struct ReportCard {
 // All that is known of one specimen; what is missing is left out of the page. At least a fit or a
 // material must be there.
 struct SpecimenReport {
-  Specimen specimen;                    // id names the section; the material's name stands in for it
-  std::optional<CapturedRun> run;       // raw record
-  std::optional<FitResult> fit;         // estimates with data and residuals
-  std::optional<Material> material;     // estimates as filed, when there is no fit
-  std::optional<EmulatedTruth> truth;   // emulated rig only
+  Specimen specimen;                   // id names the section; the material's name stands in for it
+  std::optional<CapturedRun> run;      // raw record
+  std::optional<FitResult> fit;        // estimates with data and residuals
+  std::optional<Material> material;    // estimates as filed, when there is no fit
+  std::optional<EmulatedTruth> truth;  // emulated rig only
   std::optional<PillarCheck> pillar;
   std::vector<ReportCard> cards;
-  std::vector<RawFile> files;           // read for this specimen
+  std::vector<RawFile> files;  // read for this specimen
 };
 
 // E0 over mixing ratio as a joint fit describes it.

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "io/plot.h"
+#include "models/captured_run.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// What a run recorded, as a page shows it: readings as received and the way of the stage, both on
+// the host's clock, s since the run began.
+struct RunSeries {
+  std::vector<double> time_s, volts;         // readings that count
+  std::vector<double> flagged_s, flagged_V;  // saturated or glitches
+  std::vector<double> report_s, position_m;  // the stage's own reports
+  // Depth of the punch below the point of contact, negative above the surface:
+  //   stage position - contact position - force/frame stiffness,
+  // at the times of the readings; empty without a contact position. The force counts from the mean
+  // reading taken while the stage stood clear of the contact position.
+  std::vector<double> depth_m;
+  std::vector<PlotNote> phases;
+};
+
+RunSeries series_from_run(const CapturedRun& run, std::optional<double> contact_position_m);
+
+// The volts of one reading: as sent, or counts times volts per count; NaN if neither is known.
+double volts_of(const LoadSample& sample, const RigConfig& rig);
+
+}  // namespace viscard
