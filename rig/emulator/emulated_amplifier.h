@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "models/calibration.h"
+#include "models/emulated_specimen.h"
+
+namespace viscard {
+
+// Words an amplifier may send per reading.
+enum class AmplifierFormat { kMicrosCounts, kMillisCounts, kCounts, kReadingText, kVolts };
+
+struct AmplifierOptions {
+  AmplifierFormat format = AmplifierFormat::kMicrosCounts;
+  std::string line_end = "\r\n";
+  double clock_ppm = 0.0;            // how much its clock runs fast
+  double boot_s = 0.0;               // from reset to the first conversion
+  std::uint32_t micros_at_reset = 0;  // to make the counter wrap soon
+  int glitch_every = 0;              // every n-th reading is an interrupted conversion; 0: none
+};
+
+// An HX711 behind a small processor: 24-bit counts of the cell's voltage, one line per conversion, with
+// noise that depends only on the seed and the number of the reading.
+class EmulatedAmplifier {
+ public:
+  EmulatedAmplifier(const EmulatedTruth& truth, const LoadCellCalibration& calibration,
+                    double volts_per_count, const AmplifierOptions& options);
+
+  // Starts anew: returns the banner; conversions follow from time_s + boot_s on.
+  std::string reset(double time_s);
+  // Emulated time of the next conversion.
+  double next_sample_s() const;
+  // Converts the force acting now and returns the line; counts the reading.
+  std::string convert(double force_N, bool is_cell_broken);
+
+  std::int64_t n_converted() const { return index_; }
+
+ private:
+  double reading_N(double force_N, double time_s) const;
+  std::string line(double counts, double time_s) const;
+
+  EmulatedTruth truth_;
+  LoadCellCalibration calibration_;
+  double volts_per_count_;
+  AmplifierOptions options_;
+  double reset_s_ = 0.0;
+  std::int64_t index_ = 0;        // readings since the last reset
+  std::int64_t noise_index_ = 0;  // readings ever
+};
+
+}  // namespace viscard

@@ -1,0 +1,323 @@
+#include "rig/emulator/emulated_grbl.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+#include "rig/grbl_protocol.h"
+#include "rig/text_number.h"
+
+namespace viscard {
+namespace {
+
+constexpr std::size_t kLineLength = 79;  // gnea/grbl LINE_BUFFER_SIZE 80 with the NUL
+constexpr int kPlannerBlocks = 15;
+constexpr double kHomeAt_m = -3e-3;  // of the switch, from where the stage was at power-up
+
+}  // namespace
+
+EmulatedGrbl::EmulatedGrbl(const EmulatedTruth& truth, char axis, int toward_specimen,
+                           const GrblHabits& habits)
+    : habits_(habits),
+      axis_(axis == 'X' ? 0 : (axis == 'Y' ? 1 : 2)),
+      toward_(toward_specimen < 0 ? -1.0 : 1.0),
+      motion_(truth.steps_per_m, 0.0) {
+  settings_ = {{0, 10},  {1, 255}, {2, 0},   {3, 0},  {4, 0},   {5, 0},   {6, 0},
+               {10, habits.reports_work_position ? 0.0 : 1.0},
+               {11, .01}, {12, .002}, {13, 0},  {20, 0}, {21, 0},
+               {22, habits.is_homing_enabled ? 1.0 : 0.0},
+               {23, 0},  {24, 25}, {25, 500}, {26, 250}, {27, 1}, {30, 1000}, {31, 0}, {32, 0}};
+  for (int i = 0; i < 3; ++i) {
+    settings_[100 + i] = truth.steps_per_m * 1e-3;
+    settings_[110 + i] = truth.max_rate_m_s * 60e3;
+    settings_[120 + i] = truth.acceleration_m_s2 * 1e3;
+    settings_[130 + i] = 200.0;
+  }
+  load_axis_settings();
+}
+
+void EmulatedGrbl::load_axis_settings() {
+  const int i = static_cast<int>(axis_);
+  steps_per_m_ = settings_[100 + i] * 1e3;
+  max_rate_m_s_ = settings_[110 + i] / 60e3;
+  acceleration_m_s2_ = settings_[120 + i] * 1e-3;
+  motion_.set_steps_per_m(steps_per_m_);
+}
+
+double EmulatedGrbl::machine_mm(double bench_m) const {
+  return toward_ * (bench_m - machine_origin_m_) * 1e3;
+}
+
+double EmulatedGrbl::bench_m(double machine_mm) const {
+  return machine_origin_m_ + toward_ * machine_mm * 1e-3;
+}
+
+void EmulatedGrbl::reset(double time_s) {
+  motion_.stop_at_once(time_s);
+  machine_origin_m_ = motion_.position_m(time_s);  // a power-up counts from where it stands
+  is_homed_ = false;
+  answers_.clear();
+  output_.clear();
+  if (habits_.has_empty_eeprom && !is_eeprom_dumped_) {
+    output_ = "error:7\r\n" + settings_text();
+    is_eeprom_dumped_ = true;
+  }
+  state_ = habits_.is_homing_enabled ? "Alarm" : "Idle";
+  is_silent_ = false;
+  welcome();
+}
+
+void EmulatedGrbl::welcome() {
+  queue_.clear();
+  held_target_m_.reset();
+  is_cancelling_ = false;
+  begun_line_.clear();
+  output_ += habits_.is_hal ? "\r\nGrblHAL 1.1f ['$' or '$HELP' for help]\r\n"
+                            : "\r\nGrbl 1.1h ['$' for help]\r\n";
+  if (state_ == "Alarm") output_ += "[MSG:'$H'|'$X' to unlock]\r\n";
+}
+
+void EmulatedGrbl::soft_reset(double time_s) {
+  const bool was_moving = motion_.is_moving(time_s);
+  answers_.clear();
+  motion_.stop_at_once(time_s);
+  if (was_moving) output_ += "ALARM:3\r\n";
+  // An alarm outlives the reset; at rest the state was kept, or is locked where homing is required.
+  if (was_moving || state_ == "Alarm") {
+    state_ = "Alarm";
+  } else {
+    state_ = "Idle";
+  }
+  is_silent_ = false;
+  welcome();
+}
+
+void EmulatedGrbl::hit_limit(double time_s) {
+  motion_.stop_at_once(time_s);
+  queue_.clear();
+  answers_.clear();
+  state_ = "Alarm";
+  is_silent_ = true;
+  output_ += "ALARM:1\r\n[MSG:Reset to continue]\r\n";
+}
+
+void EmulatedGrbl::receive(std::string_view bytes, double time_s) {
+  for (const char c : bytes) {
+    const bool is_realtime = c == grbl::kStatus || c == grbl::kHold || c == grbl::kResume ||
+                             c == grbl::kSoftReset || static_cast<unsigned char>(c) >= 0x80;
+    if (is_realtime) {
+      realtime(c, time_s);
+    } else if (c == '\n' || c == '\r') {
+      line(std::exchange(begun_line_, {}), time_s);
+    } else if (begun_line_.size() <= kLineLength) {
+      if (c != ' ') begun_line_ += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    }
+  }
+}
+
+void EmulatedGrbl::realtime(char c, double time_s) {
+  if (c == grbl::kSoftReset) return soft_reset(time_s);
+  if (is_silent_) return;
+  if (c == grbl::kStatus) {
+    ++n_status_;
+    const bool is_lost =
+        habits_.lose_status_every > 0 && n_status_ % habits_.lose_status_every == 0;
+    if (state_ != "Home" && !is_lost) output_ += status(time_s);
+  } else if (c == grbl::kJogCancel && state_ == "Jog") {
+    queue_.clear();
+    motion_.stop_gently(time_s, acceleration_m_s2_);
+    is_cancelling_ = true;
+  } else if (c == grbl::kHold && (state_ == "Jog" || state_ == "Run" || state_ == "Idle")) {
+    // In a jog a hold is a cancel; at rest it blocks until '~' (both as the real firmware does).
+    if (state_ == "Idle") {
+      state_ = "Hold";
+    } else {
+      queue_.clear();
+      motion_.stop_gently(time_s, acceleration_m_s2_);
+    }
+  } else if (c == grbl::kResume && state_ == "Hold") {
+    state_ = "Idle";
+  }
+}
+
+void EmulatedGrbl::answer(double time_s, const std::string& text) {
+  answers_.push_back({time_s + habits_.ok_delay_s, text});
+}
+
+void EmulatedGrbl::ok(double time_s) {
+  answer(time_s, habits_.answers_twice ? "ok\r\nok\r\n" : "ok\r\n");
+}
+
+void EmulatedGrbl::error(double time_s, int code) {
+  answer(time_s, "error:" + std::to_string(code) + "\r\n");
+}
+
+void EmulatedGrbl::line(std::string text, double time_s) {
+  if (is_silent_) {
+    if (text == "$X") output_ += "[MSG:Reset to continue]\r\n";
+    return;
+  }
+  if (text.size() > kLineLength) return error(time_s, 11);
+  if (text.empty()) return ok(time_s);
+  if (text[0] == '$') return dollar(text, time_s);
+  if (state_ == "Alarm" || state_ == "Jog") return error(time_s, 9);
+  const bool is_harmless = text.rfind("G4P", 0) == 0 || text == "G21" || text == "G90" ||
+                           text == "G91" || text == "G94";
+  if (!std::isalpha(static_cast<unsigned char>(text[0]))) return error(time_s, 1);
+  if (!is_harmless) return error(time_s, 20);
+  ok(time_s);
+}
+
+void EmulatedGrbl::dollar(const std::string& text, double time_s) {
+  if (text.rfind("$J=", 0) == 0) return jog(std::string_view(text).substr(3), time_s);
+  if (text == "$X") {
+    if (state_ == "Alarm") {
+      output_ += "[MSG:Caution: Unlocked]\r\n";
+      state_ = "Idle";
+    }
+    return ok(time_s);
+  }
+  if (text == "$H") return home(time_s);
+  if (text == "$G") {
+    output_ += "[GC:G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]\r\n";
+    return ok(time_s);
+  }
+  if (motion_.is_moving(time_s)) return error(time_s, 8);
+  if (text == "$$" || text == "$#" || text == "$I") {
+    if (text == "$$") output_ += settings_text();
+    if (text == "$#") output_ += "[G54:0.000,0.000,0.000]\r\n[TLO:0.000]\r\n";
+    if (text == "$I" && habits_.is_hal) {
+      output_ += "[VER:1.1f.20240101:]\r\n[OPT:VNML+,100,1024,3,0]\r\n[FIRMWARE:grblHAL]\r\n";
+    } else if (text == "$I") {
+      output_ += "[VER:1.1h.20190830:]\r\n[OPT:V,15,128]\r\n";
+    }
+    return ok(time_s);
+  }
+  if (text.find('=') != std::string::npos) return set(std::string_view(text), time_s);
+  error(time_s, 3);
+}
+
+void EmulatedGrbl::set(std::string_view words, double time_s) {
+  const auto setting = parse_grbl_setting(words);
+  if (!setting || settings_.count(setting->number) == 0) return error(time_s, 3);
+  if (setting->value < 0.0) return error(time_s, 4);
+  settings_[setting->number] = setting->value;
+  load_axis_settings();
+  ok(time_s);
+}
+
+std::string EmulatedGrbl::settings_text() const {
+  std::string text;
+  for (const auto& [number, value] : settings_) {
+    const bool is_integer = number < 100 && number != 11 && number != 12 && number != 24 &&
+                            number != 25 && number != 27;
+    text += "$" + std::to_string(number) + "=" + text_from_number(value, is_integer ? 0 : 3) +
+            "\r\n";
+  }
+  return text;
+}
+
+void EmulatedGrbl::jog(std::string_view words, double time_s) {
+  if (state_ == "Alarm") return error(time_s, 9);
+  if (state_ != "Idle" && state_ != "Jog") return error(time_s, 8);
+  double scale_mm = 1.0;
+  bool is_relative = false;
+  std::optional<double> target_mm;
+  std::optional<double> feed_mm_min;
+  while (!words.empty()) {
+    const char letter = words.front();
+    if (letter < 'A' || letter > 'Z') return error(time_s, 1);
+    words.remove_prefix(1);
+    const std::size_t end = std::min(words.find_first_not_of("+-.0123456789"), words.size());
+    const auto number = number_from_text(words.substr(0, end));
+    if (!number) return error(time_s, 2);
+    words.remove_prefix(end);
+    if (letter == 'G') {
+      if (*number == 20.0) scale_mm = 25.4;
+      if (*number == 91.0) is_relative = true;
+      const bool is_known = *number == 20.0 || *number == 21.0 || *number == 53.0 ||
+                            *number == 90.0 || *number == 91.0;
+      if (!is_known) return error(time_s, 16);
+    } else if (letter == "XYZ"[axis_]) {
+      target_mm = *number;
+    } else if (letter == 'F') {
+      feed_mm_min = *number;
+    } else if (letter != 'X' && letter != 'Y' && letter != 'Z') {
+      return error(time_s, 16);
+    }
+  }
+  if (!feed_mm_min || !(*feed_mm_min > 0.0)) return error(time_s, 22);
+  if (target_mm) {
+    const double last_m = queue_.empty() ? motion_.end_position_m() : queue_.back().to_m;
+    const double base_mm = is_relative ? machine_mm(last_m) : 0.0;
+    const double to_mm = base_mm + *target_mm * scale_mm;
+    if (settings_[20] != 0.0 && is_homed_ && (to_mm > 0.0 || to_mm < -settings_[130])) {
+      return error(time_s, 15);
+    }
+    const double speed_m_s = std::min(*feed_mm_min * scale_mm / 60e3, max_rate_m_s_);
+    queue_.push_back({bench_m(to_mm), speed_m_s});
+    state_ = "Jog";
+    tick(time_s);
+  }
+  ok(time_s);
+}
+
+void EmulatedGrbl::home(double time_s) {
+  if (settings_[22] == 0.0) return error(time_s, 5);
+  if (motion_.is_moving(time_s)) return error(time_s, 8);
+  state_ = "Home";
+  motion_.start(time_s, kHomeAt_m, settings_[25] / 60e3, acceleration_m_s2_);
+}
+
+void EmulatedGrbl::tick(double time_s) {
+  while (!motion_.is_moving(time_s)) {
+    if (state_ == "Home") {
+      // The switch is machine zero; the axis stands pulled off from it by $27.
+      machine_origin_m_ = motion_.end_position_m() - toward_ * -settings_[27] * 1e-3;
+      is_homed_ = true;
+      state_ = "Idle";
+      ok(time_s);
+      break;
+    }
+    if (queue_.empty()) {
+      if (state_ == "Jog") state_ = "Idle";
+      is_cancelling_ = false;
+      break;
+    }
+    const QueuedMove move = queue_.front();
+    queue_.pop_front();
+    move_speed_m_s_ = move.speed_m_s;
+    // Its predecessor's end, where there was one: the position has not been asked for beyond.
+    motion_.start(time_s, move.to_m, move.speed_m_s, acceleration_m_s2_);
+  }
+  while (!answers_.empty() && answers_.front().due_s <= time_s) {
+    output_ += answers_.front().text;
+    answers_.pop_front();
+  }
+}
+
+std::string EmulatedGrbl::take_output() { return std::exchange(output_, {}); }
+
+std::string EmulatedGrbl::status(double time_s) {
+  std::array<double, 3> position_mm{};
+  const double here_m = std::round(motion_.position_m(time_s) * steps_per_m_) / steps_per_m_;
+  position_mm[axis_] = machine_mm(here_m);
+  const std::string name = state_ == "Hold" ? "Hold:0" : state_;
+  std::string text = "<" + name + (settings_[10] == 0.0 ? "|WPos:" : "|MPos:");
+  for (std::size_t i = 0; i < 3; ++i) {
+    text += (i > 0 ? "," : "") + text_from_number(position_mm[i], 3);
+  }
+  if (settings_[10] >= 2.0 || habits_.is_hal) text += "|Bf:" + std::to_string(kPlannerBlocks) + ",128";
+  text += "|FS:" + text_from_number(std::abs(motion_.velocity_m_s(time_s)) * 60e3, 0) + ",0";
+  const int every = motion_.is_moving(time_s) ? 30 : 10;
+  if (n_status_ % every == 1) {
+    text += "|WCO:0.000,0.000,0.000";
+  } else if (n_status_ % every == 2) {
+    text += "|Ov:100,100,100";
+  }
+  if (habits_.is_hal && n_status_ % every == 3) text += "|A:|TLR:0";
+  return text + ">\r\n";
+}
+
+}  // namespace viscard

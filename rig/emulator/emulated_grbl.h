@@ -1,0 +1,97 @@
+#pragma once
+
+#include <array>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "models/emulated_specimen.h"
+#include "rig/emulator/emulated_motion.h"
+
+namespace viscard {
+
+// Habits of real controllers that a driver must live with. Times on the emulated clock.
+struct GrblHabits {
+  bool is_hal = false;             // grblHAL's welcome and extra fields
+  bool has_empty_eeprom = false;   // dumps error:7 and the settings before its first welcome
+  bool is_homing_enabled = false;  // $22=1: boots into Alarm
+  int lose_status_every = 0;       // every n-th '?' gets no answer
+  double ok_delay_s = 0.0;         // until the answer to a line is sent
+  bool answers_twice = false;      // every ok comes twice
+  bool reports_work_position = false;  // $10=0
+};
+
+// The controller of the stage as seen on its wire: a character machine with the states, answers, alarms
+// and silences of GRBL 1.1 (gnea/grbl doc/markdown/interface.md). Moves queued one behind another each
+// end at rest (the real planner rounds corners of collinear moves; nothing here queues more than one).
+class EmulatedGrbl {
+ public:
+  EmulatedGrbl(const EmulatedTruth& truth, char axis, int toward_specimen,
+               const GrblHabits& habits);
+
+  // Power-up or opening of the port: everything pending is dropped and the welcome prepared.
+  void reset(double time_s);
+  // Bytes from the host, in order, and what they do at time_s.
+  void receive(std::string_view bytes, double time_s);
+  // Lets queued moves, homing and delayed answers happen up to time_s. Call before the position is
+  // asked for any time up to time_s.
+  void tick(double time_s);
+  std::string take_output();
+
+  // Position on the axis that grows toward the specimen, 0 at power-up.
+  double bench_position_m(double time_s) const { return motion_.position_m(time_s); }
+  double next_knot_s(double time_s) const { return motion_.next_knot_s(time_s); }
+  bool is_moving(double time_s) const { return motion_.is_moving(time_s); }
+  // A limit switch closes now.
+  void hit_limit(double time_s);
+
+ private:
+  struct QueuedMove {
+    double to_m, speed_m_s;
+  };
+  struct Answer {
+    double due_s;
+    std::string text;
+  };
+  void realtime(char c, double time_s);
+  void line(std::string text, double time_s);
+  void dollar(const std::string& text, double time_s);
+  void jog(std::string_view words, double time_s);
+  void home(double time_s);
+  void set(std::string_view words, double time_s);
+  void soft_reset(double time_s);
+  void answer(double time_s, const std::string& text);
+  void ok(double time_s);
+  void error(double time_s, int code);
+  std::string status(double time_s);
+  std::string settings_text() const;
+  void welcome();
+  void load_axis_settings();
+
+  double machine_mm(double bench_m) const;
+  double bench_m(double machine_mm) const;
+
+  GrblHabits habits_;
+  std::size_t axis_;           // 0 1 2
+  double toward_;              // sign of machine motion toward the specimen
+  double machine_origin_m_ = 0.0;  // bench position of machine zero
+  std::map<int, double> settings_;
+  double steps_per_m_ = 0.0, acceleration_m_s2_ = 0.0, max_rate_m_s_ = 0.0;
+  EmulatedMotion motion_;
+  std::deque<QueuedMove> queue_;
+  std::string state_ = "Idle";
+  bool is_silent_ = false;     // after a critical alarm, until the reset
+  bool is_cancelling_ = false;  // a jog that is being stopped
+  bool is_homed_ = false;
+  bool is_eeprom_dumped_ = false;
+  std::optional<double> held_target_m_;
+  double move_speed_m_s_ = 0.0;
+  std::string begun_line_;
+  std::deque<Answer> answers_;
+  std::string output_;
+  int n_status_ = 0;
+};
+
+}  // namespace viscard

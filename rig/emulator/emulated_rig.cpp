@@ -1,0 +1,236 @@
+#include "rig/emulator/emulated_rig.h"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <mutex>
+#include <thread>
+
+#include "rig/emulator/emulated_specimen.h"
+#include "rig/emulator/pty_port.h"
+#include "rig/rig_clock.h"
+
+namespace viscard {
+namespace {
+
+constexpr double kLargestStep_s = 1e-3;    // of the hereditary integral, emulated time
+constexpr double kShortestNap_s = 0.2e-3;  // wall
+constexpr double kLongestNap_s = 2e-3;     // wall: how soon an opened port or an incident is noticed
+
+enum Incident : unsigned {
+  kPullStage = 1,
+  kPullCell = 2,
+  kSilenceCell = 4,
+  kRestartCell = 8,
+  kHitLimit = 16,
+  kRestartStage = 32,
+};
+
+}  // namespace
+
+class EmulatedRig::Impl {
+ public:
+  explicit Impl(const EmulatedRigOptions& options)
+      : options_(options),
+        clock_(options.config.clock_speed),
+        specimen_(options.truth),
+        grbl_(options.truth, options.config.stage.axis, options.config.stage.toward_specimen,
+              options.grbl),
+        amplifier_(options.truth, options.config.calibration,
+                   options.config.load_cell.volts_per_count, options.amplifier),
+        thread_([this] { run(); }) {}
+
+  ~Impl() {
+    is_ending_ = true;
+    thread_.join();
+  }
+
+  void run();
+
+  EmulatedRigOptions options_;
+  RigClock clock_;
+  PtyPort stage_port_;
+  PtyPort cell_port_;
+  std::atomic<bool> is_ending_{false};
+  std::atomic<unsigned> incidents_{0};
+  std::atomic<double> stall_wall_s_{0.0};
+  mutable std::mutex outcome_mutex_;
+  EmulatedOutcome outcome_;
+
+ private:
+  // A board that boots when its port is opened.
+  struct Board {
+    bool is_open = false;
+    bool is_running = false;
+    double boots_at_s = 0.0;
+  };
+  void watch_port(PtyPort& port, Board& board, double now_s);
+  void advance_bench(double to_s);
+  void serve_stage(double now_s);
+  void serve_cell(double now_s);
+  void happen(double now_s);
+  void nap(double now_s);
+
+  double bench_s_ = 0.0;
+  EmulatedSpecimen specimen_;
+  EmulatedGrbl grbl_;
+  EmulatedAmplifier amplifier_;
+  Board stage_board_, cell_board_;
+  bool is_cell_silent_ = false;
+  std::thread thread_;
+};
+
+void EmulatedRig::Impl::watch_port(PtyPort& port, Board& board, double now_s) {
+  const bool is_open = port.is_open_by_host();
+  if (is_open && !board.is_open && (options_.resets_on_open || !board.is_running)) {
+    board.is_running = false;
+    board.boots_at_s = now_s + clock_.from_wall_s(options_.boot_wall_s);
+  }
+  board.is_open = is_open;
+}
+
+// Takes the mechanics to to_s in steps that end at the corners of the motion.
+void EmulatedRig::Impl::advance_bench(double to_s) {
+  while (bench_s_ < to_s) {
+    const double next_s =
+        std::min({to_s, bench_s_ + kLargestStep_s, grbl_.next_knot_s(bench_s_)});
+    const double force_N =
+        specimen_.advance(next_s - bench_s_, grbl_.bench_position_m(next_s));
+    bench_s_ = next_s;
+    if (!specimen_.is_touched() && !grbl_.is_moving(bench_s_)) {
+      bench_s_ = to_s;  // nothing can happen until the stage moves
+    }
+    const std::lock_guard lock(outcome_mutex_);
+    outcome_.peak_force_N = std::max(outcome_.peak_force_N, force_N);
+    outcome_.peak_depth_m = std::max(outcome_.peak_depth_m, specimen_.depth_m());
+    if (options_.truth.overload_N > 0.0 && force_N > options_.truth.overload_N) {
+      outcome_.is_cell_broken = true;
+    }
+  }
+}
+
+void EmulatedRig::Impl::serve_stage(double now_s) {
+  const std::string bytes = stage_port_.read_available();
+  if (!stage_board_.is_running) {
+    if (!stage_board_.is_open || now_s < stage_board_.boots_at_s) return;
+    stage_board_.is_running = true;
+    grbl_.reset(now_s);
+  } else if (!bytes.empty()) {
+    grbl_.receive(bytes, now_s);
+    grbl_.tick(now_s);
+  }
+  stage_port_.write(grbl_.take_output());
+}
+
+void EmulatedRig::Impl::serve_cell(double now_s) {
+  cell_port_.read_available();  // it listens to nobody
+  if (!cell_board_.is_running && cell_board_.is_open && now_s >= cell_board_.boots_at_s) {
+    cell_board_.is_running = true;
+    cell_port_.write(amplifier_.reset(now_s));
+  }
+  if (!cell_board_.is_running) return;
+  std::string lines;
+  while (amplifier_.next_sample_s() <= now_s) {
+    advance_bench(std::max(bench_s_, amplifier_.next_sample_s()));
+    bool is_broken = false;
+    {
+      const std::lock_guard lock(outcome_mutex_);
+      is_broken = outcome_.is_cell_broken;
+    }
+    const std::string line = amplifier_.convert(specimen_.force_N(), is_broken);
+    if (!is_cell_silent_) lines += line;
+  }
+  if (cell_board_.is_open) {
+    cell_port_.write(lines);
+  } else {
+    cell_port_.discard();
+  }
+}
+
+void EmulatedRig::Impl::happen(double now_s) {
+  const unsigned incidents = incidents_.exchange(0);
+  if ((incidents & kPullStage) != 0) stage_port_.hang_up();
+  if ((incidents & kPullCell) != 0) cell_port_.hang_up();
+  if ((incidents & kSilenceCell) != 0) is_cell_silent_ = true;
+  if ((incidents & kRestartCell) != 0) cell_port_.write(amplifier_.reset(now_s));
+  if ((incidents & kRestartStage) != 0) {
+    grbl_.reset(now_s);
+    stage_port_.write(grbl_.take_output());
+  }
+  if ((incidents & kHitLimit) != 0) {
+    grbl_.hit_limit(now_s);
+    stage_port_.write(grbl_.take_output());
+  }
+  const double stall_s = stall_wall_s_.exchange(0.0);
+  if (stall_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(stall_s));
+}
+
+// Until the next conversion is due or the host says something.
+void EmulatedRig::Impl::nap(double now_s) {
+  double wall_s = kLongestNap_s;
+  if (cell_board_.is_running) {
+    wall_s = std::clamp((amplifier_.next_sample_s() - now_s) / clock_.speed(), kShortestNap_s,
+                        kLongestNap_s);
+  }
+  // A port without host reports a hang-up at once: poll would spin on it.
+  pollfd entry{stage_board_.is_open ? stage_port_.descriptor() : -1, POLLIN, 0};
+  timespec timeout{0, static_cast<long>(wall_s * 1e9)};
+  ppoll(&entry, 1, &timeout, nullptr);
+}
+
+void EmulatedRig::Impl::run() {
+  while (!is_ending_) {
+    watch_port(stage_port_, stage_board_, clock_.now_s());
+    watch_port(cell_port_, cell_board_, clock_.now_s());
+    happen(clock_.now_s());
+    // Conversions up to now see the motion up to now; what the host says next acts from now on.
+    const double now_s = clock_.now_s();
+    grbl_.tick(now_s);
+    serve_cell(now_s);
+    advance_bench(std::max(bench_s_, now_s));
+    serve_stage(now_s);
+    {
+      const std::lock_guard lock(outcome_mutex_);
+      outcome_.final_position_m = grbl_.bench_position_m(now_s);
+      outcome_.is_moving = grbl_.is_moving(now_s);
+    }
+    nap(clock_.now_s());
+  }
+}
+
+EmulatedRig::EmulatedRig(const EmulatedRigOptions& options)
+    : impl_(std::make_unique<Impl>(options)) {}
+
+EmulatedRig::~EmulatedRig() = default;
+
+std::string EmulatedRig::stage_port() const { return impl_->stage_port_.path(); }
+
+std::string EmulatedRig::load_cell_port() const { return impl_->cell_port_.path(); }
+
+RigConfig EmulatedRig::config() const {
+  RigConfig config = impl_->options_.config;
+  config.stage.port = stage_port();
+  config.load_cell.port = load_cell_port();
+  return config;
+}
+
+EmulatedOutcome EmulatedRig::outcome() const {
+  const std::lock_guard lock(impl_->outcome_mutex_);
+  return impl_->outcome_;
+}
+
+void EmulatedRig::pull_stage_cable() { impl_->incidents_ |= kPullStage; }
+void EmulatedRig::pull_load_cell_cable() { impl_->incidents_ |= kPullCell; }
+void EmulatedRig::silence_load_cell() { impl_->incidents_ |= kSilenceCell; }
+void EmulatedRig::restart_load_cell() { impl_->incidents_ |= kRestartCell; }
+void EmulatedRig::restart_stage() { impl_->incidents_ |= kRestartStage; }
+void EmulatedRig::hit_limit_switch() { impl_->incidents_ |= kHitLimit; }
+void EmulatedRig::stall(double wall_s) { impl_->stall_wall_s_ = wall_s; }
+
+}  // namespace viscard

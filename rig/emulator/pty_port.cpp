@@ -1,0 +1,71 @@
+#include "rig/emulator/pty_port.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <pty.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+namespace viscard {
+
+PtyPort::PtyPort() {
+  int slave = -1;
+  std::array<char, 256> name{};
+  termios raw{};
+  cfmakeraw(&raw);
+  cfsetspeed(&raw, B115200);
+  raw.c_cflag |= CLOCAL | CREAD;
+  if (openpty(&master_, &slave, name.data(), &raw, nullptr) != 0) {
+    throw std::runtime_error(std::string("no pseudo-terminal for the emulated rig: ") +
+                             std::strerror(errno) + ". Close other terminals and retry");
+  }
+  path_ = name.data();
+  fcntl(master_, F_SETFL, O_NONBLOCK);
+  fcntl(master_, F_SETFD, FD_CLOEXEC);
+  // Once opened and closed, the master reports a hang-up until a host opens it: that is how a reset on
+  // opening is told.
+  close(slave);
+}
+
+PtyPort::~PtyPort() { hang_up(); }
+
+void PtyPort::hang_up() {
+  if (master_ >= 0) close(master_);
+  master_ = -1;
+}
+
+bool PtyPort::is_open_by_host() const {
+  if (master_ < 0) return false;
+  pollfd entry{master_, 0, 0};
+  return poll(&entry, 1, 0) >= 0 && (entry.revents & POLLHUP) == 0;
+}
+
+std::string PtyPort::read_available() {
+  std::array<char, 4096> buffer{};
+  const ssize_t n = master_ < 0 ? -1 : read(master_, buffer.data(), buffer.size());
+  return n > 0 ? std::string(buffer.data(), static_cast<std::size_t>(n)) : std::string();
+}
+
+void PtyPort::write(std::string_view bytes) {
+  unsent_ += bytes;
+  while (master_ >= 0 && !unsent_.empty()) {
+    const ssize_t n = ::write(master_, unsent_.data(), unsent_.size());
+    if (n <= 0) return;
+    unsent_.erase(0, static_cast<std::size_t>(n));
+  }
+}
+
+void PtyPort::discard() {
+  unsent_.clear();
+  if (master_ < 0) return;
+  tcflush(master_, TCIOFLUSH);
+  while (!read_available().empty()) {
+  }
+}
+
+}  // namespace viscard

@@ -1,0 +1,273 @@
+#include "rig/grbl_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "rig/text_number.h"
+
+namespace viscard {
+namespace {
+
+constexpr double kStatusTimeout_wall_s = 0.25;
+constexpr int kMostMisses = 20;           // times 250 ms without any report: it is not there
+constexpr double kPollMoving_s = 0.1;     // rig time; the firmware asks for at most 5 to 10 Hz
+constexpr double kPollResting_s = 0.2;
+constexpr int kMostRestsElsewhere = 3;
+
+int axis_index(char axis) {
+  constexpr std::string_view kAxes = "XYZABC";
+  const std::size_t index = kAxes.find(axis);
+  if (index == std::string_view::npos) {
+    throw RigError(std::string("stage axis '") + axis + "' is none of X Y Z A B C");
+  }
+  return static_cast<int>(index);
+}
+
+}  // namespace
+
+GrblStage::GrblStage(Transport& transport, const StageConfig& config, const RigClock& clock,
+                     RecordSink sink)
+    : transport_(transport),
+      config_(config),
+      clock_(clock),
+      sink_(std::move(sink)),
+      axis_(axis_index(config.axis)),
+      toward_(config.toward_specimen < 0 ? -1.0 : 1.0) {}
+
+void GrblStage::note(double time_s, const std::string& name, const std::string& value,
+                     const std::string& text) const {
+  sink_(RunEvent{time_s, name, value, text});
+}
+
+double GrblStage::setting(int number, double otherwise) const {
+  const auto found = settings_.find(number);
+  return found == settings_.end() ? otherwise : found->second;
+}
+
+StageDynamics GrblStage::dynamics() const {
+  return {setting(100 + axis_, 0.0) * 1e3, setting(120 + axis_, 0.0) * 1e-3,
+          setting(110 + axis_, 0.0) / 60e3};
+}
+
+// Reports carry three decimals of a mm, and the motor stands within half a step of its count.
+double GrblStage::resolution_m() const { return 0.5e-6 + 1.0 / dynamics().steps_per_m; }
+
+double GrblStage::position_m() const { return exact_m_ && !active_ ? *exact_m_ : reported_m_; }
+
+void GrblStage::send_line(const std::string& line, bool is_awaited) {
+  pending_.push_back({line, is_awaited});
+  sink_(RawBytes{Device::kStage, true, clock_.now_s(), line + "\n"});
+  transport_.write(line + "\n");
+}
+
+void GrblStage::send_realtime(char c) {
+  transport_.write(std::string_view(&c, 1));
+  sink_(RawBytes{Device::kStage, true, clock_.now_s(), std::string(1, c)});
+}
+
+void GrblStage::service() {
+  const Chunk chunk = transport_.read_available();
+  if (!chunk.bytes.empty()) {
+    sink_(RawBytes{Device::kStage, false, chunk.time_s, chunk.bytes});
+    splitter_.feed(chunk.bytes, chunk.time_s, 10.0 / transport_.baud());
+  }
+  while (const auto line = splitter_.next()) take_line(*line);
+  if (polls_) poll_status();
+}
+
+void GrblStage::take_line(const ReceivedLine& line) {
+  if (const auto welcome = parse_grbl_welcome(line.text)) {
+    return take_welcome(*welcome, line.time_s);
+  }
+  if (!is_connected_) return;  // the past of a controller that had not yet started
+  if (const auto status = parse_grbl_status(line.text)) return take_status(*status, line.time_s);
+  if (is_grbl_ok(line.text)) return take_answer(std::nullopt, line.time_s);
+  if (const auto error = parse_grbl_error(line.text)) return take_answer(*error, line.time_s);
+  if (const auto alarm = parse_grbl_alarm(line.text)) return take_alarm(*alarm, line.time_s);
+  if (const auto entry = parse_grbl_setting(line.text)) {
+    settings_[entry->number] = entry->value;
+  } else if (const auto message = parse_grbl_message(line.text)) {
+    note(line.time_s, "stage_message", *message, "The stage says: " + *message);
+  } else if (!is_grbl_push(line.text)) {
+    note(line.time_s, "stage_unreadable", line.text, "A line from the stage makes no sense");
+  }
+}
+
+void GrblStage::take_answer(std::optional<int> error, double time_s) {
+  if (pending_.empty()) {
+    note(time_s, "stage_unexpected_answer", error ? std::to_string(*error) : "ok",
+         "An answer from the stage that no line had asked for was ignored");
+    return;
+  }
+  const Pending answered = std::move(pending_.front());
+  pending_.pop_front();
+  if (active_ && !active_->has_ok && answered.line.rfind("$J=", 0) == 0 && !error) {
+    active_->has_ok = true;
+    active_->ok_s = time_s;
+    active_->tracker.acknowledged(time_s);
+    expected_end_s_ = active_->tracker.latest_end_s();
+  }
+  if (!error) return;
+  if (answered.is_awaited) {
+    awaited_error_ = error;
+    return;
+  }
+  active_.reset();
+  throw RigError("the stage refused '" + answered.line + "': " + grbl_error_text(*error));
+}
+
+void GrblStage::take_alarm(int code, double time_s) {
+  note(time_s, "stage_alarm", std::to_string(code), grbl_alarm_text(code));
+  if (is_recovering_ || awaits_welcome_) return;
+  exact_m_.reset();
+  throw StageAlarm("the stage stopped with " + grbl_alarm_text(code));
+}
+
+void GrblStage::take_welcome(const GrblWelcome& welcome, double time_s) {
+  version_ = (welcome.is_hal ? "grblHAL " : "Grbl ") + welcome.version;
+  pending_.clear();
+  asked_s_.reset();
+  first_unanswered_s_.reset();
+  n_missed_ = 0;
+  work_offset_mm_.clear();
+  const bool was_expected = awaits_welcome_;
+  awaits_welcome_ = false;
+  is_connected_ = true;
+  note(time_s, "stage_welcome", version_, "The stage's controller started: " + version_);
+  if (!was_expected && !is_recovering_) {
+    exact_m_.reset();
+    throw DeviceRestarted(
+        "the stage's controller restarted in the middle of the run (power dip, or its reset line); "
+        "its position is lost. Check its supply, then start the run again");
+  }
+}
+
+std::optional<double> GrblStage::reported_position_m(const GrblStatus& status) {
+  if (!status.work_offset_mm.empty()) work_offset_mm_ = status.work_offset_mm;
+  const auto i = static_cast<std::size_t>(axis_);
+  const double mm = setting(13, 0.0) != 0.0 ? 25.4 : 1.0;
+  if (i < status.machine_mm.size()) return toward_ * status.machine_mm[i] * mm * 1e-3;
+  if (i < status.work_mm.size() && i < work_offset_mm_.size()) {
+    return toward_ * (status.work_mm[i] + work_offset_mm_[i]) * mm * 1e-3;
+  }
+  return std::nullopt;  // work positions whose offset has not come yet
+}
+
+void GrblStage::take_status(const GrblStatus& status, double time_s) {
+  const double asked_s = first_unanswered_s_.value_or(time_s);
+  asked_s_.reset();
+  first_unanswered_s_.reset();
+  n_missed_ = 0;
+  state_ = status.state;
+  const auto position = reported_position_m(status);
+  if (!position) return;
+  reported_m_ = *position;
+  ++n_reports_;
+  sink_(StageReport{time_s, reported_m_, state_});
+  if (active_) follow_move(asked_s, time_s);
+}
+
+void GrblStage::follow_move(double asked_s, double received_s) {
+  ActiveMove& active = *active_;
+  if (!active.is_stopping) active.tracker.reported(asked_s, received_s, reported_m_);
+  // An Idle that may be older than the ok says nothing about this move.
+  if (state_ != "Idle" || !active.has_ok || asked_s < active.ok_s) return;
+  const double target_m = active.tracker.move().to_m;
+  if (std::abs(reported_m_ - target_m) <= resolution_m()) return end_move(target_m);
+  if (active.is_stopping && asked_s >= active.stop_s) return end_move(reported_m_);
+  if (!active.is_stopping && ++active.n_rests_elsewhere >= kMostRestsElsewhere) {
+    const double here_mm = reported_m_ * 1e3;
+    active_.reset();
+    exact_m_.reset();
+    throw RigError("the stage stands at " + text_from_number(here_mm, 3) +
+                   " mm and did not reach " + text_from_number(target_m * 1e3, 3) +
+                   " mm. Look for an obstacle or a limit, then start the run again");
+  }
+}
+
+void GrblStage::end_move(double end_m) {
+  CommandedMove commanded = active_->tracker.best(end_m);
+  commanded.purpose = active_->purpose;
+  exact_m_ = end_m;
+  active_.reset();
+  sink_(commanded);
+}
+
+void GrblStage::begin_move(double to_m, double speed_m_s, const std::string& purpose) {
+  if (active_) throw RigError("a move was asked for while the stage was still moving");
+  const StageDynamics limits = dynamics();
+  const double from_m = position_m();
+  to_m = quantised_m(to_m, limits.steps_per_m);
+  if (start_m_ && to_m > *start_m_ + config_.travel_m) {
+    throw RigError("the move to " + text_from_number((to_m - *start_m_) * 1e3, 3) +
+                   " mm goes beyond the stage's travel of " +
+                   text_from_number(config_.travel_m * 1e3, 3) +
+                   " mm from where it started. Bring the punch nearer to the specimen by hand, or "
+                   "raise travel in the rig file");
+  }
+  expected_end_s_ = clock_.now_s();
+  if (std::abs(to_m - from_m) < 0.5 / limits.steps_per_m) return;
+  const double feed_mm_min = std::max(
+      std::round(std::min(speed_m_s, limits.max_speed_m_s) * 60e6) * 1e-3, 0.001);
+  const double written_s = clock_.now_s();
+  const StageMove move{written_s, from_m, to_m, feed_mm_min / 60e3, limits.acceleration_m_s2};
+  validate(move);
+  active_ = ActiveMove{MoveTracker(move, resolution_m()), purpose};
+  expected_end_s_ = written_s + duration_s(move);
+  next_poll_s_ = written_s + kPollMoving_s;
+  send_line(format_grbl_jog(config_.axis, toward_ * to_m * 1e3, feed_mm_min), false);
+}
+
+void GrblStage::stop_soft() {
+  send_realtime(grbl::kJogCancel);
+  if (!active_) return;
+  active_->is_stopping = true;
+  active_->stop_s = clock_.now_s();
+  next_poll_s_ = active_->stop_s;
+}
+
+void GrblStage::stop_hard() {
+  send_realtime(grbl::kSoftReset);
+  awaits_welcome_ = true;
+  is_recovering_ = true;
+  pending_.clear();
+  exact_m_.reset();
+}
+
+void GrblStage::poll_status() {
+  const double now_s = clock_.now_s();
+  if (asked_s_ && now_s - *asked_s_ > clock_.from_wall_s(kStatusTimeout_wall_s)) {
+    asked_s_.reset();
+    if (++n_missed_ >= kMostMisses) {
+      throw RigError("the stage has stopped answering on '" + transport_.name() +
+                     "'. Check its cable and supply; it may still be moving");
+    }
+  }
+  watch_deadlines(now_s);
+  if (asked_s_ || now_s < next_poll_s_) return;
+  send_realtime(grbl::kStatus);
+  asked_s_ = now_s;
+  if (!first_unanswered_s_) first_unanswered_s_ = now_s;
+  next_poll_s_ = now_s + (active_ ? kPollMoving_s : kPollResting_s);
+  // Just after the expected end, so that standstill is noticed without delay.
+  if (active_ && expected_end_s_ > now_s) {
+    next_poll_s_ = std::min(next_poll_s_, expected_end_s_ + 2e-3);
+  }
+}
+
+void GrblStage::watch_deadlines(double now_s) {
+  if (!active_) return;
+  const double written_s = active_->tracker.move().start_time_s;
+  if (!active_->has_ok && now_s > written_s + clock_.from_wall_s(5.0)) {
+    throw RigError("the stage did not answer a move within 5 s. Check its cable and supply");
+  }
+  const double planned_s = duration_s(active_->tracker.move());
+  if (now_s > expected_end_s_ + 0.5 * planned_s + clock_.from_wall_s(5.0)) {
+    throw RigError("the stage should have come to rest " +
+                   text_from_number(now_s - expected_end_s_, 1) + " s ago and reports '" + state_ +
+                   "'. Switch it off and on, then start the run again");
+  }
+}
+
+}  // namespace viscard

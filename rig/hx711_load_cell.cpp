@@ -1,0 +1,227 @@
+#include "rig/hx711_load_cell.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+#include "rig/rig_error.h"
+#include "rig/text_number.h"
+
+namespace viscard {
+namespace {
+
+constexpr double kFirstReading_wall_s = 15.0;  // banner and tare chatter last up to 10 s
+constexpr std::size_t kLinesToLearn = 6;
+constexpr double kLateness_wall_s = 0.3;       // of a line, by stalls of either side
+constexpr double kGapInPeriods = 1.5;
+
+Hx711Format declared_format(const LoadCellConfig& config) {
+  const auto format = hx711_format_from_word(config.line_format);
+  if (!format) {
+    throw RigError("load cell line_format '" + config.line_format +
+                   "' is unknown; there are auto, counts, micros,counts, millis,counts, volts");
+  }
+  return *format;
+}
+
+// The shape that all of these lines have, by how the first number grows; nothing if they have none.
+std::optional<Hx711Format> learnt_format(const std::vector<ReceivedLine>& lines, double rate_Hz) {
+  std::vector<double> ticks;
+  bool is_integer = true;
+  bool is_plain = true;
+  for (const ReceivedLine& line : lines) {
+    const auto timed = parse_hx711_line(line.text, true);
+    if (timed) ticks.push_back(*timed->ticks);
+    const auto plain = parse_hx711_line(line.text, false);
+    is_plain = is_plain && plain.has_value();
+    is_integer = is_integer && plain && plain->is_integer;
+  }
+  if (ticks.size() == lines.size()) {
+    const double step = (ticks.back() - ticks.front()) / static_cast<double>(ticks.size() - 1);
+    const auto is_about = [&](double expected) {
+      return step > 0.3 * expected && step < 3.0 * expected;
+    };
+    if (is_about(1e6 / rate_Hz)) return Hx711Format::kMicrosCounts;
+    if (is_about(1e3 / rate_Hz)) return Hx711Format::kMillisCounts;
+  }
+  if (!is_plain) return std::nullopt;
+  return is_integer ? Hx711Format::kCounts : Hx711Format::kVolts;
+}
+
+}  // namespace
+
+Hx711LoadCell::Hx711LoadCell(Transport& transport, const LoadCellConfig& config,
+                             const RigClock& clock, RecordSink sink)
+    : transport_(transport),
+      clock_(clock),
+      sink_(std::move(sink)),
+      format_(declared_format(config)),
+      period_s_(1.0 / config.expected_rate_Hz) {}
+
+void Hx711LoadCell::connect(const Pump& pump) {
+  const double deadline_s = monotonic_s() + kFirstReading_wall_s;
+  while (!is_connected_ && monotonic_s() < deadline_s) pump();
+  if (is_connected_) return;
+  const std::string where = "'" + transport_.name() + "'";
+  if (splitter_.n_bytes() == 0) {
+    throw RigError("nothing came from the load cell on " + where +
+                   ". Is this its port, and is the amplifier switched on?");
+  }
+  if (splitter_.unprintable_fraction() > 0.2) {
+    throw RigError("what comes from the load cell on " + where +
+                   " is mostly unreadable: is the baud rate of " +
+                   std::to_string(transport_.baud()) + " right?");
+  }
+  throw RigError("no readings could be made out on " + where + "; a line was '" +
+                 (first_lines_.empty() ? std::string() : first_lines_.back().text.substr(0, 60)) +
+                 "'. Set line_format in the rig file: counts, micros,counts, millis,counts, volts");
+}
+
+void Hx711LoadCell::service() {
+  const Chunk chunk = transport_.read_available();
+  if (!chunk.bytes.empty()) {
+    sink_(RawBytes{Device::kLoadCell, false, chunk.time_s, chunk.bytes});
+    splitter_.feed(chunk.bytes, chunk.time_s, 10.0 / transport_.baud());
+  }
+  while (const auto line = splitter_.next()) take_line(*line);
+}
+
+void Hx711LoadCell::take_line(const ReceivedLine& line) {
+  // What came first may be the second half of a line.
+  if (!std::exchange(is_past_first_line_, true) || trimmed(line.text).empty()) return;
+  if (is_hx711_fault(line.text)) {
+    throw RigError("the amplifier on '" + transport_.name() + "' says '" + line.text.substr(0, 60) +
+                   "'. Check the wires between it and its HX711");
+  }
+  if (!is_connected_) return learn(line);
+  if (const auto reading = parse_hx711_line(line.text, has_clock())) {
+    take_reading(*reading, line.time_s);
+  } else {
+    take_text(line);
+  }
+}
+
+void Hx711LoadCell::learn(const ReceivedLine& line) {
+  first_lines_.push_back(line);
+  if (first_lines_.size() > kLinesToLearn) first_lines_.erase(first_lines_.begin());
+  if (first_lines_.size() < kLinesToLearn) return;
+  const bool is_declared = format_ != Hx711Format::kAuto;
+  const auto fits = [&](const ReceivedLine& text) {
+    return parse_hx711_line(text.text, has_clock()).has_value();
+  };
+  if (is_declared) {
+    if (!std::all_of(first_lines_.begin(), first_lines_.end(), fits)) return;
+  } else {
+    const auto learnt = learnt_format(first_lines_, 1.0 / period_s_);
+    if (!learnt) return;
+    format_ = *learnt;
+  }
+  if (has_clock()) {
+    device_clock_.emplace(format_ == Hx711Format::kMicrosCounts ? 1e-6 : 1e-3,
+                          clock_.from_wall_s(kLateness_wall_s));
+  }
+  last_arrival_s_ = line.time_s;
+  is_connected_ = true;
+}
+
+// A sentence in the middle of a run is a banner if the readings had paused, and garbage otherwise.
+void Hx711LoadCell::take_text(const ReceivedLine& line) {
+  ++counts_.unreadable;
+  const auto n_letters = std::count_if(line.text.begin(), line.text.end(), [](unsigned char c) {
+    return std::isalpha(c) != 0;
+  });
+  if (n_letters >= 4 && line.time_s - last_arrival_s_ > clock_.from_wall_s(0.3) + 10 * period_s_) {
+    throw DeviceRestarted("the load cell's amplifier restarted in the middle of the run ('" +
+                          line.text.substr(0, 40) + "'); its tare is gone. Check its supply, then "
+                          "start the run again");
+  }
+  sink_(RunEvent{line.time_s, "load_cell_unreadable", line.text.substr(0, 80),
+                 "A line from the load cell is no reading"});
+}
+
+void Hx711LoadCell::take_reading(const Hx711Line& reading, double time_s) {
+  if (counts_.received > 0 && reading.unit != unit_) {
+    throw RigError("the load cell changed its unit from '" + unit_ + "' to '" + reading.unit +
+                   "' in the middle of the run. Set it back, then start the run again");
+  }
+  unit_ = reading.unit;
+  if (reading.ticks && device_clock_) {
+    if (!take_clock(*reading.ticks, time_s)) return;
+  } else if (counts_.received > 0) {
+    note_gap(time_s - last_arrival_s_, time_s);
+  }
+  hand_out(reading, time_s);
+}
+
+// False if the line is to be left out.
+bool Hx711LoadCell::take_clock(double ticks, double time_s) {
+  switch (device_clock_->take(ticks, time_s, period_s_)) {
+    case DeviceClock::Verdict::kDuplicate:
+      ++counts_.duplicate;
+      return false;
+    case DeviceClock::Verdict::kSuspect:
+      ++counts_.unreadable;
+      sink_(RunEvent{time_s, "load_cell_unreadable", text_from_number(ticks, 0),
+                     "A reading whose clock does not fit was left out"});
+      return false;
+    case DeviceClock::Verdict::kRestarted:
+      throw DeviceRestarted(
+          "the load cell's amplifier restarted in the middle of the run (its clock began anew); "
+          "its tare is gone. Check its supply, then start the run again");
+    case DeviceClock::Verdict::kGood:
+      break;
+  }
+  const double step_s = device_clock_->step_s();
+  if (counts_.received > 0) note_gap(step_s, time_s);
+  // The converter's own oscillator is several percent off: its period is followed.
+  if (step_s > 0.7 * period_s_ && step_s < 1.3 * period_s_) period_s_ += 0.02 * (step_s - period_s_);
+  return true;
+}
+
+void Hx711LoadCell::note_gap(double step_s, double time_s) {
+  if (step_s > counts_.longest_gap_s) {
+    counts_.longest_gap_s = step_s;
+    counts_.longest_gap_at_s = time_s;
+  }
+  // Without a device clock a late line looks like a lost one: only a long silence counts.
+  const double least_s =
+      device_clock_ ? kGapInPeriods * period_s_
+                    : std::max(kGapInPeriods * period_s_, 3 * period_s_ + clock_.from_wall_s(0.1));
+  if (step_s <= least_s) return;
+  const auto n_missing = static_cast<std::int64_t>(std::llround(step_s / period_s_)) - 1;
+  counts_.missing += n_missing;
+  sink_(RunEvent{time_s, "gap", text_from_number(step_s, 6),
+                 std::to_string(n_missing) + " readings of the load cell are missing"});
+}
+
+void Hx711LoadCell::hand_out(const Hx711Line& reading, double time_s) {
+  LoadSample sample;
+  sample.index = counts_.received++;
+  sample.host_time_s = time_s;
+  if (device_clock_) sample.device_time_s = device_clock_->time_s();
+  last_arrival_s_ = time_s;
+  if (format_ == Hx711Format::kVolts) {
+    sample.volts = reading.value;
+  } else {
+    sample.counts = reading.value;
+  }
+  if (sample.counts) {
+    sample.is_saturated = is_hx711_saturated(*sample.counts);
+    sample.is_glitch = is_hx711_glitch(*sample.counts, previous_counts_);
+    if (!sample.is_glitch) previous_counts_ = sample.counts;
+  } else if (!sample.volts) {
+    sample.is_saturated = true;  // "ovf", "inf": it says itself that this is no reading
+  }
+  counts_.saturated += sample.is_saturated ? 1 : 0;
+  counts_.glitch += sample.is_glitch ? 1 : 0;
+  sink_(sample);
+  if (listener_) listener_(sample);
+}
+
+double Hx711LoadCell::made_at_s(const LoadSample& sample) const {
+  if (!sample.device_time_s || !device_clock_) return sample.host_time_s;
+  return *sample.device_time_s + device_clock_->host_minus_device_s();
+}
+
+}  // namespace viscard

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/rig_config.h"
+#include "rig/device_clock.h"
+#include "rig/hx711_protocol.h"
+#include "rig/line_splitter.h"
+#include "rig/load_cell.h"
+#include "rig/rig_clock.h"
+
+namespace viscard {
+
+// An HX711 (or any other) amplifier that sends text lines. Their shape is declared in the rig file
+// (line_format) or found out from the first readings: banners and chatter before them are skipped.
+class Hx711LoadCell final : public LoadCell {
+ public:
+  // Throws RigError on a line_format that is not known.
+  Hx711LoadCell(Transport& transport, const LoadCellConfig& config, const RigClock& clock,
+                RecordSink sink);
+
+  Transport& transport() override { return transport_; }
+  void connect(const Pump& pump) override;
+  void service() override;
+  const StreamCounts& counts() const override { return counts_; }
+  double period_s() const override { return period_s_; }
+  double last_arrival_s() const override { return last_arrival_s_; }
+  double made_at_s(const LoadSample& sample) const override;
+
+  Hx711Format format() const { return format_; }
+
+ private:
+  void take_line(const ReceivedLine& line);
+  void learn(const ReceivedLine& line);
+  void take_reading(const Hx711Line& reading, double time_s);
+  void take_text(const ReceivedLine& line);
+  bool take_clock(double ticks, double time_s);
+  void note_gap(double step_s, double time_s);
+  void hand_out(const Hx711Line& reading, double time_s);
+  bool has_clock() const {
+    return format_ == Hx711Format::kMicrosCounts || format_ == Hx711Format::kMillisCounts;
+  }
+
+  Transport& transport_;
+  const RigClock& clock_;
+  RecordSink sink_;
+  LineSplitter splitter_;
+  Hx711Format format_;
+  double period_s_;
+  bool is_connected_ = false;
+  bool is_past_first_line_ = false;
+  std::vector<ReceivedLine> first_lines_;
+  std::optional<DeviceClock> device_clock_;
+  std::optional<double> previous_counts_;
+  std::string unit_;
+  StreamCounts counts_;
+  double last_arrival_s_ = 0.0;
+};
+
+}  // namespace viscard

@@ -1,0 +1,248 @@
+#include "rig/run_session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "rig/text_number.h"
+
+namespace viscard {
+namespace {
+
+constexpr double kProgress_wall_s = 0.1;
+constexpr double kNap_wall_s = 0.005;
+// A silent stream stops a moving stage after three periods, but no sooner than stalls of an ordinary
+// machine (adapters hold bytes back for 16 ms, schedulers more) would explain.
+constexpr double kSilentPeriods = 3.0;
+constexpr double kSilence_wall_s = 0.25;
+constexpr double kSilenceEmulated_wall_s = 1.0;
+
+std::string in_N(double force_N) { return text_from_number(force_N, 3) + " N"; }
+
+}  // namespace
+
+RunSession::RunSession(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
+                       const RecordSink& sink, const RunControl& control)
+    : stage_(stage),
+      load_cell_(load_cell),
+      rig_(rig),
+      sink_(sink),
+      control_(control),
+      clock_(*control.clock),
+      guard_(rig.safety, rig.calibration.capacity_N) {
+  load_cell_.set_listener([this](const LoadSample& sample) { take_sample(sample); });
+}
+
+RunSession::~RunSession() { load_cell_.set_listener({}); }
+
+void RunSession::connect() {
+  const Pump pump = [this] { this->pump(); };
+  is_armed_ = true;  // the stop flag counts from here
+  load_cell_.connect(pump);
+  is_cell_connected_ = true;
+  stage_.connect(pump);
+}
+
+void RunSession::pump() {
+  std::vector<const Transport*> transports{&stage_.transport()};
+  if (!is_cell_lost_) transports.push_back(&load_cell_.transport());
+  // Rig time may run faster than the wall: what is due then must not be slept over.
+  wait_readable(transports, kNap_wall_s / std::clamp(clock_.speed() / 10.0, 1.0, 10.0));
+  if (!is_cell_lost_) {
+    try {
+      load_cell_.service();
+    } catch (const PortHungUp&) {
+      is_cell_lost_ = true;
+      if (is_armed_ && stage_.is_moving()) {
+        needs_recovery_ = true;
+        stage_.stop_hard();
+      }
+      if (is_armed_) throw;
+    }
+  }
+  try {
+    stage_.service();
+  } catch (const StageAlarm&) {
+    needs_recovery_ = true;
+    throw;
+  }
+  if (is_armed_) {
+    if (control_.stop != nullptr && *control_.stop) {
+      throw RunInterrupted("the run was interrupted; what was recorded is kept");
+    }
+    check_stream();
+    act_on(guard_.silent_until(clock_.now_s()), force_N_);
+  }
+  report_progress();
+}
+
+void RunSession::pump_until(double time_s) {
+  while (clock_.now_s() < time_s) pump();
+}
+
+double RunSession::force_from(const LoadSample& sample) const {
+  const double volts = sample.volts    ? *sample.volts
+                       : sample.counts ? *sample.counts * rig_.load_cell.volts_per_count
+                                       : 0.0;
+  const double force_N = force_N_from_volts(rig_.calibration, volts);
+  return rig_.load_cell.compression_is_positive ? force_N : -force_N;
+}
+
+void RunSession::take_sample(const LoadSample& sample) {
+  const double absolute_N = force_from(sample);
+  const double force_N = absolute_N - tare_N_;
+  const bool is_doubtful =
+      sample.is_glitch || sample.is_saturated || (!sample.counts && !sample.volts);
+  if (!is_doubtful) {
+    force_N_ = force_N;
+    peak_force_N_ = std::max(peak_force_N_, force_N);
+    if (stop_above_N_ && force_N > *stop_above_N_) has_exceeded_ = true;
+    const double made_at_s = load_cell_.made_at_s(sample);
+    if (collect_from_s_ && made_at_s >= *collect_from_s_) {
+      collected_N_.push_back(absolute_N);
+      collected_until_s_ = made_at_s;
+    }
+  }
+  if (!is_armed_ && !is_stopping_) return;
+  const GuardAction action =
+      guard_.take(force_N, is_doubtful, sample.host_time_s, load_cell_.period_s());
+  if (is_armed_) return act_on(action, force_N);
+  if (action != GuardAction::kHardStop) return;
+  is_stopping_ = false;  // the gentle stop was too slow
+  needs_recovery_ = true;
+  stage_.stop_hard();
+  event("limit", "hard", "The force still rose to " + in_N(force_N) + ": the stage was reset");
+}
+
+void RunSession::act_on(GuardAction action, double force_N) {
+  switch (action) {
+    case GuardAction::kNone:
+      return;
+    case GuardAction::kWarn:
+      event("limit", "warn", "The force of " + in_N(force_N) + " nears the cell's limit");
+      return;
+    case GuardAction::kSoftStop:
+      if (stage_.is_moving()) stage_.stop_soft();
+      event("limit", "soft", "The force of " + in_N(force_N) + " is above the limit of " +
+                                 in_N(guard_.soft_limit_N()) + ": the stage is stopped");
+      break;
+    case GuardAction::kHardStop:
+      needs_recovery_ = true;
+      stage_.stop_hard();
+      event("limit", "hard", "The force of " + in_N(force_N) +
+                                 " is too high or cannot be read: the stage is reset");
+      break;
+  }
+  const bool is_hard = action == GuardAction::kHardStop;
+  throw LimitReached("the force reached " + in_N(force_N) + ", above the " +
+                     (is_hard ? "hard limit of " + in_N(guard_.hard_limit_N())
+                              : "limit of " + in_N(guard_.soft_limit_N())) +
+                     "; the stage was stopped and lifted. Lower depth in the test file, or check "
+                     "modulus_guess of the specimen");
+}
+
+void RunSession::check_stream() {
+  if (!is_cell_connected_ || !stage_.is_moving()) return;
+  const double floor_s = clock_.from_wall_s(clock_.speed() > 1.0 ? kSilenceEmulated_wall_s
+                                                                 : kSilence_wall_s);
+  const double silent_s = clock_.now_s() - load_cell_.last_arrival_s();
+  if (silent_s < std::max(kSilentPeriods * load_cell_.period_s(), floor_s)) return;
+  needs_recovery_ = true;
+  stage_.stop_hard();
+  event("limit", "silent", "No reading of the load cell while the stage moved: it was reset");
+  throw RigError("the load cell fell silent while the stage was moving; the stage was stopped. Check "
+                 "the amplifier and its cable, then start the run again");
+}
+
+bool RunSession::move(double to_m, double speed_m_s, const std::string& purpose,
+                      std::optional<double> stop_above_N) {
+  stop_above_N_ = stop_above_N;
+  has_exceeded_ = false;
+  stage_.begin_move(to_m, speed_m_s, purpose);
+  bool is_stopping = false;
+  while (stage_.is_moving()) {
+    pump();
+    if (has_exceeded_ && !is_stopping && stage_.is_moving()) {
+      stage_.stop_soft();
+      is_stopping = true;
+    }
+  }
+  // Readings made before standstill may still be on their way.
+  const double stood_s = clock_.now_s();
+  const double deadline_s = monotonic_s() + 1.0;
+  if (stop_above_N) {
+    collect_from_s_ = stood_s;
+    collected_N_.clear();
+    while (collected_N_.empty() && monotonic_s() < deadline_s) pump();
+    collect_from_s_.reset();
+  }
+  stop_above_N_.reset();
+  return has_exceeded_;
+}
+
+ForceMean RunSession::mean_force(double duration_s) {
+  collect_from_s_ = clock_.now_s();
+  collected_until_s_ = *collect_from_s_;
+  collected_N_.clear();
+  const double end_s = *collect_from_s_ + duration_s;
+  const double deadline_s = monotonic_s() + duration_s / clock_.speed() + 3.0;
+  while (collected_until_s_ < end_s && monotonic_s() < deadline_s) pump();
+  collect_from_s_.reset();
+  ForceMean result;
+  result.n = static_cast<int>(collected_N_.size());
+  if (result.n < 5) {
+    throw RigError("only " + std::to_string(result.n) + " readings came in " +
+                   text_from_number(duration_s, 1) +
+                   " s. Check the load cell's rate with: viscard rig check");
+  }
+  double sum_N = 0.0;
+  for (const double force_N : collected_N_) sum_N += force_N;
+  const double mean_N = sum_N / result.n;
+  double squares_N2 = 0.0;
+  for (const double force_N : collected_N_) squares_N2 += (force_N - mean_N) * (force_N - mean_N);
+  result.force_N = mean_N - tare_N_;
+  result.sd_N = std::sqrt(squares_N2 / (result.n - 1));
+  return result;
+}
+
+ForceMean RunSession::tare(double duration_s) {
+  const ForceMean mean = mean_force(duration_s);
+  tare_N_ += mean.force_N;
+  peak_force_N_ = 0.0;
+  event("tare", text_from_number(tare_N_, 6),
+        "Zero is at " + text_from_number(tare_N_, 4) + " N of the calibration; noise " +
+            text_from_number(mean.sd_N * 1e3, 3) + " mN per reading");
+  return mean;
+}
+
+void RunSession::begin_phase(const std::string& name, double planned_rest_s,
+                             const std::string& text) {
+  phase_ = name;
+  phase_start_s_ = clock_.now_s();
+  planned_rest_s_ = planned_rest_s;
+  event("phase", name, text);
+}
+
+void RunSession::event(const std::string& name, const std::string& value,
+                       const std::string& text) {
+  sink_(RunEvent{clock_.now_s(), name, value, text});
+}
+
+void RunSession::report_progress() {
+  if (!control_.progress || monotonic_s() - last_progress_wall_s_ < kProgress_wall_s) return;
+  last_progress_wall_s_ = monotonic_s();
+  RunProgress progress;
+  const double now_s = clock_.now_s();
+  progress.phase = phase_;
+  progress.time_left_s = std::max(0.0, planned_rest_s_ - (now_s - phase_start_s_));
+  progress.fraction = now_s / std::max(1e-9, now_s + progress.time_left_s);
+  progress.force_N = force_N_;
+  if (contact_m_) {
+    const double frame_N_m = rig_.frame.stiffness_N_m;
+    progress.depth_m = std::max(0.0, stage_.position_m() - *contact_m_ -
+                                         (frame_N_m > 0.0 ? force_N_ / frame_N_m : 0.0));
+  }
+  control_.progress(progress);
+}
+
+}  // namespace viscard

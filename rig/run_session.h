@@ -1,0 +1,113 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/rig_config.h"
+#include "rig/force_guard.h"
+#include "rig/load_cell.h"
+#include "rig/rig_error.h"
+#include "rig/run_control.h"
+#include "rig/stage.h"
+
+namespace viscard {
+
+// Somebody asked the run to end.
+class RunInterrupted : public RigError {
+ public:
+  using RigError::RigError;
+};
+
+// The force reached a limit; the stage has been told to stop.
+class LimitReached : public RigError {
+ public:
+  using RigError::RigError;
+};
+
+struct ForceMean {
+  double force_N = 0.0;  // mean from the tare
+  double sd_N = 0.0;     // standard deviation of one reading
+  int n = 0;
+};
+
+// Both devices served by one thread, with the force watched at every reading. Everything that waits does
+// so in pump(). While armed, a limit, a stalled stream, a lost port or the stop flag ends the run by an
+// exception, after the stage has been told to stop.
+class RunSession {
+ public:
+  RunSession(Stage& stage, LoadCell& load_cell, const RigConfig& rig, const RecordSink& sink,
+             const RunControl& control);
+  ~RunSession();
+  RunSession(const RunSession&) = delete;
+  RunSession& operator=(const RunSession&) = delete;
+
+  Stage& stage() { return stage_; }
+  LoadCell& load_cell() { return load_cell_; }
+  double now_s() const { return clock_.now_s(); }
+
+  void connect();
+  void pump();
+  // Serves the devices until then (rig time).
+  void pump_until(double time_s);
+
+  // Moves and waits for standstill. Returns early, after a gentle stop, when the force exceeds
+  // stop_above_N (from the tare); true if it did.
+  bool move(double to_m, double speed_m_s, const std::string& purpose,
+            std::optional<double> stop_above_N = std::nullopt);
+  // Mean force over readings that were made from now on.
+  ForceMean mean_force(double duration_s);
+  // Takes the mean of the next readings as zero.
+  ForceMean tare(double duration_s);
+
+  // Phases for the record and for the person watching; planned_s is what the rest of the run takes.
+  void begin_phase(const std::string& name, double planned_rest_s, const std::string& text);
+  void event(const std::string& name, const std::string& value, const std::string& text);
+  void set_contact_m(double contact_m) { contact_m_ = contact_m; }
+
+  // Stops and lifts the punch as far as the devices still answer, whatever has happened; returns what
+  // could not be done, or "".
+  std::string make_safe(double retract_to_m, double speed_m_s);
+
+  double force_N() const { return force_N_; }
+  double peak_force_N() const { return peak_force_N_; }
+
+ private:
+  void take_sample(const LoadSample& sample);
+  void act_on(GuardAction action, double force_N);
+  void check_stream();
+  void report_progress();
+  double force_from(const LoadSample& sample) const;
+  void lift(double retract_to_m, double speed_m_s);
+
+  Stage& stage_;
+  LoadCell& load_cell_;
+  RigConfig rig_;
+  RecordSink sink_;
+  RunControl control_;
+  const RigClock& clock_;
+  ForceGuard guard_;
+
+  bool is_armed_ = false;          // limits, stream and stop flag end the run
+  bool is_cell_connected_ = false;
+  bool is_cell_lost_ = false;
+  bool is_stopping_ = false;       // while a gentle stop is under way: does it suffice?
+  bool needs_recovery_ = false;    // the stage was reset or locked itself
+  double tare_N_ = 0.0;
+  double force_N_ = 0.0;
+  double peak_force_N_ = 0.0;
+
+  std::optional<double> stop_above_N_;
+  bool has_exceeded_ = false;
+  std::optional<double> collect_from_s_;
+  std::vector<double> collected_N_;
+  double collected_until_s_ = 0.0;
+
+  std::string phase_ = "connect";
+  double phase_start_s_ = 0.0;
+  double planned_rest_s_ = 0.0;
+  double last_progress_wall_s_ = 0.0;
+  std::optional<double> contact_m_;
+};
+
+}  // namespace viscard
