@@ -1,7 +1,5 @@
 #include "io/cards/card_header.h"
 
-#include "io/cards/number_text.h"
-
 #include <fmt/format.h>
 
 #include <cctype>
@@ -23,8 +21,7 @@ void add_moduli(std::vector<std::string>& lines, const Material& material,
                 const UnitSystem& units) {
   const DerivedModuli moduli = derived_moduli(material);
   const auto in_units = [&](double value_Pa) {
-    return fmt::format("{} {}", number_within(to_card(value_Pa, units.stress_exponent), 17),
-                       units.stress);
+    return fmt::format("{:.10g} {}", to_card(value_Pa, units.stress_exponent), units.stress);
   };
   lines.push_back("E0 (instantaneous) = " + in_units(moduli.E0_Pa) +
                   ", E_inf (long-term) = " + in_units(moduli.E_inf_Pa));

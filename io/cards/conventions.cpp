@@ -235,7 +235,7 @@ CardTarget mfront_gallery_target() {
 }
 
 std::string conventions_in_words(const CardTarget& target) {
-  return to_word(target.elastic) + " " + to_word(target.at) + "; branches " +
+  return to_word(target.at) + " " + to_word(target.elastic) + "; branches " +
          to_word(target.branch) + "; time " + to_word(target.time) + "; bulk " +
          to_word(target.bulk);
 }
@@ -247,9 +247,9 @@ std::string to_word(ElasticForm form) {
     case kBulkShear:
       return "K, G";
     case kBulkOnly:
-      return "K (elastic), G from the branches";
+      return "K, with G the sum of the branches";
     case kPoissonOnly:
-      return "nu, E from the shares";
+      return "nu, with E the sum of the shares";
   }
   return "";
 }

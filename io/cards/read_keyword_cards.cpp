@@ -263,11 +263,11 @@ void add_tables(const std::vector<PronyTable>& tables, ReadCard& card) {
     check_pairs(table, card);
     for (const CardBranch& pair : pairs_of(table)) {
       auto& branches = card.numbers.branches;
-      const auto same = std::find_if(branches.begin(), branches.end(), [&](const CardBranch& b) {
+      auto same = std::find_if(branches.begin(), branches.end(), [&](const CardBranch& b) {
         return b.time == pair.time && (table.is_bulk ? b.bulk : b.shear) == 0.0;
       });
-      if (same == branches.end()) branches.push_back({0.0, 0.0, pair.time});
-      CardBranch& branch = same == branches.end() ? branches.back() : *same;
+      if (same == branches.end()) same = branches.insert(same, {0.0, 0.0, pair.time});
+      CardBranch& branch = *same;
       (table.is_bulk ? branch.bulk : branch.shear) = pair.shear;
     }
   }

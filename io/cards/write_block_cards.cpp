@@ -75,6 +75,8 @@ std::string moose_body(const CardBody& body) {
         "    type = ComputeSmallStrain\n    displacements = 'disp_x disp_y disp_z'\n  []\n";
   } else {
     out += fmt::format("  [{}]\n    type = GeneralizedMaxwellModel\n{}", body.name, elastic);
+    // The default, backward Euler, is first order; this rule takes stress linear in the step.
+    out += "    integration_rule = zienkiewicz\n";
     out += "    creep_modulus = '" + joined(numbers.branches, &CardBranch::shear) + "'\n";
     out += "    creep_viscosity = '" + joined(numbers.branches, &CardBranch::time) + "'\n  []\n";
     out +=
