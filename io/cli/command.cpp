@@ -1,5 +1,9 @@
 #include "io/cli/command.h"
 
+#include "io/cli/command_capture.h"
+#include "io/cli/command_demo.h"
+#include "io/cli/command_validate.h"
+
 #include <ostream>
 
 namespace viscard {
@@ -39,7 +43,12 @@ int dispatch(const std::vector<std::string>& words, Streams& streams) {
 }  // namespace
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> table{};
+  static const std::vector<Command> table{
+      {"capture", "run one indentation on the rig, or on an emulated one", run_capture},
+      {"validate", "check a material in the pillar against exact creep and relaxation",
+       run_validate},
+      {"demo", "run all of it on the emulated rig", run_demo},
+  };
   return table;
 }
 

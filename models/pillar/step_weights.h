@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace viscard {
+
+// int_0^1 exp(-x e) e^p de for p = 0 to highest, x >= 0, to a few rounding errors.
+Eigen::VectorXd exponential_moments(double x, int highest);
+
+// A step of length h ends at t_1; before it lie steps of the lengths in earlier_over_h * h, latest
+// first. Displacement is the polynomial through the end of all of them, and
+//   int_step exp(-(t_1 - s)/tau) u'(s) ds = sum_m weight_m (increment of step m),  m = 0 the new
+//   step,
+// with x = h/tau (eq. 17). One earlier step gives degree 2, none degree 1 (weight phi_1).
+// For x -> infinity h/tau * weight tends to the backward differentiation formula of that order.
+class StepWeights {
+ public:
+  explicit StepWeights(const std::vector<double>& earlier_over_h);
+  int count() const { return static_cast<int>(rate_.rows()); }
+  Eigen::VectorXd at(double x) const;  // count() weights
+
+ private:
+  Eigen::MatrixXd rate_;  // [m][p]: coefficient of e^p in the rate that increment m contributes
+};
+
+}  // namespace viscard

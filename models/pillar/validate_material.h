@@ -1,0 +1,56 @@
+#pragma once
+
+#include "models/material.h"
+#include "models/pillar/pillar_mesh.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// One test of the pillar, solver beside exact answer.
+struct ValidationCurve {
+  std::vector<double> time_s;
+  std::vector<double> solver;  // relaxation: stress in Pa; creep: shortening in m
+  std::vector<double> exact;
+  double largest_relative_error = 0.0;
+  double at_time_s = 0.0;              // where that is
+  double solver_error_estimate = 0.0;  // what the solver itself says of its steps, relative
+  int steps = 0;                       // time steps taken, all levels together
+};
+
+struct ValidationResult {
+  ValidationCurve relaxation;  // shortening of strain * length held from t = 0
+  ValidationCurve creep;       // pressure held from t = 0
+  double strain = 0.0;
+  double pressure_Pa = 0.0;
+  double diameter_m = 0.0, length_m = 0.0;
+  std::string exact_method;  // a sentence for the report
+  double tolerance = 0.0;
+  bool passed = false;  // both errors at most the tolerance
+  int unknowns = 0;
+  std::vector<std::string> notes;  // what a reader should know, plain sentences
+};
+
+struct ValidateOptions {
+  PillarGeometry geometry;  // 40 um x 120 um on a fixed base
+  Discretisation discretisation;
+  double strain = 0.01;
+  double pressure_Pa = 1e4;
+  double tolerance = 1e-6;
+  double end_time_s = 0.0;  // 0: ten times the slowest relaxation or retardation time
+  std::function<void(double)> progress;
+};
+
+// Runs the pillar in relaxation and in creep with the material through the time-stepping solver
+// (load_history.h) and compares with the exact correspondence-principle answer on the same
+// elements, so that the difference is the error of the stepping alone:
+//   constant Poisson ratio (or nu = 0.5): E(t) and J(t) from the retardation spectrum, scaled by
+//   the elastic answer; otherwise the common modes of shear and bulk stiffness
+//   (viscoelastic_exact.h).
+// A rigid frictionless plate presses the top in both tests.
+// Throws std::invalid_argument for a material or geometry that cannot be run.
+ValidationResult validate_material(const Material& material, const ValidateOptions& options = {});
+
+}  // namespace viscard

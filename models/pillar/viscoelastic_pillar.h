@@ -1,0 +1,46 @@
+#pragma once
+
+#include "models/material.h"
+#include "models/pillar/elastic_moduli.h"
+#include "models/pillar/pillar_mesh.h"
+#include "models/pillar/viscoelastic_system.h"
+
+#include <memory>
+#include <optional>
+
+namespace viscard {
+
+// How the top of the pillar is loaded along its axis.
+enum class TopLoad {
+  kRigidPlate,  // a rigid frictionless plate: one displacement
+  kPressure     // uniform pressure, free top: load.u is the mean displacement
+};
+
+// Longitudinal (m = 0) model of a pillar of one viscoelastic material, on a rigid base or an
+// elastic film. The unit load is a pull of 1 N along +z, so load.u is the (mean) axial displacement
+// of the top in m.
+class ViscoelasticPillar {
+ public:
+  // film_moduli_Pa is needed exactly when the geometry has a film. Throws std::invalid_argument for
+  // a bad geometry or material. Near nu = 0.5 (from 0.45) pressures are condensed, see
+  // volume_form().
+  ViscoelasticPillar(const PillarGeometry& geometry, const Discretisation& discretisation,
+                     const Material& material, TopLoad top,
+                     const std::optional<Matrix6d>& film_moduli_Pa = std::nullopt);
+
+  const ViscoelasticSystem& system() const { return system_; }
+  const DiscreteSystem& discrete() const { return *discrete_; }
+  const PillarMesh& mesh() const { return *mesh_; }
+  double top_area_m2() const { return top_area_m2_; }
+
+ private:
+  std::unique_ptr<PillarMesh> mesh_;  // stays put when the pillar is moved
+  std::unique_ptr<DiscreteSystem> discrete_;
+  ViscoelasticSystem system_;
+  double top_area_m2_ = 0.0;
+};
+
+// Poisson ratio from which displacements alone would lose their stresses to locking.
+constexpr double kNearlyIncompressible = 0.45;
+
+}  // namespace viscard
