@@ -15,27 +15,22 @@ struct SpectralFit {
   std::vector<SpectralState> path;
   OrderScores scores;
   SpectralState state;           // the chosen one, polished
-  double variance = 1.0;         // of a weighted residual
-  double inflation = 1.0;
-  Eigen::VectorXd residual;      // weighted, of the chosen order
+  double rss = 0.0;              // weighted, over all samples
+  double variance = 1.0;         // of one weighted sample
+  Autoregression noise;
+  Eigen::MatrixXd covariance;    // of all parameters of the state
 };
 
-// What the rows stand for. blocks: see ChoiceInput. Rows that are not averages have no hidden part.
-struct RowInfo {
-  double n_samples = 0.0;
-  double chi_square_hidden = 0.0;   // weighted sum of squares within averages
-  std::vector<int> blocks;
-  bool rows_are_samples = true;     // consecutive rows are consecutive samples
-};
-
-SpectralFit fit_spectrum(const SpectralModel& model, const RowInfo& rows, const FitOptions& options);
+// blocks: number of each row's block for cross-validation (log_time_blocks).
+SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blocks,
+                         const FitOptions& options);
 
 // Fills everything of a result that follows from the fit alone: parameters, intervals, orders, noise.
 void fill_result(const SpectralModel& model, const SpectralFit& fit,
                  const SeriesFromState& series_from_state, FitResult& result);
 
-// Block numbers for cross-validation: contiguous runs of rows, at least `shortest` long, whose times
-// cover at least a share 10^(1/10) of the time since `zero_s`.
+// Block numbers for cross-validation: contiguous runs of rows that end when they cover a tenth of a
+// decade of the time since `zero_s`, but not before `shortest` rows nor after a fiftieth of all.
 std::vector<int> log_time_blocks(const std::vector<double>& time_s, double zero_s, std::size_t shortest);
 
 }  // namespace viscard

@@ -63,10 +63,8 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
                                                state.coefficients);
   }
   const StageModel model(data, start, sigmas.resting_N, sigmas.moving_N, options);
-  RowInfo rows;
-  rows.n_samples = static_cast<double>(model.n_rows());
-  rows.blocks = log_time_blocks(data.time_s, data.contact_from_s, 8);
-  const SpectralFit fit = fit_spectrum(model, rows, options);
+  const SpectralFit fit =
+      fit_spectrum(model, log_time_blocks(data.time_s, data.contact_from_s, 4), options);
 
   FitResult result;
   result.kind = FitKind::kIndentation;
@@ -83,10 +81,11 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
     return series;
   };
   fill_result(model, fit, series_from_state, result);
-  result.n_samples = data.time_s.size();
   result.noise.sigma = sigmas.resting_N;
   result.contact_position_m = fit.state.nuisance[model.n_nuisances() - 1];
-  result.rss = fit.residual.cwiseProduct(model.sigma_N()).squaredNorm();
+  const Eigen::VectorXd residual =
+      model.residual_series(fit.state.ln_tau, fit.state.nuisance, fit.state.coefficients);
+  result.rss = residual.cwiseProduct(model.sigma_N()).squaredNorm();
   return result;
 }
 

@@ -100,10 +100,13 @@ Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
 Eigen::VectorXd least_squares_with_signs(const Eigen::MatrixXd& columns, const Eigen::VectorXd& data,
                                          const std::vector<bool>& is_free) {
   const Index count = columns.cols();
+  if (count == 0) return Eigen::VectorXd(0);
   std::vector<bool> in_use(static_cast<std::size_t>(count), true);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(count);
   const auto solve = [&] {
     const std::vector<Index> list = chosen(in_use);
+    x.setZero();
+    if (list.empty()) return true;
     Eigen::MatrixXd part(columns.rows(), static_cast<Index>(list.size()));
     for (std::size_t i = 0; i < list.size(); ++i) part.col(static_cast<Index>(i)) = columns.col(list[i]);
     Eigen::VectorXd scale = part.colwise().norm().transpose();
@@ -112,7 +115,6 @@ Eigen::VectorXd least_squares_with_signs(const Eigen::MatrixXd& columns, const E
     }
     part = part * scale.cwiseInverse().asDiagonal();
     const Eigen::VectorXd solution = part.colPivHouseholderQr().solve(data).cwiseQuotient(scale);
-    x.setZero();
     bool is_feasible = true;
     for (std::size_t i = 0; i < list.size(); ++i) {
       x[list[i]] = solution[static_cast<Index>(i)];

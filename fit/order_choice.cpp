@@ -14,22 +14,31 @@ double n_parameters(const SpectralModel& model, const SpectralState& state) {
   return static_cast<double>(model.n_common() + 2 * state.n_terms() + model.n_nuisances());
 }
 
-// Mean and standard error of the paired difference of two lists of block errors.
-bool is_worse_by_one_error(const std::vector<double>& a, const std::vector<double>& best) {
-  const auto count = static_cast<double>(a.size());
+// Whether the paired differences of block errors are above zero by more than their standard error, over
+// the blocks that both orders can predict.
+bool is_worse_by_one_error(const std::vector<LeftOut>& a, const std::vector<LeftOut>& best) {
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!a[i].is_predictable || !best[i].is_predictable) continue;
+    differences.push_back(a[i].squared_error - best[i].squared_error);
+  }
+  const auto count = static_cast<double>(differences.size());
+  if (count < 2.0) return false;
   double mean = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) mean += (a[i] - best[i]) / count;
+  for (const double difference : differences) mean += difference / count;
   double square = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) square += std::pow(a[i] - best[i] - mean, 2);
-  const double error = std::sqrt(square / (count * std::max(1.0, count - 1.0)));
-  return mean > error;
+  for (const double difference : differences) square += std::pow(difference - mean, 2);
+  return mean > std::sqrt(square / (count * (count - 1.0)));
 }
 
 }  // namespace
 
-std::vector<double> left_out_errors(const SpectralModel& model, const SpectralState& state,
+std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralState& state,
                                     const std::vector<int>& blocks) {
+  // Nuisances stay as they are: a single block may hold all that is known of one (the unloading and its
+  // start), which says nothing for or against a term.
   Eigen::MatrixXd jacobian = full_jacobian(model, state);
+  jacobian.conservativeResize(Eigen::NoChange, jacobian.cols() - model.n_nuisances());
   const Index linear = state.coefficients.size();
   const Eigen::VectorXd residual = model.data() - jacobian.leftCols(linear) * state.coefficients;
   for (Index j = 0; j < jacobian.cols(); ++j) {
@@ -46,16 +55,25 @@ std::vector<double> left_out_errors(const SpectralModel& model, const SpectralSt
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     rows[static_cast<std::size_t>(blocks[i])].push_back(static_cast<Index>(i));
   }
-  std::vector<double> errors;
+  std::vector<LeftOut> errors;
   for (const std::vector<Index>& block : rows) {
     if (block.empty()) continue;
     const Eigen::MatrixXd q = basis(block, Eigen::all);
     const Eigen::VectorXd r = residual(block);
-    // A block that alone determines a parameter cannot be predicted; the floor keeps it finite.
-    constexpr double kFloor = 1e-3;
-    Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(rank, rank) * (1.0 + kFloor) - q.transpose() * q;
-    const Eigen::VectorXd error = r + q * rest.ldlt().solve(q.transpose() * r);
-    errors.push_back(error.squaredNorm());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> leverage(q.transpose() * q);
+    LeftOut left_out;
+    left_out.squared_residual = r.squaredNorm();
+    constexpr double kAlone = 0.9;
+    left_out.is_predictable = rank == 0 || leverage.eigenvalues().maxCoeff() < kAlone;
+    if (left_out.is_predictable && rank > 0) {
+      const Eigen::VectorXd scaled =
+          (leverage.eigenvectors().transpose() * (q.transpose() * r))
+              .cwiseQuotient(Eigen::VectorXd::Ones(rank) - leverage.eigenvalues());
+      left_out.squared_error = (r + q * (leverage.eigenvectors() * scaled)).squaredNorm();
+    } else {
+      left_out.squared_error = left_out.squared_residual;
+    }
+    errors.push_back(left_out);
   }
   return errors;
 }
@@ -64,13 +82,14 @@ OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralS
                          const ChoiceInput& input) {
   OrderScores scores;
   const double n_effective = std::max(2.0, input.n_samples / input.inflation);
-  std::vector<std::vector<double>> errors;
+  std::vector<std::vector<LeftOut>> errors;
   std::size_t best_bic = 0;
   std::size_t best_cv = 0;
+  const double noise = std::max(input.rss.back(), 1e-300);
   for (std::size_t i = 0; i < path.size(); ++i) {
     OrderRow row;
     row.n_terms = static_cast<int>(path[i].n_terms());
-    row.rss = path[i].rss + input.chi_square_added;
+    row.rss = input.rss[i];
     const double p = n_parameters(model, path[i]);
     const double misfit = n_effective * std::log(std::max(row.rss, 1e-300) / input.n_samples);
     const double spare = n_effective - p - 1.0;
@@ -78,8 +97,9 @@ OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralS
                            : std::numeric_limits<double>::infinity();
     row.bic = misfit + p * std::log(n_effective);
     errors.push_back(left_out_errors(model, path[i], input.blocks));
-    for (const double error : errors.back()) row.cv += error;
-    row.cv = (row.cv + input.chi_square_added) / input.n_samples;
+    row.cv = row.rss - path[i].rss;  // what averages hide
+    for (const LeftOut& block : errors.back()) row.cv += block.squared_error;
+    row.cv /= noise;
     scores.rows.push_back(row);
     if (row.bic < scores.rows[best_bic].bic) best_bic = i;
     if (row.cv < scores.rows[best_cv].cv) best_cv = i;

@@ -9,25 +9,31 @@ namespace viscard {
 
 // Scores of every order of a path and the choice among them   (fit/README.md, sect. 4).
 struct OrderScores {
-  std::vector<OrderRow> rows;  // rss is the weighted one here; one is marked as chosen
+  std::vector<OrderRow> rows;  // one is marked as chosen
   std::size_t chosen = 0;      // position in the path
 };
 
 // n_samples: before averaging; inflation: variance factor for autocorrelation, so that
-// n_samples/inflation independent values were seen. blocks: for each row the number of its block in
-// cross-validation. chi_square_added: what averaging has hidden of the weighted sum of squares.
+// n_samples/inflation independent values were seen. rss: of each order over all samples, weighted.
+// blocks: for each row the number of its block in cross-validation.
 struct ChoiceInput {
   double n_samples = 0.0;
   double inflation = 1.0;
-  double chi_square_added = 0.0;
+  std::vector<double> rss;
   std::vector<int> blocks;
 };
 OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralState>& path,
                          const ChoiceInput& input);
 
-// Weighted squared error of predicting each block from a fit to all others, by one linearised step from
-// the full fit (exact for a linear model): e_b = (1 - H_bb)^-1 r_b.
-std::vector<double> left_out_errors(const SpectralModel& model, const SpectralState& state,
-                                    const std::vector<int>& blocks);
+// How a block of rows is predicted by a fit to all others, by one linearised step from the full fit
+// (exact for a linear model): e_b = (1 - H_bb)^-1 r_b. A block that alone holds what is known of some
+// combination of parameters cannot be predicted by any fit; it counts with its plain residual.
+struct LeftOut {
+  double squared_error = 0.0;  // weighted
+  double squared_residual = 0.0;
+  bool is_predictable = true;
+};
+std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralState& state,
+                                     const std::vector<int>& blocks);
 
 }  // namespace viscard

@@ -35,7 +35,9 @@ Eigen::MatrixXd nonlinear_slopes(const SpectralModel& model, const ModelColumns&
 // the solver, so the rows are rotated by QR into the smallest problem with the same three.
 class ProjectedCost final : public ceres::CostFunction {
  public:
-  ProjectedCost(const SpectralModel& model, Index n_terms) : model_(model), n_terms_(n_terms) {
+  // The solver has absolute thresholds; scaled like this they mean the same for data of any unit.
+  ProjectedCost(const SpectralModel& model, Index n_terms)
+      : model_(model), n_terms_(n_terms), scale_(1e6 / std::max(model.data().norm(), 1e-280)) {
     const int size = static_cast<int>(n_terms + model.n_nuisances());
     mutable_parameter_block_sizes()->push_back(size);
     set_num_residuals(size + 1);
@@ -54,7 +56,7 @@ class ProjectedCost final : public ceres::CostFunction {
     if (!columns.values.allFinite()) return false;
     const Eigen::VectorXd x = least_squares_with_signs(columns.values, model_.data(),
                                                        free_columns(model_, n_terms_));
-    const Eigen::VectorXd residual = columns.values * x - model_.data();
+    const Eigen::VectorXd residual = scale_ * (columns.values * x - model_.data());
     Eigen::Map<Eigen::VectorXd> out(residuals, size + 1);
     out.setZero();
     out[size] = residual.norm();
@@ -62,7 +64,7 @@ class ProjectedCost final : public ceres::CostFunction {
     if (!wants_jacobian) return true;
 
     Eigen::MatrixXd stacked(model_.n_rows(), size + 1);
-    stacked.leftCols(size) = nonlinear_slopes(model_, columns, x);
+    stacked.leftCols(size) = scale_ * nonlinear_slopes(model_, columns, x);
     stacked.col(size) = residual;
     stacked.leftCols(size) = without_columns(columns.values, x, stacked.leftCols(size));
     compress(stacked, out, jacobians[0]);
@@ -104,6 +106,7 @@ class ProjectedCost final : public ceres::CostFunction {
 
   const SpectralModel& model_;
   const Index n_terms_;
+  const double scale_;
 };
 
 SpectralState sorted_by_time(SpectralState state, Index n_common) {

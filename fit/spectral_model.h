@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,18 @@ class SpectralModel {
                                bool with_slopes) const = 0;
 
   Eigen::VectorXd nuisance_start() const;
+
+  // Where rows are averages of samples: how many there are, and the weighted sum of squares about the
+  // model that averaging hides. By default rows are samples.
+  virtual std::vector<std::size_t> row_begins() const;  // first sample of each row, and one past the last
+  virtual double n_samples() const { return static_cast<double>(n_rows()); }
+  virtual double hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                            const Eigen::VectorXd& coefficients) const;
+  // Consecutive weighted residuals of samples (a stretch of them if there are very many), for their
+  // autocorrelation.
+  virtual Eigen::VectorXd residual_series(const Eigen::VectorXd& ln_tau,
+                                          const Eigen::VectorXd& nuisance,
+                                          const Eigen::VectorXd& coefficients) const;
 
  protected:
   Eigen::VectorXd data_;

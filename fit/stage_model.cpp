@@ -149,7 +149,8 @@ StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start
   // Without a stretch out of contact after the test, drift and slow relaxation are one.
   with_drift_ = options.with_drift && !time_s_.empty() && time_s_.back() > data.contact_to_s;
   if (with_drift_) common_.push_back({"drift_N_s", true});
-  middle_s_ = 0.5 * (time_s_.front() + time_s_.back());
+  if (with_drift_) common_.push_back({"creep_N_m_s", true});
+  ramp_s_ = data.contact_from_s;
 
   for (Index m = 0; m < n_moves; ++m) {
     nuisances_.push_back({"start_" + std::to_string(m + 1) + "_s", start[m], start[m] - 10.0 * dt_s,
@@ -199,16 +200,18 @@ ModelColumns StageModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::Vec
     const auto k = static_cast<std::size_t>(row);
     const double t = time_s_[k];
     out.values(row, offset) = 1.0;
-    if (with_drift_) out.values(row, offset + 1) = t - middle_s_;
+    if (with_drift_) out.values(row, offset + 1) = t - ramp_s_;
     if (is_out_of_contact_[k] || !(t > contact_s)) continue;
+    const auto add_depth = [&](Eigen::MatrixXd& matrix, double depth) {
+      if (with_equilibrium_) matrix(row, 0) += depth;
+      if (with_drift_) matrix(row, offset + 2) += depth * (t - ramp_s_);
+    };
     for (std::size_t m = 0; m < moves.size(); ++m) {
       if (!(t > responses[m].from_s())) continue;
       const auto shift = with_slopes ? &out.nuisance_slopes[m] : nullptr;
-      if (with_equilibrium_) {
-        const double from_m = m == 0 ? z_contact_m : moves[m].from_m;
-        out.values(row, 0) += direction * (position_m(moves[m], t) - from_m);
-        if (shift) (*shift)(row, 0) -= direction * velocity_m_s(moves[m], t);
-      }
+      const double from_m = m == 0 ? z_contact_m : moves[m].from_m;
+      add_depth(out.values, direction * (position_m(moves[m], t) - from_m));
+      if (shift) add_depth(*shift, -direction * velocity_m_s(moves[m], t));
       for (Index i = 0; i < n_terms; ++i) {
         const BranchResponse response = responses[m].at(branches[m][static_cast<std::size_t>(i)], t);
         out.values(row, first_term + i) += direction * response.value_m;
@@ -219,7 +222,7 @@ ModelColumns StageModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::Vec
     }
     if (!with_slopes) continue;
     Eigen::MatrixXd& contact = out.nuisance_slopes.back();
-    if (with_equilibrium_) contact(row, 0) = -direction;
+    add_depth(contact, -direction);
     for (Index i = 0; i < n_terms; ++i) {
       contact(row, first_term + i) = -direction * std::exp(-(t - contact_s) / std::exp(ln_tau[i]));
     }

@@ -10,9 +10,10 @@ namespace viscard {
 
 // Force of a punch driven by known stage moves through a frame spring. Specimen and frame in series
 // are again a generalised Maxwell solid, so the force follows the *stage* by
-//   F(t) = int R(t - s) dz(s) + offset + drift t,   z counted from contact   (fit/README.md, eq. 4)
-// with stiffnesses R_inf, R_i in N/m; specimen_series() takes the frame out afterwards. The input z is
-// free of noise, and the residual is the force noise itself.
+//   F(t) = int R(t - s) dz(s) + offset + drift t + creep t z,   z counted from contact
+// (fit/README.md, eq. 4) with stiffnesses R_inf, R_i in N/m; specimen_series() takes the frame out
+// afterwards. The input z is free of noise, and the residual is the force noise itself. Drift of the
+// zero is seen out of contact, creep of the cell under load (a share of the force) in the long hold.
 //
 // Nuisances: one start time per move (known only roughly on the amplifier's clock) and the contact
 // position; all are sharply seen in the kinks of the force. Out of contact the force is zero.
@@ -36,7 +37,7 @@ class StageModel final : public SpectralModel {
   std::vector<bool> is_moving_;
   std::vector<bool> is_out_of_contact_;
   Eigen::VectorXd sigma_N_;
-  double middle_s_ = 0.0;  // drift counts from here
+  double ramp_s_ = 0.0;    // drifts count from here
   bool with_drift_ = false;
   bool with_equilibrium_ = true;
 };

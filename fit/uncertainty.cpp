@@ -53,6 +53,27 @@ Eigen::MatrixXd series_slopes(const SpectralModel& model, const SpectralState& s
   return slopes;
 }
 
+// C x for every column x: C holds the correlations between rows, each sqrt(n) times a mean of samples.
+Eigen::MatrixXd correlated(const Eigen::MatrixXd& x, const std::vector<std::size_t>& begins,
+                           const Autoregression& noise) {
+  const PairSums sums(noise);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x.rows(), x.cols());
+  for (Index r = 0; r < x.rows(); ++r) {
+    const auto begin = static_cast<double>(begins[static_cast<std::size_t>(r)]);
+    const auto end = static_cast<double>(begins[static_cast<std::size_t>(r) + 1]);
+    for (Index s = r; s < x.rows(); ++s) {
+      const auto other = static_cast<double>(begins[static_cast<std::size_t>(s)]);
+      if (other - end > sums.reach()) break;
+      const double count = static_cast<double>(begins[static_cast<std::size_t>(s) + 1]) - other;
+      const double correlation = sums.over(end - begin, count, other - begin) /
+                                 std::sqrt((end - begin) * count);
+      out.row(r) += correlation * x.row(s);
+      if (s > r) out.row(s) += correlation * x.row(r);
+    }
+  }
+  return out;
+}
+
 double error_of(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& gradient) {
   return std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));
 }
@@ -64,7 +85,7 @@ Interval symmetric(double value, double error) {
 }  // namespace
 
 Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralState& state,
-                                     double variance) {
+                                     double variance, const Autoregression& noise) {
   const Eigen::MatrixXd jacobian = full_jacobian(model, state);
   const Index count = jacobian.cols();
   std::vector<Index> seen;
@@ -81,7 +102,13 @@ Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralS
   const Eigen::MatrixXd upper = qr.matrixQR().topRows(used).triangularView<Eigen::Upper>();
   const Eigen::MatrixXd inverse =
       upper.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(used, used));
-  const Eigen::MatrixXd part = variance * inverse * inverse.transpose();
+  Eigen::MatrixXd part = variance * inverse * inverse.transpose();
+  if (!noise.phi.empty()) {
+    // (J^T J)^-1 J^T = R^-1 Q^T; the middle is Q^T C Q.
+    const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(scaled.rows(), used);
+    const Eigen::MatrixXd middle = q.transpose() * correlated(q, model.row_begins(), noise);
+    part = variance * inverse * middle * inverse.transpose();
+  }
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
   covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
   for (Index a = 0; a < used; ++a) {

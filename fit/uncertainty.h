@@ -4,16 +4,19 @@
 #include <functional>
 
 #include "fit/fit_result.h"
+#include "fit/noise_model.h"
 #include "fit/separable.h"
 #include "models/prony_series.h"
 
 namespace viscard {
 
-// Covariance of all parameters of a state, in full_jacobian()'s order: variance * (J^T J)^-1, by QR of
-// scaled columns. Parameters that the data do not reach (a zero column, a modulus at zero) get an
+// Covariance of all parameters of a state, in full_jacobian()'s order. White noise of that variance:
+// variance * (J^T J)^-1. Noise with memory: variance * (J^T J)^-1 J^T C J (J^T J)^-1 with the
+// autocorrelation C that the autoregression implies between rows, averages or not; exact for least
+// squares with such noise, for fast terms and slow ones alike. By QR of scaled columns. Parameters that the data do not reach (a zero column, a modulus at zero) get an
 // infinite variance.
 Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralState& state,
-                                     double variance);
+                                     double variance, const Autoregression& noise = {});
 
 // What a state means for the material: its series, terms in the state's order.
 using SeriesFromState = std::function<PronySeries(const SpectralState&)>;

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "fit/fit_data.h"
+#include "fit/fit_result.h"
+
+namespace viscard {
+
+// Prony series from a relaxation modulus (or a stress after a step, or a stress with its strain
+// history)   (fit/README.md, eq. 2 and 5). Example:
+//   RelaxationData data{.time_s = t, .value = E};
+//   FitResult fit = fit_relaxation(data);
+//   fit.E0_Pa, fit.terms[0].tau_s_95.low, fit.orders ...
+// Throws std::invalid_argument (columns of unequal length) or std::runtime_error (no data that could be
+// fitted: what is wrong and where).
+FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options = {});
+
+}  // namespace viscard

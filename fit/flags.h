@@ -1,0 +1,25 @@
+#pragma once
+
+#include "fit/fit_result.h"
+#include "fit/separable.h"
+
+namespace viscard {
+
+// What the test could show at all, for judging each term.
+struct TestWindow {
+  double sampling_s = 0.0;  // shortest interval between samples; 0: unknown
+  double ramp_s = 0.0;      // duration of loading; 0: a step
+  double from_s = 0.0, to_s = 0.0;  // since loading began
+};
+
+// Adds the identifiability flags of FitResult (fit/README.md, sect. 6): tau-below-sampling,
+// tau-below-ramp, tau-beyond-window, modulus-may-be-zero, terms-correlated, on-bound,
+// confused-with-drift, not-converged. Only the last makes a result untrustworthy.
+void add_identifiability_flags(const SpectralModel& model, const SpectralState& state,
+                               const Eigen::MatrixXd& covariance, const TestWindow& window,
+                               FitResult& result);
+
+// A flag that makes the whole result untrustworthy.
+void add_defect(FitResult& result, const std::string& name, const std::string& text);
+
+}  // namespace viscard

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "fit/fit_data.h"
+#include "fit/spectral_model.h"
+
+namespace viscard {
+
+// Response to a measured history of depth or strain, linear between samples   (fit/README.md, eq. 2):
+//   y(t) = c int E(t - s) d(input) + offset [+ drift t]
+// by the exact recursion of models/hereditary.h, one pass over all samples for each relaxation time.
+// Every sample up to the end of loading is a row; later ones are averaged in log time, the data and the
+// basis alike.
+struct HistoryInput {
+  std::vector<double> time_s;   // sorted
+  std::vector<double> input;    // depth in m, or strain
+  std::vector<double> output;   // force in N, or stress in Pa
+  double factor = 1.0;          // c; moduli come out in output/(c input)
+  std::size_t contact = 0;      // first sample that may be in contact; before it the input counts as 0
+  // Contact position as a nuisance, counted in the input; none: contact at input 0.
+  std::optional<double> contact_input;
+  double contact_half_width = 0.0;
+  bool with_offset = false;
+  bool with_drift = false;
+};
+
+class HistoryModel final : public SpectralModel {
+ public:
+  HistoryModel(HistoryInput input, const FitOptions& options);
+
+  ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                       bool with_slopes) const override;
+  std::vector<std::size_t> row_begins() const override { return row_begin_; }
+  double n_samples() const override { return static_cast<double>(in_.time_s.size()); }
+  double hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                    const Eigen::VectorXd& coefficients) const override;
+  Eigen::VectorXd residual_series(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                                  const Eigen::VectorXd& coefficients) const override;
+
+  // Model at every sample.
+  Eigen::VectorXd fitted(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                         const Eigen::VectorXd& coefficients) const;
+
+  const std::vector<double>& row_time_s() const { return row_time_s_; }
+  const std::vector<double>& row_count() const { return row_count_; }
+
+ private:
+  // Sample columns at one choice of parameters, before averaging.
+  ModelColumns sample_columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                              bool with_slopes) const;
+  Eigen::MatrixXd averaged(const Eigen::MatrixXd& samples) const;
+  std::size_t first_in_contact(double contact_input) const;
+
+  HistoryInput in_;
+  std::vector<std::size_t> row_begin_;  // first sample of each row, and one past the last
+  std::vector<double> row_time_s_, row_count_;
+  bool with_equilibrium_ = true;
+};
+
+}  // namespace viscard

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fit/fit_data.h"
+#include "fit/log_bins.h"
+#include "fit/spectral_model.h"
+
+namespace viscard {
+
+enum class StepShape { kRelaxation, kCreep };
+
+// Response to a step at t = 0: relaxation, value = E_inf + sum E_i exp(-t/tau_i), or creep,
+// value = J_g + sum J_j (1 - exp(-t/lambda_j)) [+ t/eta of a liquid]   (fit/README.md, eq. 5).
+// Long records are averaged in log time, the data and the model alike.
+class StepModel final : public SpectralModel {
+ public:
+  // Times must be sorted, all values finite.
+  StepModel(const std::vector<double>& time_s, const std::vector<double>& value, StepShape shape,
+            const FitOptions& options);
+
+  ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                       bool with_slopes) const override;
+  std::vector<std::size_t> row_begins() const override;
+  double n_samples() const override { return static_cast<double>(time_s_.size()); }
+  double hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                    const Eigen::VectorXd& coefficients) const override;
+  Eigen::VectorXd residual_series(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                                  const Eigen::VectorXd& coefficients) const override;
+
+  const std::vector<LogBin>& bins() const { return bins_; }
+
+ private:
+  double value_at(double time_s, const Eigen::VectorXd& ln_tau,
+                  const Eigen::VectorXd& coefficients) const;
+
+  std::vector<double> time_s_, value_;
+  StepShape shape_;
+  std::vector<LogBin> bins_;
+  bool is_liquid_ = false;
+  bool with_constant_ = true;
+};
+
+}  // namespace viscard
