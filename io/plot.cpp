@@ -158,7 +158,7 @@ std::string style_of(const PlotSeries& series) {
           "using 1:2:3 with filledcurves fc rgb '{}' fs transparent solid 0.18 noborder", rgb);
     case Mark::kErrorBars:
       return fmt::format("using 1:2:3:4:5:6 with xyerrorbars lc rgb '{}' lw {:.3g} pt {} ps {:.3g}",
-                         rgb, 1.4 * series.size, dot, 0.75 * series.size);
+                         rgb, 1.4 * series.size, dot, 0.6 * series.size);
     case Mark::kPoints:
       return fmt::format("using 1:2 with points lc rgb '{}' lw {:.3g} pt {} ps {:.3g}", rgb,
                          series.is_hollow ? 1.3 : 1.0, dot, 0.34 * series.size);

@@ -10,6 +10,7 @@ namespace viscard {
 namespace {
 
 constexpr double kMargin = 0.04;
+constexpr double kSlack = 1.25;  // labels may stand this much closer for a rounder step
 constexpr const char* kMinus = "−";
 
 std::string superscript(int exponent) {
@@ -23,11 +24,11 @@ std::string with_true_minus(const std::string& text) {
   return text.front() == '-' ? kMinus + text.substr(1) : text;
 }
 
-// 1, 2 or 5 times a power of ten, not below `step`.
+// 1, 2 or 5 times a power of ten, not much below `step`.
 double round_step(double step) {
   const double decade = std::pow(10.0, std::floor(std::log10(step)));
   for (const double factor : {1.0, 2.0, 5.0}) {
-    if (step <= factor * decade * (1.0 + 1e-9)) return factor * decade;
+    if (step <= kSlack * factor * decade) return factor * decade;
   }
   return 10.0 * decade;
 }

@@ -138,7 +138,8 @@ std::string figure_from_gnuplot_svg(const std::string& document, const std::stri
   return fmt::format(
              "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" "
              "xmlns:xlink=\"http://www.w3.org/1999/xlink\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
-             "height=\"{1}\" role=\"img\" aria-labelledby=\"{2}-title {2}-desc\">\n"
+             "height=\"{1}\" style=\"background:#fff\" role=\"img\" aria-labelledby=\"{2}-title "
+             "{2}-desc\">\n"
              "<title id=\"{2}-title\">{3}</title>\n<desc id=\"{2}-desc\">{4}</desc>\n",
              width_px, height_px, id, escaped_markup(title), escaped_markup(description)) +
          body + "</svg>\n";

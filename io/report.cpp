@@ -71,8 +71,13 @@ std::string html_from_page(const ReportInput& input, const Page& page) {
 
 }  // namespace
 
+RenderedReport render_report(const ReportInput& input) {
+  const Page page = page_from_report(input);
+  return {html_from_page(input, page), page.pictures()};
+}
+
 std::string html_from_report(const ReportInput& input) {
-  return html_from_page(input, page_from_report(input));
+  return render_report(input).html;
 }
 
 void write_report(const ReportInput& input, const std::filesystem::path& path, bool overwrite) {

@@ -33,6 +33,7 @@ struct ReportCard {
   std::string units;      // "mm-t-s"
   std::string file_name;  // "pdms_1to10.inp"
   std::string text;
+  std::string refusal;  // why there is no text
 };
 
 // All that is known of one specimen; what is missing is left out of the page. At least a fit or a
@@ -45,7 +46,8 @@ struct SpecimenReport {
   std::optional<EmulatedTruth> truth;  // emulated rig only
   std::optional<PillarCheck> pillar;
   std::vector<ReportCard> cards;
-  std::vector<RawFile> files;  // read for this specimen
+  std::vector<RawFile> files;      // read for this specimen
+  std::vector<std::string> notes;  // sentences a reader should see
 };
 
 // E0 over mixing ratio as a joint fit describes it.
@@ -64,10 +66,21 @@ struct ReportInput {
   std::string command;     // command line that made the page
 };
 
-// One self-contained HTML page: no script, no external resource, pictures inline. The same input
-// gives the same bytes.
-// Throws std::invalid_argument if there is no specimen or one has neither fit nor material;
-// std::runtime_error if gnuplot is not installed or fails.
+// A picture of the page for itself, in the order of the page.
+struct ReportPicture {
+  std::string name;  // "03_spectrum", a file name without suffix
+  std::string svg;
+};
+
+struct RenderedReport {
+  std::string html;  // one self-contained page: no script, no external resource, pictures inline
+  std::vector<ReportPicture> pictures;
+};
+
+// The same input gives the same bytes. Throws std::invalid_argument if there is no specimen, one
+// has neither fit nor material, or moduli and stiffnesses meet; std::runtime_error if gnuplot is
+// not installed or fails.
+RenderedReport render_report(const ReportInput& input);
 std::string html_from_report(const ReportInput& input);
 
 // Writes the page whole or not at all (io/atomic_file.h).

@@ -68,6 +68,15 @@ double slope(const SpecimenEstimates& estimates, const std::string& parameter, d
   return 0.0;
 }
 
+Eigen::VectorXd slopes(const SpecimenEstimates& estimates, double time_s) {
+  Eigen::VectorXd gradient(static_cast<Eigen::Index>(estimates.covariance_parameters.size()));
+  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
+    gradient[i] =
+        slope(estimates, estimates.covariance_parameters[static_cast<std::size_t>(i)], time_s);
+  }
+  return gradient;
+}
+
 bool has_covariance(const SpecimenEstimates& estimates) {
   const Eigen::Index n = static_cast<Eigen::Index>(estimates.covariance_parameters.size());
   return n > 0 && estimates.covariance.rows() == n && estimates.covariance.cols() == n &&
@@ -146,24 +155,24 @@ PronySeries series_from_estimates(const SpecimenEstimates& estimates) {
 }
 
 RelaxationBand relaxation_band(const SpecimenEstimates& estimates,
-                               const std::vector<double>& time_s) {
+                               const std::vector<double>& time_s, bool is_relative) {
   const PronySeries series = series_from_estimates(estimates);
+  const double E0_Pa = instantaneous_modulus_Pa(series);
   const bool has_band = has_covariance(estimates);
-  const std::vector<std::string>& names = estimates.covariance_parameters;
+  const Eigen::VectorXd slopes_at_0 = slopes(estimates, 0.0);
   RelaxationBand band;
   for (const double t : time_s) {
     const double modulus_Pa = relaxation_modulus_Pa(series, t);
+    const double value = is_relative ? modulus_Pa / E0_Pa : modulus_Pa;
     band.time_s.push_back(t);
-    band.E_Pa.push_back(modulus_Pa);
+    band.value.push_back(value);
     if (!has_band) continue;
-    Eigen::VectorXd slopes(static_cast<Eigen::Index>(names.size()));
-    for (Eigen::Index i = 0; i < slopes.size(); ++i) {
-      slopes[i] = slope(estimates, names[static_cast<std::size_t>(i)], t);
-    }
-    const double variance = slopes.dot(estimates.covariance * slopes);
+    Eigen::VectorXd gradient = slopes(estimates, t);
+    if (is_relative) gradient = (gradient - value * slopes_at_0) / E0_Pa;
+    const double variance = gradient.dot(estimates.covariance * gradient);
     const double half = kNormal95 * std::sqrt(std::max(0.0, variance));
-    band.low_Pa.push_back(modulus_Pa - half);
-    band.high_Pa.push_back(modulus_Pa + half);
+    band.low.push_back(value - half);
+    band.high.push_back(value + half);
   }
   return band;
 }

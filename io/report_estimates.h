@@ -39,13 +39,14 @@ SpecimenEstimates estimates_from_specimen(const SpecimenReport& specimen, std::s
 
 PronySeries series_from_estimates(const SpecimenEstimates& estimates);
 
-// E(t) with its 95 % band, to first order in the covariance of the moduli and ln tau
-// (var = J C J'). Without a covariance low and high are empty.
+// E(t), or E(t)/E0, with its 95 % band to first order in the covariance of the moduli and ln tau
+// (var = J C J'); the relative one is narrower because a common factor of all moduli cancels.
+// Without a covariance low and high are empty.
 struct RelaxationBand {
-  std::vector<double> time_s, E_Pa, low_Pa, high_Pa;
+  std::vector<double> time_s, value, low, high;
 };
 RelaxationBand relaxation_band(const SpecimenEstimates& estimates,
-                               const std::vector<double>& time_s);
+                               const std::vector<double>& time_s, bool is_relative);
 
 // One parameter whose truth is known. An interval contains the truth either by itself or once the
 // systematic part, which scales all moduli together, is added in quadrature.

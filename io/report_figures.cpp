@@ -58,14 +58,14 @@ PlotSeries line(const std::vector<double>& x, const std::vector<double>& y, Ink 
 // One specimen's curve, band and truth, times `factor`.
 void add_relaxation(PlotPanel& panel, const RelaxationBand& band, double factor, Ink ink,
                     const std::string& label) {
-  if (!band.low_Pa.empty()) {
+  if (!band.low.empty()) {
     panel.series.push_back({.mark = Mark::kBand,
                             .x = band.time_s,
-                            .y_low = scaled(band.low_Pa, factor),
-                            .y_high = scaled(band.high_Pa, factor),
+                            .y_low = scaled(band.low, factor),
+                            .y_high = scaled(band.high, factor),
                             .ink = ink});
   }
-  panel.series.push_back(line(band.time_s, scaled(band.E_Pa, factor), ink, label));
+  panel.series.push_back(line(band.time_s, scaled(band.value, factor), ink, label));
 }
 
 PlotSeries truth_line(const Material& truth, const std::vector<double>& time_s, double factor,
@@ -151,10 +151,10 @@ std::optional<Plot> relaxation_plot(const ReportInput& input,
   plot.panels[1].y.label = estimates.front().is_stiffness ? "R(t)/R(0)" : "E(t)/E₀";
   for (PlotPanel& panel : plot.panels) panel.x = {.label = "time t (s)", .is_log = true};
   for (std::size_t i = 0; i < estimates.size(); ++i) {
-    const RelaxationBand band = relaxation_band(estimates[i], time_s);
     for (std::size_t p = 0; p < 2; ++p) {
-      const double factor = p == 0 ? unit.per_si : 1.0 / estimates[i].E0_Pa.value;
-      add_relaxation(plot.panels[p], band, factor, ink_of_series(i), estimates[i].label);
+      const bool is_relative = p == 1;
+      add_relaxation(plot.panels[p], relaxation_band(estimates[i], time_s, is_relative),
+                     is_relative ? 1.0 : unit.per_si, ink_of_series(i), estimates[i].label);
     }
   }
   const char* truth_label = "truth";  // once in the legend, after the specimens

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/plot.h"
+#include "io/report.h"
 
 #include <string>
 #include <vector>
@@ -33,12 +34,6 @@ class HtmlTable {
   std::vector<Row> rows_;
 };
 
-// A picture of the page, kept apart so that it can be saved by itself as well.
-struct PagePicture {
-  std::string name;  // file name without suffix
-  std::string svg;
-};
-
 // The body of a page as it grows: numbers sections, tables and figures, and remembers the contents.
 class Page {
  public:
@@ -54,7 +49,7 @@ class Page {
 
   const std::string& body() const { return body_; }
   std::string contents_html() const;  // navigation over the level-2 headings
-  const std::vector<PagePicture>& pictures() const { return pictures_; }
+  const std::vector<ReportPicture>& pictures() const { return pictures_; }
 
  private:
   struct Heading {
@@ -62,7 +57,7 @@ class Page {
   };
   std::string body_;
   std::vector<Heading> headings_;
-  std::vector<PagePicture> pictures_;
+  std::vector<ReportPicture> pictures_;
   int n_tables_ = 0;
 };
 

@@ -23,6 +23,10 @@ std::string percent_encoded(std::string_view text) {
 }
 
 std::string card_html(const ReportCard& card, const std::string& label) {
+  if (!card.refusal.empty()) {
+    return fmt::format("<p><b>{}</b> for {} was not written: {}</p>\n", escaped_markup(card.target),
+                       escaped_markup(label), escaped_markup(card.refusal));
+  }
   const std::string name = escaped_markup(card.file_name);
   return fmt::format(
       "<details>\n<summary><b>{0}</b> for {1}, units {2}: <code>{3}</code></summary>\n"

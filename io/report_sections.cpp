@@ -183,6 +183,7 @@ void add_specimen(Page& page, const SpecimenReport& specimen, const SpecimenEsti
   const auto fitted = specimen.fit ? fit_plot(*specimen.fit) : std::nullopt;
   const bool has_orders = specimen.fit && !specimen.fit->orders.empty();
   page.add_heading(2, estimates.anchor, estimates.label);
+  for (const std::string& note : specimen.notes) page.add_paragraph(escaped_markup(note));
   if (!recorded && !fitted && !has_orders) {
     page.add_paragraph("Known from its material file only: no recorded data and no fit to show.");
     return;
