@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/cli/command.h"
+
+namespace viscard {
+
+// viscard capture: runs one indentation on the rig, or on an emulated one, into a capture file.
+int run_capture(const std::vector<std::string>& words, Streams& streams);
+
+}  // namespace viscard
