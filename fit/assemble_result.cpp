@@ -67,6 +67,15 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
   result.orders = fit.scores.rows;
   result.noise.sigma = std::sqrt(fit.variance);
   result.noise.inflation = fit.noise.inflation();
+  if (fit.scores.wants_faster) {
+    result.flags.push_back({"faster-relaxation", 0,
+                            "something relaxes faster than the first samples can show: E0 is that of "
+                            "the first sample, and a lower bound"});
+  }
+  if (fit.scores.wants_slower) {
+    result.flags.push_back({"slower-relaxation", 0,
+                            "something still relaxes when the record ends: E_inf is an upper bound"});
+  }
   result.rss = fit.rss;
   result.n_samples = static_cast<std::size_t>(model.n_samples());
   result.is_converged = fit.state.is_converged;

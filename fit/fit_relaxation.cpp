@@ -44,10 +44,9 @@ FitResult fit_strain_history(CleanColumns clean, const FitOptions& options) {
       model, fit,
       [&](const SpectralState& state) { return plain_series(model, state, options.is_liquid); },
       result);
-  const auto peak = std::max_element(input.input.begin(), input.input.end()) - input.input.begin();
   const double zero_s = input.time_s[input.contact];
   const TestWindow window{shortest_step_s(input.time_s),
-                          input.time_s[static_cast<std::size_t>(peak)] - zero_s, 0.0,
+                          input.time_s[end_of_loading(input.input)] - zero_s, 0.0,
                           input.time_s.back() - zero_s};
   add_identifiability_flags(model, fit.state, fit.covariance, window, result);
   result.fit_from_s = input.time_s.front();

@@ -1,10 +1,17 @@
 #include "fit/fit_stage_indentation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "fit/assemble_result.h"
+#include "fit/clean_data.h"
+#include "fit/flags.h"
 #include "fit/stage_model.h"
+#include "fit/two_point_modulus.h"
 #include "models/retardation_spectrum.h"
 
 namespace viscard {
@@ -32,6 +39,107 @@ TwoSigmas scatter(const StageModel& model, const Eigen::VectorXd& weighted_resid
   return {resting_N, std::max(moving_N, resting_N)};
 }
 
+// Averages of measured and fitted force for plots, in log time from the start of each motion; rows of
+// contact only.
+void fill_curves(const StageModel& model, const IndentationData& data, const SpectralState& state,
+                 const Eigen::VectorXd& residual_N, FitResult& result) {
+  FitCurves& curves = result.curves;
+  for (std::size_t m = 0; m < data.moves.size(); ++m) {
+    curves.motion_start_s.push_back(data.moves[m].start_time_s +
+                                    state.nuisance[static_cast<Index>(m)]);
+  }
+  constexpr double kRatio = 1.0592537251772889;  // 10^(1/40)
+  for (std::size_t begin = 0; begin < data.time_s.size();) {
+    const double t = data.time_s[begin];
+    if (!(t > curves.motion_start_s.front()) || t > data.contact_to_s) {
+      ++begin;
+      continue;
+    }
+    double since_s = 0.0;
+    double next_motion_s = data.contact_to_s;
+    for (const double start_s : curves.motion_start_s) {
+      if (start_s < t) since_s = t - start_s;
+      if (start_s >= t) next_motion_s = std::min(next_motion_s, start_s);
+    }
+    std::size_t end = begin + 1;
+    while (end < data.time_s.size() && data.time_s[end] - t < since_s * (kRatio - 1.0) &&
+           data.time_s[end] < next_motion_s && model.is_moving()[end] == model.is_moving()[begin]) {
+      ++end;
+    }
+    const auto count = static_cast<double>(end - begin);
+    double time = 0.0, force_N = 0.0, residual = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      time += data.time_s[i] / count;
+      force_N += data.force_N[i] / count;
+      residual += residual_N[static_cast<Index>(i)] / count;
+    }
+    curves.time_s.push_back(time);
+    curves.measured.push_back(force_N);
+    curves.fitted.push_back(force_N - residual);
+    curves.sigma.push_back(model.sigma_N()[static_cast<Index>(begin)] / std::sqrt(count));
+    begin = end;
+  }
+  curves.unit = "N";
+}
+
+// The seed's method on the loading part, depth from the stage with the frame taken off.
+std::optional<TwoPointModulus> two_points(const IndentationData& data, const SpectralState& state,
+                                          double offset_N, double sigma_N) {
+  if (!data.contact) return std::nullopt;
+  StageMove ramp = data.moves.front();
+  ramp.start_time_s += state.nuisance[0];
+  const double contact_m = state.nuisance[state.nuisance.size() - 1];
+  const double direction = ramp.to_m > ramp.from_m ? 1.0 : -1.0;
+  std::vector<double> time_s, force_N, depth_m;
+  for (std::size_t i = 0; i < data.time_s.size(); ++i) {
+    const double t = data.time_s[i];
+    if (t > ramp.start_time_s + duration_s(ramp)) break;
+    const double pressed_m = direction * (position_m(ramp, t) - contact_m);
+    if (t < ramp.start_time_s || !(pressed_m > 0.0)) continue;
+    time_s.push_back(t);
+    force_N.push_back(data.force_N[i] - offset_N);
+    depth_m.push_back(pressed_m - (data.frame_stiffness_N_m > 0.0
+                                       ? force_N.back() / data.frame_stiffness_N_m : 0.0));
+  }
+  return two_point_modulus(time_s, force_N, depth_m, *data.contact, sigma_N);
+}
+
+// Samples missing where the force changes fast: during the ramp and just after it.
+void flag_gap_in_ramp(const IndentationData& data, const SpectralState& state, FitResult& result) {
+  const StageMove& ramp = data.moves.front();
+  const double from_s = ramp.start_time_s + state.nuisance[0];
+  const double to_s = from_s + duration_s(ramp);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < data.time_s.size(); ++i) steps.push_back(data.time_s[i] - data.time_s[i - 1]);
+  std::vector<double> sorted = steps;
+  std::sort(sorted.begin(), sorted.end());
+  const double usual_s = sorted[sorted.size() / 2];
+  for (std::size_t i = 1; i < data.time_s.size(); ++i) {
+    const bool in_ramp = data.time_s[i] > from_s && data.time_s[i - 1] < to_s;
+    if (!in_ramp || steps[i - 1] < std::max(4.0 * usual_s, 0.05 * duration_s(ramp))) continue;
+    char text[120];
+    std::snprintf(text, sizeof text, "no readings for %.3g s during the ramp (%.3g s after it began)",
+                  steps[i - 1], data.time_s[i - 1] - from_s);
+    add_defect(result, "gap-in-ramp", text);
+    return;
+  }
+}
+
+// The punch must stay in contact through the holds: the fitted force must not fall below zero.
+void flag_lost_contact(const IndentationData& data, const SpectralState& state, double offset_N,
+                       const Eigen::VectorXd& residual_N, double sigma_N, FitResult& result) {
+  const StageMove& ramp = data.moves.front();
+  const double ramp_end_s = ramp.start_time_s + state.nuisance[0] + duration_s(ramp);
+  for (std::size_t i = 0; i < data.time_s.size(); ++i) {
+    if (data.time_s[i] < ramp_end_s || data.time_s[i] > data.contact_to_s) continue;
+    const double fitted_N = data.force_N[i] - residual_N[static_cast<Index>(i)] - offset_N;
+    if (fitted_N > -3.0 * sigma_N) continue;
+    add_defect(result, "contact-lost",
+               "the unloading lifts the punch off the specimen: unload to a larger share of the depth");
+    return;
+  }
+}
+
 }  // namespace
 
 PronySeries specimen_series(const PronySeries& stage_series_N_m, double frame_stiffness_N_m) {
@@ -47,6 +155,29 @@ PronySeries specimen_series(const PronySeries& stage_series_N_m, double frame_st
   }
   return relaxation_from_retardation(compliance);
 }
+
+namespace {
+
+// Window, flags and the two-point modulus.
+void report_stage_fit(const StageModel& model, const IndentationData& data, const SpectralFit& fit,
+                      const Eigen::VectorXd& residual_N, FitResult& result) {
+  const StageMove& ramp = data.moves.front();
+  const double sigma_N = result.noise.sigma;
+  result.fit_from_s = ramp.start_time_s + fit.state.nuisance[0];
+  result.fit_to_s = data.contact_to_s;
+  add_identifiability_flags(model, fit.state, fit.covariance,
+                            {shortest_step_s(data.time_s), 0.0, 0.0, result.fit_to_s - result.fit_from_s},
+                            result);
+  flag_gap_in_ramp(data, fit.state, result);
+  for (Index j = 0; j < model.n_common(); ++j) {
+    if (model.common()[static_cast<std::size_t>(j)].name != "offset_N") continue;
+    const double offset_N = fit.state.coefficients[j];
+    flag_lost_contact(data, fit.state, offset_N, residual_N, sigma_N, result);
+    result.two_point = two_points(data, fit.state, offset_N, sigma_N);
+  }
+}
+
+}  // namespace
 
 FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& options) {
   const double factor_m = data.contact ? force_per_modulus_and_depth_m(*data.contact) : 1.0;
@@ -85,7 +216,10 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
   result.contact_position_m = fit.state.nuisance[model.n_nuisances() - 1];
   const Eigen::VectorXd residual =
       model.residual_series(fit.state.ln_tau, fit.state.nuisance, fit.state.coefficients);
-  result.rss = residual.cwiseProduct(model.sigma_N()).squaredNorm();
+  const Eigen::VectorXd residual_N = residual.cwiseProduct(model.sigma_N());
+  result.rss = residual_N.squaredNorm();
+  report_stage_fit(model, data, fit, residual_N, result);
+  if (options.with_curves) fill_curves(model, data, fit.state, residual_N, result);
   return result;
 }
 

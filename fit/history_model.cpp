@@ -14,13 +14,7 @@ constexpr std::size_t kSmallRecord = 2000;
 constexpr double kBinsPerDecade = 60.0;
 constexpr Index kLongSeries = 16384;
 
-// End of loading: the sample of largest input.
-std::size_t end_of_loading(const HistoryInput& in) {
-  return static_cast<std::size_t>(std::max_element(in.input.begin(), in.input.end()) -
-                                  in.input.begin());
-}
-
-// The two factors of a step, kept while the step stays the same.
+// The factors of a step, kept while the step stays the same.
 struct StepFactors {
   double dt_s = -1.0;
   double x = 0.0, decay = 1.0, p1 = 1.0, slope = 0.0;
@@ -38,17 +32,26 @@ struct StepFactors {
 
 }  // namespace
 
+std::size_t end_of_loading(const std::vector<double>& input) {
+  const auto [low, high] = std::minmax_element(input.begin(), input.end());
+  const double nearly = *high - 0.02 * (*high - *low);
+  return static_cast<std::size_t>(
+      std::find_if(input.begin(), input.end(), [&](double x) { return x >= nearly; }) -
+      input.begin());
+}
+
 HistoryModel::HistoryModel(HistoryInput input, const FitOptions& options) : in_(std::move(input)) {
   const std::size_t count = in_.time_s.size();
   with_equilibrium_ = !options.is_liquid;
   may_be_negative_ = options.allow_negative;
   const bool is_small = count <= kSmallRecord || options.full_data;
   const double ratio = std::pow(10.0, 1.0 / kBinsPerDecade);
-  const std::size_t loaded = end_of_loading(in_);
   const double zero_s = in_.time_s[in_.contact];
+  // Loading and the first of what follows stay as they are.
+  const double loaded_s = zero_s + 1.5 * (in_.time_s[end_of_loading(in_.input)] - zero_s);
   for (std::size_t begin = 0; begin < count;) {
     std::size_t end = begin + 1;
-    if (!is_small && begin > loaded) {
+    if (!is_small && in_.time_s[begin] > loaded_s) {
       const double limit_s = zero_s + (in_.time_s[begin] - zero_s) * ratio;
       while (end < count && in_.time_s[end] < limit_s) ++end;
     }
@@ -91,7 +94,7 @@ HistoryModel::HistoryModel(HistoryInput input, const FitOptions& options) : in_(
 std::size_t HistoryModel::first_in_contact(double contact_input) const {
   if (!in_.contact_input) return in_.contact;
   // The last passage of the contact position before the input rises for good.
-  std::size_t i = end_of_loading(in_);
+  std::size_t i = end_of_loading(in_.input);
   while (i > 0 && in_.input[i - 1] > contact_input) --i;
   return i;
 }

@@ -27,6 +27,9 @@ struct HistoryInput {
   bool with_drift = false;
 };
 
+// First sample within two hundredths of the largest input: where loading ends, whatever drifts later.
+std::size_t end_of_loading(const std::vector<double>& input);
+
 class HistoryModel final : public SpectralModel {
  public:
   HistoryModel(HistoryInput input, const FitOptions& options);

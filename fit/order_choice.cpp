@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace viscard {
 namespace {
@@ -78,13 +79,25 @@ std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralS
   return errors;
 }
 
+// A time at the end of its range is not a time: the order asks for more than the record can show.
+bool is_within_range(const SpectralModel& model, const SpectralState& state) {
+  constexpr double kTouch = 1e-6;
+  return state.n_terms() == 0 || (state.ln_tau.minCoeff() > model.ln_tau_min() + kTouch &&
+                                  state.ln_tau.maxCoeff() < model.ln_tau_max() - kTouch);
+}
+
 OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralState>& path,
                          const ChoiceInput& input) {
   OrderScores scores;
   const double n_effective = std::max(2.0, input.n_samples / input.inflation);
   std::vector<std::vector<LeftOut>> errors;
-  std::size_t best_bic = 0;
-  std::size_t best_cv = 0;
+  std::vector<bool> is_eligible;
+  for (const SpectralState& state : path) is_eligible.push_back(is_within_range(model, state));
+  if (std::find(is_eligible.begin(), is_eligible.end(), true) == is_eligible.end()) {
+    is_eligible.assign(path.size(), true);
+  }
+  std::optional<std::size_t> best_bic;
+  std::optional<std::size_t> best_cv;
   const double noise = std::max(input.rss.back(), 1e-300);
   for (std::size_t i = 0; i < path.size(); ++i) {
     OrderRow row;
@@ -101,15 +114,24 @@ OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralS
     for (const LeftOut& block : errors.back()) row.cv += block.squared_error;
     row.cv /= noise;
     scores.rows.push_back(row);
-    if (row.bic < scores.rows[best_bic].bic) best_bic = i;
-    if (row.cv < scores.rows[best_cv].cv) best_cv = i;
+    if (!is_eligible[i]) continue;
+    if (!best_bic || row.bic < scores.rows[*best_bic].bic) best_bic = i;
+    if (!best_cv || row.cv < scores.rows[*best_cv].cv) best_cv = i;
   }
-  std::size_t choice = best_cv;
-  for (std::size_t i = best_cv; i-- > 0;) {
-    if (!is_worse_by_one_error(errors[i], errors[best_cv])) choice = i;
+  std::size_t choice = *best_cv;
+  for (std::size_t i = *best_cv; i-- > 0;) {
+    if (is_eligible[i] && !is_worse_by_one_error(errors[i], errors[*best_cv])) choice = i;
   }
-  scores.chosen = std::min(choice, best_bic);
-  if (!scores.rows.empty()) scores.rows[scores.chosen].is_chosen = true;
+  scores.chosen = std::min(choice, *best_bic);
+  scores.rows[scores.chosen].is_chosen = true;
+  // Orders that were left aside although they describe the data better by far.
+  constexpr double kVeryStrong = 10.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool better = scores.rows[i].bic < scores.rows[scores.chosen].bic - kVeryStrong;
+    if (is_eligible[i] || !better) continue;
+    scores.wants_faster |= path[i].ln_tau.minCoeff() <= model.ln_tau_min() + 1e-6;
+    scores.wants_slower |= path[i].ln_tau.maxCoeff() >= model.ln_tau_max() - 1e-6;
+  }
   return scores;
 }
 

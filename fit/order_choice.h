@@ -7,10 +7,16 @@
 
 namespace viscard {
 
-// Scores of every order of a path and the choice among them   (fit/README.md, sect. 4).
+// Scores of every order of a path and the choice among them   (fit/README.md, sect. 4): the fewest terms
+// whose left-out blocks are predicted as well as by the best order, within one standard error of the
+// paired difference, and never more than BIC asks for. An order with a time at the end of the range is
+// not eligible.
 struct OrderScores {
   std::vector<OrderRow> rows;  // one is marked as chosen
   std::size_t chosen = 0;      // position in the path
+  // Higher orders describe the data much better, but with a time at the end of what the record can show.
+  bool wants_faster = false;
+  bool wants_slower = false;
 };
 
 // n_samples: before averaging; inflation: variance factor for autocorrelation, so that

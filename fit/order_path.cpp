@@ -153,7 +153,13 @@ std::vector<SpectralState> order_path(const SpectralModel& model, const OrderPat
     // Beyond the order the spectrum asked for, only while the fit still gets visibly better.
     if (is_new && (n + 1 < known || above.rss < below.rss * (1.0 - 1e-3))) keep_better(path, above);
   }
-  std::erase_if(path, [](const SpectralState& state) { return !is_filled(state); });
+  // An order that no search could bring below a smaller one has nothing to say.
+  double lowest = std::numeric_limits<double>::infinity();
+  std::erase_if(path, [&](const SpectralState& state) {
+    if (!is_filled(state) || !(state.rss < lowest)) return true;
+    lowest = state.rss;
+    return false;
+  });
   return path;
 }
 

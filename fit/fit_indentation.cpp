@@ -1,0 +1,249 @@
+#include "fit/fit_indentation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "fit/assemble_result.h"
+#include "fit/clean_data.h"
+#include "fit/fit_stage_indentation.h"
+#include "fit/flags.h"
+#include "fit/history_model.h"
+#include "fit/two_point_modulus.h"
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+using Column = std::vector<double>;
+constexpr std::size_t kLeastRows = 6;
+
+struct Contact {
+  bool is_fitted = false;
+  double depth_m = 0.0;       // where contact begins, in the table's own count
+  std::size_t first = 0;      // first sample beyond it
+};
+
+// Where the line through the loading curve between a fifth and four fifths of the force meets zero
+// force. With samples before that the contact is fitted; without, the table's own zero of depth holds
+// (or its first sample, when the record begins under load).
+Contact find_contact(const Column& force_N, const Column& depth_m, std::size_t loaded) {
+  Contact contact;
+  // Force at no load: the lowest tenth of what comes before the end of loading.
+  Column before(force_N.begin(), force_N.begin() + static_cast<std::ptrdiff_t>(loaded) + 1);
+  std::sort(before.begin(), before.end());
+  const double zero_N = before[before.size() / 10];
+  const double peak_N = before.back() - zero_N;
+  double n = 0, sd = 0, sf = 0, sdd = 0, sdf = 0;
+  for (std::size_t i = 0; i <= loaded; ++i) {
+    const double force = force_N[i] - zero_N;
+    if (force < 0.2 * peak_N || force > 0.8 * peak_N) continue;
+    const double d = depth_m[i] - depth_m[loaded];
+    n += 1.0;
+    sd += d;
+    sf += force;
+    sdd += d * d;
+    sdf += d * force;
+  }
+  const double determinant = n * sdd - sd * sd;
+  if (n < 3.0 || !(determinant > 0.0)) return contact;
+  const double slope = (n * sdf - sd * sf) / determinant;
+  if (!(slope > 0.0)) {
+    throw std::runtime_error(
+        "the force falls while the depth grows. If the depth is counted the other way, map it with a "
+        "minus: --column depth_m=-NAME");
+  }
+  contact.depth_m = depth_m[loaded] + (sd * slope - sf) / (n * slope);
+  while (contact.first < loaded && depth_m[contact.first] <= contact.depth_m) ++contact.first;
+  constexpr std::size_t kFewSamples = 5;
+  contact.is_fitted = contact.first >= kFewSamples;
+  if (!contact.is_fitted) contact = {};
+  return contact;
+}
+
+void check_force(const Column& force_N) {
+  const auto [low, high] = std::minmax_element(force_N.begin(), force_N.end());
+  if (*low == *high) {
+    throw std::runtime_error("the force is constant (" + std::to_string(*low) +
+                             " N in all samples): nothing was pressed, or the column is not the force");
+  }
+  const double mean = std::accumulate(force_N.begin(), force_N.end(), 0.0);
+  if (mean < 0.0 && -*low > *high) {
+    throw std::runtime_error(
+        "the force is negative where it is largest: pressing must count positive. Map the column with "
+        "a minus: --column force_N=-NAME");
+  }
+}
+
+// The longest run of samples standing exactly at the highest value: a converter at its end.
+void flag_saturation(const Column& force_N, FitResult& result) {
+  const double top = *std::max_element(force_N.begin(), force_N.end());
+  std::size_t run = 0;
+  std::size_t longest = 0;
+  for (const double force : force_N) {
+    run = force == top ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  constexpr std::size_t kSuspicious = 5;
+  if (longest >= kSuspicious) {
+    add_defect(result, "saturated",
+               std::to_string(longest) + " samples in a row stand exactly at the largest force (" +
+                   std::to_string(top) + " N): the load cell or its converter was at its end");
+  }
+}
+
+void flag_gap(const Column& time_s, std::size_t contact, std::size_t loaded, FitResult& result) {
+  Column steps;
+  for (std::size_t i = contact + 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
+  if (steps.size() < kLeastRows || loaded <= contact) return;
+  Column sorted = steps;
+  std::sort(sorted.begin(), sorted.end());
+  const double usual_s = sorted[sorted.size() / 2];
+  const double ramp_s = time_s[loaded] - time_s[contact];
+  for (std::size_t i = contact + 1; i <= loaded; ++i) {
+    const double step_s = steps[i - contact - 1];
+    if (step_s <= 3.5 * usual_s || step_s < 0.1 * ramp_s) continue;
+    add_defect(result, "gap-in-ramp",
+               "no samples for " + std::to_string(step_s) + " s from t = " +
+                   std::to_string(time_s[i - 1]) + " s on, while the load rose: the depth there is a guess");
+    return;
+  }
+}
+
+HistoryInput history_input(const IndentationData& data, const CleanColumns& clean,
+                           const Contact& contact, double factor) {
+  HistoryInput input;
+  input.time_s = clean.columns[0];
+  input.output = clean.columns[1];
+  input.input = clean.columns[2];
+  input.factor = factor;
+  input.contact = contact.first;
+  if (contact.is_fitted) {
+    const auto [low, high] = std::minmax_element(input.input.begin(), input.input.end());
+    input.contact_input = contact.depth_m;
+    input.contact_half_width = 0.25 * (*high - contact.depth_m);
+    input.with_offset = true;
+  }
+  // Beyond the loss of contact after loading the force no longer follows the depth.
+  const std::size_t loaded = end_of_loading(input.input);
+  const double limit_m = contact.is_fitted ? contact.depth_m : 0.0;
+  std::size_t end = loaded;
+  while (end < input.time_s.size() && input.input[end] > limit_m) ++end;
+  for (Column* column : {&input.time_s, &input.output, &input.input}) column->resize(end);
+  (void)data;
+  return input;
+}
+
+void fill_curves(const HistoryModel& model, const HistoryInput& input, const SpectralState& state,
+                 double sigma, FitResult& result) {
+  const Eigen::VectorXd fitted = model.fitted(state.ln_tau, state.nuisance, state.coefficients);
+  const std::vector<std::size_t> begins = model.row_begins();
+  for (std::size_t r = 0; r + 1 < begins.size(); ++r) {
+    const auto count = static_cast<double>(begins[r + 1] - begins[r]);
+    double measured = 0.0;
+    double model_value = 0.0;
+    for (std::size_t i = begins[r]; i < begins[r + 1]; ++i) {
+      measured += input.output[i] / count;
+      model_value += fitted[static_cast<Index>(i)] / count;
+    }
+    result.curves.time_s.push_back(model.row_time_s()[r]);
+    result.curves.measured.push_back(measured);
+    result.curves.fitted.push_back(model_value);
+    result.curves.sigma.push_back(sigma / std::sqrt(count));
+  }
+  result.curves.unit = "N";
+}
+
+FitResult fit_measured_depth(const IndentationData& data, const FitOptions& options) {
+  CleanColumns clean = clean_columns({data.time_s, data.force_N, data.depth_m}, kLeastRows);
+  check_force(clean.columns[1]);
+  if (data.frame_stiffness_N_m > 0.0) {
+    for (std::size_t i = 0; i < clean.columns[0].size(); ++i) {
+      clean.columns[2][i] -= clean.columns[1][i] / data.frame_stiffness_N_m;
+    }
+  }
+  const std::size_t loaded = end_of_loading(clean.columns[2]);
+  const Contact contact = find_contact(clean.columns[1], clean.columns[2], loaded);
+  const double factor_m = data.contact ? force_per_modulus_and_depth_m(*data.contact) : 1.0;
+  const HistoryInput input = history_input(data, clean, contact, factor_m);
+  if (input.time_s.size() < kLeastRows) {
+    throw std::runtime_error("only " + std::to_string(input.time_s.size()) +
+                             " samples lie between contact and its loss; a fit takes at least " +
+                             std::to_string(kLeastRows));
+  }
+  const HistoryModel model(input, options);
+  const double zero_s = input.time_s[std::min(contact.first, input.time_s.size() - 1)];
+  const SpectralFit fit =
+      fit_spectrum(model, log_time_blocks(model.row_time_s(), zero_s, 2), options);
+  FitResult result;
+  result.is_stiffness = !data.contact;
+  fill_result(
+      model, fit,
+      [&](const SpectralState& state) {
+        PronySeries series{options.is_liquid ? 0.0 : state.coefficients[0], {}};
+        for (Index i = 0; i < state.n_terms(); ++i) {
+          series.terms.push_back(
+              {state.coefficients[model.n_common() + i], std::exp(state.ln_tau[i])});
+        }
+        return series;
+      },
+      result);
+  result.n_left_out = clean.n_left_out;
+  result.fit_from_s = input.time_s.front();
+  result.fit_to_s = input.time_s.back();
+  if (contact.is_fitted) result.contact_position_m = fit.state.nuisance[0];
+  const std::size_t end = std::min(loaded, input.time_s.size() - 1);
+  add_identifiability_flags(model, fit.state, fit.covariance,
+                            {shortest_step_s(input.time_s), input.time_s[end] - zero_s, 0.0,
+                             input.time_s.back() - zero_s},
+                            result);
+  flag_saturation(input.output, result);
+  flag_gap(input.time_s, contact.first, end, result);
+  if (data.contact && end > contact.first) {
+    const auto slice = [&](const Column& column) {
+      return Column(column.begin() + static_cast<std::ptrdiff_t>(contact.first),
+                    column.begin() + static_cast<std::ptrdiff_t>(end) + 1);
+    };
+    Column depth_m = slice(input.input);
+    for (double& depth : depth_m) depth -= result.contact_position_m.value_or(0.0);
+    result.two_point = two_point_modulus(slice(input.time_s), slice(input.output), depth_m,
+                                         *data.contact, result.noise.sigma);
+  }
+  if (options.with_curves) fill_curves(model, input, fit.state, result.noise.sigma, result);
+  return result;
+}
+
+// Relative change of E0 when the frame is as much stiffer as its uncertainty says, and the other known
+// inputs beside it. The depth that the frame leaves is what it is blamed on, so both grow with its share.
+double systematic_share(const IndentationData& data, const FitResult& result) {
+  double square = std::pow(data.force_relative_u, 2);
+  if (data.contact) square += std::pow(relative_uncertainty(*data.contact), 2);
+  if (data.frame_stiffness_N_m > 0.0) {
+    const double factor_m = data.contact ? force_per_modulus_and_depth_m(*data.contact) : 1.0;
+    const double share = factor_m * result.E0_Pa / data.frame_stiffness_N_m;
+    square = std::pow(data.force_relative_u * (1.0 + share), 2) +
+             (square - std::pow(data.force_relative_u, 2)) +
+             std::pow(share * data.frame_stiffness_relative_u, 2);
+  }
+  return std::sqrt(square);
+}
+
+}  // namespace
+
+FitResult fit_indentation(const IndentationData& data, const FitOptions& options) {
+  FitResult result =
+      data.moves.empty() ? fit_measured_depth(data, options) : fit_stage_indentation(data, options);
+  result.kind = FitKind::kIndentation;
+  result.systematic_relative = systematic_share(data, result);
+  if (data.n_saturated > 0) {
+    add_defect(result, "saturated",
+               std::to_string(data.n_saturated) +
+                   " readings stood at the end of the converter's range and were left out");
+  }
+  return result;
+}
+
+}  // namespace viscard
