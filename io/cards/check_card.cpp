@@ -1,0 +1,143 @@
+#include "io/cards/check_card.h"
+
+#include "io/cards/card.h"
+#include "io/cards/card_lines.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+bool has_mistake(const std::vector<CardFinding>& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const CardFinding& finding) { return finding.is_mistake; });
+}
+
+double largest_G_difference(const Material& one, const Material& reference,
+                            const std::vector<double>& times_s) {
+  const PronySeries first = shear_series(one), second = shear_series(reference);
+  double largest = 0.0;
+  for (const double time_s : times_s) {
+    const double expected_Pa = relaxation_modulus_Pa(second, time_s);
+    largest = std::max(largest, std::abs(relaxation_modulus_Pa(first, time_s) / expected_Pa - 1.0));
+  }
+  return largest;
+}
+
+void note_times_outside_window(const Material& reference, CardCheck& check) {
+  if (!(reference.valid.t_max_s > 0.0)) return;
+  for (const MaterialTerm& term : check.read.material.terms) {
+    if (term.tau_s >= reference.valid.t_min_s && term.tau_s <= reference.valid.t_max_s) continue;
+    check.findings.push_back(
+        {"tau-outside-window",
+         fmt::format("tau = {:g} s lies outside the measured window {:g} to {:g} s", term.tau_s,
+                     reference.valid.t_min_s, reference.valid.t_max_s),
+         false});
+  }
+}
+
+void compare(const Material& reference, const CheckOptions& options, CardCheck& check) {
+  const bool is_solid = !check.read.material.terms.empty() || check.read.numbers.branches.empty();
+  const std::vector<double> times_s = comparison_times_s(reference);
+  if (is_solid && check.read.material.E0_Pa > 0.0) {
+    const Material ruled = with_bulk_rule(reference, check.read.understood.bulk);
+    check.G_difference = largest_G_difference(check.read.material, reference, times_s);
+    check.E_difference = largest_E_difference(check.read.material, ruled, times_s);
+    check.E_difference_with_bulk = largest_E_difference(check.read.material, reference, times_s);
+  }
+  const double density = check.read.material.rho_kg_m3;
+  const bool is_density_off = density > 0.0 && reference.rho_kg_m3 > 0.0 &&
+                              std::abs(density / reference.rho_kg_m3 - 1.0) > 1e-2;
+  const bool is_far = !check.E_difference || !(*check.E_difference <= options.tolerance);
+  if (!is_far && !is_density_off) return;
+  const std::vector<CardFinding> causes = explain_difference(check.read, reference);
+  check.findings.insert(check.findings.end(), causes.begin(), causes.end());
+  if (causes.empty() && is_far && !has_mistake(check.findings)) {
+    check.findings.push_back(
+        {"differs", "the card is of another material, or wrong in a way not known here", true});
+  }
+}
+
+// CSV tables of ours: the unit stands in the column name.
+double largest_table_difference(const std::string& text, const Material& reference) {
+  const std::vector<CardLine> lines = card_lines(text, "#");
+  if (lines.empty()) throw std::runtime_error("the table is empty");
+  const std::vector<std::string> names = cells(lines[0].text, ',');
+  if (names.size() < 2 || names[0].rfind("time_", 0) != 0 || names[1].rfind("modulus_", 0) != 0) {
+    throw std::runtime_error("line " + std::to_string(lines[0].number) +
+                             ": expected the columns time_UNIT, modulus_UNIT, ...");
+  }
+  const std::string time = names[0].substr(5), stress = names[1].substr(8);
+  const UnitSystem* units = nullptr;
+  for (const UnitSystem& system : unit_systems()) {
+    if (units == nullptr && time == system.time && stress == system.stress) units = &system;
+  }
+  if (units == nullptr)
+    throw std::runtime_error("no unit system has times in " + time + " and stresses in " + stress);
+  const PronySeries series = young_series(reference);
+  double largest = 0.0;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (trimmed(lines[i].text).empty()) continue;
+    const auto row = cells(lines[i].text, ',');
+    const double time_s = from_card(cell_number(row, 0, lines[i], "time"), units->time_exponent);
+    const double found_Pa =
+        from_card(cell_number(row, 1, lines[i], "modulus"), units->stress_exponent);
+    largest = std::max(largest, std::abs(found_Pa / relaxation_modulus_Pa(series, time_s) - 1.0));
+  }
+  return largest;
+}
+
+CardCheck check_table(const std::string& text, const CheckOptions& options,
+                      const Material* reference) {
+  CardCheck check;
+  check.read.understood = card_target(options.target);
+  check.read.units = unit_system("SI");
+  check.read.units_were_stated = true;
+  if (reference == nullptr) {
+    throw std::invalid_argument(
+        "a CSV card holds E(t), not a material; name a material file to compare it with");
+  }
+  check.E_difference = largest_table_difference(text, *reference);
+  check.E_difference_with_bulk = check.E_difference;
+  check.agrees = *check.E_difference <= options.tolerance;
+  if (!check.agrees) {
+    check.findings.push_back({"differs", "the table is of another material", true});
+  }
+  return check;
+}
+
+}  // namespace
+
+CardCheck check_card(const std::string& text, const CheckOptions& options,
+                     const Material* reference) {
+  if (options.target == "csv") return check_table(text, options, reference);
+  CardCheck check;
+  check.read = read_card(text, options.target, options.units);
+  check.findings = check.read.findings;
+  if (!check.read.units_were_stated && options.units.empty()) {
+    check.findings.push_back(
+        {"units-not-stated",
+         "the card does not say its units; it is read as SI (--units names others)", false});
+  }
+  if (reference != nullptr) {
+    compare(*reference, options, check);
+    note_times_outside_window(*reference, check);
+  }
+  // Where a cause is known, that nothing solid is left is only its consequence.
+  const bool has_cause = std::any_of(
+      check.findings.begin(), check.findings.end(),
+      [](const CardFinding& finding) { return finding.is_mistake && finding.name != "no-solid"; });
+  if (has_cause) {
+    std::erase_if(check.findings, [](const CardFinding& f) { return f.name == "no-solid"; });
+  }
+  check.agrees = !has_mistake(check.findings) &&
+                 (!check.E_difference || *check.E_difference <= options.tolerance);
+  return check;
+}
+
+}  // namespace viscard

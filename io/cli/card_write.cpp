@@ -1,0 +1,189 @@
+#include "fit/reduce_terms.h"
+#include "io/atomic_file.h"
+#include "io/cards/card.h"
+#include "io/cli/card_words.h"
+#include "io/material_file.h"
+#include "io/sha256.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <ostream>
+
+namespace viscard {
+namespace {
+
+std::string now_iso8601() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+// All branch moduli and the equilibrium modulus at the same end of their intervals.
+void take_bound(const CardWords& words, PreparedMaterial& prepared) {
+  Material& material = prepared.material;
+  const bool is_lower = words.bound == "lower";
+  if (!material.uncertainty || material.uncertainty->terms.size() != material.terms.size()) {
+    throw std::runtime_error(words.material +
+                             " states no intervals, so it has no bounds; fit it from data first");
+  }
+  const MaterialUncertainty& found = *material.uncertainty;
+  const auto end = [&](const Interval& interval) {
+    return is_lower ? interval.low : interval.high;
+  };
+  const double scale = 1.0 + (is_lower ? -1.0 : 1.0) * found.systematic_relative;
+  const double E_inf_Pa = end(found.E_inf_Pa_95) * scale;
+  double E0_Pa = E_inf_Pa;
+  std::vector<double> moduli_Pa;
+  for (const TermUncertainty& term : found.terms) {
+    moduli_Pa.push_back(std::max(0.0, end(term.modulus_Pa_95)) * scale);
+    E0_Pa += moduli_Pa.back();
+  }
+  if (!(E_inf_Pa > 0.0))
+    throw std::runtime_error("the " + words.bound + " bound of E_inf is not positive");
+  material.E0_Pa = E0_Pa;
+  for (std::size_t i = 0; i < moduli_Pa.size(); ++i) {
+    MaterialTerm& term = material.terms[i];
+    const double k_of_g = term.g > 0.0 ? term.k / term.g : 1.0;
+    term.g = moduli_Pa[i] / E0_Pa;
+    term.k = k_of_g * term.g;
+  }
+  prepared.notes.push_back("bound: " + words.bound +
+                           " ends of the 95 % intervals of E_inf and every branch modulus" +
+                           (found.systematic_relative > 0.0 ? ", systematic part included" : ""));
+  material.uncertainty.reset();
+}
+
+void leave_relaxation_out(const CardWords& words, PreparedMaterial& prepared) {
+  Material& material = prepared.material;
+  const DerivedModuli moduli = derived_moduli(material);
+  if (words.elastic_only == "long-term") {
+    material.E0_Pa = moduli.E_inf_Pa;
+    material.nu = moduli.nu_inf;
+  }
+  prepared.terms_change = fmt::format("{} relaxation terms left out, the {} modulus kept",
+                                      material.terms.size(), words.elastic_only);
+  prepared.are_terms_dropped = true;
+  material.terms.clear();
+  material.uncertainty.reset();
+  material.flags.clear();
+}
+
+void reduce_to_target(const CardWords& words, PreparedMaterial& prepared) {
+  const int limit = card_target(words.target).max_terms;
+  const int given = static_cast<int>(prepared.material.terms.size());
+  int wanted = words.terms.value_or(given);
+  if (limit > 0) wanted = std::min(wanted, limit);
+  if (!words.may_approximate || wanted >= given) return;
+  const ReducedMaterial reduced = reduce_material(prepared.material, wanted);
+  prepared.terms_change =
+      fmt::format("{} refitted to {}, E(t) within {:.2e} from {:g} s to {:g} s", given, wanted,
+                  reduced.largest_error, reduced.t_min_s, reduced.t_max_s);
+  prepared.material = reduced.material;
+  prepared.material.valid.t_min_s = reduced.t_min_s;
+  prepared.material.valid.t_max_s = reduced.t_max_s;
+}
+
+nlohmann::ordered_json json_of(const Card& card, const CardWords& words, bool with_text) {
+  nlohmann::ordered_json json;
+  json["target"] = words.target;
+  json["units"] = words.units.empty() ? "SI" : words.units;
+  json["out"] = words.out;
+  json["n_terms"] = card.written.terms.size();
+  json["E0_Pa"] = card.written.E0_Pa;
+  json["E_inf_Pa"] = derived_moduli(card.written).E_inf_Pa;
+  json["largest_difference"] = card.largest_difference;
+  json["fidelity"] = nlohmann::ordered_json::array();
+  for (const FidelityItem& item : card.fidelity) {
+    json["fidelity"].push_back(
+        {{"item", item.item}, {"mapping", to_word(item.mapping)}, {"text", item.text}});
+  }
+  if (with_text) json["card"] = card.text;
+  return json;
+}
+
+void report_losses(const Card& card, Streams& streams) {
+  for (const FidelityItem& item : card.fidelity) {
+    if (item.mapping == Mapping::kExact) continue;
+    streams.err << "viscard: " << item.item << " " << to_word(item.mapping) << ": " << item.text
+                << "\n";
+  }
+}
+
+std::string companion_path(const std::string& out, const std::string& suffix) {
+  return std::filesystem::path(out).replace_extension().string() + suffix;
+}
+
+}  // namespace
+
+PreparedMaterial prepare_card_material(const CardWords& words) {
+  PreparedMaterial prepared;
+  prepared.material = read_material(words.material).material;
+  prepared.sha256 = sha256_of_file(words.material);
+  if (prepared.material.name.empty()) {
+    prepared.material.name = std::filesystem::path(words.material).stem().string();
+  }
+  if (!words.bound.empty()) take_bound(words, prepared);
+  if (!words.elastic_only.empty()) leave_relaxation_out(words, prepared);
+  reduce_to_target(words, prepared);
+  return prepared;
+}
+
+CardOptions card_options(const CardWords& words, const PreparedMaterial& prepared) {
+  CardOptions options;
+  options.target = words.target;
+  options.units = words.units.empty() ? "SI" : words.units;
+  options.is_reproducible = words.is_reproducible;
+  options.may_approximate = words.may_approximate;
+  options.accepts_flags = words.accepts_flags;
+  options.clamped_nu = words.clamped_nu;
+  options.created_at = now_iso8601();
+  options.command = words.command_line;
+  options.material_sha256 = prepared.sha256;
+  options.notes = prepared.notes;
+  if (prepared.terms_change) {
+    options.done_before.push_back(
+        {"terms", prepared.are_terms_dropped ? Mapping::kDropped : Mapping::kApproximated,
+         *prepared.terms_change});
+  }
+  return options;
+}
+
+int write_card_file(const CardWords& words, Streams& streams) {
+  const PreparedMaterial prepared = prepare_card_material(words);
+  const Card card = write_card(prepared.material, card_options(words, prepared));
+  if (!words.out.empty()) {
+    // The companions first: they are refused before the card itself appears.
+    for (const CompanionFile& companion : card.companions) {
+      const std::string path = companion_path(words.out, companion.suffix);
+      if (!words.force && std::filesystem::exists(words.out)) break;
+      write_file(path, companion.text, words.force);
+    }
+    write_file(words.out, card.text, words.force);
+  }
+  if (words.json) {
+    streams.out << json_of(card, words, words.out.empty()).dump(2) << "\n";
+    return kDone;
+  }
+  if (words.out.empty()) {
+    streams.out << card.text;
+  } else {
+    streams.out << "wrote " << words.out;
+    for (const CompanionFile& companion : card.companions) {
+      streams.out << " and " << companion_path(words.out, companion.suffix);
+    }
+    streams.out << fmt::format(" ({} terms, read back; E(t) within {:.1e} of the material)\n",
+                               card.written.terms.size(), card.largest_difference);
+  }
+  report_losses(card, streams);
+  return kDone;
+}
+
+}  // namespace viscard
