@@ -3,10 +3,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -89,12 +88,22 @@ void write_file(const std::filesystem::path& path, const std::string& contents, 
 std::string read_file(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail(path, "cannot read", EISDIR);
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail(path, "cannot open", errno);
-  std::ostringstream contents;
-  contents << file.rdbuf();
-  if (file.bad()) fail(path, "cannot read", errno);
-  return contents.str();
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
+  if (file.get() < 0) fail(path, "cannot open", errno);
+  std::string contents;
+  std::size_t size = 0;
+  const auto expected = std::filesystem::file_size(path, ignored);        // unknown for a pipe
+  contents.resize(ignored ? 0 : static_cast<std::size_t>(expected) + 1);  // one to see the end
+  while (true) {
+    if (size == contents.size()) contents.resize(size + std::max<std::size_t>(size, 1 << 16));
+    const ssize_t count = ::read(file.get(), contents.data() + size, contents.size() - size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail(path, "cannot read", errno);
+    if (count == 0) break;
+    size += static_cast<std::size_t>(count);
+  }
+  contents.resize(size);
+  return contents;
 }
 
 }  // namespace viscard
