@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -52,6 +54,12 @@ std::string from_utf16(std::string_view bytes, bool is_big_endian) {
 
 bool is_utf8(std::string_view bytes) {
   for (std::size_t i = 0; i < bytes.size();) {
+    std::uint64_t eight = 0x80;
+    if (i + 8 <= bytes.size()) std::memcpy(&eight, bytes.data() + i, 8);
+    if ((eight & 0x8080808080808080u) == 0) {
+      i += 8;
+      continue;
+    }
     const unsigned char first = byte_at(bytes, i);
     if (first < 0x80) {
       ++i;
@@ -150,12 +158,28 @@ std::string utf8_from_bytes(std::string_view bytes, const std::string& name) {
   return text;
 }
 
+// The next "\n" is looked for once and not once a line: in a file of "\r" it is far away.
+std::string_view LineReader::take_line() {
+  const char* begin = rest_.data();
+  if (newline_ < begin) {
+    const std::size_t at = rest_.find('\n');
+    newline_ = begin + std::min(at, rest_.size());
+  }
+  std::string_view line(begin, static_cast<std::size_t>(newline_ - begin));
+  const std::size_t carriage_return = line.find('\r');
+  std::size_t end_size = line.size() < rest_.size() ? 1 : 0;
+  if (carriage_return != std::string_view::npos) {
+    const bool is_crlf = carriage_return + 1 == line.size() && end_size == 1;
+    line = line.substr(0, carriage_return);
+    end_size = is_crlf ? 2 : 1;
+  }
+  rest_.remove_prefix(line.size() + end_size);
+  return line;
+}
+
 bool LineReader::next(TextLine& line) {
   while (!rest_.empty()) {
-    const std::size_t end = rest_.find_first_of("\r\n");
-    const std::string_view text = trimmed_cell(rest_.substr(0, end));
-    const bool is_crlf = end != std::string_view::npos && rest_.substr(end, 2) == "\r\n";
-    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + (is_crlf ? 2 : 1));
+    const std::string_view text = trimmed_cell(take_line());
     ++number_;
     if (text.empty()) continue;
     if (is_comment(text)) {

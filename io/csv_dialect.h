@@ -28,7 +28,9 @@ class LineReader {
   std::string_view last_comment() const { return last_comment_; }
 
  private:
+  std::string_view take_line();
   std::string_view rest_;
+  const char* newline_ = nullptr;  // the next one, or the end
   std::size_t number_ = 0;
   std::string_view last_comment_;
 };
