@@ -7,7 +7,7 @@ namespace viscard {
 namespace {
 
 constexpr double kWrap = 4294967296.0;  // of millis() and micros()
-constexpr double kWindow_s = 30.0;      // short enough that .1 % between the clocks stays below 30 ms
+constexpr double kWindow_s = 30.0;  // short enough that .1 % between the clocks stays below 30 ms
 
 }  // namespace
 

@@ -7,8 +7,8 @@
 
 namespace viscard {
 
-// Makes a time that only grows out of a processor's 32-bit millis() or micros(), tells duplicates and
-// restarts from wrapping, and relates it to the host's clock.
+// Makes a time that only grows out of a processor's 32-bit millis() or micros(), tells duplicates
+// and restarts from wrapping, and relates it to the host's clock.
 class DeviceClock {
  public:
   enum class Verdict {

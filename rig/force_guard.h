@@ -1,16 +1,17 @@
 #pragma once
 
-#include <optional>
-
 #include "models/rig_config.h"
+
+#include <optional>
 
 namespace viscard {
 
 enum class GuardAction { kNone, kWarn, kSoftStop, kHardStop };
 
-// The ladder that keeps a load cell whole, apart from any device: warn, decelerating stop, immediate
-// stop. One reading above the hard limit is enough, unless it carries a code that an interrupted or
-// saturated conversion makes: then the next reading decides, and if none comes in time it was true.
+// The ladder that keeps a load cell whole, apart from any device: warn, decelerating stop,
+// immediate stop. One reading above the hard limit is enough, unless it carries a code that an
+// interrupted or saturated conversion makes: then the next reading decides, and if none comes in
+// time it was true.
 class ForceGuard {
  public:
   ForceGuard(const SafetyConfig& safety, double capacity_N);
@@ -27,9 +28,9 @@ class ForceGuard {
 
  private:
   double warn_N_, soft_N_, hard_N_;
-  double rise_N_;                        // what counts as still rising
+  double rise_N_;  // what counts as still rising
   bool has_warned_ = false;
-  std::optional<double> stop_force_N_;   // at the decelerating stop
+  std::optional<double> stop_force_N_;  // at the decelerating stop
   int n_since_stop_ = 0;
   std::optional<double> doubtful_until_s_;
 };

@@ -1,15 +1,16 @@
 // The conversations of GrblStage that wait for answers: opening, settings, recovery.
-#include <cmath>
-
 #include "rig/grbl_stage.h"
 #include "rig/text_number.h"
+
+#include <cmath>
 
 namespace viscard {
 namespace {
 
-constexpr double kBoot_wall_s = 3.0;    // bootloader of an AVR board and the firmware's start
+constexpr double kBoot_wall_s = 3.0;     // bootloader of an AVR board and the firmware's start
 constexpr double kSettle_wall_s = 0.05;  // messages that follow a welcome
-constexpr int kResets = 3;
+constexpr double kReset_wall_s = 1.5;    // from a soft reset to the welcome
+constexpr int kResets = 2;
 
 }  // namespace
 
@@ -27,22 +28,22 @@ void GrblStage::command(const std::string& line, const Pump& pump, double timeou
   awaited_error_.reset();
   send_line(line, true);
   if (!wait_for([&] { return pending_.empty(); }, pump, timeout_wall_s)) {
-    throw RigError("the stage on '" + transport_.name() + "' did not answer '" + line + "' within " +
-                   text_from_number(timeout_wall_s, 0) + " s. Switch it off and on");
+    throw RigError("the stage on '" + transport_.name() + "' did not answer '" + line +
+                   "' within " + text_from_number(timeout_wall_s, 0) + " s. Switch it off and on");
   }
   if (awaited_error_) {
     throw RigError("the stage refused '" + line + "': " + grbl_error_text(*awaited_error_));
   }
 }
 
-// Many boards reset when their port is opened and say so within seconds; those that do not are asked to
-// by a soft reset, which at rest keeps the position.
+// Many boards reset when their port is opened and say so within seconds; those that do not are
+// asked to by a soft reset, which at rest keeps the position.
 void GrblStage::await_welcome(const Pump& pump) {
   const auto is_there = [&] { return !awaits_welcome_; };
   bool is_welcome = wait_for(is_there, pump, kBoot_wall_s);
   for (int i = 0; i < kResets && !is_welcome; ++i) {
     send_realtime(grbl::kSoftReset);
-    is_welcome = wait_for(is_there, pump, 2.0);
+    is_welcome = wait_for(is_there, pump, kReset_wall_s);
   }
   if (is_welcome) return;
   const bool is_noise = splitter_.n_bytes() > 20 && splitter_.unprintable_fraction() > 0.2;
@@ -69,10 +70,11 @@ void GrblStage::read_settings(const Pump& pump) {
   const StageDynamics found = dynamics();
   if (!(found.steps_per_m > 0.0) || !(found.acceleration_m_s2 > 0.0) ||
       !(found.max_speed_m_s > 0.0)) {
-    throw RigError(std::string("the stage did not report steps/mm, acceleration and largest rate ") +
-                   "of axis " + config_.axis + " ($" + std::to_string(100 + axis_) + ", $" +
-                   std::to_string(120 + axis_) + ", $" + std::to_string(110 + axis_) +
-                   "). Check the axis in the rig file");
+    throw RigError(
+        std::string("the stage did not report steps/mm, acceleration and largest rate ") +
+        "of axis " + config_.axis + " ($" + std::to_string(100 + axis_) + ", $" +
+        std::to_string(120 + axis_) + ", $" + std::to_string(110 + axis_) +
+        "). Check the axis in the rig file");
   }
 }
 
@@ -115,12 +117,12 @@ void GrblStage::recover(const Pump& pump) {
   first_unanswered_s_.reset();
   n_missed_ = 0;
   const auto is_there = [&] { return !awaits_welcome_; };
-  bool is_welcome = has_reset && wait_for(is_there, pump, 2.0);
+  bool is_welcome = has_reset && wait_for(is_there, pump, kReset_wall_s);
   for (int i = 0; i < kResets && !is_welcome; ++i) {
     awaits_welcome_ = true;
     pending_.clear();
     send_realtime(grbl::kSoftReset);
-    is_welcome = wait_for(is_there, pump, 2.0);
+    is_welcome = wait_for(is_there, pump, kReset_wall_s);
   }
   if (!is_welcome) {
     throw RigError("the stage on '" + transport_.name() +

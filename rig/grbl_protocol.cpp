@@ -1,11 +1,11 @@
 #include "rig/grbl_protocol.h"
 
+#include "rig/text_number.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <utility>
-
-#include "rig/text_number.h"
 
 namespace viscard {
 namespace {
@@ -38,7 +38,8 @@ std::optional<int> code_after(std::string_view line, std::string_view lower_pref
 // The inside of "[KEY:inside]".
 std::optional<std::string_view> bracketed(std::string_view line, std::string_view key) {
   line = trimmed(line);
-  if (line.size() < key.size() + 3 || line.front() != '[' || line.back() != ']') return std::nullopt;
+  if (line.size() < key.size() + 3 || line.front() != '[' || line.back() != ']')
+    return std::nullopt;
   if (line.substr(1, key.size()) != key || line[key.size() + 1] != ':') return std::nullopt;
   return line.substr(key.size() + 2, line.size() - key.size() - 3);
 }
@@ -64,6 +65,7 @@ void read_field(std::string_view key, std::string_view value, GrblStatus& status
 std::optional<GrblStatus> parse_grbl_status(std::string_view line) {
   line = trimmed(line);
   if (line.size() < 3 || line.front() != '<' || line.back() != '>') return std::nullopt;
+  if (line.find('<', 1) != std::string_view::npos) return std::nullopt;  // two run into each other
   const std::vector<std::string_view> fields = split(line.substr(1, line.size() - 2), '|');
   GrblStatus status;
   const std::vector<std::string_view> state = split(fields[0], ':');
@@ -82,16 +84,22 @@ std::optional<GrblStatus> parse_grbl_status(std::string_view line) {
     if (colon == std::string_view::npos) continue;
     read_field(fields[i].substr(0, colon), fields[i].substr(colon + 1), status);
   }
-  // Two reports run into each other, or one cut short, are no report.
+  // One cut short is no report.
   if (status.machine_mm.empty() && status.work_mm.empty()) return std::nullopt;
   return status;
 }
 
-bool is_grbl_ok(std::string_view line) { return trimmed(line) == "ok"; }
+bool is_grbl_ok(std::string_view line) {
+  return trimmed(line) == "ok";
+}
 
-std::optional<int> parse_grbl_error(std::string_view line) { return code_after(line, "error:"); }
+std::optional<int> parse_grbl_error(std::string_view line) {
+  return code_after(line, "error:");
+}
 
-std::optional<int> parse_grbl_alarm(std::string_view line) { return code_after(line, "alarm:"); }
+std::optional<int> parse_grbl_alarm(std::string_view line) {
+  return code_after(line, "alarm:");
+}
 
 std::optional<GrblWelcome> parse_grbl_welcome(std::string_view line) {
   line = trimmed(line);

@@ -8,7 +8,8 @@
 namespace viscard {
 
 // The words of GRBL 1.1 and grblHAL, apart from any port.
-// Source: gnea/grbl doc/markdown/{interface,commands,jogging,settings}.md and grbl/{gcode,report}.c.
+// Source: gnea/grbl doc/markdown/{interface,commands,jogging,settings}.md and
+// grbl/{gcode,report}.c.
 
 // Realtime commands: single bytes, at any time, never counted as a line, never answered by "ok".
 namespace grbl {
@@ -19,8 +20,8 @@ inline constexpr char kSoftReset = '\x18';
 inline constexpr char kJogCancel = static_cast<char>(0x85);
 }  // namespace grbl
 
-// <State:sub|MPos:x,y,z|...>. Fields come in any order, unknown ones are ignored. Lengths are in mm, or
-// in inches where setting $13 = 1 says so: the caller knows.
+// <State:sub|MPos:x,y,z|...>. Fields come in any order, unknown ones are ignored. Lengths are in
+// mm, or in inches where setting $13 = 1 says so: the caller knows.
 struct GrblStatus {
   std::string state;                   // Idle Run Hold Jog Home Alarm Door Check Sleep Tool
   int substate = -1;                   // of Hold and Door; -1: none given
@@ -66,8 +67,8 @@ std::optional<std::string> parse_grbl_message(std::string_view line);
 // settings, reports, blank lines, ">line:ok" of start-up blocks.
 bool is_grbl_push(std::string_view line);
 
-// "$J=G53G90G21Z-1.23456F30.000": a jog to a place in machine coordinates, so that neither rounding nor
-// a line received twice adds up. Numbers do not depend on the locale.
+// "$J=G53G90G21Z-1.23456F30.000": a jog to a place in machine coordinates, so that neither rounding
+// nor a line received twice adds up. Numbers do not depend on the locale.
 std::string format_grbl_jog(char axis, double target_mm, double feed_mm_min);
 
 // What a code means, and what to do about it.

@@ -1,17 +1,17 @@
 #include "rig/grbl_stage.h"
 
+#include "rig/text_number.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "rig/text_number.h"
 
 namespace viscard {
 namespace {
 
 constexpr double kStatusTimeout_wall_s = 0.25;
-constexpr int kMostMisses = 20;           // times 250 ms without any report: it is not there
-constexpr double kPollMoving_s = 0.1;     // rig time; the firmware asks for at most 5 to 10 Hz
+constexpr int kMostMisses = 20;        // times 250 ms without any report: it is not there
+constexpr double kPollMoving_s = 0.1;  // rig time; the firmware asks for at most 5 to 10 Hz
 constexpr double kPollResting_s = 0.2;
 constexpr int kMostRestsElsewhere = 3;
 
@@ -51,9 +51,13 @@ StageDynamics GrblStage::dynamics() const {
 }
 
 // Reports carry three decimals of a mm, and the motor stands within half a step of its count.
-double GrblStage::resolution_m() const { return 0.5e-6 + 1.0 / dynamics().steps_per_m; }
+double GrblStage::resolution_m() const {
+  return 0.5e-6 + 1.0 / dynamics().steps_per_m;
+}
 
-double GrblStage::position_m() const { return exact_m_ && !active_ ? *exact_m_ : reported_m_; }
+double GrblStage::position_m() const {
+  return exact_m_ && !active_ ? *exact_m_ : reported_m_;
+}
 
 void GrblStage::send_line(const std::string& line, bool is_awaited) {
   pending_.push_back({line, is_awaited});
@@ -208,8 +212,8 @@ void GrblStage::begin_move(double to_m, double speed_m_s, const std::string& pur
   }
   expected_end_s_ = clock_.now_s();
   if (std::abs(to_m - from_m) < 0.5 / limits.steps_per_m) return;
-  const double feed_mm_min = std::max(
-      std::round(std::min(speed_m_s, limits.max_speed_m_s) * 60e6) * 1e-3, 0.001);
+  const double feed_mm_min =
+      std::max(std::round(std::min(speed_m_s, limits.max_speed_m_s) * 60e6) * 1e-3, 0.001);
   const double written_s = clock_.now_s();
   const StageMove move{written_s, from_m, to_m, feed_mm_min / 60e3, limits.acceleration_m_s2};
   validate(move);

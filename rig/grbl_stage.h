@@ -1,12 +1,5 @@
 #pragma once
 
-#include <deque>
-#include <functional>
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "models/rig_config.h"
 #include "rig/grbl_protocol.h"
 #include "rig/line_splitter.h"
@@ -14,12 +7,21 @@
 #include "rig/rig_clock.h"
 #include "rig/stage.h"
 
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace viscard {
 
-// A stage behind GRBL 1.1 or grblHAL. What it relies on, and no more (rig/README.md gives the sources):
+// A stage behind GRBL 1.1 or grblHAL. What it relies on, and no more (rig/README.md gives the
+// sources):
 // - a welcome after opening or a soft reset; everything before it is dropped;
 // - one "ok" or "error:N" per line, in order; all else is news and answers nothing;
-// - "ok" to a jog means queued: it has ended when a report that was asked for after the ok says Idle,
+// - "ok" to a jog means queued: it has ended when a report that was asked for after the ok says
+// Idle,
 //   at the target;
 // - reports may be lost or late: one '?' outstanding, 250 ms, then another;
 // - after an alarm it may say nothing at all until 0x18.
@@ -92,15 +94,15 @@ class GrblStage final : public Stage {
   int axis_;
   double toward_;
 
-  bool is_connected_ = false;      // past the welcome: lines count
+  bool is_connected_ = false;  // past the welcome: lines count
   bool awaits_welcome_ = true;
-  bool is_recovering_ = false;     // alarms are expected
+  bool is_recovering_ = false;  // alarms are expected
   std::string version_;
   std::map<int, double> settings_;
   std::deque<Pending> pending_;
   std::optional<int> awaited_error_;
 
-  std::string state_;              // as last reported
+  std::string state_;  // as last reported
   double reported_m_ = 0.0;
   std::optional<double> exact_m_;  // end of the last move, to the step
   std::optional<double> start_m_;  // where it stood at connect(): travel counts from here
@@ -108,7 +110,7 @@ class GrblStage final : public Stage {
   std::size_t n_reports_ = 0;
 
   bool polls_ = false;
-  std::optional<double> asked_s_;           // of the '?' not yet answered
+  std::optional<double> asked_s_;  // of the '?' not yet answered
   std::optional<double> first_unanswered_s_;
   int n_missed_ = 0;
   double next_poll_s_ = 0.0;

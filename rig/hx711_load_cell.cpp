@@ -1,19 +1,19 @@
 #include "rig/hx711_load_cell.h"
 
+#include "rig/rig_error.h"
+#include "rig/text_number.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <utility>
-
-#include "rig/rig_error.h"
-#include "rig/text_number.h"
 
 namespace viscard {
 namespace {
 
 constexpr double kFirstReading_wall_s = 15.0;  // banner and tare chatter last up to 10 s
 constexpr std::size_t kLinesToLearn = 6;
-constexpr double kLateness_wall_s = 0.3;       // of a line, by stalls of either side
+constexpr double kLateness_wall_s = 0.3;  // of a line, by stalls of either side
 constexpr double kGapInPeriods = 1.5;
 
 Hx711Format declared_format(const LoadCellConfig& config) {
@@ -120,6 +120,9 @@ void Hx711LoadCell::learn(const ReceivedLine& line) {
   if (has_clock()) {
     device_clock_.emplace(format_ == Hx711Format::kMicrosCounts ? 1e-6 : 1e-3,
                           clock_.from_wall_s(kLateness_wall_s));
+    // The last of them, so that a restart right after is noticed.
+    const auto last = parse_hx711_line(line.text, true);
+    if (last) device_clock_->take(*last->ticks, line.time_s, period_s_);
   }
   last_arrival_s_ = line.time_s;
   is_connected_ = true;
@@ -128,12 +131,12 @@ void Hx711LoadCell::learn(const ReceivedLine& line) {
 // A sentence in the middle of a run is a banner if the readings had paused, and garbage otherwise.
 void Hx711LoadCell::take_text(const ReceivedLine& line) {
   ++counts_.unreadable;
-  const auto n_letters = std::count_if(line.text.begin(), line.text.end(), [](unsigned char c) {
-    return std::isalpha(c) != 0;
-  });
+  const auto n_letters = std::count_if(line.text.begin(), line.text.end(),
+                                       [](unsigned char c) { return std::isalpha(c) != 0; });
   if (n_letters >= 4 && line.time_s - last_arrival_s_ > clock_.from_wall_s(0.3) + 10 * period_s_) {
     throw DeviceRestarted("the load cell's amplifier restarted in the middle of the run ('" +
-                          line.text.substr(0, 40) + "'); its tare is gone. Check its supply, then "
+                          line.text.substr(0, 40) +
+                          "'); its tare is gone. Check its supply, then "
                           "start the run again");
   }
   sink_(RunEvent{line.time_s, "load_cell_unreadable", line.text.substr(0, 80),
@@ -175,7 +178,8 @@ bool Hx711LoadCell::take_clock(double ticks, double time_s) {
   const double step_s = device_clock_->step_s();
   if (counts_.received > 0) note_gap(step_s, time_s);
   // The converter's own oscillator is several percent off: its period is followed.
-  if (step_s > 0.7 * period_s_ && step_s < 1.3 * period_s_) period_s_ += 0.02 * (step_s - period_s_);
+  if (step_s > 0.7 * period_s_ && step_s < 1.3 * period_s_)
+    period_s_ += 0.02 * (step_s - period_s_);
   return true;
 }
 

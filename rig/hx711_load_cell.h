@@ -1,15 +1,15 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "models/rig_config.h"
 #include "rig/device_clock.h"
 #include "rig/hx711_protocol.h"
 #include "rig/line_splitter.h"
 #include "rig/load_cell.h"
 #include "rig/rig_clock.h"
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace viscard {
 

@@ -1,11 +1,11 @@
 #include "rig/hx711_protocol.h"
 
+#include "rig/text_number.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
-
-#include "rig/text_number.h"
 
 namespace viscard {
 namespace {
@@ -21,7 +21,8 @@ bool is_no_number_word(std::string_view text) {
   const std::string word = lower(trimmed(text));
   static constexpr std::array<const char*, 8> kWords{"nan", "-nan", "inf",  "-inf",
                                                      "ovf", "-ovf", "+inf", "overflow"};
-  return std::any_of(kWords.begin(), kWords.end(), [&](const char* known) { return word == known; });
+  return std::any_of(kWords.begin(), kWords.end(),
+                     [&](const char* known) { return word == known; });
 }
 
 bool is_unit(std::string_view text) {

@@ -6,8 +6,9 @@
 
 namespace viscard {
 
-// Text lines of an HX711 amplifier behind a small processor, apart from any port. Sources: HX711 data
-// sheet (Avia Semiconductor); bogde/HX711 examples and issues 83, 216, 242; OpenScale guide (SparkFun).
+// Text lines of an HX711 amplifier behind a small processor, apart from any port. Sources: HX711
+// data sheet (Avia Semiconductor); bogde/HX711 examples and issues 83, 216, 242; OpenScale guide
+// (SparkFun).
 
 // 24-bit two's complement: the ends of the range mean "saturated".
 inline constexpr double kHx711Highest = 8388607.0;
@@ -26,15 +27,16 @@ struct Hx711Line {
 };
 
 // A line with a reading; nothing for banners, prompts and garbage. Accepts a plain number, "name:
-// number", "name: number | average: number" (the first counts), "time,number", "time,number,unit,..."
-// and a decimal comma where the format has no comma of its own (has_clock false).
+// number", "name: number | average: number" (the first counts), "time,number",
+// "time,number,unit,..." and a decimal comma where the format has no comma of its own (has_clock
+// false).
 std::optional<Hx711Line> parse_hx711_line(std::string_view line, bool has_clock);
 
 // True for "HX711 not found." and the like.
 bool is_hx711_fault(std::string_view line);
 
-// Codes that a conversion read too slowly makes: the low bits read 1, so 2^n - 1 or -1. Such a number can
-// also be a true reading, so it only counts when it jumps from the reading before.
+// Codes that a conversion read too slowly makes: the low bits read 1, so 2^n - 1 or -1. Such a
+// number can also be a true reading, so it only counts when it jumps from the reading before.
 bool is_hx711_glitch(double counts, std::optional<double> previous_counts);
 
 inline bool is_hx711_saturated(double counts) {

@@ -54,8 +54,7 @@ void LineSplitter::clear() {
 }
 
 double LineSplitter::unprintable_fraction() const {
-  return n_bytes_ == 0 ? 0.0
-                       : static_cast<double>(n_unprintable_) / static_cast<double>(n_bytes_);
+  return n_bytes_ == 0 ? 0.0 : static_cast<double>(n_unprintable_) / static_cast<double>(n_bytes_);
 }
 
 }  // namespace viscard

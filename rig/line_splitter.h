@@ -13,9 +13,10 @@ struct ReceivedLine {
   double time_s = 0.0;  // rig time at which its last byte can have arrived at the latest
 };
 
-// Cuts a byte stream into lines ended by CR, LF, CRLF or LFCR, however reads split it. A line longer
-// than max_length is dropped up to its terminator and counted, so that a stream without any cannot fill
-// the memory. Empty lines are kept (GRBL answers them); the second character of a pair makes none.
+// Cuts a byte stream into lines ended by CR, LF, CRLF or LFCR, however reads split it. A line
+// longer than max_length is dropped up to its terminator and counted, so that a stream without any
+// cannot fill the memory. Empty lines are kept (GRBL answers them); the second character of a pair
+// makes none.
 class LineSplitter {
  public:
   explicit LineSplitter(std::size_t max_length = 256) : max_length_(max_length) {}

@@ -1,20 +1,20 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <optional>
-
 #include "models/run_record.h"
 #include "rig/record_sink.h"
 #include "rig/transport.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
 
 namespace viscard {
 
 // What has become of a stream of readings. Times are rig time or the device's own.
 struct StreamCounts {
   std::int64_t received = 0;
-  std::int64_t missing = 0;     // by gaps of the device's clock (or of the host's, if it has none)
-  std::int64_t duplicate = 0;   // the same device time twice: not handed out
+  std::int64_t missing = 0;    // by gaps of the device's clock (or of the host's, if it has none)
+  std::int64_t duplicate = 0;  // the same device time twice: not handed out
   std::int64_t glitch = 0;
   std::int64_t saturated = 0;
   std::int64_t unreadable = 0;  // lines that are no reading
@@ -47,8 +47,8 @@ class LoadCell {
   virtual double period_s() const = 0;
   // Host time of the newest reading's arrival.
   virtual double last_arrival_s() const = 0;
-  // Best estimate of the host time at which a reading was made: its arrival, or its device time on the
-  // host's clock by the smallest delay seen lately (a delay is never negative).
+  // Best estimate of the host time at which a reading was made: its arrival, or its device time on
+  // the host's clock by the smallest delay seen lately (a delay is never negative).
   virtual double made_at_s(const LoadSample& sample) const = 0;
 
  protected:

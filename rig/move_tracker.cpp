@@ -29,8 +29,7 @@ double MoveTracker::time_to_way_s(double way_m) const {
   double high_s = duration_s(move_);
   for (int i = 0; i < 50; ++i) {
     const double middle_s = 0.5 * (low_s + high_s);
-    const double gone_m =
-        std::abs(position_m(move_, move_.start_time_s + middle_s) - move_.from_m);
+    const double gone_m = std::abs(position_m(move_, move_.start_time_s + middle_s) - move_.from_m);
     (gone_m < way_m ? low_s : high_s) = middle_s;
   }
   return 0.5 * (low_s + high_s);

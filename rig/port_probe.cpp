@@ -1,5 +1,7 @@
 #include "rig/port_probe.h"
 
+#include "rig/rig_error.h"
+
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -10,8 +12,6 @@
 #include <cstring>
 #include <filesystem>
 #include <system_error>
-
-#include "rig/rig_error.h"
 
 namespace viscard {
 namespace {
@@ -83,15 +83,15 @@ int open_exclusively(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) throw_for(path, errno);
   if (!S_ISCHR(status.st_mode)) {
-    throw RigError("'" + path + "' is " + kind_of_file(status.st_mode) +
-                   ", not a serial port. " + present_ports_text());
+    throw RigError("'" + path + "' is " + kind_of_file(status.st_mode) + ", not a serial port. " +
+                   present_ports_text());
   }
   const int descriptor = open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) throw_for(path, errno);
   if (isatty(descriptor) != 1) {
     close(descriptor);
-    throw RigError("'" + path + "' is " + kind_of_file(status.st_mode) +
-                   ", not a serial port. " + present_ports_text());
+    throw RigError("'" + path + "' is " + kind_of_file(status.st_mode) + ", not a serial port. " +
+                   present_ports_text());
   }
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     const int error = errno;

@@ -10,8 +10,9 @@ namespace viscard {
 std::vector<std::string> present_ports();
 
 // Opens the port just enough to tell why it cannot be used, and returns a descriptor that holds it
-// exclusively (flock); the caller closes it. Throws RigError with the true reason and the fix: missing,
-// not a terminal, no permission, busy. libserial reports all of these as "Bad file descriptor".
+// exclusively (flock); the caller closes it. Throws RigError with the true reason and the fix:
+// missing, not a terminal, no permission, busy. libserial reports all of these as "Bad file
+// descriptor".
 int open_exclusively(const std::string& path);
 
 }  // namespace viscard

@@ -1,10 +1,10 @@
 #include "rig/preflight.h"
 
+#include "rig/text_number.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-
-#include "rig/text_number.h"
 
 namespace viscard {
 namespace {
@@ -13,29 +13,34 @@ constexpr double kLinkDelay_s = 0.010;  // reading a line, deciding, writing a b
 constexpr int kFewestRampReadings = 10;
 constexpr double kSlowestRate_Hz = 20.0;
 
-std::string in_N(double force_N) { return text_from_number(force_N, 3) + " N"; }
-std::string in_mm(double length_m) { return text_from_number(length_m * 1e3, 4) + " mm"; }
+std::string in_N(double force_N) {
+  return text_from_number(force_N, 3) + " N";
+}
+std::string in_mm(double length_m) {
+  return text_from_number(length_m * 1e3, 4) + " mm";
+}
 
 void check_force(const RigConfig& rig, const TestPlan& plan, Preflight& result) {
   if (result.peak_force_N <= result.limit_N) return;
   // Rounded down, so that the depth named is itself accepted.
   const double depth_mm = std::floor(result.deepest_safe_depth_m * 1e6) * 1e-3;
   const bool is_above_rating = result.peak_force_N > rig.calibration.capacity_N;
-  result.problems.push_back(
-      "expected peak force " + in_N(result.peak_force_N) + " at depth " + in_mm(plan.depth_m) +
-      " is above " + in_N(result.limit_N) + ", " +
-      text_from_number(100.0 * rig.safety.soft_fraction, 0) + " % of the cell's " +
-      in_N(rig.calibration.capacity_N) +
-      (is_above_rating ? ", and above the cell's rating itself" : "") +
-      ". Lower depth in the test file to " + text_from_number(depth_mm, 3) + " mm or less");
+  result.problems.push_back("expected peak force " + in_N(result.peak_force_N) + " at depth " +
+                            in_mm(plan.depth_m) + " is above " + in_N(result.limit_N) + ", " +
+                            text_from_number(100.0 * rig.safety.soft_fraction, 0) +
+                            " % of the cell's " + in_N(rig.calibration.capacity_N) +
+                            (is_above_rating ? ", and above the cell's rating itself" : "") +
+                            ". Lower depth in the test file to " + text_from_number(depth_mm, 3) +
+                            " mm or less");
 }
 
 void check_rates(const RigConfig& rig, const TestPlan& plan, Preflight& result) {
   const double rate_Hz = rig.load_cell.expected_rate_Hz;
   if (rate_Hz < kSlowestRate_Hz) {
-    result.problems.push_back("the load cell gives " + text_from_number(rate_Hz, 1) +
-                              " readings/s, too few to stop an approach in time. Set its rate to 80/s "
-                              "(RATE pin of the HX711 high)");
+    result.problems.push_back(
+        "the load cell gives " + text_from_number(rate_Hz, 1) +
+        " readings/s, too few to stop an approach in time. Set its rate to 80/s "
+        "(RATE pin of the HX711 high)");
   } else if (plan.ramp_s * rate_Hz < kFewestRampReadings) {
     result.warnings.push_back("the ramp of " + text_from_number(plan.ramp_s, 2) + " s holds only " +
                               text_from_number(std::floor(plan.ramp_s * rate_Hz), 0) +
@@ -51,12 +56,11 @@ void check_motion(const RigConfig& rig, const TestPlan& plan, const StageDynamic
       result.total_stiffness_N_m * (v * seen_after_s + stop_distance_m(v, dynamics));
   const double room_N = result.limit_N - plan.contact_force_N;
   if (result.approach_overshoot_N > room_N) {
-    result.problems.push_back("the approach would overshoot contact by " +
-                              in_N(result.approach_overshoot_N) + ", more than " + in_N(room_N) +
-                              ". Lower approach_speed in the test file to " +
-                              text_from_number(0.5 * v * room_N / result.approach_overshoot_N * 1e3,
-                                               3) +
-                              " mm/s or use finer steps");
+    result.problems.push_back(
+        "the approach would overshoot contact by " + in_N(result.approach_overshoot_N) +
+        ", more than " + in_N(room_N) + ". Lower approach_speed in the test file to " +
+        text_from_number(0.5 * v * room_N / result.approach_overshoot_N * 1e3, 3) +
+        " mm/s or use finer steps");
   }
   if (result.ramp_speed_m_s > dynamics.max_speed_m_s) {
     result.problems.push_back(
@@ -76,14 +80,15 @@ void check_plan(const RigConfig& rig, const TestPlan& plan, const Specimen& spec
   const auto require = [](bool is_good, const std::string& text) {
     if (!is_good) throw std::invalid_argument(text);
   };
-  require(specimen.modulus_guess_Pa > 0.0,
-          "the specimen has no modulus_guess: without it nobody knows what the cell will bear. Give "
-          "one, rather too high than too low");
+  require(
+      specimen.modulus_guess_Pa > 0.0,
+      "the specimen has no modulus_guess: without it nobody knows what the cell will bear. Give "
+      "one, rather too high than too low");
   require(plan.depth_m > 0.0 && plan.ramp_s > 0.0 && plan.hold_s >= 0.0,
           "depth and ramp must be positive and hold not negative in the test file");
-  require(plan.approach_speed_m_s > 0.0 && plan.unload_speed_m_s > 0.0 &&
-              plan.retract_speed_m_s > 0.0,
-          "approach_speed, unload_speed and retract_speed must be positive in the test file");
+  require(
+      plan.approach_speed_m_s > 0.0 && plan.unload_speed_m_s > 0.0 && plan.retract_speed_m_s > 0.0,
+      "approach_speed, unload_speed and retract_speed must be positive in the test file");
   require(plan.contact_force_N > 0.0 && plan.gap_m > 0.0 && plan.retract_m >= plan.gap_m,
           "contact_force and gap must be positive and retract not below gap in the test file");
   require(plan.unload_to_fraction >= 0.0 && plan.unload_to_fraction < 1.0,
@@ -116,8 +121,7 @@ Preflight preflight(const RigConfig& rig, const TestPlan& plan, const Specimen& 
   result.limit_N = rig.safety.soft_fraction * rig.calibration.capacity_N;
   result.peak_force_N = result.specimen_stiffness_N_m * plan.depth_m;
   result.deepest_safe_depth_m = result.limit_N / result.specimen_stiffness_N_m;
-  result.stage_travel_m =
-      plan.depth_m + (frame_N_m > 0.0 ? result.peak_force_N / frame_N_m : 0.0);
+  result.stage_travel_m = plan.depth_m + (frame_N_m > 0.0 ? result.peak_force_N / frame_N_m : 0.0);
   result.ramp_speed_m_s = result.stage_travel_m / plan.ramp_s;
   check_force(rig, plan, result);
   check_rates(rig, plan, result);

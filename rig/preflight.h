@@ -1,13 +1,13 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "models/rig_config.h"
 #include "models/specimen.h"
 #include "models/test_plan.h"
 #include "rig/stage.h"
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -15,13 +15,13 @@ namespace viscard {
 struct Preflight {
   double specimen_stiffness_N_m = 0.0;  // c E, with the layer
   double total_stiffness_N_m = 0.0;     // in series with the frame
-  double peak_force_N = 0.0;            // elastic, at full depth: an upper bound for a relaxing solid
-  double limit_N = 0.0;                 // soft limit of the cell
+  double peak_force_N = 0.0;  // elastic, at full depth: an upper bound for a relaxing solid
+  double limit_N = 0.0;       // soft limit of the cell
   double deepest_safe_depth_m = 0.0;
-  double stage_travel_m = 0.0;          // depth + peak_force/frame stiffness
-  double ramp_speed_m_s = 0.0;          // of the stage
-  double approach_overshoot_N = 0.0;    // beyond the contact force, until the stage stands
-  std::vector<std::string> problems;    // any of these: do not start
+  double stage_travel_m = 0.0;        // depth + peak_force/frame stiffness
+  double ramp_speed_m_s = 0.0;        // of the stage
+  double approach_overshoot_N = 0.0;  // beyond the contact force, until the stage stands
+  std::vector<std::string> problems;  // any of these: do not start
   std::vector<std::string> warnings;
 };
 

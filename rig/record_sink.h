@@ -1,19 +1,19 @@
 #pragma once
 
+#include "models/run_record.h"
+
 #include <functional>
 #include <memory>
 #include <utility>
 
-#include "models/run_record.h"
-
 namespace viscard {
 
-// Takes everything a run hands out, in order. It must return at once (queue and go): the force limit
-// is watched by the thread that calls it. What it throws stops the run safely.
+// Takes everything a run hands out, in order. It must return at once (queue and go): the force
+// limit is watched by the thread that calls it. What it throws stops the run safely.
 using RecordSink = std::function<void(const RunRecord&)>;
 
-// The same sink, which after its first exception takes no more: the run that ends then still has to stop
-// the stage, and the devices go on reporting meanwhile.
+// The same sink, which after its first exception takes no more: the run that ends then still has to
+// stop the stage, and the devices go on reporting meanwhile.
 inline RecordSink failing_once(RecordSink sink) {
   auto has_failed = std::make_shared<bool>(false);
   return [sink = std::move(sink), has_failed](const RunRecord& record) {

@@ -5,8 +5,8 @@ namespace viscard {
 // CLOCK_MONOTONIC, s.
 double monotonic_s();
 
-// Time of a run: 0 when made, then CLOCK_MONOTONIC times the declared speed of an emulated rig (1 on a
-// real one). "Rig time" is this clock, "wall time" is what passes in the room.
+// Time of a run: 0 when made, then CLOCK_MONOTONIC times the declared speed of an emulated rig (1
+// on a real one). "Rig time" is this clock, "wall time" is what passes in the room.
 class RigClock {
  public:
   // Throws std::invalid_argument unless speed is positive and finite.

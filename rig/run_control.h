@@ -1,26 +1,26 @@
 #pragma once
 
+#include "rig/rig_clock.h"
+
 #include <atomic>
 #include <functional>
 #include <string>
-
-#include "rig/rig_clock.h"
 
 namespace viscard {
 
 // What a person at the rig wants to see, a few times a second. Times in rig seconds.
 struct RunProgress {
   std::string phase;
-  double fraction = 0.0;     // of the whole run, by time
-  double force_N = 0.0;      // newest reading, from the tare
-  double depth_m = 0.0;      // indentation by the live contact point; 0 before contact
+  double fraction = 0.0;  // of the whole run, by time
+  double force_N = 0.0;   // newest reading, from the tare
+  double depth_m = 0.0;   // indentation by the live contact point; 0 before contact
   double time_left_s = 0.0;
 };
 
 // How a run is watched and ended from outside.
 struct RunControl {
-  const RigClock* clock = nullptr;                 // the one the devices were made with
-  const std::atomic<bool>* stop = nullptr;         // set by a signal handler: stop and retract
+  const RigClock* clock = nullptr;                   // the one the devices were made with
+  const std::atomic<bool>* stop = nullptr;           // set by a signal handler: stop and retract
   std::function<void(const RunProgress&)> progress;  // may be empty
 };
 

@@ -1,23 +1,25 @@
 #include "rig/run_indentation.h"
 
+#include "rig/run_session.h"
+#include "rig/text_number.h"
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
-
-#include "rig/run_session.h"
-#include "rig/text_number.h"
 
 namespace viscard {
 namespace {
 
 constexpr double kTare_s = 1.0;
-constexpr double kSettle_s = 0.25;          // force after a stop, long against the readings' period
-constexpr double kContactSigmas = 6.0;      // of one reading's noise
-constexpr double kJog_m = 25e-6;            // longest way a dead host lets the stage go near contact
+constexpr double kSettle_s = 0.25;      // force after a stop, long against the readings' period
+constexpr double kContactSigmas = 6.0;  // of one reading's noise
+constexpr double kJog_m = 25e-6;        // longest way a dead host lets the stage go near contact
 constexpr int kMostBackOffs = 10;
-constexpr double kLoadedAtStart = 0.5;      // of the soft limit: something already presses
+constexpr double kLoadedAtStart = 0.5;  // of the soft limit: something already presses
 
-std::string in_um(double length_m) { return text_from_number(length_m * 1e6, 1) + " um"; }
+std::string in_um(double length_m) {
+  return text_from_number(length_m * 1e6, 1) + " um";
+}
 
 class IndentationRun {
  public:
@@ -94,8 +96,7 @@ void IndentationRun::prepare() {
 
 void IndentationRun::approach() {
   session_.begin_phase("approach", rest_s(0), "In short jogs until the punch touches");
-  const double threshold_N =
-      std::max(plan_.contact_force_N, kContactSigmas * outcome.noise_N);
+  const double threshold_N = std::max(plan_.contact_force_N, kContactSigmas * outcome.noise_N);
   if (threshold_N > plan_.contact_force_N) {
     session_.event("advice", "noise",
                    "Contact is told from " + text_from_number(threshold_N, 4) +
@@ -134,8 +135,9 @@ void IndentationRun::back_off(double contact_m) {
     }
     contact_m -= plan_.gap_m;
   }
-  throw RigError("the force does not return to zero when the punch is backed off. Is the specimen "
-                 "sticky, or does the cell drift? Raise gap in the test file");
+  throw RigError(
+      "the force does not return to zero when the punch is backed off. Is the specimen "
+      "sticky, or does the cell drift? Raise gap in the test file");
 }
 
 void IndentationRun::ramp_and_hold() {

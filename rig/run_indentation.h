@@ -1,8 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "models/rig_config.h"
 #include "models/specimen.h"
 #include "models/test_plan.h"
@@ -12,32 +9,36 @@
 #include "rig/run_control.h"
 #include "rig/stage.h"
 
+#include <optional>
+#include <string>
+
 namespace viscard {
 
 // How a run ended and what it amounts to.
 struct RunOutcome {
-  std::string status;  // "finished" | "interrupted" (asked to, or a device was lost) | "stopped" (a limit)
+  std::string
+      status;  // "finished" | "interrupted" (asked to, or a device was lost) | "stopped" (a limit)
   std::string reason;  // why it did not finish, and what next; empty if it did
   Preflight expected;
-  double noise_N = 0.0;                     // of one reading, out of contact
+  double noise_N = 0.0;                      // of one reading, out of contact
   std::optional<double> contact_position_m;  // live estimate; the fit finds it better
   double peak_force_N = 0.0;
-  double achieved_depth_m = 0.0;            // by that estimate, at the ramp's end
+  double achieved_depth_m = 0.0;  // by that estimate, at the ramp's end
   StreamCounts stream;
 };
 
 // Drives one stress-relaxation indentation and hands out everything it receives:
-//   connect - tare - approach in short jogs until touched - back off by gap - baseline - ramp (one jog) -
-//   hold - quick partial unloading - recovery hold - retract - baseline.
+//   connect - tare - approach in short jogs until touched - back off by gap - baseline - ramp (one
+//   jog) - hold - quick partial unloading - recovery hold - retract - baseline.
 // The quick unloading and the hold after it are there because a ramp of 1 s hides terms that are
-// faster: from ramp and hold alone a term of tau .19 s and g .008 is known to 30-40 % only, with them
-// g_1 + g_2 is known to 4-7 % (Cramer-Rao bound at the noise of the demonstration).
+// faster: from ramp and hold alone a term of tau .19 s and g .008 is known to 30-40 % only, with
+// them g_1 + g_2 is known to 4-7 % (Cramer-Rao bound at the noise of the demonstration).
 //
-// Whatever happens - limit, interruption, lost device, a sink that throws - the stage is stopped first and
-// the punch lifted as far as the devices still answer; then the outcome says so. Records end with an
-// event "finished" or "interrupted" or "stopped".
-// Throws RigError only if nothing was done yet: a device that does not connect, a plan that preflight
-// refuses. rig.clock_speed is not looked at: control.clock rules.
+// Whatever happens - limit, interruption, lost device, a sink that throws - the stage is stopped
+// first and the punch lifted as far as the devices still answer; then the outcome says so. Records
+// end with an event "finished" or "interrupted" or "stopped". Throws RigError only if nothing was
+// done yet: a device that does not connect, a plan that preflight refuses. rig.clock_speed is not
+// looked at: control.clock rules.
 RunOutcome run_indentation(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
                            const TestPlan& plan, const Specimen& specimen, const RecordSink& sink,
                            const RunControl& control);

@@ -1,23 +1,25 @@
 #include "rig/run_session.h"
 
+#include "rig/text_number.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "rig/text_number.h"
 
 namespace viscard {
 namespace {
 
 constexpr double kProgress_wall_s = 0.1;
 constexpr double kNap_wall_s = 0.005;
-// A silent stream stops a moving stage after three periods, but no sooner than stalls of an ordinary
-// machine (adapters hold bytes back for 16 ms, schedulers more) would explain.
+// A silent stream stops a moving stage after three periods, but no sooner than stalls of an
+// ordinary machine (adapters hold bytes back for 16 ms, schedulers more) would explain.
 constexpr double kSilentPeriods = 3.0;
 constexpr double kSilence_wall_s = 0.25;
 constexpr double kSilenceEmulated_wall_s = 1.0;
 
-std::string in_N(double force_N) { return text_from_number(force_N, 3) + " N"; }
+std::string in_N(double force_N) {
+  return text_from_number(force_N, 3) + " N";
+}
 
 }  // namespace
 
@@ -33,7 +35,9 @@ RunSession::RunSession(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
   load_cell_.set_listener([this](const LoadSample& sample) { take_sample(sample); });
 }
 
-RunSession::~RunSession() { load_cell_.set_listener({}); }
+RunSession::~RunSession() {
+  load_cell_.set_listener({});
+}
 
 void RunSession::connect() {
   const Pump pump = [this] { this->pump(); };
@@ -123,14 +127,15 @@ void RunSession::act_on(GuardAction action, double force_N) {
       return;
     case GuardAction::kSoftStop:
       if (stage_.is_moving()) stage_.stop_soft();
-      event("limit", "soft", "The force of " + in_N(force_N) + " is above the limit of " +
-                                 in_N(guard_.soft_limit_N()) + ": the stage is stopped");
+      event("limit", "soft",
+            "The force of " + in_N(force_N) + " is above the limit of " +
+                in_N(guard_.soft_limit_N()) + ": the stage is stopped");
       break;
     case GuardAction::kHardStop:
       needs_recovery_ = true;
       stage_.stop_hard();
-      event("limit", "hard", "The force of " + in_N(force_N) +
-                                 " is too high or cannot be read: the stage is reset");
+      event("limit", "hard",
+            "The force of " + in_N(force_N) + " is too high or cannot be read: the stage is reset");
       break;
   }
   const bool is_hard = action == GuardAction::kHardStop;
@@ -143,15 +148,16 @@ void RunSession::act_on(GuardAction action, double force_N) {
 
 void RunSession::check_stream() {
   if (!is_cell_connected_ || !stage_.is_moving()) return;
-  const double floor_s = clock_.from_wall_s(clock_.speed() > 1.0 ? kSilenceEmulated_wall_s
-                                                                 : kSilence_wall_s);
+  const double floor_s =
+      clock_.from_wall_s(clock_.speed() > 1.0 ? kSilenceEmulated_wall_s : kSilence_wall_s);
   const double silent_s = clock_.now_s() - load_cell_.last_arrival_s();
   if (silent_s < std::max(kSilentPeriods * load_cell_.period_s(), floor_s)) return;
   needs_recovery_ = true;
   stage_.stop_hard();
   event("limit", "silent", "No reading of the load cell while the stage moved: it was reset");
-  throw RigError("the load cell fell silent while the stage was moving; the stage was stopped. Check "
-                 "the amplifier and its cable, then start the run again");
+  throw RigError(
+      "the load cell fell silent while the stage was moving; the stage was stopped. Check "
+      "the amplifier and its cable, then start the run again");
 }
 
 bool RunSession::move(double to_m, double speed_m_s, const std::string& purpose,
@@ -223,8 +229,7 @@ void RunSession::begin_phase(const std::string& name, double planned_rest_s,
   event("phase", name, text);
 }
 
-void RunSession::event(const std::string& name, const std::string& value,
-                       const std::string& text) {
+void RunSession::event(const std::string& name, const std::string& value, const std::string& text) {
   sink_(RunEvent{clock_.now_s(), name, value, text});
 }
 
@@ -239,8 +244,8 @@ void RunSession::report_progress() {
   progress.force_N = force_N_;
   if (contact_m_) {
     const double frame_N_m = rig_.frame.stiffness_N_m;
-    progress.depth_m = std::max(0.0, stage_.position_m() - *contact_m_ -
-                                         (frame_N_m > 0.0 ? force_N_ / frame_N_m : 0.0));
+    progress.depth_m = std::max(
+        0.0, stage_.position_m() - *contact_m_ - (frame_N_m > 0.0 ? force_N_ / frame_N_m : 0.0));
   }
   control_.progress(progress);
 }

@@ -1,15 +1,15 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "models/rig_config.h"
 #include "rig/force_guard.h"
 #include "rig/load_cell.h"
 #include "rig/rig_error.h"
 #include "rig/run_control.h"
 #include "rig/stage.h"
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -31,9 +31,9 @@ struct ForceMean {
   int n = 0;
 };
 
-// Both devices served by one thread, with the force watched at every reading. Everything that waits does
-// so in pump(). While armed, a limit, a stalled stream, a lost port or the stop flag ends the run by an
-// exception, after the stage has been told to stop.
+// Both devices served by one thread, with the force watched at every reading. Everything that waits
+// does so in pump(). While armed, a limit, a stalled stream, a lost port or the stop flag ends the
+// run by an exception, after the stage has been told to stop.
 class RunSession {
  public:
   RunSession(Stage& stage, LoadCell& load_cell, const RigConfig& rig, const RecordSink& sink,
@@ -65,8 +65,8 @@ class RunSession {
   void event(const std::string& name, const std::string& value, const std::string& text);
   void set_contact_m(double contact_m) { contact_m_ = contact_m; }
 
-  // Stops and lifts the punch as far as the devices still answer, whatever has happened; returns what
-  // could not be done, or "".
+  // Stops and lifts the punch as far as the devices still answer, whatever has happened; returns
+  // what could not be done, or "".
   std::string make_safe(double retract_to_m, double speed_m_s);
 
   double force_N() const { return force_N_; }
@@ -88,11 +88,11 @@ class RunSession {
   const RigClock& clock_;
   ForceGuard guard_;
 
-  bool is_armed_ = false;          // limits, stream and stop flag end the run
+  bool is_armed_ = false;  // limits, stream and stop flag end the run
   bool is_cell_connected_ = false;
   bool is_cell_lost_ = false;
-  bool is_stopping_ = false;       // while a gentle stop is under way: does it suffice?
-  bool needs_recovery_ = false;    // the stage was reset or locked itself
+  bool is_stopping_ = false;     // while a gentle stop is under way: does it suffice?
+  bool needs_recovery_ = false;  // the stage was reset or locked itself
   double tare_N_ = 0.0;
   double force_N_ = 0.0;
   double peak_force_N_ = 0.0;

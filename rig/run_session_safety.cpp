@@ -1,14 +1,15 @@
 // How a RunSession leaves the rig when something went wrong.
+#include "rig/run_session.h"
+
 #include <algorithm>
 #include <exception>
-
-#include "rig/run_session.h"
 
 namespace viscard {
 namespace {
 
-constexpr double kStop_wall_s = 10.0;   // longest wait for standstill
-constexpr double kUnloadStep_m = 2e-3;  // a lift is one move; this bounds it when contact is unknown
+constexpr double kStop_wall_s = 10.0;  // longest wait for standstill
+constexpr double kUnloadStep_m =
+    2e-3;  // a lift is one move; this bounds it when contact is unknown
 
 }  // namespace
 
@@ -50,7 +51,8 @@ std::string RunSession::make_safe(double retract_to_m, double speed_m_s) {
       return "";
     } catch (const PortHungUp& error) {
       return std::string(error.what()) +
-             ". THE STAGE CANNOT BE STOPPED FROM HERE: use its emergency stop and lift the punch by "
+             ". THE STAGE CANNOT BE STOPPED FROM HERE: use its emergency stop and lift the punch "
+             "by "
              "hand";
     } catch (const std::exception& error) {
       if (attempt > 0) return error.what();

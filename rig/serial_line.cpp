@@ -1,5 +1,8 @@
 #include "rig/serial_line.h"
 
+#include "rig/port_probe.h"
+#include "rig/rig_error.h"
+
 #include <libserial/SerialPort.h>
 #include <poll.h>
 #include <pty.h>
@@ -13,9 +16,6 @@
 #include <cstring>
 #include <stdexcept>
 #include <utility>
-
-#include "rig/port_probe.h"
-#include "rig/rig_error.h"
 
 namespace viscard {
 namespace {
@@ -66,8 +66,8 @@ void SerialLine::SafeClose::operator()(LibSerial::SerialPort* port) const noexce
   try {
     if (port->IsOpen()) {
       descriptor = port->GetFileDescriptor();
-      ioctl(descriptor, TIOCNXCL);         // 1.0.0 never gives up the exclusive mark
-      tcflush(descriptor, TCIOFLUSH);      // else closing waits for bytes nobody reads
+      ioctl(descriptor, TIOCNXCL);     // 1.0.0 never gives up the exclusive mark
+      tcflush(descriptor, TCIOFLUSH);  // else closing waits for bytes nobody reads
       port->Close();
     }
     delete port;

@@ -1,13 +1,13 @@
 #pragma once
 
+#include "rig/line_splitter.h"
+#include "rig/rig_clock.h"
+#include "rig/transport.h"
+
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include "rig/line_splitter.h"
-#include "rig/rig_clock.h"
-#include "rig/transport.h"
 
 namespace LibSerial {
 class SerialPort;
@@ -18,10 +18,10 @@ namespace viscard {
 // A serial port: 8 bits, no parity, 1 stop bit, no flow control, raw, held exclusively.
 //
 // libserial opens and configures it. It does not read, write or get destroyed on its own, because
-// version 1.0.0 (Debian 12) hangs in ReadLine after the cable was pulled, spins in Write when the peer
-// stops reading, and aborts the process in ~SerialPort when Close() fails (crayzeewulf/libserial
-// issues 135, 160; fixed after 1.0.0). So bytes go by poll()/read()/write() on its descriptor, and
-// the closing path never lets an open SerialPort be destroyed.
+// version 1.0.0 (Debian 12) hangs in ReadLine after the cable was pulled, spins in Write when the
+// peer stops reading, and aborts the process in ~SerialPort when Close() fails
+// (crayzeewulf/libserial issues 135, 160; fixed after 1.0.0). So bytes go by poll()/read()/write()
+// on its descriptor, and the closing path never lets an open SerialPort be destroyed.
 class SerialLine final : public Transport {
  public:
   // Throws RigError with the reason and the fix: missing, busy, no permission, not a serial port,

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "rig/record_sink.h"
 #include "rig/rig_error.h"
 #include "rig/transport.h"
+
+#include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -22,10 +22,10 @@ struct StageDynamics {
   double max_speed_m_s = 0.0;
 };
 
-// One motorised axis that presses a punch into a specimen. Positions in m, growing toward the specimen,
-// from the controller's own zero. Nothing here waits by itself: where an answer is needed, `pump` is
-// called until it is there, so that the caller can watch the force meanwhile.
-// All calls throw PortHungUp, StageAlarm, DeviceRestarted or RigError.
+// One motorised axis that presses a punch into a specimen. Positions in m, growing toward the
+// specimen, from the controller's own zero. Nothing here waits by itself: where an answer is
+// needed, `pump` is called until it is there, so that the caller can watch the force meanwhile. All
+// calls throw PortHungUp, StageAlarm, DeviceRestarted or RigError.
 class Stage {
  public:
   virtual ~Stage() = default;
@@ -47,8 +47,9 @@ class Stage {
   // Where it is: the exact end of the last move at rest, the last report while moving.
   virtual double position_m() const = 0;
 
-  // Begins a move; to_m is rounded to whole steps. purpose names it in its CommandedMove record, which
-  // is handed out when the move has ended (its start is known best then). Precondition: at rest.
+  // Begins a move; to_m is rounded to whole steps. purpose names it in its CommandedMove record,
+  // which is handed out when the move has ended (its start is known best then). Precondition: at
+  // rest.
   virtual void begin_move(double to_m, double speed_m_s, const std::string& purpose) = 0;
   // From begin_move() until the controller has reported standstill.
   virtual bool is_moving() const = 0;

@@ -6,7 +6,8 @@
 
 namespace viscard {
 
-// Bytes that arrived together; time_s is rig time, taken right after poll() said there was something.
+// Bytes that arrived together; time_s is rig time, taken right after poll() said there was
+// something.
 struct Chunk {
   double time_s = 0.0;
   std::string bytes;
@@ -27,13 +28,13 @@ class Transport {
   // What has arrived, without waiting; no bytes if nothing has.
   // Throws PortHungUp once the other end is gone and everything it sent has been read.
   virtual Chunk read_available() = 0;
-  // Returns when all bytes are with the operating system. Throws PortHungUp, or RigError if that takes
-  // longer than timeout_s (wall).
+  // Returns when all bytes are with the operating system. Throws PortHungUp, or RigError if that
+  // takes longer than timeout_s (wall).
   virtual void write(std::string_view bytes, double timeout_s = 0.5) = 0;
 };
 
-// Sleeps until one of the transports has something to read (or hung up), a signal came, or timeout_s
-// (wall) is over.
+// Sleeps until one of the transports has something to read (or hung up), a signal came, or
+// timeout_s (wall) is over.
 void wait_readable(const std::vector<const Transport*>& transports, double timeout_s);
 
 }  // namespace viscard

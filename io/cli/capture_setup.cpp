@@ -1,12 +1,11 @@
 #include "io/cli/capture_setup.h"
 
-#include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
-
 #include "io/cli/command.h"
 #include "io/config_file.h"
 #include "rig/emulator/demo_rig.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace viscard {
 namespace {
@@ -30,8 +29,8 @@ void check_words(const CaptureWords& words) {
   }
 }
 
-// An emulated specimen like the one described: PDMS of the demonstration where the mixing ratio is one
-// of its three, otherwise its relaxation with the guessed modulus; geometry as described.
+// An emulated specimen like the one described: PDMS of the demonstration where the mixing ratio is
+// one of its three, otherwise its relaxation with the guessed modulus; geometry as described.
 EmulatedTruth truth_like(const Specimen& specimen, std::uint64_t seed) {
   const bool is_known = specimen.mixing_ratio == 13.0 || specimen.mixing_ratio == 20.0;
   EmulatedTruth truth = demo_truth(is_known ? specimen.mixing_ratio : 10.0, seed);

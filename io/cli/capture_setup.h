@@ -1,13 +1,13 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-
 #include "models/emulated_specimen.h"
 #include "models/rig_config.h"
 #include "models/specimen.h"
 #include "models/test_plan.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
 
 namespace viscard {
 
@@ -22,7 +22,8 @@ struct CaptureWords {
   bool as_json = false;
 };
 
-// Everything a run needs to know, read from files or, for an emulated rig, made up where files are left out.
+// Everything a run needs to know, read from files or, for an emulated rig, made up where files are
+// left out.
 struct CaptureSetup {
   RigConfig rig;
   TestPlan plan;

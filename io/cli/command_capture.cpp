@@ -1,15 +1,5 @@
 #include "io/cli/command_capture.h"
 
-#include <fmt/format.h>
-#include <signal.h>
-
-#include <array>
-#include <atomic>
-#include <filesystem>
-#include <memory>
-#include <nlohmann/json.hpp>
-#include <ostream>
-
 #include "io/atomic_file.h"
 #include "io/capture_file.h"
 #include "io/cli/capture_setup.h"
@@ -21,6 +11,16 @@
 #include "rig/run_indentation.h"
 #include "rig/serial_line.h"
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <signal.h>
+
+#include <array>
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <ostream>
+
 namespace po = boost::program_options;
 
 namespace viscard {
@@ -29,7 +29,9 @@ namespace {
 std::atomic<bool> stop_asked{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
-extern "C" void ask_to_stop(int) { stop_asked = true; }
+extern "C" void ask_to_stop(int) {
+  stop_asked = true;
+}
 
 // While it lives, Ctrl-C and termination stop the stage first and then end the run.
 class StopOnSignal {
@@ -93,22 +95,25 @@ void check_before_start(const CaptureWords& words, const CaptureSetup& setup) {
   const Preflight expected = preflight(setup.rig, setup.plan, setup.specimen);
   if (!expected.problems.empty()) throw std::runtime_error(expected.problems.front());
   if (!words.overwrite && std::filesystem::exists(words.out_file)) {
-    throw std::runtime_error("'" + words.out_file +
-                             "' exists already. Choose another --out, or add --force to replace it");
+    throw std::runtime_error(
+        "'" + words.out_file +
+        "' exists already. Choose another --out, or add --force to replace it");
   }
 }
 
-std::string percent(double part, double whole) { return fmt::format("{:.0f} %", 100 * part / whole); }
+std::string percent(double part, double whole) {
+  return fmt::format("{:.0f} %", 100 * part / whole);
+}
 
 RunControl run_control(const RigClock& clock, Progress& progress, const RigConfig& rig) {
   RunControl control;
   control.clock = &clock;
   control.stop = &stop_asked;
   control.progress = [&progress, &rig](const RunProgress& state) {
-    progress.show(state.fraction,
-                  fmt::format("{}  {:.3f} N ({} of the cell)  {:.1f} um", state.phase,
-                              state.force_N, percent(state.force_N, rig.calibration.capacity_N),
-                              state.depth_m * 1e6));
+    progress.show(
+        state.fraction,
+        fmt::format("{}  {:.3f} N ({} of the cell)  {:.1f} um", state.phase, state.force_N,
+                    percent(state.force_N, rig.calibration.capacity_N), state.depth_m * 1e6));
   };
   return control;
 }
@@ -183,14 +188,18 @@ void print_json(const CaptureWords& words, const RunOutcome& outcome, std::ostre
   json["expected_peak_force_N"] = outcome.expected.peak_force_N;
   json["limit_N"] = outcome.expected.limit_N;
   json["depth_m"] = outcome.achieved_depth_m;
-  json["contact_position_m"] =
-      outcome.contact_position_m ? nlohmann::ordered_json(*outcome.contact_position_m)
-                                 : nlohmann::ordered_json(nullptr);
+  json["contact_position_m"] = outcome.contact_position_m
+                                   ? nlohmann::ordered_json(*outcome.contact_position_m)
+                                   : nlohmann::ordered_json(nullptr);
   json["noise_N"] = outcome.noise_N;
-  json["readings"] = {{"expected", stream.expected()},   {"received", stream.received},
-                      {"missing", stream.missing},       {"duplicate", stream.duplicate},
-                      {"glitch", stream.glitch},         {"saturated", stream.saturated},
-                      {"unreadable", stream.unreadable}, {"longest_gap_s", stream.longest_gap_s},
+  json["readings"] = {{"expected", stream.expected()},
+                      {"received", stream.received},
+                      {"missing", stream.missing},
+                      {"duplicate", stream.duplicate},
+                      {"glitch", stream.glitch},
+                      {"saturated", stream.saturated},
+                      {"unreadable", stream.unreadable},
+                      {"longest_gap_s", stream.longest_gap_s},
                       {"longest_gap_at_s", stream.longest_gap_at_s}};
   out << json.dump() << "\n";
 }
@@ -212,8 +221,7 @@ int run_capture(const std::vector<std::string>& words, Streams& streams) {
     emulated = std::make_unique<EmulatedRig>(options);
     setup.rig = emulated->config();
   }
-  const RunOutcome outcome =
-      capture(asked, setup, quoted_command_line("capture", words), streams);
+  const RunOutcome outcome = capture(asked, setup, quoted_command_line("capture", words), streams);
   if (asked.as_json) {
     print_json(asked, outcome, streams.out);
   } else {

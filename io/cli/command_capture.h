@@ -1,9 +1,9 @@
 #pragma once
 
+#include "io/cli/command.h"
+
 #include <string>
 #include <vector>
-
-#include "io/cli/command.h"
 
 namespace viscard {
 

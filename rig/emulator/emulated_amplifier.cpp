@@ -1,10 +1,10 @@
 #include "rig/emulator/emulated_amplifier.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "rig/hx711_protocol.h"
 #include "rig/text_number.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace viscard {
 namespace {
@@ -29,8 +29,8 @@ double normal_deviate(std::uint64_t seed, std::uint64_t index) {
 }  // namespace
 
 EmulatedAmplifier::EmulatedAmplifier(const EmulatedTruth& truth,
-                                     const LoadCellCalibration& calibration,
-                                     double volts_per_count, const AmplifierOptions& options)
+                                     const LoadCellCalibration& calibration, double volts_per_count,
+                                     const AmplifierOptions& options)
     : truth_(truth),
       calibration_(calibration),
       volts_per_count_(volts_per_count),

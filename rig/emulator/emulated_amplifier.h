@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstdint>
-#include <string>
-
 #include "models/calibration.h"
 #include "models/emulated_specimen.h"
+
+#include <cstdint>
+#include <string>
 
 namespace viscard {
 
@@ -14,14 +14,14 @@ enum class AmplifierFormat { kMicrosCounts, kMillisCounts, kCounts, kReadingText
 struct AmplifierOptions {
   AmplifierFormat format = AmplifierFormat::kMicrosCounts;
   std::string line_end = "\r\n";
-  double clock_ppm = 0.0;            // how much its clock runs fast
-  double boot_s = 0.0;               // from reset to the first conversion
+  double clock_ppm = 0.0;             // how much its clock runs fast
+  double boot_s = 0.0;                // from reset to the first conversion
   std::uint32_t micros_at_reset = 0;  // to make the counter wrap soon
-  int glitch_every = 0;              // every n-th reading is an interrupted conversion; 0: none
+  int glitch_every = 0;               // every n-th reading is an interrupted conversion; 0: none
 };
 
-// An HX711 behind a small processor: 24-bit counts of the cell's voltage, one line per conversion, with
-// noise that depends only on the seed and the number of the reading.
+// An HX711 behind a small processor: 24-bit counts of the cell's voltage, one line per conversion,
+// with noise that depends only on the seed and the number of the reading.
 class EmulatedAmplifier {
  public:
   EmulatedAmplifier(const EmulatedTruth& truth, const LoadCellCalibration& calibration,

@@ -1,12 +1,12 @@
 #include "rig/emulator/emulated_grbl.h"
 
+#include "rig/grbl_protocol.h"
+#include "rig/text_number.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <utility>
-
-#include "rig/grbl_protocol.h"
-#include "rig/text_number.h"
 
 namespace viscard {
 namespace {
@@ -23,11 +23,17 @@ EmulatedGrbl::EmulatedGrbl(const EmulatedTruth& truth, char axis, int toward_spe
       axis_(axis == 'X' ? 0 : (axis == 'Y' ? 1 : 2)),
       toward_(toward_specimen < 0 ? -1.0 : 1.0),
       motion_(truth.steps_per_m, 0.0) {
-  settings_ = {{0, 10},  {1, 255}, {2, 0},   {3, 0},  {4, 0},   {5, 0},   {6, 0},
-               {10, habits.reports_work_position ? 0.0 : 1.0},
-               {11, .01}, {12, .002}, {13, 0},  {20, 0}, {21, 0},
-               {22, habits.is_homing_enabled ? 1.0 : 0.0},
-               {23, 0},  {24, 25}, {25, 500}, {26, 250}, {27, 1}, {30, 1000}, {31, 0}, {32, 0}};
+  settings_ = {{0, 10},   {1, 255},
+               {2, 0},    {3, 0},
+               {4, 0},    {5, 0},
+               {6, 0},    {10, habits.reports_work_position ? 0.0 : 1.0},
+               {11, .01}, {12, .002},
+               {13, 0},   {20, 0},
+               {21, 0},   {22, habits.is_homing_enabled ? 1.0 : 0.0},
+               {23, 0},   {24, 25},
+               {25, 500}, {26, 250},
+               {27, 1},   {30, 1000},
+               {31, 0},   {32, 0}};
   for (int i = 0; i < 3; ++i) {
     settings_[100 + i] = truth.steps_per_m * 1e-3;
     settings_[110 + i] = truth.max_rate_m_s * 60e3;
@@ -162,8 +168,8 @@ void EmulatedGrbl::line(std::string text, double time_s) {
   if (text.empty()) return ok(time_s);
   if (text[0] == '$') return dollar(text, time_s);
   if (state_ == "Alarm" || state_ == "Jog") return error(time_s, 9);
-  const bool is_harmless = text.rfind("G4P", 0) == 0 || text == "G21" || text == "G90" ||
-                           text == "G91" || text == "G94";
+  const bool is_harmless =
+      text.rfind("G4P", 0) == 0 || text == "G21" || text == "G90" || text == "G91" || text == "G94";
   if (!std::isalpha(static_cast<unsigned char>(text[0]))) return error(time_s, 1);
   if (!is_harmless) return error(time_s, 20);
   ok(time_s);
@@ -212,8 +218,8 @@ std::string EmulatedGrbl::settings_text() const {
   for (const auto& [number, value] : settings_) {
     const bool is_integer = number < 100 && number != 11 && number != 12 && number != 24 &&
                             number != 25 && number != 27;
-    text += "$" + std::to_string(number) + "=" + text_from_number(value, is_integer ? 0 : 3) +
-            "\r\n";
+    text +=
+        "$" + std::to_string(number) + "=" + text_from_number(value, is_integer ? 0 : 3) + "\r\n";
   }
   return text;
 }
@@ -297,7 +303,9 @@ void EmulatedGrbl::tick(double time_s) {
   }
 }
 
-std::string EmulatedGrbl::take_output() { return std::exchange(output_, {}); }
+std::string EmulatedGrbl::take_output() {
+  return std::exchange(output_, {});
+}
 
 std::string EmulatedGrbl::status(double time_s) {
   std::array<double, 3> position_mm{};
@@ -308,7 +316,8 @@ std::string EmulatedGrbl::status(double time_s) {
   for (std::size_t i = 0; i < 3; ++i) {
     text += (i > 0 ? "," : "") + text_from_number(position_mm[i], 3);
   }
-  if (settings_[10] >= 2.0 || habits_.is_hal) text += "|Bf:" + std::to_string(kPlannerBlocks) + ",128";
+  if (settings_[10] >= 2.0 || habits_.is_hal)
+    text += "|Bf:" + std::to_string(kPlannerBlocks) + ",128";
   text += "|FS:" + text_from_number(std::abs(motion_.velocity_m_s(time_s)) * 60e3, 0) + ",0";
   const int every = motion_.is_moving(time_s) ? 30 : 10;
   if (n_status_ % every == 1) {

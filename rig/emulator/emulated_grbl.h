@@ -1,5 +1,8 @@
 #pragma once
 
+#include "models/emulated_specimen.h"
+#include "rig/emulator/emulated_motion.h"
+
 #include <array>
 #include <deque>
 #include <map>
@@ -7,25 +10,23 @@
 #include <string>
 #include <string_view>
 
-#include "models/emulated_specimen.h"
-#include "rig/emulator/emulated_motion.h"
-
 namespace viscard {
 
 // Habits of real controllers that a driver must live with. Times on the emulated clock.
 struct GrblHabits {
-  bool is_hal = false;             // grblHAL's welcome and extra fields
-  bool has_empty_eeprom = false;   // dumps error:7 and the settings before its first welcome
-  bool is_homing_enabled = false;  // $22=1: boots into Alarm
-  int lose_status_every = 0;       // every n-th '?' gets no answer
-  double ok_delay_s = 0.0;         // until the answer to a line is sent
-  bool answers_twice = false;      // every ok comes twice
+  bool is_hal = false;                 // grblHAL's welcome and extra fields
+  bool has_empty_eeprom = false;       // dumps error:7 and the settings before its first welcome
+  bool is_homing_enabled = false;      // $22=1: boots into Alarm
+  int lose_status_every = 0;           // every n-th '?' gets no answer
+  double ok_delay_s = 0.0;             // until the answer to a line is sent
+  bool answers_twice = false;          // every ok comes twice
   bool reports_work_position = false;  // $10=0
 };
 
-// The controller of the stage as seen on its wire: a character machine with the states, answers, alarms
-// and silences of GRBL 1.1 (gnea/grbl doc/markdown/interface.md). Moves queued one behind another each
-// end at rest (the real planner rounds corners of collinear moves; nothing here queues more than one).
+// The controller of the stage as seen on its wire: a character machine with the states, answers,
+// alarms and silences of GRBL 1.1 (gnea/grbl doc/markdown/interface.md). Moves queued one behind
+// another each end at rest (the real planner rounds corners of collinear moves; nothing here queues
+// more than one).
 class EmulatedGrbl {
  public:
   EmulatedGrbl(const EmulatedTruth& truth, char axis, int toward_specimen,
@@ -74,15 +75,15 @@ class EmulatedGrbl {
   double bench_m(double machine_mm) const;
 
   GrblHabits habits_;
-  std::size_t axis_;           // 0 1 2
-  double toward_;              // sign of machine motion toward the specimen
+  std::size_t axis_;               // 0 1 2
+  double toward_;                  // sign of machine motion toward the specimen
   double machine_origin_m_ = 0.0;  // bench position of machine zero
   std::map<int, double> settings_;
   double steps_per_m_ = 0.0, acceleration_m_s2_ = 0.0, max_rate_m_s_ = 0.0;
   EmulatedMotion motion_;
   std::deque<QueuedMove> queue_;
   std::string state_ = "Idle";
-  bool is_silent_ = false;     // after a critical alarm, until the reset
+  bool is_silent_ = false;      // after a critical alarm, until the reset
   bool is_cancelling_ = false;  // a jog that is being stopped
   bool is_homed_ = false;
   bool is_eeprom_dumped_ = false;

@@ -1,10 +1,10 @@
 #include "rig/emulator/emulated_motion.h"
 
+#include "models/motion_profile.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "models/motion_profile.h"
 
 namespace viscard {
 namespace {
@@ -52,8 +52,7 @@ double EmulatedMotion::next_knot_s(double time_s) const {
   return end_s > time_s ? end_s : std::numeric_limits<double>::infinity();
 }
 
-void EmulatedMotion::start(double time_s, double to_m, double speed_m_s,
-                           double acceleration_m_s2) {
+void EmulatedMotion::start(double time_s, double to_m, double speed_m_s, double acceleration_m_s2) {
   const StageMove move{time_s, end_m_, quantised_m(to_m, steps_per_m_), speed_m_s,
                        acceleration_m_s2};
   pieces_.clear();
@@ -97,8 +96,8 @@ void EmulatedMotion::stop_gently(double time_s, double acceleration_m_s2) {
   const double way_m = 0.5 * velocity * velocity / acceleration_m_s2;
   // Ends on the next whole step, but never beyond where the move was to end.
   const double steps = (from_m + direction * way_m) * steps_per_m_ * direction;
-  const double end_m = direction * std::min(std::ceil(steps - 1e-6) / steps_per_m_,
-                                            direction * end_m_);
+  const double end_m =
+      direction * std::min(std::ceil(steps - 1e-6) / steps_per_m_, direction * end_m_);
   const double braking_m = std::abs(end_m - from_m);
   cut(slow_s);
   if (braking_m > 0.0 && velocity != 0.0) {

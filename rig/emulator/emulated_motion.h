@@ -4,13 +4,15 @@
 
 namespace viscard {
 
-// Where a stage driven by GRBL stands at any time. Moves run from rest to rest with a trapezoid of speed
-// and end on whole steps; between its ends the position is smooth, because at the hundreds of steps per
-// second of a test the rotor's inertia smooths single (micro)steps. m, s; positions on any one axis.
+// Where a stage driven by GRBL stands at any time. Moves run from rest to rest with a trapezoid of
+// speed and end on whole steps; between its ends the position is smooth, because at the hundreds of
+// steps per second of a test the rotor's inertia smooths single (micro)steps. m, s; positions on
+// any one axis.
 //
 // GRBL hands steps to its interrupt in a queue of six segments of at least 1.25 steps or 10 ms each
-// (gnea/grbl stepper.c: SEGMENT_BUFFER_SIZE, REQ_MM_INCREMENT_SCALAR, DT_SEGMENT), so a feed hold or jog
-// cancel begins to slow the motion only after max(7.5 steps, 60 ms); a reset stops it at once.
+// (gnea/grbl stepper.c: SEGMENT_BUFFER_SIZE, REQ_MM_INCREMENT_SCALAR, DT_SEGMENT), so a feed hold
+// or jog cancel begins to slow the motion only after max(7.5 steps, 60 ms); a reset stops it at
+// once.
 class EmulatedMotion {
  public:
   EmulatedMotion(double steps_per_m, double position_m);

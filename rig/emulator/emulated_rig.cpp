@@ -1,5 +1,9 @@
 #include "rig/emulator/emulated_rig.h"
 
+#include "rig/emulator/emulated_specimen.h"
+#include "rig/emulator/pty_port.h"
+#include "rig/rig_clock.h"
+
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
@@ -12,16 +16,12 @@
 #include <mutex>
 #include <thread>
 
-#include "rig/emulator/emulated_specimen.h"
-#include "rig/emulator/pty_port.h"
-#include "rig/rig_clock.h"
-
 namespace viscard {
 namespace {
 
 constexpr double kLargestStep_s = 1e-3;    // of the hereditary integral, emulated time
 constexpr double kShortestNap_s = 0.2e-3;  // wall
-constexpr double kLongestNap_s = 2e-3;     // wall: how soon an opened port or an incident is noticed
+constexpr double kLongestNap_s = 2e-3;  // wall: how soon an opened port or an incident is noticed
 
 enum Incident : unsigned {
   kPullStage = 1,
@@ -98,10 +98,8 @@ void EmulatedRig::Impl::watch_port(PtyPort& port, Board& board, double now_s) {
 // Takes the mechanics to to_s in steps that end at the corners of the motion.
 void EmulatedRig::Impl::advance_bench(double to_s) {
   while (bench_s_ < to_s) {
-    const double next_s =
-        std::min({to_s, bench_s_ + kLargestStep_s, grbl_.next_knot_s(bench_s_)});
-    const double force_N =
-        specimen_.advance(next_s - bench_s_, grbl_.bench_position_m(next_s));
+    const double next_s = std::min({to_s, bench_s_ + kLargestStep_s, grbl_.next_knot_s(bench_s_)});
+    const double force_N = specimen_.advance(next_s - bench_s_, grbl_.bench_position_m(next_s));
     bench_s_ = next_s;
     if (!specimen_.is_touched() && !grbl_.is_moving(bench_s_)) {
       bench_s_ = to_s;  // nothing can happen until the stage moves
@@ -209,9 +207,13 @@ EmulatedRig::EmulatedRig(const EmulatedRigOptions& options)
 
 EmulatedRig::~EmulatedRig() = default;
 
-std::string EmulatedRig::stage_port() const { return impl_->stage_port_.path(); }
+std::string EmulatedRig::stage_port() const {
+  return impl_->stage_port_.path();
+}
 
-std::string EmulatedRig::load_cell_port() const { return impl_->cell_port_.path(); }
+std::string EmulatedRig::load_cell_port() const {
+  return impl_->cell_port_.path();
+}
 
 RigConfig EmulatedRig::config() const {
   RigConfig config = impl_->options_.config;
@@ -225,12 +227,26 @@ EmulatedOutcome EmulatedRig::outcome() const {
   return impl_->outcome_;
 }
 
-void EmulatedRig::pull_stage_cable() { impl_->incidents_ |= kPullStage; }
-void EmulatedRig::pull_load_cell_cable() { impl_->incidents_ |= kPullCell; }
-void EmulatedRig::silence_load_cell() { impl_->incidents_ |= kSilenceCell; }
-void EmulatedRig::restart_load_cell() { impl_->incidents_ |= kRestartCell; }
-void EmulatedRig::restart_stage() { impl_->incidents_ |= kRestartStage; }
-void EmulatedRig::hit_limit_switch() { impl_->incidents_ |= kHitLimit; }
-void EmulatedRig::stall(double wall_s) { impl_->stall_wall_s_ = wall_s; }
+void EmulatedRig::pull_stage_cable() {
+  impl_->incidents_ |= kPullStage;
+}
+void EmulatedRig::pull_load_cell_cable() {
+  impl_->incidents_ |= kPullCell;
+}
+void EmulatedRig::silence_load_cell() {
+  impl_->incidents_ |= kSilenceCell;
+}
+void EmulatedRig::restart_load_cell() {
+  impl_->incidents_ |= kRestartCell;
+}
+void EmulatedRig::restart_stage() {
+  impl_->incidents_ |= kRestartStage;
+}
+void EmulatedRig::hit_limit_switch() {
+  impl_->incidents_ |= kHitLimit;
+}
+void EmulatedRig::stall(double wall_s) {
+  impl_->stall_wall_s_ = wall_s;
+}
 
 }  // namespace viscard

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <memory>
-#include <string>
-
 #include "models/emulated_specimen.h"
 #include "models/rig_config.h"
 #include "rig/emulator/emulated_amplifier.h"
 #include "rig/emulator/emulated_grbl.h"
+
+#include <memory>
+#include <string>
 
 namespace viscard {
 
@@ -26,14 +26,14 @@ struct EmulatedRigOptions {
 struct EmulatedOutcome {
   double peak_force_N = 0.0;
   double peak_depth_m = 0.0;
-  bool is_cell_broken = false;     // the force went above truth.overload_N
+  bool is_cell_broken = false;  // the force went above truth.overload_N
   double final_position_m = 0.0;
   bool is_moving = false;
 };
 
-// A GRBL stage and an HX711 amplifier on two pseudo-terminals, pressing an emulated specimen, on a clock
-// that runs config.clock_speed times as fast as the wall's. One thread does it all; the destructor ends
-// it and hangs up both ports.
+// A GRBL stage and an HX711 amplifier on two pseudo-terminals, pressing an emulated specimen, on a
+// clock that runs config.clock_speed times as fast as the wall's. One thread does it all; the
+// destructor ends it and hangs up both ports.
 class EmulatedRig {
  public:
   // Throws std::runtime_error if there is no pseudo-terminal, std::invalid_argument on a bad truth.
@@ -50,11 +50,11 @@ class EmulatedRig {
   // Incidents, to be set off from any thread.
   void pull_stage_cable();
   void pull_load_cell_cable();
-  void silence_load_cell();    // the stream stalls, the port stays
-  void restart_load_cell();    // a brown-out: banner, clock from 0
+  void silence_load_cell();  // the stream stalls, the port stays
+  void restart_load_cell();  // a brown-out: banner, clock from 0
   void restart_stage();
   void hit_limit_switch();
-  void stall(double wall_s);   // the thread does nothing for so long
+  void stall(double wall_s);  // the thread does nothing for so long
 
  private:
   class Impl;

@@ -27,12 +27,14 @@ PtyPort::PtyPort() {
   path_ = name.data();
   fcntl(master_, F_SETFL, O_NONBLOCK);
   fcntl(master_, F_SETFD, FD_CLOEXEC);
-  // Once opened and closed, the master reports a hang-up until a host opens it: that is how a reset on
-  // opening is told.
+  // Once opened and closed, the master reports a hang-up until a host opens it: that is how a reset
+  // on opening is told.
   close(slave);
 }
 
-PtyPort::~PtyPort() { hang_up(); }
+PtyPort::~PtyPort() {
+  hang_up();
+}
 
 void PtyPort::hang_up() {
   if (master_ >= 0) close(master_);

@@ -1,0 +1,97 @@
+#pragma once
+
+#include "models/test_plan.h"
+#include "rig/emulator/demo_rig.h"
+#include "rig/emulator/emulated_rig.h"
+#include "rig/grbl_stage.h"
+#include "rig/hx711_load_cell.h"
+#include "rig/run_indentation.h"
+#include "rig/serial_line.h"
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace viscard {
+
+// An emulated rig with real drivers on its ports; everything they hand out is kept.
+struct RigFixture {
+  explicit RigFixture(EmulatedRigOptions options)
+      : emulated(options),
+        config(emulated.config()),
+        clock(config.clock_speed),
+        stage_line(config.stage.port, 115200, clock),
+        cell_line(config.load_cell.port, 115200, clock),
+        sink([this](const RunRecord& record) { records.push_back(record); }),
+        stage(stage_line, config.stage, clock, sink),
+        load_cell(cell_line, config.load_cell, clock, sink) {}
+
+  static EmulatedRigOptions options(double speed, double ratio = 10.0) {
+    EmulatedRigOptions result;
+    result.truth = demo_truth(ratio, 7);
+    result.config = demo_rig();
+    result.config.clock_speed = speed;
+    return result;
+  }
+
+  // Serves the stage alone, or both.
+  Pump pump() {
+    return [this] {
+      wait_readable({&stage_line, &cell_line}, 0.002);
+      load_cell.service();
+      stage.service();
+    };
+  }
+
+  RunOutcome run(const TestPlan& plan, double ratio = 10.0) {
+    RunControl control;
+    control.clock = &clock;
+    control.stop = &stop;
+    control.progress = on_progress;
+    return run_indentation(stage, load_cell, config, plan, demo_specimen(ratio), sink, control);
+  }
+
+  template <class Record>
+  std::vector<Record> all() const {
+    std::vector<Record> found;
+    for (const RunRecord& record : records) {
+      if (const auto* one = std::get_if<Record>(&record)) found.push_back(*one);
+    }
+    return found;
+  }
+
+  bool has_event(const std::string& name, const std::string& value) const {
+    for (const RunEvent& event : all<RunEvent>()) {
+      if (event.name == name && event.value == value) return true;
+    }
+    return false;
+  }
+
+  EmulatedRig emulated;
+  RigConfig config;
+  RigClock clock;
+  SerialLine stage_line;
+  SerialLine cell_line;
+  std::vector<RunRecord> records;
+  RecordSink sink;
+  GrblStage stage;
+  Hx711LoadCell load_cell;
+  std::atomic<bool> stop{false};
+  std::function<void(const RunProgress&)> on_progress;
+};
+
+// A test of a few emulated seconds.
+inline TestPlan short_plan() {
+  TestPlan plan;
+  plan.approach_speed_m_s = 0.2e-3;
+  plan.baseline_s = 1.0;
+  plan.hold_s = 3.0;
+  plan.recovery_s = 2.0;
+  return plan;
+}
+
+}  // namespace viscard

@@ -1,0 +1,133 @@
+#include "tests/rig/rig_fixture.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+using Catch::Matchers::Contains;
+
+void serve_for(RigFixture& rig, double wall_s) {
+  const double until_s = monotonic_s() + wall_s;
+  const Pump pump = rig.pump();
+  while (monotonic_s() < until_s) pump();
+}
+
+}  // namespace
+
+TEST_CASE("The shape of an amplifier's lines is found out", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(10.0);
+  options.config.load_cell.line_format = "auto";
+  Hx711Format expected = Hx711Format::kCounts;
+  SECTION("micros,counts") {
+    expected = Hx711Format::kMicrosCounts;
+  }
+  SECTION("millis,counts") {
+    options.amplifier.format = AmplifierFormat::kMillisCounts;
+    expected = Hx711Format::kMillisCounts;
+  }
+  SECTION("counts alone, bare LF") {
+    options.amplifier.format = AmplifierFormat::kCounts;
+    options.amplifier.line_end = "\n";
+  }
+  SECTION("a sentence") {
+    options.amplifier.format = AmplifierFormat::kReadingText;
+  }
+  SECTION("volts, CR") {
+    options.amplifier.format = AmplifierFormat::kVolts;
+    options.amplifier.line_end = "\r";
+    expected = Hx711Format::kVolts;
+  }
+  RigFixture rig(options);
+  rig.load_cell.connect(rig.pump());
+  CHECK(rig.load_cell.format() == expected);
+  serve_for(rig, 0.3);
+  CHECK(rig.load_cell.counts().received > 100);
+  CHECK(rig.load_cell.counts().unreadable == 0);
+}
+
+TEST_CASE("Noise depends on the seed and the number of the reading alone", "[rig]") {
+  const EmulatedTruth truth = demo_truth(10.0, 42);
+  const RigConfig config = demo_rig();
+  const double volts_per_count = config.load_cell.volts_per_count;
+  const AmplifierOptions options{.format = AmplifierFormat::kCounts, .line_end = ""};
+  EmulatedAmplifier one(truth, config.calibration, volts_per_count, options);
+  EmulatedAmplifier other(truth, config.calibration, volts_per_count, options);
+  double sum = 0.0;
+  double squares = 0.0;
+  constexpr int kN = 20000;
+  for (int i = 0; i < kN; ++i) {
+    const std::string line = one.convert(0.0, false);
+    REQUIRE(line == other.convert(0.0, false));
+    const double force_N =
+        force_N_from_volts(config.calibration, std::stod(line) * volts_per_count) -
+        truth.force_offset_N;
+    sum += force_N;
+    squares += force_N * force_N;
+  }
+  // Standard errors: sigma/sqrt(n) of the mean and sigma/sqrt(2n) of the deviation; 5 of them.
+  const double sigma_N = truth.force_noise_N;
+  CHECK(std::abs(sum / kN) < 5 * sigma_N / std::sqrt(kN));
+  CHECK(std::sqrt(squares / kN) == Approx(sigma_N).epsilon(5 / std::sqrt(2.0 * kN)));
+}
+
+TEST_CASE("A counter that wraps in the run loses nothing", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(10.0);
+  options.amplifier.micros_at_reset = 4294967295u - 1500000u;  // wraps after 1.5 s
+  RigFixture rig(options);
+  rig.load_cell.connect(rig.pump());
+  serve_for(rig, 0.5);
+  CHECK(rig.load_cell.counts().received > 250);
+  CHECK(rig.load_cell.counts().missing == 0);
+  const auto samples = rig.all<LoadSample>();
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    REQUIRE(*samples[i].device_time_s - *samples[i - 1].device_time_s ==
+            Approx(0.0125).margin(2e-6));
+  }
+}
+
+TEST_CASE("The host's estimate of when a reading was made forgets what stalls added",
+          "[rig][pty]") {
+  RigFixture rig(RigFixture::options(1.0));
+  rig.load_cell.connect(rig.pump());
+  serve_for(rig, 0.5);
+  rig.emulated.stall(0.1);
+  serve_for(rig, 0.5);
+  const auto samples = rig.all<LoadSample>();
+  REQUIRE(samples.size() > 60);
+  double latest_arrival_s = 0.0;
+  for (const LoadSample& sample : samples) {
+    const double made_s = rig.load_cell.made_at_s(sample);
+    CHECK(made_s <= sample.host_time_s + 1e-9);
+    latest_arrival_s = std::max(latest_arrival_s, sample.host_time_s - made_s);
+  }
+  CHECK(latest_arrival_s > 0.05);  // the stall is in the stamps, and only there
+  CHECK(rig.load_cell.counts().missing == 0);
+}
+
+TEST_CASE("Incidents of the amplifier are told apart", "[rig][pty]") {
+  RigFixture rig(RigFixture::options(5.0));
+  rig.load_cell.connect(rig.pump());
+  SECTION("restart") {
+    rig.emulated.restart_load_cell();
+    CHECK_THROWS_AS(serve_for(rig, 2.0), DeviceRestarted);
+  }
+  SECTION("cable pulled") {
+    rig.emulated.pull_load_cell_cable();
+    CHECK_THROWS_AS(serve_for(rig, 2.0), PortHungUp);
+  }
+}
+
+TEST_CASE("A port without readings is named, with what came instead", "[rig][pty]") {
+  EmulatedRig emulated(RigFixture::options(1.0));
+  const RigClock clock;
+  SerialLine line(emulated.load_cell_port(), 115200, clock);
+  LoadCellConfig config;
+  config.line_format = "parrots";
+  CHECK_THROWS_WITH(Hx711LoadCell(line, config, clock, [](const RunRecord&) {}),
+                    Contains("'parrots' is unknown"));
+}
+
+}  // namespace viscard

@@ -1,0 +1,205 @@
+#include "tests/rig/rig_fixture.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+using Catch::Matchers::Contains;
+
+void move_and_wait(RigFixture& rig, double to_m, double speed_m_s) {
+  rig.stage.begin_move(to_m, speed_m_s, "test");
+  const Pump pump = rig.pump();
+  while (rig.stage.is_moving()) pump();
+}
+
+}  // namespace
+
+TEST_CASE("A stage is identified, its settings read back, and its moves end exactly",
+          "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.grbl.is_hal = GENERATE(false, true);
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  CHECK(rig.stage.version() == (options.grbl.is_hal ? "grblHAL 1.1f" : "Grbl 1.1h"));
+  CHECK(rig.stage.dynamics().steps_per_m == Approx(3200e3).epsilon(1e-12));
+  CHECK(rig.stage.dynamics().acceleration_m_s2 == Approx(0.2).epsilon(1e-12));
+  CHECK(rig.stage.dynamics().max_speed_m_s == Approx(10e-3).epsilon(1e-9));
+  move_and_wait(rig, 0.5e-3, 1e-3);
+  move_and_wait(rig, 0.25e-3 + 0.1e-6, 1e-3);
+  CHECK(rig.stage.position_m() == Approx(0.25e-3).margin(0.5 / 3200e3));
+  CHECK(rig.emulated.outcome().final_position_m == Approx(rig.stage.position_m()).margin(1e-12));
+  const auto moves = rig.all<CommandedMove>();
+  REQUIRE(moves.size() == 2);
+  CHECK(moves[1].move.from_m == moves[0].move.to_m);
+  CHECK(moves[1].start_uncertainty_s >= 0.0);
+}
+
+TEST_CASE("Everything before the welcome is dropped, even errors", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.grbl.has_empty_eeprom = true;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  CHECK(rig.stage.state() == "Idle");
+}
+
+TEST_CASE("A controller that does not reset on opening is asked to", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.resets_on_open = false;
+  EmulatedRig emulated(options);
+  const RigClock clock(20.0);
+  const RecordSink sink = [](const RunRecord&) {};
+  const Pump sleep = [] { wait_readable({}, 0.002); };
+  for (int i = 0; i < 2; ++i) {  // the second opening finds it running: no welcome by itself
+    SerialLine line(emulated.stage_port(), 115200, clock);
+    GrblStage stage(line, options.config.stage, clock, sink);
+    stage.connect([&] {
+      sleep();
+      stage.service();
+    });
+    CHECK(stage.state() == "Idle");
+  }
+}
+
+TEST_CASE("Lost reports, late and doubled answers do not confuse a move", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(10.0);
+  SECTION("every second '?' unanswered") {
+    options.grbl.lose_status_every = 2;
+  }
+  SECTION("ok 300 ms late") {
+    options.grbl.ok_delay_s = 0.3;
+  }
+  SECTION("every ok twice") {
+    options.grbl.answers_twice = true;
+  }
+  SECTION("work positions") {
+    options.grbl.reports_work_position = true;
+  }
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  move_and_wait(rig, 0.2e-3, 0.5e-3);
+  move_and_wait(rig, 0.1e-3, 0.5e-3);
+  CHECK(rig.stage.position_m() == Approx(0.1e-3).epsilon(1e-9));
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+}
+
+TEST_CASE("A stage that boots locked is homed when asked and unlocked otherwise", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(50.0);
+  options.grbl.is_homing_enabled = true;
+  options.config.stage.home = GENERATE(false, true);
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  CHECK(rig.stage.state() == "Idle");
+  CHECK(rig.has_event("stage_unlocked", "") == !options.config.stage.home);
+  if (options.config.stage.home) {
+    // machine zero is the switch, 3 mm away from the specimen; pulled off by 1 mm
+    CHECK(rig.stage.position_m() == Approx(1e-3).margin(1e-6));
+  }
+}
+
+TEST_CASE("A gentle stop ends short of the target and the record says where", "[rig][pty]") {
+  RigFixture rig(RigFixture::options(1.0));
+  rig.stage.connect(rig.pump());
+  rig.stage.begin_move(1e-3, 0.5e-3, "test");
+  const Pump pump = rig.pump();
+  const double until_s = monotonic_s() + 0.3;
+  while (monotonic_s() < until_s) pump();
+  rig.stage.stop_soft();
+  while (rig.stage.is_moving()) pump();
+  const double here_m = rig.emulated.outcome().final_position_m;
+  CHECK(here_m > 0.1e-3);
+  CHECK(here_m < 0.9e-3);
+  CHECK(rig.stage.position_m() == Approx(here_m).margin(0.6e-6));  // three decimals of a mm
+  REQUIRE(rig.all<CommandedMove>().size() == 1);
+  CHECK(rig.all<CommandedMove>()[0].move.to_m == rig.stage.position_m());
+}
+
+TEST_CASE("A reset in motion stops at once, and the stage works again after recovery",
+          "[rig][pty]") {
+  RigFixture rig(RigFixture::options(1.0));
+  rig.stage.connect(rig.pump());
+  rig.stage.begin_move(1e-3, 0.5e-3, "test");
+  const Pump pump = rig.pump();
+  const double until_s = monotonic_s() + 0.2;
+  while (monotonic_s() < until_s) pump();
+  rig.stage.stop_hard();
+  rig.stage.recover(pump);
+  CHECK(rig.has_event("stage_alarm", "3"));
+  CHECK(rig.stage.state() == "Idle");
+  const double here_m = rig.stage.position_m();
+  CHECK(here_m < 0.9e-3);
+  move_and_wait(rig, here_m - 0.05e-3, 0.5e-3);
+  CHECK(rig.emulated.outcome().final_position_m == Approx(here_m - 0.05e-3).margin(0.6e-6));
+}
+
+TEST_CASE("After a limit switch the controller is silent until it is reset", "[rig][pty]") {
+  RigFixture rig(RigFixture::options(1.0));
+  rig.stage.connect(rig.pump());
+  rig.stage.begin_move(1e-3, 0.2e-3, "test");
+  const Pump pump = rig.pump();
+  rig.emulated.hit_limit_switch();
+  CHECK_THROWS_AS(
+      [&] {
+        while (rig.stage.is_moving()) pump();
+      }(),
+      StageAlarm);
+  rig.stage.recover(pump);
+  CHECK(rig.stage.state() == "Idle");
+}
+
+TEST_CASE("A controller that restarts in a move, or goes away, ends it with an error",
+          "[rig][pty]") {
+  RigFixture rig(RigFixture::options(1.0));
+  rig.stage.connect(rig.pump());
+  rig.stage.begin_move(1e-3, 0.1e-3, "test");
+  const Pump pump = rig.pump();
+  const auto wait = [&] {
+    while (rig.stage.is_moving()) pump();
+  };
+  SECTION("restart") {
+    rig.emulated.restart_stage();
+    CHECK_THROWS_AS(wait(), DeviceRestarted);
+  }
+  SECTION("cable pulled") {
+    rig.emulated.pull_stage_cable();
+    CHECK_THROWS_AS(wait(), PortHungUp);
+  }
+}
+
+TEST_CASE("Moves beyond the travel of the rig file are refused", "[rig][pty]") {
+  RigFixture rig(RigFixture::options(20.0));
+  rig.stage.connect(rig.pump());
+  CHECK_THROWS_WITH(rig.stage.begin_move(10.1e-3, 1e-3, "test"), Contains("travel"));
+  CHECK_FALSE(rig.stage.is_moving());
+}
+
+TEST_CASE("A port where no controller answers is named", "[rig][pty]") {
+  EmulatedRig emulated(RigFixture::options(1.0));
+  const RigClock clock;
+  SerialLine line(emulated.load_cell_port(), 115200, clock);  // the wrong one
+  GrblStage stage(line, StageConfig{}, clock, [](const RunRecord&) {});
+  CHECK_THROWS_WITH(stage.connect([&] {
+    wait_readable({&line}, 0.01);
+    stage.service();
+  }),
+                    Contains("no GRBL controller answered"));
+}
+
+TEST_CASE("Settings that would spoil a test are pointed out", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.steps_per_m = 250e3;
+  options.truth.acceleration_m_s2 = 0.01;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  rig.stage.command("$1=25", rig.pump());
+  rig.stage.command("$$", rig.pump());
+  const auto advice = rig.stage.advice();
+  REQUIRE(advice.size() == 4);
+  CHECK_THAT(advice[0], Contains("set $1=255"));
+  CHECK_THAT(advice[1], Contains("30.0 um"));
+  CHECK_THROWS_WITH(rig.stage.command("$J=G91Z1", rig.pump()), Contains("error 22"));
+}
+
+}  // namespace viscard

@@ -1,0 +1,89 @@
+#include "models/punch_contact.h"
+#include "rig/emulator/demo_rig.h"
+#include "rig/preflight.h"
+
+#include <catch2/catch.hpp>
+
+#include <stdexcept>
+#include <string>
+
+namespace viscard {
+namespace {
+
+const StageDynamics kFine{3200e3, 0.2, 10e-3};
+
+}  // namespace
+
+TEST_CASE("A depth of .25 mm is refused for all three mixing ratios, and a safe one named",
+          "[rig]") {
+  const double ratio = GENERATE(10.0, 13.0, 20.0);
+  TestPlan plan;
+  plan.depth_m = 0.25e-3;
+  const Preflight result = preflight(demo_rig(), plan, demo_specimen(ratio));
+  // Independent of punch_contact.h: 2 a E h/(1 - nu^2), raised by the layer; kappa is above 1.27 at
+  // a/H = .2 and nu = .495 (Hayes et al. 1972: 1.28 at nu = .5).
+  const double half_space_N =
+      2 * 2.2e-3 * demo_specimen(ratio).modulus_guess_Pa * 0.25e-3 / (1 - 0.495 * 0.495);
+  CHECK(result.peak_force_N > 1.27 * half_space_N);
+  CHECK(result.peak_force_N < 1.29 * half_space_N);
+  CHECK(result.peak_force_N > 2.4517);  // the rating itself
+  CHECK(half_space_N > 0.8 * 2.4517);   // the 80 % limit even without the layer
+  REQUIRE(result.problems.size() == 1);
+  CHECK(result.problems[0].find("above the cell's rating") != std::string::npos);
+  CHECK(result.problems[0].find("Lower depth") != std::string::npos);
+  // The depth it names is accepted.
+  const std::string text = result.problems[0];
+  const std::size_t at = text.rfind(" to ");
+  plan.depth_m = std::stod(text.substr(at + 4)) * 1e-3;
+  CHECK(plan.depth_m > 0.1e-3);
+  CHECK(preflight(demo_rig(), plan, demo_specimen(ratio)).problems.empty());
+}
+
+TEST_CASE("The demonstration's depth of .13 mm passes with 1.82 N expected", "[rig]") {
+  const Preflight result = preflight(demo_rig(), TestPlan{}, demo_specimen(10.0), kFine);
+  CHECK(result.problems.empty());
+  CHECK(result.peak_force_N == Approx(1.82).margin(0.005));  // two printed digits
+  // depth and frame spring of 10 N/mm in series
+  CHECK(result.stage_travel_m == Approx(0.13e-3 + result.peak_force_N / 10e3).epsilon(1e-12));
+  CHECK(result.ramp_speed_m_s == Approx(result.stage_travel_m).epsilon(1e-12));  // in 1 s
+}
+
+TEST_CASE("The way of a gentle stop is GRBL's queue and the deceleration", "[rig]") {
+  // 250 steps/mm: 7.5 steps are 30 um whatever the speed.
+  CHECK(stop_distance_m(0.1e-3, {250e3, 0.2, 1e-2}) == Approx(30e-6 + 0.025e-6).epsilon(1e-9));
+  // 3200 steps/mm at 2 mm/s and 10 mm/s2: 60 ms, then v^2/(2a) = .2 mm.
+  CHECK(stop_distance_m(2e-3, {3200e3, 0.01, 1e-2}) == Approx(120e-6 + 200e-6).epsilon(1e-9));
+}
+
+TEST_CASE("An approach that would overshoot the limit is refused", "[rig]") {
+  TestPlan plan;
+  plan.approach_speed_m_s = 2e-3;
+  const Preflight result =
+      preflight(demo_rig(), plan, demo_specimen(10.0), StageDynamics{250e3, 0.01, 10e-3});
+  REQUIRE_FALSE(result.problems.empty());
+  CHECK(result.problems[0].find("approach_speed") != std::string::npos);
+}
+
+TEST_CASE("A converter at 10 readings/s is refused", "[rig]") {
+  RigConfig rig = demo_rig();
+  rig.load_cell.expected_rate_Hz = 10.0;
+  const Preflight result = preflight(rig, TestPlan{}, demo_specimen(10.0));
+  REQUIRE(result.problems.size() == 1);
+  CHECK(result.problems[0].find("80/s") != std::string::npos);
+}
+
+TEST_CASE("Plans and rigs that make no sense are refused by name", "[rig]") {
+  TestPlan plan;
+  plan.ramp_s = 0.0;
+  CHECK_THROWS_WITH(preflight(demo_rig(), plan, demo_specimen(10.0)),
+                    Catch::Matchers::Contains("ramp"));
+  Specimen unknown = demo_specimen(10.0);
+  unknown.modulus_guess_Pa = 0.0;
+  CHECK_THROWS_WITH(preflight(demo_rig(), TestPlan{}, unknown),
+                    Catch::Matchers::Contains("modulus_guess"));
+  RigConfig rig = demo_rig();
+  rig.calibration.volts_per_newton = 0.0;
+  CHECK_THROWS_AS(preflight(rig, TestPlan{}, demo_specimen(10.0)), std::invalid_argument);
+}
+
+}  // namespace viscard
