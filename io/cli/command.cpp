@@ -2,6 +2,8 @@
 
 #include "io/cli/command_capture.h"
 #include "io/cli/command_demo.h"
+#include "io/cli/command_export.h"
+#include "io/cli/command_fit.h"
 #include "io/cli/command_validate.h"
 
 #include <ostream>
@@ -45,6 +47,8 @@ int dispatch(const std::vector<std::string>& words, Streams& streams) {
 const std::vector<Command>& commands() {
   static const std::vector<Command> table{
       {"capture", "run one indentation on the rig, or on an emulated one", run_capture},
+      {"export", "a capture as CSV", run_export},
+      {"fit", "find modulus and Prony series in captures or tables", run_fit},
       {"validate", "check a material in the pillar against exact creep and relaxation",
        run_validate},
       {"demo", "run all of it on the emulated rig", run_demo},

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "io/cli/command.h"
+
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// viscard export: a capture as CSV.
+int run_export(const std::vector<std::string>& words, Streams& streams);
+
+}  // namespace viscard
