@@ -36,10 +36,38 @@ std::string name_of_tag(const std::string& tag) {
   return tag.substr(begin, end - begin);
 }
 
+bool is_name(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == ':';
+}
+
+// <name attribute="value" attribute='value' flag> and nothing else; no < in a value. By hand: a
+// regular expression would recurse once for every character of a path.
 bool has_plain_attributes(const std::string& tag) {
-  static const std::regex shape(
-      R"(<[A-Za-z][A-Za-z0-9]*(\s+[A-Za-z][A-Za-z0-9:-]*\s*(=\s*("[^"<]*"|'[^'<]*'))?)*\s*/?>)");
-  return std::regex_match(tag, shape);
+  std::size_t i = 1;
+  const auto skip = [&](auto&& belongs) {
+    const std::size_t from = i;
+    while (i < tag.size() && belongs(tag[i])) ++i;
+    return i - from;
+  };
+  const auto is_blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+  if (skip(is_name) == 0) return false;
+  for (;;) {
+    const bool is_apart = skip(is_blank) > 0;
+    if (tag.compare(i, 2, "/>") == 0 || tag.compare(i, 1, ">") == 0) return true;
+    if (!is_apart || skip(is_name) == 0) return false;
+    const std::size_t after_name = i;
+    skip(is_blank);
+    if (tag[i] != '=') {
+      i = after_name;
+      continue;
+    }
+    ++i;
+    skip(is_blank);
+    const char quote = tag[i++];
+    if (quote != '"' && quote != '\'') return false;
+    skip([&](char c) { return c != quote && c != '<'; });
+    if (tag[i++] != quote) return false;
+  }
 }
 
 bool is_entity(const std::string& markup, std::size_t at) {
@@ -107,9 +135,8 @@ std::string text_of(const std::string& markup) {
 }
 
 std::vector<ShownNumber> numbers_of(const std::string& markup) {
-  static const std::regex shape(R"(<data value="([^"]*)" > ([^ < ]*) < / data >) ");
-      std::vector<ShownNumber>
-          numbers;
+  static const std::regex shape(R"re(<data value="([^"]*)">([^<]*)</data>)re");
+  std::vector<ShownNumber> numbers;
   for (std::sregex_iterator it(markup.begin(), markup.end(), shape), end; it != end; ++it) {
     numbers.push_back({std::stod((*it)[1]), (*it)[2]});
   }

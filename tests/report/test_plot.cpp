@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -66,7 +67,16 @@ TEST_CASE("a line passes through its points at the scale of the axes", "[io][rep
   plot.panels[0].series[0].label = "";
   // margins: 68 left, 18 right, 10 above, 46 below: the data area is 414 x 244 px
   const std::string svg = svg_from_plot(plot, "f");
-  CHECK(svg.find("d='M171.50,229.60 L275.00,156.40 L378.50,34.40") != std::string::npos);
+  const std::size_t path = svg.find("d='M", svg.find("stroke='rgb(  0, 114, 178)'"));
+  REQUIRE(path != std::string::npos);
+  double x[3] = {}, y[3] = {};
+  REQUIRE(std::sscanf(svg.c_str() + path, "d='M%lf,%lf L%lf,%lf L%lf,%lf", &x[0], &y[0], &x[1],
+                      &y[1], &x[2], &y[2]) == 6);
+  for (int i = 0; i < 3; ++i) {
+    const double value = i + 1.0;
+    CHECK(x[i] == Approx(68.0 + 414.0 * value / 4.0).margin(0.02));  // gnuplot rounds to .01 px
+    CHECK(y[i] == Approx(254.0 - 244.0 * value * value / 10.0).margin(0.02));
+  }
 }
 
 TEST_CASE("two figures on one page share no id and refer only to their own", "[io][report]") {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -121,10 +122,11 @@ TEST_CASE("a truth far outside is counted as missed", "[io][report]") {
   ReportInput input = synthetic_report();
   input.specimens.resize(1);
   FitResult& fit = *input.specimens[0].fit;
-  input.specimens[0].truth->material.terms[0].g = 3.0 * fit.terms[0].g;
+  MaterialTerm& term = input.specimens[0].truth->material.terms[0];
+  term.g = term.k = 3.0 * fit.terms[0].g;
   const std::string words = words_of(html_from_report(input));
+  CAPTURE(words.substr(words.find("whose truth"), 200));
   CHECK(has(words, " of 6 intervals contain it"));
-  CHECK(has(words, "<no>") == false);
   CHECK(has(html_from_report(input), "<span class=\"no\">no</span>"));
 }
 
@@ -171,10 +173,11 @@ TEST_CASE("NaN and infinity are never printed", "[io][report]") {
   const std::string html = html_from_report(input);
   CHECK(first_fault(html) == "");
   const std::string words = words_of(html);
-  for (const char* bad : {"nan", "NaN", "inf ", "inf]", " inf,", "-inf"}) {
-    CAPTURE(bad);
-    CHECK_FALSE(has(words, bad));
-  }
+  static const std::regex bad("[^A-Za-z](nan|NaN|NAN|inf|Inf|INF)[^A-Za-z]");
+  std::smatch found;
+  const bool has_bad = std::regex_search(words, found, bad);
+  CAPTURE(found.str());
+  CHECK_FALSE(has_bad);
   CHECK_FALSE(has(html, "value=\"nan"));
   CHECK(has(words, "unbounded"));
 }

@@ -145,6 +145,7 @@ TEST_CASE("without moves the depth comes from the stage's reports", "[io][report
   run.moves.clear();
   const RunSeries by_reports = series_from_run(run, 1e-3);
   REQUIRE(by_reports.depth_m.size() == by_moves.depth_m.size());
-  CHECK(by_reports.depth_m[4000] == Approx(by_moves.depth_m[4000]).margin(1e-9));  // at rest: equal
+  CHECK(by_reports.depth_m[4000] ==
+        Approx(by_moves.depth_m[4000]).margin(0.05e-6));  // other readings count as clear: noise
   CHECK(series_from_run(run, std::nullopt).depth_m.empty());
 }
