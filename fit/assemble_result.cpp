@@ -77,6 +77,17 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
                             "something still relaxes when the record ends: E_inf is an upper bound"});
   }
   result.rss = fit.rss;
+  const Eigen::VectorXd sigma = model.row_sigma();
+  if (sigma.size() > 0) {  // every rss in the unit of the data
+    const auto in_unit = [&](const SpectralState& state) {
+      return (model.columns(state.ln_tau, state.nuisance, false).values * state.coefficients -
+              model.data())
+          .cwiseProduct(sigma)
+          .squaredNorm();
+    };
+    for (std::size_t i = 0; i < fit.path.size(); ++i) result.orders[i].rss = in_unit(fit.path[i]);
+    result.rss = in_unit(fit.state);
+  }
   result.n_samples = static_cast<std::size_t>(model.n_samples());
   result.is_converged = fit.state.is_converged;
 }

@@ -11,6 +11,7 @@
 #include "fit/clean_data.h"
 #include "fit/flags.h"
 #include "fit/history_model.h"
+#include "fit/step_curves.h"
 #include "fit/step_model.h"
 
 namespace viscard {
@@ -68,19 +69,7 @@ FitResult fit_step(const CleanColumns& clean, const FitOptions& options) {
   const TestWindow window{shortest_step_s(clean.columns[0]), 0.0, clean.columns[0].front(),
                           clean.columns[0].back()};
   add_identifiability_flags(model, fit.state, fit.covariance, window, result);
-  if (options.with_curves) {
-    const Eigen::VectorXd fitted =
-        model.columns(fit.state.ln_tau, fit.state.nuisance, false).values * fit.state.coefficients;
-    for (std::size_t i = 0; i < model.bins().size(); ++i) {
-      const LogBin& bin = model.bins()[i];
-      const double root = std::sqrt(bin.count);
-      result.curves.time_s.push_back(bin.time_s);
-      result.curves.measured.push_back(bin.value);
-      result.curves.fitted.push_back(fitted[static_cast<Index>(i)] / root);
-      result.curves.sigma.push_back(result.noise.sigma / root);
-    }
-    result.curves.unit = "Pa";
-  }
+  if (options.with_curves) fill_step_curves(model, fit, "Pa", result);
   result.fit_from_s = clean.columns[0].front();
   result.fit_to_s = clean.columns[0].back();
   return result;

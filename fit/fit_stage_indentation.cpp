@@ -217,7 +217,6 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
   const Eigen::VectorXd residual =
       model.residual_series(fit.state.ln_tau, fit.state.nuisance, fit.state.coefficients);
   const Eigen::VectorXd residual_N = residual.cwiseProduct(model.sigma_N());
-  result.rss = residual_N.squaredNorm();
   report_stage_fit(model, data, fit, residual_N, result);
   if (options.with_curves) fill_curves(model, data, fit.state, residual_N, result);
   return result;

@@ -62,6 +62,8 @@ class SpectralModel {
   virtual double n_samples() const { return static_cast<double>(n_rows()); }
   virtual double hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                             const Eigen::VectorXd& coefficients) const;
+  // Standard deviation that each row was divided by; empty: rows are in the unit of the data.
+  virtual Eigen::VectorXd row_sigma() const { return {}; }
   // Consecutive weighted residuals of samples (a stretch of them if there are very many), for their
   // autocorrelation.
   virtual Eigen::VectorXd residual_series(const Eigen::VectorXd& ln_tau,

@@ -30,6 +30,7 @@ class StageModel final : public SpectralModel {
   // True for samples while the stage moves (by the start values).
   const std::vector<bool>& is_moving() const { return is_moving_; }
   const Eigen::VectorXd& sigma_N() const { return sigma_N_; }
+  Eigen::VectorXd row_sigma() const override { return sigma_N_; }
 
  private:
   std::vector<double> time_s_;

@@ -30,11 +30,13 @@ Eigen::MatrixXd series_slopes(const SpectralModel& model, const SpectralState& s
   const Index linear = state.coefficients.size();
   const Index n_terms = state.n_terms();
   const Index total = linear + n_terms + model.n_nuisances();
-  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(1 + 2 * n_terms, total);
+  const Index size = vector_from(series_from_state(state)).size();
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(size, total);
   constexpr double kStep = 1e-5;
   for (Index j = 0; j < linear + n_terms; ++j) {
-    const bool is_common = j < model.n_common();
-    if (is_common && (j > 0 || model.common()[0].is_free)) continue;  // offset, drift
+    if (j < model.n_common() && model.common()[static_cast<std::size_t>(j)].is_free) {
+      continue;  // offset, drift: no part of the material
+    }
     SpectralState up = state;
     SpectralState down = state;
     double step = kStep;
@@ -125,7 +127,7 @@ void fill_parameters(const SpectralModel& model, const SpectralState& state,
                      const Eigen::MatrixXd& covariance, const SeriesFromState& series_from_state,
                      FitResult& result) {
   const PronySeries series = series_from_state(state);
-  const Index n = state.n_terms();
+  const auto n = static_cast<Index>(series.terms.size());
   const Eigen::MatrixXd slopes = series_slopes(model, state, series_from_state);
   // Products of an unreached parameter with no influence are 0 * inf: take them as 0.
   Eigen::MatrixXd finite = covariance;

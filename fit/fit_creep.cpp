@@ -1,0 +1,71 @@
+#include "fit/fit_creep.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "fit/assemble_result.h"
+#include "fit/clean_data.h"
+#include "fit/flags.h"
+#include "fit/step_curves.h"
+#include "fit/step_model.h"
+#include "models/retardation_spectrum.h"
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+
+PronySeries series_from_creep(const SpectralModel& model, const SpectralState& state,
+                              bool is_liquid) {
+  RetardationSpectrum spectrum;
+  spectrum.instantaneous_compliance_1_Pa = state.coefficients[0];
+  if (is_liquid) spectrum.fluidity_1_Pa_s = state.coefficients[1];
+  for (Index i = 0; i < state.n_terms(); ++i) {
+    spectrum.terms.push_back({state.coefficients[model.n_common() + i], std::exp(state.ln_tau[i])});
+  }
+  return relaxation_from_retardation(spectrum);
+}
+
+}  // namespace
+
+FitResult fit_creep(const CreepData& data, const FitOptions& options) {
+  constexpr std::size_t kLeastRows = 4;
+  const CleanColumns clean = clean_columns({data.time_s, data.compliance_1_Pa}, kLeastRows);
+  const std::vector<double>& time_s = clean.columns[0];
+  if (time_s.front() < 0.0) {
+    throw std::runtime_error("the first time is " + std::to_string(time_s.front()) +
+                             " s; t = 0 must be the step of stress (set it with --time-zero)");
+  }
+  if (!(time_s.back() > time_s.front())) {
+    throw std::runtime_error("all rows have the same time; nothing can be said of creep");
+  }
+  if (options.allow_negative) {
+    throw std::invalid_argument("creep terms cannot be negative: the compliance of a solid only grows");
+  }
+  const StepModel model(time_s, clean.columns[1], StepShape::kCreep, options);
+  std::vector<double> row_time_s;
+  for (const LogBin& bin : model.bins()) row_time_s.push_back(bin.time_s);
+  const SpectralFit fit = fit_spectrum(model, log_time_blocks(row_time_s, 0.0, 1), options);
+  if (!(fit.state.coefficients[0] > 0.0)) {
+    throw std::runtime_error(
+        "the record shows no instantaneous compliance (it begins at zero), so E0 would be infinite. "
+        "Start the record earlier after the step, or give fewer terms with --terms");
+  }
+  FitResult result;
+  result.kind = FitKind::kCreep;
+  fill_result(
+      model, fit,
+      [&](const SpectralState& state) {
+        return series_from_creep(model, state, options.is_liquid);
+      },
+      result);
+  result.n_left_out = clean.n_left_out;
+  result.fit_from_s = time_s.front();
+  result.fit_to_s = time_s.back();
+  add_identifiability_flags(model, fit.state, fit.covariance,
+                            {shortest_step_s(time_s), 0.0, time_s.front(), time_s.back()}, result);
+  if (options.with_curves) fill_step_curves(model, fit, "1/Pa", result);
+  return result;
+}
+
+}  // namespace viscard

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "fit/assemble_result.h"
+#include "fit/step_model.h"
+
+namespace viscard {
+
+// Fills FitResult::curves with the averages of a step fit.
+void fill_step_curves(const StepModel& model, const SpectralFit& fit, const std::string& unit,
+                      FitResult& result);
+
+}  // namespace viscard

@@ -1,0 +1,291 @@
+#include "io/cli/command_fit.h"
+
+#include "io/atomic_file.h"
+#include "io/cli/command_line.h"
+#include "io/cli/fit_output.h"
+#include "io/cli/progress.h"
+#include "io/config_file.h"
+#include "io/material_file.h"
+#include "io/sha256.h"
+#include "io/units.h"
+
+#include <algorithm>
+#include <atomic>
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <thread>
+
+namespace po = boost::program_options;
+
+namespace viscard {
+namespace {
+
+using Words = std::vector<std::string>;
+
+CommandSyntax fit_syntax() {
+  CommandSyntax syntax;
+  syntax.usage = "viscard fit FILE... [OPTIONS]";
+  syntax.description =
+      "Finds the instantaneous modulus and a Prony series, with 95 % intervals, in captures (*.viscap)\n"
+      "or tables from any machine. Columns are found by name and unit (force_N, \"Force [N]\", t (s)).\n"
+      "Times come from the exact history of loading; the number of terms is chosen unless given.";
+  syntax.example = "viscard fit data/demo/example_relaxation.csv --out material.json";
+  syntax.options.add_options()(
+      "kind", po::value<std::string>(),
+      "indentation, relaxation, creep or dma; default: by the columns there are")(
+      "terms", po::value<int>(), "this number of terms instead of a choice")(
+      "max-terms", po::value<int>()->default_value(40), "largest number tried")(
+      "liquid", "no equilibrium modulus")("allow-negative", "terms may have negative moduli")(
+      "noise", po::value<std::string>()->default_value("auto"),
+      "white: no inflation for autocorrelation, sigma^2 = rss/(n - p)")(
+      "full-data", "every sample for itself instead of averages in log time")(
+      "column", po::value<Words>()->composing(),
+      "NAME=HEADER or NAME=2: where a column is, also -HEADER and 1e9*HEADER")(
+      "segment", po::value<Words>()->composing(), "only rows of this segment (repeatable)")(
+      "time-zero", po::value<std::string>()->default_value("0"), "time of the table that is t = 0")(
+      "specimen", po::value<std::string>(), "specimen.toml: geometry under the punch")(
+      "punch-diameter", po::value<std::string>(), "of a flat punch, for instance \"4.4 mm\"")(
+      "layer-thickness", po::value<std::string>(), "of the specimen on a rigid base; left out: deep")(
+      "poisson-ratio", po::value<double>(), "default 0.495")(
+      "frame-stiffness", po::value<std::string>(),
+      "when depth_m is the stage's: \"10 N/mm\" between stage and punch")(
+      "density", po::value<std::string>(), "for the material file, for instance \"965 kg/m3\"")(
+      "out", po::value<std::string>(), "material file to write (one input file)")(
+      "force", "replace an existing material file");
+  syntax.positional = {"file"};
+  syntax.last_is_repeatable = true;
+  return syntax;
+}
+
+// A quantity from the command line; bad text is bad words.
+double quantity(const po::variables_map& values, const char* option, const char* si_unit) {
+  try {
+    return si_from_text(values[option].as<std::string>(), si_unit);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--") + option + ": " + error.what());
+  }
+}
+
+FitKind kind_from_word(const std::string& word) {
+  static const std::vector<std::pair<std::string, FitKind>> kKinds{
+      {"indentation", FitKind::kIndentation},
+      {"relaxation", FitKind::kRelaxation},
+      {"creep", FitKind::kCreep},
+      {"dma", FitKind::kDma}};
+  Words names;
+  for (const auto& [name, kind] : kKinds) {
+    if (word == name) return kind;
+    names.push_back(name);
+  }
+  const std::string near = nearest_word(word, names);
+  throw UsageError("--kind " + word + " is not known" +
+                   (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                   " There are indentation, relaxation, creep, dma");
+}
+
+FitOptions options_from(const po::variables_map& values) {
+  FitOptions options;
+  constexpr int kMost = 100;
+  options.max_terms = values["max-terms"].as<int>();
+  if (values.count("terms") > 0) options.n_terms = values["terms"].as<int>();
+  const int wanted = options.n_terms.value_or(options.max_terms);
+  if (wanted < 0 || wanted > kMost) {
+    throw UsageError(std::string(options.n_terms ? "--terms " : "--max-terms ") +
+                     std::to_string(wanted) + " is outside 0 to " + std::to_string(kMost));
+  }
+  options.is_liquid = values.count("liquid") > 0;
+  options.allow_negative = values.count("allow-negative") > 0;
+  options.full_data = values.count("full-data") > 0;
+  const std::string noise = values["noise"].as<std::string>();
+  if (noise != "auto" && noise != "white") {
+    throw UsageError("--noise " + noise + " is not known; there are auto and white");
+  }
+  options.white_noise = noise == "white";
+  if (options.is_liquid && options.n_terms == 0) {
+    throw UsageError("--liquid needs at least one term; nothing is left with --terms 0");
+  }
+  return options;
+}
+
+std::optional<Specimen> specimen_from(const po::variables_map& values) {
+  std::optional<Specimen> specimen;
+  if (values.count("specimen") > 0) specimen = read_specimen(values["specimen"].as<std::string>());
+  if (values.count("punch-diameter") > 0) {
+    if (!specimen) {
+      specimen.emplace();
+      specimen->contact.poisson_ratio = 0.495;
+    }
+    specimen->contact.punch_radius_m = 0.5 * quantity(values, "punch-diameter", "m");
+  } else if (!specimen &&
+             (values.count("layer-thickness") > 0 || values.count("poisson-ratio") > 0)) {
+    throw UsageError("--layer-thickness and --poisson-ratio need --punch-diameter or --specimen");
+  }
+  if (!specimen) return specimen;
+  if (values.count("layer-thickness") > 0) {
+    specimen->contact.layer_thickness_m = quantity(values, "layer-thickness", "m");
+  }
+  if (values.count("poisson-ratio") > 0) {
+    specimen->contact.poisson_ratio = values["poisson-ratio"].as<double>();
+  }
+  validate(specimen->contact);
+  return specimen;
+}
+
+FitWords words_from(const po::variables_map& values) {
+  FitWords words;
+  if (values.count("kind") > 0) words.kind = kind_from_word(values["kind"].as<std::string>());
+  words.options = options_from(values);
+  words.time_zero_s = quantity(values, "time-zero", "s");
+  if (values.count("column") > 0) {
+    try {
+      words.columns = column_map_from_words(values["column"].as<Words>());
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(error.what());
+    }
+  }
+  if (values.count("segment") > 0) words.segments = values["segment"].as<Words>();
+  if (values.count("frame-stiffness") > 0) {
+    words.frame_stiffness_N_m = quantity(values, "frame-stiffness", "N/m");
+    if (!(words.frame_stiffness_N_m > 0.0)) {
+      throw UsageError("--frame-stiffness must be positive; leave it away for a rigid frame");
+    }
+  }
+  words.specimen = specimen_from(values);
+  return words;
+}
+
+// All files on all cores; the first failure in the order of the files is thrown.
+std::vector<FittedFile> fit_files(const Words& files, const FitWords& words, Streams& streams) {
+  std::vector<FittedFile> fitted(files.size());
+  std::vector<std::exception_ptr> failures(files.size());
+  std::atomic<std::size_t> next{0};
+  std::atomic<std::size_t> done{0};
+  std::mutex drawing;
+  Progress progress(streams, "fit");
+  const auto work = [&] {
+    for (std::size_t i = next++; i < files.size(); i = next++) {
+      try {
+        fitted[i] = fit_file(files[i], words);
+      } catch (...) {
+        failures[i] = std::current_exception();
+      }
+      const std::lock_guard lock(drawing);
+      progress.show(static_cast<double>(++done) / static_cast<double>(files.size()), files[i]);
+    }
+  };
+  std::vector<std::thread> threads;
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  for (std::size_t i = 1; i < std::min(cores, files.size()); ++i) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  progress.clear();
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+  return fitted;
+}
+
+std::string now_iso8601() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+Material material_from(const FittedFile& fitted, const po::variables_map& values,
+                       const std::string& command) {
+  const Specimen& specimen = fitted.specimen;
+  const bool has_contact = specimen.contact.punch_radius_m > 0.0;
+  double nu = has_contact ? specimen.contact.poisson_ratio : 0.495;
+  if (values.count("poisson-ratio") > 0) nu = values["poisson-ratio"].as<double>();
+  double rho_kg_m3 = specimen.rho_kg_m3;
+  if (values.count("density") > 0) rho_kg_m3 = quantity(values, "density", "kg/m3");
+  Material material = material_from_fit(fitted.result, nu, rho_kg_m3);
+  material.name = specimen.id.empty() ? std::filesystem::path(fitted.path).stem().string()
+                                      : specimen.id;
+  if (!specimen.id.empty()) material.T_ref_C = specimen.temperature_C;
+  material.valid.t_max_s = fitted.result.fit_to_s - std::min(0.0, fitted.result.fit_from_s);
+  if (fitted.result.kind == FitKind::kIndentation) {
+    material.valid.t_max_s = fitted.result.fit_to_s - fitted.result.fit_from_s;
+  } else {
+    material.valid.t_min_s = std::max(0.0, fitted.result.fit_from_s);
+  }
+  material.provenance.created_by = "viscard " VISCARD_VERSION;
+  material.provenance.created_at = now_iso8601();
+  material.provenance.command = command;
+  material.provenance.raw_files = {{fitted.path, sha256_of_file(fitted.path)}};
+  return material;
+}
+
+void print(const std::vector<FittedFile>& fitted, bool as_json, std::ostream& out) {
+  if (!as_json) {
+    for (const FittedFile& file : fitted) {
+      if (&file != &fitted.front()) out << "\n";
+      print_fit(file, out);
+    }
+    return;
+  }
+  if (fitted.size() == 1) {
+    out << json_from_fit(fitted.front()).dump(2) << "\n";
+    return;
+  }
+  nlohmann::ordered_json json;
+  json["fits"] = nlohmann::ordered_json::array();
+  for (const FittedFile& file : fitted) json["fits"].push_back(json_from_fit(file));
+  out << json.dump(2) << "\n";
+}
+
+// One line for each result that must not be trusted.
+int report_defects(const std::vector<FittedFile>& fitted, std::ostream& err) {
+  int status = kDone;
+  for (const FittedFile& file : fitted) {
+    if (file.result.is_trustworthy) continue;
+    status = kFailed;
+    std::string names;
+    for (const MaterialFlag& flag : file.result.flags) {
+      for (const char* name : {"not-converged", "saturated", "gap-in-ramp", "contact-lost"}) {
+        if (flag.name == name) names += (names.empty() ? "" : "; ") + flag.text;
+      }
+    }
+    err << "viscard: " << file.path << ": the result is not to be trusted: " << names << "\n";
+  }
+  return status;
+}
+
+}  // namespace
+
+int run_fit(const Words& words, Streams& streams) {
+  CommandSyntax syntax = fit_syntax();
+  const auto values = parse_words(syntax, words, streams);
+  if (!values) return kDone;
+  if (values->count("file") == 0) {
+    throw UsageError(std::string("which file? usage: ") + syntax.usage);
+  }
+  const auto files = (*values)["file"].as<Words>();
+  const bool has_out = values->count("out") > 0;
+  if (has_out && files.size() > 1) {
+    throw UsageError("--out takes the material of one input file; fit the " +
+                     std::to_string(files.size()) + " files one by one");
+  }
+  const bool overwrite = values->count("force") > 0;
+  if (has_out && !overwrite && std::filesystem::exists((*values)["out"].as<std::string>())) {
+    throw std::runtime_error("'" + (*values)["out"].as<std::string>() +
+                             "' exists already. Choose another --out, or add --force to replace it");
+  }
+  const std::vector<FittedFile> fitted = fit_files(files, words_from(*values), streams);
+  print(fitted, values->count("json") > 0, streams.out);
+  if (has_out) {
+    const Material material =
+        material_from(fitted.front(), *values, quoted_command_line("fit", words));
+    write_file((*values)["out"].as<std::string>(), json_from_material(material), overwrite);
+  }
+  return report_defects(fitted, streams.err);
+}
+
+}  // namespace viscard

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "fit/fit_data.h"
+#include "fit/fit_result.h"
+#include "io/column_map.h"
+#include "models/specimen.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// What `viscard fit` was asked, apart from the files.
+struct FitWords {
+  std::optional<FitKind> kind;  // none: by the columns found
+  FitOptions options;
+  ColumnMap columns;
+  std::vector<std::string> segments;  // rows of these only; empty: all
+  double time_zero_s = 0.0;           // t = 0
+  std::optional<Specimen> specimen;   // geometry, in place of the capture's own
+  double frame_stiffness_N_m = 0.0;   // for tables whose depth is the stage's
+};
+
+// One file fitted, with what the file said about the specimen.
+struct FittedFile {
+  std::string path;
+  FitResult result;
+  Specimen specimen;        // empty for a table without --specimen
+  std::string fitted_unit;  // of the fitted column: "N", "Pa", "1/Pa"
+};
+
+// Reads a capture or a table and fits it. Throws std::runtime_error naming the file.
+FittedFile fit_file(const std::string& path, const FitWords& words);
+
+}  // namespace viscard
