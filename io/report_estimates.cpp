@@ -18,6 +18,8 @@ void take_fit(const FitResult& fit, SpecimenEstimates& estimates) {
   estimates.is_stiffness = fit.is_stiffness;
   estimates.E0_Pa = {fit.E0_Pa, fit.E0_interval_95};
   estimates.E_inf_Pa = {fit.E_inf_Pa, fit.E_inf_interval_95};
+  estimates.sum_g = {1.0 - fit.E_inf_Pa / fit.E0_Pa, fit.sum_g_95};
+  estimates.is_trustworthy = fit.is_trustworthy;
   for (const FittedTerm& term : fit.terms) {
     estimates.terms.push_back(
         {{term.modulus_Pa, term.modulus_Pa_95}, {term.g, term.g_95}, {term.tau_s, term.tau_s_95}});
@@ -38,6 +40,7 @@ void take_material(const Material& material, SpecimenEstimates& estimates) {
                                {term.modulus_Pa / material.E0_Pa, {}},
                                {term.relaxation_time_s, {}}});
   }
+  estimates.sum_g.value = 1.0 - series.equilibrium_modulus_Pa / material.E0_Pa;
   estimates.flags = material.flags;
   // Uncertainties are those of E(t) itself only while the Poisson ratio is constant.
   if (!material.uncertainty || !has_constant_poisson_ratio(material)) return;

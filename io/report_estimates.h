@@ -26,6 +26,8 @@ struct SpecimenEstimates {
   double mixing_ratio = 0.0;
   bool is_stiffness = false;  // moduli are stiffnesses in N/m
   Estimate E0_Pa, E_inf_Pa;
+  Estimate sum_g;  // 1 - E_inf/E0
+  bool is_trustworthy = true;
   std::vector<TermEstimate> terms;  // ascending tau
   double systematic_relative = 0.0;
   std::optional<TwoPointModulus> two_point;

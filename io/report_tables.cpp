@@ -92,7 +92,8 @@ HtmlTable summary_table(const std::vector<SpecimenEstimates>& estimates) {
   if (has_ratio) columns.push_back({"Ratio"});
   columns.push_back({with_unit(fmt::format("<i>{}</i><sub>0</sub>", symbol), unit.text)});
   columns.push_back({with_unit(fmt::format("<i>{}</i><sub>∞</sub>", symbol), unit.text)});
-  columns.insert(columns.end(), {{"Relaxes by"}, {"Terms"}, {"Systematic"}});
+  columns.insert(columns.end(),
+                 {{with_unit("Relaxes by", "%")}, {"Terms"}, {with_unit("Systematic", "%")}});
   if (has_two_point) columns.push_back({with_unit("Two-point modulus", unit.text)});
   columns.push_back({"Flags"});
   HtmlTable table(columns);
@@ -105,14 +106,15 @@ HtmlTable summary_table(const std::vector<SpecimenEstimates>& estimates) {
     }
     row.push_back(estimate_html(specimen.E0_Pa, unit.per_si));
     row.push_back(estimate_html(specimen.E_inf_Pa, unit.per_si));
-    const double relaxed = 100.0 * (1.0 - specimen.E_inf_Pa.value / specimen.E0_Pa.value);
-    row.push_back(std::isfinite(relaxed) ? readable_number(relaxed, 3) + " %" : "–");
+    row.push_back(estimate_html(specimen.sum_g, 100.0));
     row.push_back(std::to_string(specimen.terms.size()));
     row.push_back(specimen.systematic_relative > 0.0
-                      ? fmt::format("±{:.2g} %", 196.0 * specimen.systematic_relative)
+                      ? fmt::format("±{:.2g}", 196.0 * specimen.systematic_relative)
                       : "–");
     if (has_two_point) row.push_back(two_point_html(specimen.two_point, unit.per_si));
-    row.push_back(specimen.flags.empty() ? "none" : std::to_string(specimen.flags.size()));
+    const std::string flags =
+        specimen.flags.empty() ? "none" : std::to_string(specimen.flags.size());
+    row.push_back(specimen.is_trustworthy ? flags : "<span class=\"no\">not to be trusted</span>");
     table.add_row(row, group_if(i > 0));
   }
   return table;

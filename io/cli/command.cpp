@@ -4,6 +4,7 @@
 #include "io/cli/command_demo.h"
 #include "io/cli/command_export.h"
 #include "io/cli/command_fit.h"
+#include "io/cli/command_report.h"
 #include "io/cli/command_validate.h"
 
 #include <ostream>
@@ -51,6 +52,7 @@ const std::vector<Command>& commands() {
       {"fit", "find modulus and Prony series in captures or tables", run_fit},
       {"validate", "check a material in the pillar against exact creep and relaxation",
        run_validate},
+      {"report", "one page with everything known of captures, tables and materials", run_report},
       {"demo", "run all of it on the emulated rig", run_demo},
   };
   return table;

@@ -2,20 +2,20 @@
 
 #include "io/atomic_file.h"
 #include "io/cli/command_line.h"
+#include "io/cli/fit_material.h"
 #include "io/cli/fit_output.h"
 #include "io/cli/progress.h"
 #include "io/config_file.h"
 #include "io/material_file.h"
-#include "io/sha256.h"
 #include "io/units.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <atomic>
-#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <ostream>
 #include <thread>
 
@@ -30,8 +30,10 @@ CommandSyntax fit_syntax() {
   CommandSyntax syntax;
   syntax.usage = "viscard fit FILE... [OPTIONS]";
   syntax.description =
-      "Finds the instantaneous modulus and a Prony series, with 95 % intervals, in captures (*.viscap)\n"
-      "or tables from any machine. Columns are found by name and unit (force_N, \"Force [N]\", t (s)).\n"
+      "Finds the instantaneous modulus and a Prony series, with 95 % intervals, in captures "
+      "(*.viscap)\n"
+      "or tables from any machine. Columns are found by name and unit (force_N, \"Force [N]\", t "
+      "(s)).\n"
       "Times come from the exact history of loading; the number of terms is chosen unless given.";
   syntax.example = "viscard fit data/demo/example_relaxation.csv --out material.json";
   syntax.options.add_options()(
@@ -49,8 +51,9 @@ CommandSyntax fit_syntax() {
       "time-zero", po::value<std::string>()->default_value("0"), "time of the table that is t = 0")(
       "specimen", po::value<std::string>(), "specimen.toml: geometry under the punch")(
       "punch-diameter", po::value<std::string>(), "of a flat punch, for instance \"4.4 mm\"")(
-      "layer-thickness", po::value<std::string>(), "of the specimen on a rigid base; left out: deep")(
-      "poisson-ratio", po::value<double>(), "default 0.495")(
+      "layer-thickness", po::value<std::string>(),
+      "of the specimen on a rigid base; left out: deep")("poisson-ratio", po::value<double>(),
+                                                         "default 0.495")(
       "frame-stiffness", po::value<std::string>(),
       "when depth_m is the stage's: \"10 N/mm\" between stage and punch")(
       "density", po::value<std::string>(), "for the material file, for instance \"965 kg/m3\"")(
@@ -189,38 +192,11 @@ std::vector<FittedFile> fit_files(const Words& files, const FitWords& words, Str
   return fitted;
 }
 
-std::string now_iso8601() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
-}
-
-Material material_from(const FittedFile& fitted, const po::variables_map& values,
-                       const std::string& command) {
-  const Specimen& specimen = fitted.specimen;
-  const bool has_contact = specimen.contact.punch_radius_m > 0.0;
-  double nu = has_contact ? specimen.contact.poisson_ratio : 0.495;
-  if (values.count("poisson-ratio") > 0) nu = values["poisson-ratio"].as<double>();
-  double rho_kg_m3 = specimen.rho_kg_m3;
-  if (values.count("density") > 0) rho_kg_m3 = quantity(values, "density", "kg/m3");
-  Material material = material_from_fit(fitted.result, nu, rho_kg_m3);
-  material.name = specimen.id.empty() ? std::filesystem::path(fitted.path).stem().string()
-                                      : specimen.id;
-  if (!specimen.id.empty()) material.T_ref_C = specimen.temperature_C;
-  material.valid.t_max_s = fitted.result.fit_to_s - std::min(0.0, fitted.result.fit_from_s);
-  if (fitted.result.kind == FitKind::kIndentation) {
-    material.valid.t_max_s = fitted.result.fit_to_s - fitted.result.fit_from_s;
-  } else {
-    material.valid.t_min_s = std::max(0.0, fitted.result.fit_from_s);
-  }
-  material.provenance.created_by = "viscard " VISCARD_VERSION;
-  material.provenance.created_at = now_iso8601();
-  material.provenance.command = command;
-  material.provenance.raw_files = {{fitted.path, sha256_of_file(fitted.path)}};
-  return material;
+FittedMaterialWords material_words(const po::variables_map& values, const std::string& command) {
+  FittedMaterialWords words{.command = command, .created_at = now_iso8601()};
+  if (values.count("poisson-ratio") > 0) words.nu = values["poisson-ratio"].as<double>();
+  if (values.count("density") > 0) words.rho_kg_m3 = quantity(values, "density", "kg/m3");
+  return words;
 }
 
 void print(const std::vector<FittedFile>& fitted, bool as_json, std::ostream& out) {
@@ -275,14 +251,15 @@ int run_fit(const Words& words, Streams& streams) {
   }
   const bool overwrite = values->count("force") > 0;
   if (has_out && !overwrite && std::filesystem::exists((*values)["out"].as<std::string>())) {
-    throw std::runtime_error("'" + (*values)["out"].as<std::string>() +
-                             "' exists already. Choose another --out, or add --force to replace it");
+    throw std::runtime_error(
+        "'" + (*values)["out"].as<std::string>() +
+        "' exists already. Choose another --out, or add --force to replace it");
   }
   const std::vector<FittedFile> fitted = fit_files(files, words_from(*values), streams);
   print(fitted, values->count("json") > 0, streams.out);
   if (has_out) {
-    const Material material =
-        material_from(fitted.front(), *values, quoted_command_line("fit", words));
+    const Material material = material_from_fitted(
+        fitted.front(), material_words(*values, quoted_command_line("fit", words)));
     write_file((*values)["out"].as<std::string>(), json_from_material(material), overwrite);
   }
   return report_defects(fitted, streams.err);
