@@ -36,6 +36,7 @@ void show_stage(FieldVisitor& fields, StageConfig& stage) {
   show_integer(fields, "toward_specimen", -1, 1, stage.toward_specimen);
   fields.quantity({"travel", "m", kPositive}, stage.travel_m);
   fields.quantity({"backlash", "m", kNotNegative}, stage.backlash_m);
+  fields.boolean("home", stage.home);
 }
 
 void show_load_cell(FieldVisitor& fields, LoadCellConfig& cell) {
