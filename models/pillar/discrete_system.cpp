@@ -205,33 +205,99 @@ SymmetricSparse DiscreteSystem::volume_form(const std::vector<double>& per_regio
     for (const double factor : per_region) D.push_back(Eigen::MatrixXd::Constant(1, 1, factor));
     return form({kinematics_.divergence}, D);
   }
-  const int q = std::max(section_->degree() - 2, 0);
-  const Eigen::Index nq = q + 1;
-  const Eigen::Index n1 = section_->degree() + 1;
   SymmetricSparse matrix = pattern_;
-  Eigen::MatrixXd B(nq * nq, kinematics_.field_count * n1 * n1);  // int L (div N)
-  Eigen::MatrixXd mass(nq * nq, nq * nq);
   for (std::size_t e = 0; e < section_->elements().size(); ++e) {
     const SectionElement& element = section_->elements()[e];
     const double factor =
         per_region.at(static_cast<std::size_t>(element.region)) * kinematics_.measure;
     if (factor == 0.0) continue;
-    B.setZero();
-    for (const OperatorTerm& t : kinematics_.divergence) {
-      const Eigen::MatrixXd x =
-          t.factor * section_->x().legendre_integral(element.column,
-                                                     kinematics_.x_power - t.inverse_x, q, t.dx);
-      const Eigen::MatrixXd z = section_->z().legendre_integral(element.row, 0, q, t.dz);
-      for (Eigen::Index kz = 0; kz < nq; ++kz) {
-        for (Eigen::Index iz = 0; iz < n1; ++iz) {
-          B.block(kz * nq, t.field * n1 * n1 + iz * n1, nq, n1) += z(kz, iz) * x;
-        }
+    const Projection p = projection(element);
+    scatter(e, factor * (p.divergence.transpose() * p.mass.ldlt().solve(p.divergence)), matrix);
+  }
+  return matrix;
+}
+
+DiscreteSystem::Projection DiscreteSystem::projection(const SectionElement& element) const {
+  const int q = std::max(section_->degree() - 2, 0);
+  const Eigen::Index nq = q + 1;
+  const Eigen::Index n1 = section_->degree() + 1;
+  Projection p{q, Eigen::MatrixXd::Zero(nq * nq, kinematics_.field_count * n1 * n1),
+               Eigen::MatrixXd::Zero(nq * nq, nq * nq)};
+  for (const OperatorTerm& t : kinematics_.divergence) {
+    const Eigen::MatrixXd x =
+        t.factor *
+        section_->x().legendre_integral(element.column, kinematics_.x_power - t.inverse_x, q, t.dx);
+    const Eigen::MatrixXd z = section_->z().legendre_integral(element.row, 0, q, t.dz);
+    for (Eigen::Index kz = 0; kz < nq; ++kz) {
+      for (Eigen::Index iz = 0; iz < n1; ++iz) {
+        p.divergence.block(kz * nq, t.field * n1 * n1 + iz * n1, nq, n1) += z(kz, iz) * x;
       }
     }
-    mass.setZero();
-    add_kronecker(section_->z().legendre_mass(element.row, 0, q),
-                  section_->x().legendre_mass(element.column, kinematics_.x_power, q), mass);
-    scatter(e, factor * (B.transpose() * mass.ldlt().solve(B)), matrix);
+  }
+  add_kronecker(section_->z().legendre_mass(element.row, 0, q),
+                section_->x().legendre_mass(element.column, kinematics_.x_power, q), p.mass);
+  return p;
+}
+
+double DiscreteSystem::projected_divergence_at(const Eigen::VectorXd& solution,
+                                               const SectionElement& element, double x,
+                                               double z) const {
+  const Projection p = projection(element);
+  const std::vector<int> dofs = element_dofs(element);
+  Eigen::VectorXd local = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(dofs.size()));
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    if (dofs[i] >= 0) local[static_cast<Eigen::Index>(i)] = solution[dofs[i]];
+  }
+  const Eigen::VectorXd coefficient = p.mass.ldlt().solve(p.divergence * local);
+  const auto along = [&](const LineMesh& line, int e, double at) {
+    return legendre_values(p.degree,
+                           {(at - line.breaks()[static_cast<std::size_t>(e)]) / line.length(e)});
+  };
+  const Eigen::MatrixXd in_x = along(section_->x(), element.column, x);
+  const Eigen::MatrixXd in_z = along(section_->z(), element.row, z);
+  double value = 0.0;
+  for (Eigen::Index kz = 0; kz <= p.degree; ++kz) {
+    for (Eigen::Index kx = 0; kx <= p.degree; ++kx) {
+      value += coefficient[kz * (p.degree + 1) + kx] * in_z(0, kz) * in_x(0, kx);
+    }
+  }
+  return value;
+}
+
+SymmetricSparse DiscreteSystem::varying_form(
+    const std::vector<OperatorRow>& rows,
+    const std::function<Eigen::MatrixXd(const SectionElement&, double, double)>& D) const {
+  const Eigen::Index n1 = section_->degree() + 1;
+  const Eigen::Index nn = n1 * n1;
+  const auto n_rows = static_cast<Eigen::Index>(rows.size());
+  SymmetricSparse matrix = pattern_;
+  for (std::size_t e = 0; e < section_->elements().size(); ++e) {
+    const SectionElement& element = section_->elements()[e];
+    const LineMesh::ElementRule in_x = section_->x().rule(element.column);
+    const LineMesh::ElementRule in_z = section_->z().rule(element.row);
+    const Eigen::Index points = in_x.x.size() * in_z.x.size();
+    Eigen::MatrixXd B = Eigen::MatrixXd::Zero(points * n_rows, kinematics_.field_count * nn);
+    Eigen::MatrixXd DB(B.rows(), B.cols());
+    for (Eigen::Index point = 0; point < points; ++point) {
+      const Eigen::Index kx = point % in_x.x.size();
+      const Eigen::Index kz = point / in_x.x.size();
+      const double x = in_x.x[kx];
+      auto rows_here = B.middleRows(point * n_rows, n_rows);
+      for (Eigen::Index r = 0; r < n_rows; ++r) {
+        for (const OperatorTerm& t : rows[static_cast<std::size_t>(r)]) {
+          const double factor = t.factor / (t.inverse_x == 1 ? x : 1.0);
+          const auto bx = (t.dx == 0 ? in_x.value : in_x.derivative).row(kx);
+          const auto bz = (t.dz == 0 ? in_z.value : in_z.derivative).row(kz);
+          for (Eigen::Index iz = 0; iz < n1; ++iz) {
+            rows_here.block(r, t.field * nn + iz * n1, 1, n1) += factor * bz[iz] * bx;
+          }
+        }
+      }
+      const double weight = kinematics_.measure * in_x.weight[kx] * in_z.weight[kz] *
+                            (kinematics_.x_power == 1 ? x : 1.0);
+      DB.middleRows(point * n_rows, n_rows) = weight * D(element, x, in_z.x[kz]) * rows_here;
+    }
+    scatter(e, B.transpose() * DB, matrix);
   }
   return matrix;
 }

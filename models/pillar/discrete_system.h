@@ -48,6 +48,15 @@ class DiscreteSystem {
   Eigen::VectorXd rows_at(const std::vector<OperatorRow>& rows, const Eigen::VectorXd& solution,
                           const SectionElement& element, double x, double z) const;
 
+  // The projected div u (eq. 14) at a point of an element.
+  double projected_divergence_at(const Eigen::VectorXd& solution, const SectionElement& element,
+                                 double x, double z) const;
+
+  // A form whose matrix D(element, x, z) varies within the elements, by full quadrature.
+  SymmetricSparse varying_form(
+      const std::vector<OperatorRow>& rows,
+      const std::function<Eigen::MatrixXd(const SectionElement&, double, double)>& D) const;
+
   // Unknowns of one element, field slowest: field_count * (p + 1)^2, -1 where held.
   std::vector<int> element_dofs(const SectionElement& element) const;
   // Adds an element matrix (full square) to the values of a matrix of this system.
@@ -56,6 +65,13 @@ class DiscreteSystem {
 
  private:
   void build_pattern();
+  // int L (div N) and int L L of one element, L the Legendre products of Q_(p-2).
+  struct Projection {
+    int degree = 0;
+    Eigen::MatrixXd divergence;
+    Eigen::MatrixXd mass;
+  };
+  Projection projection(const SectionElement& element) const;
 
   const Section* section_;
   Kinematics kinematics_;

@@ -32,10 +32,9 @@ void strain_from_gradient(Kinematics& k) {
   k.divergence = sum(sum(g[0], g[4]), g[8]);
 }
 
-}  // namespace
-
 Kinematics longitudinal_kinematics() {
   Kinematics k{2, 0, 1, 2.0 * std::numbers::pi};
+  k.zero_on_axis = {0};
   k.displacement = {{value_of(0)}, {}, {value_of(1)}};
   k.gradient = {{d_dx(0)}, {}, {d_dz(0)}, {}, {over_x(0)}, {}, {d_dx(1)}, {}, {d_dz(1)}};
   strain_from_gradient(k);
@@ -44,11 +43,23 @@ Kinematics longitudinal_kinematics() {
 
 Kinematics torsion_kinematics() {
   Kinematics k{1, 0, 1, 2.0 * std::numbers::pi};
+  k.zero_on_axis = {0};
   k.displacement = {{}, {value_of(0)}, {}};
   k.gradient = {{}, {over_x(0, -1.0)}, {}, {d_dx(0)}, {}, {d_dz(0)}, {}, {}, {}};
   strain_from_gradient(k);
   return k;
 }
+
+Kinematics plane_kinematics(bool is_symmetric) {
+  Kinematics k{2, 0, 0, 2.0};
+  k.zero_on_axis = {is_symmetric ? 0 : 1};
+  k.displacement = {{value_of(0)}, {}, {value_of(1)}};
+  k.gradient = {{d_dx(0)}, {}, {d_dz(0)}, {}, {}, {}, {d_dx(1)}, {}, {d_dz(1)}};
+  strain_from_gradient(k);
+  return k;
+}
+
+}  // namespace
 
 Kinematics fourier_kinematics(int harmonic) {
   if (harmonic < 1) throw std::invalid_argument("the Fourier family starts at harmonic 1");
@@ -70,37 +81,38 @@ Kinematics fourier_kinematics(int harmonic) {
                 {over_x(2, -m)},
                 {d_dz(2)}};
   strain_from_gradient(k);
+  // m = 1: b carries the sideways motion of the axis itself.
+  k.zero_on_axis = harmonic == 1 ? std::vector<int>{0, 2} : std::vector<int>{0, 1, 2};
   return k;
 }
 
-Kinematics plane_kinematics() {
-  Kinematics k{2, 0, 0, 1.0};
-  k.displacement = {{value_of(0)}, {}, {value_of(1)}};
-  k.gradient = {{d_dx(0)}, {}, {d_dz(0)}, {}, {}, {}, {d_dx(1)}, {}, {d_dz(1)}};
-  strain_from_gradient(k);
-  return k;
+Kinematics kinematics_of(Motion motion) {
+  switch (motion) {
+    case Motion::kLongitudinal:
+      return longitudinal_kinematics();
+    case Motion::kTorsion:
+      return torsion_kinematics();
+    case Motion::kLateral:
+      return fourier_kinematics(1);
+    case Motion::kOvalling:
+      return fourier_kinematics(2);
+    case Motion::kPlaneSymmetric:
+      return plane_kinematics(true);
+    case Motion::kPlaneAntisymmetric:
+      return plane_kinematics(false);
+  }
+  throw std::invalid_argument("unknown family of motion");
 }
 
-Kinematics with_potential(Kinematics k) {
+Kinematics with_potential(Kinematics k, double scale_V) {
   const int phi = k.field_count++;
   k.potential_field = phi;
-  k.electric_field = {{d_dx(phi, -1.0)}, {}, {d_dz(phi, -1.0)}};
-  if (k.harmonic > 0) k.electric_field[1] = {over_x(phi, k.harmonic)};
-  return k;
-}
-
-std::vector<int> fields_zero_on_axis(const Kinematics& k) {
-  if (k.x_power == 0) return {};
-  std::vector<int> fields;
-  if (k.harmonic == 0) {
-    fields = {0};  // u_r of the longitudinal family, u_theta of torsion
-  } else if (k.harmonic == 1) {
-    fields = {0, 2};  // a and w; b carries the sideways motion of the axis
-    if (k.potential_field >= 0) fields.push_back(k.potential_field);
-  } else {
-    for (int field = 0; field < k.field_count; ++field) fields.push_back(field);
+  k.electric_field = {{d_dx(phi, -scale_V)}, {}, {d_dz(phi, -scale_V)}};
+  if (k.harmonic > 0) {
+    k.electric_field[1] = {over_x(phi, k.harmonic * scale_V)};
+    k.zero_on_axis.push_back(phi);
   }
-  return fields;
+  return k;
 }
 
 }  // namespace viscard

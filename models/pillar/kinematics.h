@@ -33,18 +33,27 @@ struct Kinematics {
   OperatorRow divergence;                   // xx + yy + zz
   std::vector<OperatorRow> electric_field;  // 3: -grad phi; empty without a potential
   int potential_field = -1;
+  // Fields that vanish on x = 0: for a smooth displacement on an axis (eq. 12), by symmetry in a
+  // plane.
+  std::vector<int> zero_on_axis;
 };
 
-Kinematics longitudinal_kinematics();         // m = 0, fields u_r, u_z
-Kinematics torsion_kinematics();              // m = 0, field u_theta
-Kinematics fourier_kinematics(int harmonic);  // m >= 1, fields a, b, w
-// Fields u_x, u_z, thickness 1 m. Plane stress differs only in the moduli (plane_stress_moduli).
-Kinematics plane_kinematics();
+// The families of motion of a pillar. Plane ones are for the half x >= 0 of a strip that is loaded
+// symmetrically or antisymmetrically; `measure` counts both halves, 1 m thick.
+enum class Motion {
+  kLongitudinal,       // m = 0, fields u_r, u_z
+  kTorsion,            // m = 0, field u_theta
+  kLateral,            // m = 1, fields a, b, w
+  kOvalling,           // m = 2
+  kPlaneSymmetric,     // fields u_x, u_z; "longitudinal" of a strip
+  kPlaneAntisymmetric  // "lateral" of a strip
+};
+Kinematics kinematics_of(Motion motion);
+Kinematics fourier_kinematics(int harmonic);  // any m >= 1; throws std::invalid_argument below
 
-// The same family with an electric potential as its last field.
-Kinematics with_potential(Kinematics kinematics);
-
-// Fields that must vanish on the axis x = 0 for the displacement to be smooth there (eq. 12).
-std::vector<int> fields_zero_on_axis(const Kinematics& kinematics);
+// The same family with an electric potential as its last field, in units of scale_V: a scale of
+// sqrt(stiffness/permittivity) times a length of 1 m makes the blocks of the matrix comparable,
+// without which elimination loses all digits.
+Kinematics with_potential(Kinematics kinematics, double scale_V);
 
 }  // namespace viscard

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace viscard {
@@ -20,26 +21,37 @@ void StiffnessFactor::factor(const SymmetricSparse& matrix) {
   }
 }
 
-void StiffnessFactor::constrain(const SymmetricSparse* constraint, double penalty) {
-  constraint_ = constraint;
-  penalty_ = penalty;
+Eigen::VectorXd StiffnessFactor::solve(const Eigen::VectorXd& right_side,
+                                       Eigen::VectorXd* pressure_source) const {
+  Eigen::VectorXd u = ldlt_.solve(right_side);
+  Eigen::VectorXd added = Eigen::VectorXd::Zero(u.size());
+  if (penalty_.size() > 0) constrain_solution(u, added);
+  if (pressure_source != nullptr) *pressure_source = u + added;
+  return u;
 }
 
-Eigen::VectorXd StiffnessFactor::solve(const Eigen::VectorXd& right_side) const {
-  Eigen::VectorXd u = ldlt_.solve(right_side);
-  if (constraint_ == nullptr) return u;
-  Eigen::VectorXd pressure_force = Eigen::VectorXd::Zero(u.size());
-  constexpr int kIterations = 8;  // each gains a factor of 1e3 or more; 4 suffice
-  double last = u.norm();
-  for (int i = 0; i < kIterations; ++i) {
-    pressure_force += penalty_ * times(*constraint_, u);
-    const Eigen::VectorXd next = ldlt_.solve(right_side - pressure_force);
-    const double change = (next - u).norm();
-    u = next;
-    if (!(change < 0.5 * last)) break;  // rounding reached
-    last = change;
+// Conjugate gradients for the pressures, whose force is C added beside the penalty's C u; u itself
+// stands for the residual, its divergence.
+void StiffnessFactor::constrain_solution(Eigen::VectorXd& u, Eigen::VectorXd& added) const {
+  double violation = u.dot(times(penalty_, u));
+  const double enough = 1e-26 * violation;
+  double least = violation;
+  Eigen::VectorXd direction = u;
+  constexpr int kIterations = 60;  // about five suffice unless elements are very flat
+  constexpr int kPatience = 3;     // iterations without gain: rounding reached
+  int idle = 0;
+  for (int i = 0; i < kIterations && violation > enough && idle < kPatience; ++i) {
+    const Eigen::VectorXd C_direction = times(penalty_, direction);
+    const Eigen::VectorXd response = ldlt_.solve(C_direction);
+    const double step = violation / C_direction.dot(response);
+    u -= step * response;
+    added += step * direction;
+    const double remaining = u.dot(times(penalty_, u));
+    direction = u + remaining / violation * direction;
+    violation = remaining;
+    idle = remaining < 0.5 * least ? 0 : idle + 1;
+    least = std::min(least, remaining);
   }
-  return u;
 }
 
 int StiffnessFactor::negative_pivots() const {

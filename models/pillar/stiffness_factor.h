@@ -4,6 +4,8 @@
 
 #include <Eigen/SparseCholesky>
 
+#include <utility>
+
 namespace viscard {
 
 // L D L^T of a symmetric matrix that is positive definite, or quasi-definite as elasticity coupled
@@ -12,16 +14,20 @@ namespace viscard {
 //
 // With a constraint, solve() returns the u that minimises u'Au/2 - r'u subject to C u = 0, where C
 // is positive semidefinite (the volume form of an incompressible body) and already contained in the
-// factored matrix with a large factor: Uzawa iterations on the pressures, each gaining that factor.
+// factored matrix with a large factor: conjugate gradients on the pressures, preconditioned by it.
 // Source: Fortin & Glowinski, Augmented Lagrangian Methods (1983), ch. 1.
 class StiffnessFactor {
  public:
   // Throws std::runtime_error if the matrix is singular or has a wrong sign.
   void factor(const SymmetricSparse& matrix);
-  // `constraint` must outlive the factor; `penalty` is its factor in the factored matrix.
-  void constrain(const SymmetricSparse* constraint, double penalty);
+  // `penalty` is the matrix C with the factor it has in the factored matrix.
+  void constrain(SymmetricSparse penalty) { penalty_ = std::move(penalty); }
 
-  Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const;
+  // With a constraint, `pressure_source` (if asked for) is the w whose penalty force C w is the
+  // force of the pressures: they are the penalty modulus times the projected div w. Without one it
+  // is u.
+  Eigen::VectorXd solve(const Eigen::VectorXd& right_side,
+                        Eigen::VectorXd* pressure_source = nullptr) const;
 
   // Number of negative pivots, which is the number of eigenvalues below zero (Sylvester).
   int negative_pivots() const;
@@ -29,10 +35,11 @@ class StiffnessFactor {
   double pivot_ratio() const;
 
  private:
+  void constrain_solution(Eigen::VectorXd& u, Eigen::VectorXd& source) const;
+
   Eigen::SimplicialLDLT<SymmetricSparse, Eigen::Lower> ldlt_;
   bool is_analysed_ = false;
-  const SymmetricSparse* constraint_ = nullptr;
-  double penalty_ = 0.0;
+  SymmetricSparse penalty_;  // empty: no constraint
 };
 
 // y = A x for the stored lower triangle.

@@ -98,7 +98,7 @@ ValidationResult validate_material(const Material& material, const ValidateOptio
   result.length_m = options.geometry.length_m;
   result.exact_method = exact.method;
   result.tolerance = options.tolerance;
-  result.unknowns = pillar.discrete().size();
+  result.unknowns = pillar.model().system().size();
 
   HistoryOptions history;
   history.tolerance = 0.02 * options.tolerance;  // so that the comparison judges it, not itself

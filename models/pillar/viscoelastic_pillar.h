@@ -1,8 +1,7 @@
 #pragma once
 
 #include "models/material.h"
-#include "models/pillar/elastic_moduli.h"
-#include "models/pillar/pillar_mesh.h"
+#include "models/pillar/pillar_model.h"
 #include "models/pillar/viscoelastic_system.h"
 
 #include <memory>
@@ -21,26 +20,21 @@ enum class TopLoad {
 // of the top in m.
 class ViscoelasticPillar {
  public:
-  // film_moduli_Pa is needed exactly when the geometry has a film. Throws std::invalid_argument for
+  // `film` is needed exactly when the geometry has one. Throws std::invalid_argument for
   // a bad geometry or material. Near nu = 0.5 (from 0.45) pressures are condensed, see
   // volume_form().
   ViscoelasticPillar(const PillarGeometry& geometry, const Discretisation& discretisation,
                      const Material& material, TopLoad top,
-                     const std::optional<Matrix6d>& film_moduli_Pa = std::nullopt);
+                     const std::optional<Medium>& film = std::nullopt);
 
   const ViscoelasticSystem& system() const { return system_; }
-  const DiscreteSystem& discrete() const { return *discrete_; }
-  const PillarMesh& mesh() const { return *mesh_; }
+  const PillarModel& model() const { return *model_; }
   double top_area_m2() const { return top_area_m2_; }
 
  private:
-  std::unique_ptr<PillarMesh> mesh_;  // stays put when the pillar is moved
-  std::unique_ptr<DiscreteSystem> discrete_;
+  std::unique_ptr<PillarModel> model_;
   ViscoelasticSystem system_;
   double top_area_m2_ = 0.0;
 };
-
-// Poisson ratio from which displacements alone would lose their stresses to locking.
-constexpr double kNearlyIncompressible = 0.45;
 
 }  // namespace viscard

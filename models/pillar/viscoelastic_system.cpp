@@ -26,7 +26,7 @@ ViscoelasticStepper::ViscoelasticStepper(const ViscoelasticSystem& system, int o
   memory_ = Eigen::MatrixXd::Zero(system.load.size(), n_terms);
   increments_ = Eigen::MatrixXd::Zero(system.load.size(), order - 1);
   displacement_vector_ = Eigen::VectorXd::Zero(system.load.size());
-  if (system.incompressible) factor_.constrain(&system.bulk, 1.0);
+  if (system.incompressible) factor_.constrain(system.bulk);
 }
 
 void ViscoelasticStepper::prepare(double dt_s) {

@@ -15,6 +15,7 @@ constexpr double kPi = std::numbers::pi;
 
 // Longitudinal system of a pillar with its lowest line held (fixed foot) or only rolling.
 DiscreteSystem longitudinal_system(const PillarMesh& mesh, bool rolling = false) {
+  const Kinematics kinematics = kinematics_of(Motion::kLongitudinal);
   DofMap dofs(2, mesh.section.node_count());
   for (int node = 0; node < mesh.section.node_count(); ++node) {
     if (mesh.section.node_x(node) == 0.0) dofs.fix(0, node);
@@ -24,7 +25,7 @@ DiscreteSystem longitudinal_system(const PillarMesh& mesh, bool rolling = false)
     dofs.fix(1, node);
   }
   dofs.number();
-  return {mesh.section, longitudinal_kinematics(), std::move(dofs)};
+  return {mesh.section, kinematics, std::move(dofs)};
 }
 
 double top_displacement_m(const PillarMesh& mesh, const DiscreteSystem& system,

@@ -1,0 +1,111 @@
+#include "models/pillar/krylov_modes.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+namespace viscard {
+namespace {
+
+// Grows a B-orthonormal basis and keeps what has been applied to it.
+class KrylovSpace {
+ public:
+  KrylovSpace(const LinearMap& op, const LinearMap& B, int size, int capacity)
+      : op_(op),
+        B_(B),
+        basis_(size, capacity),
+        B_basis_(size, capacity),
+        image_(size, capacity),
+        projected_(Eigen::MatrixXd::Zero(capacity, capacity)) {}
+
+  int count() const { return count_; }
+
+  // Adds the part of v that is new; false if there is none.
+  bool add(Eigen::VectorXd v) {
+    if (count_ == basis_.cols()) return false;
+    const double before = std::sqrt(std::abs(v.dot(B_(v))));
+    for (int pass = 0; pass < 2; ++pass) {  // twice is enough (Kahan; Parlett 1980, 6.9)
+      if (count_ > 0) v -= basis_.leftCols(count_) * (B_basis_.leftCols(count_).transpose() * v);
+    }
+    Eigen::VectorXd Bv = B_(v);
+    const double norm = std::sqrt(std::max(v.dot(Bv), 0.0));
+    if (!(norm > 1e-12 * before) || !std::isfinite(norm)) return false;
+    basis_.col(count_) = v / norm;
+    B_basis_.col(count_) = Bv / norm;
+    image_.col(count_) = op_(basis_.col(count_));
+    ++count_;
+    const Eigen::VectorXd column = B_basis_.leftCols(count_).transpose() * image_.col(count_ - 1);
+    projected_.col(count_ - 1).head(count_) = column;
+    projected_.row(count_ - 1).head(count_) = column.transpose();
+    return true;
+  }
+  Eigen::VectorXd image(int column) const { return image_.col(column); }
+
+  // The `wanted` largest Ritz pairs; converged when every residual is small beside its value.
+  EigenPairs ritz(int wanted, double tolerance) const {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+        projected_.topLeftCorner(count_, count_));
+    const int n = std::min(wanted, count_);
+    EigenPairs pairs;
+    pairs.values = solver.eigenvalues().tail(n).reverse();
+    const Eigen::MatrixXd coefficient = solver.eigenvectors().rightCols(n).rowwise().reverse();
+    pairs.vectors = basis_.leftCols(count_) * coefficient;
+    pairs.converged = n == wanted;
+    for (int i = 0; i < n && pairs.converged; ++i) {
+      const Eigen::VectorXd residual =
+          image_.leftCols(count_) * coefficient.col(i) - pairs.values[i] * pairs.vectors.col(i);
+      const double size = std::sqrt(std::abs(residual.dot(B_(residual))));
+      pairs.converged = size <= tolerance * std::abs(pairs.values[i]);
+    }
+    return pairs;
+  }
+
+ private:
+  const LinearMap& op_;
+  const LinearMap& B_;
+  Eigen::MatrixXd basis_;
+  Eigen::MatrixXd B_basis_;
+  Eigen::MatrixXd image_;
+  Eigen::MatrixXd projected_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+EigenPairs largest_eigenpairs(const LinearMap& op, const LinearMap& B, int size, int count,
+                              const KrylovOptions& options) {
+  if (count < 1 || count > size) {
+    throw std::invalid_argument(std::to_string(count) + " modes asked of a system of " +
+                                std::to_string(size) + " unknowns");
+  }
+  std::mt19937_64 random(1);  // a fixed start: the same answer every time
+  std::normal_distribution<double> normal;
+  KrylovSpace space(op, B, size, std::min(options.largest_space, size));
+  const auto add_random = [&] {
+    Eigen::VectorXd start(size);
+    for (double& x : start) x = normal(random);
+    return space.add(op(start));  // op first: the start then has no part outside its range
+  };
+  for (int i = 0; i < options.block; ++i) add_random();
+  int next = 0;  // first column whose image is not yet in the space
+  int next_check = 2 * count + 4;
+  EigenPairs pairs;
+  while (!pairs.converged) {
+    bool grew = false;
+    const int end = space.count();
+    for (; next < end; ++next) grew = space.add(space.image(next)) || grew;
+    const bool is_full = !grew && !add_random();
+    if (space.count() >= next_check || is_full) {
+      pairs = space.ritz(count, options.tolerance);
+      next_check = space.count() + std::max(2 * options.block, count / 2);
+      if (is_full) break;
+    }
+  }
+  return pairs;
+}
+
+}  // namespace viscard

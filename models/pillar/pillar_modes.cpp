@@ -1,0 +1,97 @@
+#include "models/pillar/pillar_modes.h"
+
+#include "models/pillar/krylov_modes.h"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace viscard {
+namespace {
+
+// Stress stiffness of a lateral model per Pa of pressure on the top of the axial one.
+SymmetricSparse stress_stiffness_per_Pa(const PillarModel& axial, const PillarModel& lateral) {
+  const PillarState state = axial.solve(-axial.top_traction());
+  const auto form = [&](const SectionElement& element, double x, double z) {
+    const Eigen::VectorXd s = axial.stress_at(state, element, x, z);
+    Eigen::Matrix3d stress;
+    stress << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
+    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(9, 9);
+    for (Eigen::Index k = 0; k < 3; ++k) D.block<3, 3>(3 * k, 3 * k) = stress;
+    return D;
+  };
+  return lateral.system().varying_form(lateral.system().kinematics().gradient, form);
+}
+
+std::vector<PillarMode> modes_of(const PillarModel& model, const SymmetricSparse& stiffness,
+                                 int count) {
+  const SymmetricSparse mass = model.mass();
+  // A free pillar's stiffness is singular; a shift far below its first elastic mode mends that.
+  double shift = 0.0;
+  if (!model.options().fixed_bottom) {
+    const Medium& medium = model.medium(kPillarRegion);
+    const double bar_rad_s =
+        std::sqrt(medium.shear_Pa / medium.rho_kg_m3) / model.geometry().length_m;
+    shift = 1e-4 * bar_rad_s * bar_rad_s;
+  }
+  SymmetricSparse shifted = stiffness;
+  shifted.coeffs() += shift * mass.coeffs();
+  StiffnessFactor factor;
+  model.factor(shifted, factor);
+  const LinearMap B = [&](const Eigen::VectorXd& x) { return times(mass, x); };
+  const LinearMap op = [&](const Eigen::VectorXd& x) { return factor.solve(times(mass, x)); };
+  const EigenPairs pairs = largest_eigenpairs(op, B, model.system().size(), count);
+  if (!pairs.converged) {
+    throw std::runtime_error(
+        "the lowest modes did not converge; ask for fewer, or for a finer mesh");
+  }
+  std::vector<PillarMode> modes;
+  for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
+    const double square = 1.0 / pairs.values[i] - shift;
+    modes.push_back(
+        {std::sqrt(std::max(square, 0.0)) / (2.0 * std::numbers::pi), pairs.vectors.col(i)});
+  }
+  return modes;
+}
+
+}  // namespace
+
+std::vector<PillarMode> lowest_modes(const PillarModel& model, int count) {
+  return modes_of(model, model.stiffness(), count);
+}
+
+Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int count) {
+  const SymmetricSparse stress = stress_stiffness_per_Pa(axial, lateral);
+  const SymmetricSparse stiffness = lateral.stiffness();
+  StiffnessFactor factor;
+  lateral.factor(stiffness, factor);
+  const LinearMap B = [&](const Eigen::VectorXd& x) { return times(stiffness, x); };
+  const LinearMap op = [&](const Eigen::VectorXd& x) { return factor.solve(-times(stress, x)); };
+  const EigenPairs pairs = largest_eigenpairs(op, B, lateral.system().size(), count);
+  if (!pairs.converged || !(pairs.values[0] > 0.0)) {
+    throw std::runtime_error("no buckling load was found under this loading");
+  }
+  Buckling result;
+  for (const double value : pairs.values) {
+    if (value > 0.0) result.pressures_Pa.push_back(1.0 / value);
+  }
+  result.pressure_Pa = result.pressures_Pa.front();
+  return result;
+}
+
+std::vector<PillarMode> modes_under_pressure(const PillarModel& axial, const PillarModel& lateral,
+                                             double pressure_Pa, int count) {
+  const double critical_Pa = buckling(axial, lateral).pressure_Pa;
+  if (pressure_Pa >= critical_Pa) {
+    throw std::runtime_error("a pressure of " + std::to_string(pressure_Pa) +
+                             " Pa on the top is beyond the buckling pressure of " +
+                             std::to_string(critical_Pa) +
+                             " Pa: the straight pillar has no stable state to vibrate about");
+  }
+  SymmetricSparse stiffness = lateral.stiffness();
+  stiffness.coeffs() += pressure_Pa * stress_stiffness_per_Pa(axial, lateral).coeffs();
+  return modes_of(lateral, stiffness, count);
+}
+
+}  // namespace viscard

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "models/pillar/pillar_model.h"
+
+#include <vector>
+
+namespace viscard {
+
+struct PillarMode {
+  double frequency_Hz = 0.0;
+  Eigen::VectorXd shape;  // unknowns of the model, unit mass norm
+};
+
+// The lowest undamped modes of one family of motion, ascending. Without a fixed bottom the
+// rigid-body modes come first, with frequencies near zero. Each mode of a harmonic m >= 1 stands
+// for two. Throws std::runtime_error if the iteration does not converge.
+std::vector<PillarMode> lowest_modes(const PillarModel& model, int count);
+
+// Load, as a multiple of `unit_pressure_Pa` on the top, at which the straight pillar buckles
+// sideways (linear buckling with the full stress field of the loaded pillar, dead load):
+//   (K + factor K_sigma) v = 0, K_sigma = int sigma_ij (d_i u_k)(d_j u_k) dV   (eq. 21)
+// Source: Washizu, Variational Methods in Elasticity and Plasticity (1982), ch. 5.
+// The axial model gives the stresses; the lateral one must have the same mesh.
+struct Buckling {
+  double pressure_Pa = 0.0;  // lowest critical pressure
+  std::vector<double> pressures_Pa;
+};
+Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int count = 1);
+
+// Lowest modes of the lateral family under a pressure on the top. Throws std::runtime_error naming
+// the critical pressure if the pillar would buckle.
+std::vector<PillarMode> modes_under_pressure(const PillarModel& axial, const PillarModel& lateral,
+                                             double pressure_Pa, int count);
+
+}  // namespace viscard
