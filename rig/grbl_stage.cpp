@@ -111,6 +111,8 @@ void GrblStage::take_answer(std::optional<int> error, double time_s) {
     active_->ok_s = time_s;
     active_->tracker.acknowledged(time_s);
     expected_end_s_ = active_->tracker.latest_end_s();
+    // A cancel that overtook its jog on the wire was not heard.
+    if (active_->is_stopping) stop_soft();
   }
   if (!error) return;
   if (answered.is_awaited) {

@@ -52,7 +52,7 @@ const char* kind_of_file(mode_t mode) {
   if (S_ISDIR(mode)) return "a folder";
   if (S_ISFIFO(mode)) return "a pipe";
   if (S_ISSOCK(mode)) return "a socket";
-  return "a device, but no serial line";
+  return "a device without a serial line";
 }
 
 }  // namespace

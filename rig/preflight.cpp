@@ -30,8 +30,8 @@ void check_force(const RigConfig& rig, const TestPlan& plan, Preflight& result) 
                             text_from_number(100.0 * rig.safety.soft_fraction, 0) +
                             " % of the cell's " + in_N(rig.calibration.capacity_N) +
                             (is_above_rating ? ", and above the cell's rating itself" : "") +
-                            ". Lower depth in the test file to " + text_from_number(depth_mm, 3) +
-                            " mm or less");
+                            ". Lower depth under [ramp] of the test file to " +
+                            text_from_number(depth_mm, 3) + " mm or less");
 }
 
 void check_rates(const RigConfig& rig, const TestPlan& plan, Preflight& result) {
@@ -42,9 +42,11 @@ void check_rates(const RigConfig& rig, const TestPlan& plan, Preflight& result) 
         " readings/s, too few to stop an approach in time. Set its rate to 80/s "
         "(RATE pin of the HX711 high)");
   } else if (plan.ramp_s * rate_Hz < kFewestRampReadings) {
-    result.warnings.push_back("the ramp of " + text_from_number(plan.ramp_s, 2) + " s holds only " +
-                              text_from_number(std::floor(plan.ramp_s * rate_Hz), 0) +
-                              " readings. Raise ramp for a better instantaneous modulus");
+    result.warnings.push_back(
+        "the ramp of " + text_from_number(plan.ramp_s, 2) + " s holds only " +
+        text_from_number(std::floor(plan.ramp_s * rate_Hz), 0) +
+        " readings. Raise duration under [ramp] of the test file for a better "
+        "instantaneous modulus");
   }
 }
 
@@ -58,14 +60,15 @@ void check_motion(const RigConfig& rig, const TestPlan& plan, const StageDynamic
   if (result.approach_overshoot_N > room_N) {
     result.problems.push_back(
         "the approach would overshoot contact by " + in_N(result.approach_overshoot_N) +
-        ", more than " + in_N(room_N) + ". Lower approach_speed in the test file to " +
+        ", more than " + in_N(room_N) + ". Lower speed under [approach] of the test file to " +
         text_from_number(0.5 * v * room_N / result.approach_overshoot_N * 1e3, 3) +
         " mm/s or use finer steps");
   }
   if (result.ramp_speed_m_s > dynamics.max_speed_m_s) {
     result.problems.push_back(
         "the ramp needs " + text_from_number(result.ramp_speed_m_s * 1e3, 3) +
-        " mm/s, more than the stage's largest rate. Raise ramp in the test file to " +
+        " mm/s, more than the stage's largest rate. Raise duration under [ramp] of the test file "
+        "to " +
         text_from_number(result.stage_travel_m / dynamics.max_speed_m_s * 1.01, 3) + " s");
   }
   const double step_m = 1.0 / dynamics.steps_per_m;
@@ -84,15 +87,18 @@ void check_plan(const RigConfig& rig, const TestPlan& plan, const Specimen& spec
       specimen.modulus_guess_Pa > 0.0,
       "the specimen has no modulus_guess: without it nobody knows what the cell will bear. Give "
       "one, rather too high than too low");
-  require(plan.depth_m > 0.0 && plan.ramp_s > 0.0 && plan.hold_s >= 0.0,
-          "depth and ramp must be positive and hold not negative in the test file");
+  require(
+      plan.depth_m > 0.0 && plan.ramp_s > 0.0 && plan.hold_s >= 0.0,
+      "depth and duration under [ramp] of the test file must be positive and hold not negative");
   require(
       plan.approach_speed_m_s > 0.0 && plan.unload_speed_m_s > 0.0 && plan.retract_speed_m_s > 0.0,
-      "approach_speed, unload_speed and retract_speed must be positive in the test file");
+      "all speeds of the test file must be positive");
   require(plan.contact_force_N > 0.0 && plan.gap_m > 0.0 && plan.retract_m >= plan.gap_m,
-          "contact_force and gap must be positive and retract not below gap in the test file");
+          "contact_force and gap under [approach] of the test file must be positive, and distance "
+          "under "
+          "[retract] not below gap");
   require(plan.unload_to_fraction >= 0.0 && plan.unload_to_fraction < 1.0,
-          "unload_to_fraction must lie in [0, 1) in the test file");
+          "unload_to_fraction under [recovery] of the test file must lie in [0, 1)");
   require(rig.load_cell.expected_rate_Hz > 0.0, "expected_rate of the load cell must be positive");
   require(rig.safety.warn_fraction > 0.0 && rig.safety.soft_fraction > 0.0 &&
               rig.safety.hard_fraction >= rig.safety.soft_fraction &&

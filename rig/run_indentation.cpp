@@ -108,8 +108,8 @@ void IndentationRun::approach() {
     if (next_m > limit_m) {
       throw RigError("nothing was touched within " +
                      text_from_number(plan_.approach_limit_m * 1e3, 2) +
-                     " mm. Bring the punch nearer to the specimen, or raise approach_limit in the "
-                     "test file");
+                     " mm. Bring the punch nearer to the specimen, or raise limit under "
+                     "[approach] of the test file");
     }
     if (session_.move(next_m, plan_.approach_speed_m_s, "approach", threshold_N)) break;
   }
@@ -137,7 +137,7 @@ void IndentationRun::back_off(double contact_m) {
   }
   throw RigError(
       "the force does not return to zero when the punch is backed off. Is the specimen "
-      "sticky, or does the cell drift? Raise gap in the test file");
+      "sticky, or does the cell drift? Raise gap under [approach] of the test file");
 }
 
 void IndentationRun::ramp_and_hold() {

@@ -139,11 +139,12 @@ void RunSession::act_on(GuardAction action, double force_N) {
       break;
   }
   const bool is_hard = action == GuardAction::kHardStop;
-  throw LimitReached("the force reached " + in_N(force_N) + ", above the " +
-                     (is_hard ? "hard limit of " + in_N(guard_.hard_limit_N())
-                              : "limit of " + in_N(guard_.soft_limit_N())) +
-                     "; the stage was stopped and lifted. Lower depth in the test file, or check "
-                     "modulus_guess of the specimen");
+  throw LimitReached(
+      "the force reached " + in_N(force_N) + ", above the " +
+      (is_hard ? "hard limit of " + in_N(guard_.hard_limit_N())
+               : "limit of " + in_N(guard_.soft_limit_N())) +
+      "; the stage was stopped and lifted. Lower depth under [ramp] of the test file, or check "
+      "modulus_guess of the specimen");
 }
 
 void RunSession::check_stream() {

@@ -46,7 +46,7 @@ RigConfig demo_rig() {
   RigConfig rig;
   rig.name = "emulated";
   rig.load_cell.line_format = "micros,counts";
-  rig.load_cell.volts_per_count = 2.5 / 8388608.0;
+  rig.load_cell.volts_per_count = 20.0 / 16777216.0;  // 24 bits over -10 V to +10 V
   rig.calibration.volts_per_newton = 0.7255;
   rig.calibration.capacity_N = kCapacity_N;
   rig.calibration.id = "emulated";

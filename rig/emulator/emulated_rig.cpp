@@ -192,12 +192,13 @@ void EmulatedRig::Impl::run() {
     grbl_.tick(now_s);
     serve_cell(now_s);
     advance_bench(std::max(bench_s_, now_s));
-    serve_stage(now_s);
     {
+      // Before a report of this very moment can reach the host.
       const std::lock_guard lock(outcome_mutex_);
       outcome_.final_position_m = grbl_.bench_position_m(now_s);
       outcome_.is_moving = grbl_.is_moving(now_s);
     }
+    serve_stage(now_s);
     nap(clock_.now_s());
   }
 }

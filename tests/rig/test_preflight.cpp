@@ -61,7 +61,7 @@ TEST_CASE("An approach that would overshoot the limit is refused", "[rig]") {
   const Preflight result =
       preflight(demo_rig(), plan, demo_specimen(10.0), StageDynamics{250e3, 0.01, 10e-3});
   REQUIRE_FALSE(result.problems.empty());
-  CHECK(result.problems[0].find("approach_speed") != std::string::npos);
+  CHECK(result.problems[0].find("speed under [approach]") != std::string::npos);
 }
 
 TEST_CASE("A converter at 10 readings/s is refused", "[rig]") {
@@ -76,7 +76,7 @@ TEST_CASE("Plans and rigs that make no sense are refused by name", "[rig]") {
   TestPlan plan;
   plan.ramp_s = 0.0;
   CHECK_THROWS_WITH(preflight(demo_rig(), plan, demo_specimen(10.0)),
-                    Catch::Matchers::Contains("ramp"));
+                    Catch::Matchers::Contains("duration under [ramp]"));
   Specimen unknown = demo_specimen(10.0);
   unknown.modulus_guess_Pa = 0.0;
   CHECK_THROWS_WITH(preflight(demo_rig(), TestPlan{}, unknown),

@@ -14,6 +14,7 @@ using Catch::Matchers::Contains;
 
 bool is_at_rest_and_lifted(const RigFixture& rig) {
   const EmulatedOutcome bench = rig.emulated.outcome();
+  UNSCOPED_INFO("stands at " << bench.final_position_m << " m, moving: " << bench.is_moving);
   return !bench.is_moving && bench.final_position_m < demo_truth(10.0, 7).surface_position_m;
 }
 

@@ -40,7 +40,7 @@ TEST_CASE("A port that cannot be used says why", "[rig][pty]") {
     std::remove(name);
   }
   SECTION("a device that is no terminal: libserial would abort on closing it") {
-    CHECK_THROWS_WITH(SerialLine("/dev/null", 115200, wall()), Contains("no serial line"));
+    CHECK_THROWS_WITH(SerialLine("/dev/null", 115200, wall()), Contains("without a serial line"));
   }
   SECTION("a folder") {
     CHECK_THROWS_WITH(SerialLine("/tmp", 9600, wall()), Contains("a folder"));

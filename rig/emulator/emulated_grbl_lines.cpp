@@ -1,0 +1,156 @@
+// The lines of EmulatedGrbl: what "$..." does and what a report says.
+#include "rig/emulator/emulated_grbl.h"
+#include "rig/grbl_protocol.h"
+#include "rig/text_number.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+constexpr int kPlannerBlocks = 15;
+constexpr double kHomeAt_m = -3e-3;  // of the switch, from where the stage was at power-up
+
+// The words behind "$J=", or the code of what is wrong with them.
+struct JogWords {
+  int error = 0;
+  double scale_mm = 1.0;
+  bool is_relative = false;
+  std::optional<double> target;
+  std::optional<double> feed;
+};
+
+JogWords parse_jog(std::string_view words, char axis) {
+  JogWords jog;
+  const auto failed = [&](int error) {
+    jog.error = error;
+    return jog;
+  };
+  while (!words.empty()) {
+    const char letter = words.front();
+    if (letter < 'A' || letter > 'Z') return failed(1);
+    words.remove_prefix(1);
+    const std::size_t end = std::min(words.find_first_not_of("+-.0123456789"), words.size());
+    const auto number = number_from_text(words.substr(0, end));
+    if (!number) return failed(2);
+    words.remove_prefix(end);
+    if (letter == 'G') {
+      if (*number == 20.0) jog.scale_mm = 25.4;
+      if (*number == 91.0) jog.is_relative = true;
+      const bool is_known = *number == 20.0 || *number == 21.0 || *number == 53.0 ||
+                            *number == 90.0 || *number == 91.0;
+      if (!is_known) return failed(16);
+    } else if (letter == axis) {
+      jog.target = *number;
+    } else if (letter == 'F') {
+      jog.feed = *number;
+    } else if (letter != 'X' && letter != 'Y' && letter != 'Z') {
+      return failed(16);
+    }
+  }
+  if (!jog.feed || !(*jog.feed > 0.0)) return failed(22);
+  return jog;
+}
+
+}  // namespace
+
+void EmulatedGrbl::dollar(const std::string& text, double time_s) {
+  if (text.rfind("$J=", 0) == 0) return jog(std::string_view(text).substr(3), time_s);
+  if (text == "$X") {
+    if (state_ == "Alarm") {
+      output_ += "[MSG:Caution: Unlocked]\r\n";
+      state_ = "Idle";
+    }
+    return ok(time_s);
+  }
+  if (text == "$H") return home(time_s);
+  if (text == "$G") {
+    output_ += "[GC:G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]\r\n";
+    return ok(time_s);
+  }
+  if (motion_.is_moving(time_s)) return error(time_s, 8);
+  if (text == "$$" || text == "$#" || text == "$I") {
+    if (text == "$$") output_ += settings_text();
+    if (text == "$#") output_ += "[G54:0.000,0.000,0.000]\r\n[TLO:0.000]\r\n";
+    if (text == "$I" && habits_.is_hal) {
+      output_ += "[VER:1.1f.20240101:]\r\n[OPT:VNML+,100,1024,3,0]\r\n[FIRMWARE:grblHAL]\r\n";
+    } else if (text == "$I") {
+      output_ += "[VER:1.1h.20190830:]\r\n[OPT:V,15,128]\r\n";
+    }
+    return ok(time_s);
+  }
+  if (text.find('=') != std::string::npos) return set(std::string_view(text), time_s);
+  error(time_s, 3);
+}
+
+void EmulatedGrbl::set(std::string_view words, double time_s) {
+  const auto setting = parse_grbl_setting(words);
+  if (!setting || settings_.count(setting->number) == 0) return error(time_s, 3);
+  if (setting->value < 0.0) return error(time_s, 4);
+  settings_[setting->number] = setting->value;
+  load_axis_settings();
+  ok(time_s);
+}
+
+std::string EmulatedGrbl::settings_text() const {
+  std::string text;
+  for (const auto& [number, value] : settings_) {
+    const bool is_integer = number < 100 && number != 11 && number != 12 && number != 24 &&
+                            number != 25 && number != 27;
+    text +=
+        "$" + std::to_string(number) + "=" + text_from_number(value, is_integer ? 0 : 3) + "\r\n";
+  }
+  return text;
+}
+
+void EmulatedGrbl::jog(std::string_view words, double time_s) {
+  if (state_ == "Alarm") return error(time_s, 9);
+  if (state_ != "Idle" && state_ != "Jog") return error(time_s, 8);
+  const JogWords asked = parse_jog(words, "XYZ"[axis_]);
+  if (asked.error != 0) return error(time_s, asked.error);
+  if (asked.target) {
+    const double last_m = queue_.empty() ? motion_.end_position_m() : queue_.back().to_m;
+    const double base_mm = asked.is_relative ? machine_mm(last_m) : 0.0;
+    const double to_mm = base_mm + *asked.target * asked.scale_mm;
+    if (settings_[20] != 0.0 && is_homed_ && (to_mm > 0.0 || to_mm < -settings_[130])) {
+      return error(time_s, 15);
+    }
+    const double speed_m_s = std::min(*asked.feed * asked.scale_mm / 60e3, max_rate_m_s_);
+    queue_.push_back({bench_m(to_mm), speed_m_s});
+    state_ = "Jog";
+    tick(time_s);
+  }
+  ok(time_s);
+}
+
+void EmulatedGrbl::home(double time_s) {
+  if (settings_[22] == 0.0) return error(time_s, 5);
+  if (motion_.is_moving(time_s)) return error(time_s, 8);
+  state_ = "Home";
+  motion_.start(time_s, kHomeAt_m, settings_[25] / 60e3, acceleration_m_s2_);
+}
+
+std::string EmulatedGrbl::status(double time_s) {
+  std::array<double, 3> position_mm{};
+  const double here_m = std::round(motion_.position_m(time_s) * steps_per_m_) / steps_per_m_;
+  position_mm[axis_] = machine_mm(here_m);
+  const std::string name = state_ == "Hold" ? "Hold:0" : state_;
+  std::string text = "<" + name + (settings_[10] == 0.0 ? "|WPos:" : "|MPos:");
+  for (std::size_t i = 0; i < 3; ++i) {
+    text += (i > 0 ? "," : "") + text_from_number(position_mm[i], 3);
+  }
+  if (settings_[10] >= 2.0 || habits_.is_hal)
+    text += "|Bf:" + std::to_string(kPlannerBlocks) + ",128";
+  text += "|FS:" + text_from_number(std::abs(motion_.velocity_m_s(time_s)) * 60e3, 0) + ",0";
+  const int every = motion_.is_moving(time_s) ? 30 : 10;
+  if (n_status_ % every == 1) {
+    text += "|WCO:0.000,0.000,0.000";
+  } else if (n_status_ % every == 2) {
+    text += "|Ov:100,100,100";
+  }
+  if (habits_.is_hal && n_status_ % every == 3) text += "|A:|TLR:0";
+  return text + ">\r\n";
+}
+
+}  // namespace viscard
