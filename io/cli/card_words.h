@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/cards/card.h"
 #include "io/cli/command.h"
 #include "models/material.h"
 
@@ -36,6 +37,7 @@ struct PreparedMaterial {
   bool are_terms_dropped = false;
 };
 PreparedMaterial prepare_card_material(const CardWords& words);
+CardOptions card_options(const CardWords& words, const PreparedMaterial& prepared);
 
 int list_card_targets(const CardWords& words, Streams& streams);
 int write_card_file(const CardWords& words, Streams& streams);

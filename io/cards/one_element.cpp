@@ -1,0 +1,89 @@
+#include "io/cards/one_element.h"
+
+#include "io/cards/number_text.h"
+#include "models/retardation_spectrum.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+// A + sum B_i exp(-t/T_i), a step response.
+struct Decay {
+  double constant = 0.0;
+  std::vector<MaxwellTerm> terms;
+
+  // Mean over the last `ramp_s` before t (over 0..t while the ramp runs, and then less than 1): the
+  // response to a linear rise. Written as products, so that nothing cancels at long times.
+  double after_ramp(double t_s, double ramp_s) const {
+    const double rise_s = std::min(t_s, ramp_s), held_s = t_s - rise_s;
+    double sum = constant * rise_s;
+    for (const MaxwellTerm& term : terms) {
+      const double tau_s = term.relaxation_time_s;
+      sum += term.modulus_Pa * tau_s * std::exp(-held_s / tau_s) * -std::expm1(-rise_s / tau_s);
+    }
+    return sum / ramp_s;
+  }
+};
+
+}  // namespace
+
+ElementTest element_test(const Material& material, const ElementTestOptions& options) {
+  ElementTest test{options.kind, options.amplitude, 0.0, {}};
+  double shortest_s = 1.0, longest_s = 0.1;
+  for (std::size_t i = 0; i < material.terms.size(); ++i) {
+    const double tau_s = material.terms[i].tau_s;
+    shortest_s = i == 0 ? tau_s : std::min(shortest_s, tau_s);
+    longest_s = i == 0 ? tau_s : std::max(longest_s, tau_s);
+  }
+  test.ramp_s = 0.5 * shortest_s;
+  const int ramp_steps = std::max(1, options.steps_per_tau / 2);
+  test.blocks.push_back({test.ramp_s, ramp_steps});
+  test.blocks.push_back({3.0 * shortest_s, 5 * ramp_steps});
+  int sum = 6 * ramp_steps;
+  while (test.end_s() < 10.0 * longest_s && sum < options.most_increments) {
+    const double length_s = test.end_s();  // each block doubles the time
+    const double least = length_s / (options.longest_step_tau * shortest_s);
+    const int increments = std::max(5 * ramp_steps, static_cast<int>(std::min(least, 1e9)) + 1);
+    if (increments > options.most_increments - sum) break;
+    test.blocks.push_back({2.0 * length_s, increments});
+    sum += increments;
+  }
+  return test;
+}
+
+double exact_response(const Material& material, const ElementTest& test, double time_s) {
+  const PronySeries relaxation = young_series(material);
+  Decay decay{relaxation.equilibrium_modulus_Pa, relaxation.terms};
+  if (test.kind == ElementTestKind::kCreep) {
+    // J(t) = J_g + sum J_j - sum J_j exp(-t/lambda_j)
+    const RetardationSpectrum creep = retardation_from_relaxation(relaxation);
+    decay = {creep.instantaneous_compliance_1_Pa, {}};
+    for (const RetardationTerm& term : creep.terms) {
+      decay.constant += term.compliance_1_Pa;
+      decay.terms.push_back({-term.compliance_1_Pa, term.retardation_time_s});
+    }
+  }
+  const double response = decay.after_ramp(time_s, test.ramp_s);
+  return test.kind == ElementTestKind::kCreep ? response * material.E0_Pa
+                                              : response / material.E0_Pa;
+}
+
+std::string expected_curve_csv(const Material& material, const ElementTest& test,
+                               double time_factor, const std::string& header) {
+  std::string out = header;
+  double from_s = 0.0;
+  for (const TimeBlock& block : test.blocks) {
+    constexpr int kPoints = 4;
+    for (int i = 1; i <= kPoints; ++i) {
+      const double time_s = from_s + (block.end_s - from_s) * i / kPoints;
+      out += shortest_number(time_s * time_factor) + "," +
+             shortest_number(exact_response(material, test, time_s)) + "\n";
+    }
+    from_s = block.end_s;
+  }
+  return out;
+}
+
+}  // namespace viscard

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "models/material.h"
+
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// The test that proves a card: a unit cube, its sides free, in simple tension. Relaxation: the
+// strain rises linearly during the ramp and is held. Creep: the stress does. Both have closed
+// answers.
+enum class ElementTestKind { kRelaxation, kCreep };
+
+struct TimeBlock {
+  double end_s = 0.0;
+  int increments = 0;  // of equal length
+};
+
+struct ElementTest {
+  ElementTestKind kind = ElementTestKind::kRelaxation;
+  double amplitude = 1e-6;  // strain held; in creep stress held over E0
+  double ramp_s = 0.0;
+  std::vector<TimeBlock> blocks;  // the first is the ramp
+
+  double end_s() const { return blocks.back().end_s; }
+};
+
+struct ElementTestOptions {
+  ElementTestKind kind = ElementTestKind::kRelaxation;
+  double amplitude = 1e-6;
+  int steps_per_tau = 40;  // in the shortest relaxation time; few do for exponential rules
+  double longest_step_tau =
+      1e30;                     // no increment is longer than this many shortest relaxation times
+  int most_increments = 20000;  // the hold ends early where it would need more
+};
+
+// Ramp of half the shortest relaxation time, hold to ten times the longest; increments grow with
+// time. A material without terms is held for 1 s.
+ElementTest element_test(const Material& material, const ElementTestOptions& options);
+
+// Stress over amplitude and E0 (relaxation) or strain over amplitude (creep) at a time: exact, from
+// E(t) or the creep compliance J(t), integrated over the ramp (models/README.md, eq. 1, 3, 5).
+double exact_response(const Material& material, const ElementTest& test, double time_s);
+
+// "time_s,expected" in card units for the deck: times at the end of every block and inside it, and
+// the stress or strain expected there.
+std::string expected_curve_csv(const Material& material, const ElementTest& test,
+                               double time_factor, const std::string& header);
+
+}  // namespace viscard
