@@ -1,6 +1,7 @@
 #include "io/cli/command.h"
 
 #include "io/cli/command_capture.h"
+#include "io/cli/command_card.h"
 #include "io/cli/command_demo.h"
 #include "io/cli/command_export.h"
 #include "io/cli/command_fit.h"
@@ -50,6 +51,7 @@ const std::vector<Command>& commands() {
       {"capture", "run one indentation on the rig, or on an emulated one", run_capture},
       {"export", "a capture as CSV", run_export},
       {"fit", "find modulus and Prony series in captures or tables", run_fit},
+      {"card", "write, check or prove a material card for a solver", run_card},
       {"validate", "check a material in the pillar against exact creep and relaxation",
        run_validate},
       {"report", "one page with everything known of captures, tables and materials", run_report},
