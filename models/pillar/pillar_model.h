@@ -11,9 +11,9 @@
 
 namespace viscard {
 
-// Size of the augmented Lagrangian's penalty at nu = 0.5; sets the number of iterations, not the
-// answer.
-constexpr double kPenaltyOverShear = 1e3;
+// Penalty of the augmented Lagrangian at nu = 0.5, over the shear modulus. It sets the number of
+// iterations, not the answer; larger ones would carry the rounding of nearly rigid motions into it.
+constexpr double kPenaltyOverShear = 10.0;
 
 enum class PlaneState { kStrain, kStress };  // of the plane motions
 
