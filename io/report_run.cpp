@@ -7,13 +7,16 @@
 namespace viscard {
 namespace {
 
-constexpr double kClear_m = 5e-6;  // this far from contact nothing is touched
+constexpr double kLatency_s = 0.5;  // no controller takes longer to begin a move
+constexpr double kClear_m = 5e-6;   // this far from contact nothing is touched
 
 // Where the stage was: by its moves as carried out, or between its reports.
 class StagePath {
  public:
-  explicit StagePath(const CapturedRun& run) : reports_(run.stage_reports) {
+  StagePath(const CapturedRun& run, const std::vector<double>& motion_start_s)
+      : reports_(run.stage_reports) {
     for (const CommandedMove& move : run.moves) moves_.push_back(move.move);
+    for (const double start_s : motion_start_s) put_nearest_at(start_s);
   }
 
   double at(double time_s) const {
@@ -31,12 +34,23 @@ class StagePath {
   }
 
  private:
+  void put_nearest_at(double start_s) {
+    const auto apart_s = [&](const StageMove& move) {
+      return std::abs(move.start_time_s - start_s);
+    };
+    const auto nearest = std::min_element(
+        moves_.begin(), moves_.end(),
+        [&](const StageMove& a, const StageMove& b) { return apart_s(a) < apart_s(b); });
+    if (nearest != moves_.end() && apart_s(*nearest) < kLatency_s) nearest->start_time_s = start_s;
+  }
+
   const std::vector<StageReport>& reports_;
   std::vector<StageMove> moves_;
 };
 
-std::vector<double> depths(const CapturedRun& run, const RunSeries& series, double contact_m) {
-  const StagePath path(run);
+std::vector<double> depths(const CapturedRun& run, const RunSeries& series, double contact_m,
+                           const std::vector<double>& motion_start_s) {
+  const StagePath path(run, motion_start_s);
   std::vector<double> above_m;
   double sum_V = 0.0;
   std::size_t n_clear = 0;
@@ -68,7 +82,8 @@ double volts_of(const LoadSample& sample, const RigConfig& rig) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-RunSeries series_from_run(const CapturedRun& run, std::optional<double> contact_position_m) {
+RunSeries series_from_run(const CapturedRun& run, std::optional<double> contact_position_m,
+                          const std::vector<double>& motion_start_s) {
   RunSeries series;
   for (const LoadSample& sample : run.load_samples) {
     const double volts = volts_of(sample, run.rig);
@@ -81,7 +96,7 @@ RunSeries series_from_run(const CapturedRun& run, std::optional<double> contact_
     series.report_s.push_back(report.host_time_s);
     series.position_m.push_back(report.position_m);
   }
-  if (contact_position_m) series.depth_m = depths(run, series, *contact_position_m);
+  if (contact_position_m) series.depth_m = depths(run, series, *contact_position_m, motion_start_s);
   for (const RunEvent& event : run.events) {
     if (event.name == "phase") series.phases.push_back({event.host_time_s, event.value});
   }

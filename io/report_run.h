@@ -23,7 +23,10 @@ struct RunSeries {
   std::vector<PlotNote> phases;
 };
 
-RunSeries series_from_run(const CapturedRun& run, std::optional<double> contact_position_m);
+// motion_start_s: when moves truly began, as a fit found it (FitCurves); the record knows it only
+// within the latency of the controller, and the move that began nearest is put there.
+RunSeries series_from_run(const CapturedRun& run, std::optional<double> contact_position_m,
+                          const std::vector<double>& motion_start_s = {});
 
 // The volts of one reading: as sent, or counts times volts per count; NaN if neither is known.
 double volts_of(const LoadSample& sample, const RigConfig& rig);

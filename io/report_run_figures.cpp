@@ -269,13 +269,13 @@ std::optional<Plot> pillar_plot(const ReportInput& input,
             .height_px = 520};
   plot.panels.resize(4);
   const char* titles[] = {"Relaxation", "Creep"};
-  const char* labels[] = {"force / first force", "displacement / first displacement"};
+  const char* label = "relative to the first value";
   for (std::size_t p = 0; p < 4; ++p) {
     plot.panels[p].x = {.label = "time (s)", .is_log = true};
     plot.panels[p].height_share = p < 2 ? 1.7 : 1.0;
     plot.panels[p].shares_x_with_below = p < 2;
     plot.panels[p].title = p < 2 ? titles[p] : "";
-    plot.panels[p].y.label = p < 2 ? labels[p] : "relative error";
+    plot.panels[p].y.label = p < 2 ? label : "relative error";
     plot.panels[p].y.is_log = p >= 2;
   }
   double limit = 0.0;

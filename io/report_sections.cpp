@@ -50,7 +50,11 @@ std::string summary_caption(const std::vector<SpecimenEstimates>& estimates) {
   });
   if (with != estimates.end()) {
     text += " The two-point modulus is a cross-check, not a result";
-    text += with->two_point->bias.empty() ? "." : ": " + escaped_markup(with->two_point->bias);
+    if (!with->two_point->bias.empty()) {
+      text += fmt::format(" (of {}: {})", escaped_markup(with->label),
+                          escaped_markup(with->two_point->bias));
+    }
+    text += ".";
   }
   return text;
 }
@@ -76,7 +80,8 @@ std::string fit_caption(const FitResult& fit) {
 }
 
 std::string run_caption(const CapturedRun& run, const RunSeries& series) {
-  std::string text = fmt::format("The run as recorded: {} readings", series.time_s.size());
+  std::string text =
+      fmt::format("The run as recorded, times since it began: {} readings", series.time_s.size());
   if (!series.flagged_s.empty())
     text += fmt::format(" and {} flagged (drawn at the edge where they lie beyond)",
                         series.flagged_s.size());
@@ -175,10 +180,13 @@ void add_pillar(Page& page, const ReportInput& input,
 }
 
 void add_specimen(Page& page, const SpecimenReport& specimen, const SpecimenEstimates& estimates) {
-  const std::optional<std::optional<double>> contact =
-      specimen.fit ? std::optional(specimen.fit->contact_position_m) : std::nullopt;
-  const RunSeries series =
-      specimen.run ? series_from_run(*specimen.run, contact.value_or(std::nullopt)) : RunSeries{};
+  RunSeries series;
+  if (specimen.run && specimen.fit) {
+    series = series_from_run(*specimen.run, specimen.fit->contact_position_m,
+                             specimen.fit->curves.motion_start_s);
+  } else if (specimen.run) {
+    series = series_from_run(*specimen.run, std::nullopt);
+  }
   const auto recorded = specimen.run ? run_plot(series) : std::nullopt;
   const auto fitted = specimen.fit ? fit_plot(*specimen.fit) : std::nullopt;
   const bool has_orders = specimen.fit && !specimen.fit->orders.empty();

@@ -23,13 +23,14 @@ nav ol { list-style: none; margin: 18px 0 0; padding: 0; display: flex; flex-wra
 .table { overflow-x: auto; margin: 18px 0 26px; }
 table { border-collapse: collapse; font-size: 14px; line-height: 1.4; border-bottom: 1.5px solid var(--ink); }
 caption { caption-side: top; text-align: left; padding: 0 0 8px; max-width: 92ch; color: var(--ink); }
-th, td { padding: 5px 14px; text-align: left; vertical-align: top; font-weight: 400; }
+th, td { padding: 5px 11px; text-align: left; vertical-align: top; font-weight: 400; }
 th:first-child, td:first-child { padding-left: 4px; }
 thead th { font-weight: 600; border-top: 1.5px solid var(--ink); border-bottom: 1px solid var(--ink); vertical-align: bottom; }
-tbody th { font-weight: 600; min-width: 11ch; }
-tbody th.n { min-width: 0; }
+tbody th { font-weight: 600; }
 tr.group > * { border-top: 1px solid var(--line); }
 .n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
+thead .n { white-space: normal; }
+.nw { white-space: nowrap; }
 .ci { color: var(--soft); font-size: 13px; white-space: nowrap; }
 .unit { color: var(--soft); font-weight: 400; }
 .yes { color: #00664a; } .no { color: #a33c00; font-weight: 600; }

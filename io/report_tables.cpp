@@ -1,6 +1,7 @@
 #include "io/report_tables.h"
 
 #include "io/plot_axis.h"
+#include "io/plot_layout.h"
 #include "io/plot_svg.h"
 #include "io/report_numbers.h"
 
@@ -28,8 +29,15 @@ HtmlTable::RowStyle group_if(bool begins) {
   return begins ? HtmlTable::RowStyle::kBeginsGroup : HtmlTable::RowStyle::kPlain;
 }
 
+// Short names stay on one line.
+std::string label_html(const std::string& label) {
+  constexpr std::size_t kShort = 24;
+  const std::string safe = escaped_markup(label);
+  return length_in_characters(label) > kShort ? safe : "<span class=\"nw\">" + safe + "</span>";
+}
+
 std::string link_to(const SpecimenEstimates& estimates) {
-  return fmt::format("<a href=\"#{}\">{}</a>", estimates.anchor, escaped_markup(estimates.label));
+  return fmt::format("<a href=\"#{}\">{}</a>", estimates.anchor, label_html(estimates.label));
 }
 
 ShownUnit modulus_unit(const std::vector<SpecimenEstimates>& estimates) {
@@ -145,7 +153,7 @@ HtmlTable terms_table(const std::vector<SpecimenEstimates>& estimates) {
   for (std::size_t k = 0; k < estimates.size(); ++k) {
     for (std::size_t i = 0; i < estimates[k].terms.size(); ++i) {
       const TermEstimate& term = estimates[k].terms[i];
-      std::vector<std::string> row{i == 0 ? escaped_markup(estimates[k].label) : "",
+      std::vector<std::string> row{i == 0 ? label_html(estimates[k].label) : "",
                                    std::to_string(i + 1)};
       add(row, term.g, 1.0);
       add(row, term.tau_s, 1.0);
@@ -174,7 +182,7 @@ HtmlTable recovery_table(const ReportInput& input,
       const double per_si = row.unit == "Pa" ? modulus.per_si : 1.0;
       const std::string interval = interval_html(row.estimate.interval_95, per_si);
       table.add_row(
-          {is_first ? escaped_markup(estimates[k].label) : "",
+          {is_first ? label_html(estimates[k].label) : "",
            with_unit(row.name_html, row.unit == "Pa" ? modulus.text : row.unit),
            number_html(row.truth, per_si),
            number_html(row.estimate.value, per_si,

@@ -1,5 +1,6 @@
 #include "io/cli/report_specimens.h"
 
+#include "fit/indentation_from_capture.h"
 #include "io/atomic_file.h"
 #include "io/capture_file.h"
 #include "io/cards/card.h"
@@ -66,6 +67,20 @@ std::optional<std::string> truth_file_of(const ReportWords& words, const std::st
   return std::nullopt;
 }
 
+// Puts the readings on their own clock, tied to the host's: what a reading waited for on its way to
+// the host would otherwise stand in the picture as a motion.
+void put_on_one_clock(CapturedRun& run) {
+  std::vector<double> device_s, host_s;
+  for (const LoadSample& sample : run.load_samples) {
+    if (!sample.device_time_s) return;
+    device_s.push_back(*sample.device_time_s);
+    host_s.push_back(sample.host_time_s);
+  }
+  if (device_s.size() < 3) return;
+  const ClockLine line = line_from_below(device_s, host_s);
+  for (LoadSample& sample : run.load_samples) sample.host_time_s = line.at(*sample.device_time_s);
+}
+
 // A capture or a table, fitted as `viscard fit FILE` does.
 SpecimenReport specimen_from_fit(const ReportWords& words, const std::string& path) {
   SpecimenReport report;
@@ -73,7 +88,10 @@ SpecimenReport specimen_from_fit(const ReportWords& words, const std::string& pa
   report.fit = fitted.result;
   report.specimen = fitted.specimen;
   if (report.specimen.id.empty()) report.specimen.id = fs::path(path).stem().string();
-  if (looks_like_capture(path)) report.run = read_capture(path);
+  if (looks_like_capture(path)) {
+    report.run = read_capture(path);
+    put_on_one_clock(*report.run);
+  }
   report.files = {{path, sha256_of_file(path)}};
   if (!report.fit->is_stiffness) {
     report.material =
@@ -138,9 +156,8 @@ PillarCheck pillar_of(const Material& material) {
   check.creep = report_curve(result.creep, "shortening (m)");
   check.limit = result.tolerance;
   check.setup = fmt::format(
-      "A pillar of {:g} µm diameter and {:g} µm length on a fixed base, {} unknowns: relaxation "
-      "under "
-      "{:g} % of shortening held, creep under {:g} kPa held. Exact answer: {}.",
+      "A pillar of {:g} µm diameter and {:g} µm length on a fixed base, {} unknowns: relaxation "
+      "under {:g} % of shortening held, creep under {:g} kPa held. Exact answer: {}.",
       1e6 * result.diameter_m, 1e6 * result.length_m, result.unknowns, 100.0 * result.strain,
       1e-3 * result.pressure_Pa, result.exact_method);
   return check;

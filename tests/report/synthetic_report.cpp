@@ -160,6 +160,8 @@ FitResult fit_of(const Mix& mix, const CapturedRun& run, std::mt19937_64& random
   fit.E_inf_se_Pa = 0.8e-3 * mix.E0_Pa;
   fit.E0_interval_95 = around(fit.E0_Pa, fit.E0_se_Pa);
   fit.E_inf_interval_95 = around(fit.E_inf_Pa, fit.E_inf_se_Pa);
+  fit.sum_g = 1.0 - fit.E_inf_Pa / fit.E0_Pa;
+  fit.sum_g_95 = around(fit.sum_g, 4.5e-4);
   fit.covariance_parameters = {"E_inf_Pa", "E_1_Pa", "E_2_Pa", "ln_tau_1", "ln_tau_2"};
   Eigen::VectorXd se(5);
   se << fit.E_inf_se_Pa, fit.terms[0].modulus_se_Pa, fit.terms[1].modulus_se_Pa, 0.08, 0.03;

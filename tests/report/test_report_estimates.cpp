@@ -139,6 +139,22 @@ TEST_CASE("depth is the stage's way below contact less the frame's deflection", 
   CHECK(at(1.0) == Approx(-20e-6).margin(0.3e-6));  // the gap before the ramp
 }
 
+TEST_CASE("a move that began later than recorded is put where the fit found it", "[io][report]") {
+  CapturedRun run = *test::synthetic_report().specimens[0].run;
+  const std::vector<double> depth_m = series_from_run(run, 1e-3).depth_m;
+  const double unload_s = run.moves[1].move.start_time_s;
+  run.moves[1].move.start_time_s -= 0.08;  // as if the command had been written then
+  const std::vector<double> recorded_m = series_from_run(run, 1e-3).depth_m;
+  const std::vector<double> fitted_m = series_from_run(run, 1e-3, {unload_s}).depth_m;
+  double recorded_off_m = 0.0, fitted_off_m = 0.0;
+  for (std::size_t i = 0; i < depth_m.size(); ++i) {
+    recorded_off_m = std::max(recorded_off_m, std::abs(recorded_m[i] - depth_m[i]));
+    fitted_off_m = std::max(fitted_off_m, std::abs(fitted_m[i] - depth_m[i]));
+  }
+  CHECK(recorded_off_m > 100e-6);
+  CHECK(fitted_off_m == 0.0);
+}
+
 TEST_CASE("without moves the depth comes from the stage's reports", "[io][report]") {
   CapturedRun run = *test::synthetic_report().specimens[0].run;
   const RunSeries by_moves = series_from_run(run, 1e-3);
