@@ -32,7 +32,7 @@ void add_moduli(std::vector<std::string>& lines, const Material& material,
 void add_validity(std::vector<std::string>& lines, const Material& material) {
   const ValidityWindow& valid = material.valid;
   std::string text = "valid: ";
-  text += valid.t_max_s > 0.0 ? fmt::format("{} s to {} s", valid.t_min_s, valid.t_max_s)
+  text += valid.t_max_s > 0.0 ? fmt::format("{:g} s to {:g} s", valid.t_min_s, valid.t_max_s)
                               : "time window not stated";
   text += valid.strain_max > 0.0 ? fmt::format(", strain up to {}", valid.strain_max)
                                  : ", strain limit not stated";

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 
@@ -61,6 +62,27 @@ void compare(const Material& reference, const CheckOptions& options, CardCheck& 
     check.findings.push_back(
         {"differs", "the card is of another material, or wrong in a way not known here", true});
   }
+}
+
+// Our own headers state E0 and E_inf, so a card that was edited below betrays itself even when no
+// material is named.
+void compare_with_header(const std::string& text, CardCheck& check) {
+  const std::string mark = "E0 (instantaneous) = ";
+  const std::size_t at = text.find(mark);
+  const double found_Pa = check.read.material.E0_Pa;
+  // COMSOL's expressions carry their own units, the header's number does not.
+  const bool is_comparable = check.read.understood.name != "comsol" && found_Pa > 0.0;
+  if (at == std::string::npos || !is_comparable) return;
+  const double stated = std::strtod(text.c_str() + at + mark.size(), nullptr);
+  const double stated_Pa = from_card(stated, check.read.units.stress_exponent);
+  if (std::abs(found_Pa / stated_Pa - 1.0) <= 1e-6) return;  // ten digits; ten columns hold fewer
+  const bool is_abaqus_default =
+      check.read.understood.name == "abaqus" && check.read.understood.at == ModulusAt::kLongTerm;
+  check.findings.push_back(
+      {is_abaqus_default ? "E0-without-instantaneous" : "header-disagrees",
+       fmt::format("the header says E0 = {:g} Pa and the numbers below mean {:g} Pa{}", stated_Pa,
+                   found_Pa, is_abaqus_default ? "; *ELASTIC lacks MODULI=INSTANTANEOUS" : ""),
+       true});
 }
 
 // CSV tables of ours: the unit stands in the column name.
@@ -127,6 +149,8 @@ CardCheck check_card(const std::string& text, const CheckOptions& options,
   if (reference != nullptr) {
     compare(*reference, options, check);
     note_times_outside_window(*reference, check);
+  } else {
+    compare_with_header(text, check);
   }
   // Where a cause is known, that nothing solid is left is only its consequence.
   const bool has_cause = std::any_of(

@@ -151,6 +151,25 @@ TEST_CASE("mistakes planted in FEBio, CalculiX, MOOSE and COMSOL cards are named
                  "comsol") != "");
 }
 
+TEST_CASE("an edited card of ours betrays itself by its header alone", "[cards]") {
+  const auto names = [](const std::string& text, const char* target) {
+    std::string out;
+    for (const CardFinding& finding : check_card(text, {.target = target}, nullptr).findings) {
+      out += finding.name;
+    }
+    return out;
+  };
+  for (const CardTarget& target : card_targets()) {
+    CAPTURE(target.name);
+    if (target.name != "csv")
+      CHECK(names(card_text(target.name.c_str()), target.name.c_str()).empty());
+  }
+  CHECK(names(replaced(card_text("abaqus"), ", MODULI=INSTANTANEOUS", ""), "abaqus") ==
+        "E0-without-instantaneous");
+  CHECK(names(replaced(card_text("moose"), "young_modulus = 1.88", "young_modulus = 2.49"),
+              "moose") == "header-disagrees");
+}
+
 TEST_CASE("hand-written cards in each dialect are read", "[cards]") {
   const Material material = reference_material();
   const auto check = [&](const std::string& text, const char* target) {
