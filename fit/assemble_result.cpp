@@ -1,11 +1,11 @@
 #include "fit/assemble_result.h"
 
+#include "fit/noise_model.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
-
-#include "fit/noise_model.h"
 
 namespace viscard {
 namespace {
@@ -16,8 +16,9 @@ std::vector<SpectralState> wished_path(const SpectralModel& model, const FitOpti
   path_options.max_terms = options.n_terms.value_or(options.max_terms);
   std::vector<SpectralState> path = order_path(model, path_options);
   if (path.empty()) {
-    throw std::runtime_error("no model fits these data: every modulus comes out zero. Check the sign "
-                             "of the fitted column");
+    throw std::runtime_error(
+        "no model fits these data: every modulus comes out zero. Check the sign "
+        "of the fitted column");
   }
   return path;
 }
@@ -68,13 +69,15 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
   result.noise.sigma = std::sqrt(fit.variance);
   result.noise.inflation = fit.noise.inflation();
   if (fit.scores.wants_faster) {
-    result.flags.push_back({"faster-relaxation", 0,
-                            "something relaxes faster than the first samples can show: E0 is that of "
-                            "the first sample, and a lower bound"});
+    result.flags.push_back(
+        {"faster-relaxation", 0,
+         "something relaxes faster than the first samples can show: E0 is that of "
+         "the first sample, and a lower bound"});
   }
   if (fit.scores.wants_slower) {
-    result.flags.push_back({"slower-relaxation", 0,
-                            "something still relaxes when the record ends: E_inf is an upper bound"});
+    result.flags.push_back(
+        {"slower-relaxation", 0,
+         "something still relaxes when the record ends: E_inf is an upper bound"});
   }
   result.rss = fit.rss;
   const Eigen::VectorXd sigma = model.row_sigma();

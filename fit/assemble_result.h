@@ -1,12 +1,12 @@
 #pragma once
 
-#include <vector>
-
 #include "fit/fit_data.h"
 #include "fit/fit_result.h"
 #include "fit/order_choice.h"
 #include "fit/order_path.h"
 #include "fit/uncertainty.h"
+
+#include <vector>
 
 namespace viscard {
 
@@ -14,23 +14,25 @@ namespace viscard {
 struct SpectralFit {
   std::vector<SpectralState> path;
   OrderScores scores;
-  SpectralState state;           // the chosen one, polished
-  double rss = 0.0;              // weighted, over all samples
-  double variance = 1.0;         // of one weighted sample
+  SpectralState state;    // the chosen one, polished
+  double rss = 0.0;       // weighted, over all samples
+  double variance = 1.0;  // of one weighted sample
   Autoregression noise;
-  Eigen::MatrixXd covariance;    // of all parameters of the state
+  Eigen::MatrixXd covariance;  // of all parameters of the state
 };
 
 // blocks: number of each row's block for cross-validation (log_time_blocks).
 SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blocks,
                          const FitOptions& options);
 
-// Fills everything of a result that follows from the fit alone: parameters, intervals, orders, noise.
+// Fills everything of a result that follows from the fit alone: parameters, intervals, orders,
+// noise.
 void fill_result(const SpectralModel& model, const SpectralFit& fit,
                  const SeriesFromState& series_from_state, FitResult& result);
 
 // Block numbers for cross-validation: contiguous runs of rows that end when they cover a tenth of a
 // decade of the time since `zero_s`, but not before `shortest` rows nor after a fiftieth of all.
-std::vector<int> log_time_blocks(const std::vector<double>& time_s, double zero_s, std::size_t shortest);
+std::vector<int> log_time_blocks(const std::vector<double>& time_s, double zero_s,
+                                 std::size_t shortest);
 
 }  // namespace viscard

@@ -19,15 +19,16 @@ CleanColumns clean_columns(std::vector<std::vector<double>> columns, std::size_t
   }
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < rows; ++i) {
-    const bool is_finite = std::all_of(columns.begin(), columns.end(),
-                                       [&](const auto& column) { return std::isfinite(column[i]); });
+    const bool is_finite = std::all_of(columns.begin(), columns.end(), [&](const auto& column) {
+      return std::isfinite(column[i]);
+    });
     if (is_finite) order.push_back(i);
   }
   clean.n_left_out = rows - order.size();
   if (order.size() < least) {
-    throw std::runtime_error("only " + std::to_string(order.size()) + " of " + std::to_string(rows) +
-                             " rows hold numbers in every column needed; a fit takes at least " +
-                             std::to_string(least));
+    throw std::runtime_error(
+        "only " + std::to_string(order.size()) + " of " + std::to_string(rows) +
+        " rows hold numbers in every column needed; a fit takes at least " + std::to_string(least));
   }
   const std::vector<double>& time = columns[0];
   const auto earlier = [&](std::size_t a, std::size_t b) { return time[a] < time[b]; };

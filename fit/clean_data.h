@@ -5,8 +5,8 @@
 
 namespace viscard {
 
-// Columns made fit for fitting: rows with a value that is not finite are left out, the rest sorted by
-// time (rows of equal time keep their order).
+// Columns made fit for fitting: rows with a value that is not finite are left out, the rest sorted
+// by time (rows of equal time keep their order).
 struct CleanColumns {
   std::vector<std::vector<double>> columns;  // columns[0] is time
   std::size_t n_left_out = 0;

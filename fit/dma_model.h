@@ -1,15 +1,16 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <vector>
-
 #include "fit/fit_data.h"
 #include "fit/spectral_model.h"
 
+#include <Eigen/Core>
+
+#include <vector>
+
 namespace viscard {
 
-// Storage and loss modulus over frequency, fitted together, each with weight 1/value (equal relative
-// errors): E' = E_inf + sum E_i x^2/(1 + x^2), E'' = sum E_i x/(1 + x^2), x = 2 pi f tau_i
+// Storage and loss modulus over frequency, fitted together, each with weight 1/value (equal
+// relative errors): E' = E_inf + sum E_i x^2/(1 + x^2), E'' = sum E_i x/(1 + x^2), x = 2 pi f tau_i
 // (fit/README.md, eq. 6). Rows: all E', then all E''.
 class DmaModel final : public SpectralModel {
  public:

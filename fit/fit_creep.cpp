@@ -1,14 +1,14 @@
 #include "fit/fit_creep.h"
 
-#include <cmath>
-#include <stdexcept>
-
 #include "fit/assemble_result.h"
 #include "fit/clean_data.h"
 #include "fit/flags.h"
 #include "fit/step_curves.h"
 #include "fit/step_model.h"
 #include "models/retardation_spectrum.h"
+
+#include <cmath>
+#include <stdexcept>
 
 namespace viscard {
 namespace {
@@ -40,7 +40,8 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
     throw std::runtime_error("all rows have the same time; nothing can be said of creep");
   }
   if (options.allow_negative) {
-    throw std::invalid_argument("creep terms cannot be negative: the compliance of a solid only grows");
+    throw std::invalid_argument(
+        "creep terms cannot be negative: the compliance of a solid only grows");
   }
   const StepModel model(time_s, clean.columns[1], StepShape::kCreep, options);
   std::vector<double> row_time_s;
@@ -48,7 +49,8 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
   const SpectralFit fit = fit_spectrum(model, log_time_blocks(row_time_s, 0.0, 1), options);
   if (!(fit.state.coefficients[0] > 0.0)) {
     throw std::runtime_error(
-        "the record shows no instantaneous compliance (it begins at zero), so E0 would be infinite. "
+        "the record shows no instantaneous compliance (it begins at zero), so E0 would be "
+        "infinite. "
         "Start the record earlier after the step, or give fewer terms with --terms");
   }
   FitResult result;

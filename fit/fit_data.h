@@ -1,11 +1,11 @@
 #pragma once
 
+#include "models/punch_contact.h"
+#include "models/run_record.h"
+
 #include <cstddef>
 #include <optional>
 #include <vector>
-
-#include "models/punch_contact.h"
-#include "models/run_record.h"
 
 namespace viscard {
 
@@ -20,16 +20,17 @@ struct RelaxationData {
   std::vector<double> strain;  // empty: ideal step
 };
 
-// Flat-punch indentation, F(t) = c int E(t-s) d(depth)/ds ds + offset + drift t   (fit/README.md, eq. 2)
-// with c = force_per_modulus_and_depth_m(contact). Without a contact c = 1: stiffnesses in N/m.
-// Depth is either measured (depth_m) or follows from stage moves and the frame's compliance.
+// Flat-punch indentation, F(t) = c int E(t-s) d(depth)/ds ds + offset + drift t   (fit/README.md,
+// eq. 2) with c = force_per_modulus_and_depth_m(contact). Without a contact c = 1: stiffnesses in
+// N/m. Depth is either measured (depth_m) or follows from stage moves and the frame's compliance.
 struct IndentationData {
   std::vector<double> time_s;
   std::vector<double> force_N;  // positive when pressed; its zero is fitted
   std::vector<double> depth_m;  // into the specimen; negative values: not in contact yet
 
-  // From a capture: moves on the time base of time_s, except that the start of each is only known to
-  // lie in [start_time_s - early_s, start_time_s + late_s]. ramp first, then those while in contact.
+  // From a capture: moves on the time base of time_s, except that the start of each is only known
+  // to lie in [start_time_s - early_s, start_time_s + late_s]. ramp first, then those while in
+  // contact.
   std::vector<StageMove> moves;
   double start_early_s = 0.0;
   double start_late_s = 0.0;
@@ -37,7 +38,7 @@ struct IndentationData {
   double contact_to_s = 0.0;    // ... to here belong to ramp and holds; others are out of contact
   double frame_stiffness_N_m = 0.0;  // 0: rigid
   double frame_stiffness_relative_u = 0.0;
-  double force_relative_u = 0.0;     // of the calibration
+  double force_relative_u = 0.0;  // of the calibration
 
   std::optional<PunchContact> contact;
   std::size_t n_saturated = 0;  // left out already
@@ -58,14 +59,14 @@ struct DmaData {
 };
 
 struct FitOptions {
-  std::optional<int> n_terms;   // this order instead of a choice
+  std::optional<int> n_terms;  // this order instead of a choice
   int max_terms = 40;
   bool is_liquid = false;       // E_inf = 0
   bool allow_negative = false;  // moduli of single terms
   bool white_noise = false;     // no inflation for autocorrelation; sigma^2 = rss/(n - p)
   bool full_data = false;       // every sample for itself instead of averages in log time
-  bool with_drift = true;       // indentation: force drift linear in time, where the data can tell it
-  bool with_curves = true;      // fill FitResult::curves
+  bool with_drift = true;   // indentation: force drift linear in time, where the data can tell it
+  bool with_curves = true;  // fill FitResult::curves
 };
 
 }  // namespace viscard

@@ -1,13 +1,13 @@
 #include "fit/fit_dma.h"
 
-#include <cmath>
-#include <numbers>
-#include <stdexcept>
-
 #include "fit/assemble_result.h"
 #include "fit/clean_data.h"
 #include "fit/dma_model.h"
 #include "fit/flags.h"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
 
 namespace viscard {
 

@@ -1,18 +1,18 @@
 #include "fit/fit_indentation.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <stdexcept>
-#include <string>
-#include <utility>
-
 #include "fit/assemble_result.h"
 #include "fit/clean_data.h"
 #include "fit/fit_stage_indentation.h"
 #include "fit/flags.h"
 #include "fit/history_model.h"
 #include "fit/two_point_modulus.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -23,13 +23,13 @@ constexpr std::size_t kLeastRows = 6;
 
 struct Contact {
   bool is_fitted = false;
-  double depth_m = 0.0;       // where contact begins, in the table's own count
-  std::size_t first = 0;      // first sample beyond it
+  double depth_m = 0.0;   // where contact begins, in the table's own count
+  std::size_t first = 0;  // first sample beyond it
 };
 
 // Where the line through the loading curve between a fifth and four fifths of the force meets zero
-// force. With samples before that the contact is fitted; without, the table's own zero of depth holds
-// (or its first sample, when the record begins under load).
+// force. With samples before that the contact is fitted; without, the table's own zero of depth
+// holds (or its first sample, when the record begins under load).
 Contact find_contact(const Column& force_N, const Column& depth_m, std::size_t loaded) {
   Contact contact;
   // Force at no load: the lowest tenth of what comes before the end of loading.
@@ -51,11 +51,7 @@ Contact find_contact(const Column& force_N, const Column& depth_m, std::size_t l
   const double determinant = n * sdd - sd * sd;
   if (n < 3.0 || !(determinant > 0.0)) return contact;
   const double slope = (n * sdf - sd * sf) / determinant;
-  if (!(slope > 0.0)) {
-    throw std::runtime_error(
-        "the force falls while the depth grows. If the depth is counted the other way, map it with a "
-        "minus: --column depth_m=-NAME");
-  }
+  if (!(slope > 0.0)) return contact;
   contact.depth_m = depth_m[loaded] + (sd * slope - sf) / (n * slope);
   while (contact.first < loaded && depth_m[contact.first] <= contact.depth_m) ++contact.first;
   constexpr std::size_t kFewSamples = 5;
@@ -67,14 +63,28 @@ Contact find_contact(const Column& force_N, const Column& depth_m, std::size_t l
 void check_force(const Column& force_N) {
   const auto [low, high] = std::minmax_element(force_N.begin(), force_N.end());
   if (*low == *high) {
-    throw std::runtime_error("the force is constant (" + std::to_string(*low) +
-                             " N in all samples): nothing was pressed, or the column is not the force");
+    throw std::runtime_error(
+        "the force is constant (" + std::to_string(*low) +
+        " N in all samples): nothing was pressed, or the column is not the force");
   }
   const double mean = std::accumulate(force_N.begin(), force_N.end(), 0.0);
   if (mean < 0.0 && -*low > *high) {
     throw std::runtime_error(
-        "the force is negative where it is largest: pressing must count positive. Map the column with "
+        "the force is negative where it is largest: pressing must count positive. Map the column "
+        "with "
         "a minus: --column force_N=-NAME");
+  }
+}
+
+// The depth must grow while the force does.
+void check_depth(const Column& force_N, const Column& depth_m) {
+  const auto peak =
+      static_cast<std::size_t>(std::max_element(force_N.begin(), force_N.end()) - force_N.begin());
+  if (peak > 0 && depth_m[peak] < depth_m[0]) {
+    throw std::runtime_error(
+        "the depth falls while the force rises. If it is counted the other way, map it with a "
+        "minus: "
+        "--column depth_m=-NAME");
   }
 }
 
@@ -97,7 +107,8 @@ void flag_saturation(const Column& force_N, FitResult& result) {
 
 void flag_gap(const Column& time_s, std::size_t contact, std::size_t loaded, FitResult& result) {
   Column steps;
-  for (std::size_t i = contact + 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
+  for (std::size_t i = contact + 1; i < time_s.size(); ++i)
+    steps.push_back(time_s[i] - time_s[i - 1]);
   if (steps.size() < kLeastRows || loaded <= contact) return;
   Column sorted = steps;
   std::sort(sorted.begin(), sorted.end());
@@ -107,8 +118,9 @@ void flag_gap(const Column& time_s, std::size_t contact, std::size_t loaded, Fit
     const double step_s = steps[i - contact - 1];
     if (step_s <= 3.5 * usual_s || step_s < 0.1 * ramp_s) continue;
     add_defect(result, "gap-in-ramp",
-               "no samples for " + std::to_string(step_s) + " s from t = " +
-                   std::to_string(time_s[i - 1]) + " s on, while the load rose: the depth there is a guess");
+               "no samples for " + std::to_string(step_s) +
+                   " s from t = " + std::to_string(time_s[i - 1]) +
+                   " s on, while the load rose: the depth there is a guess");
     return;
   }
 }
@@ -160,6 +172,7 @@ void fill_curves(const HistoryModel& model, const HistoryInput& input, const Spe
 FitResult fit_measured_depth(const IndentationData& data, const FitOptions& options) {
   CleanColumns clean = clean_columns({data.time_s, data.force_N, data.depth_m}, kLeastRows);
   check_force(clean.columns[1]);
+  check_depth(clean.columns[1], clean.columns[2]);
   if (data.frame_stiffness_N_m > 0.0) {
     for (std::size_t i = 0; i < clean.columns[0].size(); ++i) {
       clean.columns[2][i] -= clean.columns[1][i] / data.frame_stiffness_N_m;
@@ -216,8 +229,9 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
   return result;
 }
 
-// Relative change of E0 when the frame is as much stiffer as its uncertainty says, and the other known
-// inputs beside it. The depth that the frame leaves is what it is blamed on, so both grow with its share.
+// Relative change of E0 when the frame is as much stiffer as its uncertainty says, and the other
+// known inputs beside it. The depth that the frame leaves is what it is blamed on, so both grow
+// with its share.
 double systematic_share(const IndentationData& data, const FitResult& result) {
   double square = std::pow(data.force_relative_u, 2);
   if (data.contact) square += std::pow(relative_uncertainty(*data.contact), 2);

@@ -1,18 +1,18 @@
 #include "fit/fit_relaxation.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <stdexcept>
-#include <string>
-#include <utility>
-
 #include "fit/assemble_result.h"
 #include "fit/clean_data.h"
 #include "fit/flags.h"
 #include "fit/history_model.h"
 #include "fit/step_curves.h"
 #include "fit/step_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -79,7 +79,8 @@ FitResult fit_step(const CleanColumns& clean, const FitOptions& options) {
 std::size_t drop_before_zero(CleanColumns& clean) {
   const auto first = std::lower_bound(clean.columns[0].begin(), clean.columns[0].end(), 0.0) -
                      clean.columns[0].begin();
-  for (std::vector<double>& column : clean.columns) column.erase(column.begin(), column.begin() + first);
+  for (std::vector<double>& column : clean.columns)
+    column.erase(column.begin(), column.begin() + first);
   return static_cast<std::size_t>(first);
 }
 
@@ -102,7 +103,8 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
   const double sum = std::accumulate(clean.columns[1].begin(), clean.columns[1].end(), 0.0);
   if (!(sum > 0.0) && data.strain.empty()) {
     throw std::runtime_error(
-        "the fitted column is negative or zero on the whole: a relaxation modulus is positive. If the "
+        "the fitted column is negative or zero on the whole: a relaxation modulus is positive. If "
+        "the "
         "sign of the instrument is the other way, map the column with a minus: "
         "--column modulus_Pa=-NAME");
   }

@@ -10,8 +10,8 @@ namespace viscard {
 //   RelaxationData data{.time_s = t, .value = E};
 //   FitResult fit = fit_relaxation(data);
 //   fit.E0_Pa, fit.terms[0].tau_s_95.low, fit.orders ...
-// Throws std::invalid_argument (columns of unequal length) or std::runtime_error (no data that could be
-// fitted: what is wrong and where).
+// Throws std::invalid_argument (columns of unequal length) or std::runtime_error (no data that
+// could be fitted: what is wrong and where).
 FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options = {});
 
 }  // namespace viscard

@@ -81,10 +81,11 @@ struct FitResult {
   double fit_from_s = 0.0, fit_to_s = 0.0;
   std::optional<TwoPointModulus> two_point;
   std::optional<double> contact_position_m;
-  std::size_t n_spikes = 0;       // samples left out as spikes
-  std::size_t n_left_out = 0;     // samples left out because they were not numbers
-  bool is_converged = true;       // of the chosen order
-  bool is_trustworthy = true;     // false: not converged, saturated, a gap in the ramp (flags say which)
+  std::size_t n_spikes = 0;    // samples left out as spikes
+  std::size_t n_left_out = 0;  // samples left out because they were not numbers
+  bool is_converged = true;    // of the chosen order
+  bool is_trustworthy =
+      true;  // false: not converged, saturated, a gap in the ramp (flags say which)
   FitCurves curves;
 };
 

@@ -1,12 +1,5 @@
 #include "fit/fit_stage_indentation.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <optional>
-#include <stdexcept>
-#include <string>
-
 #include "fit/assemble_result.h"
 #include "fit/clean_data.h"
 #include "fit/flags.h"
@@ -14,12 +7,20 @@
 #include "fit/two_point_modulus.h"
 #include "models/retardation_spectrum.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
 namespace viscard {
 namespace {
 
 using Index = Eigen::Index;
 
-// Standard deviations of the residual while the stage rests and while it moves (its steps shake it).
+// Standard deviations of the residual while the stage rests and while it moves (its steps shake
+// it).
 struct TwoSigmas {
   double resting_N = 1.0;
   double moving_N = 1.0;
@@ -39,8 +40,8 @@ TwoSigmas scatter(const StageModel& model, const Eigen::VectorXd& weighted_resid
   return {resting_N, std::max(moving_N, resting_N)};
 }
 
-// Averages of measured and fitted force for plots, in log time from the start of each motion; rows of
-// contact only.
+// Averages of measured and fitted force for plots, in log time from the start of each motion; rows
+// of contact only.
 void fill_curves(const StageModel& model, const IndentationData& data, const SpectralState& state,
                  const Eigen::VectorXd& residual_N, FitResult& result) {
   FitCurves& curves = result.curves;
@@ -99,7 +100,8 @@ std::optional<TwoPointModulus> two_points(const IndentationData& data, const Spe
     time_s.push_back(t);
     force_N.push_back(data.force_N[i] - offset_N);
     depth_m.push_back(pressed_m - (data.frame_stiffness_N_m > 0.0
-                                       ? force_N.back() / data.frame_stiffness_N_m : 0.0));
+                                       ? force_N.back() / data.frame_stiffness_N_m
+                                       : 0.0));
   }
   return two_point_modulus(time_s, force_N, depth_m, *data.contact, sigma_N);
 }
@@ -110,7 +112,8 @@ void flag_gap_in_ramp(const IndentationData& data, const SpectralState& state, F
   const double from_s = ramp.start_time_s + state.nuisance[0];
   const double to_s = from_s + duration_s(ramp);
   std::vector<double> steps;
-  for (std::size_t i = 1; i < data.time_s.size(); ++i) steps.push_back(data.time_s[i] - data.time_s[i - 1]);
+  for (std::size_t i = 1; i < data.time_s.size(); ++i)
+    steps.push_back(data.time_s[i] - data.time_s[i - 1]);
   std::vector<double> sorted = steps;
   std::sort(sorted.begin(), sorted.end());
   const double usual_s = sorted[sorted.size() / 2];
@@ -118,8 +121,9 @@ void flag_gap_in_ramp(const IndentationData& data, const SpectralState& state, F
     const bool in_ramp = data.time_s[i] > from_s && data.time_s[i - 1] < to_s;
     if (!in_ramp || steps[i - 1] < std::max(4.0 * usual_s, 0.05 * duration_s(ramp))) continue;
     char text[120];
-    std::snprintf(text, sizeof text, "no readings for %.3g s during the ramp (%.3g s after it began)",
-                  steps[i - 1], data.time_s[i - 1] - from_s);
+    std::snprintf(text, sizeof text,
+                  "no readings for %.3g s during the ramp (%.3g s after it began)", steps[i - 1],
+                  data.time_s[i - 1] - from_s);
     add_defect(result, "gap-in-ramp", text);
     return;
   }
@@ -134,8 +138,9 @@ void flag_lost_contact(const IndentationData& data, const SpectralState& state, 
     if (data.time_s[i] < ramp_end_s || data.time_s[i] > data.contact_to_s) continue;
     const double fitted_N = data.force_N[i] - residual_N[static_cast<Index>(i)] - offset_N;
     if (fitted_N > -3.0 * sigma_N) continue;
-    add_defect(result, "contact-lost",
-               "the unloading lifts the punch off the specimen: unload to a larger share of the depth");
+    add_defect(
+        result, "contact-lost",
+        "the unloading lifts the punch off the specimen: unload to a larger share of the depth");
     return;
   }
 }
@@ -147,11 +152,11 @@ PronySeries specimen_series(const PronySeries& stage_series_N_m, double frame_st
   RetardationSpectrum compliance = retardation_from_relaxation(stage_series_N_m);
   compliance.instantaneous_compliance_1_Pa -= 1.0 / frame_stiffness_N_m;
   if (!(compliance.instantaneous_compliance_1_Pa > 0.0)) {
-    throw std::runtime_error(
-        "the frame stiffness of " + std::to_string(frame_stiffness_N_m) +
-        " N/m is below the stiffness seen (" +
-        std::to_string(instantaneous_modulus_Pa(stage_series_N_m)) +
-        " N/m): nothing is left for the specimen. Measure it again: viscard calibrate --compliance");
+    throw std::runtime_error("the frame stiffness of " + std::to_string(frame_stiffness_N_m) +
+                             " N/m is below the stiffness seen (" +
+                             std::to_string(instantaneous_modulus_Pa(stage_series_N_m)) +
+                             " N/m): nothing is left for the specimen. Measure it again: viscard "
+                             "calibrate --compliance");
   }
   return relaxation_from_retardation(compliance);
 }
@@ -165,9 +170,9 @@ void report_stage_fit(const StageModel& model, const IndentationData& data, cons
   const double sigma_N = result.noise.sigma;
   result.fit_from_s = ramp.start_time_s + fit.state.nuisance[0];
   result.fit_to_s = data.contact_to_s;
-  add_identifiability_flags(model, fit.state, fit.covariance,
-                            {shortest_step_s(data.time_s), 0.0, 0.0, result.fit_to_s - result.fit_from_s},
-                            result);
+  add_identifiability_flags(
+      model, fit.state, fit.covariance,
+      {shortest_step_s(data.time_s), 0.0, 0.0, result.fit_to_s - result.fit_from_s}, result);
   flag_gap_in_ramp(data, fit.state, result);
   for (Index j = 0; j < model.n_common(); ++j) {
     if (model.common()[static_cast<std::size_t>(j)].name != "offset_N") continue;
@@ -190,8 +195,9 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
     path_options.max_terms = 4;
     const SpectralState state = order_path(model, path_options).back();
     start = state.nuisance;
-    sigmas = scatter(model, model.data() - model.columns(state.ln_tau, state.nuisance, false).values *
-                                               state.coefficients);
+    sigmas =
+        scatter(model, model.data() - model.columns(state.ln_tau, state.nuisance, false).values *
+                                          state.coefficients);
   }
   const StageModel model(data, start, sigmas.resting_N, sigmas.moving_N, options);
   const SpectralFit fit =
@@ -203,8 +209,7 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
   const auto series_from_state = [&](const SpectralState& state) {
     PronySeries stage{options.is_liquid ? 0.0 : state.coefficients[0], {}};
     for (Index i = 0; i < state.n_terms(); ++i) {
-      stage.terms.push_back(
-          {state.coefficients[model.n_common() + i], std::exp(state.ln_tau[i])});
+      stage.terms.push_back({state.coefficients[model.n_common() + i], std::exp(state.ln_tau[i])});
     }
     PronySeries series = specimen_series(stage, data.frame_stiffness_N_m);
     series.equilibrium_modulus_Pa /= factor_m;

@@ -21,7 +21,8 @@ void flag_time(const FittedTerm& term, int n, const TestWindow& window, FitResul
   const std::string tau = "relaxation time " + number(term.tau_s) + " s ";
   if (window.sampling_s > 0.0 && term.tau_s < 3.0 * window.sampling_s) {
     add("tau-below-sampling", tau + "is below three sampling intervals (" +
-                                  number(3.0 * window.sampling_s) + " s): time and modulus are a guess");
+                                  number(3.0 * window.sampling_s) +
+                                  " s): time and modulus are a guess");
   }
   if (window.ramp_s > 0.0 && term.tau_s < 0.2 * window.ramp_s) {
     add("tau-below-ramp", tau + "is below a fifth of the ramp (" + number(0.2 * window.ramp_s) +
@@ -62,23 +63,27 @@ void add_identifiability_flags(const SpectralModel& model, const SpectralState& 
     const double ln_tau = state.ln_tau[i];
     constexpr double kTouch = 1e-6;
     if (ln_tau < model.ln_tau_min() + kTouch || ln_tau > model.ln_tau_max() - kTouch) {
-      result.flags.push_back({"on-bound", n,
-                              "term " + std::to_string(n) + ": its time went to the end of the range "
-                              "that the record allows; the modulus there has no time of its own"});
+      result.flags.push_back(
+          {"on-bound", n,
+           "term " + std::to_string(n) +
+               ": its time went to the end of the range "
+               "that the record allows; the modulus there has no time of its own"});
     }
     for (Index j = i + 1; j < n_terms; ++j) {
       const bool strong = std::abs(correlation(covariance, first + i, first + j)) > kStrong;
       if (!strong) continue;
-      result.flags.push_back({"terms-correlated", n,
-                              "terms " + std::to_string(n) + " and " + std::to_string(j + 1) +
-                                  ": their moduli are known only together (correlation above 0.99)"});
+      result.flags.push_back(
+          {"terms-correlated", n,
+           "terms " + std::to_string(n) + " and " + std::to_string(j + 1) +
+               ": their moduli are known only together (correlation above 0.99)"});
     }
     for (Index c = 0; c < first; ++c) {
       const std::string& name = model.common()[static_cast<std::size_t>(c)].name;
       const bool is_drift = name.starts_with("drift") || name.starts_with("creep");
       if (!is_drift || std::abs(correlation(covariance, first + i, c)) <= kStrong) continue;
-      result.flags.push_back({"confused-with-drift", n,
-                              "term " + std::to_string(n) + ": cannot be told from drift of the force"});
+      result.flags.push_back(
+          {"confused-with-drift", n,
+           "term " + std::to_string(n) + ": cannot be told from drift of the force"});
     }
   }
   if (!result.is_converged) {

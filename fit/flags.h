@@ -7,8 +7,8 @@ namespace viscard {
 
 // What the test could show at all, for judging each term.
 struct TestWindow {
-  double sampling_s = 0.0;  // shortest interval between samples; 0: unknown
-  double ramp_s = 0.0;      // duration of loading; 0: a step
+  double sampling_s = 0.0;          // shortest interval between samples; 0: unknown
+  double ramp_s = 0.0;              // duration of loading; 0: a step
   double from_s = 0.0, to_s = 0.0;  // since loading began
 };
 

@@ -1,10 +1,10 @@
 #include "fit/history_model.h"
 
+#include "models/hereditary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "models/hereditary.h"
 
 namespace viscard {
 namespace {
@@ -124,7 +124,8 @@ ModelColumns HistoryModel::sample_columns(const Eigen::VectorXd& ln_tau,
   if (with_equilibrium_) {
     for (std::size_t k = first; k < in_.time_s.size(); ++k) {
       out.values(static_cast<Index>(k), column) = c * (in_.input[k] - contact_input);
-      if (with_slopes && in_.contact_input) out.nuisance_slopes[0](static_cast<Index>(k), column) = -c;
+      if (with_slopes && in_.contact_input)
+        out.nuisance_slopes[0](static_cast<Index>(k), column) = -c;
     }
     ++column;
   }
@@ -166,8 +167,8 @@ Eigen::MatrixXd HistoryModel::averaged(const Eigen::MatrixXd& samples) const {
   for (Index r = 0; r < n_rows(); ++r) {
     const auto begin = static_cast<Index>(row_begin_[static_cast<std::size_t>(r)]);
     const auto size = static_cast<Index>(row_begin_[static_cast<std::size_t>(r) + 1]) - begin;
-    rows.row(r) = samples.middleRows(begin, size).colwise().sum() /
-                  std::sqrt(static_cast<double>(size));
+    rows.row(r) =
+        samples.middleRows(begin, size).colwise().sum() / std::sqrt(static_cast<double>(size));
   }
   return rows;
 }

@@ -1,25 +1,27 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <optional>
-#include <vector>
-
 #include "fit/fit_data.h"
 #include "fit/spectral_model.h"
 
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
 namespace viscard {
 
-// Response to a measured history of depth or strain, linear between samples   (fit/README.md, eq. 2):
+// Response to a measured history of depth or strain, linear between samples   (fit/README.md, eq.
+// 2):
 //   y(t) = c int E(t - s) d(input) + offset [+ drift t]
-// by the exact recursion of models/hereditary.h, one pass over all samples for each relaxation time.
-// Every sample up to the end of loading is a row; later ones are averaged in log time, the data and the
-// basis alike.
+// by the exact recursion of models/hereditary.h, one pass over all samples for each relaxation
+// time. Every sample up to the end of loading is a row; later ones are averaged in log time, the
+// data and the basis alike.
 struct HistoryInput {
-  std::vector<double> time_s;   // sorted
-  std::vector<double> input;    // depth in m, or strain
-  std::vector<double> output;   // force in N, or stress in Pa
-  double factor = 1.0;          // c; moduli come out in output/(c input)
-  std::size_t contact = 0;      // first sample that may be in contact; before it the input counts as 0
+  std::vector<double> time_s;  // sorted
+  std::vector<double> input;   // depth in m, or strain
+  std::vector<double> output;  // force in N, or stress in Pa
+  double factor = 1.0;         // c; moduli come out in output/(c input)
+  std::size_t contact = 0;  // first sample that may be in contact; before it the input counts as 0
   // Contact position as a nuisance, counted in the input; none: contact at input 0.
   std::optional<double> contact_input;
   double contact_half_width = 0.0;
@@ -27,7 +29,8 @@ struct HistoryInput {
   bool with_drift = false;
 };
 
-// First sample within two hundredths of the largest input: where loading ends, whatever drifts later.
+// First sample within two hundredths of the largest input: where loading ends, whatever drifts
+// later.
 std::size_t end_of_loading(const std::vector<double>& input);
 
 class HistoryModel final : public SpectralModel {

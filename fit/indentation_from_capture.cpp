@@ -19,8 +19,9 @@ const CommandedMove* first_move(const CapturedRun& run, const std::string& purpo
 double volts_of(const LoadSample& sample, const RigConfig& rig) {
   if (sample.volts) return *sample.volts;
   if (!(std::abs(rig.load_cell.volts_per_count) > 0.0)) {
-    throw std::runtime_error("the capture holds raw counts, but its rig says no volts_per_count. Add "
-                             "it under [load_cell] in the rig file");
+    throw std::runtime_error(
+        "the capture holds raw counts, but its rig says no volts_per_count. Add "
+        "it under [load_cell] in the rig file");
   }
   return sample.counts.value_or(0.0) * rig.load_cell.volts_per_count;
 }
@@ -31,8 +32,9 @@ struct Readings {
 
 Readings good_readings(const CapturedRun& run, IndentationData& data) {
   Readings readings;
-  const bool has_clock = std::all_of(run.load_samples.begin(), run.load_samples.end(),
-                                     [](const LoadSample& s) { return s.device_time_s.has_value(); });
+  const bool has_clock =
+      std::all_of(run.load_samples.begin(), run.load_samples.end(),
+                  [](const LoadSample& s) { return s.device_time_s.has_value(); });
   const double sign = run.rig.load_cell.compression_is_positive ? 1.0 : -1.0;
   double last_clock = -1e300;
   for (const LoadSample& sample : run.load_samples) {
@@ -65,8 +67,7 @@ ClockLine line_from_below(const std::vector<double>& x, const std::vector<double
     }
     hull.push_back(i);
   }
-  const double mean =
-      std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+  const double mean = std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
   for (std::size_t i = 1; i < hull.size(); ++i) {
     if (x[hull[i]] < mean) continue;
     const std::size_t a = hull[i - 1];
@@ -101,8 +102,8 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   if (retract != nullptr) {
     data.contact_to_s = std::min(data.contact_to_s, retract->move.start_time_s);
     // Recovery of the surface and the last of the motion are not zero force: leave half a second.
-    free_again_s = retract->move.start_time_s + duration_s(retract->move) +
-                   retract->start_uncertainty_s + 0.5;
+    free_again_s =
+        retract->move.start_time_s + duration_s(retract->move) + retract->start_uncertainty_s + 0.5;
   }
   double still_since_s = -1e300;
   for (const CommandedMove& move : run.moves) {
@@ -129,7 +130,8 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   }
   data.frame_stiffness_N_m = run.rig.frame.stiffness_N_m;
   data.frame_stiffness_relative_u = run.rig.frame.stiffness_relative_u;
-  data.force_relative_u = std::abs(run.rig.calibration.volts_per_newton_u / run.rig.calibration.volts_per_newton);
+  data.force_relative_u =
+      std::abs(run.rig.calibration.volts_per_newton_u / run.rig.calibration.volts_per_newton);
   if (run.specimen.contact.punch_radius_m > 0.0) data.contact = run.specimen.contact;
   return data;
 }

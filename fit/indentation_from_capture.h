@@ -1,23 +1,22 @@
 #pragma once
 
-#include <functional>
-
 #include "fit/fit_data.h"
 #include "models/captured_run.h"
+
+#include <functional>
 
 namespace viscard {
 
 // Volts to newtons, device clock to one time base, stage moves and windows: what fit_indentation()
 // needs, from one captured run. Readings that are saturated or glitches are left out and counted.
-// Time base: the run's host clock, to which the amplifier's own clock is tied by the line that touches
-// the receive times from below (a message can be late, never early); without such a clock the readings
-// are taken as evenly spaced.
-// Throws std::runtime_error, saying what is missing, if there is no ramp move, no calibration or no
-// reading in contact.
+// Time base: the run's host clock, to which the amplifier's own clock is tied by the line that
+// touches the receive times from below (a message can be late, never early); without such a clock
+// the readings are taken as evenly spaced. Throws std::runtime_error, saying what is missing, if
+// there is no ramp move, no calibration or no reading in contact.
 IndentationData indentation_from_capture(const CapturedRun& run);
 
-// Line under a cloud of points: value = offset + slope * x touches the points from below with the least
-// total distance (an edge of the lower convex hull).
+// Line under a cloud of points: value = offset + slope * x touches the points from below with the
+// least total distance (an edge of the lower convex hull).
 struct ClockLine {
   double offset_s = 0.0;
   double slope = 1.0;

@@ -12,11 +12,11 @@ namespace viscard {
 struct LogBin {
   std::size_t begin = 0, end = 0;  // samples
   double count = 0.0;
-  double time_s = 0.0;                    // mean
-  double m2 = 0.0, m3 = 0.0, m4 = 0.0;    // mean powers of t - mean
-  double value = 0.0;                     // mean
-  double c1 = 0.0, c2 = 0.0;              // mean of (value - mean)(t - mean)^k
-  double value_m2 = 0.0;                  // mean of (value - mean)^2
+  double time_s = 0.0;                  // mean
+  double m2 = 0.0, m3 = 0.0, m4 = 0.0;  // mean powers of t - mean
+  double value = 0.0;                   // mean
+  double c1 = 0.0, c2 = 0.0;            // mean of (value - mean)(t - mean)^k
+  double value_m2 = 0.0;                // mean of (value - mean)^2
 };
 
 // Bins of sorted times; per_decade <= 0: every sample for itself. Times up to 0 stay alone.

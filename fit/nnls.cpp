@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,8 +11,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Solves the normal equations of the columns in use, scaled to a unit diagonal; a touch of ridge keeps
-// columns that are equal to rounding from failing.
+// Solves the normal equations of the columns in use, scaled to a unit diagonal; a touch of ridge
+// keeps columns that are equal to rounding from failing.
 Eigen::VectorXd solve_passive(const Eigen::MatrixXd& gram, const Eigen::VectorXd& right,
                               const std::vector<Index>& in_use) {
   const auto count = static_cast<Index>(in_use.size());
@@ -48,7 +49,8 @@ Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
   for (Index j = 0; j < count; ++j) {
     if (!(scale[j] > 0.0)) scale[j] = 1.0;
   }
-  const Eigen::MatrixXd g = scale.cwiseInverse().asDiagonal() * gram * scale.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd g =
+      scale.cwiseInverse().asDiagonal() * gram * scale.cwiseInverse().asDiagonal();
   const Eigen::VectorXd b = right.cwiseQuotient(scale);
   const double tolerance = 1e-12 * std::max(b.cwiseAbs().maxCoeff(), 1e-300);
 
@@ -97,7 +99,8 @@ Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
   return x.cwiseQuotient(scale);
 }
 
-Eigen::VectorXd least_squares_with_signs(const Eigen::MatrixXd& columns, const Eigen::VectorXd& data,
+Eigen::VectorXd least_squares_with_signs(const Eigen::MatrixXd& columns,
+                                         const Eigen::VectorXd& data,
                                          const std::vector<bool>& is_free) {
   const Index count = columns.cols();
   if (count == 0) return Eigen::VectorXd(0);
@@ -108,7 +111,8 @@ Eigen::VectorXd least_squares_with_signs(const Eigen::MatrixXd& columns, const E
     x.setZero();
     if (list.empty()) return true;
     Eigen::MatrixXd part(columns.rows(), static_cast<Index>(list.size()));
-    for (std::size_t i = 0; i < list.size(); ++i) part.col(static_cast<Index>(i)) = columns.col(list[i]);
+    for (std::size_t i = 0; i < list.size(); ++i)
+      part.col(static_cast<Index>(i)) = columns.col(list[i]);
     Eigen::VectorXd scale = part.colwise().norm().transpose();
     for (Index i = 0; i < scale.size(); ++i) {
       if (!(scale[i] > 0.0)) scale[i] = 1.0;
@@ -131,7 +135,8 @@ Eigen::VectorXd least_squares_with_signs(const Eigen::MatrixXd& columns, const E
   // The QR may see by rounding a sign that the normal equations did not: drop and solve again.
   while (!solve()) {
     for (Index j = 0; j < count; ++j) {
-      if (!is_free[static_cast<std::size_t>(j)] && x[j] < 0.0) in_use[static_cast<std::size_t>(j)] = false;
+      if (!is_free[static_cast<std::size_t>(j)] && x[j] < 0.0)
+        in_use[static_cast<std::size_t>(j)] = false;
     }
   }
   return x;

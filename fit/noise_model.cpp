@@ -1,6 +1,7 @@
 #include "fit/noise_model.h"
 
 #include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 
@@ -35,12 +36,14 @@ Autoregression autoregression(const Eigen::VectorXd& series) {
   for (int order = 1; order <= max_order; ++order) {
     double reflection = gamma[static_cast<std::size_t>(order)];
     for (int k = 1; k < order; ++k) {
-      reflection -= phi[static_cast<std::size_t>(k - 1)] * gamma[static_cast<std::size_t>(order - k)];
+      reflection -=
+          phi[static_cast<std::size_t>(k - 1)] * gamma[static_cast<std::size_t>(order - k)];
     }
     reflection /= error;
     const std::vector<double> old = phi;
     for (int k = 1; k < order; ++k) {
-      phi[static_cast<std::size_t>(k - 1)] -= reflection * old[static_cast<std::size_t>(order - k - 1)];
+      phi[static_cast<std::size_t>(k - 1)] -=
+          reflection * old[static_cast<std::size_t>(order - k - 1)];
     }
     phi.push_back(reflection);
     error *= 1.0 - reflection * reflection;

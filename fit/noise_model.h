@@ -1,12 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <vector>
 
 namespace viscard {
 
-// Noise with memory, e_t = sum phi_k e_{t-k} + white: the autoregression that the residuals of a fit
-// ask for. Order by BIC, so that white noise comes out as order 0. Coefficients from the
+// Noise with memory, e_t = sum phi_k e_{t-k} + white: the autoregression that the residuals of a
+// fit ask for. Order by BIC, so that white noise comes out as order 0. Coefficients from the
 // autocovariances by Levinson's recursion (Brockwell & Davis, Time Series (1991), sect. 8.2).
 struct Autoregression {
   std::vector<double> phi;  // empty: white

@@ -1,6 +1,7 @@
 #include "fit/order_choice.h"
 
 #include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,8 +16,8 @@ double n_parameters(const SpectralModel& model, const SpectralState& state) {
   return static_cast<double>(model.n_common() + 2 * state.n_terms() + model.n_nuisances());
 }
 
-// Whether the paired differences of block errors are above zero by more than their standard error, over
-// the blocks that both orders can predict.
+// Whether the paired differences of block errors are above zero by more than their standard error,
+// over the blocks that both orders can predict.
 bool is_worse_by_one_error(const std::vector<LeftOut>& a, const std::vector<LeftOut>& best) {
   std::vector<double> differences;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -35,9 +36,9 @@ bool is_worse_by_one_error(const std::vector<LeftOut>& a, const std::vector<Left
 }  // namespace
 
 std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralState& state,
-                                    const std::vector<int>& blocks) {
-  // Nuisances stay as they are: a single block may hold all that is known of one (the unloading and its
-  // start), which says nothing for or against a term.
+                                     const std::vector<int>& blocks) {
+  // Nuisances stay as they are: a single block may hold all that is known of one (the unloading and
+  // its start), which says nothing for or against a term.
   Eigen::MatrixXd jacobian = full_jacobian(model, state);
   jacobian.conservativeResize(Eigen::NoChange, jacobian.cols() - model.n_nuisances());
   const Index linear = state.coefficients.size();

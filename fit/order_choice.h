@@ -1,20 +1,21 @@
 #pragma once
 
-#include <vector>
-
 #include "fit/fit_result.h"
 #include "fit/separable.h"
 
+#include <vector>
+
 namespace viscard {
 
-// Scores of every order of a path and the choice among them   (fit/README.md, sect. 4): the fewest terms
-// whose left-out blocks are predicted as well as by the best order, within one standard error of the
-// paired difference, and never more than BIC asks for. An order with a time at the end of the range is
-// not eligible.
+// Scores of every order of a path and the choice among them   (fit/README.md, sect. 4): the fewest
+// terms whose left-out blocks are predicted as well as by the best order, within one standard error
+// of the paired difference, and never more than BIC asks for. An order with a time at the end of
+// the range is not eligible.
 struct OrderScores {
   std::vector<OrderRow> rows;  // one is marked as chosen
   std::size_t chosen = 0;      // position in the path
-  // Higher orders describe the data much better, but with a time at the end of what the record can show.
+  // Higher orders describe the data much better, but with a time at the end of what the record can
+  // show.
   bool wants_faster = false;
   bool wants_slower = false;
 };
@@ -32,8 +33,8 @@ OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralS
                          const ChoiceInput& input);
 
 // How a block of rows is predicted by a fit to all others, by one linearised step from the full fit
-// (exact for a linear model): e_b = (1 - H_bb)^-1 r_b. A block that alone holds what is known of some
-// combination of parameters cannot be predicted by any fit; it counts with its plain residual.
+// (exact for a linear model): e_b = (1 - H_bb)^-1 r_b. A block that alone holds what is known of
+// some combination of parameters cannot be predicted by any fit; it counts with its plain residual.
 struct LeftOut {
   double squared_error = 0.0;  // weighted
   double squared_residual = 0.0;

@@ -1,10 +1,10 @@
 #include "fit/order_path.h"
 
+#include "fit/nnls.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "fit/nnls.h"
 
 namespace viscard {
 namespace {
@@ -43,8 +43,8 @@ SpectralState without_zero_terms(const SpectralModel& model, SpectralState state
   return state;
 }
 
-// Non-negative spectrum on a grid; peaks on neighbouring grid points become one term at their mean time
-// weighted by what they carry.
+// Non-negative spectrum on a grid; peaks on neighbouring grid points become one term at their mean
+// time weighted by what they carry.
 Eigen::VectorXd spectrum_peaks(const SpectralModel& model, const Eigen::VectorXd& nuisance,
                                double per_decade) {
   const Eigen::VectorXd grid = grid_of_times(model, per_decade);
@@ -82,9 +82,9 @@ SpectralState with_one_less_term(const SpectralModel& model, const SpectralState
     merged[i] = a + b > 0.0 ? (a * state.ln_tau[i] + b * state.ln_tau[i + 1]) / (a + b) : merged[i];
     candidates.push_back(solve_coefficients(model, merged, state.nuisance));
   }
-  const auto cheapest =
-      std::min_element(candidates.begin(), candidates.end(),
-                       [](const SpectralState& a, const SpectralState& b) { return a.rss < b.rss; });
+  const auto cheapest = std::min_element(
+      candidates.begin(), candidates.end(),
+      [](const SpectralState& a, const SpectralState& b) { return a.rss < b.rss; });
   return refine(model, *cheapest, options);
 }
 
@@ -94,7 +94,9 @@ void keep_better(std::vector<SpectralState>& path, SpectralState state) {
   if (path[slot].rss < 0.0 || state.rss < path[slot].rss) path[slot] = std::move(state);
 }
 
-bool is_filled(const SpectralState& state) { return state.rss >= 0.0; }
+bool is_filled(const SpectralState& state) {
+  return state.rss >= 0.0;
+}
 
 void descend(const SpectralModel& model, SpectralState state, const OrderPathOptions& options,
              std::vector<SpectralState>& path) {
@@ -137,7 +139,8 @@ std::vector<SpectralState> order_path(const SpectralModel& model, const OrderPat
       start = with_one_less_term(model, start, {.max_iterations = 0});
     }
     if (start.n_terms() > 0 || has_elastic) {
-      descend(model, without_zero_terms(model, refine(model, start, options.refine)), options, path);
+      descend(model, without_zero_terms(model, refine(model, start, options.refine)), options,
+              path);
     }
   }
   // Upwards, as far as it helps.
@@ -146,7 +149,8 @@ std::vector<SpectralState> order_path(const SpectralModel& model, const OrderPat
     if (n >= path.size()) break;
     if (n > 0 && !is_filled(path[n])) continue;
     SpectralState below = path[n];
-    if (n == 0 && !is_filled(below)) below = solve_coefficients(model, Eigen::VectorXd(0), nuisance);
+    if (n == 0 && !is_filled(below))
+      below = solve_coefficients(model, Eigen::VectorXd(0), nuisance);
     const SpectralState above =
         without_zero_terms(model, with_one_more_term(model, below, options));
     const bool is_new = above.n_terms() == below.n_terms() + 1;

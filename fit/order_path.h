@@ -1,9 +1,9 @@
 #pragma once
 
-#include <vector>
-
 #include "fit/separable.h"
 #include "fit/spectral_model.h"
+
+#include <vector>
 
 namespace viscard {
 
@@ -13,12 +13,13 @@ struct OrderPathOptions {
   RefineOptions refine;
 };
 
-// The best fits found with 0, 1, 2 ... terms, from no starting values. First a non-negative spectrum on
-// a dense grid of times, whose neighbouring peaks are merged; refined; then down: at each step the term
-// whose loss, or the pair whose merging, costs least goes, and the rest is refined. Afterwards upwards:
-// where adding a term to the next smaller fit finds a better optimum, it is taken. With moduli of either
-// sign only the way up is open. The result is indexed by position, ascending in n_terms(); orders that
-// the data cannot carry (a modulus stays at zero) are missing at the top.
+// The best fits found with 0, 1, 2 ... terms, from no starting values. First a non-negative
+// spectrum on a dense grid of times, whose neighbouring peaks are merged; refined; then down: at
+// each step the term whose loss, or the pair whose merging, costs least goes, and the rest is
+// refined. Afterwards upwards: where adding a term to the next smaller fit finds a better optimum,
+// it is taken. With moduli of either sign only the way up is open. The result is indexed by
+// position, ascending in n_terms(); orders that the data cannot carry (a modulus stays at zero) are
+// missing at the top.
 std::vector<SpectralState> order_path(const SpectralModel& model, const OrderPathOptions& options);
 
 // Adds one term to a fit: tries it at times on the grid, keeps the best, refines.

@@ -1,21 +1,21 @@
 #include "fit/separable.h"
 
-#include <ceres/ceres.h>
+#include "fit/nnls.h"
 
 #include <Eigen/QR>
+#include <ceres/ceres.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-
-#include "fit/nnls.h"
 
 namespace viscard {
 namespace {
 
 using Index = Eigen::Index;
 
-// Derivative of the model by the non-linear parameters at fixed coefficients: ln tau, then nuisances
-// divided by their scale.
+// Derivative of the model by the non-linear parameters at fixed coefficients: ln tau, then
+// nuisances divided by their scale.
 Eigen::MatrixXd nonlinear_slopes(const SpectralModel& model, const ModelColumns& columns,
                                  const Eigen::VectorXd& coefficients) {
   const Index n_terms = columns.term_slopes.cols();
@@ -31,8 +31,9 @@ Eigen::MatrixXd nonlinear_slopes(const SpectralModel& model, const ModelColumns&
   return slopes;
 }
 
-// Residual of variable projection. p = ln tau, then nuisance/scale. Only |r|, J^T r and J^T J matter to
-// the solver, so the rows are rotated by QR into the smallest problem with the same three.
+// Residual of variable projection. p = ln tau, then nuisance/scale. Only |r|, J^T r and J^T J
+// matter to the solver, so the rows are rotated by QR into the smallest problem with the same
+// three.
 class ProjectedCost final : public ceres::CostFunction {
  public:
   // The solver has absolute thresholds; scaled like this they mean the same for data of any unit.
@@ -54,8 +55,8 @@ class ProjectedCost final : public ceres::CostFunction {
     }
     const ModelColumns columns = model_.columns(p.head(n_terms_), nuisance, wants_jacobian);
     if (!columns.values.allFinite()) return false;
-    const Eigen::VectorXd x = least_squares_with_signs(columns.values, model_.data(),
-                                                       free_columns(model_, n_terms_));
+    const Eigen::VectorXd x =
+        least_squares_with_signs(columns.values, model_.data(), free_columns(model_, n_terms_));
     const Eigen::VectorXd residual = scale_ * (columns.values * x - model_.data());
     Eigen::Map<Eigen::VectorXd> out(residuals, size + 1);
     out.setZero();
@@ -139,8 +140,8 @@ SpectralState solve_coefficients(const SpectralModel& model, const Eigen::Vector
                                  const Eigen::VectorXd& nuisance) {
   SpectralState state{ln_tau, nuisance, {}, 0.0, true};
   const ModelColumns columns = model.columns(ln_tau, nuisance, /*with_slopes=*/false);
-  state.coefficients = least_squares_with_signs(columns.values, model.data(),
-                                                free_columns(model, ln_tau.size()));
+  state.coefficients =
+      least_squares_with_signs(columns.values, model.data(), free_columns(model, ln_tau.size()));
   state.rss = (columns.values * state.coefficients - model.data()).squaredNorm();
   return state;
 }
@@ -213,12 +214,12 @@ SpectralState polish(const SpectralModel& model, const SpectralState& start) {
   SpectralState state = start;
   for (int step = 0; step < kMaxSteps; ++step) {
     const Eigen::MatrixXd jacobian = full_jacobian(model, state);
-    const Eigen::VectorXd residual =
-        model.data() - jacobian.leftCols(linear) * state.coefficients;
+    const Eigen::VectorXd residual = model.data() - jacobian.leftCols(linear) * state.coefficients;
     const Eigen::VectorXd scale = jacobian.colwise().norm().transpose().cwiseMax(1e-300);
-    const Eigen::VectorXd change =
-        (jacobian * scale.cwiseInverse().asDiagonal()).colPivHouseholderQr().solve(residual)
-            .cwiseQuotient(scale);
+    const Eigen::VectorXd change = (jacobian * scale.cwiseInverse().asDiagonal())
+                                       .colPivHouseholderQr()
+                                       .solve(residual)
+                                       .cwiseQuotient(scale);
     if (!change.allFinite()) return state;
     SpectralState next = state;
     next.coefficients += change.head(linear);

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "fit/spectral_model.h"
+
+#include <Eigen/Core>
 
 namespace viscard {
 
 // A point of a SpectralModel: what all its parameters are.
 struct SpectralState {
-  Eigen::VectorXd ln_tau;        // ln s, ascending after refine()
+  Eigen::VectorXd ln_tau;  // ln s, ascending after refine()
   Eigen::VectorXd nuisance;
   Eigen::VectorXd coefficients;  // common columns, then the terms' moduli
   double rss = 0.0;              // weighted
@@ -17,13 +17,14 @@ struct SpectralState {
   Eigen::Index n_terms() const { return ln_tau.size(); }
 };
 
-// Coefficients that are best at given times and nuisances; moduli not negative unless the model says.
+// Coefficients that are best at given times and nuisances; moduli not negative unless the model
+// says.
 SpectralState solve_coefficients(const SpectralModel& model, const Eigen::VectorXd& ln_tau,
                                  const Eigen::VectorXd& nuisance);
 
 // Least squares over times and nuisances within their bounds, the coefficients solved for at every
-// step: variable projection, Golub & Pereyra, SIAM J. Numer. Anal. 10 (1973) 413, with the Jacobian of
-// Kaufman, BIT 15 (1975) 49, and the trust region of Ceres.
+// step: variable projection, Golub & Pereyra, SIAM J. Numer. Anal. 10 (1973) 413, with the Jacobian
+// of Kaufman, BIT 15 (1975) 49, and the trust region of Ceres.
 struct RefineOptions {
   int max_iterations = 200;
   double tolerance = 1e-12;  // relative change of the residual sum of squares
@@ -35,7 +36,8 @@ SpectralState refine(const SpectralModel& model, const SpectralState& start,
 // step would leave the bounds or make the fit worse.
 SpectralState polish(const SpectralModel& model, const SpectralState& start);
 
-// Derivative of the (weighted) model by all parameters, in the order common, moduli, ln tau, nuisance.
+// Derivative of the (weighted) model by all parameters, in the order common, moduli, ln tau,
+// nuisance.
 Eigen::MatrixXd full_jacobian(const SpectralModel& model, const SpectralState& state);
 
 // Which columns may have either sign: free common ones, and terms if the model allows it.

@@ -1,22 +1,24 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <cstddef>
 #include <string>
 #include <vector>
 
 namespace viscard {
 
-// Data and a model of them that is linear in everything but the relaxation times and a few nuisances:
+// Data and a model of them that is linear in everything but the relaxation times and a few
+// nuisances:
 //   y = sum_j x_j A_j(nuisance) + sum_i E_i b(tau_i, nuisance)      (fit/README.md, eq. 1)
-// The x_j are what all orders share: equilibrium modulus, force offset, drift. Every kind of test is
-// one such model. Rows are weighted by 1/sigma, so that residuals have unit variance.
+// The x_j are what all orders share: equilibrium modulus, force offset, drift. Every kind of test
+// is one such model. Rows are weighted by 1/sigma, so that residuals have unit variance.
 
 // What the model looks like at one choice of times and nuisances. Rows are those of data().
 struct ModelColumns {
-  Eigen::MatrixXd values;                         // rows x (n_common + n_terms)
-  Eigen::MatrixXd term_slopes;                    // rows x n_terms, d b_i/d ln tau_i
-  std::vector<Eigen::MatrixXd> nuisance_slopes;   // one per nuisance, each like values
+  Eigen::MatrixXd values;                        // rows x (n_common + n_terms)
+  Eigen::MatrixXd term_slopes;                   // rows x n_terms, d b_i/d ln tau_i
+  std::vector<Eigen::MatrixXd> nuisance_slopes;  // one per nuisance, each like values
 };
 
 // A column that every order has. Columns that are not free may not be negative.
@@ -56,9 +58,10 @@ class SpectralModel {
 
   Eigen::VectorXd nuisance_start() const;
 
-  // Where rows are averages of samples: how many there are, and the weighted sum of squares about the
-  // model that averaging hides. By default rows are samples.
-  virtual std::vector<std::size_t> row_begins() const;  // first sample of each row, and one past the last
+  // Where rows are averages of samples: how many there are, and the weighted sum of squares about
+  // the model that averaging hides. By default rows are samples.
+  virtual std::vector<std::size_t> row_begins()
+      const;  // first sample of each row, and one past the last
   virtual double n_samples() const { return static_cast<double>(n_rows()); }
   virtual double hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                             const Eigen::VectorXd& coefficients) const;

@@ -1,10 +1,10 @@
 #include "fit/stage_model.h"
 
+#include "fit/stage_response.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-
-#include "fit/stage_response.h"
 
 namespace viscard {
 namespace {
@@ -48,10 +48,10 @@ double crossing_s(const IndentationData& data, double from_s, double level_N, bo
       return data.time_s[i - 1] + share * (data.time_s[i] - data.time_s[i - 1]);
     }
   }
-  throw std::runtime_error("the force does not follow the " +
-                           std::string(rising ? "ramp" : "unloading") +
-                           ": it never passes half its change. Check the clock of the amplifier and "
-                           "the moves in the capture");
+  throw std::runtime_error(
+      "the force does not follow the " + std::string(rising ? "ramp" : "unloading") +
+      ": it never passes half its change. Check the clock of the amplifier and "
+      "the moves in the capture");
 }
 
 struct Line {
@@ -75,8 +75,9 @@ Line loading_line(const IndentationData& data, double zero_N, double low_N, doub
   }
   const double determinant = n * stt - st * st;
   if (n < 3.0 || !(determinant > 0.0)) {
-    throw std::runtime_error("fewer than three force samples lie on the ramp between 20 % and 80 % of "
-                             "the peak (a gap in the record?). Repeat the run, or lengthen the ramp");
+    throw std::runtime_error(
+        "fewer than three force samples lie on the ramp between 20 % and 80 % of "
+        "the peak (a gap in the record?). Repeat the run, or lengthen the ramp");
   }
   Line line;
   line.slope = (n * stf - st * sf) / determinant;
@@ -100,7 +101,8 @@ Eigen::VectorXd nuisance_start(const IndentationData& data) {
   }
   const double from_s = ramp.start_time_s - data.start_early_s;
   const Line line = loading_line(data, zero_N, 0.2 * peak_N, 0.8 * peak_N, from_s, ramp_end_s);
-  const double speed_m_s = std::min(ramp.speed_m_s, std::abs(ramp.to_m - ramp.from_m) / (0.5 * duration_s(ramp)));
+  const double speed_m_s =
+      std::min(ramp.speed_m_s, std::abs(ramp.to_m - ramp.from_m) / (0.5 * duration_s(ramp)));
   const double way_m = std::abs(ramp.to_m - ramp.from_m);
   const double gap_m = std::clamp(way_m - peak_N / (line.slope / speed_m_s), 0.0, 0.95 * way_m);
   start[n_moves] = ramp.from_m + (ramp.to_m > ramp.from_m ? gap_m : -gap_m);
@@ -160,8 +162,10 @@ StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start
   const double step_m = std::min(std::abs(way_m), moves_.front().speed_m_s * dt_s);
   const double z_c = start[n_moves];
   // Never before the ramp begins nor beyond its end.
-  const double low = std::max(z_c - 10.0 * step_m, std::min(moves_.front().from_m, moves_.front().to_m));
-  const double high = std::min(z_c + 10.0 * step_m, std::max(moves_.front().from_m, moves_.front().to_m));
+  const double low =
+      std::max(z_c - 10.0 * step_m, std::min(moves_.front().from_m, moves_.front().to_m));
+  const double high =
+      std::min(z_c + 10.0 * step_m, std::max(moves_.front().from_m, moves_.front().to_m));
   nuisances_.push_back({"contact_m", z_c, low, high, step_m});
 
   ln_tau_min_ = std::log(dt_s / 3.0);
@@ -213,7 +217,8 @@ ModelColumns StageModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::Vec
       add_depth(out.values, direction * (position_m(moves[m], t) - from_m));
       if (shift) add_depth(*shift, -direction * velocity_m_s(moves[m], t));
       for (Index i = 0; i < n_terms; ++i) {
-        const BranchResponse response = responses[m].at(branches[m][static_cast<std::size_t>(i)], t);
+        const BranchResponse response =
+            responses[m].at(branches[m][static_cast<std::size_t>(i)], t);
         out.values(row, first_term + i) += direction * response.value_m;
         if (!with_slopes) continue;
         out.term_slopes(row, i) += direction * response.slope_m;

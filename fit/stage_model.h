@@ -1,10 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <vector>
-
 #include "fit/fit_data.h"
 #include "fit/spectral_model.h"
+
+#include <Eigen/Core>
+
+#include <vector>
 
 namespace viscard {
 
@@ -12,8 +13,9 @@ namespace viscard {
 // are again a generalised Maxwell solid, so the force follows the *stage* by
 //   F(t) = int R(t - s) dz(s) + offset + drift t + creep t z,   z counted from contact
 // (fit/README.md, eq. 4) with stiffnesses R_inf, R_i in N/m; specimen_series() takes the frame out
-// afterwards. The input z is free of noise, and the residual is the force noise itself. Drift of the
-// zero is seen out of contact, creep of the cell under load (a share of the force) in the long hold.
+// afterwards. The input z is free of noise, and the residual is the force noise itself. Drift of
+// the zero is seen out of contact, creep of the cell under load (a share of the force) in the long
+// hold.
 //
 // Nuisances: one start time per move (known only roughly on the amplifier's clock) and the contact
 // position; all are sharply seen in the kinks of the force. Out of contact the force is zero.
@@ -21,8 +23,8 @@ class StageModel final : public SpectralModel {
  public:
   // sigma_N: standard deviation of each sample. start: of the nuisances, shifts first, in s and m;
   // half-widths of their bounds from the data.
-  StageModel(const IndentationData& data, const Eigen::VectorXd& nuisance_start, double sigma_resting_N,
-             double sigma_moving_N, const FitOptions& options);
+  StageModel(const IndentationData& data, const Eigen::VectorXd& nuisance_start,
+             double sigma_resting_N, double sigma_moving_N, const FitOptions& options);
 
   ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                        bool with_slopes) const override;
@@ -38,13 +40,13 @@ class StageModel final : public SpectralModel {
   std::vector<bool> is_moving_;
   std::vector<bool> is_out_of_contact_;
   Eigen::VectorXd sigma_N_;
-  double ramp_s_ = 0.0;    // drifts count from here
+  double ramp_s_ = 0.0;  // drifts count from here
   bool with_drift_ = false;
   bool with_equilibrium_ = true;
 };
 
-// Start values of StageModel's nuisances from the force curve alone: when the ramp and the unloading
-// pass half their force, and where the ramp's line meets zero.
+// Start values of StageModel's nuisances from the force curve alone: when the ramp and the
+// unloading pass half their force, and where the ramp's line meets zero.
 Eigen::VectorXd nuisance_start(const IndentationData& data);
 
 }  // namespace viscard

@@ -1,9 +1,9 @@
 #include "fit/stage_response.h"
 
+#include "models/hereditary.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "models/hereditary.h"
 
 namespace viscard {
 namespace {
@@ -13,8 +13,8 @@ struct Memory {
   double slope_m = 0.0;
 };
 
-// One step with velocity linear from v0 to v1, and its derivative: d phi_1/d ln tau = x (phi_1 - phi_2),
-// d phi_2/d ln tau = 2 phi_2 - phi_1.
+// One step with velocity linear from v0 to v1, and its derivative: d phi_1/d ln tau = x (phi_1 -
+// phi_2), d phi_2/d ln tau = 2 phi_2 - phi_1.
 Memory stepped(const Memory& start, double dt_s, double v0, double v1, double tau_s) {
   const double x = dt_s / tau_s;
   const double decay = std::exp(-x);
@@ -44,7 +44,8 @@ StageResponse::Branch StageResponse::branch(double tau_s) const {
   Branch branch{tau_s, {0.0}, {0.0}};
   Memory memory;
   for (std::size_t i = 1; i < knot_s_.size(); ++i) {
-    memory = stepped(memory, knot_s_[i] - knot_s_[i - 1], velocity_m_s_[i - 1], velocity_m_s_[i], tau_s);
+    memory =
+        stepped(memory, knot_s_[i] - knot_s_[i - 1], velocity_m_s_[i - 1], velocity_m_s_[i], tau_s);
     branch.value_m.push_back(memory.value_m);
     branch.slope_m.push_back(memory.slope_m);
   }
@@ -63,7 +64,8 @@ BranchResponse StageResponse::at(const Branch& branch, double time_s) const {
   } else {
     v0 = 0.0;
   }
-  const Memory end = stepped({branch.value_m[i], branch.slope_m[i]}, time_s - knot_s_[i], v0, v1, branch.tau_s);
+  const Memory end =
+      stepped({branch.value_m[i], branch.slope_m[i]}, time_s - knot_s_[i], v0, v1, branch.tau_s);
   return {end.value_m, end.slope_m, v1 - end.value_m / branch.tau_s};
 }
 

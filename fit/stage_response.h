@@ -1,21 +1,22 @@
 #pragma once
 
-#include <vector>
-
 #include "models/motion_profile.h"
+
+#include <vector>
 
 namespace viscard {
 
-// What one move of a stage does to one Maxwell branch: q(t) = int exp(-(t - s)/tau) v(s) ds over the
-// part of the move after `from_s`, in closed form at any time, with its derivatives.
+// What one move of a stage does to one Maxwell branch: q(t) = int exp(-(t - s)/tau) v(s) ds over
+// the part of the move after `from_s`, in closed form at any time, with its derivatives.
 struct BranchResponse {
-  double value_m = 0.0;         // q
-  double slope_m = 0.0;         // dq/d ln tau
-  double rate_m_s = 0.0;        // dq/dt
+  double value_m = 0.0;   // q
+  double slope_m = 0.0;   // dq/d ln tau
+  double rate_m_s = 0.0;  // dq/dt
 };
 
-// The velocity of a move is linear between its knots, so that a step of length dt from velocity v_0 to
-// v_1 takes q to exp(-x) q + dt [v_0 phi_1(x) + (v_1 - v_0) phi_2(x)], x = dt/tau   (fit/README.md, eq. 3).
+// The velocity of a move is linear between its knots, so that a step of length dt from velocity v_0
+// to v_1 takes q to exp(-x) q + dt [v_0 phi_1(x) + (v_1 - v_0) phi_2(x)], x = dt/tau
+// (fit/README.md, eq. 3).
 class StageResponse {
  public:
   // The move as it is, but pressing only from time from_s on (the contact).

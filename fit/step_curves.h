@@ -1,9 +1,9 @@
 #pragma once
 
-#include <string>
-
 #include "fit/assemble_result.h"
 #include "fit/step_model.h"
+
+#include <string>
 
 namespace viscard {
 

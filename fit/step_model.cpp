@@ -97,9 +97,9 @@ double StepModel::hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorX
       slope -= e * u;
       bend += 0.5 * e * u * u;
     }
-    sum += bin.count * (bin.value_m2 - 2.0 * (slope * bin.c1 + bend * bin.c2) +
-                        slope * slope * bin.m2 + 2.0 * slope * bend * bin.m3 +
-                        bend * bend * (bin.m4 - bin.m2 * bin.m2));
+    sum += bin.count *
+           (bin.value_m2 - 2.0 * (slope * bin.c1 + bend * bin.c2) + slope * slope * bin.m2 +
+            2.0 * slope * bend * bin.m3 + bend * bend * (bin.m4 - bin.m2 * bin.m2));
   }
   return sum;
 }

@@ -1,11 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <vector>
-
 #include "fit/fit_data.h"
 #include "fit/log_bins.h"
 #include "fit/spectral_model.h"
+
+#include <Eigen/Core>
+
+#include <vector>
 
 namespace viscard {
 

@@ -51,9 +51,10 @@ std::optional<TwoPointModulus> two_point_modulus(const std::vector<double>& time
   result.se_Pa = result.modulus_Pa * sigma_N * std::sqrt(1.0 / low.count + 1.0 / high.count) /
                  std::abs(high.force_N - low.force_N);
   char text[160];
-  std::snprintf(text, sizeof text,
-                "relaxation during the %.3g s between the two points is ignored, so this lies below E0",
-                high.time_s - low.time_s);
+  std::snprintf(
+      text, sizeof text,
+      "relaxation during the %.3g s between the two points is ignored, so this lies below E0",
+      high.time_s - low.time_s);
   result.bias = text;
   return result;
 }

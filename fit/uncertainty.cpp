@@ -1,6 +1,7 @@
 #include "fit/uncertainty.h"
 
 #include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -55,7 +56,8 @@ Eigen::MatrixXd series_slopes(const SpectralModel& model, const SpectralState& s
   return slopes;
 }
 
-// C x for every column x: C holds the correlations between rows, each sqrt(n) times a mean of samples.
+// C x for every column x: C holds the correlations between rows, each sqrt(n) times a mean of
+// samples.
 Eigen::MatrixXd correlated(const Eigen::MatrixXd& x, const std::vector<std::size_t>& begins,
                            const Autoregression& noise) {
   const PairSums sums(noise);
@@ -67,8 +69,8 @@ Eigen::MatrixXd correlated(const Eigen::MatrixXd& x, const std::vector<std::size
       const auto other = static_cast<double>(begins[static_cast<std::size_t>(s)]);
       if (other - end > sums.reach()) break;
       const double count = static_cast<double>(begins[static_cast<std::size_t>(s) + 1]) - other;
-      const double correlation = sums.over(end - begin, count, other - begin) /
-                                 std::sqrt((end - begin) * count);
+      const double correlation =
+          sums.over(end - begin, count, other - begin) / std::sqrt((end - begin) * count);
       out.row(r) += correlation * x.row(s);
       if (s > r) out.row(s) += correlation * x.row(r);
     }

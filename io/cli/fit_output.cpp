@@ -1,9 +1,9 @@
 #include "io/cli/fit_output.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace viscard {
 namespace {

@@ -1,12 +1,12 @@
 #include "tests/support/in_memory_run.h"
 
+#include "models/hereditary.h"
+#include "models/retardation_spectrum.h"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <stdexcept>
-
-#include "models/hereditary.h"
-#include "models/retardation_spectrum.h"
 
 namespace viscard::test {
 namespace {
@@ -85,7 +85,8 @@ std::vector<double> true_forces_N(const EmulatedTruth& truth, const Plan& plan,
   for (const CommandedMove& move : plan.moves) moves.push_back(move.move);
   const auto is_moving = [&](double t) {
     for (const StageMove& move : moves) {
-      if (t > move.start_time_s - 0.02 && t < move.start_time_s + duration_s(move) + 0.02) return true;
+      if (t > move.start_time_s - 0.02 && t < move.start_time_s + duration_s(move) + 0.02)
+        return true;
     }
     return false;
   };
@@ -95,7 +96,8 @@ std::vector<double> true_forces_N(const EmulatedTruth& truth, const Plan& plan,
   double force_N = 0.0;
   for (const double reading_s : times_s) {
     const double dt_s = reading_s - t;
-    const int steps = is_moving(reading_s) ? std::max(1, static_cast<int>(std::ceil(dt_s / 0.25e-3))) : 1;
+    const int steps =
+        is_moving(reading_s) ? std::max(1, static_cast<int>(std::ceil(dt_s / 0.25e-3))) : 1;
     for (int i = 1; i <= steps; ++i) {
       const double z = position_m(moves, t + dt_s * i / steps);
       force_N = bench.advance_N(dt_s / steps, quantised_m(z, truth.steps_per_m));

@@ -6,20 +6,21 @@
 namespace viscard::test {
 
 // A whole run as viscard capture would have recorded it, made in memory: no ports, no threads, no
-// waiting. The force is computed by stepping the specimen and the frame spring (HereditaryStress), not
-// by the closed forms that the fit uses; the stage stands on whole steps; readings carry the amplifier's
-// clock, a random delay of each message, noise, drift and counts.
+// waiting. The force is computed by stepping the specimen and the frame spring (HereditaryStress),
+// not by the closed forms that the fit uses; the stage stands on whole steps; readings carry the
+// amplifier's clock, a random delay of each message, noise, drift and counts.
 struct RunConditions {
-  double clock_rate = 1.0;             // amplifier's clock over the host's
+  double clock_rate = 1.0;  // amplifier's clock over the host's
   double clock_offset_s = 3.7;
-  double message_delay_s = 2e-3;       // mean of an exponential delay, every message
-  double start_latency_s = 20e-3;      // moves begin up to this after they were commanded
+  double message_delay_s = 2e-3;              // mean of an exponential delay, every message
+  double start_latency_s = 20e-3;             // moves begin up to this after they were commanded
   double lost_from_s = 0.0, lost_to_s = 0.0;  // readings lost, counted from the ramp's start
 };
 CapturedRun in_memory_run(const EmulatedTruth& truth, const TestPlan& plan,
                           const RunConditions& conditions = {});
 
-// The three materials of the demo (Table 6.1 of the thesis the seed comes from): ratio 10, 13 or 20.
+// The three materials of the demo (Table 6.1 of the thesis the seed comes from): ratio 10, 13
+// or 20.
 EmulatedTruth demo_truth(int mixing_ratio, std::uint64_t seed);
 
 }  // namespace viscard::test

@@ -1,0 +1,128 @@
+#include "fit/fit_indentation.h"
+#include "fit/indentation_from_capture.h"
+#include "tests/support/in_memory_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace viscard;
+using namespace viscard::test;
+
+namespace {
+
+struct Recovery {
+  int runs = 0;
+  int intervals = 0;
+  int holding = 0;
+  double worst_E0 = 0.0;          // relative error
+  double worst_half_width = 0.0;  // of the interval of g_1 + g_2, over it
+  bool always_two_terms = true;
+};
+
+Recovery recover(int seeds, const RunConditions& conditions = {}) {
+  Recovery recovery;
+  for (const int ratio : {10, 13, 20}) {
+    for (int seed = 1; seed <= seeds; ++seed) {
+      const EmulatedTruth truth = demo_truth(ratio, static_cast<std::uint64_t>(100 * seed + ratio));
+      FitOptions options;
+      options.with_curves = false;
+      const FitResult fit =
+          fit_indentation(indentation_from_capture(in_memory_run(truth, {}, conditions)), options);
+      ++recovery.runs;
+      const double E0 = truth.material.E0_Pa;
+      recovery.worst_E0 = std::max(recovery.worst_E0, std::abs(fit.E0_Pa / E0 - 1.0));
+      recovery.worst_half_width = std::max(
+          recovery.worst_half_width, 0.5 * (fit.sum_g_95.high - fit.sum_g_95.low) / fit.sum_g);
+      recovery.intervals += 5;
+      const auto count = [&](const Interval& interval, double value) {
+        recovery.holding += value >= interval.low && value <= interval.high ? 1 : 0;
+      };
+      count(fit.E0_interval_95, E0);
+      if (fit.terms.size() != 2) {
+        recovery.always_two_terms = false;
+        continue;
+      }
+      for (std::size_t i = 0; i < 2; ++i) {
+        count(fit.terms[i].g_95, truth.material.terms[i].g);
+        count(fit.terms[i].tau_s_95, truth.material.terms[i].tau_s);
+      }
+    }
+  }
+  return recovery;
+}
+
+}  // namespace
+
+TEST_CASE("captured runs give back the truth they were made with", "[fit]") {
+  const Recovery recovery = recover(3);
+  CHECK(recovery.always_two_terms);
+  CHECK(recovery.worst_E0 < 0.01);
+  CHECK(recovery.worst_half_width < 0.10);
+  // 45 intervals at 95 %: fewer than 36 hold with a chance below one in ten thousand.
+  CHECK(recovery.holding >= 36);
+}
+
+TEST_CASE("120 captured runs: E0 within 1 %, 90 to 99 % of 600 intervals hold", "[fit][slow]") {
+  const Recovery recovery = recover(40);
+  CHECK(recovery.runs == 120);
+  CHECK(recovery.always_two_terms);
+  CHECK(recovery.worst_E0 < 0.01);
+  CHECK(recovery.worst_half_width < 0.10);
+  const double share = static_cast<double>(recovery.holding) / recovery.intervals;
+  CHECK(share >= 0.90);
+  CHECK(share <= 0.99);
+}
+
+TEST_CASE("late messages and an amplifier clock that runs wrong do not become data", "[fit]") {
+  RunConditions conditions;
+  conditions.clock_rate = 1.003;  // a ceramic resonator
+  conditions.message_delay_s = 0.03;
+  conditions.start_latency_s = 0.1;
+  const Recovery recovery = recover(1, conditions);
+  CHECK(recovery.always_two_terms);
+  CHECK(recovery.worst_E0 < 0.01);
+}
+
+TEST_CASE("without the quick unloading the fast term is uncertain, and the interval says so",
+          "[fit]") {
+  TestPlan plan;
+  plan.recovery_s = 0.0;
+  const EmulatedTruth truth = demo_truth(10, 5);
+  const FitResult with = fit_indentation(indentation_from_capture(in_memory_run(truth, {})));
+  const FitResult without = fit_indentation(indentation_from_capture(in_memory_run(truth, plan)));
+  CHECK(without.E0_se_Pa > 2.0 * with.E0_se_Pa);
+}
+
+TEST_CASE("readings lost in the ramp make the result untrustworthy", "[fit]") {
+  RunConditions conditions;
+  conditions.lost_from_s = 0.4;
+  conditions.lost_to_s = 0.7;
+  const FitResult fit =
+      fit_indentation(indentation_from_capture(in_memory_run(demo_truth(13, 2), {}, conditions)));
+  CHECK_FALSE(fit.is_trustworthy);
+  CHECK(std::any_of(fit.flags.begin(), fit.flags.end(),
+                    [](const MaterialFlag& flag) { return flag.name == "gap-in-ramp"; }));
+}
+
+TEST_CASE("the systematic part holds the share of the frame", "[fit]") {
+  const EmulatedTruth truth = demo_truth(10, 3);
+  const FitResult fit = fit_indentation(indentation_from_capture(in_memory_run(truth, {})));
+  // Specimen over frame stiffness is 1.40; two per cent of the frame is 2.8 % of the modulus.
+  const double share = force_per_modulus_and_depth_m(truth.contact) * truth.material.E0_Pa /
+                       truth.frame_stiffness_N_m;
+  CHECK(fit.systematic_relative == Approx(0.02 * share).epsilon(0.01));
+}
+
+TEST_CASE("the clock line touches the receive times from below", "[fit]") {
+  std::vector<double> x, y;
+  for (int i = 0; i < 1000; ++i) {
+    x.push_back(0.0125 * i);
+    y.push_back(5.0 + 1.001 * x.back() + (i % 7 == 3 ? 0.0 : 0.001 * (i % 11)));
+  }
+  const ClockLine line = line_from_below(x, y);
+  CHECK(line.slope == Approx(1.001).epsilon(1e-9));
+  CHECK(line.at(2.0) == Approx(7.002).epsilon(1e-9));
+}

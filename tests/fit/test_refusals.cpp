@@ -1,0 +1,90 @@
+#include "fit/fit_indentation.h"
+#include "fit/fit_relaxation.h"
+#include "fit/indentation_from_capture.h"
+#include "tests/fit/spectra.h"
+#include "tests/support/in_memory_run.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+
+using namespace viscard;
+using namespace viscard::test;
+using Catch::Contains;
+
+TEST_CASE("data that cannot be fitted are refused with the reason", "[fit]") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  RelaxationData data = relaxation_of(s2(), 50, 100.0, 0.0, 1);
+  SECTION("nothing but NaN") {
+    data.value.assign(50, nan);
+    CHECK_THROWS_WITH(fit_relaxation(data), Contains("only 0 of 50 rows"));
+  }
+  SECTION("two samples") {
+    CHECK_THROWS_WITH(fit_relaxation({{0.0, 1.0}, {1.0, 0.9}, {}}), Contains("at least 4"));
+  }
+  SECTION("columns of unequal length") {
+    data.value.pop_back();
+    CHECK_THROWS_AS(fit_relaxation(data), std::invalid_argument);
+  }
+  SECTION("one time") {
+    data.time_s.assign(50, 3.0);
+    CHECK_THROWS_WITH(fit_relaxation(data), Contains("same time"));
+  }
+  SECTION("negative modulus") {
+    for (double& value : data.value) value = -value;
+    CHECK_THROWS_WITH(fit_relaxation(data), Contains("negative"));
+  }
+  SECTION("everything before the step") {
+    for (double& t : data.time_s) t -= 1000.0;
+    CHECK_THROWS_WITH(fit_relaxation(data), Contains("--time-zero"));
+  }
+}
+
+TEST_CASE("rows that are not numbers are left out and counted", "[fit]") {
+  RelaxationData data = relaxation_of(s2(), 400, 1000.0, 0.001, 1);
+  data.value[7] = std::numeric_limits<double>::infinity();
+  data.time_s[9] = std::numeric_limits<double>::quiet_NaN();
+  const FitResult fit = fit_relaxation(data);
+  CHECK(fit.n_left_out == 2);
+  CHECK(fit.n_samples == 398);
+}
+
+TEST_CASE("an indentation without a force that follows is refused", "[fit]") {
+  IndentationData data = indentation_of(s2(), even_times(20.0, 0.02), ramp_and_hold(1.0), 1e-3, 2);
+  SECTION("constant force") {
+    data.force_N.assign(data.force_N.size(), 0.5);
+    CHECK_THROWS_WITH(fit_indentation(data), Contains("constant"));
+  }
+  SECTION("negative force") {
+    for (double& force : data.force_N) force = -force;
+    CHECK_THROWS_WITH(fit_indentation(data), Contains("--column force_N=-NAME"));
+  }
+  SECTION("depth counted the other way") {
+    for (double& depth : data.depth_m) depth = 1e-4 - depth;
+    CHECK_THROWS_WITH(fit_indentation(data), Contains("--column depth_m=-NAME"));
+  }
+}
+
+TEST_CASE("a captured run without a ramp, a gain or readings is refused", "[fit]") {
+  CapturedRun run = in_memory_run(demo_truth(10, 1), {});
+  SECTION("no ramp") {
+    run.moves.clear();
+    run.status = "interrupted";
+    CHECK_THROWS_WITH(indentation_from_capture(run),
+                      Contains("no ramp") && Contains("interrupted"));
+  }
+  SECTION("no readings") {
+    run.load_samples.clear();
+    CHECK_THROWS_WITH(indentation_from_capture(run), Contains("0 usable force readings"));
+  }
+  SECTION("no gain") {
+    run.rig.calibration.volts_per_newton = 0.0;
+    CHECK_THROWS_AS(indentation_from_capture(run), std::invalid_argument);
+  }
+  SECTION("load cell mounted the other way round") {
+    run.rig.load_cell.compression_is_positive = false;
+    CHECK_THROWS_WITH(fit_indentation(indentation_from_capture(run)),
+                      Contains("sign of the load cell"));
+  }
+}
