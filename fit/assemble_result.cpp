@@ -54,7 +54,7 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
     fit.scores.chosen = fit.path.size() - 1;
     fit.scores.rows[fit.scores.chosen].is_chosen = true;
   }
-  fit.state = polish(model, fit.path[fit.scores.chosen]);
+  fit.state = polish(model, refine(model, fit.path[fit.scores.chosen]));
   fit.rss = full_rss(model, fit.state);
   fit.variance = variance_of(model, fit.state);
   if (!options.white_noise) fit.noise = noise_of(model, fit.state);

@@ -99,47 +99,53 @@ Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
   return x.cwiseQuotient(scale);
 }
 
-Eigen::VectorXd least_squares_with_signs(const Eigen::MatrixXd& columns,
-                                         const Eigen::VectorXd& data,
-                                         const std::vector<bool>& is_free) {
-  const Index count = columns.cols();
-  if (count == 0) return Eigen::VectorXd(0);
-  std::vector<bool> in_use(static_cast<std::size_t>(count), true);
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(count);
-  const auto solve = [&] {
-    const std::vector<Index> list = chosen(in_use);
-    x.setZero();
-    if (list.empty()) return true;
-    Eigen::MatrixXd part(columns.rows(), static_cast<Index>(list.size()));
-    for (std::size_t i = 0; i < list.size(); ++i)
-      part.col(static_cast<Index>(i)) = columns.col(list[i]);
-    Eigen::VectorXd scale = part.colwise().norm().transpose();
-    for (Index i = 0; i < scale.size(); ++i) {
-      if (!(scale[i] > 0.0)) scale[i] = 1.0;
-    }
-    part = part * scale.cwiseInverse().asDiagonal();
-    const Eigen::VectorXd solution = part.colPivHouseholderQr().solve(data).cwiseQuotient(scale);
-    bool is_feasible = true;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      x[list[i]] = solution[static_cast<Index>(i)];
-      is_feasible &= is_free[static_cast<std::size_t>(list[i])] || x[list[i]] >= 0.0;
-    }
-    return is_feasible;
-  };
-  if (solve()) return x;
+bool SignedLeastSquares::solve(const Eigen::MatrixXd& columns, const Eigen::VectorXd& data,
+                               const std::vector<bool>& is_free) {
+  const std::vector<Index> list = chosen(in_use_);
+  x_.setZero();
+  is_empty_ = list.empty();
+  if (is_empty_) return true;
+  Eigen::MatrixXd part(columns.rows(), static_cast<Index>(list.size()));
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    part.col(static_cast<Index>(i)) = columns.col(list[i]);
+  }
+  Eigen::VectorXd scale = part.colwise().norm().transpose();
+  for (Index i = 0; i < scale.size(); ++i) {
+    if (!(scale[i] > 0.0)) scale[i] = 1.0;
+  }
+  part = part * scale.cwiseInverse().asDiagonal();
+  qr_.compute(part);
+  const Eigen::VectorXd solution = qr_.solve(data).cwiseQuotient(scale);
+  bool is_feasible = true;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    x_[list[i]] = solution[static_cast<Index>(i)];
+    is_feasible &= is_free[static_cast<std::size_t>(list[i])] || x_[list[i]] >= 0.0;
+  }
+  return is_feasible;
+}
+
+SignedLeastSquares::SignedLeastSquares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& data,
+                                       const std::vector<bool>& is_free)
+    : in_use_(static_cast<std::size_t>(columns.cols()), true),
+      x_(Eigen::VectorXd::Zero(columns.cols())) {
+  if (solve(columns, data, is_free)) return;
   const Eigen::VectorXd guess = nonnegative_from_normal_equations(
       columns.transpose() * columns, columns.transpose() * data, is_free);
-  for (Index j = 0; j < count; ++j) {
-    in_use[static_cast<std::size_t>(j)] = is_free[static_cast<std::size_t>(j)] || guess[j] > 0.0;
+  for (std::size_t j = 0; j < in_use_.size(); ++j) {
+    in_use_[j] = is_free[j] || guess[static_cast<Index>(j)] > 0.0;
   }
   // The QR may see by rounding a sign that the normal equations did not: drop and solve again.
-  while (!solve()) {
-    for (Index j = 0; j < count; ++j) {
-      if (!is_free[static_cast<std::size_t>(j)] && x[j] < 0.0)
-        in_use[static_cast<std::size_t>(j)] = false;
+  while (!solve(columns, data, is_free)) {
+    for (std::size_t j = 0; j < in_use_.size(); ++j) {
+      if (!is_free[j] && x_[static_cast<Index>(j)] < 0.0) in_use_[j] = false;
     }
   }
-  return x;
+}
+
+Eigen::MatrixXd SignedLeastSquares::outside(const Eigen::MatrixXd& vectors) const {
+  if (is_empty_) return vectors;
+  const Eigen::MatrixXd rotated = qr_.householderQ().adjoint() * vectors;
+  return rotated.bottomRows(vectors.rows() - qr_.rank());
 }
 
 }  // namespace viscard

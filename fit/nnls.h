@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/QR>
 
 #include <vector>
 
@@ -15,10 +16,34 @@ Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
                                                   const Eigen::VectorXd& right,
                                                   const std::vector<bool>& is_free);
 
-// The same from A itself by QR of scaled columns, to full accuracy. Columns held at zero come back
-// as exact zeros.
-Eigen::VectorXd least_squares_with_signs(const Eigen::MatrixXd& columns,
-                                         const Eigen::VectorXd& data,
-                                         const std::vector<bool>& is_free);
+// The same from A itself by QR of scaled columns, to full accuracy. Columns held at zero come back as
+// exact zeros.
+class SignedLeastSquares {
+ public:
+  SignedLeastSquares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& data,
+                     const std::vector<bool>& is_free);
+
+  const Eigen::VectorXd& x() const { return x_; }
+
+  // Part of other vectors outside the space of the columns in use, in rotated coordinates (one row
+  // for each dimension left): lengths and products of columns are kept.
+  Eigen::MatrixXd outside(const Eigen::MatrixXd& vectors) const;
+
+ private:
+  // Solves with the columns in use; true if all signs are as they must be.
+  bool solve(const Eigen::MatrixXd& columns, const Eigen::VectorXd& data,
+             const std::vector<bool>& is_free);
+
+  std::vector<bool> in_use_;
+  Eigen::VectorXd x_;
+  bool is_empty_ = true;  // no column in use
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
+};
+
+inline Eigen::VectorXd least_squares_with_signs(const Eigen::MatrixXd& columns,
+                                                const Eigen::VectorXd& data,
+                                                const std::vector<bool>& is_free) {
+  return SignedLeastSquares(columns, data, is_free).x();
+}
 
 }  // namespace viscard

@@ -69,23 +69,66 @@ Eigen::VectorXd spectrum_peaks(const SpectralModel& model, const Eigen::VectorXd
   return Eigen::Map<Eigen::VectorXd>(peaks.data(), static_cast<Index>(peaks.size()));
 }
 
-// One term fewer: the cheapest of all drops and merges of neighbours, refined.
-SpectralState with_one_less_term(const SpectralModel& model, const SpectralState& state,
-                                 const RefineOptions& options) {
-  std::vector<SpectralState> candidates;
+// Every way to have one term fewer: each term dropped, each pair of neighbours merged at their mean
+// time by modulus.
+std::vector<Eigen::VectorXd> reductions(const SpectralModel& model, const SpectralState& state) {
+  std::vector<Eigen::VectorXd> ways;
   for (Index i = 0; i < state.n_terms(); ++i) {
-    candidates.push_back(solve_coefficients(model, without(state.ln_tau, i), state.nuisance));
+    ways.push_back(without(state.ln_tau, i));
     if (i + 1 == state.n_terms()) break;
     const double a = std::abs(state.coefficients[model.n_common() + i]);
     const double b = std::abs(state.coefficients[model.n_common() + i + 1]);
     Eigen::VectorXd merged = without(state.ln_tau, i + 1);
-    merged[i] = a + b > 0.0 ? (a * state.ln_tau[i] + b * state.ln_tau[i + 1]) / (a + b) : merged[i];
-    candidates.push_back(solve_coefficients(model, merged, state.nuisance));
+    if (a + b > 0.0) merged[i] = (a * state.ln_tau[i] + b * state.ln_tau[i + 1]) / (a + b);
+    ways.push_back(merged);
   }
-  const auto cheapest = std::min_element(
-      candidates.begin(), candidates.end(),
-      [](const SpectralState& a, const SpectralState& b) { return a.rss < b.rss; });
-  return refine(model, *cheapest, options);
+  return ways;
+}
+
+// Sums of squares of all these ways from one set of normal equations: good enough to rank them when
+// there are many, and far cheaper than a QR of each.
+std::vector<double> ranked_roughly(const SpectralModel& model, const SpectralState& state,
+                                   const std::vector<Eigen::VectorXd>& ways) {
+  std::vector<double> times(state.ln_tau.begin(), state.ln_tau.end());
+  for (const Eigen::VectorXd& way : ways) times.insert(times.end(), way.begin(), way.end());
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  const Eigen::Map<Eigen::VectorXd> all(times.data(), static_cast<Index>(times.size()));
+  const Eigen::MatrixXd columns = model.columns(all, state.nuisance, false).values;
+  const Eigen::MatrixXd gram = columns.transpose() * columns;
+  const Eigen::VectorXd right = columns.transpose() * model.data();
+  std::vector<double> sums;
+  for (const Eigen::VectorXd& way : ways) {
+    std::vector<Index> used;
+    for (Index j = 0; j < model.n_common(); ++j) used.push_back(j);
+    for (const double ln_tau : way) {
+      used.push_back(model.n_common() +
+                     (std::lower_bound(times.begin(), times.end(), ln_tau) - times.begin()));
+    }
+    const Eigen::VectorXd x = nonnegative_from_normal_equations(
+        gram(used, used), right(used), free_columns(model, way.size()));
+    sums.push_back(x.dot(gram(used, used) * x) - 2.0 * x.dot(right(used)));
+  }
+  return sums;
+}
+
+// One term fewer: the cheapest of all ways, refined.
+SpectralState with_one_less_term(const SpectralModel& model, const SpectralState& state,
+                                 const RefineOptions& options) {
+  const std::vector<Eigen::VectorXd> ways = reductions(model, state);
+  constexpr Index kMany = 8;
+  std::vector<double> sums;
+  if (state.n_terms() > kMany) {
+    sums = ranked_roughly(model, state, ways);
+  } else {
+    for (const Eigen::VectorXd& way : ways) {
+      sums.push_back(solve_coefficients(model, way, state.nuisance).rss);
+    }
+  }
+  const auto cheapest = std::min_element(sums.begin(), sums.end()) - sums.begin();
+  return refine(
+      model, solve_coefficients(model, ways[static_cast<std::size_t>(cheapest)], state.nuisance),
+      options);
 }
 
 void keep_better(std::vector<SpectralState>& path, SpectralState state) {
@@ -113,12 +156,32 @@ void descend(const SpectralModel& model, SpectralState state, const OrderPathOpt
 SpectralState with_one_more_term(const SpectralModel& model, const SpectralState& state,
                                  const OrderPathOptions& options) {
   const Eigen::VectorXd grid = grid_of_times(model, 0.5 * options.grid_per_decade);
-  SpectralState best = state;
-  for (const double ln_tau : grid) {
-    SpectralState trial = solve_coefficients(model, with(state.ln_tau, ln_tau), state.nuisance);
-    if (trial.rss < best.rss) best = std::move(trial);
+  const ModelColumns present = model.columns(state.ln_tau, state.nuisance, /*with_slopes=*/false);
+  const ModelColumns offered = model.columns(grid, state.nuisance, /*with_slopes=*/false);
+  const SignedLeastSquares fit(present.values, model.data(), free_columns(model, state.n_terms()));
+  // What each new column would take off the sum of squares, the others following freely.
+  const Eigen::MatrixXd columns = fit.outside(offered.values.rightCols(grid.size()));
+  const Eigen::VectorXd residual = fit.outside(model.data() - present.values * fit.x());
+  Index best = -1;
+  double best_gain = 0.0;
+  for (Index i = 0; i < grid.size(); ++i) {
+    const double length = columns.col(i).squaredNorm();
+    const double product = columns.col(i).dot(residual);
+    const double full = offered.values.col(model.n_common() + i).squaredNorm();
+    constexpr double kNothingNew = 1e-14;  // the column lies among those in use
+    if (!(length > kNothingNew * full)) continue;
+    if (product <= 0.0 && !model.may_be_negative()) continue;
+    const double gain = product * product / length;
+    if (gain > best_gain) {
+      best_gain = gain;
+      best = i;
+    }
   }
-  return best.n_terms() == state.n_terms() ? state : refine(model, best, options.refine);
+  if (best < 0) return state;
+  const SpectralState start =
+      solve_coefficients(model, with(state.ln_tau, grid[best]), state.nuisance);
+  const SpectralState more = refine(model, start, options.refine);
+  return more.rss < state.rss ? more : state;
 }
 
 std::vector<SpectralState> order_path(const SpectralModel& model, const OrderPathOptions& options) {

@@ -55,9 +55,9 @@ class ProjectedCost final : public ceres::CostFunction {
     }
     const ModelColumns columns = model_.columns(p.head(n_terms_), nuisance, wants_jacobian);
     if (!columns.values.allFinite()) return false;
-    const Eigen::VectorXd x =
-        least_squares_with_signs(columns.values, model_.data(), free_columns(model_, n_terms_));
-    const Eigen::VectorXd residual = scale_ * (columns.values * x - model_.data());
+    const std::vector<bool> is_free = free_columns(model_, n_terms_);
+    const SignedLeastSquares solution(columns.values, model_.data(), is_free);
+    const Eigen::VectorXd residual = scale_ * (columns.values * solution.x() - model_.data());
     Eigen::Map<Eigen::VectorXd> out(residuals, size + 1);
     out.setZero();
     out[size] = residual.norm();
@@ -65,33 +65,13 @@ class ProjectedCost final : public ceres::CostFunction {
     if (!wants_jacobian) return true;
 
     Eigen::MatrixXd stacked(model_.n_rows(), size + 1);
-    stacked.leftCols(size) = scale_ * nonlinear_slopes(model_, columns, x);
+    stacked.leftCols(size) = scale_ * nonlinear_slopes(model_, columns, solution.x());
     stacked.col(size) = residual;
-    stacked.leftCols(size) = without_columns(columns.values, x, stacked.leftCols(size));
-    compress(stacked, out, jacobians[0]);
+    compress(solution.outside(stacked), out, jacobians[0]);
     return true;
   }
 
  private:
-  // Takes from each vector its part in the space of the columns in use.
-  Eigen::MatrixXd without_columns(const Eigen::MatrixXd& columns, const Eigen::VectorXd& x,
-                                  const Eigen::MatrixXd& vectors) const {
-    const std::vector<bool> is_free = free_columns(model_, n_terms_);
-    Eigen::MatrixXd used(columns.rows(), columns.cols());
-    Index count = 0;
-    for (Index j = 0; j < columns.cols(); ++j) {
-      const double norm = columns.col(j).norm();
-      if ((is_free[static_cast<std::size_t>(j)] || x[j] > 0.0) && norm > 0.0) {
-        used.col(count++) = columns.col(j) / norm;
-      }
-    }
-    if (count == 0) return vectors;
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(used.leftCols(count));
-    Eigen::MatrixXd rotated = qr.householderQ().adjoint() * vectors;
-    rotated.topRows(qr.rank()).setZero();
-    return qr.householderQ() * rotated;
-  }
-
   // [J r] = Q R: hands R's columns to the solver instead.
   static void compress(const Eigen::MatrixXd& stacked, Eigen::Map<Eigen::VectorXd>& residual,
                        double* jacobian) {
