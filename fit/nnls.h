@@ -16,8 +16,8 @@ Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
                                                   const Eigen::VectorXd& right,
                                                   const std::vector<bool>& is_free);
 
-// The same from A itself by QR of scaled columns, to full accuracy. Columns held at zero come back as
-// exact zeros.
+// The same from A itself by QR of scaled columns, to full accuracy. Columns held at zero come back
+// as exact zeros.
 class SignedLeastSquares {
  public:
   SignedLeastSquares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& data,

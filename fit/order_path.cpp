@@ -105,8 +105,8 @@ std::vector<double> ranked_roughly(const SpectralModel& model, const SpectralSta
       used.push_back(model.n_common() +
                      (std::lower_bound(times.begin(), times.end(), ln_tau) - times.begin()));
     }
-    const Eigen::VectorXd x = nonnegative_from_normal_equations(
-        gram(used, used), right(used), free_columns(model, way.size()));
+    const Eigen::VectorXd x = nonnegative_from_normal_equations(gram(used, used), right(used),
+                                                                free_columns(model, way.size()));
     sums.push_back(x.dot(gram(used, used) * x) - 2.0 * x.dot(right(used)));
   }
   return sums;
@@ -126,9 +126,9 @@ SpectralState with_one_less_term(const SpectralModel& model, const SpectralState
     }
   }
   const auto cheapest = std::min_element(sums.begin(), sums.end()) - sums.begin();
-  return refine(
-      model, solve_coefficients(model, ways[static_cast<std::size_t>(cheapest)], state.nuisance),
-      options);
+  return refine(model,
+                solve_coefficients(model, ways[static_cast<std::size_t>(cheapest)], state.nuisance),
+                options);
 }
 
 void keep_better(std::vector<SpectralState>& path, SpectralState state) {

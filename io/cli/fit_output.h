@@ -8,8 +8,8 @@
 
 namespace viscard {
 
-// The object that `viscard fit --json` prints; keys in io/README.md. Numbers that are not finite
-// become null.
+// The object that `viscard fit --json` prints; keys as in FitResult, units in the name. Numbers
+// that are not finite become null.
 nlohmann::ordered_json json_from_fit(const FittedFile& fitted);
 
 // The same for a person: moduli with intervals, the table of orders, flags.
