@@ -12,9 +12,8 @@ namespace viscard {
 
 // The TOML files a user writes; commented examples are data/demo/*.toml. A quantity is a number in
 // SI or a string with its unit ("40 um"). What is missing keeps the default of its struct; a key
-// without a sensible default must be there. Relative file names are relative to the working
-// directory. All readers throw std::runtime_error: file, line, key, what is expected, and for an
-// unknown key the nearest known one.
+// without a sensible default must be there. All readers throw std::runtime_error: file, line, key,
+// what is expected, and for an unknown key the nearest known one.
 RigConfig read_rig(const std::filesystem::path& path);
 TestPlan read_test(const std::filesystem::path& path);
 Specimen read_specimen(const std::filesystem::path& path);
