@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace viscard {
 
@@ -36,6 +38,10 @@ class FieldVisitor {
   virtual void integer(const char* key, std::int64_t low, std::int64_t high,
                        std::int64_t& value) = 0;
   virtual void boolean(const char* key, bool& value) = 0;
+  virtual void texts(const TextField& field, std::vector<std::string>& values) = 0;
+  // key = [["0 s", "10 kPa"], ...]
+  virtual void quantity_pairs(const char* key, const char* first_unit, const char* second_unit,
+                              std::vector<std::pair<double, double>>& values) = 0;
   // [key] with the fields that body shows.
   virtual void section(const char* key, const std::function<void(FieldVisitor&)>& body) = 0;
   // [[key]]: resize(n) is called with the number of entries when reading; body shows entry i.

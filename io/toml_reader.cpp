@@ -107,6 +107,37 @@ class TomlReader final : public FieldVisitor {
     value = *truth;
   }
 
+  void texts(const TextField& field, std::vector<std::string>& values) override {
+    const std::string what = std::string("a list of texts, such as [\"") + field.example + "\"]";
+    const toml::node* node = find(field.key, field.is_required, what);
+    if (node == nullptr) return;
+    const toml::array* entries = node->as_array();
+    if (entries == nullptr) fail(*node, field.key, "expected " + what);
+    values.clear();
+    for (const toml::node& entry : *entries) {
+      const auto text = entry.value_exact<std::string>();
+      if (!text) fail(entry, field.key, "expected " + what);
+      values.push_back(*text);
+    }
+  }
+
+  void quantity_pairs(const char* key, const char* first_unit, const char* second_unit,
+                      std::vector<std::pair<double, double>>& values) override {
+    const std::string what = std::string("a list of pairs, [[\"1 ") + first_unit + "\", \"2 " +
+                             second_unit + "\"], ...]";
+    const toml::node* node = find(key, false, what);
+    if (node == nullptr) return;
+    const toml::array* entries = node->as_array();
+    if (entries == nullptr) fail(*node, key, "expected " + what);
+    values.clear();
+    for (const toml::node& entry : *entries) {
+      const toml::array* pair = entry.as_array();
+      if (pair == nullptr || pair->size() != 2) fail(entry, key, "expected " + what);
+      values.emplace_back(quantity_of(*pair->get(0), key, first_unit),
+                          quantity_of(*pair->get(1), key, second_unit));
+    }
+  }
+
   void section(const char* key, const std::function<void(FieldVisitor&)>& body) override {
     static const toml::table kEmpty;
     const toml::node* node = find(key, false, "");
@@ -152,6 +183,17 @@ class TomlReader final : public FieldVisitor {
   }
 
  private:
+  double quantity_of(const toml::node& node, const char* key, const char* unit) const {
+    if (const auto number = node.value<double>()) return *number;
+    const auto text = node.value_exact<std::string>();
+    if (!text) fail(node, key, std::string("expected a number or a text with a unit of ") + unit);
+    try {
+      return si_from_text(*text, unit);
+    } catch (const std::invalid_argument& error) {
+      fail(node, key, error.what());
+    }
+  }
+
   static std::string expected(const QuantityField& field) {
     std::string what = text_of(field.range);
     if (std::string(field.unit) != "1") what += std::string(" with a unit of ") + field.unit;

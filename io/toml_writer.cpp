@@ -46,6 +46,20 @@ class TomlWriter final : public FieldVisitor {
   }
   void boolean(const char* key, bool& value) override { line(key, value ? "true" : "false"); }
 
+  void texts(const TextField& field, std::vector<std::string>& values) override {
+    std::string all;
+    for (const std::string& value : values) all += (all.empty() ? "" : ", ") + quoted(value);
+    line(field.key, "[" + all + "]");
+  }
+  void quantity_pairs(const char* key, const char*, const char*,
+                      std::vector<std::pair<double, double>>& values) override {
+    std::string all;
+    for (const auto& [first, second] : values) {
+      all += (all.empty() ? "[" : ", [") + number(first) + ", " + number(second) + "]";
+    }
+    line(key, "[" + all + "]");
+  }
+
   void section(const char* key, const std::function<void(FieldVisitor&)>& body) override {
     TomlWriter inner(prefix_ + key + ".");
     body(inner);

@@ -1,0 +1,195 @@
+#include "io/scene_file.h"
+
+#include "io/atomic_file.h"
+#include "io/config_fields.h"
+#include "io/material_file.h"
+#include "io/nearest_word.h"
+#include "io/piezo_file.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+template <typename Value>
+Value choice(const std::string& key, const std::string& word,
+             const std::map<std::string, Value>& all) {
+  const auto found = all.find(word);
+  if (found != all.end()) return found->second;
+  std::vector<std::string> known;
+  std::string list;
+  for (const auto& [name, value] : all) {
+    known.push_back(name);
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  const std::string near = nearest_word(word, known);
+  throw std::invalid_argument(key + " cannot be '" + word + "'" +
+                              (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                              " There are: " + list);
+}
+
+// What stands in the file before it is made sense of.
+struct RawMaterial {
+  std::string file;
+  double E_Pa = 0.0, nu = 0.0, rho_kg_m3 = 0.0;
+};
+
+struct RawScene {
+  double tolerance = 1e-3;
+  std::string kind = "pillar", model = "axisymmetric";
+  double diameter_m = 0.0, length_m = 0.0;
+  double film_thickness_m = 0.0, film_radius_m = 0.0;
+  std::string film_material, film_bottom = "fixed";
+  std::string electrode_face, electrode_kind = "equipotential", poling = "+z";
+  double electrode_radius_m = 0.0;
+  RawMaterial pillar, film;
+  std::string analysis = "static", load_on = "top";
+  std::int64_t modes = 4;
+  double pressure_Pa = 0.0;
+  std::vector<std::pair<double, double>> history;
+  std::vector<std::string> quantities;
+};
+
+void show_material(FieldVisitor& v, RawMaterial& m) {
+  v.text({"file", "pdms_1to10_seed.json"}, m.file);
+  v.quantity({.key = "E", .unit = "Pa", .range = Range::kPositive}, m.E_Pa);
+  v.quantity({.key = "nu"}, m.nu);
+  v.quantity({.key = "rho", .unit = "kg/m3", .range = Range::kPositive}, m.rho_kg_m3);
+}
+
+void show_geometry(FieldVisitor& v, RawScene& s) {
+  v.text({"kind", "pillar"}, s.kind);
+  v.text({"model", "axisymmetric"}, s.model);
+  v.quantity({.key = "diameter", .unit = "m", .range = Range::kPositive, .is_required = true},
+             s.diameter_m);
+  v.quantity({.key = "length", .unit = "m", .range = Range::kPositive, .is_required = true},
+             s.length_m);
+  v.section("film", [&](FieldVisitor& f) {
+    f.quantity({.key = "thickness", .unit = "m", .range = Range::kPositive}, s.film_thickness_m);
+    f.quantity({.key = "radius", .unit = "m", .range = Range::kPositive}, s.film_radius_m);
+    f.text({"material", "pvdf"}, s.film_material);
+    f.text({"bottom", "fixed"}, s.film_bottom);
+  });
+  v.section("electrode", [&](FieldVisitor& e) {
+    e.text({"face", "bottom"}, s.electrode_face);
+    e.text({"kind", "equipotential"}, s.electrode_kind);
+    e.quantity({.key = "radius", .unit = "m", .range = Range::kPositive}, s.electrode_radius_m);
+  });
+  v.text({"poling", "+z"}, s.poling);
+}
+
+void show_scene(FieldVisitor& v, RawScene& s) {
+  v.quantity({.key = "tolerance", .range = Range::kPositive}, s.tolerance);
+  v.section("geometry", [&](FieldVisitor& g) { show_geometry(g, s); });
+  v.section("materials", [&](FieldVisitor& m) {
+    m.section("pillar", [&](FieldVisitor& one) { show_material(one, s.pillar); });
+    if (!s.film_material.empty()) {
+      m.section(s.film_material.c_str(), [&](FieldVisitor& one) { show_material(one, s.film); });
+    }
+  });
+  v.section("analysis", [&](FieldVisitor& a) {
+    a.text({"kind", "static"}, s.analysis);
+    a.integer("modes", 1, 40, s.modes);
+    a.section("load", [&](FieldVisitor& l) {
+      l.quantity({.key = "pressure", .unit = "Pa"}, s.pressure_Pa);
+      l.text({"on", "top"}, s.load_on);
+    });
+    a.quantity_pairs("history", "s", s.analysis == "relaxation" ? "m" : "Pa", s.history);
+  });
+  v.section("want", [&](FieldVisitor& w) {
+    w.texts({"quantities", "top_displacement"}, s.quantities);
+  });
+}
+
+Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder) {
+  if (!raw.file.empty()) return read_material(folder / raw.file).material;
+  if (!(raw.E_Pa > 0.0)) {
+    throw std::invalid_argument("materials.pillar needs E (and nu, rho) or a file");
+  }
+  Material material;
+  material.E0_Pa = raw.E_Pa;
+  material.nu = raw.nu;
+  material.rho_kg_m3 = raw.rho_kg_m3;
+  return material;
+}
+
+void fill_film(const RawScene& raw, const std::filesystem::path& folder, Scene& scene) {
+  if (!(raw.film_thickness_m > 0.0) || !(raw.film_radius_m > 0.0)) {
+    throw std::invalid_argument("geometry.film needs thickness and radius");
+  }
+  if (raw.film_bottom != "fixed") {
+    throw std::invalid_argument("geometry.film.bottom must be \"fixed\"");
+  }
+  scene.geometry.film = FilmGeometry{raw.film_thickness_m, raw.film_radius_m};
+  if (!raw.film.file.empty()) {
+    const MediumFile file = read_medium(folder / raw.film.file);
+    scene.film = scene.plane ? file.medium : averaged_about_z(file.medium);
+    scene.film_charge_C_N = file.charge_C_N;
+  } else {
+    scene.film = isotropic_medium(raw.film.E_Pa, raw.film.nu, raw.film.rho_kg_m3);
+  }
+  if (choice<bool>("geometry.poling", raw.poling, {{"+z", false}, {"-z", true}})) {
+    scene.film = with_reversed_poling(*scene.film);
+  }
+}
+
+void fill_electrode(const RawScene& raw, Scene& scene) {
+  const auto electrode_on =
+      choice<FilmFace>("geometry.electrode.face", raw.electrode_face,
+                       {{"bottom", FilmFace::kBottom}, {"top", FilmFace::kTop}});
+  const bool sampled = choice<bool>("geometry.electrode.kind", raw.electrode_kind,
+                                    {{"equipotential", false}, {"sampled", true}});
+  if (!sampled && !(raw.electrode_radius_m > 0.0)) {
+    throw std::invalid_argument("geometry.electrode needs a radius");
+  }
+  scene.electrodes =
+      ElectrodeOptions{electrode_on == FilmFace::kBottom ? FilmFace::kTop : FilmFace::kBottom,
+                       sampled ? 0.0 : raw.electrode_radius_m};
+}
+
+Scene scene_from(const RawScene& raw, const std::filesystem::path& folder) {
+  Scene scene;
+  choice<bool>("geometry.kind", raw.kind, {{"pillar", true}});
+  scene.plane = choice<std::optional<PlaneState>>("geometry.model", raw.model,
+                                                  {{"axisymmetric", std::nullopt},
+                                                   {"plane-stress", PlaneState::kStress},
+                                                   {"plane-strain", PlaneState::kStrain}});
+  scene.tolerance = raw.tolerance;
+  scene.geometry.diameter_m = raw.diameter_m;
+  scene.geometry.length_m = raw.length_m;
+  scene.pillar = pillar_material(raw.pillar, folder);
+  if (!raw.film_material.empty() || raw.film_thickness_m > 0.0) fill_film(raw, folder, scene);
+  if (!raw.electrode_face.empty()) fill_electrode(raw, scene);
+  scene.kind = choice<AnalysisKind>("analysis.kind", raw.analysis,
+                                    {{"static", AnalysisKind::kStatic},
+                                     {"relaxation", AnalysisKind::kRelaxation},
+                                     {"creep", AnalysisKind::kCreep},
+                                     {"modal", AnalysisKind::kModal},
+                                     {"buckling", AnalysisKind::kBuckling}});
+  choice<bool>("analysis.load.on", raw.load_on, {{"top", true}});
+  scene.modes = static_cast<int>(raw.modes);
+  scene.pressure_Pa = raw.pressure_Pa;
+  for (const auto& [time_s, value] : raw.history) scene.history.push_back({time_s, value});
+  // A history may begin with nothing at time 0 and jump there.
+  if (scene.history.size() > 1 && scene.history[0].time_s == scene.history[1].time_s) {
+    if (scene.history[0].value == 0.0) scene.history.erase(scene.history.begin());
+  }
+  validate(scene);
+  return scene;
+}
+
+}  // namespace
+
+SceneFile read_scene(const std::filesystem::path& path) {
+  RawScene raw;
+  read_toml_fields(read_file(path), path.string(), [&](FieldVisitor& v) { show_scene(v, raw); });
+  try {
+    return {scene_from(raw, path.parent_path()), raw.quantities};
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(path.string() + ": " + error.what());
+  }
+}
+
+}  // namespace viscard
