@@ -6,6 +6,7 @@
 #include "io/cli/command_export.h"
 #include "io/cli/command_fit.h"
 #include "io/cli/command_report.h"
+#include "io/cli/command_simulate.h"
 #include "io/cli/command_validate.h"
 
 #include <ostream>
@@ -54,6 +55,8 @@ const std::vector<Command>& commands() {
       {"card", "write, check or prove a material card for a solver", run_card},
       {"validate", "check a material in the pillar against exact creep and relaxation",
        run_validate},
+      {"simulate", "answer a scene: static, modes, buckling, creep, with error estimates",
+       run_simulate},
       {"report", "one page with everything known of captures, tables and materials", run_report},
       {"demo", "run all of it on the emulated rig", run_demo},
   };
