@@ -162,6 +162,11 @@ std::optional<double> GrblStage::reported_position_m(const GrblStatus& status) {
 
 void GrblStage::take_status(const GrblStatus& status, double time_s) {
   const double asked_s = first_unanswered_s_.value_or(time_s);
+  if (asked_s_ && asked_s_ == first_unanswered_s_) {
+    const double took_s = (time_s - *asked_s_) / clock_.speed();
+    latency_.mean_s += (took_s - latency_.mean_s) / ++latency_.n;
+    latency_.longest_s = std::max(latency_.longest_s, took_s);
+  }
   asked_s_.reset();
   first_unanswered_s_.reset();
   n_missed_ = 0;
@@ -245,6 +250,7 @@ void GrblStage::poll_status() {
   const double now_s = clock_.now_s();
   if (asked_s_ && now_s - *asked_s_ > clock_.from_wall_s(kStatusTimeout_wall_s)) {
     asked_s_.reset();
+    ++latency_.n_lost;
     if (++n_missed_ >= kMostMisses) {
       throw RigError("the stage has stopped answering on '" + transport_.name() +
                      "'. Check its cable and supply; it may still be moving");

@@ -35,6 +35,8 @@ class GrblStage final : public Stage {
   void service() override;
   StageDynamics dynamics() const override;
   std::vector<std::string> advice() const override;
+  ReportLatency report_latency() const override { return latency_; }
+  std::string identity() const override { return version_; }
   double position_m() const override;
   void begin_move(double to_m, double speed_m_s, const std::string& purpose) override;
   bool is_moving() const override { return active_.has_value(); }
@@ -46,7 +48,6 @@ class GrblStage final : public Stage {
   // Sends one line and waits for its answer. Throws RigError on error:N or when none comes.
   void command(const std::string& line, const Pump& pump, double timeout_wall_s = 3.0);
   const std::map<int, double>& settings() const { return settings_; }
-  const std::string& version() const { return version_; }
   const std::string& state() const { return state_; }
 
  private:
@@ -113,6 +114,7 @@ class GrblStage final : public Stage {
   std::optional<double> asked_s_;  // of the '?' not yet answered
   std::optional<double> first_unanswered_s_;
   int n_missed_ = 0;
+  ReportLatency latency_;
   double next_poll_s_ = 0.0;
 
   std::optional<ActiveMove> active_;

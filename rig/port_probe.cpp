@@ -26,25 +26,53 @@ std::string present_ports_text() {
   return text;
 }
 
-[[noreturn]] void throw_for(const std::string& path, int error) {
+std::string trouble_text(const std::string& path, int error) {
   switch (error) {
     case ENOENT:
     case ENODEV:
     case ENXIO:
-      throw RigError("there is no port '" + path + "'. " + present_ports_text());
+      return "there is no port '" + path + "'. " + present_ports_text();
     case EACCES:
     case EPERM:
-      throw RigError("no permission to open '" + path +
-                     "'. Join the group that owns it (sudo usermod -aG dialout $USER), log in "
-                     "again, and retry");
+      return "no permission to open '" + path +
+             "'. Join the group that owns it (sudo usermod -aG dialout $USER), log in "
+             "again, and retry";
     case EBUSY:
     case EWOULDBLOCK:
-      throw RigError("'" + path + "' is in use by another program (fuser " + path +
-                     " names it). Close that program, or wait for its run to end");
+      return "'" + path + "' is in use by another program (fuser " + path +
+             " names it). Close that program, or wait for its run to end";
     default:
-      throw RigError("'" + path + "' cannot be opened: " + std::strerror(error) +
-                     ". Unplug the device, plug it in again, and retry");
+      return "'" + path + "' cannot be opened: " + std::strerror(error) +
+             ". Unplug the device, plug it in again, and retry";
   }
+}
+
+[[noreturn]] void throw_for(const std::string& path, int error) {
+  throw RigError(trouble_text(path, error));
+}
+
+bool holds(const fs::path& process, const fs::path& device) {
+  std::error_code error;
+  fs::directory_iterator entry(process / "fd", error);
+  while (!error && entry != fs::directory_iterator()) {
+    std::error_code ignored;  // closed meanwhile
+    if (fs::read_symlink(entry->path(), ignored) == device) return true;
+    entry.increment(error);
+  }
+  return false;
+}
+
+// A program that has the device open and lets us see that, or 0.
+long holder_of(const fs::path& device) {
+  std::error_code error;
+  fs::directory_iterator process("/proc", error);
+  while (!error && process != fs::directory_iterator()) {
+    const std::string pid = process->path().filename().string();
+    const bool is_number = pid.find_first_not_of("0123456789") == std::string::npos;
+    if (is_number && holds(process->path(), device)) return std::stol(pid);
+    process.increment(error);
+  }
+  return 0;
 }
 
 const char* kind_of_file(mode_t mode) {
@@ -73,6 +101,27 @@ std::vector<std::string> present_ports() {
   }
   std::sort(ports.begin(), ports.end());
   return ports;
+}
+
+PortStatus port_status(const std::string& path) {
+  PortStatus result{path, path, ""};
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) {
+    result.trouble = trouble_text(path, errno);
+    return result;
+  }
+  std::error_code ignored;
+  const fs::path device = fs::weakly_canonical(path, ignored);
+  result.device = device.string();
+  if (!S_ISCHR(status.st_mode)) {
+    result.trouble = "'" + path + "' is " + kind_of_file(status.st_mode) + ", not a serial port";
+  } else if (access(path.c_str(), R_OK | W_OK) != 0) {
+    result.trouble = trouble_text(path, errno);
+  } else if (const long pid = holder_of(device); pid != 0 && pid != getpid()) {
+    result.trouble = "in use by process " + std::to_string(pid) +
+                     ". Close that program, or wait for its run to end";
+  }
+  return result;
 }
 
 int open_exclusively(const std::string& path) {

@@ -22,6 +22,14 @@ struct StageDynamics {
   double max_speed_m_s = 0.0;
 };
 
+// Time from a question for the position to its answer, wall seconds.
+struct ReportLatency {
+  int n = 0;
+  int n_lost = 0;
+  double mean_s = 0.0;
+  double longest_s = 0.0;
+};
+
 // One motorised axis that presses a punch into a specimen. Positions in m, growing toward the
 // specimen, from the controller's own zero. Nothing here waits by itself: where an answer is
 // needed, `pump` is called until it is there, so that the caller can watch the force meanwhile. All
@@ -43,6 +51,10 @@ class Stage {
   virtual StageDynamics dynamics() const = 0;
   // What in its settings should be changed and why, one sentence each.
   virtual std::vector<std::string> advice() const = 0;
+
+  virtual ReportLatency report_latency() const = 0;
+  // Maker's name and version as the controller gives them.
+  virtual std::string identity() const = 0;
 
   // Where it is: the exact end of the last move at rest, the last report while moving.
   virtual double position_m() const = 0;

@@ -23,7 +23,7 @@ TEST_CASE("A stage is identified, its settings read back, and its moves end exac
   options.grbl.is_hal = GENERATE(false, true);
   RigFixture rig(options);
   rig.stage.connect(rig.pump());
-  CHECK(rig.stage.version() == (options.grbl.is_hal ? "grblHAL 1.1f" : "Grbl 1.1h"));
+  CHECK(rig.stage.identity() == (options.grbl.is_hal ? "grblHAL 1.1f" : "Grbl 1.1h"));
   CHECK(rig.stage.dynamics().steps_per_m == Approx(3200e3).epsilon(1e-12));
   CHECK(rig.stage.dynamics().acceleration_m_s2 == Approx(0.2).epsilon(1e-12));
   CHECK(rig.stage.dynamics().max_speed_m_s == Approx(10e-3).epsilon(1e-9));

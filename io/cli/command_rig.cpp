@@ -1,0 +1,147 @@
+#include "io/cli/command_rig.h"
+
+#include "io/cli/command_line.h"
+#include "io/config_file.h"
+#include "rig/emulator/demo_rig.h"
+#include "rig/emulator/emulated_rig.h"
+#include "rig/grbl_stage.h"
+#include "rig/hx711_load_cell.h"
+#include "rig/port_probe.h"
+#include "rig/rig_check.h"
+#include "rig/serial_line.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <ostream>
+
+namespace po = boost::program_options;
+
+namespace viscard {
+namespace {
+
+using nlohmann::ordered_json;
+
+int list_ports(bool as_json, Streams& streams) {
+  ordered_json rows = ordered_json::array();
+  for (const std::string& path : present_ports()) {
+    const PortStatus status = port_status(path);
+    rows.push_back({{"port", status.path}, {"device", status.device}, {"trouble", status.trouble}});
+    if (as_json) continue;
+    streams.out << status.path << (status.device == status.path ? "" : " (" + status.device + ")")
+                << "  " << (status.trouble.empty() ? "free" : status.trouble) << "\n";
+  }
+  if (as_json) {
+    streams.out << ordered_json{{"ports", rows}}.dump() << "\n";
+  } else if (rows.empty()) {
+    streams.out << "No serial port is present. Plug the stage and the load cell in and switch them "
+                   "on; 'dmesg | tail' says what the system made of them.\n";
+  }
+  return kDone;
+}
+
+RigCheck check(RigConfig rig, bool is_emulated, double seconds) {
+  std::unique_ptr<EmulatedRig> emulated;
+  if (is_emulated) {
+    EmulatedRigOptions options;
+    options.truth = demo_truth(10.0, 1);
+    options.config = rig;
+    emulated = std::make_unique<EmulatedRig>(options);
+    rig = emulated->config();
+  }
+  const RigClock clock(rig.clock_speed);
+  const RecordSink nowhere = [](const RunRecord&) {};
+  SerialLine stage_line(rig.stage.port, rig.stage.baud, clock);
+  SerialLine cell_line(rig.load_cell.port, rig.load_cell.baud, clock);
+  StageConfig unmoved = rig.stage;
+  unmoved.home = false;  // a check moves nothing
+  GrblStage stage(stage_line, unmoved, clock, nowhere);
+  Hx711LoadCell load_cell(cell_line, rig.load_cell, clock, nowhere);
+  return check_rig(stage, load_cell, rig, clock, seconds);
+}
+
+void print_text(const RigCheck& found, std::ostream& out) {
+  out << fmt::format(
+             "stage      {}, {:.0f} steps/mm, {:.0f} mm/s2, at most {:.1f} mm/s, at {:.3f} mm\n",
+             found.stage_identity, found.dynamics.steps_per_m * 1e-3,
+             found.dynamics.acceleration_m_s2 * 1e3, found.dynamics.max_speed_m_s * 1e3,
+             found.position_m * 1e3)
+      << fmt::format("           answers in {:.1f} ms (longest {:.1f}), {} of {} lost\n",
+                     found.latency.mean_s * 1e3, found.latency.longest_s * 1e3,
+                     found.latency.n_lost, found.latency.n + found.latency.n_lost)
+      << fmt::format(
+             "load cell  {:.2f} readings/s, up to {:.1f} ms late, {} missing, {} unreadable\n",
+             found.rate_Hz, found.jitter_s * 1e3, found.stream.missing, found.stream.unreadable)
+      << fmt::format("           reads {:.4f} N, noise {:.3f} mN per reading\n", found.force_N,
+                     found.noise_N * 1e3);
+  for (const std::string& text : found.advice) out << "advice     " << text << "\n";
+  out << (found.is_usable ? "ready\n" : "not fit for a test yet\n");
+}
+
+void print_json(const RigCheck& found, std::ostream& out) {
+  const ordered_json json = {{"is_usable", found.is_usable},
+                             {"stage",
+                              {{"identity", found.stage_identity},
+                               {"steps_per_m", found.dynamics.steps_per_m},
+                               {"acceleration_m_s2", found.dynamics.acceleration_m_s2},
+                               {"max_speed_m_s", found.dynamics.max_speed_m_s},
+                               {"position_m", found.position_m},
+                               {"latency_mean_s", found.latency.mean_s},
+                               {"latency_longest_s", found.latency.longest_s},
+                               {"reports", found.latency.n},
+                               {"reports_lost", found.latency.n_lost}}},
+                             {"load_cell",
+                              {{"rate_Hz", found.rate_Hz},
+                               {"jitter_s", found.jitter_s},
+                               {"missing", found.stream.missing},
+                               {"unreadable", found.stream.unreadable},
+                               {"force_N", found.force_N},
+                               {"noise_N", found.noise_N}}},
+                             {"advice", found.advice}};
+  out << json.dump() << "\n";
+}
+
+}  // namespace
+
+int run_rig(const std::vector<std::string>& words, Streams& streams) {
+  CommandSyntax syntax;
+  syntax.usage = "viscard rig list | check --rig FILE [OPTIONS]";
+  syntax.description =
+      "list shows the serial ports and why one cannot be used, without opening any.\n"
+      "check opens both devices of a rig file, identifies and measures them, and says what to "
+      "change;\n"
+      "nothing moves.";
+  syntax.example = "viscard rig check --emulate";
+  syntax.options.add_options()("rig", po::value<std::string>(), "rig.toml: ports, calibration")(
+      "seconds", po::value<double>()->default_value(3.0), "how long to listen")(
+      "emulate", "check an emulated rig");
+  syntax.positional = {"what"};
+  const auto values = parse_words(syntax, words, streams);
+  if (!values) return kDone;
+  const std::string what = values->count("what") > 0 ? (*values)["what"].as<std::string>() : "";
+  const bool as_json = values->count("json") > 0;
+  if (what == "list") return list_ports(as_json, streams);
+  if (what != "check") {
+    throw UsageError("rig needs to know what: list or check. usage: " + std::string(syntax.usage));
+  }
+  const bool is_emulated = values->count("emulate") > 0;
+  if (!is_emulated && values->count("rig") == 0) {
+    throw UsageError("rig check needs --rig FILE (or --emulate to see what it prints)");
+  }
+  const double seconds = (*values)["seconds"].as<double>();
+  if (!(seconds >= 1.0) || seconds > 3600.0) {
+    throw UsageError(fmt::format("--seconds {} is outside 1 to 3600", seconds));
+  }
+  const RigConfig rig =
+      values->count("rig") > 0 ? read_rig((*values)["rig"].as<std::string>()) : demo_rig();
+  const RigCheck found = check(rig, is_emulated, seconds);
+  if (as_json) {
+    print_json(found, streams.out);
+  } else {
+    print_text(found, streams.out);
+  }
+  return found.is_usable ? kDone : kFailed;
+}
+
+}  // namespace viscard

@@ -1,0 +1,48 @@
+#include "rig/emulator/pty_port.h"
+#include "rig/port_probe.h"
+#include "rig/rig_check.h"
+#include "tests/rig/rig_fixture.h"
+
+#include <catch2/catch.hpp>
+#include <unistd.h>
+
+namespace viscard {
+
+TEST_CASE("A check measures rate and noise, reads settings back and moves nothing", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.sample_rate_Hz = 90.0;  // an HX711's own oscillator is off by more than a clock
+  RigFixture rig(options);
+  const RigCheck check = check_rig(rig.stage, rig.load_cell, rig.config, rig.clock, 10.0);
+  CHECK(check.stage_identity == "Grbl 1.1h");
+  CHECK(check.rate_Hz == Approx(90.0).epsilon(0.01));  // one reading in 900 more or less, delays
+  const EmulatedTruth& truth = options.truth;
+  CHECK(check.noise_N == Approx(truth.force_noise_N).epsilon(0.15));  // 5/sqrt(2*900)
+  CHECK(check.force_N == Approx(truth.force_offset_N).margin(1e-4));  // 6 sigma/sqrt(900)
+  CHECK(check.latency.n > 5);
+  CHECK(check.is_usable);
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+  CHECK(rig.emulated.outcome().final_position_m == 0.0);
+  bool names_rate = false;
+  for (const std::string& text : check.advice) {
+    names_rate = names_rate || text.find("expected_rate") != std::string::npos;
+  }
+  CHECK(names_rate);
+}
+
+TEST_CASE("A converter at 10 readings/s makes a rig unusable", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.sample_rate_Hz = 10.0;
+  options.config.load_cell.expected_rate_Hz = 10.0;
+  RigFixture rig(options);
+  CHECK_FALSE(check_rig(rig.stage, rig.load_cell, rig.config, rig.clock, 10.0).is_usable);
+}
+
+TEST_CASE("The state of a port is told without opening it", "[rig][pty]") {
+  PtyPort device;
+  CHECK(port_status(device.path()).trouble.empty());
+  CHECK_FALSE(device.is_open_by_host());
+  CHECK(port_status("/dev/no_such_port").trouble.find("there is no port") == 0);
+  CHECK(port_status("/tmp").trouble.find("a folder") != std::string::npos);
+}
+
+}  // namespace viscard
