@@ -6,6 +6,7 @@
 #include "io/cli/command_export.h"
 #include "io/cli/command_fit.h"
 #include "io/cli/command_report.h"
+#include "io/cli/command_rig.h"
 #include "io/cli/command_simulate.h"
 #include "io/cli/command_validate.h"
 
@@ -49,6 +50,7 @@ int dispatch(const std::vector<std::string>& words, Streams& streams) {
 
 const std::vector<Command>& commands() {
   static const std::vector<Command> table{
+      {"rig", "list serial ports, check a rig", run_rig},
       {"capture", "run one indentation on the rig, or on an emulated one", run_capture},
       {"export", "a capture as CSV", run_export},
       {"fit", "find modulus and Prony series in captures or tables", run_fit},
