@@ -127,6 +127,7 @@ CapturedRun in_memory_run(const EmulatedTruth& truth, const TestPlan& plan,
   CapturedRun run;
   run.plan = plan;
   run.specimen.contact = truth.contact;
+  run.specimen.modulus_guess_Pa = truth.material.E0_Pa;
   run.rig.calibration = {kVoltsPerNewton, 0.0, 0.0, kCapacity_N, "demo", ""};
   run.rig.load_cell.volts_per_count = kVoltsPerCount;
   run.rig.frame = {truth.frame_stiffness_N_m, 0.02};
