@@ -90,7 +90,10 @@ bool is_within_range(const SpectralModel& model, const SpectralState& state) {
 OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralState>& path,
                          const ChoiceInput& input) {
   OrderScores scores;
-  const double n_effective = std::max(2.0, input.n_samples / input.inflation);
+  // When even the fullest order misfits, its residual is no noise and its memory no measure of how
+  // much was seen: at least five values for each of its parameters are granted.
+  const double granted = std::min(input.n_samples, 5.0 * n_parameters(model, path.back()));
+  const double n_effective = std::max(granted, input.n_samples / input.inflation);
   std::vector<std::vector<LeftOut>> errors;
   std::vector<bool> is_eligible;
   for (const SpectralState& state : path) is_eligible.push_back(is_within_range(model, state));

@@ -74,3 +74,18 @@ TEST_CASE("storage and loss give back the series they came from", "[fit]") {
   }
   CHECK(fit.noise.sigma == Approx(2e-3).epsilon(0.2));
 }
+
+TEST_CASE("a spectrum wider than the terms allowed gets them all", "[fit]") {
+  // The misfit of three terms must not be taken for noise with a long memory.
+  DmaData data;
+  for (int i = 0; i <= 120; ++i) {
+    const double f = std::pow(10.0, -5.0 + 7.0 * i / 120.0);
+    const ComplexModulus modulus = complex_modulus_Pa(s6(), 2.0 * std::numbers::pi * f);
+    data.frequency_Hz.push_back(f);
+    data.storage_Pa.push_back(modulus.storage_Pa);
+    data.loss_Pa.push_back(modulus.loss_Pa);
+  }
+  FitOptions options;
+  options.max_terms = 3;
+  CHECK(fit_dma(data, options).terms.size() == 3);
+}
