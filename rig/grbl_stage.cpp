@@ -74,7 +74,8 @@ void GrblStage::service() {
   const Chunk chunk = transport_.read_available();
   if (!chunk.bytes.empty()) {
     sink_(RawBytes{Device::kStage, false, chunk.time_s, chunk.bytes});
-    splitter_.feed(chunk.bytes, chunk.time_s, 10.0 / transport_.baud());
+    // No wire time is taken off: a report bounds a move's start, and the stamp is the sure bound.
+    splitter_.feed(chunk.bytes, chunk.time_s);
   }
   while (const auto line = splitter_.next()) take_line(*line);
   if (polls_) poll_status();
@@ -173,7 +174,7 @@ void GrblStage::take_status(const GrblStatus& status, double time_s) {
   state_ = status.state;
   const auto position = reported_position_m(status);
   if (!position) return;
-  reported_m_ = *position;
+  reported_m_ = *position + 0.0;  // no negative zero
   ++n_reports_;
   sink_(StageReport{time_s, reported_m_, state_});
   if (active_) follow_move(asked_s, time_s);
