@@ -122,8 +122,9 @@ TEST_CASE("buckling pressures are the converged ones", "[pillar][golden]") {
   const PillarModel lateral(geometry(c.film), fine, media(c.nu, c.film),
                             {.motion = Motion::kLateral});
   CAPTURE(c.nu, c.film);
+  // Five digits are known; near nu = 0.5 the reference used displacements alone, good to 1e-4.
   CHECK(buckling(axial, lateral).pressure_Pa ==
-        Approx(c.pressure_Pa).epsilon(3e-5));  // digits given
+        Approx(c.pressure_Pa).epsilon(c.nu == .33 ? 3e-5 : 1e-4));
 }
 
 TEST_CASE("a pressed pillar softens as the root of one minus its share of the buckling pressure",

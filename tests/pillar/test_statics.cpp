@@ -90,8 +90,9 @@ TEST_CASE("the film's thickness sets the stress at the electrode as tabulated",
   const PillarModel model(on_film(t_m, 100e-6), {.degree = 8, .layers = 4, .film_elements = 2},
                           elastic_media(.33, true), {});
   const PillarState state = model.solve(-1e4 * model.top_traction());
+  // Four digits are known.
   CHECK(-model.mean_stress(state, 2, -t_m, kFilmRegion, model.radius_m()) ==
-        Approx(c.mean_Pa).epsilon(2e-4));
+        Approx(c.mean_Pa).epsilon(5e-4));
 }
 
 TEST_CASE("coupled film: open-circuit voltage and short-circuit charge are the converged ones",
