@@ -144,7 +144,7 @@ TEST_CASE("a table of the user's is fitted on the way", "[cli][report]") {
   CHECK(contains(test::text_of(contents_of(page)), "relaxation modulus"));
 }
 
-TEST_CASE("--reproducible gives the same bytes twice", "[cli][report]") {
+TEST_CASE("reproducible pages are the same bytes twice", "[cli][report]") {
   const test::ScratchFolder folder;
   const std::string material = write_material(folder), page = (folder / "page.html").string();
   const std::vector<std::string> words{"report",  material, "--reproducible",
