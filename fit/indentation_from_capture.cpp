@@ -95,15 +95,19 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   }
   const ClockLine clock = line_from_below(readings.clock_s, readings.host_s);
 
+  // The clock line lies early by the smallest delay of a message and may be tilted by its spread:
+  // both unknown, but short. Samples this near to a motion that is not modelled are left out.
+  data.start_early_s = 0.02 * std::max(1.0, run.rig.clock_speed);
   const CommandedMove* retract = first_move(run, "retract");
   data.contact_from_s = ramp->move.start_time_s;
   data.contact_to_s = clock.at(readings.clock_s.back());
   double free_again_s = 1e300;
   if (retract != nullptr) {
-    data.contact_to_s = std::min(data.contact_to_s, retract->move.start_time_s);
+    data.contact_to_s =
+        std::min(data.contact_to_s, retract->move.start_time_s - data.start_early_s);
     // Recovery of the surface and the last of the motion are not zero force: leave half a second.
-    free_again_s =
-        retract->move.start_time_s + duration_s(retract->move) + retract->start_uncertainty_s + 0.5;
+    free_again_s = retract->move.start_time_s + duration_s(retract->move) +
+                   retract->start_uncertainty_s + data.start_early_s + 0.5;
   }
   double still_since_s = -1e300;
   for (const CommandedMove& move : run.moves) {
@@ -118,8 +122,6 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
     data.moves.push_back(move.move);
     data.start_late_s = std::max(data.start_late_s, move.start_uncertainty_s);
   }
-  // The clock line lies early by the smallest delay of a message, which is unknown but short.
-  data.start_early_s = 0.02 * std::max(1.0, run.rig.clock_speed);
   for (std::size_t i = 0; i < readings.clock_s.size(); ++i) {
     const double t = clock.at(readings.clock_s[i]);
     const bool before = t > still_since_s && t < data.contact_from_s;
