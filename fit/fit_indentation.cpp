@@ -209,6 +209,7 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
   result.fit_to_s = input.time_s.back();
   if (contact.is_fitted) result.contact_position_m = fit.state.nuisance[0];
   const std::size_t end = std::min(loaded, input.time_s.size() - 1);
+  result.fastest_s = std::max(0.0, input.time_s[end] - zero_s);
   add_identifiability_flags(model, fit.state, fit.covariance,
                             {shortest_step_s(input.time_s), input.time_s[end] - zero_s, 0.0,
                              input.time_s.back() - zero_s},

@@ -79,6 +79,8 @@ struct FitResult {
   Eigen::MatrixXd covariance;
   double systematic_relative = 0.0;  // of all moduli together: geometry, calibration, frame
   double fit_from_s = 0.0, fit_to_s = 0.0;
+  double fastest_s =
+      0.0;  // duration of the quickest loading; the modulus before it is extrapolated
   std::optional<TwoPointModulus> two_point;
   std::optional<double> contact_position_m;
   std::size_t n_spikes = 0;    // samples left out as spikes

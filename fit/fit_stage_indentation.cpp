@@ -170,6 +170,10 @@ void report_stage_fit(const StageModel& model, const IndentationData& data, cons
   const double sigma_N = result.noise.sigma;
   result.fit_from_s = ramp.start_time_s + fit.state.nuisance[0];
   result.fit_to_s = data.contact_to_s;
+  result.fastest_s = duration_s(ramp);
+  for (const StageMove& move : data.moves) {
+    result.fastest_s = std::min(result.fastest_s, duration_s(move));
+  }
   add_identifiability_flags(
       model, fit.state, fit.covariance,
       {shortest_step_s(data.time_s), 0.0, 0.0, result.fit_to_s - result.fit_from_s}, result);

@@ -14,6 +14,7 @@ constexpr double kUsualNu = 0.495;  // of a rubber, where nobody said
 ValidityWindow window_of(const FitResult& fit) {
   ValidityWindow window;
   if (fit.kind == FitKind::kIndentation) {
+    window.t_min_s = fit.fastest_s;
     window.t_max_s = fit.fit_to_s - fit.fit_from_s;
     return window;
   }
