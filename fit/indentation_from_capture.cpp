@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -55,27 +54,27 @@ Readings good_readings(const CapturedRun& run, IndentationData& data) {
 }  // namespace
 
 ClockLine line_from_below(const std::vector<double>& x, const std::vector<double>& y) {
-  if (x.size() < 2) return {x.empty() ? 0.0 : y[0] - x[0], 1.0};
-  std::vector<std::size_t> hull;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    while (hull.size() >= 2) {
-      const std::size_t a = hull[hull.size() - 2];
-      const std::size_t b = hull.back();
-      const double turn = (x[b] - x[a]) * (y[i] - y[a]) - (y[b] - y[a]) * (x[i] - x[a]);
-      if (turn > 0.0) break;
-      hull.pop_back();
+  if (x.size() < 2 || !(x.back() > x.front())) return {x.empty() ? 0.0 : y[0] - x[0], 1.0};
+  // The least delayed message of each end gives the slope. A few rounds, because which message that
+  // is depends on the slope; an edge of the whole lower hull may be short and tilt the line.
+  const std::size_t count = x.size();
+  const std::size_t third = std::max<std::size_t>(1, count / 3);
+  ClockLine line{0.0, (y.back() - y.front()) / (x.back() - x.front())};
+  const auto least_delayed = [&](std::size_t from, std::size_t to) {
+    std::size_t best = from;
+    for (std::size_t i = from; i < to; ++i) {
+      if (y[i] - line.slope * x[i] < y[best] - line.slope * x[best]) best = i;
     }
-    hull.push_back(i);
+    return best;
+  };
+  for (int round = 0; round < 8; ++round) {
+    const std::size_t early = least_delayed(0, third);
+    const std::size_t late = least_delayed(count - third, count);
+    line.slope = (y[late] - y[early]) / (x[late] - x[early]);
   }
-  const double mean = std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
-  for (std::size_t i = 1; i < hull.size(); ++i) {
-    if (x[hull[i]] < mean) continue;
-    const std::size_t a = hull[i - 1];
-    const std::size_t b = hull[i];
-    const double slope = (y[b] - y[a]) / (x[b] - x[a]);
-    return {y[a] - slope * x[a], slope};
-  }
-  return {y[0] - x[0], 1.0};
+  const std::size_t lowest = least_delayed(0, count);
+  line.offset_s = y[lowest] - line.slope * x[lowest];
+  return line;
 }
 
 IndentationData indentation_from_capture(const CapturedRun& run) {

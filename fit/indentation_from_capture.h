@@ -15,8 +15,9 @@ namespace viscard {
 // there is no ramp move, no calibration or no reading in contact.
 IndentationData indentation_from_capture(const CapturedRun& run);
 
-// Line under a cloud of points: value = offset + slope * x touches the points from below with the
-// least total distance (an edge of the lower convex hull).
+// Line under a cloud of points, for clocks related by messages whose delay is never negative: the
+// slope from the least delayed message of the first and of the last third, the offset so that no
+// point lies below. x ascending.
 struct ClockLine {
   double offset_s = 0.0;
   double slope = 1.0;

@@ -126,3 +126,17 @@ TEST_CASE("the clock line touches the receive times from below", "[fit]") {
   CHECK(line.slope == Approx(1.001).epsilon(1e-9));
   CHECK(line.at(2.0) == Approx(7.002).epsilon(1e-9));
 }
+
+TEST_CASE("one quick message in the middle does not tilt the clock line", "[fit][stability]") {
+  std::vector<double> x, y;
+  for (int i = 0; i < 8000; ++i) {
+    x.push_back(0.0125 * i);
+    // Delays of 50 to 60 ms, a stall of 1 s, and one message that took 10 ms.
+    const double stall_s = std::max(0.0, 1.0 - 0.0125 * std::abs(i - 6000));
+    y.push_back(x.back() + 0.05 + 0.001 * (i % 11) + stall_s - (i == 4100 ? 0.04 : 0.0));
+  }
+  const ClockLine line = line_from_below(x, y);
+  CHECK(line.slope == Approx(1.0).margin(1e-5));  // not 40 ms over a part of the run
+  CHECK(line.at(0.0) == Approx(0.0).margin(0.02));
+  CHECK(line.at(100.0) == Approx(100.0).margin(0.02));
+}
