@@ -45,7 +45,8 @@ struct StageReport {
 // A move as commanded and, by the controller's settings, as it will be carried out (quantised ends,
 // speed and acceleration as the controller uses them), handed out when it has ended. The true start
 // lies within [0, start_uncertainty_s] after move.start_time_s, which is not before the command was
-// written: position reports on the way narrow it down. A move that was stopped ends where it stopped.
+// written: position reports on the way narrow it down. A move that was stopped ends where it
+// stopped.
 struct CommandedMove {
   StageMove move;
   double start_uncertainty_s = 0.0;
