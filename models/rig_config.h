@@ -16,7 +16,7 @@ struct StageConfig {
   int toward_specimen = -1;  // sign of machine motion that presses into the specimen
   double travel_m = 10e-3;   // software limit of the way toward the specimen from where it starts
   double backlash_m = 0.0;
-  bool home = false;                // run the controller's homing cycle before a test
+  bool home = false;  // run the controller's homing cycle before a test
 };
 
 struct LoadCellConfig {
