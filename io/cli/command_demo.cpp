@@ -4,6 +4,7 @@
 #include "io/cli/demo_score.h"
 #include "io/config_file.h"
 #include "io/material_file.h"
+#include "rig/preflight.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -140,6 +141,26 @@ class Demo {
   int n_kept_ = 0;
 };
 
+// Why the demo does not go to the depth of the thesis it starts from: what the check before a run
+// says of that depth.
+std::string depth_explained(const fs::path& data) {
+  constexpr double kThesisDepth_m = 0.25e-3;
+  const RigConfig rig = read_rig(data / "01_rig.toml");
+  TestPlan plan = read_test(data / "02_test.toml");
+  const double depth_m = plan.depth_m;
+  plan.depth_m = kThesisDepth_m;
+  std::string text =
+      fmt::format("The test goes {:g} mm deep, not {:g} mm as in the thesis, where\n",
+                  1e3 * depth_m, 1e3 * kThesisDepth_m);
+  for (const DemoSpecimen& specimen : kSpecimens) {
+    const Preflight check = preflight(rig, plan, read_specimen(data / specimen.specimen_file));
+    text +=
+        fmt::format("  {:<5} would reach {:.2f} N: limit {:.2f} N, rating of the cell {:.2f} N\n",
+                    specimen.ratio, check.peak_force_N, check.limit_N, rig.calibration.capacity_N);
+  }
+  return text;
+}
+
 nlohmann::json json_from_scores(const std::vector<ScoreRow>& rows, const fs::path& page) {
   nlohmann::json list = nlohmann::json::array();
   for (const ScoreRow& row : rows) {
@@ -175,8 +196,9 @@ int run_demo(const std::vector<std::string>& words, Streams& streams) {
 
   const fs::path out = (*values)["out"].as<std::string>();
   fs::create_directories(out);
-  Demo demo(streams, out, (*values)["data"].as<std::string>(), (*values)["speed"].as<std::string>(),
-            values->count("force") > 0);
+  const fs::path data = (*values)["data"].as<std::string>();
+  streams.err << depth_explained(data);
+  Demo demo(streams, out, data, (*values)["speed"].as<std::string>(), values->count("force") > 0);
   for (const DemoSpecimen& specimen : kSpecimens) demo.run_specimen(specimen);
   const fs::path page = fs::absolute(demo.run_report());
   const std::vector<ScoreRow> rows = demo.scores();
