@@ -149,13 +149,14 @@ std::string depth_explained(const fs::path& data) {
   TestPlan plan = read_test(data / "02_test.toml");
   const double depth_m = plan.depth_m;
   plan.depth_m = kThesisDepth_m;
-  std::string text =
-      fmt::format("The test goes {:g} mm deep, not {:g} mm as in the thesis, where\n",
-                  1e3 * depth_m, 1e3 * kThesisDepth_m);
+  std::string text = fmt::format(
+      "The test goes {:g} mm deep, not {:g} mm as in the thesis. With the moduli guessed before\n"
+      "the test, the peak there would be\n",
+      1e3 * depth_m, 1e3 * kThesisDepth_m);
   for (const DemoSpecimen& specimen : kSpecimens) {
     const Preflight check = preflight(rig, plan, read_specimen(data / specimen.specimen_file));
     text +=
-        fmt::format("  {:<5} would reach {:.2f} N: limit {:.2f} N, rating of the cell {:.2f} N\n",
+        fmt::format("  {:<5} {:.2f} N (limit of the test {:.2f} N, rating of the cell {:.2f} N)\n",
                     specimen.ratio, check.peak_force_N, check.limit_N, rig.calibration.capacity_N);
   }
   return text;
