@@ -101,10 +101,10 @@ void write_files(const SceneAnswer& answer, const nlohmann::json& object, const 
   write_file(std::filesystem::path(folder) / "results.json", with_command.dump(2) + "\n",
              overwrite);
   for (const SceneCurve& curve : answer.curves) {
-    std::string text = fmt::format("# {} (viscard {})\ntime_s,{}_{}\n", command, VISCARD_VERSION,
-                                   curve.name, curve.unit);
-    for (std::size_t i = 0; i < curve.time_s.size(); ++i) {
-      text += fmt::format("{},{}\n", curve.time_s[i], curve.value[i]);
+    std::string text = fmt::format("# {} (viscard {})\n{},{}_{}\n", command, VISCARD_VERSION,
+                                   curve.x_name, curve.name, curve.unit);
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
+      text += fmt::format("{},{}\n", curve.x[i], curve.value[i]);
     }
     write_file(std::filesystem::path(folder) / (curve.name + ".csv"), text, overwrite);
   }

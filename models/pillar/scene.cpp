@@ -1,7 +1,10 @@
 #include "models/pillar/scene.h"
 
+#include "models/pillar/analysis.h"
+
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace viscard {
 
@@ -23,34 +26,14 @@ void validate(const Scene& scene) {
       throw std::invalid_argument("the electrode is wider than the film");
     }
   }
-  const bool in_time =
-      scene.kind == AnalysisKind::kCreep || scene.kind == AnalysisKind::kRelaxation;
-  if (in_time && scene.history.size() < 2) {
-    throw std::invalid_argument("creep and relaxation need a history of at least two points");
-  }
-  if (in_time && scene.plane) {
-    throw std::invalid_argument(
-        "creep and relaxation are computed for a cylinder, not for a strip");
-  }
-  if (scene.kind == AnalysisKind::kStatic && scene.pressure_Pa == 0.0) {
-    throw std::invalid_argument("a static analysis needs a pressure on the top");
-  }
   if (!std::isfinite(scene.pressure_Pa)) throw std::invalid_argument("the pressure is not finite");
-  if (scene.kind == AnalysisKind::kModal) {
-    if (scene.modes < 1 || scene.modes > 40) {
-      throw std::invalid_argument("modes: " + std::to_string(scene.modes) +
-                                  " per family; it must lie between 1 and 40");
-    }
-    if (!(scene.pillar.rho_kg_m3 > 0.0)) {
-      throw std::invalid_argument("a modal analysis needs the density of the pillar");
-    }
-    if (scene.film && !(scene.film->rho_kg_m3 > 0.0)) {
-      throw std::invalid_argument("a modal analysis needs the density of the film");
-    }
+  const Analysis& analysis = analysis_of(scene.kind);
+  if (analysis.has_inertia) {
+    const std::string needs = std::string(analysis.name) + " analysis needs the density of the ";
+    if (!(scene.pillar.rho_kg_m3 > 0.0)) throw std::invalid_argument(needs + "pillar");
+    if (scene.film && !(scene.film->rho_kg_m3 > 0.0)) throw std::invalid_argument(needs + "film");
   }
-  if (scene.kind == AnalysisKind::kBuckling && scene.plane) {
-    throw std::invalid_argument("buckling is computed for a cylinder, not for a strip");
-  }
+  analysis.check(scene);
 }
 
 }  // namespace viscard

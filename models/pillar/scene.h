@@ -1,9 +1,11 @@
 #pragma once
 
 #include "models/material.h"
+#include "models/pillar/effect_choice.h"
 #include "models/pillar/load_history.h"
 #include "models/pillar/piezo_static.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +28,14 @@ struct Scene {
   double pressure_Pa = 0.0;           // static; also the prestress of a modal analysis
   int modes = 4;                      // per family
   std::vector<HistoryPoint> history;  // creep: pressure in Pa; relaxation: shortening in m
+
+  std::vector<std::string> wanted;  // names of results; empty: all
+  EffectChoices effects;            // what the plan may not decide itself
+  // Set by the plan (plan.h) for effects that are left out or insisted on:
+  double condense_pressures_from = kNearlyIncompressible;  // Poisson ratio
+  bool one_way_potential = false;  // the film's potential follows its strain and does not act back
+
+  std::function<void(double)> progress;  // called with the fraction done; may be empty
 };
 
 struct SceneResult {
@@ -33,6 +43,7 @@ struct SceneResult {
   double value = 0.0;
   std::string unit;
   double error_estimate = 0.0;  // absolute, in the unit
+  double scale = 0.0;           // the error is judged against this where |value| is smaller
 };
 
 struct SceneMode {
@@ -46,13 +57,22 @@ struct SceneEffect {
   std::string name;
   bool on = false;
   std::string reason;
+  double estimate = 0.0;  // relative error of leaving it out
+  std::string number;     // what decides, and its value
+  double value = 0.0;
+  bool is_forced = false;   // by the scene
+  bool is_counted = false;  // left out, and its estimate is part of the reported error
 };
 
+// A quantity against time or frequency. Curves of one scene share their abscissa from mesh to mesh.
 struct SceneCurve {
   std::string name;  // of the second column
   std::string unit;
-  std::vector<double> time_s;
+  std::vector<double> x;
   std::vector<double> value;
+  std::string x_name = "time_s";
+  std::vector<double> error;    // estimate at each point, in the unit
+  std::vector<double> allowed;  // size at each point that the tolerance refers to; empty: the peak
 };
 
 struct SceneAnswer {
@@ -60,17 +80,19 @@ struct SceneAnswer {
   std::vector<SceneMode> modes;
   std::vector<SceneEffect> effects;
   std::vector<SceneCurve> curves;
-  Discretisation discretisation;  // that met the tolerance
-  int unknowns = 0;               // largest system
+  std::vector<std::string> notes;  // what a reader should know, plain sentences
+  Discretisation discretisation;   // that met the tolerance
+  int unknowns = 0;                // largest system
   double largest_relative_error = 0.0;
+  double step_error = 0.0;  // relative, of time steps and reduced bases; part of the errors above
 };
 
 // Throws std::invalid_argument naming what is missing or contradictory.
 void validate(const Scene& scene);
 
-// Answers the scene on meshes of rising degree and grading until every result changes by less than
-// the tolerance; the change is the error estimate. Throws std::runtime_error, with the reason, when
-// the finest mesh does not meet it, or the pillar would buckle under the load.
+// Answers the scene (analysis.h) on meshes of rising degree and grading until every result meets
+// the tolerance (error_control.h). Throws std::runtime_error, with the reason, when the finest mesh
+// does not, or the pillar would buckle under the load.
 SceneAnswer simulate(const Scene& scene);
 
 }  // namespace viscard

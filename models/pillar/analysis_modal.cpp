@@ -1,0 +1,53 @@
+#include "models/pillar/analysis.h"
+#include "models/pillar/pillar_modes.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace viscard {
+namespace {
+
+struct Family {
+  const char* name;
+  Motion motion;
+  int harmonic;
+};
+
+std::vector<Family> families_of(const Scene& scene) {
+  if (scene.plane) {
+    return {{"lateral", Motion::kPlaneAntisymmetric, 0},
+            {"longitudinal", Motion::kPlaneSymmetric, 0}};
+  }
+  return {{"lateral", Motion::kLateral, 1},
+          {"longitudinal", Motion::kLongitudinal, 0},
+          {"torsion", Motion::kTorsion, 0},
+          {"ovalling", Motion::kOvalling, 2}};
+}
+
+}  // namespace
+
+void check_modal(const Scene& scene) {
+  if (scene.modes < 1 || scene.modes > 40) {
+    throw std::invalid_argument("modes: " + std::to_string(scene.modes) +
+                                " per family; it must lie between 1 and 40");
+  }
+}
+
+void run_modal(const Scene& scene, SceneAnswer& answer) {
+  for (const Family& family : families_of(scene)) {
+    const PillarModel model = model_of(scene, family.motion, answer);
+    count_unknowns(model, answer);
+    const bool pressed = scene.pressure_Pa != 0.0 && family.motion == Motion::kLateral;
+    const int wanted = std::min(scene.modes, model.system().size());
+    const std::vector<PillarMode> found =
+        pressed ? modes_under_pressure(model_of(scene, Motion::kLongitudinal, answer), model,
+                                       scene.pressure_Pa, wanted)
+                : lowest_modes(model, wanted);
+    for (const PillarMode& mode : found) {
+      answer.modes.push_back({family.name, family.harmonic, mode.frequency_Hz, 0.0});
+    }
+  }
+}
+
+}  // namespace viscard
