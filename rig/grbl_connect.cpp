@@ -11,6 +11,7 @@ constexpr double kBoot_wall_s = 3.0;     // bootloader of an AVR board and the f
 constexpr double kSettle_wall_s = 0.05;  // messages that follow a welcome
 constexpr double kReset_wall_s = 1.5;    // from a soft reset to the welcome
 constexpr int kResets = 2;
+constexpr int kMostReadings = 4;  // of the settings, until two agree
 
 }  // namespace
 
@@ -65,8 +66,15 @@ void GrblStage::ask_position(const Pump& pump) {
   }
 }
 
+// Read until two readings agree: one garbled digit would spoil every move.
 void GrblStage::read_settings(const Pump& pump) {
-  command("$$", pump);
+  std::map<int, double> before;
+  for (int i = 0; i < kMostReadings; ++i) {
+    settings_.clear();
+    command("$$", pump);
+    if (!settings_.empty() && settings_ == before) break;
+    before = settings_;
+  }
   const StageDynamics found = dynamics();
   if (!(found.steps_per_m > 0.0) || !(found.acceleration_m_s2 > 0.0) ||
       !(found.max_speed_m_s > 0.0)) {
@@ -84,20 +92,38 @@ void GrblStage::unlock(const Pump& pump) {
        "The stage was unlocked without homing; positions count from where it stood");
 }
 
-void GrblStage::connect(const Pump& pump) {
-  is_recovering_ = true;  // a second welcome or an alarm left over surprises nobody yet
-  await_welcome(pump);
+// What follows a welcome: settings, homing or unlocking, position.
+void GrblStage::converse(const Pump& pump) {
   wait_for([] { return false; }, pump, kSettle_wall_s);
   ask_position(pump);
   if (state_ == "Hold") send_realtime(grbl::kResume);
   read_settings(pump);
+  ask_position(pump);  // in the unit that the settings name
   if (config_.home) {
     polls_ = false;  // homing answers no '?'
+    forget_questions();
     command("$H", pump, 180.0);
     ask_position(pump);
   } else if (state_ == "Alarm") {
     unlock(pump);
     ask_position(pump);
+  }
+}
+
+void GrblStage::connect(const Pump& pump) {
+  is_recovering_ = true;  // a second welcome or an alarm left over surprises nobody yet
+  await_welcome(pump);
+  // A board that resets late says so in the middle of the conversation, which then begins anew.
+  for (int i = 0; i <= kResets; ++i) {
+    const int n_welcomes = n_welcomes_;
+    try {
+      converse(pump);
+      if (n_welcomes == n_welcomes_) break;
+    } catch (const PortHungUp&) {
+      throw;
+    } catch (const RigError&) {
+      if (n_welcomes == n_welcomes_ || i == kResets) throw;
+    }
   }
   if (state_ != "Idle") {
     throw RigError("the stage reports '" + state_ +
@@ -113,9 +139,7 @@ void GrblStage::recover(const Pump& pump) {
   const bool has_reset = is_recovering_;
   is_recovering_ = true;
   polls_ = false;
-  asked_s_.reset();
-  first_unanswered_s_.reset();
-  n_missed_ = 0;
+  forget_questions();
   const auto is_there = [&] { return !awaits_welcome_; };
   bool is_welcome = has_reset && wait_for(is_there, pump, kReset_wall_s);
   for (int i = 0; i < kResets && !is_welcome; ++i) {

@@ -9,11 +9,7 @@
 namespace viscard {
 namespace {
 
-constexpr double kStatusTimeout_wall_s = 0.25;
-constexpr int kMostMisses = 20;        // times 250 ms without any report: it is not there
-constexpr double kPollMoving_s = 0.1;  // rig time; the firmware asks for at most 5 to 10 Hz
-constexpr double kPollResting_s = 0.2;
-constexpr int kMostRestsElsewhere = 3;
+constexpr double kFirstPoll_s = 0.1;  // rig time after a move was written
 
 int axis_index(char axis) {
   constexpr std::string_view kAxes = "XYZABC";
@@ -50,9 +46,11 @@ StageDynamics GrblStage::dynamics() const {
           setting(110 + axis_, 0.0) / 60e3};
 }
 
-// Reports carry three decimals of a mm, and the motor stands within half a step of its count.
+// Reports carry three decimals of a mm ($13=1: four of an inch), and the motor stands within half a
+// step of its count.
 double GrblStage::resolution_m() const {
-  return 0.5e-6 + 1.0 / dynamics().steps_per_m;
+  const double decimals_m = setting(13, 0.0) != 0.0 ? 1.27e-6 : 0.5e-6;
+  return decimals_m + 1.0 / dynamics().steps_per_m;
 }
 
 double GrblStage::position_m() const {
@@ -133,10 +131,9 @@ void GrblStage::take_alarm(int code, double time_s) {
 
 void GrblStage::take_welcome(const GrblWelcome& welcome, double time_s) {
   version_ = (welcome.is_hal ? "grblHAL " : "Grbl ") + welcome.version;
+  ++n_welcomes_;
   pending_.clear();
-  asked_s_.reset();
-  first_unanswered_s_.reset();
-  n_missed_ = 0;
+  forget_questions();
   work_offset_mm_.clear();
   const bool was_expected = awaits_welcome_;
   awaits_welcome_ = false;
@@ -148,62 +145,6 @@ void GrblStage::take_welcome(const GrblWelcome& welcome, double time_s) {
         "the stage's controller restarted in the middle of the run (power dip, or its reset line); "
         "its position is lost. Check its supply, then start the run again");
   }
-}
-
-std::optional<double> GrblStage::reported_position_m(const GrblStatus& status) {
-  if (!status.work_offset_mm.empty()) work_offset_mm_ = status.work_offset_mm;
-  const auto i = static_cast<std::size_t>(axis_);
-  const double mm = setting(13, 0.0) != 0.0 ? 25.4 : 1.0;
-  if (i < status.machine_mm.size()) return toward_ * status.machine_mm[i] * mm * 1e-3;
-  if (i < status.work_mm.size() && i < work_offset_mm_.size()) {
-    return toward_ * (status.work_mm[i] + work_offset_mm_[i]) * mm * 1e-3;
-  }
-  return std::nullopt;  // work positions whose offset has not come yet
-}
-
-void GrblStage::take_status(const GrblStatus& status, double time_s) {
-  const double asked_s = first_unanswered_s_.value_or(time_s);
-  if (asked_s_ && asked_s_ == first_unanswered_s_) {
-    const double took_s = (time_s - *asked_s_) / clock_.speed();
-    latency_.mean_s += (took_s - latency_.mean_s) / ++latency_.n;
-    latency_.longest_s = std::max(latency_.longest_s, took_s);
-  }
-  asked_s_.reset();
-  first_unanswered_s_.reset();
-  n_missed_ = 0;
-  state_ = status.state;
-  const auto position = reported_position_m(status);
-  if (!position) return;
-  reported_m_ = *position + 0.0;  // no negative zero
-  ++n_reports_;
-  sink_(StageReport{time_s, reported_m_, state_});
-  if (active_) follow_move(asked_s, time_s);
-}
-
-void GrblStage::follow_move(double asked_s, double received_s) {
-  ActiveMove& active = *active_;
-  if (!active.is_stopping) active.tracker.reported(asked_s, received_s, reported_m_);
-  // An Idle that may be older than the ok says nothing about this move.
-  if (state_ != "Idle" || !active.has_ok || asked_s < active.ok_s) return;
-  const double target_m = active.tracker.move().to_m;
-  if (std::abs(reported_m_ - target_m) <= resolution_m()) return end_move(target_m);
-  if (active.is_stopping && asked_s >= active.stop_s) return end_move(reported_m_);
-  if (!active.is_stopping && ++active.n_rests_elsewhere >= kMostRestsElsewhere) {
-    const double here_mm = reported_m_ * 1e3;
-    active_.reset();
-    exact_m_.reset();
-    throw RigError("the stage stands at " + text_from_number(here_mm, 3) +
-                   " mm and did not reach " + text_from_number(target_m * 1e3, 3) +
-                   " mm. Look for an obstacle or a limit, then start the run again");
-  }
-}
-
-void GrblStage::end_move(double end_m) {
-  CommandedMove commanded = active_->tracker.best(end_m);
-  commanded.purpose = active_->purpose;
-  exact_m_ = end_m;
-  active_.reset();
-  sink_(commanded);
 }
 
 void GrblStage::begin_move(double to_m, double speed_m_s, const std::string& purpose) {
@@ -226,8 +167,9 @@ void GrblStage::begin_move(double to_m, double speed_m_s, const std::string& pur
   const StageMove move{written_s, from_m, to_m, feed_mm_min / 60e3, limits.acceleration_m_s2};
   validate(move);
   active_ = ActiveMove{MoveTracker(move, resolution_m()), purpose};
+  active_->progress_s = written_s;
   expected_end_s_ = written_s + duration_s(move);
-  next_poll_s_ = written_s + kPollMoving_s;
+  next_poll_s_ = written_s + kFirstPoll_s;
   send_line(format_grbl_jog(config_.axis, toward_ * to_m * 1e3, feed_mm_min), false);
 }
 
@@ -245,42 +187,6 @@ void GrblStage::stop_hard() {
   is_recovering_ = true;
   pending_.clear();
   exact_m_.reset();
-}
-
-void GrblStage::poll_status() {
-  const double now_s = clock_.now_s();
-  if (asked_s_ && now_s - *asked_s_ > clock_.from_wall_s(kStatusTimeout_wall_s)) {
-    asked_s_.reset();
-    ++latency_.n_lost;
-    if (++n_missed_ >= kMostMisses) {
-      throw RigError("the stage has stopped answering on '" + transport_.name() +
-                     "'. Check its cable and supply; it may still be moving");
-    }
-  }
-  watch_deadlines(now_s);
-  if (asked_s_ || now_s < next_poll_s_) return;
-  send_realtime(grbl::kStatus);
-  asked_s_ = now_s;
-  if (!first_unanswered_s_) first_unanswered_s_ = now_s;
-  next_poll_s_ = now_s + (active_ ? kPollMoving_s : kPollResting_s);
-  // Just after the expected end, so that standstill is noticed without delay.
-  if (active_ && expected_end_s_ > now_s) {
-    next_poll_s_ = std::min(next_poll_s_, expected_end_s_ + 2e-3);
-  }
-}
-
-void GrblStage::watch_deadlines(double now_s) {
-  if (!active_) return;
-  const double written_s = active_->tracker.move().start_time_s;
-  if (!active_->has_ok && now_s > written_s + clock_.from_wall_s(5.0)) {
-    throw RigError("the stage did not answer a move within 5 s. Check its cable and supply");
-  }
-  const double planned_s = duration_s(active_->tracker.move());
-  if (now_s > expected_end_s_ + 0.5 * planned_s + clock_.from_wall_s(5.0)) {
-    throw RigError("the stage should have come to rest " +
-                   text_from_number(now_s - expected_end_s_, 1) + " s ago and reports '" + state_ +
-                   "'. Switch it off and on, then start the run again");
-  }
 }
 
 }  // namespace viscard

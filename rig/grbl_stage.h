@@ -21,9 +21,10 @@ namespace viscard {
 // - a welcome after opening or a soft reset; everything before it is dropped;
 // - one "ok" or "error:N" per line, in order; all else is news and answers nothing;
 // - "ok" to a jog means queued: it has ended when a report that was asked for after the ok says
-// Idle,
-//   at the target;
-// - reports may be lost or late: one '?' outstanding, 250 ms, then another;
+//   Idle, at the target;
+// - reports may be lost, late, or come unasked: one '?' outstanding, 250 ms, then another, and an
+//   answer belongs to the oldest question that it can belong to;
+// - a line that stays unanswered at Idle may be held back by a hold nobody asked for: '~' frees it;
 // - after an alarm it may say nothing at all until 0x18.
 class GrblStage final : public Stage {
  public:
@@ -63,6 +64,10 @@ class GrblStage final : public Stage {
     bool is_stopping = false;
     double stop_s = 0.0;
     int n_rests_elsewhere = 0;
+    int n_astray = 0;               // reports in a row from outside its way
+    std::optional<double> stood_m;  // where the last report after a stop saw it at rest
+    double progress_s = 0.0;        // when a report last saw it elsewhere than the one before
+    bool is_nudged = false;
   };
 
   void send_line(const std::string& line, bool is_awaited);
@@ -72,18 +77,25 @@ class GrblStage final : public Stage {
   void take_alarm(int code, double time_s);
   void take_welcome(const GrblWelcome& welcome, double time_s);
   void take_status(const GrblStatus& status, double time_s);
+  std::optional<double> question_answered(double time_s);
   void follow_move(double asked_s, double received_s);
+  void watch_way();
+  void rest_elsewhere(double asked_s);
   void end_move(double end_m);
   void poll_status();
+  bool awaits_report(double now_s);
+  void nudge(double now_s);
   void watch_deadlines(double now_s);
   std::optional<double> reported_position_m(const GrblStatus& status);
   bool wait_for(const std::function<bool()>& is_there, const Pump& pump, double wall_s) const;
   void await_welcome(const Pump& pump);
+  void converse(const Pump& pump);
   void ask_position(const Pump& pump);
   void read_settings(const Pump& pump);
   void unlock(const Pump& pump);
   double setting(int number, double otherwise) const;
   double resolution_m() const;
+  void forget_questions();
   void note(double time_s, const std::string& name, const std::string& value,
             const std::string& text) const;
 
@@ -109,10 +121,11 @@ class GrblStage final : public Stage {
   std::optional<double> start_m_;  // where it stood at connect(): travel counts from here
   std::vector<double> work_offset_mm_;
   std::size_t n_reports_ = 0;
+  int n_welcomes_ = 0;
 
   bool polls_ = false;
-  std::optional<double> asked_s_;  // of the '?' not yet answered
-  std::optional<double> first_unanswered_s_;
+  std::deque<double> asked_s_;  // times of the '?' not yet answered, oldest first
+  bool is_last_missed_ = false;
   int n_missed_ = 0;
   ReportLatency latency_;
   double next_poll_s_ = 0.0;

@@ -48,7 +48,10 @@ void MoveTracker::reported(double asked_s, double received_s, double position_m)
     latest_s = std::min(latest_s, received_s - time_to_way_s(gone_m - resolution_m_));
   }
   // A report that contradicts the others (a late answer to an older question) changes nothing.
-  if (earliest_s > latest_s) return;
+  if (earliest_s > latest_s) {
+    ++n_contradictions_;
+    return;
+  }
   earliest_s_ = earliest_s;
   latest_s_ = latest_s;
 }

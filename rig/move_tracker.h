@@ -23,6 +23,8 @@ class MoveTracker {
   // been. end_m replaces its end where it was stopped on the way.
   CommandedMove best(double end_m) const;
   double latest_end_s() const;
+  // Reports that no start time can reconcile with the trapezoid.
+  int n_contradictions() const { return n_contradictions_; }
 
  private:
   double time_to_way_s(double way_m) const;
@@ -31,6 +33,7 @@ class MoveTracker {
   double resolution_m_;
   double earliest_s_;
   double latest_s_;
+  int n_contradictions_ = 0;
 };
 
 }  // namespace viscard

@@ -1,5 +1,6 @@
 #include "rig/run_session.h"
 
+#include "models/sample_force.h"
 #include "rig/text_number.h"
 
 #include <algorithm>
@@ -11,11 +12,9 @@ namespace {
 
 constexpr double kProgress_wall_s = 0.1;
 constexpr double kNap_wall_s = 0.005;
-// A silent stream stops a moving stage after three periods, but no sooner than stalls of an
-// ordinary machine (adapters hold bytes back for 16 ms, schedulers more) would explain.
-constexpr double kSilentPeriods = 3.0;
-constexpr double kSilence_wall_s = 0.25;
+// An emulated clock in a hurry makes seconds of every stall of the machine.
 constexpr double kSilenceEmulated_wall_s = 1.0;
+constexpr double kSilence_wall_s = 0.05;
 
 std::string in_N(double force_N) {
   return text_from_number(force_N, 3) + " N";
@@ -31,7 +30,8 @@ RunSession::RunSession(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
       sink_(sink),
       control_(control),
       clock_(*control.clock),
-      guard_(rig.safety, rig.calibration.capacity_N) {
+      guard_(rig.safety, rig.calibration.capacity_N),
+      silence_(clock_.speed() > 1.0 ? kSilenceEmulated_wall_s : kSilence_wall_s) {
   load_cell_.set_listener([this](const LoadSample& sample) { take_sample(sample); });
 }
 
@@ -52,24 +52,9 @@ void RunSession::pump() {
   if (!is_cell_lost_) transports.push_back(&load_cell_.transport());
   // Rig time may run faster than the wall: what is due then must not be slept over.
   wait_readable(transports, kNap_wall_s / std::clamp(clock_.speed() / 10.0, 1.0, 10.0));
-  if (!is_cell_lost_) {
-    try {
-      load_cell_.service();
-    } catch (const PortHungUp&) {
-      is_cell_lost_ = true;
-      if (is_armed_ && stage_.is_moving()) {
-        needs_recovery_ = true;
-        stage_.stop_hard();
-      }
-      if (is_armed_) throw;
-    }
-  }
-  try {
-    stage_.service();
-  } catch (const StageAlarm&) {
-    needs_recovery_ = true;
-    throw;
-  }
+  serve_cell();
+  serve_stage();
+  listen();
   if (is_armed_) {
     if (control_.stop != nullptr && *control_.stop) {
       throw RunInterrupted("the run was interrupted; what was recorded is kept");
@@ -80,23 +65,51 @@ void RunSession::pump() {
   report_progress();
 }
 
+// Whatever is wrong with the readings, a stage that moves without them is stopped at once. While
+// the rig is being made safe they are welcome but not needed.
+void RunSession::serve_cell() {
+  if (is_cell_lost_) return;
+  try {
+    load_cell_.service();
+  } catch (const std::exception& error) {
+    is_cell_lost_ = dynamic_cast<const PortHungUp*>(&error) != nullptr;
+    if (!is_armed_) return;
+    if (stage_.is_moving()) {
+      needs_recovery_ = true;
+      stage_.stop_hard();
+    }
+    throw;
+  }
+}
+
+void RunSession::serve_stage() {
+  try {
+    stage_.service();
+  } catch (const StageAlarm&) {
+    needs_recovery_ = true;
+    throw;
+  } catch (const DeviceRestarted&) {
+    needs_recovery_ = true;
+    is_place_lost_ = true;
+    throw;
+  }
+}
+
+void RunSession::listen() {
+  const double arrival_s = load_cell_.last_arrival_s();
+  silence_.pass(monotonic_s(), arrival_s != heard_s_, stage_.is_moving());
+  heard_s_ = arrival_s;
+}
+
 void RunSession::pump_until(double time_s) {
   while (clock_.now_s() < time_s) pump();
 }
 
-double RunSession::force_from(const LoadSample& sample) const {
-  const double volts = sample.volts    ? *sample.volts
-                       : sample.counts ? *sample.counts * rig_.load_cell.volts_per_count
-                                       : 0.0;
-  const double force_N = force_N_from_volts(rig_.calibration, volts);
-  return rig_.load_cell.compression_is_positive ? force_N : -force_N;
-}
-
 void RunSession::take_sample(const LoadSample& sample) {
-  const double absolute_N = force_from(sample);
+  const std::optional<double> reading_N = force_N_from_sample(sample, rig_);
+  const double absolute_N = reading_N.value_or(tare_N_);
   const double force_N = absolute_N - tare_N_;
-  const bool is_doubtful =
-      sample.is_glitch || sample.is_saturated || (!sample.counts && !sample.volts);
+  const bool is_doubtful = sample.is_glitch || sample.is_saturated || !reading_N;
   if (!is_doubtful) {
     force_N_ = force_N;
     peak_force_N_ = std::max(peak_force_N_, force_N);
@@ -107,6 +120,7 @@ void RunSession::take_sample(const LoadSample& sample) {
       collected_until_s_ = made_at_s;
     }
   }
+  watch_spikes(sample, is_doubtful);
   if (!is_armed_ && !is_stopping_) return;
   const GuardAction action =
       guard_.take(force_N, is_doubtful, sample.host_time_s, load_cell_.period_s());
@@ -116,6 +130,17 @@ void RunSession::take_sample(const LoadSample& sample) {
   needs_recovery_ = true;
   stage_.stop_hard();
   event("limit", "hard", "The force still rose to " + in_N(force_N) + ": the stage was reset");
+}
+
+// Marked, not dropped: what was received stays in the record as it came.
+void RunSession::watch_spikes(const LoadSample& sample, bool is_doubtful) {
+  if (is_doubtful) return spikes_.interrupt();
+  const auto spike = spikes_.take(sample.index, sample.counts ? *sample.counts : *sample.volts);
+  if (!spike) return;
+  ++n_implausible_;
+  event("implausible", std::to_string(*spike),
+        "Reading " + std::to_string(*spike) +
+            " of the load cell stands out of its neighbours: a garbled digit, or a knock");
 }
 
 void RunSession::act_on(GuardAction action, double force_N) {
@@ -149,13 +174,14 @@ void RunSession::act_on(GuardAction action, double force_N) {
 
 void RunSession::check_stream() {
   if (!is_cell_connected_ || !stage_.is_moving()) return;
-  const double floor_s =
-      clock_.from_wall_s(clock_.speed() > 1.0 ? kSilenceEmulated_wall_s : kSilence_wall_s);
-  const double silent_s = clock_.now_s() - load_cell_.last_arrival_s();
-  if (silent_s < std::max(kSilentPeriods * load_cell_.period_s(), floor_s)) return;
+  const double period_s = load_cell_.period_s() / clock_.speed();
+  if (!silence_.is_silent(period_s)) return;
   needs_recovery_ = true;
   stage_.stop_hard();
-  event("limit", "silent", "No reading of the load cell while the stage moved: it was reset");
+  event("limit", "silent",
+        "No reading of the load cell for " + text_from_number(silence_.silent_s(), 3) +
+            " s while the stage moved, which may be " +
+            text_from_number(silence_.limit_s(period_s), 3) + " s: it was reset");
   throw RigError(
       "the load cell fell silent while the stage was moving; the stage was stopped. Check "
       "the amplifier and its cable, then start the run again");

@@ -5,6 +5,8 @@
 #include "rig/load_cell.h"
 #include "rig/rig_error.h"
 #include "rig/run_control.h"
+#include "rig/silence_watch.h"
+#include "rig/spike_watch.h"
 #include "rig/stage.h"
 
 #include <optional>
@@ -71,14 +73,19 @@ class RunSession {
 
   double force_N() const { return force_N_; }
   double peak_force_N() const { return peak_force_N_; }
+  // Readings marked by an event "implausible" because they stand out of their neighbours.
+  int n_implausible() const { return n_implausible_; }
 
  private:
+  void serve_cell();
+  void serve_stage();
   void take_sample(const LoadSample& sample);
+  void watch_spikes(const LoadSample& sample, bool is_doubtful);
   void act_on(GuardAction action, double force_N);
+  void listen();
   void check_stream();
   void report_progress();
-  double force_from(const LoadSample& sample) const;
-  void lift(double retract_to_m, double speed_m_s);
+  std::string lift(double retract_to_m, double speed_m_s);
 
   Stage& stage_;
   LoadCell& load_cell_;
@@ -93,6 +100,11 @@ class RunSession {
   bool is_cell_lost_ = false;
   bool is_stopping_ = false;     // while a gentle stop is under way: does it suffice?
   bool needs_recovery_ = false;  // the stage was reset or locked itself
+  bool is_place_lost_ = false;   // the stage started anew: its positions mean nothing any more
+  SilenceWatch silence_;
+  SpikeWatch spikes_;
+  int n_implausible_ = 0;
+  double heard_s_ = 0.0;  // arrival of the last reading that silence_ knows of
   double tare_N_ = 0.0;
   double force_N_ = 0.0;
   double peak_force_N_ = 0.0;
