@@ -1,5 +1,7 @@
 #include "fit/indentation_from_capture.h"
 
+#include "models/sample_force.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -15,14 +17,14 @@ const CommandedMove* first_move(const CapturedRun& run, const std::string& purpo
   return nullptr;
 }
 
-double volts_of(const LoadSample& sample, const RigConfig& rig) {
-  if (sample.volts) return *sample.volts;
-  if (!(std::abs(rig.load_cell.volts_per_count) > 0.0)) {
+double force_of(const LoadSample& sample, const RigConfig& rig) {
+  const std::optional<double> force_N = force_N_from_sample(sample, rig);
+  if (!force_N) {
     throw std::runtime_error(
         "the capture holds raw counts, but its rig says no volts_per_count. Add "
         "it under [load_cell] in the rig file");
   }
-  return sample.counts.value_or(0.0) * rig.load_cell.volts_per_count;
+  return *force_N;
 }
 
 struct Readings {
@@ -34,19 +36,18 @@ Readings good_readings(const CapturedRun& run, IndentationData& data) {
   const bool has_clock =
       std::all_of(run.load_samples.begin(), run.load_samples.end(),
                   [](const LoadSample& s) { return s.device_time_s.has_value(); });
-  const double sign = run.rig.load_cell.compression_is_positive ? 1.0 : -1.0;
   double last_clock = -1e300;
   for (const LoadSample& sample : run.load_samples) {
     if (sample.is_saturated) ++data.n_saturated;
     if (sample.is_glitch) ++data.n_glitch;
-    if (sample.is_saturated || sample.is_glitch || !(sample.volts || sample.counts)) continue;
+    if (sample.is_saturated || sample.is_glitch) continue;
+    if (!sample.volts && !sample.counts && !sample.force_N) continue;
     const double clock = has_clock ? *sample.device_time_s : static_cast<double>(sample.index);
     if (!(clock > last_clock)) continue;  // a repeated reading
     last_clock = clock;
     readings.clock_s.push_back(clock);
     readings.host_s.push_back(sample.host_time_s);
-    readings.force_N.push_back(sign *
-                               force_N_from_volts(run.rig.calibration, volts_of(sample, run.rig)));
+    readings.force_N.push_back(force_of(sample, run.rig));
   }
   return readings;
 }

@@ -43,7 +43,7 @@ CaptureDatabase::CaptureDatabase(const std::filesystem::path& path, const Captur
     : database_(path, Database::Access::kReadWrite) {
   create(path, about);
   raw_.emplace(database_.prepare("INSERT INTO raw_bytes VALUES(?,?,?,?,?)"));
-  sample_.emplace(database_.prepare("INSERT INTO load_samples VALUES(?,?,?,?,?,?,?,?)"));
+  sample_.emplace(database_.prepare("INSERT INTO load_samples VALUES(?,?,?,?,?,?,?,?,?)"));
   report_.emplace(database_.prepare("INSERT INTO stage_reports VALUES(?,?,?,?)"));
   move_.emplace(database_.prepare("INSERT INTO moves VALUES(?,?,?,?,?,?,?,?)"));
   event_.emplace(database_.prepare("INSERT INTO events VALUES(?,?,?,?,?)"));
@@ -122,7 +122,8 @@ void CaptureDatabase::insert(const RawBytes& raw) {
 void CaptureDatabase::insert(const LoadSample& sample) {
   sample_->bind(1, seq_).bind(2, sample.index).bind(3, sample.host_time_s);
   sample_->bind(4, sample.device_time_s).bind(5, sample.counts).bind(6, sample.volts);
-  sample_->bind(7, sample.is_saturated).bind(8, sample.is_glitch).run();
+  sample_->bind(7, sample.is_saturated).bind(8, sample.is_glitch);
+  sample_->bind(9, sample.force_N).run();
 }
 
 void CaptureDatabase::insert(const StageReport& report) {

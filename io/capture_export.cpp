@@ -4,6 +4,7 @@
 #include "io/units.h"
 #include "models/calibration.h"
 #include "models/motion_profile.h"
+#include "models/sample_force.h"
 
 #include <fmt/format.h>
 
@@ -88,7 +89,7 @@ class SampleRows {
 
   void append(Buffer& out, const LoadSample& sample) {
     const std::optional<double> volts = volts_of(sample);
-    const std::optional<double> force_N = force_of(volts);
+    const std::optional<double> force_N = force_of(sample);
     append_cell(out, sample.host_time_s);
     append_cell(out, sample.device_time_s);
     append_cell(out, sample.counts);
@@ -104,14 +105,11 @@ class SampleRows {
 
  private:
   std::optional<double> volts_of(const LoadSample& sample) const {
-    if (sample.volts) return sample.volts;
-    if (!sample.counts || run_.rig.load_cell.volts_per_count == 0.0) return std::nullopt;
-    return *sample.counts * run_.rig.load_cell.volts_per_count;
+    return sample.force_N ? std::nullopt : reading_from_sample(sample, run_.rig.load_cell);
   }
-  std::optional<double> force_of(const std::optional<double>& volts) const {
-    if (!volts) return std::nullopt;
-    const double sign = run_.rig.load_cell.compression_is_positive ? 1.0 : -1.0;
-    return sign * force_N_from_volts(run_.rig.calibration, *volts) - tare_N_;
+  std::optional<double> force_of(const LoadSample& sample) const {
+    const std::optional<double> force_N = force_N_from_sample(sample, run_.rig);
+    return force_N ? std::optional(*force_N - tare_N_) : std::nullopt;
   }
   std::optional<double> depth_of(double stage_m, const std::optional<double>& force_N) const {
     if (!force_N) return std::nullopt;

@@ -143,13 +143,15 @@ std::string run_value(Database& database, const char* key) {
 }
 
 void read_samples(Database& database, CapturedRun& run) {
-  Statement row = database.prepare(
-      "SELECT sample_index, host_time_s, device_time_s, counts, volts, is_saturated, is_glitch "
-      "FROM load_samples ORDER BY seq");
+  const bool has_force = database.text_of("PRAGMA user_version") != "1";
+  const std::string columns =
+      "SELECT sample_index, host_time_s, device_time_s, counts, volts, is_saturated, is_glitch, ";
+  const std::string from = " FROM load_samples ORDER BY seq";
+  Statement row = database.prepare((columns + (has_force ? "force_N" : "NULL") + from).c_str());
   while (row.step()) {
     run.load_samples.push_back({row.integer(0), row.number(1), row.maybe_number(2),
                                 row.maybe_number(3), row.maybe_number(4), row.integer(5) != 0,
-                                row.integer(6) != 0});
+                                row.integer(6) != 0, row.maybe_number(7)});
   }
 }
 

@@ -1,5 +1,7 @@
 #include "io/report_run.h"
 
+#include "models/sample_force.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -75,10 +77,7 @@ std::vector<double> depths(const CapturedRun& run, const RunSeries& series, doub
 }  // namespace
 
 double volts_of(const LoadSample& sample, const RigConfig& rig) {
-  if (sample.volts) return *sample.volts;
-  if (sample.counts && rig.load_cell.volts_per_count != 0.0) {
-    return *sample.counts * rig.load_cell.volts_per_count;
-  }
+  if (const auto reading = reading_from_sample(sample, rig.load_cell)) return *reading;
   return std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -28,7 +28,7 @@ struct RunSeries {
 RunSeries series_from_run(const CapturedRun& run, std::optional<double> contact_position_m,
                           const std::vector<double>& motion_start_s = {});
 
-// The volts of one reading: as sent, or counts times volts per count; NaN if neither is known.
+// One reading in the unit of the calibration (models/sample_force.h); NaN if there is none.
 double volts_of(const LoadSample& sample, const RigConfig& rig);
 
 }  // namespace viscard

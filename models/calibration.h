@@ -6,7 +6,9 @@ namespace viscard {
 
 // Straight-line calibration of a load cell behind an amplifier:
 //   volts = counts * volts_per_count,   force = (volts - zero_volts)/volts_per_newton.
-// The seed rig's cell gives 0.7255 V/N after its amplifier.
+// The seed rig's cell gives 0.7255 V/N after its amplifier. An instrument that sends a force by
+// itself (a force gauge) takes the place of volts with its own newtons: the gain is then a pure
+// number near 1, and the zero is in N.
 struct LoadCellCalibration {
   double volts_per_newton = 0.0;    // V/N
   double volts_per_newton_u = 0.0;  // standard uncertainty, V/N

@@ -33,6 +33,7 @@ struct LoadSample {
   std::optional<double> volts;   // ... or volts, whichever the device sends
   bool is_saturated = false;     // converter at an end of its range
   bool is_glitch = false;        // a code the converter makes when its read is interrupted
+  std::optional<double> force_N = {};  // ... or a force, from an instrument that knows its own gain
 };
 
 // One status report of the stage. Positions grow toward the specimen.

@@ -1,5 +1,6 @@
 #include "rig/rig_check.h"
 
+#include "models/sample_force.h"
 #include "rig/rig_error.h"
 #include "rig/text_number.h"
 
@@ -71,10 +72,9 @@ RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, cons
     readings.last_made_s = made_s;
     readings.shortest_delay_s = std::min(readings.shortest_delay_s, delay_s);
     readings.longest_delay_s = std::max(readings.longest_delay_s, delay_s);
-    if (sample.is_glitch || sample.is_saturated || (!sample.counts && !sample.volts)) return;
-    const double volts =
-        sample.volts ? *sample.volts : *sample.counts * rig.load_cell.volts_per_count;
-    readings.force_N.push_back(force_N_from_volts(rig.calibration, volts));
+    const std::optional<double> force_N = force_N_from_sample(sample, rig);
+    if (sample.is_glitch || sample.is_saturated || !force_N) return;
+    readings.force_N.push_back(*force_N);
   });
   const double end_s = clock.now_s() + duration_s;
   while (clock.now_s() < end_s) pump();

@@ -31,6 +31,10 @@ void write_one_of_each(CaptureWriter& writer) {
   volts.is_saturated = true;
   volts.is_glitch = true;
   writer.append(volts);
+  LoadSample gauge;
+  gauge.index = 2;
+  gauge.force_N = 1.0 / 7.0;
+  writer.append(gauge);
   writer.append(StageReport{0.3, 1e-3 / 7.0, "Jog"});
   writer.append(CommandedMove{{0.25, 0.0, 1.5e-4, 1.3e-4, 0.2}, 0.02, "ramp"});
 }
@@ -54,7 +58,7 @@ TEST_CASE("a finished capture reads back as it was written, bit for bit", "[io][
   CHECK(toml_from_rig(run.rig) == toml_from_rig(demo_run().rig));
   CHECK(toml_from_test(run.plan) == toml_from_test(demo_run().plan));
   CHECK(toml_from_specimen(run.specimen) == toml_from_specimen(demo_run().specimen));
-  REQUIRE(run.load_samples.size() == 2);
+  REQUIRE(run.load_samples.size() == 3);
   CHECK(run.load_samples[0].counts == 1000.0);
   CHECK(run.load_samples[0].device_time_s == 0.1);
   CHECK_FALSE(run.load_samples[0].volts.has_value());
@@ -64,6 +68,8 @@ TEST_CASE("a finished capture reads back as it was written, bit for bit", "[io][
   CHECK(run.load_samples[1].volts == -0.1);
   CHECK(run.load_samples[1].is_saturated);
   CHECK(run.load_samples[1].is_glitch);
+  CHECK(run.load_samples[2].force_N == 1.0 / 7.0);
+  CHECK_FALSE(run.load_samples[1].force_N.has_value());
   REQUIRE(run.stage_reports.size() == 1);
   CHECK(run.stage_reports[0].position_m == 1e-3 / 7.0);
   CHECK(run.stage_reports[0].state == "Jog");
