@@ -7,9 +7,22 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace viscard {
 namespace {
+
+// Rounding in a stiff system (a slender body, a stiff volume) may hold residuals above the
+// tolerance. Values whose residual is below this, so that their own error is below its square, and
+// that have stopped moving, are taken.
+constexpr double kSettledResidual = 1e-4;
+constexpr double kSettledChange = 1e-11;
+
+bool is_settled(const EigenPairs& now, const EigenPairs& before) {
+  return now.residual <= kSettledResidual && before.values.size() == now.values.size() &&
+         ((now.values - before.values).array().abs() <= kSettledChange * now.values.array().abs())
+             .all();
+}
 
 // Grows a B-orthonormal basis and keeps what has been applied to it.
 class KrylovSpace {
@@ -54,13 +67,15 @@ class KrylovSpace {
     pairs.values = solver.eigenvalues().tail(n).reverse();
     const Eigen::MatrixXd coefficient = solver.eigenvectors().rightCols(n).rowwise().reverse();
     pairs.vectors = basis_.leftCols(count_) * coefficient;
-    pairs.converged = n == wanted;
-    for (int i = 0; i < n && pairs.converged; ++i) {
+    if (n < wanted) return pairs;
+    pairs.residual = 0.0;
+    for (int i = 0; i < n && pairs.residual <= kSettledResidual; ++i) {
       const Eigen::VectorXd residual =
           image_.leftCols(count_) * coefficient.col(i) - pairs.values[i] * pairs.vectors.col(i);
       const double size = std::sqrt(std::abs(residual.dot(B_(residual))));
-      pairs.converged = size <= tolerance * std::abs(pairs.values[i]);
+      pairs.residual = std::max(pairs.residual, size / std::abs(pairs.values[i]));
     }
+    pairs.converged = pairs.residual <= tolerance;
     return pairs;
   }
 
@@ -100,7 +115,9 @@ EigenPairs largest_eigenpairs(const LinearMap& op, const LinearMap& B, int size,
     for (; next < end; ++next) grew = space.add(space.image(next)) || grew;
     const bool is_full = !grew && !add_random();
     if (space.count() >= next_check || is_full) {
+      const EigenPairs before = std::move(pairs);
       pairs = space.ritz(count, options.tolerance);
+      pairs.converged = pairs.converged || is_settled(pairs, before);
       next_check = space.count() + std::max(2 * options.block, count / 2);
       if (is_full) break;
     }

@@ -13,6 +13,7 @@ namespace viscard {
 struct EigenPairs {
   Eigen::VectorXd values;   // descending
   Eigen::MatrixXd vectors;  // columns, v'Bv = 1
+  double residual = 1.0;    // largest, over its value
   bool converged = false;
 };
 
