@@ -3,6 +3,7 @@
 #include "rig/text_number.h"
 
 #include <cmath>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -140,6 +141,7 @@ void GrblStage::recover(const Pump& pump) {
   is_recovering_ = true;
   polls_ = false;
   forget_questions();
+  const auto cut_short = std::exchange(active_, std::nullopt);  // not to be waited for any more
   const auto is_there = [&] { return !awaits_welcome_; };
   bool is_welcome = has_reset && wait_for(is_there, pump, kReset_wall_s);
   for (int i = 0; i < kResets && !is_welcome; ++i) {
@@ -156,7 +158,7 @@ void GrblStage::recover(const Pump& pump) {
   command("$X", pump);
   ask_position(pump);
   exact_m_ = reported_m_;
-  if (active_) end_move(reported_m_);
+  if (cut_short) hand_out(*cut_short, reported_m_);
   is_recovering_ = false;
 }
 

@@ -160,7 +160,7 @@ std::string format_grbl_jog(char axis, double target_mm, double feed_mm_min) {
 }
 
 std::string grbl_error_text(int code) {
-  static constexpr std::array<std::pair<int, const char*>, 16> kTexts{
+  static constexpr std::array<std::pair<int, const char*>, 17> kTexts{
       {{1, "a letter was expected"},
        {2, "a number could not be read"},
        {3, "the '$' command is unknown to this firmware"},
@@ -171,6 +171,7 @@ std::string grbl_error_text(int code) {
        {9, "the stage is locked by an alarm: unlock it with $X after checking it"},
        {10, "soft limits need homing: set $22=1"},
        {11, "the line is too long"},
+       {13, "the safety door is open: close it"},
        {14, "a settings line is too long"},
        {15, "the target is beyond the stage's travel ($130-132)"},
        {16, "a word that jogging does not take"},

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -123,16 +124,21 @@ void GrblStage::rest_elsewhere(double asked_s) {
 }
 
 void GrblStage::end_move(double end_m) {
-  CommandedMove commanded = active_->tracker.best(end_m);
-  commanded.purpose = active_->purpose;
-  if (const int n = active_->tracker.n_contradictions(); n >= 2) {
-    note(clock_.now_s(), "move_doubtful", active_->purpose,
+  const ActiveMove ended = std::move(*active_);
+  active_.reset();
+  hand_out(ended, end_m);
+}
+
+void GrblStage::hand_out(const ActiveMove& ended, double end_m) {
+  exact_m_ = end_m;
+  CommandedMove commanded = ended.tracker.best(end_m);
+  commanded.purpose = ended.purpose;
+  if (const int n = ended.tracker.n_contradictions(); n >= 2) {
+    note(clock_.now_s(), "move_doubtful", ended.purpose,
          std::to_string(n) +
              " position reports do not agree with the speed and acceleration that "
              "the controller's settings promise: the move was slower or faster");
   }
-  exact_m_ = end_m;
-  active_.reset();
   sink_(commanded);
 }
 

@@ -82,6 +82,7 @@ class GrblStage final : public Stage {
   void watch_way();
   void rest_elsewhere(double asked_s);
   void end_move(double end_m);
+  void hand_out(const ActiveMove& ended, double end_m);
   void poll_status();
   bool awaits_report(double now_s);
   void nudge(double now_s);

@@ -172,6 +172,9 @@ bool Hx711LoadCell::take_clock(double ticks, double time_s) {
       throw DeviceRestarted(
           "the load cell's amplifier restarted in the middle of the run (its clock began anew); "
           "its tare is gone. Check its supply, then start the run again");
+    case DeviceClock::Verdict::kLastWasBad:
+      doubt_last(time_s);
+      break;
     case DeviceClock::Verdict::kGood:
       break;
   }
@@ -183,7 +186,18 @@ bool Hx711LoadCell::take_clock(double ticks, double time_s) {
   return true;
 }
 
+// The time of the reading before was garbled so that it seemed to follow a gap.
+void Hx711LoadCell::doubt_last(double time_s) {
+  const std::int64_t index = counts_.received - 1;
+  ++counts_.implausible;
+  counts_.missing -= last_missing_;
+  sink_(RunEvent{time_s, "implausible", std::to_string(index),
+                 "Reading " + std::to_string(index) +
+                     " of the load cell came with a time that the next one contradicts"});
+}
+
 void Hx711LoadCell::note_gap(double step_s, double time_s) {
+  last_missing_ = 0;
   if (step_s > counts_.longest_gap_s) {
     counts_.longest_gap_s = step_s;
     counts_.longest_gap_at_s = time_s;
@@ -195,6 +209,7 @@ void Hx711LoadCell::note_gap(double step_s, double time_s) {
   if (step_s <= least_s) return;
   const auto n_missing = static_cast<std::int64_t>(std::llround(step_s / period_s_)) - 1;
   counts_.missing += n_missing;
+  last_missing_ = n_missing;
   sink_(RunEvent{time_s, "gap", text_from_number(step_s, 6),
                  std::to_string(n_missing) + " readings of the load cell are missing"});
 }

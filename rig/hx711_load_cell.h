@@ -37,6 +37,7 @@ class Hx711LoadCell final : public LoadCell {
   void take_reading(const Hx711Line& reading, double time_s);
   void take_text(const ReceivedLine& line);
   bool take_clock(double ticks, double time_s);
+  void doubt_last(double time_s);
   void note_gap(double step_s, double time_s);
   void hand_out(const Hx711Line& reading, double time_s);
   bool has_clock() const {
@@ -56,6 +57,7 @@ class Hx711LoadCell final : public LoadCell {
   std::optional<double> previous_counts_;
   std::string unit_;
   StreamCounts counts_;
+  std::int64_t last_missing_ = 0;  // by the gap before the newest reading
   double last_arrival_s_ = 0.0;
 };
 

@@ -17,7 +17,8 @@ struct StreamCounts {
   std::int64_t duplicate = 0;  // the same device time twice: not handed out
   std::int64_t glitch = 0;
   std::int64_t saturated = 0;
-  std::int64_t unreadable = 0;  // lines that are no reading
+  std::int64_t unreadable = 0;   // lines that are no reading
+  std::int64_t implausible = 0;  // handed out, and marked by an event "implausible" afterwards
   double longest_gap_s = 0.0;
   double longest_gap_at_s = 0.0;  // host time at its end
 

@@ -177,6 +177,7 @@ double IndentationRun::safe_position_m() const {
 void conclude(RunSession& session, RunOutcome& outcome) {
   outcome.peak_force_N = session.peak_force_N();
   outcome.stream = session.load_cell().counts();
+  outcome.stream.implausible += session.n_implausible();
   try {
     session.event(outcome.status, outcome.reason.empty() ? "" : "reason",
                   outcome.reason.empty() ? "The run is complete" : outcome.reason);

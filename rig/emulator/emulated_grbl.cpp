@@ -21,17 +21,28 @@ EmulatedGrbl::EmulatedGrbl(const EmulatedTruth& truth, char axis, int toward_spe
       axis_(axis == 'X' ? 0 : (axis == 'Y' ? 1 : 2)),
       toward_(toward_specimen < 0 ? -1.0 : 1.0),
       motion_(truth.steps_per_m, 0.0) {
-  settings_ = {{0, 10},   {1, 255},
-               {2, 0},    {3, 0},
-               {4, 0},    {5, 0},
-               {6, 0},    {10, habits.reports_work_position ? 0.0 : 1.0},
-               {11, .01}, {12, .002},
-               {13, 0},   {20, 0},
-               {21, 0},   {22, habits.is_homing_enabled ? 1.0 : 0.0},
-               {23, 0},   {24, 25},
-               {25, 500}, {26, 250},
-               {27, 1},   {30, 1000},
-               {31, 0},   {32, 0}};
+  settings_ = {{0, 10},
+               {1, 255},
+               {2, 0},
+               {3, 0},
+               {4, 0},
+               {5, 0},
+               {6, 0},
+               {10, habits.reports_work_position ? 0.0 : 1.0},
+               {11, .01},
+               {12, .002},
+               {13, habits.reports_inches ? 1.0 : 0.0},
+               {20, 0},
+               {21, 0},
+               {22, habits.is_homing_enabled ? 1.0 : 0.0},
+               {23, 0},
+               {24, 25},
+               {25, 500},
+               {26, 250},
+               {27, 1},
+               {30, 1000},
+               {31, 0},
+               {32, 0}};
   for (int i = 0; i < 3; ++i) {
     settings_[100 + i] = truth.steps_per_m * 1e-3;
     settings_[110 + i] = truth.max_rate_m_s * 60e3;
@@ -62,6 +73,7 @@ void EmulatedGrbl::reset(double time_s) {
   machine_origin_m_ = motion_.position_m(time_s);  // a power-up counts from where it stands
   is_homed_ = false;
   answers_.clear();
+  late_reports_.clear();
   output_.clear();
   if (habits_.has_empty_eeprom && !is_eeprom_dumped_) {
     output_ = "error:7\r\n" + settings_text();
@@ -75,11 +87,16 @@ void EmulatedGrbl::reset(double time_s) {
 void EmulatedGrbl::welcome() {
   queue_.clear();
   held_target_m_.reset();
+  held_lines_.clear();
+  is_held_ = false;
   is_cancelling_ = false;
   begun_line_.clear();
   output_ += habits_.is_hal ? "\r\nGrblHAL 1.1f ['$' or '$HELP' for help]\r\n"
                             : "\r\nGrbl 1.1h ['$' for help]\r\n";
   if (state_ == "Alarm") output_ += "[MSG:'$H'|'$X' to unlock]\r\n";
+  if (habits_.has_startup_block) output_ += ">G54G21:ok\r\n";
+  // gnea/grbl: settings that had to be restored make the stored start-up lines unreadable too.
+  if (habits_.has_empty_eeprom) output_ += ">:error:7\r\n>:error:7\r\n";
 }
 
 void EmulatedGrbl::soft_reset(double time_s) {
@@ -103,6 +120,7 @@ void EmulatedGrbl::hit_limit(double time_s) {
   answers_.clear();
   state_ = "Alarm";
   is_silent_ = true;
+  is_on_switch_ = !is_on_switch_;
   output_ += "ALARM:1\r\n[MSG:Reset to continue]\r\n";
 }
 
@@ -113,7 +131,7 @@ void EmulatedGrbl::receive(std::string_view bytes, double time_s) {
     if (is_realtime) {
       realtime(c, time_s);
     } else if (c == '\n' || c == '\r') {
-      line(std::exchange(begun_line_, {}), time_s);
+      take(std::exchange(begun_line_, {}), time_s);
     } else if (begun_line_.size() <= kLineLength) {
       if (c != ' ') begun_line_ += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     }
@@ -127,7 +145,7 @@ void EmulatedGrbl::realtime(char c, double time_s) {
     ++n_status_;
     const bool is_lost =
         habits_.lose_status_every > 0 && n_status_ % habits_.lose_status_every == 0;
-    if (state_ != "Home" && !is_lost) output_ += status(time_s);
+    if (state_ != "Home" && !is_lost) report(time_s);
   } else if (c == grbl::kJogCancel && state_ == "Jog") {
     queue_.clear();
     motion_.stop_gently(time_s, acceleration_m_s2_);
@@ -140,8 +158,30 @@ void EmulatedGrbl::realtime(char c, double time_s) {
       queue_.clear();
       motion_.stop_gently(time_s, acceleration_m_s2_);
     }
-  } else if (c == grbl::kResume && state_ == "Hold") {
-    state_ = "Idle";
+  } else if (c == grbl::kResume) {
+    if (state_ == "Hold") state_ = "Idle";
+    is_held_ = false;
+    while (!is_held_ && !held_lines_.empty()) {
+      const std::string text = std::move(held_lines_.front());
+      held_lines_.pop_front();
+      line(text, time_s);
+    }
+  }
+}
+
+void EmulatedGrbl::report(double time_s) {
+  const std::string text = status(time_s);
+  late_reports_.push_back({time_s + habits_.status_delay_s, text});
+  if (habits_.reports_twice) late_reports_.push_back(late_reports_.back());
+  tick(time_s);
+}
+
+// A controller on hold keeps lines in its buffer until it is told to go on.
+void EmulatedGrbl::take(std::string text, double time_s) {
+  if (is_held_ || state_ == "Hold") {
+    held_lines_.push_back(std::move(text));
+  } else {
+    line(std::move(text), time_s);
   }
 }
 
@@ -150,6 +190,7 @@ void EmulatedGrbl::answer(double time_s, const std::string& text) {
 }
 
 void EmulatedGrbl::ok(double time_s) {
+  if (++n_oks_ == habits_.lose_ok_number) return;
   answer(time_s, habits_.answers_twice ? "ok\r\nok\r\n" : "ok\r\n");
 }
 
@@ -184,7 +225,8 @@ void EmulatedGrbl::tick(double time_s) {
       break;
     }
     if (queue_.empty()) {
-      if (state_ == "Jog") state_ = "Idle";
+      if (state_ == "Jog" && !habits_.never_rests) state_ = "Idle";
+      if (is_cancelling_ && habits_.holds_after_cancel) is_held_ = true;
       is_cancelling_ = false;
       break;
     }
@@ -192,11 +234,17 @@ void EmulatedGrbl::tick(double time_s) {
     queue_.pop_front();
     move_speed_m_s_ = move.speed_m_s;
     // Its predecessor's end, where there was one: the position has not been asked for beyond.
-    motion_.start(time_s, move.to_m, move.speed_m_s, acceleration_m_s2_);
+    motion_.start(time_s, move.to_m, move.speed_m_s * habits_.true_speed, acceleration_m_s2_);
+    // The switch is left at once, and its pin changes on the way back too.
+    if (is_on_switch_ && habits_.alarms_again) return hit_limit(time_s);
   }
   while (!answers_.empty() && answers_.front().due_s <= time_s) {
     output_ += answers_.front().text;
     answers_.pop_front();
+  }
+  while (!late_reports_.empty() && late_reports_.front().due_s <= time_s) {
+    output_ += late_reports_.front().text;
+    late_reports_.pop_front();
   }
 }
 

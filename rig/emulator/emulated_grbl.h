@@ -21,6 +21,18 @@ struct GrblHabits {
   double ok_delay_s = 0.0;             // until the answer to a line is sent
   bool answers_twice = false;          // every ok comes twice
   bool reports_work_position = false;  // $10=0
+  bool reports_inches = false;         // $13=1
+  double status_delay_s = 0.0;         // until the answer to '?' is sent
+  bool reports_twice = false;          // every '?' is answered by two lines
+  bool has_startup_block = false;      // a block run at start: ">G54G21:ok" behind the welcome
+  int lose_ok_number = 0;              // the n-th ok is never sent
+  int refuse_jog_number = 0;           // the n-th jog is answered by error:15
+  int misread_jog_number = 0;          // the n-th jog goes 1 mm further than it says
+  bool alarms_again = false;           // the move off a limit switch opens it, and that alarms too
+  bool holds_after_cancel = false;     // a jog cancel leaves it held at Idle until '~'
+  bool never_rests = false;            // says Jog long after a move has ended
+  bool refuses_unlock = false;         // $X is answered by error:13 (the safety door is open)
+  double true_speed = 1.0;             // speed of a move over what was asked for
 };
 
 // The controller of the stage as seen on its wire: a character machine with the states, answers,
@@ -63,6 +75,8 @@ class EmulatedGrbl {
   void home(double time_s);
   void set(std::string_view words, double time_s);
   void soft_reset(double time_s);
+  void take(std::string text, double time_s);
+  void report(double time_s);
   void answer(double time_s, const std::string& text);
   void ok(double time_s);
   void error(double time_s, int code);
@@ -90,9 +104,12 @@ class EmulatedGrbl {
   std::optional<double> held_target_m_;
   double move_speed_m_s_ = 0.0;
   std::string begun_line_;
-  std::deque<Answer> answers_;
+  std::deque<Answer> answers_, late_reports_;
+  std::deque<std::string> held_lines_;
+  bool is_held_ = false;       // takes no line although it says Idle
+  bool is_on_switch_ = false;  // a limit switch was hit and has not been left
   std::string output_;
-  int n_status_ = 0;
+  int n_status_ = 0, n_oks_ = 0, n_jogs_ = 0;
 };
 
 }  // namespace viscard

@@ -58,6 +58,7 @@ JogWords parse_jog(std::string_view words, char axis) {
 void EmulatedGrbl::dollar(const std::string& text, double time_s) {
   if (text.rfind("$J=", 0) == 0) return jog(std::string_view(text).substr(3), time_s);
   if (text == "$X") {
+    if (habits_.refuses_unlock) return error(time_s, 13);
     if (state_ == "Alarm") {
       output_ += "[MSG:Caution: Unlocked]\r\n";
       state_ = "Idle";
@@ -109,10 +110,12 @@ void EmulatedGrbl::jog(std::string_view words, double time_s) {
   if (state_ != "Idle" && state_ != "Jog") return error(time_s, 8);
   const JogWords asked = parse_jog(words, "XYZ"[axis_]);
   if (asked.error != 0) return error(time_s, asked.error);
+  if (++n_jogs_ == habits_.refuse_jog_number) return error(time_s, 15);
   if (asked.target) {
     const double last_m = queue_.empty() ? motion_.end_position_m() : queue_.back().to_m;
     const double base_mm = asked.is_relative ? machine_mm(last_m) : 0.0;
-    const double to_mm = base_mm + *asked.target * asked.scale_mm;
+    const bool is_misread = n_jogs_ == habits_.misread_jog_number;
+    const double to_mm = base_mm + *asked.target * asked.scale_mm + (is_misread ? toward_ : 0.0);
     if (settings_[20] != 0.0 && is_homed_ && (to_mm > 0.0 || to_mm < -settings_[130])) {
       return error(time_s, 15);
     }
@@ -120,6 +123,7 @@ void EmulatedGrbl::jog(std::string_view words, double time_s) {
     queue_.push_back({bench_m(to_mm), speed_m_s});
     state_ = "Jog";
     tick(time_s);
+    if (is_silent_) return;
   }
   ok(time_s);
 }
@@ -138,7 +142,8 @@ std::string EmulatedGrbl::status(double time_s) {
   const std::string name = state_ == "Hold" ? "Hold:0" : state_;
   std::string text = "<" + name + (settings_[10] == 0.0 ? "|WPos:" : "|MPos:");
   for (std::size_t i = 0; i < 3; ++i) {
-    text += (i > 0 ? "," : "") + text_from_number(position_mm[i], 3);
+    text += (i > 0 ? "," : "") + (settings_[13] != 0.0 ? text_from_number(position_mm[i] / 25.4, 4)
+                                                       : text_from_number(position_mm[i], 3));
   }
   if (settings_[10] >= 2.0 || habits_.is_hal)
     text += "|Bf:" + std::to_string(kPlannerBlocks) + ",128";
