@@ -43,6 +43,23 @@ double potential_at_V(const PillarModel& model, const PillarState& state, double
          model.system().rows_at({value}, state.unknowns, element, x, z)[0];
 }
 
+double mean_potential_V(const PillarModel& model, const PillarState& state, double z,
+                        double radius_m) {
+  const LineMesh& line = model.mesh().section.x();
+  const bool is_axisymmetric = model.system().kinematics().x_power == 1;
+  double sum_V = 0.0;
+  double area = 0.0;
+  for (int column = 0; column < line.element_count(); ++column) {
+    const LineMesh::ElementRule rule = line.rule(column);
+    for (Eigen::Index i = 0; i < rule.x.size() && rule.x[i] < radius_m; ++i) {
+      const double weight = rule.weight[i] * (is_axisymmetric ? rule.x[i] : 1.0);
+      sum_V += weight * potential_at_V(model, state, rule.x[i], z);
+      area += weight;
+    }
+  }
+  return sum_V / area;
+}
+
 double one_way_voltage_V(const PillarModel& model, const PillarState& state,
                          const PiezoMatrix& charge_C_N, double permittivity_stress_F_m,
                          double electrode_radius_m) {

@@ -21,6 +21,9 @@ PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa);
 // Solution with a charge-free face instead of an electrode; potential_at() reads it.
 PillarState piezo_sampled(const PillarModel& model, double pressure_Pa);
 double potential_at_V(const PillarModel& model, const PillarState& state, double x, double z);
+// Mean over the disc (half-width in the plane) x <= radius of the film at height z.
+double mean_potential_V(const PillarModel& model, const PillarState& state, double z,
+                        double radius_m);
 
 // The usual one-way estimate beside it: mean over the electrode's film volume of
 // d3j T_j t/eps33^T with the stresses of the uncoupled film, V. `charge_C_N` are the film's d.

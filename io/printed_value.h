@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace viscard {
+
+// What a publication prints for one result of a scene, to be shown beside ours.
+struct PrintedValue {
+  std::string name;   // of a result, or family and number of a mode: "lateral 2"
+  std::string value;  // with its unit: "16103 Hz"
+  std::string note;   // why ours differs
+};
+
+}  // namespace viscard
