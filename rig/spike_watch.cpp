@@ -7,34 +7,43 @@ namespace viscard {
 namespace {
 
 constexpr int kToLearn = 20;
-constexpr double kForget = 0.02;  // of the usual size, per reading
+constexpr double kForget = 0.02;  // of the usual distance, per reading
 constexpr double kTimesUsual = 10.0;
-constexpr double kTimesNeighbours = 4.0;
+constexpr double kTimesNeighbours = 5.0;
+constexpr double kTeaches = 5.0;  // further off is no noise
 
 }  // namespace
 
 std::optional<std::int64_t> SpikeWatch::take(std::int64_t index, double value) {
+  if (n_ > 0 && index != last_.back().index + 1) interrupt();
+  const double step = n_ > 0 ? std::abs(value - last_.back().value) : 0.0;
+  if (step > 0.0 && (least_step_ == 0.0 || step < least_step_)) least_step_ = step;
   std::shift_left(last_.begin(), last_.end(), 1);
   last_.back() = {index, value};
   n_ = std::min(n_ + 1, last_.size());
   if (n_ < last_.size()) return std::nullopt;
-  const auto step = [&](std::size_t from, std::size_t to) {
-    return std::abs(last_[to].value - last_[from].value);
-  };
-  if (step(3, 4) > 0.0 && (least_step_ == 0.0 || step(3, 4) < least_step_))
-    least_step_ = step(3, 4);
-  const double noise = std::max(usual_, least_step_);
-  const double d = std::abs(last_[2].value - 0.5 * (last_[1].value + last_[3].value));
-  const double around = std::max({step(0, 1), step(1, 3), step(3, 4)});
-  const bool is_spike =
-      n_learnt_ >= kToLearn && d > kTimesUsual * noise && d > kTimesNeighbours * around;
-  // A spike's own neighbours see it too: they must not teach.
-  const bool is_beside = std::max(step(1, 2), step(2, 3)) > kTimesNeighbours * noise;
-  if (n_learnt_ < kToLearn || !is_beside) {
-    ++n_learnt_;
-    usual_ += (d - usual_) * std::max(kForget, 1.0 / n_learnt_);
+
+  // The line through the four others, at -2 -1 1 2.
+  const double mean = 0.25 * (last_[0].value + last_[1].value + last_[3].value + last_[4].value);
+  const double slope =
+      0.1 * (2.0 * (last_[4].value - last_[0].value) + last_[3].value - last_[1].value);
+  const double distance = std::abs(last_[2].value - mean);
+  double around = 0.0;
+  for (const int i : {0, 1, 3, 4}) {
+    const double on_line = mean + slope * (i - 2);
+    around = std::max(around, std::abs(last_[static_cast<std::size_t>(i)].value - on_line));
   }
+  const double noise = std::max(usual_, least_step_);
+  const bool is_spike = n_learnt_ >= kToLearn && distance > kTimesUsual * noise &&
+                        distance > kTimesNeighbours * around;
+  learn(distance, noise);
   return is_spike ? std::optional(last_[2].index) : std::nullopt;
+}
+
+void SpikeWatch::learn(double distance, double noise) {
+  if (n_learnt_ >= kToLearn && distance > kTeaches * noise) return;
+  ++n_learnt_;
+  usual_ += (distance - usual_) * std::max(kForget, 1.0 / n_learnt_);
 }
 
 }  // namespace viscard

@@ -8,13 +8,12 @@
 namespace viscard {
 
 // Finds single readings that stand out of their neighbours: a digit garbled on the wire that still
-// makes a number, which nothing else in a stream of bare counts can show. A reading s_i is a spike
-// if
-//   d_i = s_i - (s_{i-1} + s_{i+1})/2
-// exceeds 10 times its own usual size (noise, followed slowly; not less than the smallest step
-// seen, which is the converter's own) and 4 times every difference between its neighbours (steps,
-// ramps and peaks of true force have those). It can be told two readings later. What is smaller
-// than that stays hidden, and two spoilt readings in a row hide one another.
+// makes a number, which nothing else in a stream of bare counts can show. A straight line is laid
+// through the two readings before and the two behind (least squares). A reading is a spike if it is
+// further from that line than 10 times its usual distance (the noise, followed slowly; not less
+// than the converter's smallest step) and than 5 times what the four are from it. True forces stay
+// below 3 times that: a corner or a peak makes 3, a step 2.5, a ramp 0. Told two readings later.
+// What is smaller stays hidden, and two spoilt readings within three hide one another.
 class SpikeWatch {
  public:
   // Takes a reading in any unit; returns the index of an earlier one that was a spike.
@@ -27,9 +26,11 @@ class SpikeWatch {
     std::int64_t index = 0;
     double value = 0.0;
   };
+  void learn(double distance, double noise);
+
   std::array<Reading, 5> last_;  // oldest first
   std::size_t n_ = 0;            // of them that count
-  double usual_ = 0.0;           // mean of |d|, spikes left out
+  double usual_ = 0.0;           // mean distance, spikes left out
   double least_step_ = 0.0;      // smallest between two readings that is not 0
   int n_learnt_ = 0;
 };

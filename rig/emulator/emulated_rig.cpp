@@ -62,6 +62,7 @@ class EmulatedRig::Impl {
   std::atomic<double> stall_wall_s_{0.0};
   mutable std::mutex outcome_mutex_;
   EmulatedOutcome outcome_;
+  std::vector<std::string> sent_lines_;
 
  private:
   // A board that boots when its port is opened.
@@ -142,7 +143,11 @@ void EmulatedRig::Impl::serve_cell(double now_s) {
       is_broken = outcome_.is_cell_broken;
     }
     const std::string line = amplifier_.convert(specimen_.force_N(), is_broken);
-    if (!is_cell_silent_) lines += line;
+    if (is_cell_silent_) continue;
+    lines += line;
+    if (!options_.keeps_lines) continue;
+    const std::lock_guard lock(outcome_mutex_);
+    sent_lines_.push_back(line);
   }
   if (cell_board_.is_open) {
     cell_port_.write(lines);
@@ -226,6 +231,11 @@ RigConfig EmulatedRig::config() const {
 EmulatedOutcome EmulatedRig::outcome() const {
   const std::lock_guard lock(impl_->outcome_mutex_);
   return impl_->outcome_;
+}
+
+std::vector<std::string> EmulatedRig::sent_lines() const {
+  const std::lock_guard lock(impl_->outcome_mutex_);
+  return impl_->sent_lines_;
 }
 
 void EmulatedRig::pull_stage_cable() {

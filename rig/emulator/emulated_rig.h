@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -20,6 +21,7 @@ struct EmulatedRigOptions {
   // What a board does when its port is opened: it resets (UNO, Nano) or not (native USB).
   bool resets_on_open = true;
   double boot_wall_s = 0.1;  // from that reset to the welcome
+  bool keeps_lines = false;  // remembers what the amplifier said: sent_lines()
 };
 
 // What happened on the bench that no wire tells.
@@ -46,6 +48,8 @@ class EmulatedRig {
   RigConfig config() const;
 
   EmulatedOutcome outcome() const;
+  // Every line of the amplifier since it was first opened, terminators and all.
+  std::vector<std::string> sent_lines() const;
 
   // Incidents, to be set off from any thread.
   void pull_stage_cable();

@@ -3,6 +3,7 @@
 #include "models/test_plan.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/emulator/emulated_rig.h"
+#include "rig/emulator/fault_proxy.h"
 #include "rig/grbl_stage.h"
 #include "rig/hx711_load_cell.h"
 #include "rig/run_indentation.h"
@@ -18,11 +19,18 @@
 
 namespace viscard {
 
-// An emulated rig with real drivers on its ports; everything they hand out is kept.
+// What is done to the two lines of a rig.
+struct LineFaults {
+  FaultPlan stage, cell;
+};
+
+// An emulated rig with real drivers on its ports, or behind disturbed lines; everything they hand
+// out is kept.
 struct RigFixture {
-  explicit RigFixture(EmulatedRigOptions options)
+  explicit RigFixture(EmulatedRigOptions options,
+                      const std::optional<LineFaults>& faults = std::nullopt)
       : emulated(options),
-        config(emulated.config()),
+        config(config_behind(faults)),
         clock(config.clock_speed),
         stage_line(config.stage.port, 115200, clock),
         cell_line(config.load_cell.port, 115200, clock),
@@ -71,7 +79,18 @@ struct RigFixture {
     return false;
   }
 
+  RigConfig config_behind(const std::optional<LineFaults>& faults) {
+    RigConfig result = emulated.config();
+    if (!faults) return result;
+    stage_proxy = std::make_unique<FaultProxy>(result.stage.port, faults->stage);
+    cell_proxy = std::make_unique<FaultProxy>(result.load_cell.port, faults->cell);
+    result.stage.port = stage_proxy->path();
+    result.load_cell.port = cell_proxy->path();
+    return result;
+  }
+
   EmulatedRig emulated;
+  std::unique_ptr<FaultProxy> stage_proxy, cell_proxy;
   RigConfig config;
   RigClock clock;
   SerialLine stage_line;

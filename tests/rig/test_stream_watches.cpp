@@ -86,15 +86,17 @@ TEST_CASE("A pause of the machine itself is not taken for silence", "[rig]") {
 }
 
 TEST_CASE("True forces have no spikes: ramps, corners, steps, peaks", "[rig]") {
-  CHECK(spikes_in(noisy(force_like(), 300.0)).empty());
-  CHECK(spikes_in(noisy(force_like(), 5.0)).empty());
+  for (const double sigma : {0.3, 30.0, 300.0, 3000.0}) {
+    CAPTURE(sigma);
+    CHECK(spikes_in(noisy(force_like(), sigma)).empty());
+  }
   CHECK(spikes_in(force_like()).empty());
 }
 
 TEST_CASE("A garbled digit that stands out is found, wherever it is", "[rig]") {
   std::vector<double> values = noisy(force_like(), 300.0);
-  for (const std::size_t at : {100u, 450u, 800u}) values[at] += 100000.0;
-  values[250] += 100000.0;  // in the ramp of 3000 a reading
+  // 20 times the noise; the one at 250 lies in a ramp of 10 times the noise per reading.
+  for (const std::size_t at : {100u, 250u, 450u, 800u}) values[at] += 6000.0;
   CHECK(spikes_in(values) == std::vector<std::int64_t>{100, 250, 450, 800});
 }
 

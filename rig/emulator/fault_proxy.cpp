@@ -1,0 +1,227 @@
+#include "rig/emulator/fault_proxy.h"
+
+#include "rig/emulator/pty_port.h"
+#include "rig/rig_clock.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <deque>
+#include <mutex>
+#include <random>
+#include <thread>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr int kNap_ms = 1;
+constexpr double kLongestSplit_s = 0.02;
+
+struct Piece {
+  double due_s;
+  std::string bytes;
+};
+
+// One direction of the line.
+class Lane {
+ public:
+  Lane(const FaultRates& rates, double longest_delay_s, std::uint64_t seed)
+      : rates_(rates), longest_delay_s_(longest_delay_s), random_(seed) {}
+
+  void take(std::string bytes, double now_s, FaultCounts& counts);
+  std::string due(double now_s);
+  void clear() { pieces_.clear(); }
+  void heal() { rates_ = {}; }
+  bool wants_hang_up() const { return wants_hang_up_; }
+
+ private:
+  bool happens(double chance, FaultCounts& counts) {
+    const bool does = std::bernoulli_distribution(chance)(random_);
+    counts.faults += does ? 1 : 0;
+    return does;
+  }
+  std::size_t below(std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_);
+  }
+  double upto(double most) { return std::uniform_real_distribution<double>(0.0, most)(random_); }
+  void corrupt(std::string& bytes, FaultCounts& counts);
+  void push(std::string bytes, double due_s);
+
+  FaultRates rates_;
+  double longest_delay_s_;
+  std::mt19937_64 random_;
+  std::deque<Piece> pieces_;
+  bool wants_hang_up_ = false;
+};
+
+void Lane::push(std::string bytes, double due_s) {
+  if (!pieces_.empty()) due_s = std::max(due_s, pieces_.back().due_s);
+  pieces_.push_back({due_s, std::move(bytes)});
+}
+
+void Lane::corrupt(std::string& bytes, FaultCounts& counts) {
+  if (happens(rates_.drop, counts)) {
+    const std::size_t at = below(bytes.size());
+    bytes.erase(at, 1 + below(8));
+    ++counts.corrupted;
+  }
+  if (!bytes.empty() && happens(rates_.garble, counts)) {
+    char& c = bytes[below(bytes.size())];
+    const bool is_digit = c >= '0' && c <= '9';
+    c = static_cast<char>(is_digit ? '0' + static_cast<char>(below(10)) : c ^ (1 << below(8)));
+    ++counts.corrupted;
+  }
+  if (happens(rates_.insert, counts)) {
+    std::string noise(1 + below(8), '\0');
+    for (char& c : noise) c = static_cast<char>(below(256));
+    bytes.insert(bytes.empty() ? 0 : below(bytes.size()), noise);
+    ++counts.corrupted;
+  }
+}
+
+void Lane::take(std::string bytes, double now_s, FaultCounts& counts) {
+  ++counts.pieces;
+  if (happens(rates_.hang_up, counts)) wants_hang_up_ = true;
+  corrupt(bytes, counts);
+  if (bytes.empty()) return;
+  if (happens(rates_.delay, counts)) now_s += upto(longest_delay_s_);
+  if (happens(rates_.split, counts) && bytes.size() > 1) {
+    const std::size_t at = 1 + below(bytes.size() - 1);
+    push(bytes.substr(0, at), now_s);
+    push(bytes.substr(at), now_s + upto(kLongestSplit_s));
+  } else {
+    push(bytes, now_s);
+  }
+  if (happens(rates_.duplicate, counts)) push(bytes, now_s);
+}
+
+std::string Lane::due(double now_s) {
+  std::string bytes;
+  while (!pieces_.empty() && pieces_.front().due_s <= now_s) {
+    bytes += pieces_.front().bytes;
+    pieces_.pop_front();
+  }
+  return bytes;
+}
+
+}  // namespace
+
+class FaultProxy::Impl {
+ public:
+  Impl(std::string device_path, const FaultPlan& plan)
+      : device_path_(std::move(device_path)),
+        to_host_(plan.to_host, plan.longest_delay_s, 2 * plan.seed),
+        to_device_(plan.to_device, plan.longest_delay_s, 2 * plan.seed + 1),
+        thread_([this] { run(); }) {}
+
+  ~Impl() {
+    is_ending_ = true;
+    thread_.join();
+    close_device();
+  }
+
+  FaultCounts counts() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return counts_;
+  }
+
+  std::atomic<bool> is_healed_{false};
+  std::atomic<bool> is_cut_{false};
+  PtyPort host_;
+
+ private:
+  void run() {
+    while (!is_ending_) {
+      follow_host();
+      pollfd entries[2] = {{device_ >= 0 ? host_.descriptor() : -1, POLLIN, 0},
+                           {device_, POLLIN, 0}};
+      poll(entries, 2, kNap_ms);
+      if (device_ < 0) continue;
+      const std::lock_guard<std::mutex> lock(mutex_);
+      pass();
+    }
+  }
+
+  void follow_host() {
+    const bool is_open = host_.is_open_by_host();
+    if (is_open && device_ < 0 && !counts_.has_hung_up) {
+      device_ = open(device_path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    } else if (!is_open && device_ >= 0) {
+      close_device();
+      host_.discard();
+      to_host_.clear();
+      to_device_.clear();
+    }
+  }
+
+  void pass() {
+    if (is_healed_) {
+      to_host_.heal();
+      to_device_.heal();
+    }
+    const double now_s = monotonic_s();
+    if (std::string bytes = host_.read_available(); !bytes.empty()) {
+      to_device_.take(std::move(bytes), now_s, counts_);
+    }
+    std::array<char, 4096> buffer{};
+    const ssize_t n = read(device_, buffer.data(), buffer.size());
+    if (n > 0) {
+      to_host_.take(std::string(buffer.data(), static_cast<std::size_t>(n)), now_s, counts_);
+    }
+    const bool is_gone = n == 0 || (n < 0 && errno != EAGAIN && errno != EINTR);
+    host_.write(to_host_.due(now_s));
+    const std::string down = to_device_.due(now_s);
+    if (!down.empty() && write(device_, down.data(), down.size()) < 0 && errno != EAGAIN) {
+      counts_.has_hung_up = true;
+    }
+    if (is_gone || is_cut_ || to_host_.wants_hang_up() || to_device_.wants_hang_up()) {
+      counts_.has_hung_up = true;
+    }
+    if (counts_.has_hung_up) {
+      host_.hang_up();
+      close_device();
+    }
+  }
+
+  void close_device() {
+    if (device_ >= 0) close(device_);
+    device_ = -1;
+  }
+
+  std::string device_path_;
+  int device_ = -1;
+  Lane to_host_, to_device_;
+  mutable std::mutex mutex_;  // of counts_
+  FaultCounts counts_;
+  std::atomic<bool> is_ending_{false};
+  std::thread thread_;
+};
+
+FaultProxy::FaultProxy(const std::string& device_path, const FaultPlan& plan)
+    : impl_(std::make_unique<Impl>(device_path, plan)) {}
+
+FaultProxy::~FaultProxy() = default;
+
+std::string FaultProxy::path() const {
+  return impl_->host_.path();
+}
+
+FaultCounts FaultProxy::counts() const {
+  return impl_->counts();
+}
+
+void FaultProxy::heal() {
+  impl_->is_healed_ = true;
+}
+
+void FaultProxy::hang_up() {
+  impl_->is_cut_ = true;
+}
+
+}  // namespace viscard
