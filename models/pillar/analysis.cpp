@@ -34,7 +34,9 @@ Motion axial_motion(const Scene& scene) {
 }
 
 ModelOptions options_of(const Scene& scene, Motion motion) {
-  return {.motion = motion, .plane = scene.plane.value_or(PlaneState::kStrain)};
+  return {.motion = motion,
+          .plane = scene.plane.value_or(PlaneState::kStrain),
+          .condense_pressures_from = scene.condense_pressures_from};
 }
 
 void count_unknowns(const PillarModel& model, SceneAnswer& answer) {

@@ -1,5 +1,7 @@
 #include "models/pillar/analysis.h"
+#include "models/pillar/piezo_one_way.h"
 
+#include <optional>
 #include <stdexcept>
 
 namespace viscard {
@@ -27,25 +29,41 @@ void run_elastic(const Scene& scene, SceneAnswer& answer) {
   add_stresses(axial, state, answer);
 }
 
+// The film's mesh with the electrode's edge.
+PillarGeometry with_electrode_edge(const Scene& scene) {
+  PillarGeometry geometry = scene.geometry;
+  geometry.film->electrode_radius_m = scene.electrodes->electrode_radius_m;
+  return geometry;
+}
+
 void run_piezoelectric(const Scene& scene, SceneAnswer& answer) {
   ModelOptions options = options_of(scene, axial_motion(scene));
   options.electrodes = scene.electrodes;
   const PillarModel coupled(scene.geometry, answer.discretisation, media_of(scene), options);
-  count_unknowns(coupled, answer);
+  std::optional<PillarModel> elastic;
+  if (scene.one_way_potential) {
+    elastic.emplace(with_electrode_edge(scene), answer.discretisation, media_of(scene),
+                    options_of(scene, axial_motion(scene)));
+  }
+  count_unknowns(elastic ? *elastic : coupled, answer);
   if (coupled.electrode_dof() < 0) {  // charge-free face, read at its centre
-    const PillarState state = piezo_sampled(coupled, scene.pressure_Pa);
+    const PillarState state = elastic ? piezo_one_way_sampled(*elastic, coupled, scene.pressure_Pa)
+                                      : piezo_sampled(coupled, scene.pressure_Pa);
     const bool top = scene.electrodes->grounded == FilmFace::kBottom;
     const double z_m = top ? 0.0 : -scene.geometry.film->thickness_m;
     answer.results.push_back(
         {"potential_at_centre", potential_at_V(coupled, state, 0.0, z_m), "V"});
     return;
   }
-  const PiezoAnswer piezo = piezo_static(coupled, scene.pressure_Pa);
+  const PiezoAnswer piezo = elastic ? piezo_one_way(*elastic, coupled, scene.pressure_Pa)
+                                    : piezo_static(coupled, scene.pressure_Pa);
   answer.results = {{"electrode_voltage", piezo.voltage_V, "V"},
                     {"electrode_charge", piezo.charge_C, "C"},
                     {"electrode_capacitance", piezo.capacitance_F, "F"},
-                    {"top_displacement", piezo.top_displacement_m, "m"},
-                    {"displacement_per_volt", piezo.displacement_per_V_m, "m/V"}};
+                    {"top_displacement", piezo.top_displacement_m, "m"}};
+  if (!elastic) {
+    answer.results.push_back({"displacement_per_volt", piezo.displacement_per_V_m, "m/V"});
+  }
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ void add_curve(SceneCurve& curve, std::vector<Number>& numbers) {
 std::vector<Number> numbers_of(SceneAnswer& answer) {
   std::vector<Number> numbers;
   for (SceneResult& r : answer.results) {
+    if (!r.is_wanted) continue;
     numbers.push_back({r.name, r.value, std::max(std::abs(r.value), r.scale), &r.error_estimate});
   }
   for (SceneMode& m : answer.modes) {

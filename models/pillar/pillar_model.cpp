@@ -94,7 +94,7 @@ DofMap PillarModel::make_dofs(const Kinematics& kinematics) {
 
 bool PillarModel::condenses_pressure(const Medium& medium) const {
   const bool is_plane_stress = is_plane(options_.motion) && options_.plane == PlaneState::kStress;
-  return medium.is_isotropic && medium.poisson_ratio >= kNearlyIncompressible && !is_plane_stress;
+  return medium.is_isotropic && medium.poisson_ratio >= options_.condense_pressures_from && !is_plane_stress;
 }
 
 Eigen::MatrixXd PillarModel::elastic_form(const Medium& medium) const {

@@ -33,6 +33,7 @@ struct ModelOptions {
   bool fixed_bottom = true;
   bool rigid_top = false;                      // ties the top's axial displacement
   std::optional<ElectrodeOptions> electrodes;  // present: the film's potential is unknown too
+  double condense_pressures_from = kNearlyIncompressible;  // Poisson ratio; 0.5 always does
 };
 
 struct PillarMedia {

@@ -1,39 +1,67 @@
 #include "models/pillar/scene.h"
 
 #include "models/pillar/analysis.h"
+#include "models/pillar/scene_mistake.h"
 
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 namespace viscard {
+namespace {
+
+// Runs a check of one part of the scene and says where in a file that part stands.
+template <typename Check>
+void at_key(const char* key, const Check& check) {
+  try {
+    check();
+  } catch (const SceneMistake&) {
+    throw;
+  } catch (const std::invalid_argument& error) {
+    throw SceneMistake(key, error.what());
+  }
+}
+
+void check_electrodes(const Scene& scene) {
+  if (!scene.electrodes) return;
+  if (!scene.film || !scene.film->is_piezoelectric()) {
+    throw SceneMistake("geometry.electrode", "an electrode needs a film of piezoelectric material");
+  }
+  const double film_m = scene.geometry.film->radius_m;
+  const double electrode_m = scene.electrodes->electrode_radius_m;
+  if (electrode_m > film_m * (1.0 + 1e-9)) {
+    throw SceneMistake("geometry.electrode.radius", "the electrode's radius of " +
+                                                        std::to_string(electrode_m * 1e6) +
+                                                        " um is wider than the film's of " +
+                                                        std::to_string(film_m * 1e6) + " um");
+  }
+}
+
+}  // namespace
 
 void validate(const Scene& scene) {
-  validate(scene.geometry);
-  validate(scene.pillar);
+  at_key("geometry", [&] { validate(scene.geometry); });
+  at_key("materials.pillar", [&] { validate(scene.pillar); });
   if (!(scene.tolerance >= 1e-9 && scene.tolerance < 1.0)) {
-    throw std::invalid_argument("the tolerance is " + std::to_string(scene.tolerance) +
-                                "; it must lie between 1e-9 and 1");
+    throw SceneMistake("tolerance", "the tolerance is " + std::to_string(scene.tolerance) +
+                                        "; it must lie between 1e-9 and 1");
   }
   if (scene.geometry.film.has_value() != scene.film.has_value()) {
-    throw std::invalid_argument("a film needs its material, and a material its film");
+    throw SceneMistake("geometry.film", "a film needs its material, and a material its film");
   }
-  if (scene.electrodes) {
-    if (!scene.film || !scene.film->is_piezoelectric()) {
-      throw std::invalid_argument("an electrode needs a film of piezoelectric material");
-    }
-    if (scene.electrodes->electrode_radius_m > scene.geometry.film->radius_m * (1.0 + 1e-9)) {
-      throw std::invalid_argument("the electrode is wider than the film");
-    }
+  check_electrodes(scene);
+  if (!std::isfinite(scene.pressure_Pa)) {
+    throw SceneMistake("analysis.load.pressure", "the pressure is not finite");
   }
-  if (!std::isfinite(scene.pressure_Pa)) throw std::invalid_argument("the pressure is not finite");
   const Analysis& analysis = analysis_of(scene.kind);
   if (analysis.has_inertia) {
     const std::string needs = std::string(analysis.name) + " analysis needs the density of the ";
-    if (!(scene.pillar.rho_kg_m3 > 0.0)) throw std::invalid_argument(needs + "pillar");
-    if (scene.film && !(scene.film->rho_kg_m3 > 0.0)) throw std::invalid_argument(needs + "film");
+    if (!(scene.pillar.rho_kg_m3 > 0.0)) throw SceneMistake("materials.pillar", needs + "pillar");
+    if (scene.film && !(scene.film->rho_kg_m3 > 0.0)) {
+      throw SceneMistake("geometry.film.material", needs + "film");
+    }
   }
-  analysis.check(scene);
+  at_key("analysis", [&] { analysis.check(scene); });
 }
 
 }  // namespace viscard

@@ -44,6 +44,7 @@ struct SceneResult {
   std::string unit;
   double error_estimate = 0.0;  // absolute, in the unit
   double scale = 0.0;           // the error is judged against this where |value| is smaller
+  bool is_wanted = true;        // false: not asked for, and its error not watched
 };
 
 struct SceneMode {

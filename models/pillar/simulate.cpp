@@ -1,6 +1,8 @@
 #include "models/pillar/analysis.h"
+#include "models/pillar/effects.h"
 #include "models/pillar/error_control.h"
 #include "models/pillar/pillar_modes.h"
+#include "models/pillar/scene_mistake.h"
 
 #include <algorithm>
 #include <numbers>
@@ -28,31 +30,18 @@ void refuse_buckled(const Scene& scene) {
   const PillarModel lateral(scene.geometry, mesh, media_of(scene), {.motion = Motion::kLateral});
   const double critical_Pa = buckling(axial, lateral).pressure_Pa;
   if (largest_Pa >= critical_Pa) {
-    throw std::runtime_error(
+    throw SceneMistake(
+        scene.kind == AnalysisKind::kCreep ? "analysis.history" : "analysis.load.pressure",
         "a pressure of " + std::to_string(largest_Pa) +
-        " Pa is beyond the buckling pressure of about " + std::to_string(critical_Pa) +
-        " Pa: the straight pillar gives way sideways. Reduce the load, or make the "
-        "pillar shorter or thicker");
+            " Pa is beyond the buckling pressure of about " + std::to_string(critical_Pa) +
+            " Pa: the straight pillar gives way sideways. Reduce the load, or make the "
+            "pillar shorter or thicker");
   }
 }
 
-std::vector<SceneEffect> effects_of(const Scene& scene) {
-  const bool in_time =
-      scene.kind == AnalysisKind::kCreep || scene.kind == AnalysisKind::kRelaxation;
-  const bool modal = scene.kind == AnalysisKind::kModal;
-  return {{"relaxation", in_time && !scene.pillar.terms.empty(),
-           in_time ? "the analysis is in time"
-                   : "static and modal answers use the instantaneous moduli"},
-          {"inertia", modal, modal ? "modal analysis" : "the analysis is quasi-static"},
-          {"incompressibility", scene.pillar.nu >= kNearlyIncompressible,
-           "pressures are condensed from a Poisson ratio of 0.45 on"},
-          {"film_compliance", scene.film.has_value(),
-           scene.film ? "the scene has a film" : "the base is rigid"},
-          {"piezo_coupling", scene.electrodes && scene.kind == AnalysisKind::kStatic,
-           scene.electrodes ? "the film has electrodes; both ways" : "no electrode"},
-          {"geometric_stiffness",
-           scene.kind == AnalysisKind::kBuckling || (modal && scene.pressure_Pa != 0.0),
-           "buckling, and modes under a pressure"}};
+// Errors are watched only of what is asked for.
+void mark_wanted(const Scene& scene, SceneAnswer& answer) {
+  for (SceneResult& r : answer.results) r.is_wanted = asks_for(scene, r.name);
 }
 
 }  // namespace
@@ -61,16 +50,14 @@ SceneAnswer simulate(const Scene& scene) {
   validate(scene);
   refuse_buckled(scene);
   const Analysis& analysis = analysis_of(scene.kind);
-  SceneAnswer answer =
-      answer_within({scene.tolerance, mesh_sequence(scene.geometry), scene.progress},
-                    [&](const Discretisation& mesh) {
-                      SceneAnswer on_mesh;
-                      on_mesh.discretisation = mesh;
-                      analysis.run(scene, on_mesh);
-                      return on_mesh;
-                    });
-  answer.effects = effects_of(scene);
-  return answer;
+  return answer_within({scene.tolerance, mesh_sequence(scene.geometry), scene.progress},
+                       [&](const Discretisation& mesh) {
+                         SceneAnswer on_mesh;
+                         on_mesh.discretisation = mesh;
+                         analysis.run(scene, on_mesh);
+                         mark_wanted(scene, on_mesh);
+                         return on_mesh;
+                       });
 }
 
 }  // namespace viscard

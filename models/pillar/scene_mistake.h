@@ -1,0 +1,20 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace viscard {
+
+// A scene that contradicts itself or is incomplete. `key` is the place in a scene file that has to
+// change, "geometry.electrode.radius", so that a reader can tell the line.
+class SceneMistake : public std::invalid_argument {
+ public:
+  SceneMistake(std::string key, const std::string& text)
+      : std::invalid_argument(text), key_(std::move(key)) {}
+  const std::string& key() const { return key_; }
+
+ private:
+  std::string key_;
+};
+
+}  // namespace viscard
