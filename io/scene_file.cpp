@@ -5,6 +5,9 @@
 #include "io/material_file.h"
 #include "io/nearest_word.h"
 #include "io/piezo_file.h"
+#include "io/toml_lines.h"
+#include "models/pillar/effects.h"
+#include "models/pillar/scene_mistake.h"
 
 #include <algorithm>
 #include <map>
@@ -25,7 +28,7 @@ Value choice(const std::string& key, const std::string& word,
     list += (list.empty() ? "" : ", ") + name;
   }
   const std::string near = nearest_word(word, known);
-  throw std::invalid_argument(key + " cannot be '" + word + "'" +
+  throw SceneMistake(key, "cannot be '" + word + "'" +
                               (near.empty() ? "" : "; did you mean '" + near + "'?") +
                               " There are: " + list);
 }
@@ -45,11 +48,13 @@ struct RawScene {
   std::string electrode_face, electrode_kind = "equipotential", poling = "+z";
   double electrode_radius_m = 0.0;
   RawMaterial pillar, film;
-  std::string analysis = "static", load_on = "top";
+  std::string analysis = "static", load_on;
   std::int64_t modes = 4;
   double pressure_Pa = 0.0;
   std::vector<std::pair<double, double>> history;
   std::vector<std::string> quantities;
+  std::map<std::string, std::string> effects;
+  std::vector<PrintedValue> printed;
 };
 
 void show_material(FieldVisitor& v, RawMaterial& m) {
@@ -101,12 +106,22 @@ void show_scene(FieldVisitor& v, RawScene& s) {
   v.section("want", [&](FieldVisitor& w) {
     w.texts({"quantities", "top_displacement"}, s.quantities);
   });
+  v.list(
+      "printed", s.printed.size(), [&](std::size_t n) { s.printed.resize(n); },
+      [&](FieldVisitor& p, std::size_t i) {
+        p.text({"name", "lateral 1", true}, s.printed[i].name);
+        p.text({"value", "16103 Hz", true}, s.printed[i].value);
+        p.text({"note", "the mesh of the source is coarse"}, s.printed[i].note);
+      });
+  v.section("effects", [&](FieldVisitor& e) {
+    for (const Effect& effect : effects()) e.text({effect.name, "auto"}, s.effects[effect.name]);
+  });
 }
 
 Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder) {
   if (!raw.file.empty()) return read_material(folder / raw.file).material;
   if (!(raw.E_Pa > 0.0)) {
-    throw std::invalid_argument("materials.pillar needs E (and nu, rho) or a file");
+    throw SceneMistake("materials.pillar", "needs E (and nu, rho) or a file");
   }
   Material material;
   material.E0_Pa = raw.E_Pa;
@@ -117,10 +132,10 @@ Material pillar_material(const RawMaterial& raw, const std::filesystem::path& fo
 
 void fill_film(const RawScene& raw, const std::filesystem::path& folder, Scene& scene) {
   if (!(raw.film_thickness_m > 0.0) || !(raw.film_radius_m > 0.0)) {
-    throw std::invalid_argument("geometry.film needs thickness and radius");
+    throw SceneMistake("geometry.film", "needs thickness and radius");
   }
   if (raw.film_bottom != "fixed") {
-    throw std::invalid_argument("geometry.film.bottom must be \"fixed\"");
+    throw SceneMistake("geometry.film.bottom", "must be \"fixed\"");
   }
   scene.geometry.film = FilmGeometry{raw.film_thickness_m, raw.film_radius_m};
   if (!raw.film.file.empty()) {
@@ -142,11 +157,20 @@ void fill_electrode(const RawScene& raw, Scene& scene) {
   const bool sampled = choice<bool>("geometry.electrode.kind", raw.electrode_kind,
                                     {{"equipotential", false}, {"sampled", true}});
   if (!sampled && !(raw.electrode_radius_m > 0.0)) {
-    throw std::invalid_argument("geometry.electrode needs a radius");
+    throw SceneMistake("geometry.electrode", "needs a radius");
   }
   scene.electrodes =
       ElectrodeOptions{electrode_on == FilmFace::kBottom ? FilmFace::kTop : FilmFace::kBottom,
                        sampled ? 0.0 : raw.electrode_radius_m};
+}
+
+void fill_effects(const RawScene& raw, Scene& scene) {
+  for (const auto& [name, word] : raw.effects) {
+    if (word.empty()) continue;
+    scene.effects[name] = choice<EffectChoice>(
+        "effects." + name, word,
+        {{"auto", EffectChoice::kAuto}, {"on", EffectChoice::kOn}, {"off", EffectChoice::kOff}});
+  }
 }
 
 Scene scene_from(const RawScene& raw, const std::filesystem::path& folder) {
@@ -168,9 +192,14 @@ Scene scene_from(const RawScene& raw, const std::filesystem::path& folder) {
                                      {"creep", AnalysisKind::kCreep},
                                      {"modal", AnalysisKind::kModal},
                                      {"buckling", AnalysisKind::kBuckling}});
-  choice<bool>("analysis.load.on", raw.load_on, {{"top", true}});
+  if (raw.pressure_Pa != 0.0 && raw.load_on.empty()) {
+    throw SceneMistake("analysis.load", "the load has no place; say on = \"top\"");
+  }
+  if (!raw.load_on.empty()) choice<bool>("analysis.load.on", raw.load_on, {{"top", true}});
   scene.modes = static_cast<int>(raw.modes);
   scene.pressure_Pa = raw.pressure_Pa;
+  scene.wanted = raw.quantities;
+  fill_effects(raw, scene);
   for (const auto& [time_s, value] : raw.history) scene.history.push_back({time_s, value});
   // A history may begin with nothing at time 0 and jump there.
   if (scene.history.size() > 1 && scene.history[0].time_s == scene.history[1].time_s) {
@@ -184,12 +213,20 @@ Scene scene_from(const RawScene& raw, const std::filesystem::path& folder) {
 
 SceneFile read_scene(const std::filesystem::path& path) {
   RawScene raw;
-  read_toml_fields(read_file(path), path.string(), [&](FieldVisitor& v) { show_scene(v, raw); });
+  const std::string text = read_file(path);
+  read_toml_fields(text, path.string(), [&](FieldVisitor& v) { show_scene(v, raw); });
   try {
-    return {scene_from(raw, path.parent_path()), raw.quantities};
+    return {scene_from(raw, path.parent_path()), raw.quantities, raw.printed};
+  } catch (const SceneMistake& mistake) {
+    throw std::runtime_error(told_with_line(path, mistake));
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(path.string() + ": " + error.what());
   }
+}
+
+std::string told_with_line(const std::filesystem::path& path, const SceneMistake& mistake) {
+  const int line = line_of_key(read_file(path), mistake.key());
+  return path.string() + ":" + std::to_string(line) + ": " + mistake.key() + ": " + mistake.what();
 }
 
 }  // namespace viscard

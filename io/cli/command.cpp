@@ -5,6 +5,7 @@
 #include "io/cli/command_demo.h"
 #include "io/cli/command_export.h"
 #include "io/cli/command_fit.h"
+#include "io/cli/command_plan.h"
 #include "io/cli/command_report.h"
 #include "io/cli/command_rig.h"
 #include "io/cli/command_simulate.h"
@@ -57,6 +58,7 @@ const std::vector<Command>& commands() {
       {"card", "write, check or prove a material card for a solver", run_card},
       {"validate", "check a material in the pillar against exact creep and relaxation",
        run_validate},
+      {"plan", "which effects a scene needs at its tolerance, and why", run_plan},
       {"simulate", "answer a scene: static, modes, buckling, creep, with error estimates",
        run_simulate},
       {"report", "one page with everything known of captures, tables and materials", run_report},

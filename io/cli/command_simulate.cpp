@@ -2,8 +2,11 @@
 
 #include "io/atomic_file.h"
 #include "io/cli/command_line.h"
+#include "io/cli/command_plan.h"
+#include "io/cli/printed_values.h"
 #include "io/nearest_word.h"
 #include "io/scene_file.h"
+#include "models/pillar/plan.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -32,8 +35,7 @@ nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s) {
   }
   nlohmann::json effects = nlohmann::json::array();
   for (const SceneEffect& e : answer.effects) {
-    effects.push_back(
-        {{"name", e.name}, {"on", e.on}, {"estimate", nullptr}, {"reason", e.reason}});
+    effects.push_back(json_from_effect(e));
   }
   return {{"results", results},
           {"modes", modes},
@@ -110,6 +112,14 @@ void write_files(const SceneAnswer& answer, const nlohmann::json& object, const 
   }
 }
 
+SceneAnswer answer_of(const Scene& scene, const std::string& path) {
+  try {
+    return simulate_planned(scene);
+  } catch (const SceneMistake& mistake) {
+    throw std::runtime_error(told_with_line(path, mistake));
+  }
+}
+
 CommandSyntax simulate_syntax() {
   CommandSyntax syntax{
       "viscard simulate SCENE.toml [OPTIONS]",
@@ -140,11 +150,13 @@ int run_simulate(const std::vector<std::string>& words, Streams& streams) {
     throw UsageError("--tol must lie between 1e-9 and 1");
   }
   const auto start = std::chrono::steady_clock::now();
-  SceneAnswer answer = simulate(file.scene);
+  SceneAnswer answer = answer_of(file.scene, path);
   const double wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto printed = compare_printed(file.printed, answer);
   if (file.scene.kind != AnalysisKind::kModal) keep_wanted(file.quantities, answer);
-  const nlohmann::json object = json_from_answer(answer, wall_s);
+  nlohmann::json object = json_from_answer(answer, wall_s);
+  if (!printed.empty()) object["printed"] = json_from_comparison(printed);
   if (values->count("out") > 0) {
     write_files(answer, object, (*values)["out"].as<std::string>(),
                 quoted_command_line("simulate", words), values->count("force") > 0);
@@ -154,6 +166,7 @@ int run_simulate(const std::vector<std::string>& words, Streams& streams) {
   } else {
     streams.out << path << "\n";
     print_answer(answer, wall_s, streams.out);
+    print_comparison(printed, streams.out);
   }
   return kDone;
 }

@@ -1,0 +1,29 @@
+#include "io/toml_lines.h"
+
+#include <toml++/toml.h>
+
+#include <sstream>
+
+namespace viscard {
+
+int line_of_key(const std::string& toml, const std::string& dotted_key) {
+  toml::table table;
+  try {
+    table = toml::parse(toml);
+  } catch (const toml::parse_error&) {
+    return 0;
+  }
+  const toml::table* around = &table;
+  int line = 1;
+  std::istringstream keys(dotted_key);
+  std::string key;
+  while (around != nullptr && std::getline(keys, key, '.')) {
+    const toml::node* node = around->get(key);
+    if (node == nullptr) break;
+    line = static_cast<int>(node->source().begin.line);
+    around = node->as_table();
+  }
+  return line;
+}
+
+}  // namespace viscard

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace viscard {
+
+// Line (from 1) of a key such as "geometry.film.radius" in a TOML text; of the nearest table around
+// it if the key itself is not there; 0 if the text is no TOML.
+int line_of_key(const std::string& toml, const std::string& dotted_key);
+
+}  // namespace viscard
