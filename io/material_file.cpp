@@ -59,6 +59,29 @@ Json json_from(const MaterialUncertainty& uncertainty) {
   return out;
 }
 
+Json json_from(const TemperatureShift& shift) {
+  Json out;
+  const auto add = [&](const char* key, double value, const Interval& interval_95) {
+    out[key] = value;
+    if (interval_95.low == 0.0 && interval_95.high == 0.0) return;
+    out[std::string(key) + "_interval_95"] = json_from(interval_95);
+  };
+  if (shift.law == ShiftLaw::kWlf) {
+    out["law"] = "wlf";
+    add("C1", shift.C1, shift.C1_95);
+    add("C2_K", shift.C2_K, shift.C2_K_95);
+  } else {
+    out["law"] = "arrhenius";
+    add("activation_J_mol", shift.activation_J_mol, shift.activation_J_mol_95);
+  }
+  out["T_ref_C"] = shift.T_ref_C;
+  if (shift.T_max_C > shift.T_min_C) {
+    out["T_min_C"] = shift.T_min_C;
+    out["T_max_C"] = shift.T_max_C;
+  }
+  return out;
+}
+
 Json json_from(const Provenance& provenance) {
   Json raw_files = Json::array();
   for (const RawFile& raw : provenance.raw_files) {
@@ -79,7 +102,10 @@ const std::set<std::string>& known_keys(const std::string& section) {
   static const std::map<std::string, std::set<std::string>> kKnown{
       {"",
        {"schema", "name", "E0_Pa", "nu", "rho_kg_m3", "terms", "T_ref_C", "valid", "uncertainty",
-        "flags", "provenance"}},
+        "flags", "provenance", "mixing_ratio", "shift"}},
+      {"shift",
+       {"law", "C1", "C2_K", "activation_J_mol", "T_ref_C", "T_min_C", "T_max_C", "C1_interval_95",
+        "C2_K_interval_95", "activation_J_mol_interval_95"}},
       {"terms", {"g", "k", "tau_s", "modulus_se_Pa", "ln_tau_se", "interval_95"}},
       {"interval_95", {"modulus_Pa", "g", "tau_s"}},
       {"valid", {"t_min_s", "t_max_s", "strain_max"}},
@@ -123,7 +149,9 @@ Json json_from(const Material& material) {
   out["nu"] = material.nu;
   if (material.rho_kg_m3 > 0.0) out["rho_kg_m3"] = material.rho_kg_m3;
   out["terms"] = terms_json(material);
+  if (material.mixing_ratio > 0.0) out["mixing_ratio"] = material.mixing_ratio;
   if (material.T_ref_C) out["T_ref_C"] = *material.T_ref_C;
+  if (material.shift) out["shift"] = json_from(*material.shift);
   out["valid"] = {{"t_min_s", material.valid.t_min_s},
                   {"t_max_s", material.valid.t_max_s},
                   {"strain_max", material.valid.strain_max}};

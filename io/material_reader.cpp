@@ -168,6 +168,31 @@ void read_provenance(const Fields& file, Provenance& provenance) {
   fields.text("bulk_origin", provenance.bulk_origin);
 }
 
+void read_shift(const Fields& file, Material& material) {
+  if (!file.has("shift")) return;
+  const Fields fields = file.object("shift");
+  TemperatureShift shift;
+  std::string law;
+  fields.require("law", "\"wlf\" or \"arrhenius\"");
+  fields.text("law", law);
+  if (law != "wlf" && law != "arrhenius") {
+    fields.fail("law", "is '" + law + "'; there are wlf and arrhenius");
+  }
+  shift.law = law == "wlf" ? ShiftLaw::kWlf : ShiftLaw::kArrhenius;
+  if (material.T_ref_C) shift.T_ref_C = *material.T_ref_C;
+  fields.number("T_ref_C", shift.T_ref_C);
+  if (!material.T_ref_C && fields.has("T_ref_C")) material.T_ref_C = shift.T_ref_C;
+  fields.number("C1", shift.C1);
+  fields.number("C2_K", shift.C2_K);
+  fields.number("activation_J_mol", shift.activation_J_mol);
+  fields.interval("C1_interval_95", shift.C1_95);
+  fields.interval("C2_K_interval_95", shift.C2_K_95);
+  fields.interval("activation_J_mol_interval_95", shift.activation_J_mol_95);
+  fields.number("T_min_C", shift.T_min_C);
+  fields.number("T_max_C", shift.T_max_C);
+  material.shift = shift;
+}
+
 void check_schema(const Fields& file) {
   constexpr const char* kSchema = "viscard-material/1";
   std::string schema = kSchema;  // a file written by hand may leave it out
@@ -225,6 +250,8 @@ Material material_from(const Json& json, const std::string& name) {
     file.number("T_ref_C", temperature_C);
     material.T_ref_C = temperature_C;
   }
+  file.number("mixing_ratio", material.mixing_ratio);
+  read_shift(file, material);
   if (file.has("valid")) {
     const Fields valid = file.object("valid");
     valid.number("t_min_s", material.valid.t_min_s);

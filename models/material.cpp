@@ -53,6 +53,16 @@ void validate(const Material& material) {
   if (!(material.rho_kg_m3 >= 0.0) || !std::isfinite(material.rho_kg_m3)) {
     fail("density is " + std::to_string(material.rho_kg_m3) + " kg/m3; it must not be negative");
   }
+  if (!(material.mixing_ratio >= 0.0) || !std::isfinite(material.mixing_ratio)) {
+    fail("mixing ratio is " + std::to_string(material.mixing_ratio) + "; it must be positive");
+  }
+  if (material.shift) {
+    validate(*material.shift);
+    if (!material.T_ref_C || *material.T_ref_C != material.shift->T_ref_C) {
+      fail("the temperature shift counts from " + std::to_string(material.shift->T_ref_C) +
+           " C, so T_ref_C must be given and be the same");
+    }
+  }
   for (std::size_t i = 0; i < material.terms.size(); ++i) validate_term(material.terms[i], i + 1);
   const double sum_g = sum_of(material.terms, &MaterialTerm::g);
   const double sum_k = sum_of(material.terms, &MaterialTerm::k);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "models/interval.h"
 #include "models/prony_series.h"
+#include "models/temperature_shift.h"
 
 #include <Eigen/Core>
 
@@ -18,12 +20,6 @@ struct MaterialTerm {
   double g = 0.0;      // shear, relative to G_0
   double k = 0.0;      // bulk, relative to K_0
   double tau_s = 0.0;  // > 0
-};
-
-// 95 % interval of one parameter, and how sure we are that it can be told at all.
-struct Interval {
-  double low = 0.0;
-  double high = 0.0;
 };
 
 // What the fit says about a parameter; absent for a material typed in by hand.
@@ -77,7 +73,9 @@ struct Material {
   double nu = 0.0;
   double rho_kg_m3 = 0.0;  // 0: not given
   std::vector<MaterialTerm> terms;
+  double mixing_ratio = 0.0;  // parts of base to one of curing agent; 0: not given
   std::optional<double> T_ref_C;
+  std::optional<TemperatureShift> shift;  // of all times together; counted from T_ref_C
   ValidityWindow valid;
   std::optional<MaterialUncertainty> uncertainty;
   std::vector<MaterialFlag> flags;
@@ -85,7 +83,8 @@ struct Material {
 };
 
 // Throws std::invalid_argument naming the value: E0 not positive, nu outside (-1, 0.5], density
-// negative, a g or k negative or not finite, tau not positive, sum g or sum k >= 1.
+// negative, a g or k negative or not finite, tau not positive, sum g or sum k >= 1, a shift
+// whose reference is not T_ref_C.
 void validate(const Material& material);
 
 // True when every k_i equals its g_i (constant Poisson ratio).

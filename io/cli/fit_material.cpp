@@ -42,6 +42,7 @@ Material material_from_fitted(const FittedFile& fitted, const FittedMaterialWord
   material.name =
       specimen.id.empty() ? std::filesystem::path(fitted.path).stem().string() : specimen.id;
   if (!specimen.id.empty()) material.T_ref_C = specimen.temperature_C;
+  material.mixing_ratio = specimen.mixing_ratio;
   material.valid = window_of(fitted.result);
   material.provenance.created_by = "viscard " VISCARD_VERSION;
   material.provenance.created_at = words.created_at;
