@@ -18,7 +18,7 @@ constexpr int kMostReadings = 4;  // of the settings, until two agree
 
 bool GrblStage::wait_for(const std::function<bool()>& is_there, const Pump& pump,
                          double wall_s) const {
-  const double deadline_s = monotonic_s() + wall_s;
+  const double deadline_s = monotonic_s() + wall_s * patience_;
   while (!is_there()) {
     if (monotonic_s() > deadline_s) return false;
     pump();

@@ -188,13 +188,15 @@ void GrblStage::watch_deadlines(double now_s) {
   if (!active_) return;
   const double written_s = active_->tracker.move().start_time_s;
   if (!active_->has_ok) {
-    if (now_s > written_s + clock_.from_wall_s(kNudge_wall_s)) nudge(now_s);
-    if (now_s > written_s + clock_.from_wall_s(kNoAnswer_wall_s)) {
-      throw RigError("the stage did not answer a move within 5 s. Check its cable and supply");
+    if (now_s > written_s + clock_.from_wall_s(patience_ * kNudge_wall_s)) nudge(now_s);
+    if (now_s > written_s + clock_.from_wall_s(patience_ * kNoAnswer_wall_s)) {
+      throw RigError("the stage did not answer a move within " +
+                     text_from_number(patience_ * kNoAnswer_wall_s, 1) +
+                     " s. Check its cable and supply");
     }
   }
   const double due_s = expected_end_s_ + 0.5 * duration_s(active_->tracker.move());
-  const double patience_s = clock_.from_wall_s(kNoProgress_wall_s);
+  const double patience_s = clock_.from_wall_s(patience_ * kNoProgress_wall_s);
   // A slow controller may take its time as long as it gets on.
   if (now_s > due_s + patience_s && now_s > active_->progress_s + patience_s) {
     throw RigError("the stage should have come to rest " +

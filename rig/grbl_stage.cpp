@@ -23,11 +23,12 @@ int axis_index(char axis) {
 }  // namespace
 
 GrblStage::GrblStage(Transport& transport, const StageConfig& config, const RigClock& clock,
-                     RecordSink sink)
+                     RecordSink sink, double patience)
     : transport_(transport),
       config_(config),
       clock_(clock),
       sink_(std::move(sink)),
+      patience_(patience),
       axis_(axis_index(config.axis)),
       toward_(config.toward_specimen < 0 ? -1.0 : 1.0) {}
 

@@ -28,8 +28,9 @@ namespace viscard {
 // - after an alarm it may say nothing at all until 0x18.
 class GrblStage final : public Stage {
  public:
-  GrblStage(Transport& transport, const StageConfig& config, const RigClock& clock,
-            RecordSink sink);
+  // patience shortens (or lengthens) how long it waits for a controller that does not answer.
+  GrblStage(Transport& transport, const StageConfig& config, const RigClock& clock, RecordSink sink,
+            double patience = 1.0);
 
   Transport& transport() override { return transport_; }
   void connect(const Pump& pump) override;
@@ -104,6 +105,7 @@ class GrblStage final : public Stage {
   StageConfig config_;
   const RigClock& clock_;
   RecordSink sink_;
+  double patience_;
   LineSplitter splitter_;
   int axis_;
   double toward_;

@@ -52,15 +52,16 @@ std::optional<Hx711Format> learnt_format(const std::vector<ReceivedLine>& lines,
 }  // namespace
 
 Hx711LoadCell::Hx711LoadCell(Transport& transport, const LoadCellConfig& config,
-                             const RigClock& clock, RecordSink sink)
+                             const RigClock& clock, RecordSink sink, double patience)
     : transport_(transport),
       clock_(clock),
       sink_(std::move(sink)),
+      patience_(patience),
       format_(declared_format(config)),
       period_s_(1.0 / config.expected_rate_Hz) {}
 
 void Hx711LoadCell::connect(const Pump& pump) {
-  const double deadline_s = monotonic_s() + kFirstReading_wall_s;
+  const double deadline_s = monotonic_s() + patience_ * kFirstReading_wall_s;
   while (!is_connected_ && monotonic_s() < deadline_s) pump();
   if (is_connected_) return;
   const std::string where = "'" + transport_.name() + "'";

@@ -17,9 +17,10 @@ namespace viscard {
 // (line_format) or found out from the first readings: banners and chatter before them are skipped.
 class Hx711LoadCell final : public LoadCell {
  public:
-  // Throws RigError on a line_format that is not known.
+  // patience shortens how long it waits for readings. Throws RigError on a line_format that is not
+  // known.
   Hx711LoadCell(Transport& transport, const LoadCellConfig& config, const RigClock& clock,
-                RecordSink sink);
+                RecordSink sink, double patience = 1.0);
 
   Transport& transport() override { return transport_; }
   void connect(const Pump& pump) override;
@@ -47,6 +48,7 @@ class Hx711LoadCell final : public LoadCell {
   Transport& transport_;
   const RigClock& clock_;
   RecordSink sink_;
+  double patience_;
   LineSplitter splitter_;
   Hx711Format format_;
   double period_s_;

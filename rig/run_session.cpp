@@ -15,6 +15,8 @@ constexpr double kNap_wall_s = 0.005;
 // An emulated clock in a hurry makes seconds of every stall of the machine.
 constexpr double kSilenceEmulated_wall_s = 1.0;
 constexpr double kSilence_wall_s = 0.05;
+constexpr double kTimeNoise =
+    0.02;  // of a period: what the device's clock may jitter unmarked / 10
 
 std::string in_N(double force_N) {
   return text_from_number(force_N, 3) + " N";
@@ -132,15 +134,27 @@ void RunSession::take_sample(const LoadSample& sample) {
   event("limit", "hard", "The force still rose to " + in_N(force_N) + ": the stage was reset");
 }
 
-// Marked, not dropped: what was received stays in the record as it came.
 void RunSession::watch_spikes(const LoadSample& sample, bool is_doubtful) {
+  if (sample.device_time_s) {
+    if (!time_spikes_) time_spikes_.emplace(kTimeNoise * load_cell_.period_s());
+    if (const auto spike = time_spikes_->take(sample.index, *sample.device_time_s)) {
+      mark(*spike, "came at a time that its neighbours contradict: a garbled digit of its clock");
+    }
+  }
   if (is_doubtful) return spikes_.interrupt();
-  const auto spike = spikes_.take(sample.index, sample.counts ? *sample.counts : *sample.volts);
-  if (!spike) return;
+  const double value = sample.counts ? *sample.counts : *sample.volts;
+  if (const auto spike = spikes_.take(sample.index, value)) {
+    mark(*spike, "stands out of its neighbours: a garbled digit, or a knock");
+  }
+}
+
+// Marked, not dropped: what was received stays in the record as it came.
+void RunSession::mark(std::int64_t index, const std::string& why) {
+  if (last_implausible_ == index) return;
+  last_implausible_ = index;
   ++n_implausible_;
-  event("implausible", std::to_string(*spike),
-        "Reading " + std::to_string(*spike) +
-            " of the load cell stands out of its neighbours: a garbled digit, or a knock");
+  event("implausible", std::to_string(index),
+        "Reading " + std::to_string(index) + " of the load cell " + why);
 }
 
 void RunSession::act_on(GuardAction action, double force_N) {

@@ -81,6 +81,7 @@ class RunSession {
   void serve_stage();
   void take_sample(const LoadSample& sample);
   void watch_spikes(const LoadSample& sample, bool is_doubtful);
+  void mark(std::int64_t index, const std::string& why);
   void act_on(GuardAction action, double force_N);
   void listen();
   void check_stream();
@@ -103,6 +104,8 @@ class RunSession {
   bool is_place_lost_ = false;   // the stage started anew: its positions mean nothing any more
   SilenceWatch silence_;
   SpikeWatch spikes_;
+  std::optional<SpikeWatch> time_spikes_;  // of the device's own clock
+  std::optional<std::int64_t> last_implausible_;
   int n_implausible_ = 0;
   double heard_s_ = 0.0;  // arrival of the last reading that silence_ knows of
   double tare_N_ = 0.0;

@@ -6,7 +6,7 @@
 namespace viscard {
 namespace {
 
-constexpr int kToLearn = 20;
+constexpr int kToLearn = 6;
 constexpr double kForget = 0.02;  // of the usual distance, per reading
 constexpr double kTimesUsual = 10.0;
 constexpr double kTimesNeighbours = 5.0;
@@ -33,7 +33,7 @@ std::optional<std::int64_t> SpikeWatch::take(std::int64_t index, double value) {
     const double on_line = mean + slope * (i - 2);
     around = std::max(around, std::abs(last_[static_cast<std::size_t>(i)].value - on_line));
   }
-  const double noise = std::max(usual_, least_step_);
+  const double noise = std::max(usual_, least_ > 0.0 ? least_ : least_step_);
   const bool is_spike = n_learnt_ >= kToLearn && distance > kTimesUsual * noise &&
                         distance > kTimesNeighbours * around;
   learn(distance, noise);

@@ -28,14 +28,14 @@ struct LineFaults {
 // out is kept.
 struct RigFixture {
   explicit RigFixture(EmulatedRigOptions options,
-                      const std::optional<LineFaults>& faults = std::nullopt)
+                      const std::optional<LineFaults>& faults = std::nullopt, double patience = 1.0)
       : emulated(options),
         config(config_behind(faults)),
         clock(config.clock_speed),
         stage_line(config.stage.port, 115200, clock),
         cell_line(config.load_cell.port, 115200, clock),
         sink([this](const RunRecord& record) { records.push_back(record); }),
-        stage(stage_line, config.stage, clock, sink),
+        stage(stage_line, config.stage, clock, sink, patience),
         load_cell(cell_line, config.load_cell, clock, sink) {}
 
   static EmulatedRigOptions options(double speed, double ratio = 10.0) {

@@ -76,7 +76,7 @@ TEST_CASE("A question answered by two lines, or later than the next question, en
 TEST_CASE("A missing ok ends the move with an error that says so", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.grbl.lose_ok_number = 4;  // $$ and $$ of the connection, one jog, this jog
-  RigFixture rig(options);
+  RigFixture rig(options, std::nullopt, 0.2);
   rig.stage.connect(rig.pump());
   move_and_wait(rig, 0.1e-3, 1e-3);
   CHECK_THROWS_WITH(move_and_wait(rig, 0.2e-3, 1e-3), Contains("did not answer a move"));
@@ -125,7 +125,7 @@ TEST_CASE("A hold at rest, pressed by somebody, is an error when a move is asked
 TEST_CASE("A stage that says Jog for ever is given up", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.grbl.never_rests = true;
-  RigFixture rig(options);
+  RigFixture rig(options, std::nullopt, 0.2);
   rig.stage.connect(rig.pump());
   CHECK_THROWS_WITH(move_and_wait(rig, 0.1e-3, 1e-3), Contains("should have come to rest"));
 }

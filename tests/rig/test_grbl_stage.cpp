@@ -54,7 +54,7 @@ TEST_CASE("A controller that does not reset on opening is asked to", "[rig][pty]
   const Pump sleep = [] { wait_readable({}, 0.002); };
   for (int i = 0; i < 2; ++i) {  // the second opening finds it running: no welcome by itself
     SerialLine line(emulated.stage_port(), 115200, clock);
-    GrblStage stage(line, options.config.stage, clock, sink);
+    GrblStage stage(line, options.config.stage, clock, sink, 0.2);
     stage.connect([&] {
       sleep();
       stage.service();
@@ -179,7 +179,8 @@ TEST_CASE("A port where no controller answers is named", "[rig][pty]") {
   EmulatedRig emulated(RigFixture::options(1.0));
   const RigClock clock;
   SerialLine line(emulated.load_cell_port(), 115200, clock);  // the wrong one
-  GrblStage stage(line, StageConfig{}, clock, [](const RunRecord&) {});
+  GrblStage stage(
+      line, StageConfig{}, clock, [](const RunRecord&) {}, 0.1);
   CHECK_THROWS_WITH(stage.connect([&] {
     wait_readable({&line}, 0.01);
     stage.service();

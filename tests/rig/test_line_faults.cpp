@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
 #include <map>
 #include <random>
@@ -122,8 +123,9 @@ void check_readings(const RigFixture& rig, Tally& tally) {
     ++tally.below_notice;
     const long long micros = std::llround(*samples[i].device_time_s * 1e6);
     const double notice = std::max(15.0 * kNoise_counts, 6.0 * unevenness(truth, micros));
-    // Two spoilt readings close together hide one another, and the ends have too few neighbours.
-    bool is_alone = i >= 2 && i + 2 < samples.size();
+    // Two spoilt readings close together hide one another, the ends have too few neighbours, and
+    // the first readings are learnt from.
+    bool is_alone = i >= 10 && i + 2 < samples.size();
     for (std::size_t k = i >= 2 ? i - 2 : 0; k < std::min(i + 3, samples.size()); ++k) {
       is_alone = is_alone && (k == i || (!is_wrong[k] && !samples[k].is_glitch));
     }
@@ -203,15 +205,12 @@ TEST_CASE("12 captures over disturbed lines end right or say why", "[rig][pty][f
   run_seeds(1, 12);
 }
 
+// VISCARD_FIRST_SEED and VISCARD_LAST_SEED pick others.
 TEST_CASE("500 captures over disturbed lines end right or say why", "[rig][pty][faults][slow]") {
-  run_seeds(1, 500);
-}
-
-TEST_CASE("Captures over disturbed lines, of one's own seeds", "[.][faults-seeds]") {
   const char* from = std::getenv("VISCARD_FIRST_SEED");
   const char* to = std::getenv("VISCARD_LAST_SEED");
-  REQUIRE((from != nullptr && to != nullptr));
-  run_seeds(std::strtoull(from, nullptr, 10), std::strtoull(to, nullptr, 10));
+  run_seeds(from != nullptr ? std::strtoull(from, nullptr, 10) : 1,
+            to != nullptr ? std::strtoull(to, nullptr, 10) : 500);
 }
 
 }  // namespace viscard
