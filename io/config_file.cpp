@@ -37,6 +37,9 @@ void show_stage(FieldVisitor& fields, StageConfig& stage) {
   fields.quantity({"travel", "m", kPositive}, stage.travel_m);
   fields.quantity({"backlash", "m", kNotNegative}, stage.backlash_m);
   fields.boolean("home", stage.home);
+  fields.quantity({"microstep", "m", kNotNegative}, stage.microstep_m);
+  show_integer(fields, "device", 1, 99, stage.device);
+  show_integer(fields, "axis_number", 1, 9, stage.axis_number);
 }
 
 void show_load_cell(FieldVisitor& fields, LoadCellConfig& cell) {
@@ -47,6 +50,9 @@ void show_load_cell(FieldVisitor& fields, LoadCellConfig& cell) {
   fields.quantity({"expected_rate", "Hz", kPositive}, cell.expected_rate_Hz);
   fields.quantity({"volts_per_count", "V"}, cell.volts_per_count);
   fields.boolean("compression_is_positive", cell.compression_is_positive);
+  fields.text({"dialect", "34401a"}, cell.dialect);
+  fields.text({"unit", "N"}, cell.unit);
+  fields.text({"framing", "8N1"}, cell.framing);
 }
 
 void show_calibration(FieldVisitor& fields, LoadCellCalibration& calibration) {
@@ -173,6 +179,10 @@ void show_truth(FieldVisitor& fields, EmulatedTruth& truth) {
     inner.quantity({"force_noise", "N", kNotNegative}, truth.force_noise_N);
     inner.quantity({"force_offset", "N"}, truth.force_offset_N);
     inner.quantity({"drift_relative", "1/s"}, truth.drift_relative_per_s);
+    inner.quantity({"cell_gain", "V/N", kNotNegative}, truth.cell_gain);
+    inner.quantity({"cell_full_scale", "N", kPositive}, truth.cell_full_scale_N);
+    inner.quantity({"cell_nonlinearity", "1"}, truth.cell_nonlinearity);
+    inner.quantity({"cell_hysteresis", "1"}, truth.cell_hysteresis);
     inner.quantity({"overload", "N", kNotNegative}, truth.overload_N);
     inner.quantity({"sample_rate", "Hz", kPositive}, truth.sample_rate_Hz);
     inner.quantity({"steps", "1/m", kPositive}, truth.steps_per_m);

@@ -9,18 +9,22 @@ namespace viscard {
 // What rig.toml says (data/demo/01_rig.toml is the commented example). SI.
 
 struct StageConfig {
-  std::string driver = "grbl";
-  std::string port;  // path; prefer /dev/serial/by-id/...
+  std::string driver = "grbl";  // "grbl" | "zaber"
+  std::string port;             // path; prefer /dev/serial/by-id/...
   int baud = 115200;
   char axis = 'Z';
   int toward_specimen = -1;  // sign of machine motion that presses into the specimen
   double travel_m = 10e-3;   // software limit of the way toward the specimen from where it starts
   double backlash_m = 0.0;
   bool home = false;  // run the controller's homing cycle before a test
+  // Zaber only: what no controller tells. One microstep of the motor, from the maker's page.
+  double microstep_m = 0.0;
+  int device = 1;  // address on the chain
+  int axis_number = 1;
 };
 
 struct LoadCellConfig {
-  std::string driver = "hx711";
+  std::string driver = "hx711";  // "hx711" | "scpi" | "mark10" | "sauter"
   std::string port;
   int baud = 115200;
   std::string line_format =
@@ -28,6 +32,11 @@ struct LoadCellConfig {
   double expected_rate_Hz = 80.0;
   double volts_per_count = 0.0;  // V per count of the converter
   bool compression_is_positive = true;
+  std::string dialect = "34401a";  // of a SCPI multimeter (rig/scpi_protocol.h)
+  // Of forces that come without a unit: "N", "mN", "gf" ... Empty: hx711 numbers are counts or
+  // volts, and gauges are set to N.
+  std::string unit;
+  std::string framing = "8N1";  // data bits, parity (N E O), stop bits
 };
 
 // Compliance of everything between the stage's position and the punch tip (the load cell is one

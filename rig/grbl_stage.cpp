@@ -1,6 +1,7 @@
 #include "rig/grbl_stage.h"
 
 #include "rig/text_number.h"
+#include "rig/travel_limit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -153,13 +154,7 @@ void GrblStage::begin_move(double to_m, double speed_m_s, const std::string& pur
   const StageDynamics limits = dynamics();
   const double from_m = position_m();
   to_m = quantised_m(to_m, limits.steps_per_m);
-  if (start_m_ && to_m > *start_m_ + config_.travel_m) {
-    throw RigError("the move to " + text_from_number((to_m - *start_m_) * 1e3, 3) +
-                   " mm goes beyond the stage's travel of " +
-                   text_from_number(config_.travel_m * 1e3, 3) +
-                   " mm from where it started. Bring the punch nearer to the specimen by hand, or "
-                   "raise travel in the rig file");
-  }
+  if (start_m_) check_travel(to_m, *start_m_, config_.travel_m);
   expected_end_s_ = clock_.now_s();
   if (std::abs(to_m - from_m) < 0.5 / limits.steps_per_m) return;
   const double feed_mm_min =

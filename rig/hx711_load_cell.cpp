@@ -1,5 +1,6 @@
 #include "rig/hx711_load_cell.h"
 
+#include "rig/force_unit.h"
 #include "rig/rig_error.h"
 #include "rig/text_number.h"
 
@@ -58,7 +59,13 @@ Hx711LoadCell::Hx711LoadCell(Transport& transport, const LoadCellConfig& config,
       sink_(std::move(sink)),
       patience_(patience),
       format_(declared_format(config)),
-      period_s_(1.0 / config.expected_rate_Hz) {}
+      period_s_(1.0 / config.expected_rate_Hz),
+      declared_unit_(config.unit) {
+  if (!config.unit.empty() && !newtons_per_unit(config.unit)) {
+    throw RigError("unit '" + config.unit +
+                   "' under [load_cell] of the rig file is unknown; there are N, mN, g, kg, lb");
+  }
+}
 
 void Hx711LoadCell::connect(const Pump& pump) {
   const double deadline_s = monotonic_s() + patience_ * kFirstReading_wall_s;
@@ -221,7 +228,10 @@ void Hx711LoadCell::hand_out(const Hx711Line& reading, double time_s) {
   sample.host_time_s = time_s;
   if (device_clock_) sample.device_time_s = device_clock_->time_s();
   last_arrival_s_ = time_s;
-  if (format_ == Hx711Format::kVolts) {
+  const std::string& unit = reading.unit.empty() ? declared_unit_ : reading.unit;
+  if (!unit.empty()) {
+    if (reading.value) sample.force_N = *reading.value * newtons_per_unit(unit).value_or(1.0);
+  } else if (format_ == Hx711Format::kVolts) {
     sample.volts = reading.value;
   } else {
     sample.counts = reading.value;
@@ -230,7 +240,7 @@ void Hx711LoadCell::hand_out(const Hx711Line& reading, double time_s) {
     sample.is_saturated = is_hx711_saturated(*sample.counts);
     sample.is_glitch = is_hx711_glitch(*sample.counts, previous_counts_);
     if (!sample.is_glitch) previous_counts_ = sample.counts;
-  } else if (!sample.volts) {
+  } else if (!sample.volts && !sample.force_N) {
     sample.is_saturated = true;  // "ovf", "inf": it says itself that this is no reading
   }
   counts_.saturated += sample.is_saturated ? 1 : 0;

@@ -52,6 +52,7 @@ class Hx711LoadCell final : public LoadCell {
   LineSplitter splitter_;
   Hx711Format format_;
   double period_s_;
+  std::string declared_unit_;  // of numbers that carry none; empty: counts or volts
   bool is_connected_ = false;
   bool is_past_first_line_ = false;
   std::vector<ReceivedLine> first_lines_;

@@ -37,10 +37,10 @@ void check_force(const RigConfig& rig, const TestPlan& plan, Preflight& result) 
 void check_rates(const RigConfig& rig, const TestPlan& plan, Preflight& result) {
   const double rate_Hz = rig.load_cell.expected_rate_Hz;
   if (rate_Hz < kSlowestRate_Hz) {
-    result.problems.push_back(
-        "the load cell gives " + text_from_number(rate_Hz, 1) +
-        " readings/s, too few to stop an approach in time. Set its rate to 80/s "
-        "(RATE pin of the HX711 high)");
+    result.problems.push_back("the load cell gives " + text_from_number(rate_Hz, 1) +
+                              " readings/s, too few to stop an approach in time: " +
+                              remedy_for_slow_readings(rig.load_cell) +
+                              ", then expected_rate in the rig file");
   } else if (plan.ramp_s * rate_Hz < kFewestRampReadings) {
     result.warnings.push_back(
         "the ramp of " + text_from_number(plan.ramp_s, 2) + " s holds only " +
@@ -107,6 +107,14 @@ void check_plan(const RigConfig& rig, const TestPlan& plan, const Specimen& spec
 }
 
 }  // namespace
+
+std::string remedy_for_slow_readings(const LoadCellConfig& cell) {
+  if (cell.driver == "hx711") return "set its rate to 80/s (RATE pin of the HX711 high)";
+  if (cell.driver == "scpi") {
+    return "set the multimeter's interface to its highest baud rate and 1 power line cycle or less";
+  }
+  return "set the gauge's interface to its highest baud rate";
+}
 
 double stop_distance_m(double speed_m_s, const StageDynamics& dynamics) {
   return std::max(7.5 / dynamics.steps_per_m, 0.06 * speed_m_s) +

@@ -31,6 +31,9 @@ struct Preflight {
 Preflight preflight(const RigConfig& rig, const TestPlan& plan, const Specimen& specimen,
                     const std::optional<StageDynamics>& dynamics = std::nullopt);
 
+// What to do about a load cell whose readings are too few, by its driver.
+std::string remedy_for_slow_readings(const LoadCellConfig& cell);
+
 // Way from the decision to stop gently to standstill: GRBL's queue of six segments of at least 1.25
 // steps or 10 ms, then deceleration (gnea/grbl stepper.c).
 double stop_distance_m(double speed_m_s, const StageDynamics& dynamics);

@@ -1,6 +1,7 @@
 #include "rig/rig_check.h"
 
 #include "models/sample_force.h"
+#include "rig/preflight.h"
 #include "rig/rig_error.h"
 #include "rig/text_number.h"
 
@@ -27,10 +28,9 @@ void advise(const RigConfig& rig, RigCheck& check) {
   };
   const double capacity_N = rig.calibration.capacity_N;
   if (check.rate_Hz < kLeastRate_Hz) {
-    add(true,
-        text_from_number(check.rate_Hz, 1) +
-            " readings/s are too few to stop an approach in time: set the HX711 to 80/s (RATE "
-            "pin high)");
+    add(true, text_from_number(check.rate_Hz, 1) +
+                  " readings/s are too few to stop an approach in time: " +
+                  remedy_for_slow_readings(rig.load_cell));
   } else if (std::abs(check.rate_Hz / rig.load_cell.expected_rate_Hz - 1.0) > 0.1) {
     add(false, "the readings come at " + text_from_number(check.rate_Hz, 1) +
                    "/s: set expected_rate of the load cell in the rig file to that");

@@ -45,6 +45,26 @@ LibSerial::BaudRate baud_constant(const std::string& path, int baud) {
                  "921600, 1000000 or 2000000, whichever the device uses");
 }
 
+void set_framing(LibSerial::SerialPort& port, const std::string& framing) {
+  using namespace LibSerial;
+  port.SetCharacterSize(framing[0] == '7' ? CharacterSize::CHAR_SIZE_7
+                                          : CharacterSize::CHAR_SIZE_8);
+  port.SetParity(framing[1] == 'E'   ? Parity::PARITY_EVEN
+                 : framing[1] == 'O' ? Parity::PARITY_ODD
+                                     : Parity::PARITY_NONE);
+  port.SetStopBits(framing[2] == '2' ? StopBits::STOP_BITS_2 : StopBits::STOP_BITS_1);
+}
+
+void check_framing(const std::string& framing) {
+  const bool is_known = framing.size() == 3 && std::strchr("78", framing[0]) != nullptr &&
+                        std::strchr("NEO", framing[1]) != nullptr &&
+                        std::strchr("12", framing[2]) != nullptr;
+  if (is_known) return;
+  throw RigError("framing '" + framing +
+                 "' of the rig file is unknown; it is data bits, parity and stop bits, such as 8N1 "
+                 "or 7E2");
+}
+
 // Closing must not drop DTR: many boards reset when it rises again at the next opening.
 void keep_dtr_on_close(int descriptor) {
   termios settings{};
@@ -95,17 +115,17 @@ void SerialLine::SafeClose::operator()(LibSerial::SerialPort* port) const noexce
   if (descriptor >= 0) ::close(descriptor);
 }
 
-SerialLine::SerialLine(const std::string& path, int baud, const RigClock& clock)
+SerialLine::SerialLine(const std::string& path, int baud, const RigClock& clock,
+                       const std::string& framing)
     : path_(path), baud_(baud), clock_(clock) {
+  check_framing(framing);
   const LibSerial::BaudRate rate = baud_constant(path, baud);
   lock_descriptor_ = open_exclusively(path);
   try {
     port_.reset(new LibSerial::SerialPort());
     port_->Open(path);
     port_->SetBaudRate(rate);
-    port_->SetCharacterSize(LibSerial::CharacterSize::CHAR_SIZE_8);
-    port_->SetParity(LibSerial::Parity::PARITY_NONE);
-    port_->SetStopBits(LibSerial::StopBits::STOP_BITS_1);
+    set_framing(*port_, framing);
     port_->SetFlowControl(LibSerial::FlowControl::FLOW_CONTROL_NONE);
     descriptor_ = port_->GetFileDescriptor();
     keep_dtr_on_close(descriptor_);

@@ -15,7 +15,7 @@ class SerialPort;
 
 namespace viscard {
 
-// A serial port: 8 bits, no parity, 1 stop bit, no flow control, raw, held exclusively.
+// A serial port: no flow control, raw, held exclusively.
 //
 // libserial opens and configures it. It does not read, write or get destroyed on its own, because
 // version 1.0.0 (Debian 12) hangs in ReadLine after the cable was pulled, spins in Write when the
@@ -25,8 +25,10 @@ namespace viscard {
 class SerialLine final : public Transport {
  public:
   // Throws RigError with the reason and the fix: missing, busy, no permission, not a serial port,
-  // baud rate that termios does not know.
-  SerialLine(const std::string& path, int baud, const RigClock& clock);
+  // baud rate that termios does not know. framing: data bits 7 or 8, parity N E O, stop bits 1
+  // or 2.
+  SerialLine(const std::string& path, int baud, const RigClock& clock,
+             const std::string& framing = "8N1");
   ~SerialLine() override;
 
   std::string name() const override { return path_; }

@@ -6,10 +6,8 @@
 #include "io/cli/command_line.h"
 #include "io/cli/progress.h"
 #include "rig/emulator/emulated_rig.h"
-#include "rig/grbl_stage.h"
-#include "rig/hx711_load_cell.h"
+#include "rig/open_devices.h"
 #include "rig/run_indentation.h"
-#include "rig/serial_line.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -124,8 +122,7 @@ RunOutcome capture(const CaptureWords& words, const CaptureSetup& setup, const s
   const RigConfig& rig = setup.rig;
   const StopOnSignal on_signal;
   const RigClock clock(rig.clock_speed);
-  SerialLine stage_line(rig.stage.port, rig.stage.baud, clock);
-  SerialLine cell_line(rig.load_cell.port, rig.load_cell.baud, clock);
+  RigDevices devices = open_ports(rig, clock);
 
   CapturedRun about;
   about.rig = rig;
@@ -142,11 +139,10 @@ RunOutcome capture(const CaptureWords& words, const CaptureSetup& setup, const s
   }
   const RecordSink sink =
       failing_once([&writer](const RunRecord& record) { writer.append(record); });
-  GrblStage stage(stage_line, rig.stage, clock, sink);
-  Hx711LoadCell load_cell(cell_line, rig.load_cell, clock, sink);
+  add_drivers(devices, rig, clock, sink);
   Progress progress(streams, "capture");
-  RunOutcome outcome = run_indentation(stage, load_cell, rig, setup.plan, setup.specimen, sink,
-                                       run_control(clock, progress, rig));
+  RunOutcome outcome = run_indentation(*devices.stage, *devices.load_cell, rig, setup.plan,
+                                       setup.specimen, sink, run_control(clock, progress, rig));
   progress.clear();
   try {
     writer.finish(outcome.status == "finished" ? "finished" : "interrupted");

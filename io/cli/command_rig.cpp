@@ -4,11 +4,9 @@
 #include "io/config_file.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/emulator/emulated_rig.h"
-#include "rig/grbl_stage.h"
-#include "rig/hx711_load_cell.h"
+#include "rig/open_devices.h"
 #include "rig/port_probe.h"
 #include "rig/rig_check.h"
-#include "rig/serial_line.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -52,13 +50,10 @@ RigCheck check(RigConfig rig, bool is_emulated, double seconds) {
   }
   const RigClock clock(rig.clock_speed);
   const RecordSink nowhere = [](const RunRecord&) {};
-  SerialLine stage_line(rig.stage.port, rig.stage.baud, clock);
-  SerialLine cell_line(rig.load_cell.port, rig.load_cell.baud, clock);
-  StageConfig unmoved = rig.stage;
-  unmoved.home = false;  // a check moves nothing
-  GrblStage stage(stage_line, unmoved, clock, nowhere);
-  Hx711LoadCell load_cell(cell_line, rig.load_cell, clock, nowhere);
-  return check_rig(stage, load_cell, rig, clock, seconds);
+  rig.stage.home = false;  // a check moves nothing
+  RigDevices devices = open_ports(rig, clock);
+  add_drivers(devices, rig, clock, nowhere);
+  return check_rig(*devices.stage, *devices.load_cell, rig, clock, seconds);
 }
 
 void print_text(const RigCheck& found, std::ostream& out) {

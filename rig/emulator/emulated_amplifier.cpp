@@ -7,34 +7,17 @@
 #include <cmath>
 
 namespace viscard {
-namespace {
-
-// A number of 64 well-mixed bits from any other (Steele, Lea & Flood, OOPSLA 2014: SplitMix64).
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ULL;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31);
-}
-
-// One normal deviate per (seed, index), by Box and Muller, so that no scheduling can change it.
-double normal_deviate(std::uint64_t seed, std::uint64_t index) {
-  const std::uint64_t key = mixed(seed) ^ (2 * index);
-  constexpr double kScale = 1.0 / 9007199254740992.0;  // 2^-53
-  const double u = (static_cast<double>(mixed(key) >> 11) + 0.5) * kScale;
-  const double v = static_cast<double>(mixed(key + 1) >> 11) * kScale;
-  return std::sqrt(-2.0 * std::log(u)) * std::cos(6.283185307179586 * v);
-}
-
-}  // namespace
 
 EmulatedAmplifier::EmulatedAmplifier(const EmulatedTruth& truth,
                                      const LoadCellCalibration& calibration, double volts_per_count,
                                      const AmplifierOptions& options)
     : truth_(truth),
+      cell_(truth),
       calibration_(calibration),
       volts_per_count_(volts_per_count),
-      options_(options) {}
+      options_(options) {
+  if (truth.cell_gain > 0.0) calibration_.volts_per_newton = truth.cell_gain;
+}
 
 std::string EmulatedAmplifier::reset(double time_s) {
   reset_s_ = time_s;
@@ -46,16 +29,10 @@ double EmulatedAmplifier::next_sample_s() const {
   return reset_s_ + options_.boot_s + static_cast<double>(index_ + 1) / truth_.sample_rate_Hz;
 }
 
-double EmulatedAmplifier::reading_N(double force_N, double time_s) const {
-  const double drifted_N = force_N * (1.0 + truth_.drift_relative_per_s * time_s);
-  return drifted_N + truth_.force_offset_N +
-         truth_.force_noise_N *
-             normal_deviate(truth_.seed, static_cast<std::uint64_t>(noise_index_));
-}
-
 std::string EmulatedAmplifier::convert(double force_N, bool is_cell_broken) {
   const double time_s = next_sample_s();
-  const double volts = volts_from_force_N(calibration_, reading_N(force_N, time_s));
+  const double volts = volts_from_force_N(
+      calibration_, cell_.signal_N(force_N, time_s, static_cast<std::uint64_t>(noise_index_)));
   double counts = std::round(volts / volts_per_count_);
   counts = std::clamp(counts, kHx711Lowest, kHx711Highest);
   if (is_cell_broken) counts = kHx711Highest;

@@ -2,6 +2,7 @@
 
 #include "models/calibration.h"
 #include "models/emulated_specimen.h"
+#include "rig/emulator/emulated_cell.h"
 
 #include <cstdint>
 #include <string>
@@ -37,10 +38,10 @@ class EmulatedAmplifier {
   std::int64_t n_converted() const { return index_; }
 
  private:
-  double reading_N(double force_N, double time_s) const;
   std::string line(double counts, double time_s) const;
 
   EmulatedTruth truth_;
+  EmulatedCell cell_;
   LoadCellCalibration calibration_;
   double volts_per_count_;
   AmplifierOptions options_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/emulated_specimen.h"
+#include "rig/emulator/emulated_controller.h"
 #include "rig/emulator/emulated_motion.h"
 
 #include <array>
@@ -39,26 +40,21 @@ struct GrblHabits {
 // alarms and silences of GRBL 1.1 (gnea/grbl doc/markdown/interface.md). Moves queued one behind
 // another each end at rest (the real planner rounds corners of collinear moves; nothing here queues
 // more than one).
-class EmulatedGrbl {
+class EmulatedGrbl final : public EmulatedController {
  public:
   EmulatedGrbl(const EmulatedTruth& truth, char axis, int toward_specimen,
                const GrblHabits& habits);
 
-  // Power-up or opening of the port: everything pending is dropped and the welcome prepared.
-  void reset(double time_s);
-  // Bytes from the host, in order, and what they do at time_s.
-  void receive(std::string_view bytes, double time_s);
-  // Lets queued moves, homing and delayed answers happen up to time_s. Call before the position is
-  // asked for any time up to time_s.
-  void tick(double time_s);
-  std::string take_output();
+  // Everything pending is dropped and the welcome prepared.
+  void reset(double time_s) override;
+  void receive(std::string_view bytes, double time_s) override;
+  void tick(double time_s) override;
+  std::string take_output() override;
 
-  // Position on the axis that grows toward the specimen, 0 at power-up.
-  double bench_position_m(double time_s) const { return motion_.position_m(time_s); }
-  double next_knot_s(double time_s) const { return motion_.next_knot_s(time_s); }
-  bool is_moving(double time_s) const { return motion_.is_moving(time_s); }
-  // A limit switch closes now.
-  void hit_limit(double time_s);
+  double bench_position_m(double time_s) const override { return motion_.position_m(time_s); }
+  double next_knot_s(double time_s) const override { return motion_.next_knot_s(time_s); }
+  bool is_moving(double time_s) const override { return motion_.is_moving(time_s); }
+  void hit_limit(double time_s) override;
 
  private:
   struct QueuedMove {

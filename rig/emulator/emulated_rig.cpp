@@ -32,6 +32,16 @@ enum Incident : unsigned {
   kRestartStage = 32,
 };
 
+std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions& options) {
+  const StageConfig& stage = options.config.stage;
+  if (stage.driver == "zaber") {
+    return std::make_unique<EmulatedZaber>(options.truth, stage.toward_specimen, stage.device,
+                                           options.zaber);
+  }
+  return std::make_unique<EmulatedGrbl>(options.truth, stage.axis, stage.toward_specimen,
+                                        options.grbl);
+}
+
 }  // namespace
 
 class EmulatedRig::Impl {
@@ -40,8 +50,9 @@ class EmulatedRig::Impl {
       : options_(options),
         clock_(options.config.clock_speed),
         specimen_(options.truth),
-        grbl_(options.truth, options.config.stage.axis, options.config.stage.toward_specimen,
-              options.grbl),
+        stage_(emulated_controller(options)),
+        gauge_(options.truth, options.config.calibration, options.config.load_cell.driver,
+               options.gauge),
         amplifier_(options.truth, options.config.calibration,
                    options.config.load_cell.volts_per_count, options.amplifier),
         thread_([this] { run(); }) {}
@@ -60,6 +71,7 @@ class EmulatedRig::Impl {
   std::atomic<bool> is_ending_{false};
   std::atomic<unsigned> incidents_{0};
   std::atomic<double> stall_wall_s_{0.0};
+  std::atomic<double> weight_N_{0.0};
   mutable std::mutex outcome_mutex_;
   EmulatedOutcome outcome_;
   std::vector<std::string> sent_lines_;
@@ -75,12 +87,19 @@ class EmulatedRig::Impl {
   void advance_bench(double to_s);
   void serve_stage(double now_s);
   void serve_cell(double now_s);
+  void serve_gauge(double now_s);
+  bool is_cell_broken() const;
+  double next_sample_s() const {
+    return is_gauge() ? gauge_.next_sample_s() : amplifier_.next_sample_s();
+  }
+  bool is_gauge() const { return options_.config.load_cell.driver != "hx711"; }
   void happen(double now_s);
   void nap(double now_s);
 
   double bench_s_ = 0.0;
   EmulatedSpecimen specimen_;
-  EmulatedGrbl grbl_;
+  std::unique_ptr<EmulatedController> stage_;
+  EmulatedGauge gauge_;
   EmulatedAmplifier amplifier_;
   Board stage_board_, cell_board_;
   bool is_cell_silent_ = false;
@@ -99,10 +118,11 @@ void EmulatedRig::Impl::watch_port(PtyPort& port, Board& board, double now_s) {
 // Takes the mechanics to to_s in steps that end at the corners of the motion.
 void EmulatedRig::Impl::advance_bench(double to_s) {
   while (bench_s_ < to_s) {
-    const double next_s = std::min({to_s, bench_s_ + kLargestStep_s, grbl_.next_knot_s(bench_s_)});
-    const double force_N = specimen_.advance(next_s - bench_s_, grbl_.bench_position_m(next_s));
+    const double next_s =
+        std::min({to_s, bench_s_ + kLargestStep_s, stage_->next_knot_s(bench_s_)});
+    const double force_N = specimen_.advance(next_s - bench_s_, stage_->bench_position_m(next_s));
     bench_s_ = next_s;
-    if (!specimen_.is_touched() && !grbl_.is_moving(bench_s_)) {
+    if (!specimen_.is_touched() && !stage_->is_moving(bench_s_)) {
       bench_s_ = to_s;  // nothing can happen until the stage moves
     }
     const std::lock_guard lock(outcome_mutex_);
@@ -119,15 +139,32 @@ void EmulatedRig::Impl::serve_stage(double now_s) {
   if (!stage_board_.is_running) {
     if (!stage_board_.is_open || now_s < stage_board_.boots_at_s) return;
     stage_board_.is_running = true;
-    grbl_.reset(now_s);
+    stage_->reset(now_s);
   } else if (!bytes.empty()) {
-    grbl_.receive(bytes, now_s);
-    grbl_.tick(now_s);
+    stage_->receive(bytes, now_s);
+    stage_->tick(now_s);
   }
-  stage_port_.write(grbl_.take_output());
+  stage_port_.write(stage_->take_output());
+}
+
+bool EmulatedRig::Impl::is_cell_broken() const {
+  const std::lock_guard lock(outcome_mutex_);
+  return outcome_.is_cell_broken;
+}
+
+// An instrument that is asked for each reading.
+void EmulatedRig::Impl::serve_gauge(double now_s) {
+  gauge_.receive(cell_port_.read_available(), now_s);
+  while (gauge_.next_sample_s() <= now_s) {
+    advance_bench(std::max(bench_s_, gauge_.next_sample_s()));
+    gauge_.convert(specimen_.force_N() + weight_N_, is_cell_broken());
+  }
+  const std::string answers = gauge_.take_output(now_s);
+  if (!is_cell_silent_) cell_port_.write(answers);
 }
 
 void EmulatedRig::Impl::serve_cell(double now_s) {
+  if (is_gauge()) return serve_gauge(now_s);
   cell_port_.read_available();  // it listens to nobody
   if (!cell_board_.is_running && cell_board_.is_open && now_s >= cell_board_.boots_at_s) {
     cell_board_.is_running = true;
@@ -137,12 +174,7 @@ void EmulatedRig::Impl::serve_cell(double now_s) {
   std::string lines;
   while (amplifier_.next_sample_s() <= now_s) {
     advance_bench(std::max(bench_s_, amplifier_.next_sample_s()));
-    bool is_broken = false;
-    {
-      const std::lock_guard lock(outcome_mutex_);
-      is_broken = outcome_.is_cell_broken;
-    }
-    const std::string line = amplifier_.convert(specimen_.force_N(), is_broken);
+    const std::string line = amplifier_.convert(specimen_.force_N() + weight_N_, is_cell_broken());
     if (is_cell_silent_) continue;
     lines += line;
     if (!options_.keeps_lines) continue;
@@ -163,12 +195,12 @@ void EmulatedRig::Impl::happen(double now_s) {
   if ((incidents & kSilenceCell) != 0) is_cell_silent_ = true;
   if ((incidents & kRestartCell) != 0) cell_port_.write(amplifier_.reset(now_s));
   if ((incidents & kRestartStage) != 0) {
-    grbl_.reset(now_s);
-    stage_port_.write(grbl_.take_output());
+    stage_->reset(now_s);
+    stage_port_.write(stage_->take_output());
   }
   if ((incidents & kHitLimit) != 0) {
-    grbl_.hit_limit(now_s);
-    stage_port_.write(grbl_.take_output());
+    stage_->hit_limit(now_s);
+    stage_port_.write(stage_->take_output());
   }
   const double stall_s = stall_wall_s_.exchange(0.0);
   if (stall_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(stall_s));
@@ -177,9 +209,8 @@ void EmulatedRig::Impl::happen(double now_s) {
 // Until the next conversion is due or the host says something.
 void EmulatedRig::Impl::nap(double now_s) {
   double wall_s = kLongestNap_s;
-  if (cell_board_.is_running) {
-    wall_s = std::clamp((amplifier_.next_sample_s() - now_s) / clock_.speed(), kShortestNap_s,
-                        kLongestNap_s);
+  if (cell_board_.is_running || is_gauge()) {
+    wall_s = std::clamp((next_sample_s() - now_s) / clock_.speed(), kShortestNap_s, kLongestNap_s);
   }
   // A port without host reports a hang-up at once: poll would spin on it.
   pollfd entry{stage_board_.is_open ? stage_port_.descriptor() : -1, POLLIN, 0};
@@ -194,14 +225,14 @@ void EmulatedRig::Impl::run() {
     happen(clock_.now_s());
     // Conversions up to now see the motion up to now; what the host says next acts from now on.
     const double now_s = clock_.now_s();
-    grbl_.tick(now_s);
+    stage_->tick(now_s);
     serve_cell(now_s);
     advance_bench(std::max(bench_s_, now_s));
     {
       // Before a report of this very moment can reach the host.
       const std::lock_guard lock(outcome_mutex_);
-      outcome_.final_position_m = grbl_.bench_position_m(now_s);
-      outcome_.is_moving = grbl_.is_moving(now_s);
+      outcome_.final_position_m = stage_->bench_position_m(now_s);
+      outcome_.is_moving = stage_->is_moving(now_s);
     }
     serve_stage(now_s);
     nap(clock_.now_s());
@@ -225,6 +256,7 @@ RigConfig EmulatedRig::config() const {
   RigConfig config = impl_->options_.config;
   config.stage.port = stage_port();
   config.load_cell.port = load_cell_port();
+  config.stage.microstep_m = 1.0 / impl_->options_.truth.steps_per_m;
   return config;
 }
 
@@ -236,6 +268,10 @@ EmulatedOutcome EmulatedRig::outcome() const {
 std::vector<std::string> EmulatedRig::sent_lines() const {
   const std::lock_guard lock(impl_->outcome_mutex_);
   return impl_->sent_lines_;
+}
+
+void EmulatedRig::hang_weight(double force_N) {
+  impl_->weight_N_ = force_N;
 }
 
 void EmulatedRig::pull_stage_cable() {

@@ -3,7 +3,9 @@
 #include "models/emulated_specimen.h"
 #include "models/rig_config.h"
 #include "rig/emulator/emulated_amplifier.h"
+#include "rig/emulator/emulated_gauge.h"
 #include "rig/emulator/emulated_grbl.h"
+#include "rig/emulator/emulated_zaber.h"
 
 #include <memory>
 #include <string>
@@ -13,10 +15,12 @@ namespace viscard {
 
 struct EmulatedRigOptions {
   EmulatedTruth truth;
-  // Of config the calibration, volts_per_count, axis, direction and clock_speed are used: what the
-  // instruments really do.
+  // Of config the drivers, calibration, volts_per_count, axis, direction and clock_speed are used:
+  // what the instruments really do.
   RigConfig config;
   GrblHabits grbl;
+  ZaberHabits zaber;
+  GaugeHabits gauge;
   AmplifierOptions amplifier;
   // What a board does when its port is opened: it resets (UNO, Nano) or not (native USB).
   bool resets_on_open = true;
@@ -33,7 +37,8 @@ struct EmulatedOutcome {
   bool is_moving = false;
 };
 
-// A GRBL stage and an HX711 amplifier on two pseudo-terminals, pressing an emulated specimen, on a
+// A stage (GRBL or Zaber) and a load cell (HX711 amplifier, multimeter or force gauge) as config's
+// drivers say, on two pseudo-terminals, pressing an emulated specimen, on a
 // clock that runs config.clock_speed times as fast as the wall's. One thread does it all; the
 // destructor ends it and hangs up both ports.
 class EmulatedRig {
@@ -50,6 +55,9 @@ class EmulatedRig {
   EmulatedOutcome outcome() const;
   // Every line of the amplifier since it was first opened, terminators and all.
   std::vector<std::string> sent_lines() const;
+
+  // A weight on the load cell besides what the stage presses; replaces the one before.
+  void hang_weight(double force_N);
 
   // Incidents, to be set off from any thread.
   void pull_stage_cable();

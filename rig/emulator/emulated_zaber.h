@@ -1,0 +1,76 @@
+#pragma once
+
+#include "models/emulated_specimen.h"
+#include "rig/emulator/emulated_controller.h"
+#include "rig/emulator/emulated_motion.h"
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace viscard {
+
+// Habits of real controllers that a driver must live with. Times on the emulated clock.
+struct ZaberHabits {
+  bool sends_checksums = true;
+  bool sends_alerts = false;   // comm.alert = 1: tells when a move has ended
+  bool has_reference = true;   // false: switched on and not homed
+  bool knows_estop = true;     // older firmware does not
+  int lose_reply_every = 0;    // every n-th reply is not sent
+  int garble_reply_every = 0;  // every n-th reply has a wrong digit (and a checksum that tells)
+  double reply_delay_s = 0.0;
+  bool has_neighbour = false;  // device 2 on the chain talks in between
+};
+
+// A Zaber controller of one axis on its wire (rig/zaber_protocol.h gives the sources). One
+// microstep is one step of the truth.
+class EmulatedZaber final : public EmulatedController {
+ public:
+  EmulatedZaber(const EmulatedTruth& truth, int toward_specimen, int device,
+                const ZaberHabits& habits);
+
+  void reset(double time_s) override;
+  void receive(std::string_view bytes, double time_s) override;
+  void tick(double time_s) override;
+  std::string take_output() override;
+  double bench_position_m(double time_s) const override { return motion_.position_m(time_s); }
+  double next_knot_s(double time_s) const override { return motion_.next_knot_s(time_s); }
+  bool is_moving(double time_s) const override { return motion_.is_moving(time_s); }
+  void hit_limit(double time_s) override;
+
+ private:
+  struct Answer {
+    double due_s;
+    std::string text;
+  };
+  void line(std::string_view text, double time_s);
+  // Data of an OK reply; nothing and a reason in rejection_ otherwise.
+  std::optional<std::string> obey(const std::vector<std::string>& words, double time_s);
+  std::optional<std::string> get(const std::string& setting, double time_s) const;
+  std::optional<std::string> set(const std::string& setting, double value);
+  std::optional<std::string> move(const std::vector<std::string>& words, double time_s);
+  std::string flag() const;
+  void reply(const std::string& id, const std::optional<std::string>& data, double time_s);
+  void say(std::string text, double due_s);
+  long long microsteps(double time_s) const;
+  double speed_m_s() const;
+  double acceleration_m_s2() const;
+
+  ZaberHabits habits_;
+  double microstep_m_;
+  double toward_;
+  int device_;
+  EmulatedMotion motion_;
+  double max_speed_data_, acceleration_data_;
+  bool has_reference_;
+  bool is_stalled_ = false;
+  bool is_interrupted_ = false;
+  bool was_moving_ = false;
+  std::string begun_, rejection_, output_;
+  std::deque<Answer> answers_;
+  int n_replies_ = 0;
+};
+
+}  // namespace viscard

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "models/rig_config.h"
+#include "rig/load_cell.h"
+#include "rig/record_sink.h"
+#include "rig/rig_clock.h"
+#include "rig/serial_line.h"
+#include "rig/stage.h"
+
+#include <memory>
+
+namespace viscard {
+
+// The driver that a rig file names, on a transport that is already open. Throws RigError naming the
+// drivers there are.
+std::unique_ptr<Stage> make_stage(Transport& transport, const StageConfig& config,
+                                  const RigClock& clock, const RecordSink& sink);
+std::unique_ptr<LoadCell> make_load_cell(Transport& transport, const LoadCellConfig& config,
+                                         const RigClock& clock, const RecordSink& sink);
+
+// Both instruments of a rig with their ports, closed in the right order.
+struct RigDevices {
+  std::unique_ptr<SerialLine> stage_line, cell_line;
+  std::unique_ptr<Stage> stage;
+  std::unique_ptr<LoadCell> load_cell;
+};
+
+// Opens the ports alone (devices come with make_stage and make_load_cell, once there is a sink).
+// Throws RigError with the reason why a port cannot be opened, or on a driver that is not known.
+RigDevices open_ports(const RigConfig& rig, const RigClock& clock);
+void add_drivers(RigDevices& devices, const RigConfig& rig, const RigClock& clock,
+                 const RecordSink& sink);
+
+}  // namespace viscard

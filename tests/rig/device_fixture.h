@@ -1,0 +1,83 @@
+#pragma once
+
+#include "rig/emulator/demo_rig.h"
+#include "rig/emulator/emulated_rig.h"
+#include "rig/open_devices.h"
+#include "rig/run_indentation.h"
+
+#include <atomic>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace viscard {
+
+// An emulated rig whose drivers are those its rig file names.
+struct DeviceFixture {
+  explicit DeviceFixture(const EmulatedRigOptions& options)
+      : emulated(options),
+        config(emulated.config()),
+        clock(config.clock_speed),
+        devices(open_ports(config, clock)),
+        sink([this](const RunRecord& record) { records.push_back(record); }) {
+    add_drivers(devices, config, clock, sink);
+  }
+
+  static EmulatedRigOptions options(double speed, const std::string& stage = "grbl",
+                                    const std::string& cell = "hx711") {
+    EmulatedRigOptions result;
+    result.truth = demo_truth(10.0, 7);
+    result.config = demo_rig();
+    result.config.clock_speed = speed;
+    result.config.stage.driver = stage;
+    result.config.load_cell.driver = cell;
+    if (cell == "mark10" || cell == "sauter") result.config.calibration.volts_per_newton = 1.0;
+    return result;
+  }
+
+  Pump pump() {
+    return [this] {
+      wait_readable({devices.stage_line.get(), devices.cell_line.get()}, 0.002);
+      devices.load_cell->service();
+      devices.stage->service();
+    };
+  }
+  void pump_for(double wall_s) {
+    const double until_s = monotonic_s() + wall_s;
+    while (monotonic_s() < until_s) pump()();
+  }
+  // Moves and waits; seconds of wall time at most.
+  bool move(double to_m, double speed_m_s) {
+    devices.stage->begin_move(to_m, speed_m_s, "test");
+    const double until_s = monotonic_s() + 5.0;
+    while (devices.stage->is_moving() && monotonic_s() < until_s) pump()();
+    return !devices.stage->is_moving();
+  }
+
+  RunOutcome run(const TestPlan& plan) {
+    RunControl control;
+    control.clock = &clock;
+    control.stop = &stop;
+    return run_indentation(*devices.stage, *devices.load_cell, config, plan, demo_specimen(10.0),
+                           sink, control);
+  }
+
+  template <class Record>
+  std::vector<Record> all() const {
+    std::vector<Record> found;
+    for (const RunRecord& record : records) {
+      if (const auto* one = std::get_if<Record>(&record)) found.push_back(*one);
+    }
+    return found;
+  }
+
+  EmulatedRig emulated;
+  RigConfig config;
+  RigClock clock;
+  std::vector<RunRecord> records;
+  std::atomic<bool> stop{false};
+  RigDevices devices;
+  RecordSink sink;
+};
+
+}  // namespace viscard
