@@ -1,10 +1,7 @@
 #include "io/scene_file.h"
 
 #include "io/atomic_file.h"
-#include "io/config_fields.h"
-#include "io/material_file.h"
-#include "io/nearest_word.h"
-#include "io/piezo_file.h"
+#include "io/scene_words.h"
 #include "io/toml_lines.h"
 #include "models/pillar/effects.h"
 #include "models/pillar/scene_mistake.h"
@@ -16,29 +13,7 @@
 namespace viscard {
 namespace {
 
-template <typename Value>
-Value choice(const std::string& key, const std::string& word,
-             const std::map<std::string, Value>& all) {
-  const auto found = all.find(word);
-  if (found != all.end()) return found->second;
-  std::vector<std::string> known;
-  std::string list;
-  for (const auto& [name, value] : all) {
-    known.push_back(name);
-    list += (list.empty() ? "" : ", ") + name;
-  }
-  const std::string near = nearest_word(word, known);
-  throw SceneMistake(key, "cannot be '" + word + "'" +
-                              (near.empty() ? "" : "; did you mean '" + near + "'?") +
-                              " There are: " + list);
-}
-
 // What stands in the file before it is made sense of.
-struct RawMaterial {
-  std::string file;
-  double E_Pa = 0.0, nu = 0.0, rho_kg_m3 = 0.0;
-};
-
 struct RawScene {
   double tolerance = 1e-3;
   std::string kind = "pillar", model = "axisymmetric";
@@ -56,13 +31,6 @@ struct RawScene {
   std::map<std::string, std::string> effects;
   std::vector<PrintedValue> printed;
 };
-
-void show_material(FieldVisitor& v, RawMaterial& m) {
-  v.text({"file", "pdms_1to10_seed.json"}, m.file);
-  v.quantity({.key = "E", .unit = "Pa", .range = Range::kPositive}, m.E_Pa);
-  v.quantity({.key = "nu"}, m.nu);
-  v.quantity({.key = "rho", .unit = "kg/m3", .range = Range::kPositive}, m.rho_kg_m3);
-}
 
 void show_geometry(FieldVisitor& v, RawScene& s) {
   v.text({"kind", "pillar"}, s.kind);
@@ -106,28 +74,10 @@ void show_scene(FieldVisitor& v, RawScene& s) {
   v.section("want", [&](FieldVisitor& w) {
     w.texts({"quantities", "top_displacement"}, s.quantities);
   });
-  v.list(
-      "printed", s.printed.size(), [&](std::size_t n) { s.printed.resize(n); },
-      [&](FieldVisitor& p, std::size_t i) {
-        p.text({"name", "lateral 1", true}, s.printed[i].name);
-        p.text({"value", "16103 Hz", true}, s.printed[i].value);
-        p.text({"note", "the mesh of the source is coarse"}, s.printed[i].note);
-      });
+  show_printed(v, s.printed);
   v.section("effects", [&](FieldVisitor& e) {
     for (const Effect& effect : effects()) e.text({effect.name, "auto"}, s.effects[effect.name]);
   });
-}
-
-Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder) {
-  if (!raw.file.empty()) return read_material(folder / raw.file).material;
-  if (!(raw.E_Pa > 0.0)) {
-    throw SceneMistake("materials.pillar", "needs E (and nu, rho) or a file");
-  }
-  Material material;
-  material.E0_Pa = raw.E_Pa;
-  material.nu = raw.nu;
-  material.rho_kg_m3 = raw.rho_kg_m3;
-  return material;
 }
 
 void fill_film(const RawScene& raw, const std::filesystem::path& folder, Scene& scene) {

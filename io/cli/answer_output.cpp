@@ -1,0 +1,106 @@
+#include "io/cli/answer_output.h"
+
+#include "io/atomic_file.h"
+#include "io/cli/command_plan.h"
+#include "io/nearest_word.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace viscard {
+
+nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s) {
+  nlohmann::json results = nlohmann::json::object();
+  for (const SceneResult& r : answer.results) {
+    results[r.name] = {{"value", r.value}, {"unit", r.unit}, {"error_estimate", r.error_estimate}};
+  }
+  nlohmann::json modes = nlohmann::json::array();
+  for (const SceneMode& m : answer.modes) {
+    modes.push_back({{"family", m.family},
+                     {"harmonic", m.harmonic},
+                     {"frequency_Hz", m.frequency_Hz},
+                     {"error_estimate", m.error_estimate}});
+  }
+  nlohmann::json effects = nlohmann::json::array();
+  for (const SceneEffect& e : answer.effects) {
+    effects.push_back(json_from_effect(e));
+  }
+  return {{"results", results},
+          {"modes", modes},
+          {"effects", effects},
+          {"discretisation",
+           {{"degree", answer.discretisation.degree}, {"layers", answer.discretisation.layers}}},
+          {"unknowns", answer.unknowns},
+          {"wall_s", wall_s}};
+}
+
+void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out) {
+  for (const SceneResult& r : answer.results) {
+    out << fmt::format("  {:<28} {:>14.7g} {:<4} +- {:.1e}\n", r.name, r.value, r.unit,
+                       r.error_estimate);
+  }
+  for (const SceneMode& m : answer.modes) {
+    out << fmt::format("  {:<13} m = {}  {:>14.2f} Hz +- {:.1e}\n", m.family, m.harmonic,
+                       m.frequency_Hz, m.error_estimate);
+  }
+  out << fmt::format("  effects on: ");
+  bool first = true;
+  for (const SceneEffect& e : answer.effects) {
+    if (!e.on) continue;
+    out << (first ? "" : ", ") << e.name;
+    first = false;
+  }
+  out << (first ? "none" : "")
+      << fmt::format("\n  degree {}, {} layers at the rim, {} unknowns, {:.3g} s\n",
+                     answer.discretisation.degree, answer.discretisation.layers, answer.unknowns,
+                     wall_s);
+}
+
+void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer) {
+  if (wanted.empty() || answer.results.empty()) return;
+  std::vector<std::string> known;
+  std::string list;
+  for (const SceneResult& r : answer.results) {
+    known.push_back(r.name);
+    list += (list.empty() ? "" : ", ") + r.name;
+  }
+  for (const std::string& name : wanted) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (name.find("peak_stress") != std::string::npos || name == "base_stress_max") {
+      throw std::runtime_error(
+          "the peak stress at the rim of the bond is infinite in an elastic body: it grows with "
+          "every "
+          "refinement. Ask for base_stress_at_half_radius instead");
+    }
+    const std::string near = nearest_word(name, known);
+    throw std::runtime_error("want.quantities: this analysis has no '" + name + "'" +
+                             (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                             " It has: " + list);
+  }
+  std::erase_if(answer.results, [&](const SceneResult& r) {
+    return std::find(wanted.begin(), wanted.end(), r.name) == wanted.end();
+  });
+}
+
+void write_files(const SceneAnswer& answer, const nlohmann::json& object, const std::string& folder,
+                 const std::string& command, bool overwrite) {
+  std::filesystem::create_directories(folder);
+  nlohmann::json with_command = object;
+  with_command["command"] = command;
+  with_command["created_by"] = "viscard " VISCARD_VERSION;
+  write_file(std::filesystem::path(folder) / "results.json", with_command.dump(2) + "\n",
+             overwrite);
+  for (const SceneCurve& curve : answer.curves) {
+    std::string text = fmt::format("# {} (viscard {})\n{},{}_{}\n", command, VISCARD_VERSION,
+                                   curve.x_name, curve.name, curve.unit);
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
+      text += fmt::format("{},{}\n", curve.x[i], curve.value[i]);
+    }
+    write_file(std::filesystem::path(folder) / (curve.name + ".csv"), text, overwrite);
+  }
+}
+
+}  // namespace viscard

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "models/pillar/scene.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// How the answer of any scene is printed and stored.
+
+nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s);
+void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out);
+
+// Drops the results that are not among the wanted ones, if any are. Throws std::runtime_error
+// naming one that this analysis does not have.
+void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer);
+
+// results.json and a CSV table of every curve. Throws std::runtime_error if a file exists and may
+// not be overwritten.
+void write_files(const SceneAnswer& answer, const nlohmann::json& object, const std::string& folder,
+                 const std::string& command, bool overwrite);
+
+}  // namespace viscard
