@@ -16,6 +16,7 @@ void require_length(double value_m, const char* what) {
 }
 
 void append(std::vector<double>& breaks, const std::vector<double>& more) {
+  if (more.empty()) return;  // a film no wider than its pillar adds nothing
   const double same = 1e-9 * std::abs(more.back() - more.front());
   for (const double x : more) {
     if (breaks.empty() || x > breaks.back() + same) breaks.push_back(x);
