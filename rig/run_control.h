@@ -10,6 +10,7 @@ namespace viscard {
 
 // What a person at the rig wants to see, a few times a second. Times in rig seconds.
 struct RunProgress {
+  double time_s = 0.0;  // since the run began
   std::string phase;
   double fraction = 0.0;  // of the whole run, by time
   double force_N = 0.0;   // newest reading, from the tare

@@ -142,7 +142,7 @@ void RunSession::watch_spikes(const LoadSample& sample, bool is_doubtful) {
     }
   }
   if (is_doubtful) return spikes_.interrupt();
-  const double value = sample.counts ? *sample.counts : *sample.volts;
+  const double value = sample.counts ? *sample.counts : *force_N_from_sample(sample, rig_);
   if (const auto spike = spikes_.take(sample.index, value)) {
     mark(*spike, "stands out of its neighbours: a garbled digit, or a knock");
   }
@@ -279,6 +279,7 @@ void RunSession::report_progress() {
   last_progress_wall_s_ = monotonic_s();
   RunProgress progress;
   const double now_s = clock_.now_s();
+  progress.time_s = now_s;
   progress.phase = phase_;
   progress.time_left_s = std::max(0.0, planned_rest_s_ - (now_s - phase_start_s_));
   progress.fraction = now_s / std::max(1e-9, now_s + progress.time_left_s);

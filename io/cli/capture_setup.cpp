@@ -12,23 +12,6 @@ namespace {
 
 constexpr double kFastest = 500.0;
 
-void check_words(const CaptureWords& words) {
-  if (words.out_file.empty()) {
-    throw UsageError("capture needs --out FILE, the capture file to write");
-  }
-  if (!(words.speed > 0.0) || words.speed > kFastest) {
-    throw UsageError(fmt::format("--speed {} is outside 0 to {}", words.speed, kFastest));
-  }
-  if (words.is_emulated) return;
-  if (words.truth_file || words.seed || words.speed != 1.0) {
-    throw UsageError("--truth, --seed and --speed are for an emulated rig: add --emulate");
-  }
-  if (!words.rig_file || !words.test_file || !words.specimen_file) {
-    throw UsageError(
-        "capture needs --rig, --test and --specimen (or --emulate to try it without hardware)");
-  }
-}
-
 // An emulated specimen like the one described: PDMS of the demonstration where the mixing ratio is
 // one of its three, otherwise its relaxation with the guessed modulus; geometry as described.
 EmulatedTruth truth_like(const Specimen& specimen, std::uint64_t seed) {
@@ -45,12 +28,31 @@ EmulatedTruth truth_like(const Specimen& specimen, std::uint64_t seed) {
 
 }  // namespace
 
-CaptureSetup capture_setup(const CaptureWords& words) {
-  check_words(words);
+void check_words(const CaptureWords& words) {
+  if (words.out_file.empty()) {
+    throw UsageError("capture needs --out FILE, the capture file to write");
+  }
+  if (words.resumes && words.overwrite) {
+    throw UsageError("--resume keeps what is there and --force replaces it: give one of them");
+  }
+  if (!(words.speed > 0.0) || words.speed > kFastest) {
+    throw UsageError(fmt::format("--speed {} is outside 0 to {}", words.speed, kFastest));
+  }
+  if (words.is_emulated) return;
+  if (words.truth_file || words.seed || words.speed != 1.0) {
+    throw UsageError("--truth, --seed and --speed are for an emulated rig: add --emulate");
+  }
+  if (!words.rig_file || !words.test_file || words.specimen_files.empty()) {
+    throw UsageError(
+        "capture needs --rig, --test and --specimen (or --emulate to try it without hardware)");
+  }
+}
+
+CaptureSetup capture_setup(const CaptureWords& words, const std::string& specimen_file) {
   CaptureSetup setup;
   setup.rig = words.rig_file ? read_rig(*words.rig_file) : demo_rig();
   setup.plan = words.test_file ? read_test(*words.test_file) : TestPlan{};
-  setup.specimen = words.specimen_file ? read_specimen(*words.specimen_file) : demo_specimen(10.0);
+  setup.specimen = specimen_file.empty() ? demo_specimen(10.0) : read_specimen(specimen_file);
   if (!words.is_emulated) return setup;
   setup.truth = words.truth_file ? read_truth(*words.truth_file)
                                  : truth_like(setup.specimen, words.seed.value_or(1));

@@ -1,22 +1,17 @@
 #include "io/cli/command_capture.h"
 
-#include "io/atomic_file.h"
-#include "io/capture_file.h"
+#include "io/cli/capture_run.h"
+#include "io/cli/capture_series.h"
 #include "io/cli/capture_setup.h"
 #include "io/cli/command_line.h"
-#include "io/cli/progress.h"
-#include "rig/emulator/emulated_rig.h"
-#include "rig/open_devices.h"
-#include "rig/run_indentation.h"
+#include "io/cli/live_picture.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <signal.h>
+#include <unistd.h>
 
-#include <array>
-#include <atomic>
 #include <filesystem>
-#include <memory>
+#include <iostream>
 #include <ostream>
 
 namespace po = boost::program_options;
@@ -24,50 +19,36 @@ namespace po = boost::program_options;
 namespace viscard {
 namespace {
 
-std::atomic<bool> stop_asked{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
+using nlohmann::ordered_json;
 
-extern "C" void ask_to_stop(int) {
-  stop_asked = true;
-}
-
-// While it lives, Ctrl-C and termination stop the stage first and then end the run.
-class StopOnSignal {
- public:
-  StopOnSignal() {
-    stop_asked = false;
-    struct sigaction action {};
-    action.sa_handler = ask_to_stop;
-    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &action, &before_[i]);
-  }
-  ~StopOnSignal() {
-    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
-  }
-  StopOnSignal(const StopOnSignal&) = delete;
-  StopOnSignal& operator=(const StopOnSignal&) = delete;
-
- private:
-  static constexpr std::array<int, 3> kSignals{SIGINT, SIGTERM, SIGHUP};
-  std::array<struct sigaction, 3> before_{};
-};
+constexpr std::size_t kPictureWidth = 60;
 
 CommandSyntax capture_syntax() {
   CommandSyntax syntax;
-  syntax.usage = "viscard capture --rig FILE --test FILE --specimen FILE --out FILE [OPTIONS]";
+  syntax.usage = "viscard capture --rig FILE --test FILE --specimen FILE... --out FILE [OPTIONS]";
   syntax.description =
       "Runs one stress-relaxation indentation and records every byte of it. With --emulate no rig\n"
       "and no file is needed: a GRBL stage and an HX711 amplifier are emulated behind real ports.\n"
-      "Ctrl-C stops the stage, lifts the punch and keeps what was recorded.";
+      "Ctrl-C stops the stage, lifts the punch and keeps what was recorded. Several --specimen "
+      "make\n"
+      "a series: --out is then a folder, and --resume goes on with what is not finished in it.";
   syntax.example = "viscard capture --emulate --speed 50 --out run.viscap";
-  syntax.options.add_options()("rig", po::value<std::string>(), "rig.toml: ports, calibration")(
-      "test", po::value<std::string>(), "test.toml: depth, ramp, hold")(
-      "specimen", po::value<std::string>(), "specimen.toml: geometry, modulus guess")(
-      "out", po::value<std::string>(), "capture file to write (*.viscap)")(
-      "emulate", "use an emulated rig")("truth", po::value<std::string>(),
-                                        "truth.toml: what the emulated specimen is made of")(
-      "seed", po::value<std::uint64_t>(), "seed of the emulated noise")(
-      "speed", po::value<double>()->default_value(1.0),
-      "emulated clock over wall clock, up to 500")("force", "replace an existing capture file");
+  auto add = syntax.options.add_options();
+  add("rig", po::value<std::string>(), "rig.toml: ports, calibration");
+  add("test", po::value<std::string>(), "test.toml: depth, ramp, hold");
+  add("specimen", po::value<std::vector<std::string>>(),
+      "specimen.toml: geometry, modulus guess; again for each further specimen");
+  add("out", po::value<std::string>(), "capture file to write (*.viscap), or a folder");
+  add("resume", "leave finished captures, repeat interrupted ones beside them");
+  add("yes", "do not wait for Enter between specimens");
+  add("live", "keep a page with force against time beside the capture: *.live.html");
+  add("acknowledge", "say on stderr how many records are safe from a crash");
+  add("emulate", "use an emulated rig");
+  add("truth", po::value<std::string>(), "truth.toml: what the emulated specimen is made of");
+  add("seed", po::value<std::uint64_t>(), "seed of the emulated noise");
+  add("speed", po::value<double>()->default_value(1.0),
+      "emulated clock over wall clock, up to 500");
+  add("force", "replace an existing capture file");
   return syntax;
 }
 
@@ -78,7 +59,9 @@ CaptureWords words_from(const po::variables_map& values) {
   CaptureWords words;
   words.rig_file = text("rig");
   words.test_file = text("test");
-  words.specimen_file = text("specimen");
+  if (values.count("specimen") > 0) {
+    words.specimen_files = values["specimen"].as<std::vector<std::string>>();
+  }
   words.truth_file = text("truth");
   words.out_file = text("out").value_or("");
   words.is_emulated = values.count("emulate") > 0;
@@ -86,6 +69,10 @@ CaptureWords words_from(const po::variables_map& values) {
   words.speed = values["speed"].as<double>();
   words.overwrite = values.count("force") > 0;
   words.as_json = values.count("json") > 0;
+  words.resumes = values.count("resume") > 0;
+  words.asks_nobody = values.count("yes") > 0;
+  words.shows_page = values.count("live") > 0;
+  words.acknowledges = values.count("acknowledge") > 0;
   return words;
 }
 
@@ -99,85 +86,31 @@ void check_before_start(const CaptureWords& words, const CaptureSetup& setup) {
   }
 }
 
-std::string percent(double part, double whole) {
-  return fmt::format("{:.0f} %", 100 * part / whole);
-}
-
-RunControl run_control(const RigClock& clock, Progress& progress, const RigConfig& rig) {
-  RunControl control;
-  control.clock = &clock;
-  control.stop = &stop_asked;
-  control.progress = [&progress, &rig](const RunProgress& state) {
-    progress.show(
-        state.fraction,
-        fmt::format("{}  {:.3f} N ({} of the cell)  {:.1f} um", state.phase, state.force_N,
-                    percent(state.force_N, rig.calibration.capacity_N), state.depth_m * 1e6));
-  };
-  return control;
-}
-
-// Opens both ports, then the file, then runs.
-RunOutcome capture(const CaptureWords& words, const CaptureSetup& setup, const std::string& command,
-                   Streams& streams) {
-  const RigConfig& rig = setup.rig;
-  const StopOnSignal on_signal;
-  const RigClock clock(rig.clock_speed);
-  RigDevices devices = open_ports(rig, clock);
-
-  CapturedRun about;
-  about.rig = rig;
-  about.plan = setup.plan;
-  about.specimen = setup.specimen;
-  about.program = "viscard " VISCARD_VERSION;
-  about.command = command;
-  CaptureOptions options;
-  options.overwrite = words.overwrite;
-  CaptureWriter writer(words.out_file, about, options);
-  if (setup.truth) {
-    std::filesystem::path path = words.out_file;
-    write_file(path.replace_extension(".truth.json"), json_from_truth(*setup.truth), true);
-  }
-  const RecordSink sink =
-      failing_once([&writer](const RunRecord& record) { writer.append(record); });
-  add_drivers(devices, rig, clock, sink);
-  Progress progress(streams, "capture");
-  RunOutcome outcome = run_indentation(*devices.stage, *devices.load_cell, rig, setup.plan,
-                                       setup.specimen, sink, run_control(clock, progress, rig));
-  progress.clear();
-  try {
-    writer.finish(outcome.status == "finished" ? "finished" : "interrupted");
-  } catch (const std::exception& error) {
-    if (outcome.reason.empty()) throw;  // otherwise the reason is this very failure
-  }
-  const std::size_t dropped = writer.counts().dropped;
-  if (dropped > 0 && outcome.status == "finished") {
-    outcome.status = "interrupted";
-    outcome.reason = fmt::format(
-        "{} records were lost because the disk did not keep up. Write to a faster disk", dropped);
-  }
-  return outcome;
-}
-
-void print_text(const CaptureWords& words, const RunOutcome& outcome, std::ostream& out) {
+void print_text(const CaptureOutcome& capture, std::ostream& out) {
+  const RunOutcome& outcome = capture.run;
   const StreamCounts& stream = outcome.stream;
-  out << fmt::format("{}: {}\n", words.out_file, outcome.status)
+  out << fmt::format("{}: {}\n", capture.file, outcome.status)
       << fmt::format("  peak force      {:.4f} N (expected at most {:.4f}, limit {:.4f})\n",
                      outcome.peak_force_N, outcome.expected.peak_force_N, outcome.expected.limit_N)
       << fmt::format("  depth reached   {:.4f} mm\n", outcome.achieved_depth_m * 1e3)
       << fmt::format("  noise           {:.3f} mN per reading\n", outcome.noise_N * 1e3)
       << fmt::format(
              "  readings        expected {}, received {}, missing {}, duplicate {}, glitch {}, "
-             "unreadable {}\n",
+             "unreadable {}, implausible {}\n",
              stream.expected(), stream.received, stream.missing, stream.duplicate, stream.glitch,
-             stream.unreadable)
+             stream.unreadable, stream.implausible)
       << fmt::format("  longest gap     {:.4f} s, at {:.1f} s\n", stream.longest_gap_s,
                      stream.longest_gap_at_s);
+  if (!capture.force_N.empty()) {
+    out << "  force           " << sparkline(capture.force_N, kPictureWidth) << "\n";
+  }
 }
 
-void print_json(const CaptureWords& words, const RunOutcome& outcome, std::ostream& out) {
+ordered_json json_from_outcome(const CaptureOutcome& capture) {
+  const RunOutcome& outcome = capture.run;
   const StreamCounts& stream = outcome.stream;
-  nlohmann::ordered_json json;
-  json["file"] = words.out_file;
+  ordered_json json;
+  json["file"] = capture.file;
   json["status"] = outcome.status;
   json["reason"] = outcome.reason;
   json["peak_force_N"] = outcome.peak_force_N;
@@ -185,8 +118,8 @@ void print_json(const CaptureWords& words, const RunOutcome& outcome, std::ostre
   json["limit_N"] = outcome.expected.limit_N;
   json["depth_m"] = outcome.achieved_depth_m;
   json["contact_position_m"] = outcome.contact_position_m
-                                   ? nlohmann::ordered_json(*outcome.contact_position_m)
-                                   : nlohmann::ordered_json(nullptr);
+                                   ? ordered_json(*outcome.contact_position_m)
+                                   : ordered_json(nullptr);
   json["noise_N"] = outcome.noise_N;
   json["readings"] = {{"expected", stream.expected()},
                       {"received", stream.received},
@@ -195,9 +128,61 @@ void print_json(const CaptureWords& words, const RunOutcome& outcome, std::ostre
                       {"glitch", stream.glitch},
                       {"saturated", stream.saturated},
                       {"unreadable", stream.unreadable},
+                      {"implausible", stream.implausible},
                       {"longest_gap_s", stream.longest_gap_s},
                       {"longest_gap_at_s", stream.longest_gap_at_s}};
-  out << json.dump() << "\n";
+  return json;
+}
+
+// Waits until the person has changed the specimen; false when that was declined.
+bool is_next_ready(const SeriesStep& step, const CaptureWords& words, Streams& streams) {
+  if (words.is_emulated || words.asks_nobody) return true;
+  streams.err << "Put the specimen of " << step.specimen_file
+              << " under the punch and press Enter (q ends here): " << std::flush;
+  std::string answer;
+  return std::getline(std::cin, answer) && answer.rfind('q', 0) != 0;
+}
+
+// Several specimens need somebody to change them, unless nobody needs to.
+void check_somebody_is_there(const CaptureWords& words, std::size_t n_left) {
+  if (n_left < 2 || words.is_emulated || words.asks_nobody || isatty(STDIN_FILENO) == 1) return;
+  throw UsageError(
+      "between several specimens capture waits for Enter, and there is no terminal to wait at: add "
+      "--yes if they change by themselves");
+}
+
+struct SeriesResult {
+  ordered_json runs = ordered_json::array();
+  std::string trouble;  // why it ended early
+};
+
+SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords& words,
+                        const std::string& command, Streams& streams) {
+  SeriesResult result;
+  bool is_first = true;
+  for (const SeriesStep& step : steps) {
+    if (!step.finished_file.empty()) {
+      result.runs.push_back({{"file", step.finished_file}, {"status", "finished before"}});
+      if (!words.as_json) streams.out << step.finished_file << ": finished before\n";
+      continue;
+    }
+    CaptureWords one = words;
+    one.out_file = step.out_file;
+    const CaptureSetup setup = capture_setup(one, step.specimen_file);
+    check_before_start(one, setup);
+    if (!is_first && !is_next_ready(step, words, streams)) {
+      result.trouble = "the series was ended before " + step.specimen_file;
+      return result;
+    }
+    is_first = false;
+    const CaptureOutcome outcome = capture_once(one, setup, command, streams);
+    result.runs.push_back(json_from_outcome(outcome));
+    if (!words.as_json) print_text(outcome, streams.out);
+    if (outcome.run.status == "finished") continue;
+    result.trouble = outcome.run.reason;
+    return result;
+  }
+  return result;
 }
 
 }  // namespace
@@ -207,24 +192,22 @@ int run_capture(const std::vector<std::string>& words, Streams& streams) {
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   const CaptureWords asked = words_from(*values);
-  CaptureSetup setup = capture_setup(asked);
-  check_before_start(asked, setup);
-  std::unique_ptr<EmulatedRig> emulated;
-  if (setup.truth) {
-    EmulatedRigOptions options;
-    options.truth = *setup.truth;
-    options.config = setup.rig;
-    emulated = std::make_unique<EmulatedRig>(options);
-    setup.rig = emulated->config();
-  }
-  const RunOutcome outcome = capture(asked, setup, quoted_command_line("capture", words), streams);
+  check_words(asked);
+  const std::vector<SeriesStep> steps = series_from_words(asked);
+  std::size_t n_left = 0;
+  for (const SeriesStep& step : steps) n_left += step.finished_file.empty() ? 1 : 0;
+  check_somebody_is_there(asked, n_left);
+  const SeriesResult result =
+      run_series(steps, asked, quoted_command_line("capture", words), streams);
   if (asked.as_json) {
-    print_json(asked, outcome, streams.out);
-  } else {
-    print_text(asked, outcome, streams.out);
+    const ordered_json series = {{"runs", result.runs}, {"reason", result.trouble}};
+    streams.out << (steps.size() == 1 ? result.runs.at(0) : series).dump() << "\n";
   }
-  if (outcome.status == "finished") return kDone;
-  streams.err << "viscard: " << outcome.reason << "\n";
+  if (result.trouble.empty()) return kDone;
+  streams.err << "viscard: " << result.trouble << "\n";
+  if (steps.size() > 1 || asked.resumes) {
+    streams.err << "viscard: the same command with --resume goes on from here\n";
+  }
   return kFailed;
 }
 

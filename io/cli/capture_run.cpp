@@ -1,0 +1,105 @@
+#include "io/cli/capture_run.h"
+
+#include "io/atomic_file.h"
+#include "io/capture_file.h"
+#include "io/cli/live_view.h"
+#include "io/cli/stop_on_signal.h"
+#include "rig/emulator/emulated_rig.h"
+#include "rig/open_devices.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <ostream>
+
+namespace viscard {
+namespace {
+
+CapturedRun about_run(const CaptureSetup& setup, const RigConfig& rig, const std::string& command) {
+  CapturedRun about;
+  about.rig = rig;
+  about.plan = setup.plan;
+  about.specimen = setup.specimen;
+  about.program = "viscard " VISCARD_VERSION;
+  about.command = command;
+  return about;
+}
+
+LiveViewOptions view_options(const CaptureWords& words, const CaptureSetup& setup,
+                             const RigConfig& rig, const CaptureWriter& writer) {
+  LiveViewOptions options;
+  options.capacity_N = rig.calibration.capacity_N;
+  options.limit_N = rig.safety.soft_fraction * rig.calibration.capacity_N;
+  options.clock_speed = rig.clock_speed;
+  options.title = setup.specimen.id.empty() ? words.out_file : setup.specimen.id;
+  if (words.shows_page) {
+    options.page = std::filesystem::path(words.out_file).replace_extension(".live.html");
+  }
+  if (words.acknowledges) options.n_safe = [&writer] { return writer.counts().committed; };
+  return options;
+}
+
+// Ends the file. A run that lost records to a slow disk did not finish.
+void close_file(CaptureWriter& writer, RunOutcome& outcome) {
+  try {
+    writer.finish(outcome.status == "finished" ? "finished" : "interrupted");
+  } catch (const std::exception& error) {
+    if (outcome.reason.empty()) throw;  // otherwise the reason is this very failure
+  }
+  const std::size_t dropped = writer.counts().dropped;
+  if (dropped == 0 || outcome.status != "finished") return;
+  outcome.status = "interrupted";
+  outcome.reason = fmt::format(
+      "{} records were lost because the disk did not keep up. Write to a faster disk", dropped);
+}
+
+CaptureOutcome capture_with(const RigConfig& rig, const CaptureWords& words,
+                            const CaptureSetup& setup, const std::string& command,
+                            Streams& streams) {
+  const StopOnSignal on_signal;
+  const RigClock clock(rig.clock_speed);
+  RigDevices devices = open_ports(rig, clock);
+  CaptureOptions options;
+  options.overwrite = words.overwrite;
+  CaptureWriter writer(words.out_file, about_run(setup, rig, command), options);
+  if (setup.truth) {
+    std::filesystem::path path = words.out_file;
+    write_file(path.replace_extension(".truth.json"), json_from_truth(*setup.truth), true);
+  }
+  const RecordSink sink =
+      failing_once([&writer](const RunRecord& record) { writer.append(record); });
+  add_drivers(devices, rig, clock, sink);
+  LiveView view(streams, view_options(words, setup, rig, writer));
+  if (words.shows_page) {
+    streams.err
+        << "live page: "
+        << std::filesystem::absolute(words.out_file).replace_extension(".live.html").string()
+        << "\n";
+  }
+  RunControl control;
+  control.clock = &clock;
+  control.stop = &StopOnSignal::is_asked();
+  control.progress = [&view](const RunProgress& now) { view.update(now); };
+  CaptureOutcome outcome;
+  outcome.file = words.out_file;
+  outcome.run = run_indentation(*devices.stage, *devices.load_cell, rig, setup.plan, setup.specimen,
+                                sink, control);
+  outcome.force_N = view.history().force_N();
+  close_file(writer, outcome.run);
+  return outcome;
+}
+
+}  // namespace
+
+CaptureOutcome capture_once(const CaptureWords& words, const CaptureSetup& setup,
+                            const std::string& command, Streams& streams) {
+  if (!setup.truth) return capture_with(setup.rig, words, setup, command, streams);
+  EmulatedRigOptions options;
+  options.truth = *setup.truth;
+  options.config = setup.rig;
+  const EmulatedRig emulated(options);
+  return capture_with(emulated.config(), words, setup, command, streams);
+}
+
+}  // namespace viscard
