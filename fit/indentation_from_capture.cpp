@@ -81,7 +81,9 @@ ClockLine line_from_below(const std::vector<double>& x, const std::vector<double
 IndentationData indentation_from_capture(const CapturedRun& run) {
   IndentationData data;
   validate(run.rig.calibration);
-  const CommandedMove* ramp = first_move(run, "ramp");
+  // A preload is the first contact, where there is one.
+  const CommandedMove* preload = first_move(run, "preload");
+  const CommandedMove* ramp = preload != nullptr ? preload : first_move(run, "ramp");
   if (ramp == nullptr) {
     throw std::runtime_error("the capture holds no ramp: the run ended (" + run.status +
                              ") before the punch was driven in. Repeat it with viscard capture");

@@ -2,6 +2,7 @@
 
 #include "io/atomic_file.h"
 #include "io/config_fields.h"
+#include "models/test_phases.h"
 
 #include <cmath>
 #include <limits>
@@ -90,6 +91,44 @@ void show_rig(FieldVisitor& fields, RigConfig& rig) {
   });
 }
 
+// What belongs to one protocol each. Its section must be there when it is the one asked for.
+void show_protocols(FieldVisitor& fields, TestPlan& plan) {
+  fields.section("preload", [&](FieldVisitor& inner) {
+    inner.quantity({"force", "N", kNotNegative}, plan.preload_N);
+    inner.quantity({"hold", "s", kNotNegative}, plan.preload_s);
+  });
+  fields.list(
+      "levels", plan.levels.size(), [&](std::size_t size) { plan.levels.assign(size, {}); },
+      [&](FieldVisitor& inner, std::size_t i) {
+        inner.quantity({"depth", "m", kNotNegative, true}, plan.levels[i].depth_m);
+        inner.quantity({"duration", "s", kPositive}, plan.levels[i].ramp_s);
+        inner.quantity({"hold", "s", kNotNegative}, plan.levels[i].hold_s);
+      });
+  fields.section("creep", [&](FieldVisitor& inner) {
+    inner.quantity({"force", "N", kNotNegative, plan.protocol == "creep"}, plan.creep.force_N);
+    inner.quantity({"duration", "s", kPositive}, plan.creep.ramp_s);
+    inner.quantity({"hold", "s", kPositive}, plan.creep.hold_s);
+    inner.quantity({"tolerance", "N", kNotNegative}, plan.creep.tolerance_N);
+    inner.quantity({"depth_limit", "m", kNotNegative}, plan.creep.depth_limit_m);
+  });
+  fields.section("cycles", [&](FieldVisitor& inner) {
+    show_integer(inner, "count", 1, 100000, plan.cycles.count);
+    inner.quantity({"depth", "m", kNotNegative, plan.protocol == "cycles"}, plan.cycles.depth_m);
+    inner.quantity({"duration", "s", kPositive}, plan.cycles.ramp_s);
+    inner.quantity({"hold", "s", kNotNegative}, plan.cycles.hold_s);
+    inner.quantity({"rest", "s", kNotNegative}, plan.cycles.rest_s);
+    inner.quantity({"unload_to_fraction", "1", kFraction}, plan.cycles.unload_to_fraction);
+  });
+  fields.section("staircase", [&](FieldVisitor& inner) {
+    show_integer(inner, "steps", 1, 10000, plan.staircase.steps);
+    inner.quantity({"depth", "m", kNotNegative, plan.protocol == "staircase"},
+                   plan.staircase.depth_m);
+    inner.quantity({"duration", "s", kPositive}, plan.staircase.step_s);
+    inner.quantity({"hold", "s", kNotNegative}, plan.staircase.hold_s);
+    inner.boolean("down", plan.staircase.is_down_too);
+  });
+}
+
 void show_test(FieldVisitor& fields, TestPlan& plan) {
   fields.text({"name", "stress relaxation"}, plan.name);
   fields.section("approach", [&](FieldVisitor& inner) {
@@ -99,8 +138,11 @@ void show_test(FieldVisitor& fields, TestPlan& plan) {
     inner.quantity({"gap", "m", kNotNegative}, plan.gap_m);
     inner.quantity({"baseline", "s", kNotNegative}, plan.baseline_s);
   });
+  fields.text({"protocol", "ramp-hold"}, plan.protocol);
+  show_protocols(fields, plan);
+  const bool is_ramp_hold = plan.protocol == "ramp-hold";
   fields.section("ramp", [&](FieldVisitor& inner) {
-    inner.quantity({"depth", "m", kPositive, true}, plan.depth_m);
+    inner.quantity({"depth", "m", kPositive, is_ramp_hold}, plan.depth_m);
     inner.quantity({"duration", "s", kPositive}, plan.ramp_s);
     inner.quantity({"hold", "s", kNotNegative}, plan.hold_s);
   });
@@ -230,6 +272,7 @@ void check_test(TestPlan& plan) {
         "recovery.unload_to_fraction is 1, so nothing would be unloaded; use 0.1, or recovery.hold "
         "= 0 to leave it out");
   }
+  phases_from_plan(plan);
 }
 
 void check_specimen(Specimen& specimen) {

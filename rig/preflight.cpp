@@ -1,5 +1,6 @@
 #include "rig/preflight.h"
 
+#include "models/test_phases.h"
 #include "rig/text_number.h"
 
 #include <algorithm>
@@ -20,38 +21,72 @@ std::string in_mm(double length_m) {
   return text_from_number(length_m * 1e3, 4) + " mm";
 }
 
-void check_force(const RigConfig& rig, const TestPlan& plan, Preflight& result) {
+void check_force(const RigConfig& rig, const std::vector<TestPhase>& phases, Preflight& result) {
   if (result.peak_force_N <= result.limit_N) return;
-  // Rounded down, so that the depth named is itself accepted.
-  const double depth_mm = std::floor(result.deepest_safe_depth_m * 1e6) * 1e-3;
+  const auto force_N = [&](const TestPhase& phase) {
+    return std::max(phase.force_N, result.specimen_stiffness_N_m * phase.depth_m);
+  };
+  const TestPhase& highest = *std::max_element(
+      phases.begin(), phases.end(),
+      [&](const TestPhase& a, const TestPhase& b) { return force_N(a) < force_N(b); });
+  const bool is_by_force = highest.force_N > 0.0;
+  // Rounded down, so that what is named is itself accepted.
+  const std::string remedy =
+      is_by_force ? text_from_number(std::floor(result.limit_N * 1e3) * 1e-3, 3) + " N or less"
+                  : text_from_number(std::floor(result.deepest_safe_depth_m * 1e6) * 1e-3, 3) +
+                        " mm or less";
   const bool is_above_rating = result.peak_force_N > rig.calibration.capacity_N;
-  result.problems.push_back("expected peak force " + in_N(result.peak_force_N) + " at depth " +
-                            in_mm(plan.depth_m) + " is above " + in_N(result.limit_N) + ", " +
+  result.problems.push_back("expected peak force " + in_N(result.peak_force_N) +
+                            (is_by_force ? std::string() : " at depth " + in_mm(highest.depth_m)) +
+                            " is above " + in_N(result.limit_N) + ", " +
                             text_from_number(100.0 * rig.safety.soft_fraction, 0) +
                             " % of the cell's " + in_N(rig.calibration.capacity_N) +
                             (is_above_rating ? ", and above the cell's rating itself" : "") +
-                            ". Lower depth under [ramp] of the test file to " +
-                            text_from_number(depth_mm, 3) + " mm or less");
+                            ". Lower " + highest.load_key + " of the test file to " + remedy);
 }
 
-void check_rates(const RigConfig& rig, const TestPlan& plan, Preflight& result) {
+void check_rates(const RigConfig& rig, const std::vector<TestPhase>& phases, Preflight& result) {
   const double rate_Hz = rig.load_cell.expected_rate_Hz;
   if (rate_Hz < kSlowestRate_Hz) {
     result.problems.push_back("the load cell gives " + text_from_number(rate_Hz, 1) +
                               " readings/s, too few to stop an approach in time: " +
                               remedy_for_slow_readings(rig.load_cell) +
                               ", then expected_rate in the rig file");
-  } else if (plan.ramp_s * rate_Hz < kFewestRampReadings) {
-    result.warnings.push_back(
-        "the ramp of " + text_from_number(plan.ramp_s, 2) + " s holds only " +
-        text_from_number(std::floor(plan.ramp_s * rate_Hz), 0) +
-        " readings. Raise duration under [ramp] of the test file for a better "
-        "instantaneous modulus");
+    return;
+  }
+  for (const TestPhase& phase : phases) {
+    if (phase.kind != TestPhase::Kind::kMove || !(phase.move_s > 0.0)) continue;
+    if (phase.move_s * rate_Hz >= kFewestRampReadings) continue;
+    result.warnings.push_back("the move '" + phase.name + "' of " +
+                              text_from_number(phase.move_s, 2) + " s holds only " +
+                              text_from_number(std::floor(phase.move_s * rate_Hz), 0) +
+                              " readings. Raise " + phase.speed_key +
+                              " of the test file for a better "
+                              "instantaneous modulus");
+    return;  // one such line says enough
   }
 }
 
-void check_motion(const RigConfig& rig, const TestPlan& plan, const StageDynamics& dynamics,
+// Of the phases that go to a depth in a given time.
+void check_speeds(const std::vector<TestPhase>& phases, const StageDynamics& dynamics,
                   Preflight& result) {
+  double before_m = 0.0;
+  for (const TestPhase& phase : phases) {
+    if (phase.kind != TestPhase::Kind::kMove) continue;
+    const double way_m = std::abs(result.stage_travel_of(phase.depth_m - before_m));
+    before_m = phase.depth_m;
+    if (!(phase.move_s > 0.0) || way_m <= dynamics.max_speed_m_s * phase.move_s) continue;
+    result.problems.push_back("the move '" + phase.name + "' needs " +
+                              text_from_number(way_m / phase.move_s * 1e3, 3) +
+                              " mm/s, more than the stage's largest rate. Raise " +
+                              phase.speed_key + " of the test file to " +
+                              text_from_number(way_m / dynamics.max_speed_m_s * 1.01, 3) + " s");
+    return;
+  }
+}
+
+void check_motion(const RigConfig& rig, const TestPlan& plan, const std::vector<TestPhase>& phases,
+                  const StageDynamics& dynamics, Preflight& result) {
   const double v = plan.approach_speed_m_s;
   const double seen_after_s = 1.5 / rig.load_cell.expected_rate_Hz + kLinkDelay_s;
   result.approach_overshoot_N =
@@ -64,22 +99,23 @@ void check_motion(const RigConfig& rig, const TestPlan& plan, const StageDynamic
         text_from_number(0.5 * v * room_N / result.approach_overshoot_N * 1e3, 3) +
         " mm/s or use finer steps");
   }
-  if (result.ramp_speed_m_s > dynamics.max_speed_m_s) {
-    result.problems.push_back(
-        "the ramp needs " + text_from_number(result.ramp_speed_m_s * 1e3, 3) +
-        " mm/s, more than the stage's largest rate. Raise duration under [ramp] of the test file "
-        "to " +
-        text_from_number(result.stage_travel_m / dynamics.max_speed_m_s * 1.01, 3) + " s");
-  }
+  check_speeds(phases, dynamics, result);
   const double step_m = 1.0 / dynamics.steps_per_m;
-  if (0.5 * step_m > 0.005 * plan.depth_m) {
+  const double depth_m = deepest_m(phases);
+  if (depth_m > 0.0 && 0.5 * step_m > 0.005 * depth_m) {
     result.warnings.push_back("one step of the stage is " +
-                              text_from_number(100.0 * step_m / plan.depth_m, 1) +
+                              text_from_number(100.0 * step_m / depth_m, 1) +
                               " % of the depth. Use microstepping");
+  }
+  const double force_N = highest_force_N(phases);
+  const double step_N = step_m * result.total_stiffness_N_m;
+  if (force_N > 0.0 && step_N > 0.01 * force_N) {
+    result.warnings.push_back("one step of the stage changes the force by " + in_N(step_N) +
+                              ", more than 1 % of the force to be held. Use microstepping");
   }
 }
 
-void check_plan(const RigConfig& rig, const TestPlan& plan, const Specimen& specimen) {
+void check_rig_and_specimen(const RigConfig& rig, const Specimen& specimen) {
   const auto require = [](bool is_good, const std::string& text) {
     if (!is_good) throw std::invalid_argument(text);
   };
@@ -87,18 +123,6 @@ void check_plan(const RigConfig& rig, const TestPlan& plan, const Specimen& spec
       specimen.modulus_guess_Pa > 0.0,
       "the specimen has no modulus_guess: without it nobody knows what the cell will bear. Give "
       "one, rather too high than too low");
-  require(
-      plan.depth_m > 0.0 && plan.ramp_s > 0.0 && plan.hold_s >= 0.0,
-      "depth and duration under [ramp] of the test file must be positive and hold not negative");
-  require(
-      plan.approach_speed_m_s > 0.0 && plan.unload_speed_m_s > 0.0 && plan.retract_speed_m_s > 0.0,
-      "all speeds of the test file must be positive");
-  require(plan.contact_force_N > 0.0 && plan.gap_m > 0.0 && plan.retract_m >= plan.gap_m,
-          "contact_force and gap under [approach] of the test file must be positive, and distance "
-          "under "
-          "[retract] not below gap");
-  require(plan.unload_to_fraction >= 0.0 && plan.unload_to_fraction < 1.0,
-          "unload_to_fraction under [recovery] of the test file must lie in [0, 1)");
   require(rig.load_cell.expected_rate_Hz > 0.0, "expected_rate of the load cell must be positive");
   require(rig.safety.warn_fraction > 0.0 && rig.safety.soft_fraction > 0.0 &&
               rig.safety.hard_fraction >= rig.safety.soft_fraction &&
@@ -124,7 +148,8 @@ double stop_distance_m(double speed_m_s, const StageDynamics& dynamics) {
 Preflight preflight(const RigConfig& rig, const TestPlan& plan, const Specimen& specimen,
                     const std::optional<StageDynamics>& dynamics) {
   validate(rig.calibration);
-  check_plan(rig, plan, specimen);
+  check_rig_and_specimen(rig, specimen);
+  const std::vector<TestPhase> phases = phases_from_plan(plan);
   Preflight result;
   result.specimen_stiffness_N_m =
       force_per_modulus_and_depth_m(specimen.contact) * specimen.modulus_guess_Pa;
@@ -133,13 +158,22 @@ Preflight preflight(const RigConfig& rig, const TestPlan& plan, const Specimen& 
       1.0 / result.specimen_stiffness_N_m + (frame_N_m > 0.0 ? 1.0 / frame_N_m : 0.0);
   result.total_stiffness_N_m = 1.0 / compliance_m_N;
   result.limit_N = rig.safety.soft_fraction * rig.calibration.capacity_N;
-  result.peak_force_N = result.specimen_stiffness_N_m * plan.depth_m;
+  result.travel_per_depth =
+      1.0 + (frame_N_m > 0.0 ? result.specimen_stiffness_N_m / frame_N_m : 0.0);
+  const double depth_m =
+      std::max(deepest_m(phases), highest_force_N(phases) / result.specimen_stiffness_N_m);
+  result.peak_force_N = result.specimen_stiffness_N_m * depth_m;
   result.deepest_safe_depth_m = result.limit_N / result.specimen_stiffness_N_m;
-  result.stage_travel_m = plan.depth_m + (frame_N_m > 0.0 ? result.peak_force_N / frame_N_m : 0.0);
-  result.ramp_speed_m_s = result.stage_travel_m / plan.ramp_s;
-  check_force(rig, plan, result);
-  check_rates(rig, plan, result);
-  if (dynamics) check_motion(rig, plan, *dynamics, result);
+  result.stage_travel_m = result.stage_travel_of(depth_m);
+  for (const TestPhase& phase : phases) {
+    if (phase.purpose != "ramp") continue;
+    const double first_m = std::max(phase.depth_m, phase.force_N / result.specimen_stiffness_N_m);
+    result.ramp_speed_m_s = result.stage_travel_of(first_m) / phase.move_s;
+    break;
+  }
+  check_force(rig, phases, result);
+  check_rates(rig, phases, result);
+  if (dynamics) check_motion(rig, plan, phases, *dynamics, result);
   return result;
 }
 

@@ -15,14 +15,17 @@ namespace viscard {
 struct Preflight {
   double specimen_stiffness_N_m = 0.0;  // c E, with the layer
   double total_stiffness_N_m = 0.0;     // in series with the frame
-  double peak_force_N = 0.0;  // elastic, at full depth: an upper bound for a relaxing solid
+  double peak_force_N = 0.0;  // elastic, at the deepest: an upper bound for a relaxing solid
   double limit_N = 0.0;       // soft limit of the cell
   double deepest_safe_depth_m = 0.0;
-  double stage_travel_m = 0.0;        // depth + peak_force/frame stiffness
-  double ramp_speed_m_s = 0.0;        // of the stage
+  double travel_per_depth = 1.0;      // of the stage: the frame gives way as well
+  double stage_travel_m = 0.0;        // to the deepest: depth + peak_force/frame stiffness
+  double ramp_speed_m_s = 0.0;        // of the stage, in the first ramp
   double approach_overshoot_N = 0.0;  // beyond the contact force, until the stage stands
   std::vector<std::string> problems;  // any of these: do not start
   std::vector<std::string> warnings;
+
+  double stage_travel_of(double depth_m) const { return depth_m * travel_per_depth; }
 };
 
 // Flat punch on the layer (models/punch_contact.h), modulus_guess of the specimen, frame in series.

@@ -1,20 +1,30 @@
 #include "rig/run_indentation.h"
 
+#include "models/test_phases.h"
+#include "rig/force_control.h"
 #include "rig/run_session.h"
 #include "rig/text_number.h"
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <vector>
 
 namespace viscard {
 namespace {
 
-constexpr double kTare_s = 1.0;
 constexpr double kSettle_s = 0.25;      // force after a stop, long against the readings' period
 constexpr double kContactSigmas = 6.0;  // of one reading's noise
 constexpr double kJog_m = 25e-6;        // longest way a dead host lets the stage go near contact
 constexpr int kMostBackOffs = 10;
+constexpr double kDepthAfter_s = 0.5;  // of a hold's beginning: the depth reached is told then
+// Force control.
+constexpr double kFirstShare = 0.7;    // of the force, reached by the stiffness guessed
+constexpr double kLeastRatio = 0.2;    // of the stiffness seen over the one guessed
+constexpr double kMeanReadings = 8.0;  // for one step
+constexpr double kLeastMean_s = 0.1;
+constexpr double kTolerance = 0.005;    // of the force, unless the test file says otherwise
+constexpr double kDeepestShare = 2.0;   // of the elastic depth: creep beyond that ends the run
 constexpr double kLoadedAtStart = 0.5;  // of the soft limit: something already presses
 
 std::string in_um(double length_m) {
@@ -25,7 +35,11 @@ class IndentationRun {
  public:
   IndentationRun(RunSession& session, const RigConfig& rig, const TestPlan& plan,
                  const Specimen& specimen)
-      : session_(session), rig_(rig), plan_(plan), specimen_(specimen) {}
+      : session_(session),
+        rig_(rig),
+        plan_(plan),
+        specimen_(specimen),
+        phases_(phases_from_plan(plan)) {}
 
   void connect();
   void measure();
@@ -35,36 +49,33 @@ class IndentationRun {
   RunOutcome outcome;
 
  private:
-  void prepare();
+  void carry_out(const TestPhase& phase);
+  void tare(const TestPhase& phase);
   void approach();
   void back_off(double contact_m);
-  void ramp_and_hold();
-  void unload_and_recover();
-  void retract();
-  double rest_s(double from_phase) const;
+  void wait(const TestPhase& phase);
+  void go_to_depth(const TestPhase& phase);
+  void load(const TestPhase& phase);
+  void hold_force(const TestPhase& phase);
+  void note_depth();
+  double approach_s() const { return 0.5 * plan_.approach_limit_m / plan_.approach_speed_m_s; }
+  double mean_s() const;
+  double live_depth_m() const;
 
   RunSession& session_;
   const RigConfig& rig_;
   const TestPlan& plan_;
   const Specimen& specimen_;
+  std::vector<TestPhase> phases_;
   double start_m_ = 0.0;
   double contact_m_ = 0.0;
+  double depth_asked_m_ = 0.0;  // by the last move to a depth
+  double measured_N_m_ = 0.0;   // stiffness seen while loading to a force
+  bool is_in_contact_ = false;
 };
 
-// What is planned from phase n on: 0 baseline, 1 ramp, 2 hold, 3 unload, 4 retract.
-double IndentationRun::rest_s(double from_phase) const {
-  const bool has_recovery = plan_.recovery_s > 0.0;
-  double rest_s = plan_.baseline_s + 1.0;
-  if (from_phase <= 3 && has_recovery) rest_s += plan_.recovery_s;
-  if (from_phase <= 2) rest_s += plan_.hold_s;
-  if (from_phase <= 1) rest_s += plan_.ramp_s;
-  if (from_phase <= 0) rest_s += plan_.baseline_s;
-  return rest_s;
-}
-
 void IndentationRun::connect() {
-  const double way_s = 0.5 * plan_.approach_limit_m / plan_.approach_speed_m_s;
-  session_.begin_phase("connect", rest_s(0) + way_s, "Waiting for both devices");
+  session_.begin_phase("connect", planned_s(phases_, 0, approach_s()), "Waiting for both devices");
   session_.connect();
   outcome.expected = preflight(rig_, plan_, specimen_, session_.stage().dynamics());
   if (!outcome.expected.problems.empty()) throw RigError(outcome.expected.problems.front());
@@ -74,18 +85,35 @@ void IndentationRun::connect() {
 }
 
 void IndentationRun::measure() {
-  prepare();
-  approach();
-  session_.begin_phase("baseline", rest_s(0), "Out of contact, before the ramp");
-  session_.pump_until(session_.now_s() + plan_.baseline_s);
-  ramp_and_hold();
-  if (plan_.recovery_s > 0.0) unload_and_recover();
-  retract();
+  for (std::size_t i = 0; i < phases_.size(); ++i) {
+    session_.begin_phase(phases_[i].name, planned_s(phases_, i, approach_s()), phases_[i].text);
+    carry_out(phases_[i]);
+  }
 }
 
-void IndentationRun::prepare() {
-  session_.begin_phase("tare", rest_s(0), "Zero of the load cell");
-  const ForceMean zero = session_.tare(kTare_s);
+void IndentationRun::carry_out(const TestPhase& phase) {
+  switch (phase.kind) {
+    case TestPhase::Kind::kTare:
+      return tare(phase);
+    case TestPhase::Kind::kApproach:
+      return approach();
+    case TestPhase::Kind::kWait:
+      return wait(phase);
+    case TestPhase::Kind::kMove:
+      return go_to_depth(phase);
+    case TestPhase::Kind::kLoad:
+      return load(phase);
+    case TestPhase::Kind::kHoldForce:
+      return hold_force(phase);
+    case TestPhase::Kind::kRetract:
+      is_in_contact_ = false;
+      session_.move(safe_position_m(), plan_.retract_speed_m_s, "retract");
+      return;
+  }
+}
+
+void IndentationRun::tare(const TestPhase& phase) {
+  const ForceMean zero = session_.tare(phase.duration_s);
   outcome.noise_N = zero.sd_N;
   if (std::abs(zero.force_N) > kLoadedAtStart * outcome.expected.limit_N) {
     throw RigError("the load cell reads " + text_from_number(zero.force_N, 3) +
@@ -95,7 +123,6 @@ void IndentationRun::prepare() {
 }
 
 void IndentationRun::approach() {
-  session_.begin_phase("approach", rest_s(0), "In short jogs until the punch touches");
   const double threshold_N = std::max(plan_.contact_force_N, kContactSigmas * outcome.noise_N);
   if (threshold_N > plan_.contact_force_N) {
     session_.event("advice", "noise",
@@ -140,33 +167,88 @@ void IndentationRun::back_off(double contact_m) {
       "sticky, or does the cell drift? Raise gap under [approach] of the test file");
 }
 
-void IndentationRun::ramp_and_hold() {
-  const Preflight& expected = outcome.expected;
-  session_.begin_phase("ramp", rest_s(1), "To full depth at constant speed");
-  session_.move(contact_m_ + expected.stage_travel_m, expected.ramp_speed_m_s, "ramp");
+// Of the last move, or of now if that is later: a wait in contact is counted from the end of
+// motion.
+void IndentationRun::wait(const TestPhase& phase) {
+  if (!is_in_contact_) return session_.pump_until(session_.now_s() + phase.duration_s);
   const double end_s = session_.stage().expected_end_s();
-  session_.begin_phase("hold", rest_s(2), "Relaxation at full depth");
+  session_.pump_until(end_s + std::min(kDepthAfter_s, phase.duration_s));
+  note_depth();
+  session_.pump_until(end_s + phase.duration_s);
+}
+
+double IndentationRun::live_depth_m() const {
   const double frame_N_m = rig_.frame.stiffness_N_m;
-  session_.pump_until(end_s + std::min(0.5, plan_.hold_s));
-  outcome.achieved_depth_m = session_.stage().position_m() - contact_m_ -
-                             (frame_N_m > 0.0 ? session_.force_N() / frame_N_m : 0.0);
-  session_.pump_until(end_s + plan_.hold_s);
+  return session_.stage().position_m() - contact_m_ -
+         (frame_N_m > 0.0 ? session_.force_N() / frame_N_m : 0.0);
 }
 
-void IndentationRun::unload_and_recover() {
-  session_.begin_phase("unload", rest_s(3), "Quickly to a part of the depth, still in contact");
-  const double to_m = contact_m_ + plan_.unload_to_fraction * outcome.expected.stage_travel_m;
-  session_.move(to_m, plan_.unload_speed_m_s, "unload");
-  const double end_s = session_.stage().expected_end_s();
-  session_.begin_phase("recovery", rest_s(3), "Hold after the unloading");
-  session_.pump_until(end_s + plan_.recovery_s);
+void IndentationRun::note_depth() {
+  outcome.achieved_depth_m = std::max(outcome.achieved_depth_m, live_depth_m());
 }
 
-void IndentationRun::retract() {
-  session_.begin_phase("retract", rest_s(4), "Off the specimen");
-  session_.move(safe_position_m(), plan_.retract_speed_m_s, "retract");
-  session_.begin_phase("baseline_after", plan_.baseline_s, "Out of contact, after the test");
-  session_.pump_until(session_.now_s() + plan_.baseline_s);
+void IndentationRun::go_to_depth(const TestPhase& phase) {
+  const Preflight& expected = outcome.expected;
+  const double way_m = std::abs(expected.stage_travel_of(phase.depth_m - depth_asked_m_));
+  const double speed_m_s = phase.move_s > 0.0 ? way_m / phase.move_s : phase.speed_m_s;
+  is_in_contact_ = true;
+  session_.move(contact_m_ + expected.stage_travel_of(phase.depth_m), speed_m_s, phase.purpose);
+  depth_asked_m_ = phase.depth_m;
+  if (phase.depth_m >= deepest_m(phases_)) note_depth();
+}
+
+// To most of the force by the stiffness guessed, then to the force by the stiffness seen on the
+// way. Both moves end early, gently, where the force says so.
+void IndentationRun::load(const TestPhase& phase) {
+  is_in_contact_ = true;
+  const double guess_N_m = outcome.expected.total_stiffness_N_m;
+  const double first_N = kFirstShare * phase.force_N;
+  const double speed_m_s = phase.force_N / guess_N_m / phase.move_s;
+  session_.move(contact_m_ + first_N / guess_N_m, speed_m_s, phase.purpose, first_N);
+  const ForceMean reached = session_.mean_force(mean_s());
+  const double way_m = session_.stage().position_m() - contact_m_;
+  measured_N_m_ = std::clamp(reached.force_N / std::max(way_m, plan_.gap_m),
+                             kLeastRatio * guess_N_m, guess_N_m / kLeastRatio);
+  const double rest_N = phase.force_N - reached.force_N;
+  if (rest_N <= 0.0) return;
+  session_.move(session_.stage().position_m() + rest_N / measured_N_m_, speed_m_s, phase.purpose,
+                phase.force_N);
+  note_depth();
+}
+
+// Long enough for a mean that is worth a step.
+double IndentationRun::mean_s() const {
+  return std::max(kLeastMean_s, kMeanReadings * session_.load_cell().period_s());
+}
+
+void IndentationRun::hold_force(const TestPhase& phase) {
+  const double deepest_m =
+      plan_.creep.depth_limit_m > 0.0
+          ? plan_.creep.depth_limit_m
+          : kDeepestShare * phase.force_N / outcome.expected.specimen_stiffness_N_m;
+  const double noise_N = outcome.noise_N / std::sqrt(kMeanReadings);
+  const double step_N = measured_N_m_ / session_.stage().dynamics().steps_per_m;
+  const double tolerance_N = plan_.creep.tolerance_N > 0.0 && phase.purpose == "creep"
+                                 ? plan_.creep.tolerance_N
+                                 : kTolerance * phase.force_N;
+  ForceControl control({.target_N = phase.force_N,
+                        .stiffness_N_m = measured_N_m_,
+                        .tolerance_N = std::max({tolerance_N, 3.0 * noise_N, 0.6 * step_N}),
+                        .largest_step_m = kJog_m,
+                        .noise_N = noise_N});
+  const double end_s = session_.stage().expected_end_s() + phase.duration_s;
+  while (session_.now_s() < end_s) {
+    const double step_m = control.step_m(session_.mean_force(mean_s()).force_N);
+    note_depth();
+    if (live_depth_m() > deepest_m) {
+      throw RigError("the specimen has crept to " + in_um(live_depth_m()) + ", beyond " +
+                     in_um(deepest_m) +
+                     ". Lower force or set depth_limit under [creep] of the test file");
+    }
+    if (step_m == 0.0) continue;
+    session_.move(session_.stage().position_m() + step_m, plan_.approach_speed_m_s, phase.purpose);
+  }
+  depth_asked_m_ = live_depth_m();
 }
 
 double IndentationRun::safe_position_m() const {

@@ -23,16 +23,18 @@ struct RunOutcome {
   double noise_N = 0.0;                      // of one reading, out of contact
   std::optional<double> contact_position_m;  // live estimate; the fit finds it better
   double peak_force_N = 0.0;
-  double achieved_depth_m = 0.0;  // by that estimate, at the ramp's end
+  double achieved_depth_m = 0.0;  // the deepest, by that estimate
   StreamCounts stream;
 };
 
-// Drives one stress-relaxation indentation and hands out everything it receives:
-//   connect - tare - approach in short jogs until touched - back off by gap - baseline - ramp (one
-//   jog) - hold - quick partial unloading - recovery hold - retract - baseline.
-// The quick unloading and the hold after it are there because a ramp of 1 s hides terms that are
-// faster: from ramp and hold alone a term of tau .19 s and g .008 is known to 30-40 % only, with
-// them g_1 + g_2 is known to 4-7 % (Cramer-Rao bound at the noise of the demonstration).
+// Carries out the phases of a test (models/test_phases.h) and hands out everything it receives:
+//   connect - tare - approach in short jogs until touched - back off by gap - baseline - preload -
+//   what the protocol asks for - retract - baseline.
+// "ramp-hold" ends with a quick partial unloading and a second hold, because a ramp of 1 s hides
+// terms that are faster: from ramp and hold alone a term of tau .19 s and g .008 is known to 30-40
+// % only, with them g_1 + g_2 is known to 4-7 % (Cramer-Rao bound at the noise of the
+// demonstration). A force is held by steps of the stage on the mean of a few readings at rest
+// (force_control.h).
 //
 // Whatever happens - limit, interruption, lost device, a sink that throws - the stage is stopped
 // first and the punch lifted as far as the devices still answer; then the outcome says so. Records
