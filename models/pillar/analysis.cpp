@@ -13,6 +13,8 @@ const std::vector<Analysis>& analyses() {
       {AnalysisKind::kRelaxation, "relaxation", false, true, check_history,
        run_creep_or_relaxation},
       {AnalysisKind::kCreep, "creep", false, true, check_history, run_creep_or_relaxation},
+      {AnalysisKind::kHarmonic, "harmonic", true, true, check_harmonic, run_harmonic},
+      {AnalysisKind::kTransient, "transient", true, true, check_transient, run_transient_scene},
   };
   return kAnalyses;
 }

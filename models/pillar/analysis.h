@@ -38,5 +38,9 @@ void check_buckling(const Scene& scene);
 void run_buckling(const Scene& scene, SceneAnswer& answer);
 void check_history(const Scene& scene);
 void run_creep_or_relaxation(const Scene& scene, SceneAnswer& answer);
+void check_harmonic(const Scene& scene);
+void run_harmonic(const Scene& scene, SceneAnswer& answer);
+void check_transient(const Scene& scene);
+void run_transient_scene(const Scene& scene, SceneAnswer& answer);
 
 }  // namespace viscard

@@ -19,6 +19,7 @@ struct Number {
 };
 
 void add_curve(SceneCurve& curve, std::vector<Number>& numbers) {
+  if (!curve.is_watched) return;
   curve.error.assign(curve.value.size(), 0.0);
   double peak = 0.0;
   for (const double value : curve.value) peak = std::max(peak, std::abs(value));

@@ -4,6 +4,7 @@
 #include "models/pillar/effect_choice.h"
 #include "models/pillar/load_history.h"
 #include "models/pillar/piezo_static.h"
+#include "models/pillar/readout.h"
 
 #include <functional>
 #include <optional>
@@ -13,7 +14,19 @@
 namespace viscard {
 
 // One pillar, what is done to it, and how well the answer must be known.
-enum class AnalysisKind { kStatic, kRelaxation, kCreep, kModal, kBuckling };
+enum class AnalysisKind {
+  kStatic,
+  kRelaxation,
+  kCreep,
+  kHarmonic,
+  kTransient,
+  kModal,
+  kBuckling
+};
+
+// Where and which way the pillar is driven in harmonic and transient analyses.
+enum class LoadPlace { kTop, kBase };
+enum class LoadDirection { kAxial, kLateral };
 
 struct Scene {
   double tolerance = 1e-3;  // relative error of the results
@@ -34,6 +47,17 @@ struct Scene {
   // Set by the plan (plan.h) for effects that are left out or insisted on:
   double condense_pressures_from = kNearlyIncompressible;  // Poisson ratio
   bool one_way_potential = false;  // the film's potential follows its strain and does not act back
+
+  // Harmonic and transient: pressure (axial) or shear (lateral) on the top, pressure_Pa or history in
+  // Pa; or the base shaken, base_acceleration_m_s2 or history in m/s^2.
+  LoadPlace load_place = LoadPlace::kTop;
+  LoadDirection direction = LoadDirection::kAxial;
+  double base_acceleration_m_s2 = 0.0;
+  std::vector<double> frequencies_Hz;  // harmonic, ascending
+  double end_time_s = 0.0;             // transient
+  int outputs = 1000;                  // transient: equal intervals
+  double drive_V = 0.0;                // static: voltage put on the electrode (actuator)
+  std::optional<Readout> readout;      // what the electrode is wired to; none: open circuit
 
   std::function<void(double)> progress;  // called with the fraction done; may be empty
 };
@@ -74,6 +98,7 @@ struct SceneCurve {
   std::string x_name = "time_s";
   std::vector<double> error;    // estimate at each point, in the unit
   std::vector<double> allowed;  // size at each point that the tolerance refers to; empty: the peak
+  bool is_watched = true;       // false: derived from a watched one, with its error set by it
 };
 
 struct SceneAnswer {

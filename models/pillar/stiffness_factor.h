@@ -47,4 +47,11 @@ inline Eigen::VectorXd times(const SymmetricSparse& matrix, const Eigen::VectorX
   return matrix.selfadjointView<Eigen::Lower>() * x;
 }
 
+// The whole matrix of a stored lower triangle.
+inline Eigen::MatrixXd dense(const SymmetricSparse& lower) {
+  Eigen::MatrixXd whole(lower);
+  whole.triangularView<Eigen::StrictlyUpper>() = whole.transpose();
+  return whole;
+}
+
 }  // namespace viscard

@@ -1,5 +1,6 @@
 #include "models/pillar/viscoelastic_exact.h"
 
+#include "models/pillar/relative_modulus.h"
 #include "models/retardation_spectrum.h"
 
 #include <Eigen/Eigenvalues>
@@ -45,22 +46,9 @@ ExactViscoelasticBody::ExactViscoelasticBody(const ViscoelasticSystem& system)
   }
 }
 
-std::complex<double> ExactViscoelasticBody::relative_modulus(std::complex<double> s,
-                                                             double MaterialTerm::*share) const {
-  // Moduli that remain plus those that wait, without the cancellation of 1 - sum g/(1 + s tau).
-  double rest = 1.0;
-  for (const MaterialTerm& term : terms_) rest -= term.*share;
-  std::complex<double> modulus = rest;
-  for (const MaterialTerm& term : terms_) {
-    const std::complex<double> x = s * term.tau_s;
-    modulus += term.*share * (std::abs(x) > 1.0 ? 1.0 / (1.0 + 1.0 / x) : x / (1.0 + x));
-  }
-  return modulus;
-}
-
 std::complex<double> ExactViscoelasticBody::compliance(std::complex<double> s) const {
-  const std::complex<double> shear = relative_modulus(s, &MaterialTerm::g);
-  const std::complex<double> bulk = relative_modulus(s, &MaterialTerm::k);
+  const std::complex<double> shear = relative_modulus(terms_, &MaterialTerm::g, s);
+  const std::complex<double> bulk = relative_modulus(terms_, &MaterialTerm::k, s);
   std::complex<double> sum = 0.0;
   for (std::size_t m = 0; m < weight_.size(); ++m) sum += weight_[m] / (shear + theta_[m] * bulk);
   return sum;

@@ -32,7 +32,6 @@ class ExactViscoelasticBody {
 
  private:
   std::complex<double> compliance(std::complex<double> s) const;
-  std::complex<double> relative_modulus(std::complex<double> s, double MaterialTerm::*share) const;
 
   std::vector<MaterialTerm> terms_;
   std::vector<double> weight_;  // w_m

@@ -9,6 +9,14 @@
 
 namespace viscard {
 
+// Stiffness (and, with_mass, mass) of any model of one pillar of a viscoelastic material: any
+// family of motion, with or without film and electrodes, whose part is elastic. The model must have
+// been made with the material's instantaneous moduli; the load is left empty. Throws
+// std::invalid_argument for plane stress with shear and bulk moduli that relax differently, where
+// the condensed moduli are no sum of the two.
+ViscoelasticSystem viscoelastic_system(const PillarModel& model, const Material& material,
+                                       bool with_mass);
+
 // How the top of the pillar is loaded along its axis.
 enum class TopLoad {
   kRigidPlate,  // a rigid frictionless plate: one displacement

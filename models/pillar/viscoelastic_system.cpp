@@ -9,6 +9,14 @@
 
 namespace viscard {
 
+SymmetricSparse stiffness_at(const ViscoelasticSystem& system, double shear_factor,
+                             double bulk_factor) {
+  SymmetricSparse matrix = system.elastic;
+  if (system.incompressible) bulk_factor = 1.0;
+  matrix.coeffs() += shear_factor * system.shear.coeffs() + bulk_factor * system.bulk.coeffs();
+  return matrix;
+}
+
 ViscoelasticStepper::ViscoelasticStepper(const ViscoelasticSystem& system, int order)
     : system_(&system), matrix_(system.shear), order_(order) {
   if (order < 1 || order > 5) {
@@ -47,9 +55,7 @@ void ViscoelasticStepper::prepare(double dt_s) {
     shear -= g_[i] * (1.0 - weights_(0, i));
     bulk -= k_[i] * (1.0 - weights_(0, i));
   }
-  if (system_->incompressible) bulk = 1.0;
-  matrix_.coeffs() =
-      system_->elastic.coeffs() + shear * system_->shear.coeffs() + bulk * system_->bulk.coeffs();
+  matrix_ = stiffness_at(*system_, shear, bulk);
   factor_.factor(matrix_);
   load_response_ = factor_.solve(system_->load);
   factored_s_ = lengths_s;

@@ -18,9 +18,14 @@ struct ViscoelasticSystem {
   SymmetricSparse shear;
   SymmetricSparse bulk;  // an incompressible body: the volume form times a penalty modulus
   bool incompressible = false;
+  SymmetricSparse mass;  // empty: quasi-static
   std::vector<MaterialTerm> terms;
   Eigen::VectorXd load;  // force vector of a unit load; load.u is the displacement it works on
 };
+
+// elastic + shear_factor shear + bulk_factor bulk; an incompressible body's penalty keeps factor 1.
+SymmetricSparse stiffness_at(const ViscoelasticSystem& system, double shear_factor,
+                             double bulk_factor);
 
 enum class Control { kForce, kDisplacement };
 

@@ -1,0 +1,80 @@
+#include "models/pillar/reduced_span.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+SymmetricSparse full_lower(const Eigen::MatrixXd& matrix) {
+  SymmetricSparse sparse(matrix.rows(), matrix.cols());
+  sparse.reserve(
+      Eigen::VectorXi::Constant(static_cast<int>(matrix.cols()), static_cast<int>(matrix.rows())));
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+    for (Eigen::Index i = j; i < matrix.rows(); ++i) sparse.insert(i, j) = matrix(i, j);
+  }
+  sparse.makeCompressed();
+  return sparse;
+}
+
+void append(Eigen::MatrixXd& matrix, const Eigen::VectorXd& column) {
+  matrix.conservativeResize(Eigen::NoChange, matrix.cols() + 1);
+  matrix.col(matrix.cols() - 1) = column;
+}
+
+}  // namespace
+
+ReducedSpan::ReducedSpan(const ViscoelasticSystem& body) : body_(body) {
+  factor(1.0, 1.0, instantaneous_);
+  for (Eigen::MatrixXd* m : {&basis_, &elastic_, &shear_, &bulk_, &mass_}) {
+    m->resize(body.shear.rows(), 0);
+  }
+}
+
+void ReducedSpan::factor(double shear, double bulk, StiffnessFactor& factored) const {
+  if (body_.incompressible) factored.constrain(body_.bulk);
+  factored.factor(stiffness_at(body_, shear, bulk));
+}
+
+bool ReducedSpan::add(Eigen::VectorXd v) {
+  if (count() == basis_.rows()) return false;
+  const double before = energy_norm(v);
+  for (int pass = 0; pass < 2;
+       ++pass) {  // twice is enough (Parlett, The Symmetric Eigenvalue Problem, 6.9)
+    if (count() > 0) v -= basis_ * (image(1.0, 1.0).transpose() * v);
+  }
+  const double after = energy_norm(v);
+  if (!(after > 1e-9 * before) || !std::isfinite(after)) return false;
+  v /= after;
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(v.size());
+  append(basis_, v);
+  append(elastic_, times(body_.elastic, v));
+  append(shear_, times(body_.shear, v));
+  append(bulk_, body_.incompressible ? none : times(body_.bulk, v));  // its volume does not change
+  append(mass_, has_mass() ? times(body_.mass, v) : none);
+  return true;
+}
+
+double ReducedSpan::dual_norm(const Eigen::VectorXd& residual) const {
+  return std::sqrt(std::max(residual.dot(instantaneous_.solve(residual)), 0.0));
+}
+
+ReducedBody ReducedSpan::reduced() const {
+  ReducedBody result;
+  result.basis = basis_;
+  result.system.terms = body_.terms;
+  result.system.elastic = full_lower(basis_.transpose() * elastic_);
+  result.system.shear = full_lower(basis_.transpose() * shear_);
+  result.system.bulk = full_lower(basis_.transpose() * bulk_);
+  if (has_mass()) result.system.mass = full_lower(basis_.transpose() * mass_);
+  if (body_.load.size() > 0) result.system.load = basis_.transpose() * body_.load;
+  return result;
+}
+
+double ReducedSpan::energy_norm(const Eigen::VectorXd& v) const {
+  Eigen::VectorXd force = times(body_.elastic, v) + times(body_.shear, v);
+  if (!body_.incompressible) force += times(body_.bulk, v);
+  return std::sqrt(std::max(v.dot(force), 0.0));
+}
+
+}  // namespace viscard
