@@ -10,10 +10,10 @@
 namespace viscard {
 namespace {
 
-// The path as far as the wish for one order needs it, and that order alone if it was wished for.
+// All orders: one that was wished for is no worse than the same in a free choice.
 std::vector<SpectralState> wished_path(const SpectralModel& model, const FitOptions& options) {
   OrderPathOptions path_options;
-  path_options.max_terms = options.n_terms.value_or(options.max_terms);
+  path_options.max_terms = std::max(options.n_terms.value_or(0), options.max_terms);
   std::vector<SpectralState> path = order_path(model, path_options);
   if (path.empty()) {
     throw std::runtime_error(
@@ -21,6 +21,13 @@ std::vector<SpectralState> wished_path(const SpectralModel& model, const FitOpti
         "of the fitted column");
   }
   return path;
+}
+
+// The order wished for, or the next smaller one that the data can carry.
+std::size_t position_of(const std::vector<SpectralState>& path, int n_terms) {
+  std::size_t position = 0;
+  while (position + 1 < path.size() && path[position + 1].n_terms() <= n_terms) ++position;
+  return position;
 }
 
 double full_rss(const SpectralModel& model, const SpectralState& state) {
@@ -51,7 +58,7 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
   fit.scores = choose_order(model, fit.path, choice);
   if (options.n_terms) {
     for (OrderRow& row : fit.scores.rows) row.is_chosen = false;
-    fit.scores.chosen = fit.path.size() - 1;
+    fit.scores.chosen = position_of(fit.path, *options.n_terms);
     fit.scores.rows[fit.scores.chosen].is_chosen = true;
   }
   fit.state = polish(model, refine(model, fit.path[fit.scores.chosen]));

@@ -1,22 +1,41 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace viscard {
 
 // Columns made fit for fitting: rows with a value that is not finite are left out, the rest sorted
-// by time (rows of equal time keep their order).
+// by time (rows of equal time keep their order). columns[0] is time.
 struct CleanColumns {
-  std::vector<std::vector<double>> columns;  // columns[0] is time
+  std::vector<std::vector<double>> columns;
   std::size_t n_left_out = 0;
 };
 
-// Throws std::invalid_argument if the columns differ in length, std::runtime_error if fewer than
-// `least` usable rows are left.
-CleanColumns clean_columns(std::vector<std::vector<double>> columns, std::size_t least);
+// The same without copying where nothing had to be done, as with most long records. The columns
+// live as long as the input and this object.
+class CleanViews {
+ public:
+  CleanViews(const std::vector<std::span<const double>>& columns, std::size_t least);
+  CleanViews(const CleanViews&) = delete;
+  CleanViews& operator=(const CleanViews&) = delete;
+
+  std::span<const double> column(std::size_t i) const { return views_[i]; }
+  std::size_t n_left_out() const { return n_left_out_; }
+  void drop_first(std::size_t rows);
+
+ private:
+  std::vector<std::span<const double>> views_;
+  std::vector<std::vector<double>> copies_;
+  std::size_t n_left_out_ = 0;
+};
+
+// Both throw std::invalid_argument if the columns differ in length, std::runtime_error if fewer
+// than `least` usable rows are left.
+CleanColumns clean_columns(const std::vector<std::span<const double>>& columns, std::size_t least);
 
 // Shortest positive difference of sorted times; 0 if there is none.
-double shortest_step_s(const std::vector<double>& time_s);
+double shortest_step_s(std::span<const double> time_s);
 
 }  // namespace viscard

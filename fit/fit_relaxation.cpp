@@ -10,9 +10,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <string>
-#include <utility>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -28,11 +29,15 @@ PronySeries plain_series(const SpectralModel& model, const SpectralState& state,
   return series;
 }
 
-FitResult fit_strain_history(CleanColumns clean, const FitOptions& options) {
+std::vector<double> copy_of(std::span<const double> column) {
+  return {column.begin(), column.end()};
+}
+
+FitResult fit_strain_history(const CleanViews& clean, const FitOptions& options) {
   HistoryInput input;
-  input.time_s = clean.columns[0];
-  input.output = clean.columns[1];
-  input.input = clean.columns[2];
+  input.time_s = copy_of(clean.column(0));
+  input.output = copy_of(clean.column(1));
+  input.input = copy_of(clean.column(2));
   while (input.contact + 1 < input.input.size() && input.input[input.contact + 1] == 0.0) {
     ++input.contact;  // strain begins to differ from zero after this sample
   }
@@ -55,8 +60,9 @@ FitResult fit_strain_history(CleanColumns clean, const FitOptions& options) {
   return result;
 }
 
-FitResult fit_step(const CleanColumns& clean, const FitOptions& options) {
-  const StepModel model(clean.columns[0], clean.columns[1], StepShape::kRelaxation, options);
+FitResult fit_step(std::span<const double> time_s, std::span<const double> value,
+                   const FitOptions& options) {
+  const StepModel model(time_s, value, StepShape::kRelaxation, options);
   std::vector<double> row_time_s;
   for (const LogBin& bin : model.bins()) row_time_s.push_back(bin.time_s);
   const SpectralFit fit = fit_spectrum(model, log_time_blocks(row_time_s, 0.0, 1), options);
@@ -66,51 +72,49 @@ FitResult fit_step(const CleanColumns& clean, const FitOptions& options) {
       model, fit,
       [&](const SpectralState& state) { return plain_series(model, state, options.is_liquid); },
       result);
-  const TestWindow window{shortest_step_s(clean.columns[0]), 0.0, clean.columns[0].front(),
-                          clean.columns[0].back()};
+  const TestWindow window{model.sampling_s(), 0.0, time_s.front(), time_s.back()};
   add_identifiability_flags(model, fit.state, fit.covariance, window, result);
   if (options.with_curves) fill_step_curves(model, fit, "Pa", result);
-  result.fit_from_s = clean.columns[0].front();
-  result.fit_to_s = clean.columns[0].back();
+  result.fit_from_s = time_s.front();
+  result.fit_to_s = time_s.back();
   return result;
 }
 
-// Rows before the step tell nothing about relaxation.
-std::size_t drop_before_zero(CleanColumns& clean) {
-  const auto first = std::lower_bound(clean.columns[0].begin(), clean.columns[0].end(), 0.0) -
-                     clean.columns[0].begin();
-  for (std::vector<double>& column : clean.columns)
-    column.erase(column.begin(), column.begin() + first);
-  return static_cast<std::size_t>(first);
+void check_values(std::span<const double> time_s, std::span<const double> value, bool is_step) {
+  if (time_s.size() < kLeastRows) {
+    throw std::runtime_error("only " + std::to_string(time_s.size()) +
+                             " rows lie at or after t = 0; a fit takes at least " +
+                             std::to_string(kLeastRows) + ". Set the step's time with --time-zero");
+  }
+  if (!(time_s.back() > time_s.front())) {
+    throw std::runtime_error("all rows have the same time; nothing can be said of relaxation");
+  }
+  if (is_step && !(std::accumulate(value.begin(), value.end(), 0.0) > 0.0)) {
+    throw std::runtime_error(
+        "the fitted column is negative or zero on the whole: a relaxation modulus is positive. If "
+        "the sign of the instrument is the other way, map the column with a minus: "
+        "--column modulus_Pa=-NAME");
+  }
 }
 
 }  // namespace
 
 FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) {
-  std::vector<std::vector<double>> columns{data.time_s, data.value};
-  if (!data.strain.empty()) columns.push_back(data.strain);
-  CleanColumns clean = clean_columns(std::move(columns), kLeastRows);
+  const bool is_step = data.strain.empty();
+  std::vector<std::span<const double>> columns{data.time_s, data.value};
+  if (!is_step) columns.emplace_back(data.strain);
+  CleanViews clean(columns, kLeastRows);
   std::size_t n_early = 0;
-  if (data.strain.empty()) n_early = drop_before_zero(clean);
-  if (clean.columns[0].size() < kLeastRows) {
-    throw std::runtime_error("only " + std::to_string(clean.columns[0].size()) +
-                             " rows lie at or after t = 0; a fit takes at least " +
-                             std::to_string(kLeastRows) + ". Set the step's time with --time-zero");
+  if (is_step) {  // rows before the step tell nothing about relaxation
+    const auto time_s = clean.column(0);
+    n_early = static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), 0.0) -
+                                       time_s.begin());
+    clean.drop_first(n_early);
   }
-  if (!(clean.columns[0].back() > clean.columns[0].front())) {
-    throw std::runtime_error("all rows have the same time; nothing can be said of relaxation");
-  }
-  const double sum = std::accumulate(clean.columns[1].begin(), clean.columns[1].end(), 0.0);
-  if (!(sum > 0.0) && data.strain.empty()) {
-    throw std::runtime_error(
-        "the fitted column is negative or zero on the whole: a relaxation modulus is positive. If "
-        "the "
-        "sign of the instrument is the other way, map the column with a minus: "
-        "--column modulus_Pa=-NAME");
-  }
-  FitResult result = data.strain.empty() ? fit_step(clean, options)
-                                         : fit_strain_history(std::move(clean), options);
-  result.n_left_out = clean.n_left_out;
+  check_values(clean.column(0), clean.column(1), is_step);
+  FitResult result = is_step ? fit_step(clean.column(0), clean.column(1), options)
+                             : fit_strain_history(clean, options);
+  result.n_left_out = clean.n_left_out();
   if (n_early > 0) {
     result.flags.push_back({"samples-before-zero", 0,
                             std::to_string(n_early) + " samples before t = 0 were left out"});

@@ -5,8 +5,8 @@
 namespace viscard {
 namespace {
 
-LogBin make_bin(const std::vector<double>& time_s, const std::vector<double>& value,
-                std::size_t begin, std::size_t end) {
+LogBin make_bin(std::span<const double> time_s, std::span<const double> value, std::size_t begin,
+                std::size_t end) {
   LogBin bin;
   bin.begin = begin;
   bin.end = end;
@@ -44,7 +44,7 @@ LogBin make_bin(const std::vector<double>& time_s, const std::vector<double>& va
 
 }  // namespace
 
-std::vector<LogBin> log_bins(const std::vector<double>& time_s, const std::vector<double>& value,
+std::vector<LogBin> log_bins(std::span<const double> time_s, std::span<const double> value,
                              double per_decade) {
   std::vector<LogBin> bins;
   const double ratio = per_decade > 0.0 ? std::pow(10.0, 1.0 / per_decade) : 1.0;

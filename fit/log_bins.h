@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace viscard {
@@ -20,7 +21,7 @@ struct LogBin {
 };
 
 // Bins of sorted times; per_decade <= 0: every sample for itself. Times up to 0 stay alone.
-std::vector<LogBin> log_bins(const std::vector<double>& time_s, const std::vector<double>& value,
+std::vector<LogBin> log_bins(std::span<const double> time_s, std::span<const double> value,
                              double per_decade);
 
 // Average of exp(-t/tau) over a bin, and its derivative by ln tau.

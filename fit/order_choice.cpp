@@ -33,6 +33,39 @@ bool is_worse_by_one_error(const std::vector<LeftOut>& a, const std::vector<Left
   return mean > std::sqrt(square / (count * (count - 1.0)));
 }
 
+// Of the space of these columns (of unit length); pivoted only where one hardly leaves the others.
+Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
+  constexpr double kNearlyDependent = 1e-9;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> quick(columns);
+  if (columns.rows() >= columns.cols() &&
+      quick.matrixQR().diagonal().cwiseAbs().minCoeff() > kNearlyDependent) {
+    return quick.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+}
+
+// Error of predicting the rows r from all others, whose part of an orthonormal basis of the model
+// is q: (1 - q q^T)^-1 r, by the smaller of q q^T and q^T q.
+LeftOut left_out_error(const Eigen::MatrixXd& q, const Eigen::VectorXd& r) {
+  LeftOut out;
+  out.squared_residual = out.squared_error = r.squaredNorm();
+  if (q.cols() == 0) return out;
+  const bool is_short = q.rows() <= q.cols();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> leverage(
+      is_short ? Eigen::MatrixXd(q * q.transpose()) : Eigen::MatrixXd(q.transpose() * q));
+  constexpr double kAlone = 0.9;
+  out.is_predictable = leverage.eigenvalues().maxCoeff() < kAlone;
+  if (!out.is_predictable) return out;
+  const Eigen::VectorXd rest = (1.0 - leverage.eigenvalues().array()).inverse();
+  const Eigen::MatrixXd& w = leverage.eigenvectors();
+  out.squared_error =
+      is_short
+          ? rest.cwiseProduct(w.transpose() * r).squaredNorm()
+          : (r + q * (w * rest.cwiseProduct(w.transpose() * (q.transpose() * r)))).squaredNorm();
+  return out;
+}
+
 }  // namespace
 
 std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralState& state,
@@ -47,10 +80,7 @@ std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralS
     const double norm = jacobian.col(j).norm();
     if (norm > 0.0) jacobian.col(j) /= norm;
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian);
-  const Index rank = qr.rank();
-  const Eigen::MatrixXd basis =
-      qr.householderQ() * Eigen::MatrixXd::Identity(jacobian.rows(), rank);
+  const Eigen::MatrixXd basis = orthonormal_basis(jacobian);
 
   const int n_blocks = blocks.empty() ? 0 : *std::max_element(blocks.begin(), blocks.end()) + 1;
   std::vector<std::vector<Index>> rows(static_cast<std::size_t>(n_blocks));
@@ -62,20 +92,7 @@ std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralS
     if (block.empty()) continue;
     const Eigen::MatrixXd q = basis(block, Eigen::all);
     const Eigen::VectorXd r = residual(block);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> leverage(q.transpose() * q);
-    LeftOut left_out;
-    left_out.squared_residual = r.squaredNorm();
-    constexpr double kAlone = 0.9;
-    left_out.is_predictable = rank == 0 || leverage.eigenvalues().maxCoeff() < kAlone;
-    if (left_out.is_predictable && rank > 0) {
-      const Eigen::VectorXd scaled =
-          (leverage.eigenvectors().transpose() * (q.transpose() * r))
-              .cwiseQuotient(Eigen::VectorXd::Ones(rank) - leverage.eigenvalues());
-      left_out.squared_error = (r + q * (leverage.eigenvectors() * scaled)).squaredNorm();
-    } else {
-      left_out.squared_error = left_out.squared_residual;
-    }
-    errors.push_back(left_out);
+    errors.push_back(left_out_error(q, r));
   }
   return errors;
 }

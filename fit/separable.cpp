@@ -1,6 +1,7 @@
 #include "fit/separable.h"
 
 #include "fit/nnls.h"
+#include "fit/projection.h"
 
 #include <Eigen/QR>
 #include <ceres/ceres.h>
@@ -14,31 +15,28 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Derivative of the model by the non-linear parameters at fixed coefficients: ln tau, then
-// nuisances divided by their scale.
-Eigen::MatrixXd nonlinear_slopes(const SpectralModel& model, const ModelColumns& columns,
-                                 const Eigen::VectorXd& coefficients) {
-  const Index n_terms = columns.term_slopes.cols();
-  Eigen::MatrixXd slopes(model.n_rows(), n_terms + model.n_nuisances());
-  for (Index i = 0; i < n_terms; ++i) {
-    slopes.col(i) = columns.term_slopes.col(i) * coefficients[model.n_common() + i];
+// L of N = L L^T for a matrix that may be singular: a direction without length gets a zero column.
+Eigen::MatrixXd lower_factor(Eigen::MatrixXd n) {
+  Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(n.rows(), n.cols());
+  const Eigen::VectorXd length = n.diagonal();
+  constexpr double kNothing = 1e-14;
+  for (Index j = 0; j < n.cols(); ++j) {
+    if (!(n(j, j) > kNothing * length[j])) continue;
+    const Index left = n.rows() - j;
+    lower.col(j).tail(left) = n.col(j).tail(left) / std::sqrt(n(j, j));
+    n.bottomRightCorner(left, left) -=
+        lower.col(j).tail(left) * lower.col(j).tail(left).transpose();
   }
-  for (Index k = 0; k < model.n_nuisances(); ++k) {
-    const auto slot = static_cast<std::size_t>(k);
-    slopes.col(n_terms + k) =
-        columns.nuisance_slopes[slot] * coefficients * model.nuisances()[slot].scale;
-  }
-  return slopes;
+  return lower;
 }
 
-// Residual of variable projection. p = ln tau, then nuisance/scale. Only |r|, J^T r and J^T J
-// matter to the solver, so the rows are rotated by QR into the smallest problem with the same
-// three.
+// Residual of variable projection. Only |r|, J^T r and J^T J matter to the solver, so it is handed
+// the smallest problem with the same three.
 class ProjectedCost final : public ceres::CostFunction {
  public:
   // The solver has absolute thresholds; scaled like this they mean the same for data of any unit.
   ProjectedCost(const SpectralModel& model, Index n_terms)
-      : model_(model), n_terms_(n_terms), scale_(1e6 / std::max(model.data().norm(), 1e-280)) {
+      : model_(model), scale_(1e6 / std::max(model.data().norm(), 1e-280)) {
     const int size = static_cast<int>(n_terms + model.n_nuisances());
     mutable_parameter_block_sizes()->push_back(size);
     set_num_residuals(size + 1);
@@ -48,47 +46,33 @@ class ProjectedCost final : public ceres::CostFunction {
                 double** jacobians) const override {
     const Index size = num_residuals() - 1;
     const Eigen::Map<const Eigen::VectorXd> p(parameters[0], size);
-    const bool wants_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
-    Eigen::VectorXd nuisance = p.tail(model_.n_nuisances());
-    for (Index k = 0; k < nuisance.size(); ++k) {
-      nuisance[k] *= model_.nuisances()[static_cast<std::size_t>(k)].scale;
-    }
-    const ModelColumns columns = model_.columns(p.head(n_terms_), nuisance, wants_jacobian);
-    if (!columns.values.allFinite()) return false;
-    const std::vector<bool> is_free = free_columns(model_, n_terms_);
-    const SignedLeastSquares solution(columns.values, model_.data(), is_free);
-    const Eigen::VectorXd residual = scale_ * (columns.values * solution.x() - model_.data());
+    const Projection at = project(model_, p);
     Eigen::Map<Eigen::VectorXd> out(residuals, size + 1);
     out.setZero();
-    out[size] = residual.norm();
+    out[size] = scale_ * std::sqrt(at.rss);
     if (!std::isfinite(out[size])) return false;
-    if (!wants_jacobian) return true;
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
 
-    Eigen::MatrixXd stacked(model_.n_rows(), size + 1);
-    stacked.leftCols(size) = scale_ * nonlinear_slopes(model_, columns, solution.x());
-    stacked.col(size) = residual;
-    compress(solution.outside(stacked), out, jacobians[0]);
+    const Eigen::MatrixXd lower = lower_factor(at.normal);
+    for (Index j = 0; j < size; ++j) {  // lower * r = gradient
+      const double part = at.gradient[j] - lower.row(j).head(j).dot(out.head(j));
+      out[j] = lower(j, j) > 0.0 ? part / lower(j, j) : 0.0;
+    }
+    out[size] = scale_ * std::sqrt(std::max(0.0, at.rss - out.head(size).squaredNorm()));
+    out.head(size) *= scale_;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(
+        jacobians[0], size + 1, size);
+    jacobian.topRows(size) = scale_ * lower.transpose();
+    jacobian.row(size).setZero();
     return true;
   }
 
  private:
-  // [J r] = Q R: hands R's columns to the solver instead.
-  static void compress(const Eigen::MatrixXd& stacked, Eigen::Map<Eigen::VectorXd>& residual,
-                       double* jacobian) {
-    const Index size = stacked.cols() - 1;
-    Eigen::MatrixXd upper = Eigen::MatrixXd::Zero(size + 1, size + 1);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stacked);
-    const Index rows = std::min(stacked.rows(), size + 1);
-    upper.topRows(rows) = qr.matrixQR().topRows(rows).triangularView<Eigen::Upper>();
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-        jacobian, size + 1, size) = upper.leftCols(size);
-    residual = upper.col(size);
-  }
-
   const SpectralModel& model_;
-  const Index n_terms_;
   const double scale_;
 };
+
+}  // namespace
 
 SpectralState sorted_by_time(SpectralState state, Index n_common) {
   const Index n_terms = state.n_terms();
@@ -104,8 +88,6 @@ SpectralState sorted_by_time(SpectralState state, Index n_common) {
   }
   return state;
 }
-
-}  // namespace
 
 std::vector<bool> free_columns(const SpectralModel& model, Index n_terms) {
   std::vector<bool> is_free;
@@ -131,21 +113,14 @@ SpectralState refine(const SpectralModel& model, const SpectralState& start,
   const Index n_terms = start.n_terms();
   const Index size = n_terms + model.n_nuisances();
   if (size == 0) return solve_coefficients(model, start.ln_tau, start.nuisance);
-  Eigen::VectorXd p(size);
+  const Box box = search_box(model, n_terms);
+  Eigen::VectorXd p =
+      search_parameters(model, start.ln_tau, start.nuisance).cwiseMax(box.low).cwiseMin(box.high);
   ceres::Problem problem;
   problem.AddParameterBlock(p.data(), static_cast<int>(size));
-  const auto bound = [&](Index i, double value, double low, double high) {
-    p[i] = std::clamp(value, low, high);
-    problem.SetParameterLowerBound(p.data(), static_cast<int>(i), low);
-    problem.SetParameterUpperBound(p.data(), static_cast<int>(i), high);
-  };
-  for (Index i = 0; i < n_terms; ++i) {
-    bound(i, start.ln_tau[i], model.ln_tau_min(), model.ln_tau_max());
-  }
-  for (Index k = 0; k < model.n_nuisances(); ++k) {
-    const Nuisance& nuisance = model.nuisances()[static_cast<std::size_t>(k)];
-    bound(n_terms + k, start.nuisance[k] / nuisance.scale, nuisance.low / nuisance.scale,
-          nuisance.high / nuisance.scale);
+  for (Index i = 0; i < size; ++i) {
+    problem.SetParameterLowerBound(p.data(), static_cast<int>(i), box.low[i]);
+    problem.SetParameterUpperBound(p.data(), static_cast<int>(i), box.high[i]);
   }
   problem.AddResidualBlock(new ProjectedCost(model, n_terms), nullptr, p.data());
 
@@ -159,11 +134,7 @@ SpectralState refine(const SpectralModel& model, const SpectralState& start,
   ceres::Solver::Summary summary;
   ceres::Solve(ceres_options, &problem, &summary);
 
-  Eigen::VectorXd nuisance = p.tail(model.n_nuisances());
-  for (Index k = 0; k < nuisance.size(); ++k) {
-    nuisance[k] *= model.nuisances()[static_cast<std::size_t>(k)].scale;
-  }
-  SpectralState state = solve_coefficients(model, p.head(n_terms), nuisance);
+  SpectralState state = solve_coefficients(model, p.head(n_terms), nuisance_from(model, p));
   state.is_converged = summary.termination_type == ceres::CONVERGENCE;
   return sorted_by_time(std::move(state), model.n_common());
 }

@@ -4,6 +4,9 @@
 
 #include <Eigen/Core>
 
+#include <limits>
+#include <vector>
+
 namespace viscard {
 
 // A point of a SpectralModel: what all its parameters are.
@@ -28,9 +31,14 @@ SpectralState solve_coefficients(const SpectralModel& model, const Eigen::Vector
 struct RefineOptions {
   int max_iterations = 200;
   double tolerance = 1e-12;  // relative change of the residual sum of squares
+  // quick_search() gives up on a fit that will not come below this sum of squares.
+  double target = std::numeric_limits<double>::infinity();
 };
 SpectralState refine(const SpectralModel& model, const SpectralState& start,
                      const RefineOptions& options = {});
+
+// The same state with its terms in ascending order of time.
+SpectralState sorted_by_time(SpectralState state, Eigen::Index n_common);
 
 // A few Gauss-Newton steps in all parameters together, for the last digits; keeps the start where a
 // step would leave the bounds or make the fit worse.

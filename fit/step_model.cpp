@@ -1,5 +1,7 @@
 #include "fit/step_model.h"
 
+#include "fit/clean_data.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,53 +15,88 @@ constexpr std::size_t kSmallRecord = 2000;
 constexpr double kBinsPerDecade = 60.0;
 // Autocorrelation is taken from at most this many consecutive samples.
 constexpr std::size_t kLongSeries = 16384;
+constexpr double kGone = 100.0;  // exp(-100) is nothing
+
+// exp(-x) of ascending x, computed only where it is neither 1 nor nothing beside 1.
+void decays(const Eigen::ArrayXd& x, Eigen::ArrayXd& value) {
+  constexpr double kNotYet = 1e-17;
+  constexpr double kNegligible = 80.0;  // exp(-80) = 2e-35
+  const Index begin = std::upper_bound(x.begin(), x.end(), kNotYet) - x.begin();
+  const Index end = std::lower_bound(x.begin() + begin, x.end(), kNegligible) - x.begin();
+  value.head(begin).setOnes();
+  value.segment(begin, end - begin) = (-x.segment(begin, end - begin)).exp();
+  value.tail(x.size() - end).setZero();
+}
 
 }  // namespace
 
-StepModel::StepModel(const std::vector<double>& time_s, const std::vector<double>& value,
-                     StepShape shape, const FitOptions& options)
+StepModel::StepModel(std::span<const double> time_s, std::span<const double> value, StepShape shape,
+                     const FitOptions& options)
     : time_s_(time_s), value_(value), shape_(shape), is_liquid_(options.is_liquid) {
   const bool is_small = time_s_.size() <= kSmallRecord;
   bins_ = log_bins(time_s_, value_, is_small || options.full_data ? 0.0 : kBinsPerDecade);
-  data_.resize(static_cast<Index>(bins_.size()));
-  for (std::size_t i = 0; i < bins_.size(); ++i) {
-    data_[static_cast<Index>(i)] = std::sqrt(bins_[i].count) * bins_[i].value;
-  }
+  keep_arrays();
   with_constant_ = shape == StepShape::kCreep || !is_liquid_;
   if (with_constant_) common_.push_back({shape == StepShape::kCreep ? "J_g" : "E_inf", false});
   if (shape == StepShape::kCreep && is_liquid_) common_.push_back({"fluidity", false});
   may_be_negative_ = options.allow_negative;
 
   // Times below the first sample or beyond the record are still allowed by a factor of three.
-  const double longest_s = time_s_.back();
-  double shortest_s = longest_s;
-  for (std::size_t i = 0; i < time_s_.size(); ++i) {
-    const double step_s = i == 0 ? time_s_[0] : time_s_[i] - time_s_[i - 1];
-    if (step_s > 0.0) shortest_s = std::min(shortest_s, step_s);
+  sampling_s_ = shortest_step_s(time_s_);
+  const double first_s = time_s_.front() > 0.0 ? time_s_.front() : sampling_s_;
+  ln_tau_min_ = std::log(std::min(first_s, sampling_s_) / 3.0);
+  ln_tau_max_ = std::log(time_s_.back() * 3.0);
+}
+
+void StepModel::keep_arrays() {
+  const auto count = static_cast<Index>(bins_.size());
+  for (Eigen::ArrayXd* array : {&bin_time_s_, &m2_, &m3_, &m4_, &weight_}) array->resize(count);
+  data_.resize(count);
+  for (Index i = 0; i < count; ++i) {
+    const LogBin& bin = bins_[static_cast<std::size_t>(i)];
+    bin_time_s_[i] = bin.time_s;
+    m2_[i] = bin.m2;
+    m3_[i] = bin.m3;
+    m4_[i] = bin.m4;
+    weight_[i] = std::sqrt(bin.count);
+    data_[i] = weight_[i] * bin.value;
   }
-  ln_tau_min_ = std::log(shortest_s / 3.0);
-  ln_tau_max_ = std::log(longest_s * 3.0);
+  has_averages_ = bins_.size() < time_s_.size();
 }
 
 ModelColumns StepModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& /*nuisance*/,
                                 bool with_slopes) const {
   const Index n_terms = ln_tau.size();
+  const bool is_creep = shape_ == StepShape::kCreep;
   ModelColumns out;
   out.values.resize(n_rows(), n_common() + n_terms);
   if (with_slopes) out.term_slopes.resize(n_rows(), n_terms);
-  const bool is_creep = shape_ == StepShape::kCreep;
-  std::vector<double> tau_s;
-  for (const double ln : ln_tau) tau_s.push_back(std::exp(ln));
-  for (Index row = 0; row < n_rows(); ++row) {
-    const LogBin& bin = bins_[static_cast<std::size_t>(row)];
-    const double weight = std::sqrt(bin.count);
-    if (with_constant_) out.values(row, 0) = weight;
-    if (is_creep && is_liquid_) out.values(row, 1) = weight * bin.time_s;
-    for (Index i = 0; i < n_terms; ++i) {
-      const BinExponential e = average_exponential(bin, tau_s[static_cast<std::size_t>(i)]);
-      out.values(row, n_common() + i) = weight * (is_creep ? 1.0 - e.value : e.value);
-      if (with_slopes) out.term_slopes(row, i) = weight * (is_creep ? -e.slope : e.slope);
+  if (with_constant_) out.values.col(0) = weight_.matrix();
+  if (is_creep && is_liquid_) out.values.col(1) = (weight_ * bin_time_s_).matrix();
+  Eigen::ArrayXd x(n_rows()), value(n_rows()), slope = Eigen::ArrayXd::Zero(n_rows());
+  for (Index i = 0; i < n_terms; ++i) {
+    // As average_exponential(), for all bins at once.
+    const double u = std::exp(-ln_tau[i]);
+    x = u * bin_time_s_;
+    decays(x, value);
+    value *= weight_;
+    if (has_averages_) {
+      const double uu = u * u;
+      if (with_slopes) {
+        slope = x + uu * (0.5 * x * m2_ - m2_) - uu * u * (x * m3_ / 6.0 - 0.5 * m3_) +
+                uu * uu * (x * m4_ / 24.0 - m4_ / 6.0);
+        slope *= value;
+      }
+      value *= 1.0 + uu * (0.5 * m2_) - uu * u * (m3_ / 6.0) + uu * uu * (m4_ / 24.0);
+    } else if (with_slopes) {
+      slope = x * value;
     }
+    if (is_creep) {  // 1 - exp
+      value = weight_ - value;
+      slope = -slope;
+    }
+    out.values.col(n_common() + i) = value.matrix();
+    if (with_slopes) out.term_slopes.col(i) = slope.matrix();
   }
   return out;
 }
@@ -69,17 +106,6 @@ std::vector<std::size_t> StepModel::row_begins() const {
   for (const LogBin& bin : bins_) begins.push_back(bin.begin);
   begins.push_back(time_s_.size());
   return begins;
-}
-
-double StepModel::value_at(double time_s, const Eigen::VectorXd& ln_tau,
-                           const Eigen::VectorXd& coefficients) const {
-  double value = with_constant_ ? coefficients[0] : 0.0;
-  if (shape_ == StepShape::kCreep && is_liquid_) value += coefficients[1] * time_s;
-  for (Index i = 0; i < ln_tau.size(); ++i) {
-    const double decay = std::exp(-time_s / std::exp(ln_tau[i]));
-    value += coefficients[n_common() + i] * (shape_ == StepShape::kCreep ? 1.0 - decay : decay);
-  }
-  return value;
 }
 
 double StepModel::hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& /*nuisance*/,
@@ -110,12 +136,22 @@ Eigen::VectorXd StepModel::residual_series(const Eigen::VectorXd& ln_tau,
   // The end of a long record, where the model is smooth and the sampling even.
   const std::size_t count = std::min(time_s_.size(), kLongSeries);
   const std::size_t first = time_s_.size() - count;
-  Eigen::VectorXd series(static_cast<Index>(count));
-  for (std::size_t i = 0; i < count; ++i) {
-    series[static_cast<Index>(i)] =
-        value_[first + i] - value_at(time_s_[first + i], ln_tau, coefficients);
+  const Eigen::Map<const Eigen::ArrayXd> time(time_s_.data() + first, static_cast<Index>(count));
+  const Eigen::Map<const Eigen::ArrayXd> value(value_.data() + first, static_cast<Index>(count));
+  Eigen::ArrayXd series = value;
+  if (with_constant_) series -= coefficients[0];
+  const bool is_creep = shape_ == StepShape::kCreep;
+  if (is_creep && is_liquid_) series -= coefficients[1] * time;
+  for (Index i = 0; i < ln_tau.size(); ++i) {
+    const double modulus = coefficients[n_common() + i];
+    const double rate_1_s = std::exp(-ln_tau[i]);
+    if (is_creep) {
+      series -= modulus * (1.0 - (-rate_1_s * time).exp());
+    } else if (rate_1_s * time[0] < kGone) {
+      series -= modulus * (-rate_1_s * time).exp();
+    }
   }
-  return series;
+  return series.matrix();
 }
 
 }  // namespace viscard

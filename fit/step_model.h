@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <span>
 #include <vector>
 
 namespace viscard {
@@ -17,8 +18,8 @@ enum class StepShape { kRelaxation, kCreep };
 // Long records are averaged in log time, the data and the model alike.
 class StepModel final : public SpectralModel {
  public:
-  // Times must be sorted, all values finite.
-  StepModel(const std::vector<double>& time_s, const std::vector<double>& value, StepShape shape,
+  // Times must be sorted, all values finite; both must outlive the model, which does not copy them.
+  StepModel(std::span<const double> time_s, std::span<const double> value, StepShape shape,
             const FitOptions& options);
 
   ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
@@ -31,14 +32,18 @@ class StepModel final : public SpectralModel {
                                   const Eigen::VectorXd& coefficients) const override;
 
   const std::vector<LogBin>& bins() const { return bins_; }
+  double sampling_s() const { return sampling_s_; }  // shortest step between samples
 
  private:
-  double value_at(double time_s, const Eigen::VectorXd& ln_tau,
-                  const Eigen::VectorXd& coefficients) const;
+  void keep_arrays();
 
-  std::vector<double> time_s_, value_;
+  std::span<const double> time_s_, value_;
+  double sampling_s_ = 0.0;
   StepShape shape_;
   std::vector<LogBin> bins_;
+  // Of the bins, for whole columns at once: mean time, its moments, sqrt(count).
+  Eigen::ArrayXd bin_time_s_, m2_, m3_, m4_, weight_;
+  bool has_averages_ = false;
   bool is_liquid_ = false;
   bool with_constant_ = true;
 };
