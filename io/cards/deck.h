@@ -34,11 +34,17 @@ struct DeckInput {
   const UnitSystem& units;
   double stress = 0.0;  // amplitude times E0 in card units, the load of a creep test
 };
+double in_card_time(const DeckInput& input, double time_s);
 std::string abaqus_deck(const DeckInput& input);
 std::string ansys_deck(const DeckInput& input);
 std::string febio_deck(const DeckInput& input);
 std::string mtest_deck(const DeckInput& input);
 std::string frontistr_control(const DeckInput& input);
 std::string frontistr_mesh();
+std::string lsdyna_deck(const DeckInput& input);
+std::string openradioss_starter(const DeckInput& input, const std::string& run_name);
+std::string openradioss_engine(const DeckInput& input, const std::string& run_name);
+std::string moose_deck(const DeckInput& input);
+std::string comsol_model(const DeckInput& input, const std::string& class_name);
 
 }  // namespace viscard

@@ -14,10 +14,6 @@ bool is_creep(const DeckInput& input) {
   return input.test.kind == ElementTestKind::kCreep;
 }
 
-double in_card(const DeckInput& input, double time_s) {
-  return to_card(time_s, input.units.time_exponent);
-}
-
 std::string number(double value) {
   return number_within(value, 20);
 }
@@ -29,6 +25,10 @@ constexpr const char* kKeywordMesh =
 
 }  // namespace
 
+double in_card_time(const DeckInput& input, double time_s) {
+  return to_card(time_s, input.units.time_exponent);
+}
+
 std::string abaqus_deck(const DeckInput& input) {
   const std::vector<std::string> names = material_names(input.card.text);
   std::string out = kKeywordMesh;
@@ -36,11 +36,11 @@ std::string abaqus_deck(const DeckInput& input) {
   out += "*SOLID SECTION, ELSET=E, MATERIAL=" + (names.empty() ? "" : names[0]) + "\n,\n";
   out += "*BOUNDARY\nBASE, 3, 3\n1, 1, 2\n4, 1, 1\n5, 1, 2\n8, 1, 1\n2, 2, 2\n6, 2, 2\n";
   out += fmt::format("*AMPLITUDE, NAME=RAMP, TIME=TOTAL TIME\n0., 0., {}, 1.\n{}, 1.\n",
-                     number(in_card(input, input.test.ramp_s)),
-                     number(2.0 * in_card(input, input.test.end_s())));
+                     number(in_card_time(input, input.test.ramp_s)),
+                     number(2.0 * in_card_time(input, input.test.end_s())));
   double from_s = 0.0;
   for (const TimeBlock& block : input.test.blocks) {
-    const double length = in_card(input, block.end_s - from_s);
+    const double length = in_card_time(input, block.end_s - from_s);
     out += fmt::format("*STEP, INC=1000000\n*VISCO\n{0}, {1}, {0}, {0}\n",
                        number(length / block.increments), number(length));
     if (is_creep(input)) {
@@ -66,8 +66,9 @@ std::string ansys_deck(const DeckInput& input) {
                          : "D,ALL,UZ," + number(input.test.amplitude) + "\n";
   out += "ALLSEL\n";
   for (const TimeBlock& block : input.test.blocks) {
-    out += fmt::format("TIME,{}\nNSUBST,{},{},{}\nSOLVE\n", number(in_card(input, block.end_s)),
-                       block.increments, block.increments, block.increments);
+    out +=
+        fmt::format("TIME,{}\nNSUBST,{},{},{}\nSOLVE\n", number(in_card_time(input, block.end_s)),
+                    block.increments, block.increments, block.increments);
   }
   out += "FINISH\n/POST26\n";
   out += is_creep(input) ? "NSOL,2,NODE(1,1,1),U,Z,UZ\nPRVAR,2\n"
@@ -120,12 +121,12 @@ std::string febio_deck(const DeckInput& input) {
       "<interpolate>LINEAR</interpolate><extend>CONSTANT</extend>"
       "<points><pt>0,0</pt><pt>{},1</pt><pt>{},1</pt></points></load_controller>"
       "</LoadData>\n<Step>\n",
-      shortest_number(in_card(input, input.test.ramp_s)),
-      shortest_number(2.0 * in_card(input, input.test.end_s())));
+      shortest_number(in_card_time(input, input.test.ramp_s)),
+      shortest_number(2.0 * in_card_time(input, input.test.end_s())));
   double from_s = 0.0;
   int id = 0;
   for (const TimeBlock& block : input.test.blocks) {
-    const double size = in_card(input, block.end_s - from_s) / block.increments;
+    const double size = in_card_time(input, block.end_s - from_s) / block.increments;
     out += fmt::format(
         "<step id=\"{0}\" name=\"block {0}\"><Control><analysis>STATIC</analysis>"
         "<time_steps>{1}</time_steps><step_size>{2}</step_size>"
@@ -154,18 +155,18 @@ std::string mtest_deck(const DeckInput& input) {
       "';\n"
       "@ExternalStateVariable 'Temperature' 293.15;\n";
   const double amplitude = is_creep(input) ? input.stress : input.test.amplitude;
-  out += fmt::format("@Imposed{} {{0. : 0., {} : {}, {} : {}}};\n",
-                     is_creep(input) ? "Stress<evolution> 'SZZ'" : "Strain<evolution> 'EZZ'",
-                     shortest_number(in_card(input, input.test.ramp_s)), shortest_number(amplitude),
-                     shortest_number(2.0 * in_card(input, input.test.end_s())),
-                     shortest_number(amplitude));
+  out += fmt::format(
+      "@Imposed{} {{0. : 0., {} : {}, {} : {}}};\n",
+      is_creep(input) ? "Stress<evolution> 'SZZ'" : "Strain<evolution> 'EZZ'",
+      shortest_number(in_card_time(input, input.test.ramp_s)), shortest_number(amplitude),
+      shortest_number(2.0 * in_card_time(input, input.test.end_s())), shortest_number(amplitude));
   out += fmt::format("@StrainEpsilon {};\n@StressEpsilon {};\n",
                      shortest_number(1e-11 * input.test.amplitude),
                      shortest_number(1e-11 * input.stress));
   out += "@Times {0.";
   for (const TimeBlock& block : input.test.blocks) {
-    out +=
-        fmt::format(", {} in {}", shortest_number(in_card(input, block.end_s)), block.increments);
+    out += fmt::format(", {} in {}", shortest_number(in_card_time(input, block.end_s)),
+                       block.increments);
   }
   return out + "};\n";
 }
@@ -191,15 +192,15 @@ std::string frontistr_control(const DeckInput& input) {
   const double amplitude = is_creep(input) ? 0.25 * input.stress : input.test.amplitude;
   out += "!AMPLITUDE, NAME=RAMP, VALUE=RELATIVE\n";
   out += fmt::format(" 0.0, 0.0, 1.0, {}, 1.0, {}\n",
-                     shortest_number(in_card(input, input.test.ramp_s)),
-                     shortest_number(2.0 * in_card(input, input.test.end_s())));
+                     shortest_number(in_card_time(input, input.test.ramp_s)),
+                     shortest_number(2.0 * in_card_time(input, input.test.end_s())));
   out += "!BOUNDARY, GRPID=1\n X0, 1, 1, 0.0\n Y0, 2, 2, 0.0\n Z0, 3, 3, 0.0\n";
   out += is_creep(input)
              ? "!CLOAD, GRPID=1, AMP=RAMP\n Z1, 3, " + shortest_number(amplitude) + "\n"
              : "!BOUNDARY, GRPID=1, AMP=RAMP\n Z1, 3, 3, " + shortest_number(amplitude) + "\n";
   double from_s = 0.0;
   for (const TimeBlock& block : input.test.blocks) {
-    const double length = in_card(input, block.end_s - from_s);
+    const double length = in_card_time(input, block.end_s - from_s);
     out += fmt::format("!STEP, TYPE=VISCO, CONVERG=1.0E-10\n {}, {}\n BOUNDARY, 1\n{}",
                        shortest_number(length / block.increments), shortest_number(length),
                        is_creep(input) ? " LOAD, 1\n" : "");
