@@ -14,7 +14,7 @@ constexpr double kProgress_wall_s = 0.1;
 constexpr double kNap_wall_s = 0.005;
 // An emulated clock in a hurry makes seconds of every stall of the machine.
 constexpr double kSilenceEmulated_wall_s = 1.0;
-constexpr double kSilence_wall_s = 0.05;
+constexpr double kSilence_wall_s = 0.1;
 constexpr double kTimeNoise =
     0.02;  // of a period: what the device's clock may jitter unmarked / 10
 

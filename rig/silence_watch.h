@@ -10,8 +10,8 @@ namespace viscard {
 // and that allowance at most 250 ms.
 class SilenceWatch {
  public:
-  // floor_s: replaces the 50 ms where the readings come from an emulated rig in a hurry.
-  explicit SilenceWatch(double floor_s = 0.05) : floor_s_(floor_s) {}
+  // floor_s: replaces the 100 ms where the readings come from an emulated rig in a hurry.
+  explicit SilenceWatch(double floor_s = 0.1) : floor_s_(floor_s) {}
 
   // One pass of the loop, ended at wall_s; has_arrived: it brought a reading.
   void pass(double wall_s, bool has_arrived, bool is_moving);

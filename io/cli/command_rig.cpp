@@ -1,6 +1,8 @@
 #include "io/cli/command_rig.h"
 
 #include "io/cli/command_line.h"
+#include "io/cli/overshoot_study.h"
+#include "io/cli/progress.h"
 #include "io/config_file.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/emulator/emulated_rig.h"
@@ -97,16 +99,44 @@ void print_json(const RigCheck& found, std::ostream& out) {
   out << json.dump() << "\n";
 }
 
+int show_overshoot(bool as_json, Streams& streams) {
+  Progress progress(streams, "overshoot");
+  const std::vector<OvershootRow> rows =
+      study_overshoot({}, [&](double fraction) { progress.show(fraction, ""); });
+  progress.clear();
+  if (!as_json) {
+    streams.out << "force beyond a limit of 1 N (N), emulated GRBL, 8.8 N/mm, 80 readings/s\n"
+                   "steps/mm  mm/s2  mm/s  jog cancel  expected  ladder   reset\n";
+  }
+  ordered_json list = ordered_json::array();
+  for (const OvershootRow& row : rows) {
+    list.push_back({{"steps_per_m", row.steps_per_m},
+                    {"acceleration_m_s2", row.acceleration_m_s2},
+                    {"speed_m_s", row.speed_m_s},
+                    {"jog_cancel_N", row.gentle_N},
+                    {"jog_cancel_expected_N", row.expected_N},
+                    {"ladder_N", row.ladder_N},
+                    {"reset_N", row.reset_N}});
+    if (as_json) continue;
+    streams.out << fmt::format("{:8.0f} {:6.0f} {:5.1f} {:11.3f} {:9.3f} {:7.3f} {:7.3f}\n",
+                               row.steps_per_m * 1e-3, row.acceleration_m_s2 * 1e3,
+                               row.speed_m_s * 1e3, row.gentle_N, row.expected_N, row.ladder_N,
+                               row.reset_N);
+  }
+  if (as_json) streams.out << ordered_json{{"limit_N", 1.0}, {"rows", list}}.dump() << "\n";
+  return kDone;
+}
+
 }  // namespace
 
 int run_rig(const std::vector<std::string>& words, Streams& streams) {
   CommandSyntax syntax;
-  syntax.usage = "viscard rig list | check --rig FILE [OPTIONS]";
+  syntax.usage = "viscard rig list | check --rig FILE | overshoot [OPTIONS]";
   syntax.description =
       "list shows the serial ports and why one cannot be used, without opening any.\n"
       "check opens both devices of a rig file, identifies and measures them, and says what to "
       "change;\n"
-      "nothing moves.";
+      "nothing moves. overshoot shows how far the force goes beyond a limit, on the emulated rig.";
   syntax.example = "viscard rig check --emulate";
   syntax.options.add_options()("rig", po::value<std::string>(), "rig.toml: ports, calibration")(
       "seconds", po::value<double>()->default_value(3.0), "how long to listen")(
@@ -117,8 +147,10 @@ int run_rig(const std::vector<std::string>& words, Streams& streams) {
   const std::string what = values->count("what") > 0 ? (*values)["what"].as<std::string>() : "";
   const bool as_json = values->count("json") > 0;
   if (what == "list") return list_ports(as_json, streams);
+  if (what == "overshoot") return show_overshoot(as_json, streams);
   if (what != "check") {
-    throw UsageError("rig needs to know what: list or check. usage: " + std::string(syntax.usage));
+    throw UsageError("rig needs to know what: list, check or overshoot. usage: " +
+                     std::string(syntax.usage));
   }
   const bool is_emulated = values->count("emulate") > 0;
   if (!is_emulated && values->count("rig") == 0) {

@@ -1,0 +1,207 @@
+// viscard capture as a user calls it: series, resuming, pictures.
+#include "io/atomic_file.h"
+#include "io/capture_file.h"
+#include "io/cli/live_picture.h"
+#include "tests/support/error_text.h"
+#include "tests/support/run_command.h"
+#include "tests/support/scratch_folder.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace viscard {
+namespace {
+
+using test::contains;
+using test::run_command;
+using test::ScratchFolder;
+
+std::string demo(const std::string& name) {
+  return VISCARD_SOURCE_DIR "/data/demo/" + name;
+}
+
+constexpr const char* kShortTest = R"(
+[approach]
+speed = "0.2 mm/s"
+baseline = "1 s"
+[ramp]
+depth = "0.13 mm"
+duration = "1 s"
+hold = "3 s"
+[recovery]
+hold = "2 s"
+)";
+
+std::vector<std::string> series_words(const ScratchFolder& folder) {
+  const std::string test_file = folder / "test.toml";
+  if (!std::filesystem::exists(test_file)) write_file(test_file, kShortTest, false);
+  return {"capture",    "--emulate",
+          "--speed",    "100",
+          "--test",     test_file,
+          "--specimen", demo("03_pdms_1to10.toml"),
+          "--specimen", demo("04_pdms_1to13.toml"),
+          "--out",      folder / "series"};
+}
+
+std::vector<std::string> with(std::vector<std::string> words, const std::string& word) {
+  words.push_back(word);
+  return words;
+}
+
+// A capture that somebody's crash left behind.
+void leave_interrupted(const std::filesystem::path& path) {
+  CapturedRun about;
+  about.rig.calibration.volts_per_newton = 0.7255;
+  about.rig.calibration.capacity_N = 2.45;
+  about.specimen.id = "left behind";
+  about.specimen.modulus_guess_Pa = 1e6;
+  about.specimen.contact.punch_radius_m = 2e-3;
+  CaptureWriter writer(path, about);
+  writer.append(LoadSample{.index = 0, .counts = 1.0});
+}
+
+}  // namespace
+
+TEST_CASE("a series is resumed with what is not finished, and nothing is overwritten",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "series");
+  const auto first = folder / "series/01_03_pdms_1to10.viscap";
+  leave_interrupted(first);
+  const std::string left = read_file(first);
+
+  const auto refused = run_command(series_words(folder));
+  CHECK(refused.status == kFailed);
+  CHECK(contains(refused.err, "exists already"));
+
+  const auto resumed = run_command(with(series_words(folder), "--resume"));
+  INFO(resumed.err);
+  REQUIRE(resumed.status == kDone);
+  CHECK(read_file(first) == left);
+  CHECK(read_capture(folder / "series/01_03_pdms_1to10.2.viscap").status == "finished");
+  CHECK(read_capture(folder / "series/02_04_pdms_1to13.viscap").status == "finished");
+
+  const auto again = run_command(with(with(series_words(folder), "--resume"), "--json"));
+  CHECK(again.status == kDone);
+  const auto json = nlohmann::json::parse(again.out);
+  REQUIRE(json["runs"].size() == 2);
+  for (const auto& run : json["runs"]) CHECK(run["status"] == "finished before");
+}
+
+TEST_CASE("one finished capture is left alone by --resume", "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const std::string out = folder / "run.viscap";
+  const std::string test_file = folder / "test.toml";
+  write_file(test_file, kShortTest, false);
+  const std::vector<std::string> words{"capture", "--emulate", "--speed", "100", "--test",
+                                       test_file, "--live",    "--out",   out,   "--resume"};
+  const auto first = run_command(words);
+  INFO(first.err);
+  REQUIRE(first.status == kDone);
+  CHECK(contains(first.out, "run.viscap: finished\n"));
+  CHECK(contains(first.out, "force           ▁"));
+  CHECK(contains(first.err, "live page: "));
+  const std::string page = read_file(folder / "run.live.html");
+  CHECK(contains(page, "<polyline"));
+  CHECK(contains(page, "over"));
+  CHECK_FALSE(contains(page, "http-equiv='refresh'"));
+  const auto again = run_command(words);
+  CHECK(again.status == kDone);
+  CHECK(contains(again.out, "run.viscap: finished before"));
+}
+
+TEST_CASE("capture refuses words that do not go together", "[cli][capture]") {
+  CHECK(run_command({"capture", "--emulate"}).status == kBadWords);
+  CHECK(run_command({"capture", "--emulate", "--out", "x.viscap", "--resume", "--force"}).status ==
+        kBadWords);
+  CHECK(run_command({"capture", "--out", "x.viscap"}).status == kBadWords);
+  CHECK(run_command({"capture", "--emulate", "--out", "x.viscap", "--speed", "501"}).status ==
+        kBadWords);
+  if (isatty(STDIN_FILENO) != 1) {
+    const ScratchFolder folder;
+    const auto outcome =
+        run_command({"capture", "--rig", demo("01_rig.toml"), "--test", demo("02_test.toml"),
+                     "--specimen", demo("03_pdms_1to10.toml"), "--specimen",
+                     demo("04_pdms_1to13.toml"), "--out", folder / "series"});
+    CHECK(outcome.status == kBadWords);
+    CHECK(contains(outcome.err, "--yes"));
+  }
+}
+
+TEST_CASE("capture names the port that is not there", "[cli][capture]") {
+  const ScratchFolder folder;
+  const auto outcome =
+      run_command({"capture", "--rig", demo("01_rig.toml"), "--test", demo("02_test.toml"),
+                   "--specimen", demo("03_pdms_1to10.toml"), "--out", folder / "run.viscap"});
+  CHECK(outcome.status == kFailed);
+  CHECK(contains(outcome.err, "there is no port '/dev/serial/by-id/stage'"));
+  CHECK_FALSE(std::filesystem::exists(folder / "run.viscap"));
+}
+
+TEST_CASE("rig list and rig check say what they find, and what they cannot do", "[cli][rig][pty]") {
+  CHECK(run_command({"rig", "list"}).status == kDone);
+  CHECK(nlohmann::json::parse(run_command({"rig", "list", "--json"}).out)["ports"].is_array());
+  CHECK(run_command({"rig"}).status == kBadWords);
+  CHECK(run_command({"rig", "check"}).status == kBadWords);
+  CHECK(run_command({"rig", "check", "--emulate", "--seconds", "0"}).status == kBadWords);
+  const auto missing = run_command({"rig", "check", "--rig", demo("01_rig.toml")});
+  CHECK(missing.status == kFailed);
+  CHECK(contains(missing.err, "there is no port"));
+  const auto found = run_command({"rig", "check", "--emulate", "--seconds", "1", "--json"});
+  CHECK(found.status == kDone);
+  const auto json = nlohmann::json::parse(found.out);
+  CHECK(json["stage"]["identity"] == "Grbl 1.1h");
+  CHECK(json["load_cell"]["rate_Hz"].get<double>() == Approx(80.0).epsilon(0.1));  // 80 readings
+}
+
+TEST_CASE("a sparkline shows the highest of each share, low to high", "[cli]") {
+  CHECK(sparkline({}, 10).empty());
+  CHECK(sparkline({1.0, 1.0}, 10) == "▁▁");
+  CHECK(sparkline({0, 1, 2, 3, 4, 5, 6, 7}, 8) == "▁▂▃▄▅▆▇█");
+  std::vector<double> spike(1000, 0.0);
+  spike[501] = 1.0;
+  CHECK(contains(sparkline(spike, 10), "█"));
+}
+
+TEST_CASE("a history stays small however long the run and keeps its ends", "[cli]") {
+  LiveHistory history;
+  for (int i = 0; i < 100'000; ++i) history.add(i, std::sin(1e-3 * i));
+  CHECK(history.time_s().size() <= LiveHistory::kMost);
+  CHECK(history.time_s().size() > LiveHistory::kMost / 4);
+  CHECK(history.time_s().front() == 0.0);
+  CHECK(history.time_s().back() > 99'000.0);
+  for (std::size_t i = 0; i < history.time_s().size(); ++i) {
+    REQUIRE(history.force_N()[i] == std::sin(1e-3 * history.time_s()[i]));
+  }
+}
+
+TEST_CASE("the live line fits its terminal and tells phase, force, depth and time left", "[cli]") {
+  LiveHistory history;
+  for (int i = 0; i < 50; ++i) history.add(i, 0.01 * i);
+  const RunProgress now{
+      .time_s = 50, .phase = "hold", .force_N = 0.843, .depth_m = 128.3e-6, .time_left_s = 83.0};
+  const std::string line = line_from_live(now, history, 2.4517, 100);
+  for (const char* part : {"hold", "0.843 N", "34 % of the cell", "128.3 um", "1:23 left", "█"}) {
+    CHECK(contains(line, part));
+  }
+  CHECK(line_from_live(now, history, 2.4517, 40).size() <= 40);
+  CHECK(clock_from_s(7267.0) == "2:01:07");
+}
+
+TEST_CASE("the live page reloads while the run goes on and escapes what it shows", "[cli]") {
+  LiveHistory history;
+  history.add(0.0, 0.0);
+  history.add(1.0, 1.0);
+  const RunProgress now{.time_s = 1, .phase = "<b>"};
+  const std::string page = page_from_live(now, history, 2.0, 0.5, "a & b", false);
+  CHECK(contains(page, "http-equiv='refresh'"));
+  CHECK(contains(page, "a &amp; b"));
+  CHECK(contains(page, "&lt;b&gt;"));
+  CHECK(contains(page, "#d55e00"));  // the limit lies within the picture
+}
+
+}  // namespace viscard

@@ -1,0 +1,31 @@
+// Any line from a Zaber stage, a multimeter or a force gauge is understood or refused.
+#include "rig/force_gauge_protocols.h"
+#include "rig/scpi_protocol.h"
+#include "rig/zaber_protocol.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+namespace {
+
+void check(const std::optional<viscard::GaugeAnswer>& answer) {
+  if (!answer) return;
+  for (const auto& value : {answer->volts, answer->force_N}) {
+    if (value && !std::isfinite(*value)) std::abort();
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  check(viscard::parse_scpi_reading(text));
+  check(viscard::parse_mark10_reading(text, "N"));
+  check(viscard::parse_sauter_reading(text, "N"));
+  (void)viscard::parse_scpi_error(text);
+  const auto message = viscard::parse_zaber_message(text);
+  if (message && (message->device < 0 || message->axis < 0)) std::abort();
+  return 0;
+}
