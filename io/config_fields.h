@@ -42,6 +42,8 @@ class FieldVisitor {
   // key = [["0 s", "10 kPa"], ...]
   virtual void quantity_pairs(const char* key, const char* first_unit, const char* second_unit,
                               std::vector<std::pair<double, double>>& values) = 0;
+  // key = ["5 um", "10 um"], every entry as quantity() has it.
+  virtual void quantities(const QuantityField& field, std::vector<double>& values) = 0;
   // [key] with the fields that body shows.
   virtual void section(const char* key, const std::function<void(FieldVisitor&)>& body) = 0;
   // [[key]]: resize(n) is called with the number of entries when reading; body shows entry i.

@@ -138,6 +138,23 @@ class TomlReader final : public FieldVisitor {
     }
   }
 
+  void quantities(const QuantityField& field, std::vector<double>& values) override {
+    const std::string what = "a list, each entry " + expected(field);
+    const toml::node* node = find(field.key, field.is_required, what);
+    if (node == nullptr) return;
+    const toml::array* entries = node->as_array();
+    if (entries == nullptr) fail(*node, field.key, "expected " + what);
+    values.clear();
+    for (const toml::node& entry : *entries) {
+      const double written = quantity_of(entry, field.key, field.unit);
+      if (!is_in(field.range, written)) {
+        fail(entry, field.key,
+             "is " + text_from_number(written) + "; expected " + text_of(field.range));
+      }
+      values.push_back(written / field.written_per_value);
+    }
+  }
+
   void section(const char* key, const std::function<void(FieldVisitor&)>& body) override {
     static const toml::table kEmpty;
     const toml::node* node = find(key, false, "");

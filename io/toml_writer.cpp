@@ -51,6 +51,13 @@ class TomlWriter final : public FieldVisitor {
     for (const std::string& value : values) all += (all.empty() ? "" : ", ") + quoted(value);
     line(field.key, "[" + all + "]");
   }
+  void quantities(const QuantityField& field, std::vector<double>& values) override {
+    std::string all;
+    for (const double value : values) {
+      all += (all.empty() ? "" : ", ") + number(value * field.written_per_value);
+    }
+    line(field.key, "[" + all + "]");
+  }
   void quantity_pairs(const char* key, const char*, const char*,
                       std::vector<std::pair<double, double>>& values) override {
     std::string all;

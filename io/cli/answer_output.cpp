@@ -59,6 +59,18 @@ void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out) {
                      wall_s);
 }
 
+namespace {
+
+// "centre_voltage" stands for centre_voltage_1, centre_voltage_2, ...
+bool is_named(const std::string& result, const std::string& wanted) {
+  if (!result.starts_with(wanted)) return false;
+  const std::string rest = result.substr(wanted.size());
+  return rest.empty() || (rest.size() > 1 && rest[0] == '_' &&
+                          rest.find_first_not_of("0123456789", 1) == std::string::npos);
+}
+
+}  // namespace
+
 void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer) {
   if (wanted.empty() || answer.results.empty()) return;
   std::vector<std::string> known;
@@ -68,7 +80,10 @@ void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer) {
     list += (list.empty() ? "" : ", ") + r.name;
   }
   for (const std::string& name : wanted) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (std::any_of(known.begin(), known.end(),
+                    [&](const std::string& result) { return is_named(result, name); })) {
+      continue;
+    }
     if (name.find("peak_stress") != std::string::npos || name == "base_stress_max") {
       throw std::runtime_error(
           "the peak stress at the rim of the bond is infinite in an elastic body: it grows with "
@@ -81,7 +96,8 @@ void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer) {
                              " It has: " + list);
   }
   std::erase_if(answer.results, [&](const SceneResult& r) {
-    return std::find(wanted.begin(), wanted.end(), r.name) == wanted.end();
+    return std::none_of(wanted.begin(), wanted.end(),
+                        [&](const std::string& name) { return is_named(r.name, name); });
   });
 }
 

@@ -15,7 +15,8 @@ namespace viscard {
 nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s);
 void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out);
 
-// Drops the results that are not among the wanted ones, if any are. Throws std::runtime_error
+// Drops the results that are not among the wanted ones, if any are; a wanted name also stands for
+// the same with a pillar's number behind it. Throws std::runtime_error
 // naming one that this analysis does not have.
 void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer);
 

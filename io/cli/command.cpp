@@ -3,6 +3,7 @@
 #include "io/cli/command_capture.h"
 #include "io/cli/command_card.h"
 #include "io/cli/command_demo.h"
+#include "io/cli/command_design.h"
 #include "io/cli/command_export.h"
 #include "io/cli/command_fit.h"
 #include "io/cli/command_plan.h"
@@ -61,6 +62,7 @@ const std::vector<Command>& commands() {
       {"plan", "which effects a scene needs at its tolerance, and why", run_plan},
       {"simulate", "answer a scene: static, modes, buckling, creep, with error estimates",
        run_simulate},
+      {"design", "closed-form limits of a pillar sensor and its admissible region", run_design},
       {"report", "one page with everything known of captures, tables and materials", run_report},
       {"demo", "run all of it on the emulated rig", run_demo},
   };

@@ -1,8 +1,10 @@
 #include "io/cli/command_simulate.h"
 
 #include "io/cli/answer_output.h"
+#include "io/cli/array_run.h"
 #include "io/cli/command_line.h"
 #include "io/cli/printed_values.h"
+#include "io/scene_array.h"
 #include "io/scene_file.h"
 #include "models/pillar/plan.h"
 
@@ -48,6 +50,7 @@ int run_simulate(const std::vector<std::string>& words, Streams& streams) {
   if (values->count("scene") == 0)
     throw UsageError(std::string("which scene? usage: ") + syntax.usage);
   const auto path = (*values)["scene"].as<std::string>();
+  if (scene_kind(path) == "array") return run_array_scene(path, *values, words, streams);
   SceneFile file = read_scene(path);
   if (values->count("tol") > 0) file.scene.tolerance = (*values)["tol"].as<double>();
   if (!(file.scene.tolerance >= 1e-9 && file.scene.tolerance < 1.0)) {

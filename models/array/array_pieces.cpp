@@ -95,6 +95,7 @@ DofMap free_dofs(const Section& section, bool fixed_base) {
 struct ModePorts {
   Eigen::MatrixXd loads;
   Eigen::VectorXd rad_s;
+  std::vector<bool> is_lateral;
 };
 
 ModePorts mode_ports(const Section& section, const DiscreteSystem& free, const PlaneForm& form,
@@ -122,6 +123,16 @@ ModePorts mode_ports(const Section& section, const DiscreteSystem& free, const P
   }
   const SymmetricSparse free_mass = free.form(free.kinematics().displacement, density);
   ports.loads = (free_mass.selfadjointView<Eigen::Lower>() * ports.loads).eval();
+  // Modes are symmetric or antisymmetric about the axis; only the latter have momentum along x.
+  for (Eigen::Index mode = 0; mode < wanted; ++mode) {
+    Eigen::Vector2d momentum = Eigen::Vector2d::Zero();
+    for (int node = 0; node < section.node_count(); ++node) {
+      for (int field = 0; field < 2; ++field) {
+        momentum[field] += ports.loads(free.dofs().dof(field, node), mode);
+      }
+    }
+    ports.is_lateral.push_back(std::abs(momentum[kAcross]) > std::abs(momentum[kUp]));
+  }
   return ports;
 }
 
@@ -219,6 +230,7 @@ CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media,
     ports.conservativeResize(Eigen::NoChange, kFirstModePort + more.loads.cols());
     ports.rightCols(more.loads.cols()) = more.loads;
     pillar.mode_rad_s = more.rad_s;
+    pillar.mode_is_lateral = more.is_lateral;
   }
   const std::vector<int> base = dofs_on(system, nodes_on_break(section, 0, 0, columns), 2);
   pillar.base_size = static_cast<int>(base.size());

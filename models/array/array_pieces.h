@@ -27,8 +27,9 @@ constexpr int kFirstModePort = 2;
 struct CondensedPillar {
   Eigen::MatrixXd matrix;
   int base_size = 0;
-  Eigen::VectorXd mode_rad_s;  // angular frequencies of the modes on a fixed base, ascending
-  int unknowns = 0;            // before condensation
+  Eigen::VectorXd mode_rad_s;         // angular frequencies of the modes on a fixed base, ascending
+  std::vector<bool> mode_is_lateral;  // they move to the side, the others along the axis
+  int unknowns = 0;                   // before condensation
 
   int port_count() const { return static_cast<int>(matrix.rows()) - base_size; }
   // F' K^-1 F of the pillar on a fixed base.

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "models/array/array_statics.h"
+#include "models/material.h"
+#include "models/pillar/scene.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+enum class ArrayAnalysis { kStatic, kModal };
+
+// A row of pillars, what is done to it, and how well the answer must be known.
+struct ArrayScene {
+  double tolerance = 1e-3;  // relative; for voltages beside the largest, for per cents beside 10
+  ArrayGeometry geometry;
+  ArrayElectrodes electrodes;
+  Material pillar;
+  Medium film;
+  PlaneState plane = PlaneState::kStress;
+  ArrayAnalysis analysis = ArrayAnalysis::kStatic;
+  ArrayLoad load = ArrayLoad::kPressure;
+  double load_Pa = 0.0;
+  std::vector<int> loaded;  // numbers from 1; empty: all
+  int modes = 3;            // clusters of each family
+  std::vector<std::string>
+      wanted;  // results, with or without a pillar's number; empty: all cheap ones
+  std::function<void(double)> progress;
+};
+
+// Throws SceneMistake naming what is missing or contradictory.
+void validate(const ArrayScene& scene);
+
+// Answers the scene on meshes of rising degree as simulate() does for one pillar. Results of pillar
+// i carry its number: centre_voltage_i and mean_voltage_i of a charge-free face,
+// electrode_voltage_i and electrode_charge_i (shorted) of equipotential electrodes,
+// midway_voltage_i between i and i + 1, top_displacement_i, and in per cent
+//   coupling_percent_i        100 (V_midway/2)/V, V the mean of the two loaded neighbours' centres
+//   crosstalk_percent_i       mean or electrode voltage of an unloaded pillar over that of the
+//   loaded crosstalk_centre_percent_i  the same of the centres neighbours_percent_i      what the
+//   other loaded pillars add to the centre (electrode) voltage deviation_percent_i       centre
+//   (electrode) voltage beside that of a lone pillar on a wide film;
+//                             only when wanted, for it is a second model
+// Throws std::runtime_error if the finest mesh does not meet the tolerance.
+SceneAnswer simulate_array(const ArrayScene& scene);
+
+// `points` combinations are answered on all cores; done(i, answer) is called one at a time, in the
+// order in which they end. The first exception is thrown once all running ones have ended.
+void simulate_arrays(const std::vector<ArrayScene>& points,
+                     const std::function<void(std::size_t, const SceneAnswer&)>& done);
+
+}  // namespace viscard
