@@ -1,0 +1,156 @@
+// Work of the pillar solver inside one process, in CPU time, with the error beside it. Peers are
+// timed beside the whole command by bench_pillar_peers.
+#include "models/pillar/load_history.h"
+#include "models/pillar/pillar_modes.h"
+#include "models/pillar/viscoelastic_pillar.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <functional>
+#include <limits>
+#include <string>
+
+using namespace viscard;
+
+namespace {
+
+double cpu_s() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double best_of(int repeats, const std::function<void()>& work) {
+  double best_s = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < repeats; ++i) {
+    const double start_s = cpu_s();
+    work();
+    best_s = std::min(best_s, cpu_s() - start_s);
+  }
+  return best_s;
+}
+
+PillarGeometry on_film() {
+  PillarGeometry geometry;
+  geometry.film = FilmGeometry{25e-6, 60e-6};
+  return geometry;
+}
+
+PillarMedia media() {
+  return {isotropic_medium(1.8e6, .33, 965.0), isotropic_medium(2e9, .29, 1780.0)};
+}
+
+// The twelve lowest modes: four double lateral, two longitudinal, two torsional. Hz, converged.
+struct Family {
+  Motion motion;
+  std::vector<double> converged_Hz;
+};
+const std::vector<Family> kTwelve = {{Motion::kLateral, {16026.87, 77403.97, 173645.7, 274668.4}},
+                                     {Motion::kLongitudinal, {90760.26, 268141.2}},
+                                     {Motion::kTorsion, {55165.77, 165497.3}}};
+
+void bench_modes(const Discretisation& mesh) {
+  double error = 0.0;
+  int unknowns = 0;
+  const double spent_s = best_of(20, [&] {
+    error = 0.0;
+    for (const Family& family : kTwelve) {
+      const PillarModel model(on_film(), mesh, media(), {.motion = family.motion});
+      unknowns = std::max(unknowns, model.system().size());
+      const auto modes = lowest_modes(model, static_cast<int>(family.converged_Hz.size()));
+      for (std::size_t i = 0; i < modes.size(); ++i) {
+        error = std::max(error, std::abs(modes[i].frequency_Hz / family.converged_Hz[i] - 1.0));
+      }
+    }
+  });
+  fmt::print("twelve modes, degree {}, {} layers  {:>8} unknowns {:>9.2f} ms  error {:.4f} %\n",
+             mesh.degree, mesh.layers, unknowns, 1e3 * spent_s, 100.0 * error);
+}
+
+// 100 equal steps of creep under 10 kPa to 10 s, shear and bulk relaxing alike, so that J(t) is
+// exact up to the film's share; the mesh error is that of the converged 659.763 nm.
+void bench_creep() {
+  Material material;
+  material.E0_Pa = 1.8e6;
+  material.nu = .33;
+  material.terms = {{.008206, .008206, .1945}, {.01386, .01386, 2.403}};
+  double first_m = 0.0;
+  double last_m = 0.0;
+  const double spent_s = best_of(10, [&] {
+    const ViscoelasticPillar pillar(on_film(), {.degree = 4, .layers = 2}, material,
+                                    TopLoad::kPressure, media().film);
+    ViscoelasticStepper stepper(pillar.system());
+    const double force_N = 1e4 * pillar.top_area_m2();
+    stepper.advance(0.0, Control::kForce, force_N);
+    first_m = stepper.displacement();
+    for (int i = 0; i < 100; ++i) stepper.advance(0.1, Control::kForce, force_N);
+    last_m = stepper.displacement();
+  });
+  const double error =
+      std::max(std::abs(first_m / 659.763e-9 - 1.0), std::abs(last_m / 674.492e-9 - 1.0));
+  fmt::print("creep, 100 steps with set-up {:>27.2f} ms  error {:.4f} %\n", 1e3 * spent_s,
+             100.0 * error);
+}
+
+// Static solution on ever finer quadratic elements: set-up, factor and solve.
+void bench_growth() {
+  double last_n = 0.0, last_s = 0.0, first_n = 0.0, first_s = 0.0;
+  for (const double size_um : {6.0, 3.0, 1.5, 0.8, 0.55}) {
+    int n = 0;
+    const double spent_s = best_of(size_um > 2.0 ? 10 : 2, [&] {
+      const PillarModel model(on_film(), {.degree = 2, .element_size_m = size_um * 1e-6}, media(),
+                              {});
+      n = model.system().size();
+      model.solve(model.top_traction());
+    });
+    fmt::print("static, quadratic elements of {:>4} um {:>8} unknowns {:>9.2f} ms", size_um, n,
+               1e3 * spent_s);
+    if (last_n > 0.0) {
+      fmt::print("  grows as n^{:.2f}", std::log(spent_s / last_s) / std::log(n / last_n));
+    } else {
+      first_n = n;
+      first_s = spent_s;
+    }
+    fmt::print("\n");
+    last_n = n;
+    last_s = spent_s;
+  }
+  fmt::print("from {:.0f} to {:.0f} unknowns the cost grows as n^{:.2f}\n", first_n, last_n,
+             std::log(last_s / first_s) / std::log(last_n / first_n));
+}
+
+// One process, one mesh, for timing beside other programs: the twelve modes, on the film or, as
+// cylinder of its own, on a fixed base.
+int print_modes(const Discretisation& mesh, bool has_film) {
+  PillarMedia of = media();
+  if (!has_film) of.film.reset();
+  for (const Family& family : kTwelve) {
+    const PillarModel model(has_film ? on_film() : PillarGeometry{}, mesh, of,
+                            {.motion = family.motion});
+    for (const PillarMode& mode :
+         lowest_modes(model, static_cast<int>(family.converged_Hz.size()))) {
+      fmt::print("mode {:.4f}\n", mode.frequency_Hz);
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+// bench_pillar: the table. bench_pillar film|fixed DEGREE LAYERS: the modes alone.
+int main(int argc, char** argv) {
+  if (argc == 4) {
+    return print_modes({.degree = std::stoi(argv[2]), .layers = std::stoi(argv[3])},
+                       std::string(argv[1]) == "film");
+  }
+  for (const Discretisation& mesh :
+       {Discretisation{.degree = 4, .layers = 1}, Discretisation{.degree = 4, .layers = 2},
+        Discretisation{.degree = 5, .layers = 2}, Discretisation{.degree = 8, .layers = 3}}) {
+    bench_modes(mesh);
+  }
+  bench_creep();
+  bench_growth();
+}
