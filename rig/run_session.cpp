@@ -73,7 +73,9 @@ void RunSession::serve_cell() {
   if (is_cell_lost_) return;
   try {
     load_cell_.service();
-  } catch (const std::exception& error) {
+  } catch (const LimitReached&) {  // the stage has been told already
+    throw;
+  } catch (const RigError& error) {
     is_cell_lost_ = dynamic_cast<const PortHungUp*>(&error) != nullptr;
     if (!is_armed_) return;
     if (stage_.is_moving()) {

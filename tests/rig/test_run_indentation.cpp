@@ -136,6 +136,22 @@ TEST_CASE("A specimen far stiffer than guessed stops the stage before the cell i
   CHECK(is_at_rest_and_lifted(rig));
 }
 
+TEST_CASE("A limit reached slowly is stopped gently, without a reset", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.material.E0_Pa *= 1.6;
+  options.truth.surface_position_m = 0.1e-3;
+  RigFixture rig(options);
+  TestPlan plan = short_plan();
+  plan.ramp_s = 60.0;  // .05 N/s: nothing rises further while the queue runs out
+  const RunOutcome outcome = rig.run(plan);
+  INFO(outcome.reason);
+  CHECK(outcome.status == "stopped");
+  CHECK(rig.has_event("limit", "soft"));
+  CHECK_FALSE(rig.has_event("limit", "hard"));
+  CHECK_FALSE(rig.has_event("stage_alarm", "3"));
+  CHECK(is_at_rest_and_lifted(rig));
+}
+
 TEST_CASE("Asked to stop, the run stops the stage, lifts the punch and keeps its records",
           "[rig][pty]") {
   const std::string phase = GENERATE("approach", "ramp", "hold", "recovery");
