@@ -2,6 +2,7 @@
 
 #include "io/cli/command_capture.h"
 #include "io/cli/command_card.h"
+#include "io/cli/command_cost.h"
 #include "io/cli/command_demo.h"
 #include "io/cli/command_design.h"
 #include "io/cli/command_export.h"
@@ -9,6 +10,7 @@
 #include "io/cli/command_plan.h"
 #include "io/cli/command_report.h"
 #include "io/cli/command_rig.h"
+#include "io/cli/command_scene.h"
 #include "io/cli/command_simulate.h"
 #include "io/cli/command_validate.h"
 
@@ -59,10 +61,12 @@ const std::vector<Command>& commands() {
       {"card", "write, check or prove a material card for a solver", run_card},
       {"validate", "check a material in the pillar against exact creep and relaxation",
        run_validate},
+      {"scene", "check a scene file and draw its geometry", run_scene},
       {"plan", "which effects a scene needs at its tolerance, and why", run_plan},
       {"simulate", "answer a scene: static, modes, buckling, creep, with error estimates",
        run_simulate},
       {"design", "closed-form limits of a pillar sensor and its admissible region", run_design},
+      {"cost", "what accuracy costs: error against time over meshes and effects", run_cost},
       {"report", "one page with everything known of captures, tables and materials", run_report},
       {"demo", "run all of it on the emulated rig", run_demo},
   };

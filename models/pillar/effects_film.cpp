@@ -96,7 +96,8 @@ bool asks_for_electric(const Scene& scene) {
   if (!scene.electrodes) return false;
   return asks_for(scene, "electrode_voltage") || asks_for(scene, "electrode_charge") ||
          asks_for(scene, "electrode_capacitance") || asks_for(scene, "displacement_per_volt") ||
-         asks_for(scene, "potential_at_centre");
+         asks_for(scene, "potential_at_centre") || asks_for(scene, "potential_mean") ||
+         scene.readout || scene.drive_V != 0.0;
 }
 
 // Largest share of electric in elastic energy that any strain can cause: the largest eigenvalue of
@@ -124,6 +125,9 @@ EffectEstimate film_compliance_estimate(const Scene& scene) {
   switch (scene.kind) {
     case AnalysisKind::kModal:
       return modal_film_estimate(scene, shares);
+    case AnalysisKind::kHarmonic:
+    case AnalysisKind::kTransient:
+      return {EffectRole::kNeeded, 1.0, "E A/(k L)", shares.axial, "it moves every resonance"};
     case AnalysisKind::kBuckling:
       return {EffectRole::kOptional, kUnevenTraction * shares.lateral(), "2 E I/(k L)",
               2.0 * shares.bending, "the base turns under the bent pillar"};
@@ -159,10 +163,11 @@ EffectEstimate piezo_coupling_estimate(const Scene& scene) {
   if (!asks_for_electric(scene)) {
     estimate.error *= kUnevenTraction * shares_of(scene).axial;
     estimate.reason = "only the film's share of the deflection feels it";
-  } else if (asks_for(scene, "displacement_per_volt")) {
+  } else if (scene.kind != AnalysisKind::kStatic || scene.drive_V != 0.0 ||
+             asks_for(scene, "displacement_per_volt")) {
     estimate.role = EffectRole::kNeeded;
-    estimate.error = 1.0;
-    estimate.reason = "the motion per volt is asked for";
+    estimate.reason = scene.kind == AnalysisKind::kStatic ? "motion per volt is asked for"
+                                                          : "voltages in time need both ways";
   }
   return estimate;
 }

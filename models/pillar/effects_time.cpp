@@ -84,6 +84,9 @@ EffectEstimate relaxation_estimate(const Scene& scene) {
     return {EffectRole::kOptional, 0.5 * loss, "1 - E'(w)/E_0", loss,
             "the modulus at the lowest frequency"};
   }
+  if (analysis_of(scene.kind).relaxes) {
+    return {EffectRole::kNeeded, 1.0, "", 0.0, "its damping decides the response near resonance"};
+  }
   return {.reason = "answers right after loading, with the instantaneous moduli"};
 }
 
@@ -106,7 +109,10 @@ EffectEstimate inertia_estimate(const Scene& scene) {
 
 EffectEstimate leakage_estimate(const Scene& scene) {
   if (!scene.electrodes) return {.reason = "no electrode"};
-  return {.reason = "voltage right after loading, charge not yet leaked"};
+  if (scene.readout) {
+    return {EffectRole::kNeeded, 1.0, "", 0.0, "the electrode is wired to a readout"};
+  }
+  return {.reason = "the voltage of an open electrode, before charge leaks"};
 }
 
 }  // namespace viscard

@@ -23,8 +23,20 @@ void append(std::vector<double>& breaks, const std::vector<double>& more) {
   }
 }
 
+// Equal elements no longer than h_m.
+std::vector<double> equal_breaks(double from_m, double to_m, double h_m) {
+  const int count = std::max(1, static_cast<int>(std::ceil((to_m - from_m) / h_m - 1e-9)));
+  return graded_breaks(from_m, to_m, count, 1.0, true);
+}
+
 std::vector<double> film_radii(const FilmGeometry& film, double radius_m, const Discretisation& d) {
   std::vector<double> breaks;
+  if (d.uniform_m > 0.0) {
+    if (film.radius_m > radius_m * (1.0 + 1e-9)) {
+      breaks = equal_breaks(radius_m, film.radius_m, d.uniform_m);
+    }
+    return breaks;
+  }
   const double graded_m = std::min(2.0 * radius_m, film.radius_m);
   if (graded_m > radius_m * (1.0 + 1e-9)) {
     append(breaks, graded_breaks(radius_m, graded_m, d.layers, d.ratio, false));
@@ -37,6 +49,7 @@ std::vector<double> film_radii(const FilmGeometry& film, double radius_m, const 
 
 std::vector<double> pillar_heights(const PillarGeometry& g, double radius_m,
                                    const Discretisation& d) {
+  if (d.uniform_m > 0.0) return equal_breaks(0.0, g.length_m, d.uniform_m);
   const double foot_m = std::min(2.0 * radius_m, g.length_m);
   std::vector<double> breaks = graded_breaks(0.0, foot_m, d.layers, d.ratio, false);
   if (g.length_m > foot_m * (1.0 + 1e-9)) {
@@ -68,7 +81,9 @@ void validate(const PillarGeometry& g) {
 PillarMesh pillar_mesh(const PillarGeometry& g, const Discretisation& d) {
   validate(g);
   const double radius_m = 0.5 * g.diameter_m;
-  std::vector<double> x = graded_breaks(0.0, radius_m, d.layers, d.ratio, true);
+  const bool is_uniform = d.uniform_m > 0.0;
+  std::vector<double> x = is_uniform ? equal_breaks(0.0, radius_m, d.uniform_m)
+                                     : graded_breaks(0.0, radius_m, d.layers, d.ratio, true);
   std::vector<double> z;
   if (g.film) {
     append(x, film_radii(*g.film, radius_m, d));
@@ -78,8 +93,10 @@ PillarMesh pillar_mesh(const PillarGeometry& g, const Discretisation& d) {
         std::any_of(x.begin(), x.end(), [&](double b) { return std::abs(b - edge_m) <= near_m; });
     if (edge_m > 0.0 && !is_break) x.insert(std::upper_bound(x.begin(), x.end(), edge_m), edge_m);
     const double graded_m = std::min(g.film->thickness_m, radius_m);
-    if (g.film->thickness_m > graded_m * (1.0 + 1e-9)) z.push_back(-g.film->thickness_m);
-    append(z, graded_breaks(-graded_m, 0.0, d.layers, d.ratio, true));
+    if (is_uniform) z = equal_breaks(-g.film->thickness_m, 0.0, d.uniform_m);
+    if (!is_uniform && g.film->thickness_m > graded_m * (1.0 + 1e-9))
+      z.push_back(-g.film->thickness_m);
+    if (!is_uniform) append(z, graded_breaks(-graded_m, 0.0, d.layers, d.ratio, true));
   }
   const int bond_row = z.empty() ? 0 : static_cast<int>(z.size()) - 1;
   append(z, pillar_heights(g, radius_m, d));

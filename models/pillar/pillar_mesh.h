@@ -28,6 +28,7 @@ struct Discretisation {
   double ratio = 0.15;
   int shaft_elements = 2;  // along the pillar above the graded foot
   int film_elements = 1;   // across the film outside the graded part
+  double uniform_m = 0.0;  // > 0: an ordinary mesh of squares of about this size, not graded
 };
 
 constexpr int kPillarRegion = 0;

@@ -1,0 +1,85 @@
+#include "io/cli/command_scene.h"
+
+#include "io/atomic_file.h"
+#include "io/cli/command_line.h"
+#include "io/scene_array.h"
+#include "io/scene_file.h"
+#include "io/scene_picture.h"
+#include "models/pillar/effects.h"
+#include "models/pillar/plan.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <ostream>
+
+namespace po = boost::program_options;
+
+namespace viscard {
+namespace {
+
+CommandSyntax scene_syntax() {
+  CommandSyntax syntax{
+      "viscard scene check SCENE.toml [OPTIONS]",
+      "Reads a scene, says with the line of the file what is missing or "
+      "contradicts itself,\nand draws the geometry. Nothing is solved.",
+      "viscard scene check data/scenes/pillar_sensor.toml --svg sensor.svg --force"};
+  syntax.options.add_options()("svg", po::value<std::string>(), "file for the drawing")(
+      "force", "overwrite an existing file");
+  syntax.positional = {"what", "scene"};
+  return syntax;
+}
+
+// What reading alone does not find: effects that cannot be off, a load beyond buckling.
+void check_pillar(const Scene& scene) {
+  plan_effects(scene);
+  const bool stands_load = scene.plane || scene.kind == AnalysisKind::kBuckling ||
+                           largest_pressure_Pa(scene) < engesser_pressure_Pa(scene);
+  if (stands_load) return;
+  throw SceneMistake(scene.kind == AnalysisKind::kCreep ? "analysis.history" : "analysis.load",
+                     fmt::format("a pressure of {:.4g} Pa is beyond the buckling pressure of about "
+                                 "{:.4g} Pa (Euler, Engesser); reduce the load, or make the pillar "
+                                 "shorter or thicker",
+                                 largest_pressure_Pa(scene), engesser_pressure_Pa(scene)));
+}
+
+}  // namespace
+
+int run_scene(const std::vector<std::string>& words, Streams& streams) {
+  CommandSyntax syntax = scene_syntax();
+  const auto values = parse_words(syntax, words, streams);
+  if (!values) return kDone;
+  if (values->count("what") == 0 || (*values)["what"].as<std::string>() != "check" ||
+      values->count("scene") == 0) {
+    throw UsageError(std::string("usage: ") + syntax.usage);
+  }
+  const auto path = (*values)["scene"].as<std::string>();
+  const std::string kind = scene_kind(path);
+  if (kind == "array") {
+    if (values->count("svg") > 0) {
+      throw UsageError("--svg draws scenes of one pillar; this one is an array");
+    }
+    read_array_scene(path);
+  } else {
+    const Scene scene = read_scene(path).scene;
+    try {
+      check_pillar(scene);
+    } catch (const SceneMistake& mistake) {
+      throw std::runtime_error(told_with_line(path, mistake));
+    }
+    if (values->count("svg") > 0) {
+      write_file((*values)["svg"].as<std::string>(),
+                 svg_from_scene(scene, std::filesystem::path(path).filename().string()),
+                 values->count("force") > 0);
+    }
+  }
+  if (values->count("json") > 0) {
+    streams.out << nlohmann::json({{"scene", path}, {"kind", kind}, {"ok", true}}).dump(2) << "\n";
+  } else {
+    streams.out << path << ": nothing contradicts itself\n";
+  }
+  return kDone;
+}
+
+}  // namespace viscard

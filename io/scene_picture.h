@@ -1,0 +1,13 @@
+#pragma once
+
+#include "models/pillar/scene.h"
+
+#include <string>
+
+namespace viscard {
+
+// The geometry of a scene to scale, as an SVG document: pillar, film, electrode and ground, the
+// held bottom, the load, with their sizes. A section along the axis.
+std::string svg_from_scene(const Scene& scene, const std::string& title);
+
+}  // namespace viscard
