@@ -42,6 +42,14 @@ std::vector<Number> numbers_of(SceneAnswer& answer) {
   return numbers;
 }
 
+// What a geometric sequence of changes still has to go, where it falls by less than half per mesh;
+// at most ten times the last change.
+double remaining(double change, double before) {
+  if (!(change > 0.5 * before) || before == 0.0) return change;
+  const double ratio = change / before;
+  return change * (ratio < 10.0 / 11.0 ? ratio / (1.0 - ratio) : 10.0);
+}
+
 // Estimates of all numbers from the changes since the mesh before; name of the worst.
 class ChangeTracker {
  public:
@@ -54,7 +62,7 @@ class ChangeTracker {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       if (comparable) change[i] = std::abs(numbers[i].value - last_[i]);
       if (comparable && last_change_.size() == change.size()) {
-        change[i] = std::max(change[i], 0.1 * last_change_[i]);
+        change[i] = std::max(remaining(change[i], last_change_[i]), 0.1 * last_change_[i]);
       }
       const double error = change[i] + answer.step_error * numbers[i].size;
       *numbers[i].error = error;
