@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kSettle_s = 0.25;      // force after a stop, long against the readings' period
 constexpr double kContactSigmas = 6.0;  // of one reading's noise
+constexpr double kFlatForce = 0.2;      // of the expected peak: less is no specimen of that kind
 constexpr double kJog_m = 25e-6;        // longest way a dead host lets the stage go near contact
 constexpr int kMostBackOffs = 10;
 constexpr double kDepthAfter_s = 0.5;  // of a hold's beginning: the depth reached is told then
@@ -130,8 +131,9 @@ void IndentationRun::approach() {
                        " N on, because of the noise, instead of contact_force");
   }
   const double limit_m = start_m_ + plan_.approach_limit_m;
+  const double jog_m = std::max(kJog_m, 1.01 / session_.stage().dynamics().steps_per_m);
   while (true) {
-    const double next_m = session_.stage().position_m() + kJog_m;
+    const double next_m = session_.stage().position_m() + jog_m;
     if (next_m > limit_m) {
       throw RigError("nothing was touched within " +
                      text_from_number(plan_.approach_limit_m * 1e3, 2) +
@@ -255,12 +257,25 @@ double IndentationRun::safe_position_m() const {
   return outcome.contact_position_m ? contact_m_ - plan_.retract_m : start_m_;
 }
 
+// A stage that lost its steps reports the depth it was told; only the force shows that it is not
+// there.
+void doubt_flat_force(RunSession& session, RunOutcome& outcome) {
+  const double expected_N = outcome.expected.peak_force_N;
+  if (outcome.status != "finished" || outcome.peak_force_N > kFlatForce * expected_N) return;
+  outcome.doubts.push_back("the force reached only " + text_from_number(outcome.peak_force_N, 4) +
+                           " N of the " + text_from_number(expected_N, 4) +
+                           " N expected. Did the stage lose steps, or is modulus_guess of the "
+                           "specimen far too high?");
+  session.event("doubt", "force_flat", outcome.doubts.back());
+}
+
 // Says how it ended, without hiding the reason when even that cannot be written any more.
 void conclude(RunSession& session, RunOutcome& outcome) {
   outcome.peak_force_N = session.peak_force_N();
   outcome.stream = session.load_cell().counts();
   outcome.stream.implausible += session.n_implausible();
   try {
+    doubt_flat_force(session, outcome);
     session.event(outcome.status, outcome.reason.empty() ? "" : "reason",
                   outcome.reason.empty() ? "The run is complete" : outcome.reason);
   } catch (const std::exception& error) {

@@ -11,6 +11,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -25,6 +26,7 @@ struct RunOutcome {
   double peak_force_N = 0.0;
   double achieved_depth_m = 0.0;  // the deepest, by that estimate
   StreamCounts stream;
+  std::vector<std::string> doubts;  // what speaks against the record although the run finished
 };
 
 // Carries out the phases of a test (models/test_phases.h) and hands out everything it receives:

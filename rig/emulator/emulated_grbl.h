@@ -29,6 +29,7 @@ struct GrblHabits {
   int lose_ok_number = 0;              // the n-th ok is never sent
   int refuse_jog_number = 0;           // the n-th jog is answered by error:15
   int misread_jog_number = 0;          // the n-th jog goes 1 mm further than it says
+  int ends_short_number = 0;           // the n-th jog stops half way and says Idle
   bool alarms_again = false;           // the move off a limit switch opens it, and that alarms too
   bool holds_after_cancel = false;     // a jog cancel leaves it held at Idle until '~'
   bool never_rests = false;            // says Jog long after a move has ended

@@ -119,8 +119,9 @@ void EmulatedGrbl::jog(std::string_view words, double time_s) {
     if (settings_[20] != 0.0 && is_homed_ && (to_mm > 0.0 || to_mm < -settings_[130])) {
       return error(time_s, 15);
     }
+    const double share = n_jogs_ == habits_.ends_short_number ? 0.5 : 1.0;
     const double speed_m_s = std::min(*asked.feed * asked.scale_mm / 60e3, max_rate_m_s_);
-    queue_.push_back({bench_m(to_mm), speed_m_s});
+    queue_.push_back({last_m + share * (bench_m(to_mm) - last_m), speed_m_s});
     state_ = "Jog";
     tick(time_s);
     if (is_silent_) return;

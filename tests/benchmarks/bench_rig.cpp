@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -43,28 +44,25 @@ double thread_cpu_s() {
 
 struct StreamBench {
   long n_lines = 0;
-  double per_second = 0.0;  // 0: as fast as the pseudo-terminal takes them
-  double speed = 1.0;       // of the clock; the pace is per_second times this
+  double per_second = 0.0;  // by the device's clock
+  double speed = 1.0;       // of the host's clock
+  bool is_paced = false;    // at that pace, or as fast as the pseudo-terminal takes them
 };
 
-// The device: lines of an amplifier with its clock, in bursts every millisecond or as they fit.
+// The device: lines of an amplifier with its clock, in bursts every fraction of a millisecond.
 void send_lines(PtyPort& device, const StreamBench& bench) {
-  const double tick_us = bench.per_second > 0.0 ? 1e6 / bench.per_second : 12500.0;
   const double began_s = monotonic_s();
   long sent = 0;
   while (sent < bench.n_lines || device.has_unsent()) {
-    long due = bench.n_lines;
-    if (bench.per_second > 0.0) {
-      due = static_cast<long>((monotonic_s() - began_s) * bench.per_second * bench.speed);
-    }
-    due = std::min({due, bench.n_lines, sent + 2000});
+    const double passed_s = (monotonic_s() - began_s) * bench.speed;
+    const long due =
+        bench.is_paced ? static_cast<long>(passed_s * bench.per_second) : bench.n_lines;
+    const long until = std::min({due, bench.n_lines, sent + 2000});
     std::string text;
-    for (; sent < due && !device.has_unsent(); ++sent) {
-      if (bench.per_second > 0.0) {
-        const auto micros = static_cast<unsigned>(static_cast<double>(sent) * tick_us);
-        text += std::to_string(micros) + ",";
-      }
-      text += std::to_string(1000 + sent % 7) + "\r\n";
+    for (; sent < until && !device.has_unsent(); ++sent) {
+      const double micros = static_cast<double>(sent) * 1e6 / bench.per_second;
+      text += std::to_string(static_cast<std::uint32_t>(static_cast<std::uint64_t>(micros)));
+      text += "," + std::to_string(1000000 + sent % 7) + "\r\n";
     }
     device.write(text);
     std::this_thread::sleep_for(std::chrono::microseconds(device.has_unsent() ? 50 : 200));
@@ -76,8 +74,8 @@ void stream(const char* name, const StreamBench& bench) {
   const RigClock clock(bench.speed);
   SerialLine line(device.path(), 2000000, clock);
   LoadCellConfig config;
-  config.line_format = bench.per_second > 0.0 ? "micros,counts" : "counts";
-  config.expected_rate_Hz = bench.per_second > 0.0 ? bench.per_second : 80.0;
+  config.line_format = "micros,counts";
+  config.expected_rate_Hz = bench.per_second;
   long n_samples = 0;
   Hx711LoadCell cell(line, config, clock, [&](const RunRecord& record) {
     n_samples += std::holds_alternative<LoadSample>(record) ? 1 : 0;
@@ -187,10 +185,12 @@ int main(int argc, char** argv) {
   const auto is_wanted = [&](const char* name) {
     return wanted.empty() || wanted == "rig" || std::string(name).find(wanted) != std::string::npos;
   };
-  if (is_wanted("throughput")) stream("throughput", {.n_lines = 1'000'000});
+  if (is_wanted("throughput")) {
+    stream("throughput", {.n_lines = 1'000'000, .per_second = 80.0, .speed = 1e5});
+  }
   if (is_wanted("ten minutes at 10 000/s")) {
     stream("ten minutes at 10 000 lines/s, 10 x faster",
-           {.n_lines = 6'000'000, .per_second = 10'000.0, .speed = 10.0});
+           {.n_lines = 6'000'000, .per_second = 10'000.0, .speed = 10.0, .is_paced = true});
   }
   if (is_wanted("hour of hold")) hour_of_hold();
   if (is_wanted("share at 80/s")) share_at_80();

@@ -18,7 +18,7 @@ class FuzzedPort final : public Transport {
   int baud() const override { return 115200; }
   int descriptor() const override { return -1; }
   Chunk read_available() override {
-    Chunk chunk{0.0, left.substr(0, piece)};
+    Chunk chunk{0.0, std::string(left.substr(0, piece))};
     left.remove_prefix(chunk.bytes.size());
     return chunk;
   }

@@ -20,7 +20,7 @@ class FuzzedPort final : public Transport {
   int descriptor() const override { return -1; }
   Chunk read_available() override {
     now_s += 0.01;
-    Chunk chunk{now_s, left.substr(0, piece)};
+    Chunk chunk{now_s, std::string(left.substr(0, piece))};
     left.remove_prefix(chunk.bytes.size());
     return chunk;
   }

@@ -205,6 +205,27 @@ TEST_CASE("Coarse steps: the record says where the stage really went", "[rig][pt
   CHECK(rig.emulated.outcome().final_position_m == Approx(0.252e-3).epsilon(1e-9));
 }
 
+TEST_CASE("A stage that stands at another place than it was sent to is not believed",
+          "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.grbl.ends_short_number = 1;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  CHECK_THROWS_WITH(move_and_wait(rig, 0.3e-3, 1e-3), Contains("did not reach 0.300 mm"));
+}
+
+TEST_CASE("A force that stays flat at full depth is doubted: steps may be lost", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.material.E0_Pa *= 0.1;  // what lost steps look like from the force
+  RigFixture rig(options);
+  const RunOutcome outcome = rig.run(short_plan());
+  INFO(outcome.reason);
+  REQUIRE(outcome.status == "finished");
+  REQUIRE(outcome.doubts.size() == 1);
+  CHECK_THAT(outcome.doubts[0], Contains("lose steps"));
+  CHECK(rig.has_event("doubt", "force_flat"));
+}
+
 TEST_CASE("A controller that restarts while the punch presses is lifted from where it then counts",
           "[rig][pty]") {
   RigFixture rig(RigFixture::options(20.0));
