@@ -30,7 +30,18 @@ struct RawScene {
   std::vector<std::string> quantities;
   std::map<std::string, std::string> effects;
   std::vector<PrintedValue> printed;
+  Flare foot, tip;
+  std::string mesh_kind;
+  double element_size_m = 0.0;
+  std::int64_t degree = 4, layers = 2;
 };
+
+void show_flare(FieldVisitor& v, const char* key, Flare& flare) {
+  v.section(key, [&](FieldVisitor& f) {
+    f.quantity({.key = "width", .unit = "m"}, flare.width_m);
+    f.quantity({.key = "height", .unit = "m", .range = Range::kPositive}, flare.height_m);
+  });
+}
 
 void show_geometry(FieldVisitor& v, RawScene& s) {
   v.text({"kind", "pillar"}, s.kind);
@@ -51,6 +62,8 @@ void show_geometry(FieldVisitor& v, RawScene& s) {
     e.quantity({.key = "radius", .unit = "m", .range = Range::kPositive}, s.electrode_radius_m);
   });
   v.text({"poling", "+z"}, s.poling);
+  show_flare(v, "foot", s.foot);
+  show_flare(v, "tip", s.tip);
 }
 
 void show_scene(FieldVisitor& v, RawScene& s) {
@@ -73,6 +86,12 @@ void show_scene(FieldVisitor& v, RawScene& s) {
   });
   v.section("want", [&](FieldVisitor& w) {
     w.texts({"quantities", "top_displacement"}, s.quantities);
+  });
+  v.section("discretisation", [&](FieldVisitor& d) {
+    d.text({"kind", "graded-p"}, s.mesh_kind);
+    d.quantity({.key = "element_size", .unit = "m", .range = Range::kPositive}, s.element_size_m);
+    d.integer("degree", 3, 12, s.degree);
+    d.integer("layers", 1, 8, s.layers);
   });
   show_printed(v, s.printed);
   v.section("effects", [&](FieldVisitor& e) {
@@ -123,6 +142,25 @@ void fill_effects(const RawScene& raw, Scene& scene) {
   }
 }
 
+// A mesh that is asked for instead of left to the tolerance: "graded-p" shrinks toward the rim of
+// the bond; "h1" and "h2" are the linear and quadratic elements of ordinary programs, "p" equal
+// ones of any degree.
+void fill_mesh(const RawScene& raw, Scene& scene) {
+  if (raw.mesh_kind.empty()) return;
+  const auto degree = static_cast<int>(raw.degree);
+  const int uniform = choice<int>("discretisation.kind", raw.mesh_kind,
+                                  {{"graded-p", 0}, {"h1", 1}, {"h2", 2}, {"p", degree}});
+  Discretisation mesh{.degree = uniform == 0 ? degree : uniform,
+                      .layers = static_cast<int>(raw.layers)};
+  if (uniform != 0) {
+    if (!(raw.element_size_m > 0.0)) {
+      throw SceneMistake("discretisation", "this kind needs an element_size, such as \"5 um\"");
+    }
+    mesh.uniform_m = raw.element_size_m;
+  }
+  scene.discretisation = mesh;
+}
+
 Scene scene_from(const RawScene& raw, const std::filesystem::path& folder) {
   Scene scene;
   choice<bool>("geometry.kind", raw.kind, {{"pillar", true}});
@@ -133,6 +171,9 @@ Scene scene_from(const RawScene& raw, const std::filesystem::path& folder) {
   scene.tolerance = raw.tolerance;
   scene.geometry.diameter_m = raw.diameter_m;
   scene.geometry.length_m = raw.length_m;
+  scene.geometry.foot = raw.foot;
+  scene.geometry.tip = raw.tip;
+  fill_mesh(raw, scene);
   scene.pillar = pillar_material(raw.pillar, folder);
   if (!raw.film_material.empty() || raw.film_thickness_m > 0.0) fill_film(raw, folder, scene);
   if (!raw.electrode_face.empty()) fill_electrode(raw, scene);

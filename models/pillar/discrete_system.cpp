@@ -178,6 +178,11 @@ SymmetricSparse DiscreteSystem::form(const std::vector<OperatorRow>& rows,
     const SectionElement& element = section_->elements()[e];
     const auto& of_region = pairs.at(static_cast<std::size_t>(element.region));
     if (of_region.empty()) continue;
+    if (section_->is_stretched(element.region)) {
+      const Eigen::MatrixXd& D = per_region[static_cast<std::size_t>(element.region)];
+      scatter(e, quadrature_form(rows, element, [&](double, double) { return D; }), matrix);
+      continue;
+    }
     block.setZero();
     for (int f = 0; f < fields; ++f) {
       for (int g = 0; g < fields; ++g) {
@@ -218,6 +223,7 @@ SymmetricSparse DiscreteSystem::volume_form(const std::vector<double>& per_regio
 }
 
 DiscreteSystem::Projection DiscreteSystem::projection(const SectionElement& element) const {
+  if (section_->is_stretched(element.region)) return stretched_projection(element);
   const int q = std::max(section_->degree() - 2, 0);
   const Eigen::Index nq = q + 1;
   const Eigen::Index n1 = section_->degree() + 1;
@@ -237,44 +243,6 @@ DiscreteSystem::Projection DiscreteSystem::projection(const SectionElement& elem
   add_kronecker(section_->z().legendre_mass(element.row, 0, q),
                 section_->x().legendre_mass(element.column, kinematics_.x_power, q), p.mass);
   return p;
-}
-
-SymmetricSparse DiscreteSystem::varying_form(
-    const std::vector<OperatorRow>& rows,
-    const std::function<Eigen::MatrixXd(const SectionElement&, double, double)>& D) const {
-  const Eigen::Index n1 = section_->degree() + 1;
-  const Eigen::Index nn = n1 * n1;
-  const auto n_rows = static_cast<Eigen::Index>(rows.size());
-  SymmetricSparse matrix = pattern_;
-  for (std::size_t e = 0; e < section_->elements().size(); ++e) {
-    const SectionElement& element = section_->elements()[e];
-    const LineMesh::ElementRule in_x = section_->x().rule(element.column);
-    const LineMesh::ElementRule in_z = section_->z().rule(element.row);
-    const Eigen::Index points = in_x.x.size() * in_z.x.size();
-    Eigen::MatrixXd B = Eigen::MatrixXd::Zero(points * n_rows, kinematics_.field_count * nn);
-    Eigen::MatrixXd DB(B.rows(), B.cols());
-    for (Eigen::Index point = 0; point < points; ++point) {
-      const Eigen::Index kx = point % in_x.x.size();
-      const Eigen::Index kz = point / in_x.x.size();
-      const double x = in_x.x[kx];
-      auto rows_here = B.middleRows(point * n_rows, n_rows);
-      for (Eigen::Index r = 0; r < n_rows; ++r) {
-        for (const OperatorTerm& t : rows[static_cast<std::size_t>(r)]) {
-          const double factor = t.factor / (t.inverse_x == 1 ? x : 1.0);
-          const auto bx = (t.dx == 0 ? in_x.value : in_x.derivative).row(kx);
-          const auto bz = (t.dz == 0 ? in_z.value : in_z.derivative).row(kz);
-          for (Eigen::Index iz = 0; iz < n1; ++iz) {
-            rows_here.block(r, t.field * nn + iz * n1, 1, n1) += factor * bz[iz] * bx;
-          }
-        }
-      }
-      const double weight = kinematics_.measure * in_x.weight[kx] * in_z.weight[kz] *
-                            (kinematics_.x_power == 1 ? x : 1.0);
-      DB.middleRows(point * n_rows, n_rows) = weight * D(element, x, in_z.x[kz]) * rows_here;
-    }
-    scatter(e, B.transpose() * DB, matrix);
-  }
-  return matrix;
 }
 
 }  // namespace viscard

@@ -6,6 +6,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <functional>
 #include <vector>
 
 namespace viscard {
@@ -44,7 +45,7 @@ class DiscreteSystem {
   // Values of the field at all nodes, and back.
   Eigen::VectorXd field_values(int field, const Eigen::VectorXd& solution) const;
 
-  // rows(u) at one point of an element.
+  // rows(u) at one point (x, z) of the body, which must lie in the element.
   Eigen::VectorXd rows_at(const std::vector<OperatorRow>& rows, const Eigen::VectorXd& solution,
                           const SectionElement& element, double x, double z) const;
 
@@ -72,6 +73,10 @@ class DiscreteSystem {
     Eigen::MatrixXd mass;
   };
   Projection projection(const SectionElement& element) const;
+  Projection stretched_projection(const SectionElement& element) const;
+  Eigen::MatrixXd quadrature_form(
+      const std::vector<OperatorRow>& rows, const SectionElement& element,
+      const std::function<Eigen::MatrixXd(double x, double z)>& D) const;
 
   const Section* section_;
   Kinematics kinematics_;

@@ -108,10 +108,10 @@ Kinematics with_potential(Kinematics k, double scale_V) {
   const int phi = k.field_count++;
   k.potential_field = phi;
   k.electric_field = {{d_dx(phi, -scale_V)}, {}, {d_dz(phi, -scale_V)}};
-  if (k.harmonic > 0) {
-    k.electric_field[1] = {over_x(phi, k.harmonic * scale_V)};
-    k.zero_on_axis.push_back(phi);
-  }
+  if (k.harmonic > 0) k.electric_field[1] = {over_x(phi, k.harmonic * scale_V)};
+  // An antisymmetric potential vanishes on the plane of symmetry, as the axial motion does.
+  const bool is_antisymmetric = k.x_power == 0 && k.zero_on_axis == std::vector<int>{1};
+  if (k.harmonic > 0 || is_antisymmetric) k.zero_on_axis.push_back(phi);
   return k;
 }
 

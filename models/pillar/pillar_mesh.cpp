@@ -15,28 +15,35 @@ void require_length(double value_m, const char* what) {
   }
 }
 
+// Adds the breaks beyond the last one.
 void append(std::vector<double>& breaks, const std::vector<double>& more) {
-  if (more.empty()) return;  // a film no wider than its pillar adds nothing
-  const double same = 1e-9 * std::abs(more.back() - more.front());
+  const double same = more.empty() ? 0.0 : 1e-9 * std::abs(more.back() - more.front());
   for (const double x : more) {
     if (breaks.empty() || x > breaks.back() + same) breaks.push_back(x);
   }
 }
 
-// Equal elements no longer than h_m.
-std::vector<double> equal_breaks(double from_m, double to_m, double h_m) {
-  const int count = std::max(1, static_cast<int>(std::ceil((to_m - from_m) / h_m - 1e-9)));
-  return graded_breaks(from_m, to_m, count, 1.0, true);
+// Adds a break where none is near.
+void insert(std::vector<double>& breaks, double at) {
+  const double near = 1e-9 * (breaks.back() - breaks.front());
+  const bool is_there =
+      std::any_of(breaks.begin(), breaks.end(), [&](double b) { return std::abs(b - at) <= near; });
+  if (!is_there) breaks.insert(std::upper_bound(breaks.begin(), breaks.end(), at), at);
+}
+
+// Cuts every interval into equal pieces no longer than `size`.
+std::vector<double> cut(const std::vector<double>& breaks, double size) {
+  std::vector<double> fine;
+  for (std::size_t i = 1; i < breaks.size(); ++i) {
+    const double pieces = std::ceil((breaks[i] - breaks[i - 1]) / size * (1.0 - 1e-9));
+    append(fine, graded_breaks(breaks[i - 1], breaks[i], std::max(1, static_cast<int>(pieces)), 1.0,
+                               true));
+  }
+  return fine;
 }
 
 std::vector<double> film_radii(const FilmGeometry& film, double radius_m, const Discretisation& d) {
   std::vector<double> breaks;
-  if (d.uniform_m > 0.0) {
-    if (film.radius_m > radius_m * (1.0 + 1e-9)) {
-      breaks = equal_breaks(radius_m, film.radius_m, d.uniform_m);
-    }
-    return breaks;
-  }
   const double graded_m = std::min(2.0 * radius_m, film.radius_m);
   if (graded_m > radius_m * (1.0 + 1e-9)) {
     append(breaks, graded_breaks(radius_m, graded_m, d.layers, d.ratio, false));
@@ -49,7 +56,6 @@ std::vector<double> film_radii(const FilmGeometry& film, double radius_m, const 
 
 std::vector<double> pillar_heights(const PillarGeometry& g, double radius_m,
                                    const Discretisation& d) {
-  if (d.uniform_m > 0.0) return equal_breaks(0.0, g.length_m, d.uniform_m);
   const double foot_m = std::min(2.0 * radius_m, g.length_m);
   std::vector<double> breaks = graded_breaks(0.0, foot_m, d.layers, d.ratio, false);
   if (g.length_m > foot_m * (1.0 + 1e-9)) {
@@ -58,20 +64,95 @@ std::vector<double> pillar_heights(const PillarGeometry& g, double radius_m,
   return breaks;
 }
 
+void validate_flare(const Flare& flare, const char* what, double radius_m) {
+  if (!std::isfinite(flare.width_m) || !(flare.height_m >= 0.0) || !std::isfinite(flare.height_m)) {
+    throw std::invalid_argument(std::string(what) + " needs a finite width and height");
+  }
+  if (flare.width_m != 0.0) require_length(flare.height_m, what);
+  if (!(flare.width_m > -radius_m)) {
+    throw std::invalid_argument(std::string(what) + " takes " +
+                                std::to_string(-flare.width_m * 1e6) + " um off a radius of " +
+                                std::to_string(radius_m * 1e6) + " um: nothing is left");
+  }
+}
+
+// 1 at the end, falling to 0 at the flare's height.
+double share_of(const Flare& flare, double from_end_m) {
+  if (flare.width_m == 0.0) return 0.0;
+  return std::max(1.0 - from_end_m / flare.height_m, 0.0);
+}
+
+double radius_slope(const PillarGeometry& g, double z_m) {
+  double slope = 0.0;
+  if (g.foot.width_m != 0.0)
+    slope -= 2.0 * g.foot.width_m * share_of(g.foot, z_m) / g.foot.height_m;
+  if (g.tip.width_m != 0.0)
+    slope += 2.0 * g.tip.width_m * share_of(g.tip, g.length_m - z_m) / g.tip.height_m;
+  return slope;
+}
+
+bool has_flares(const PillarGeometry& g) {
+  return g.foot.width_m != 0.0 || g.tip.width_m != 0.0;
+}
+
+// Lines that the mesh must meet whatever its kind.
+struct Breaks {
+  std::vector<double> x, z;
+};
+
+Breaks necessary_breaks(const PillarGeometry& g) {
+  const double radius_m = bond_radius_m(g);
+  Breaks breaks{{0.0, radius_m}, {0.0, g.length_m}};
+  if (g.film) {
+    append(breaks.x, {g.film->radius_m});
+    breaks.z.insert(breaks.z.begin(), -g.film->thickness_m);
+  }
+  return breaks;
+}
+
+Breaks graded_mesh_breaks(const PillarGeometry& g, const Discretisation& d) {
+  const double radius_m = bond_radius_m(g);
+  Breaks breaks{graded_breaks(0.0, radius_m, d.layers, d.ratio, true), {}};
+  if (g.film) {
+    append(breaks.x, film_radii(*g.film, radius_m, d));
+    const double graded_m = std::min(g.film->thickness_m, radius_m);
+    if (g.film->thickness_m > graded_m * (1.0 + 1e-9)) breaks.z.push_back(-g.film->thickness_m);
+    append(breaks.z, graded_breaks(-graded_m, 0.0, d.layers, d.ratio, true));
+  }
+  append(breaks.z, pillar_heights(g, radius_m, d));
+  return breaks;
+}
+
 }  // namespace
+
+double bond_radius_m(const PillarGeometry& g) {
+  return 0.5 * g.diameter_m + g.foot.width_m;
+}
+
+double radius_at_m(const PillarGeometry& g, double z_m) {
+  const double foot = share_of(g.foot, z_m);
+  const double tip = share_of(g.tip, g.length_m - z_m);
+  return 0.5 * g.diameter_m + g.foot.width_m * foot * foot + g.tip.width_m * tip * tip;
+}
 
 void validate(const PillarGeometry& g) {
   require_length(g.diameter_m, "the pillar's diameter");
   require_length(g.length_m, "the pillar's length");
+  validate_flare(g.foot, "the fillet at the foot", 0.5 * g.diameter_m);
+  validate_flare(g.tip, "the mushroom at the tip", 0.5 * g.diameter_m);
+  if (g.foot.height_m + g.tip.height_m > g.length_m * (1.0 + 1e-12)) {
+    throw std::invalid_argument("fillet and mushroom tip together are higher than the pillar");
+  }
   if (!g.film) return;
   require_length(g.film->thickness_m, "the film's thickness");
   require_length(g.film->radius_m, "the film's radius");
-  if (g.film->radius_m < 0.5 * g.diameter_m * (1.0 - 1e-12)) {
+  if (g.film->radius_m < bond_radius_m(g) * (1.0 - 1e-12)) {
     throw std::invalid_argument("the film's radius of " + std::to_string(g.film->radius_m * 1e6) +
                                 " um is smaller than the pillar's of " +
-                                std::to_string(g.diameter_m * 0.5e6) + " um");
+                                std::to_string(bond_radius_m(g) * 1e6) + " um");
   }
-  if (!(g.film->electrode_radius_m >= 0.0 && g.film->electrode_radius_m <= g.film->radius_m)) {
+  if (!(g.film->electrode_radius_m >= 0.0 &&
+        g.film->electrode_radius_m <= g.film->radius_m * (1.0 + 1e-9))) {
     throw std::invalid_argument("the electrode's radius of " +
                                 std::to_string(g.film->electrode_radius_m * 1e6) +
                                 " um does not lie on the film");
@@ -80,34 +161,44 @@ void validate(const PillarGeometry& g) {
 
 PillarMesh pillar_mesh(const PillarGeometry& g, const Discretisation& d) {
   validate(g);
-  const double radius_m = 0.5 * g.diameter_m;
+  const double radius_m = bond_radius_m(g);
   const bool is_uniform = d.uniform_m > 0.0;
-  std::vector<double> x = is_uniform ? equal_breaks(0.0, radius_m, d.uniform_m)
-                                     : graded_breaks(0.0, radius_m, d.layers, d.ratio, true);
-  std::vector<double> z;
-  if (g.film) {
-    append(x, film_radii(*g.film, radius_m, d));
-    const double edge_m = g.film->electrode_radius_m;
-    const double near_m = 1e-9 * radius_m;
-    const bool is_break =
-        std::any_of(x.begin(), x.end(), [&](double b) { return std::abs(b - edge_m) <= near_m; });
-    if (edge_m > 0.0 && !is_break) x.insert(std::upper_bound(x.begin(), x.end(), edge_m), edge_m);
-    const double graded_m = std::min(g.film->thickness_m, radius_m);
-    if (is_uniform) z = equal_breaks(-g.film->thickness_m, 0.0, d.uniform_m);
-    if (!is_uniform && g.film->thickness_m > graded_m * (1.0 + 1e-9))
-      z.push_back(-g.film->thickness_m);
-    if (!is_uniform) append(z, graded_breaks(-graded_m, 0.0, d.layers, d.ratio, true));
+  Breaks breaks = is_uniform ? necessary_breaks(g) : graded_mesh_breaks(g, d);
+  if (g.film && g.film->electrode_radius_m > 0.0) insert(breaks.x, g.film->electrode_radius_m);
+  if (g.foot.width_m != 0.0) insert(breaks.z, g.foot.height_m);
+  if (g.tip.width_m != 0.0) insert(breaks.z, g.length_m - g.tip.height_m);
+  if (is_uniform) breaks = {cut(breaks.x, d.uniform_m), cut(breaks.z, d.uniform_m)};
+  const auto below = [](const std::vector<double>& all, double at) {
+    return static_cast<int>(
+        std::count_if(all.begin(), all.end(), [&](double b) { return b < at; }));
+  };
+  PillarMesh mesh{Section(LineMesh(breaks.x, d.degree), LineMesh(breaks.z, d.degree),
+                          [&](double r_m, double z_m) {
+                            if (z_m < 0.0) return kFilmRegion;
+                            return r_m < radius_m ? kPillarRegion : Section::kEmpty;
+                          }),
+                  below(breaks.x, radius_m * (1.0 - 1e-9)), below(breaks.z, -1e-9 * g.length_m),
+                  static_cast<int>(breaks.z.size()) - 1};
+  if (has_flares(g)) {
+    mesh.section.stretch(kPillarRegion, [g, radius_m](double z_m) {
+      return Stretch{radius_at_m(g, z_m) / radius_m, radius_slope(g, z_m) / radius_m};
+    });
   }
-  const int bond_row = z.empty() ? 0 : static_cast<int>(z.size()) - 1;
-  append(z, pillar_heights(g, radius_m, d));
-  const int top_row = static_cast<int>(z.size()) - 1;
-  const int pillar_columns = static_cast<int>(
-      std::count_if(x.begin(), x.end(), [&](double b) { return b < radius_m * (1.0 - 1e-9); }));
-  Section section(LineMesh(x, d.degree), LineMesh(z, d.degree), [&](double r_m, double z_m) {
-    if (z_m < 0.0) return kFilmRegion;
-    return r_m < radius_m ? kPillarRegion : Section::kEmpty;
-  });
-  return {std::move(section), pillar_columns, bond_row, top_row};
+  return mesh;
+}
+
+std::vector<Discretisation> refinements_to(const Discretisation& finest) {
+  std::vector<Discretisation> meshes;
+  for (int coarser = 2; coarser >= 0; --coarser) {
+    Discretisation mesh = finest;
+    if (finest.uniform_m > 0.0) {
+      mesh.uniform_m *= std::pow(2.0, coarser);
+    } else {
+      mesh.degree -= coarser;
+    }
+    meshes.push_back(mesh);
+  }
+  return meshes;
 }
 
 std::vector<int> nodes_on_break(const Section& section, int break_row, int first_column,

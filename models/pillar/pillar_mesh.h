@@ -14,22 +14,40 @@ struct FilmGeometry {
   double electrode_radius_m = 0.0;  // an extra break of the mesh; 0: none
 };
 
-struct PillarGeometry {
-  double diameter_m = 40e-6;
-  double length_m = 120e-6;
-  std::optional<FilmGeometry> film;
+// One end of a pillar that widens: over `height` toward the end the radius grows by `width`, as a
+// parabola tangent to the shaft. A fillet at the foot, a mushroom at the tip; a negative width
+// makes the end thinner.
+struct Flare {
+  double width_m = 0.0;
+  double height_m = 0.0;
 };
 
-// Elements shrink by `ratio` toward the rim of the bond, where stress is singular (clamped-free
-// corner): `layers` of them in each direction.
+struct PillarGeometry {
+  double diameter_m = 40e-6;  // of the shaft
+  double length_m = 120e-6;
+  std::optional<FilmGeometry> film;
+  Flare foot;
+  Flare tip;
+};
+
+double radius_at_m(const PillarGeometry& geometry, double z_m);  // z = 0 at the foot
+double bond_radius_m(const PillarGeometry& geometry);
+
+// Graded (the default): elements shrink by `ratio` toward the rim of the bond, where stress is
+// singular (clamped-free corner): `layers` of them in each direction.
 struct Discretisation {
   int degree = 4;
   int layers = 2;
   double ratio = 0.15;
   int shaft_elements = 2;  // along the pillar above the graded foot
   int film_elements = 1;   // across the film outside the graded part
-  double uniform_m = 0.0;  // > 0: an ordinary mesh of squares of about this size, not graded
+  // Uniform instead, as ordinary meshes are: elements of about this size in both directions.
+  double uniform_m = 0.0;
 };
+
+// Three meshes that end with the given one: elements half as large each time on uniform meshes, a
+// degree more each time on graded ones, whose degree must be 3 or more.
+std::vector<Discretisation> refinements_to(const Discretisation& finest);
 
 constexpr int kPillarRegion = 0;
 constexpr int kFilmRegion = 1;

@@ -94,7 +94,8 @@ DofMap PillarModel::make_dofs(const Kinematics& kinematics) {
 
 bool PillarModel::condenses_pressure(const Medium& medium) const {
   const bool is_plane_stress = is_plane(options_.motion) && options_.plane == PlaneState::kStress;
-  return medium.is_isotropic && medium.poisson_ratio >= options_.condense_pressures_from && !is_plane_stress;
+  return medium.is_isotropic && medium.poisson_ratio >= options_.condense_pressures_from &&
+         !is_plane_stress;
 }
 
 Eigen::MatrixXd PillarModel::elastic_form(const Medium& medium) const {
@@ -172,7 +173,8 @@ const SectionElement& PillarModel::element_at(double x, double z, int region) co
   const Section& section = mesh_.section;
   for (const bool left : {true, false}) {
     for (const bool below : {true, false}) {
-      const int column = section.x().element_at(x, left);
+      const double xi = x / section.stretch_at(region, z).scale;
+      const int column = section.x().element_at(xi, left);
       const int row = section.z().element_at(z, below);
       if (section.region(column, row) != region) continue;
       for (const SectionElement& element : section.elements()) {
@@ -205,15 +207,16 @@ Eigen::VectorXd PillarModel::stress_at(const PillarState& state, const SectionEl
 double PillarModel::mean_stress(const PillarState& state, int component, double z, int region,
                                 double radius_m) const {
   const LineMesh& line = mesh_.section.x();
+  const double scale = mesh_.section.stretch_at(region, z).scale;
   double sum = 0.0;
   double area = 0.0;
   for (int column = 0; column < line.element_count(); ++column) {
     const LineMesh::ElementRule rule = line.rule(column);
-    if (rule.x[0] > radius_m) break;
-    const SectionElement& element = element_at(rule.x[rule.x.size() / 2], z, region);
+    if (scale * rule.x[0] > radius_m) break;
+    const SectionElement& element = element_at(scale * rule.x[rule.x.size() / 2], z, region);
     for (Eigen::Index i = 0; i < rule.x.size(); ++i) {
       const double weight = rule.weight[i] * (system_->kinematics().x_power == 1 ? rule.x[i] : 1.0);
-      sum += weight * stress_at(state, element, rule.x[i], z)[component];
+      sum += weight * stress_at(state, element, scale * rule.x[i], z)[component];
       area += weight;
     }
   }

@@ -14,15 +14,7 @@
 namespace viscard {
 
 // One pillar, what is done to it, and how well the answer must be known.
-enum class AnalysisKind {
-  kStatic,
-  kRelaxation,
-  kCreep,
-  kHarmonic,
-  kTransient,
-  kModal,
-  kBuckling
-};
+enum class AnalysisKind { kStatic, kRelaxation, kCreep, kHarmonic, kTransient, kModal, kBuckling };
 
 // Where and which way the pillar is driven in harmonic and transient analyses.
 enum class LoadPlace { kTop, kBase };
@@ -42,14 +34,15 @@ struct Scene {
   int modes = 4;                      // per family
   std::vector<HistoryPoint> history;  // creep: pressure in Pa; relaxation: shortening in m
 
-  std::vector<std::string> wanted;  // names of results; empty: all
-  EffectChoices effects;            // what the plan may not decide itself
+  std::vector<std::string> wanted;               // names of results; empty: all
+  std::optional<Discretisation> discretisation;  // finest mesh; none: the tolerance decides
+  EffectChoices effects;                         // what the plan may not decide itself
   // Set by the plan (plan.h) for effects that are left out or insisted on:
   double condense_pressures_from = kNearlyIncompressible;  // Poisson ratio
   bool one_way_potential = false;  // the film's potential follows its strain and does not act back
 
-  // Harmonic and transient: pressure (axial) or shear (lateral) on the top, pressure_Pa or history in
-  // Pa; or the base shaken, base_acceleration_m_s2 or history in m/s^2.
+  // Harmonic and transient: pressure (axial) or shear (lateral) on the top, pressure_Pa or history
+  // in Pa; or the base shaken, base_acceleration_m_s2 or history in m/s^2.
   LoadPlace load_place = LoadPlace::kTop;
   LoadDirection direction = LoadDirection::kAxial;
   double base_acceleration_m_s2 = 0.0;

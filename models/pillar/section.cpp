@@ -1,6 +1,8 @@
 #include "models/pillar/section.h"
 
+#include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace viscard {
@@ -42,6 +44,26 @@ Section::Section(LineMesh x, LineMesh z, const std::function<int(double, double)
     }
   }
   if (elements_.empty()) throw std::invalid_argument("the section has no material anywhere");
+}
+
+void Section::stretch(int region, std::function<Stretch(double)> of_height) {
+  std::vector<bool> is_done(node_x_.size(), false);
+  for (const SectionElement& element : elements_) {
+    if (element.region != region) continue;
+    for (const int id : element.nodes) {
+      const auto node = static_cast<std::size_t>(id);
+      const double scale = of_height(node_z_[node]).scale;
+      if (!(scale > 0.0) || !std::isfinite(scale)) {
+        throw std::invalid_argument(
+            "the outline shrinks to nothing at z = " + std::to_string(node_z_[node] * 1e6) +
+            " um: elements would be turned inside out there");
+      }
+      if (!is_done[node]) node_x_[node] *= scale;
+      is_done[node] = true;
+    }
+  }
+  stretched_region_ = region;
+  stretch_ = std::move(of_height);
 }
 
 int Section::region(int column, int row) const {

@@ -10,6 +10,13 @@ namespace viscard {
 // A meridian (r, z) or plane (x, z) section: cells of a rectilinear grid, each filled with one
 // region or empty, with tensor-product elements of degree p. Rectangles make every matrix a sum of
 // Kronecker products of one-dimensional ones (models/README.md, eq. 13).
+// Where a region's outline is not straight, its cells are stretched along x: x = scale(z) times the
+// x of the grid.
+struct Stretch {
+  double scale = 1.0;
+  double slope_1_m = 0.0;  // d scale/dz
+};
+
 struct SectionElement {
   int column = 0;
   int row = 0;
@@ -33,6 +40,14 @@ class Section {
   double node_x(int node) const { return node_x_[static_cast<std::size_t>(node)]; }
   double node_z(int node) const { return node_z_[static_cast<std::size_t>(node)]; }
 
+  // Stretches one region. Throws std::invalid_argument where the scale is not positive at a break
+  // or a node, for the elements there would be turned inside out.
+  void stretch(int region, std::function<Stretch(double z)> of_height);
+  bool is_stretched(int region) const { return region == stretched_region_; }
+  Stretch stretch_at(int region, double z) const {
+    return is_stretched(region) ? stretch_(z) : Stretch{};
+  }
+
   // Region of a cell, or kEmpty.
   int region(int column, int row) const;
   // Node at a place of the grid, or -1.
@@ -46,6 +61,8 @@ class Section {
   std::vector<double> node_x_;
   std::vector<double> node_z_;
   std::vector<SectionElement> elements_;
+  int stretched_region_ = kEmpty;
+  std::function<Stretch(double)> stretch_;
 };
 
 }  // namespace viscard

@@ -50,14 +50,15 @@ SceneAnswer simulate(const Scene& scene) {
   validate(scene);
   refuse_buckled(scene);
   const Analysis& analysis = analysis_of(scene.kind);
-  return answer_within({scene.tolerance, mesh_sequence(scene.geometry), scene.progress},
-                       [&](const Discretisation& mesh) {
-                         SceneAnswer on_mesh;
-                         on_mesh.discretisation = mesh;
-                         analysis.run(scene, on_mesh);
-                         mark_wanted(scene, on_mesh);
-                         return on_mesh;
-                       });
+  const std::vector<Discretisation> meshes =
+      scene.discretisation ? refinements_to(*scene.discretisation) : mesh_sequence(scene.geometry);
+  return answer_within({scene.tolerance, meshes, scene.progress}, [&](const Discretisation& mesh) {
+    SceneAnswer on_mesh;
+    on_mesh.discretisation = mesh;
+    analysis.run(scene, on_mesh);
+    mark_wanted(scene, on_mesh);
+    return on_mesh;
+  });
 }
 
 }  // namespace viscard

@@ -8,11 +8,10 @@ namespace viscard {
 
 void StiffnessFactor::factor(const SymmetricSparse& matrix) {
   if (!is_analysed_) {
-    ldlt_.analyzePattern(matrix);
+    ldlt_.analyse(matrix);
     is_analysed_ = true;
   }
-  ldlt_.factorize(matrix);
-  if (ldlt_.info() != Eigen::Success || !ldlt_.vectorD().allFinite()) {
+  if (!ldlt_.factor(matrix)) {
     throw std::runtime_error(
         "the stiffness matrix is singular: a part of the body is neither held nor joined to one "
         "that "
@@ -50,11 +49,11 @@ void StiffnessFactor::constrain_solution(Eigen::VectorXd& u, Eigen::VectorXd& ad
 }
 
 int StiffnessFactor::negative_pivots() const {
-  return static_cast<int>((ldlt_.vectorD().array() < 0.0).count());
+  return static_cast<int>((ldlt_.pivots().array() < 0.0).count());
 }
 
 double StiffnessFactor::pivot_ratio() const {
-  const Eigen::VectorXd pivots = ldlt_.vectorD().cwiseAbs();
+  const Eigen::VectorXd pivots = ldlt_.pivots().cwiseAbs();
   return pivots.minCoeff() / pivots.maxCoeff();
 }
 

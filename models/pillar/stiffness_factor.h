@@ -1,8 +1,7 @@
 #pragma once
 
 #include "models/pillar/discrete_system.h"
-
-#include <Eigen/SparseCholesky>
+#include "models/pillar/supernodal_factor.h"
 
 #include <utility>
 
@@ -37,7 +36,7 @@ class StiffnessFactor {
  private:
   void constrain_solution(Eigen::VectorXd& u, Eigen::VectorXd& source) const;
 
-  Eigen::SimplicialLDLT<SymmetricSparse, Eigen::Lower> ldlt_;
+  SupernodalFactor ldlt_;
   bool is_analysed_ = false;
   SymmetricSparse penalty_;  // empty: no constraint
 };

@@ -101,8 +101,7 @@ void bench_growth() {
   for (const double size_um : {6.0, 3.0, 1.5, 0.8, 0.55}) {
     int n = 0;
     const double spent_s = best_of(size_um > 2.0 ? 10 : 2, [&] {
-      const PillarModel model(on_film(), {.degree = 2, .element_size_m = size_um * 1e-6}, media(),
-                              {});
+      const PillarModel model(on_film(), {.degree = 2, .uniform_m = size_um * 1e-6}, media(), {});
       n = model.system().size();
       model.solve(model.top_traction());
     });

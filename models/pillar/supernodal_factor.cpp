@@ -1,0 +1,167 @@
+#include "models/pillar/supernodal_factor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+// Unpivoted L D L^T of the leading `count` columns of a front, and what remains of the others.
+bool eliminate(Eigen::Ref<Eigen::MatrixXd> front, Eigen::Index count,
+               Eigen::Ref<Eigen::VectorXd> d) {
+  constexpr Eigen::Index kPanel = 32;
+  const Eigen::Index n = front.rows();
+  Eigen::MatrixXd scaled;
+  for (Eigen::Index start = 0; start < count; start += kPanel) {
+    const Eigen::Index width = std::min(kPanel, count - start);
+    for (Eigen::Index j = start; j < start + width; ++j) {
+      const double pivot = front(j, j);
+      if (pivot == 0.0 || !std::isfinite(pivot)) return false;
+      d[j] = pivot;
+      const Eigen::Index below = n - j - 1;
+      front.col(j).tail(below) /= pivot;
+      for (Eigen::Index k = j + 1; k < start + width; ++k) {
+        front.col(k).tail(n - k) -= (front(k, j) * pivot) * front.col(j).tail(n - k);
+      }
+    }
+    const Eigen::Index rest = n - start - width;
+    if (rest == 0) continue;
+    const auto panel = front.block(start + width, start, rest, width);
+    scaled.noalias() = panel * d.segment(start, width).asDiagonal();
+    front.bottomRightCorner(rest, rest).triangularView<Eigen::Lower>() -=
+        scaled * panel.transpose();
+  }
+  return true;
+}
+
+}  // namespace
+
+void SupernodalFactor::analyse(const Sparse& lower) {
+  BlockOrder order = block_order(lower);
+  position_ = std::move(order.position);
+  blocks_.clear();
+  for (ColumnBlock& columns : order.blocks) blocks_.push_back({std::move(columns), -1, {}, {}});
+  find_parents();
+  place_entries(lower);
+}
+
+void SupernodalFactor::find_parents() {
+  std::size_t up = 0;
+  for (Block& block : blocks_) {
+    if (block.rows.empty()) continue;
+    // Blocks ascend by column: the parent is the one that holds the first row.
+    const auto after =
+        std::upper_bound(blocks_.begin(), blocks_.end(), block.rows.front(),
+                         [](int row, const Block& other) { return row < other.first; });
+    up = static_cast<std::size_t>(after - blocks_.begin()) - 1;
+    block.parent = static_cast<int>(up);
+    for (const int row : block.rows) block.to_parent.push_back(place_in_front(blocks_[up], row));
+  }
+}
+
+int SupernodalFactor::place_in_front(const Block& block, int row) {
+  if (row < block.first + block.count) return row - block.first;
+  const auto at = std::lower_bound(block.rows.begin(), block.rows.end(), row);
+  return block.count + static_cast<int>(at - block.rows.begin());
+}
+
+void SupernodalFactor::place_entries(const Sparse& lower) {
+  std::vector<int> block_of(position_.size());
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    std::fill_n(block_of.begin() + blocks_[b].first, blocks_[b].count, static_cast<int>(b));
+  }
+  const auto each = [&](const auto& action) {
+    int value = 0;
+    for (int column = 0; column < lower.outerSize(); ++column) {
+      const int a = position_[static_cast<std::size_t>(column)];
+      for (Sparse::InnerIterator it(lower, column); it; ++it, ++value) {
+        const int b = position_[static_cast<std::size_t>(it.row())];
+        const int least = std::min(a, b);
+        action(value, static_cast<std::size_t>(block_of[static_cast<std::size_t>(least)]), least,
+               std::max(a, b));
+      }
+    }
+  };
+  first_entry_.assign(blocks_.size() + 1, 0);
+  each([&](int, std::size_t block, int, int) { ++first_entry_[block + 1]; });
+  std::partial_sum(first_entry_.begin(), first_entry_.end(), first_entry_.begin());
+  std::vector<std::size_t> next(first_entry_.begin(), first_entry_.end() - 1);
+  entries_.resize(static_cast<std::size_t>(lower.nonZeros()));
+  each([&](int value, std::size_t block, int column, int row) {
+    entries_[next[block]++] = {value, place_in_front(blocks_[block], row),
+                               column - blocks_[block].first};
+  });
+}
+
+bool SupernodalFactor::factor(const Sparse& lower) {
+  pivots_.resize(lower.rows());
+  const double* values = lower.valuePtr();
+  std::vector<Eigen::MatrixXd> updates(blocks_.size());
+  std::vector<std::vector<int>> children(blocks_.size());
+  Eigen::MatrixXd front;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    Block& block = blocks_[b];
+    const auto below = static_cast<Eigen::Index>(block.rows.size());
+    front.setZero(block.count + below, block.count + below);
+    for (std::size_t i = first_entry_[b]; i < first_entry_[b + 1]; ++i) {
+      front(entries_[i].row, entries_[i].column) = values[entries_[i].value];
+    }
+    for (const int child : children[b]) {
+      Eigen::MatrixXd& update = updates[static_cast<std::size_t>(child)];
+      const std::vector<int>& to = blocks_[static_cast<std::size_t>(child)].to_parent;
+      const auto n = static_cast<Eigen::Index>(to.size());
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const double* from = update.data() + j * n;
+        double* column = front.data() + to[static_cast<std::size_t>(j)] * front.rows();
+        for (Eigen::Index i = j; i < n; ++i) column[to[static_cast<std::size_t>(i)]] += from[i];
+      }
+      update.resize(0, 0);
+    }
+    if (!eliminate(front, block.count, pivots_.segment(block.first, block.count))) return false;
+    block.L = front.leftCols(block.count);
+    if (block.parent >= 0) {
+      updates[b] = front.bottomRightCorner(below, below);
+      children[static_cast<std::size_t>(block.parent)].push_back(static_cast<int>(b));
+    }
+  }
+  return true;
+}
+
+Eigen::VectorXd SupernodalFactor::solve(const Eigen::VectorXd& right_side) const {
+  Eigen::VectorXd x(right_side.size());
+  for (std::size_t i = 0; i < position_.size(); ++i)
+    x[position_[i]] = right_side[static_cast<Eigen::Index>(i)];
+  Eigen::VectorXd outside;
+  for (const Block& block : blocks_) {
+    auto own = x.segment(block.first, block.count);
+    block.L.topRows(block.count).triangularView<Eigen::UnitLower>().solveInPlace(own);
+    outside.noalias() = block.L.bottomRows(block.L.rows() - block.count) * own;
+    for (std::size_t i = 0; i < block.rows.size(); ++i)
+      x[block.rows[i]] -= outside[static_cast<Eigen::Index>(i)];
+  }
+  x.array() /= pivots_.array();
+  for (auto block = blocks_.rbegin(); block != blocks_.rend(); ++block) {
+    auto own = x.segment(block->first, block->count);
+    outside.resize(static_cast<Eigen::Index>(block->rows.size()));
+    for (std::size_t i = 0; i < block->rows.size(); ++i)
+      outside[static_cast<Eigen::Index>(i)] = x[block->rows[i]];
+    own.noalias() -= block->L.bottomRows(outside.size()).transpose() * outside;
+    block->L.topRows(block->count).transpose().triangularView<Eigen::UnitUpper>().solveInPlace(own);
+  }
+  Eigen::VectorXd solution(right_side.size());
+  for (std::size_t i = 0; i < position_.size(); ++i)
+    solution[static_cast<Eigen::Index>(i)] = x[position_[i]];
+  return solution;
+}
+
+Eigen::Index SupernodalFactor::entries() const {
+  Eigen::Index count = 0;
+  for (const Block& block : blocks_) count += block.L.size();
+  return count;
+}
+
+}  // namespace viscard
