@@ -182,6 +182,8 @@ class TomlReader final : public FieldVisitor {
     }
   }
 
+  // Told at the end of a section: a key that is misspelt says more than the one that is then
+  // missing.
   void refuse_unknown_keys() const {
     for (const auto& [key, node] : table_) {
       const std::string word(key.str());
@@ -197,6 +199,7 @@ class TomlReader final : public FieldVisitor {
                                (near.empty() ? "" : "; did you mean '" + near + "'?") +
                                " Known here: " + all);
     }
+    if (!missing_.empty()) throw std::runtime_error(missing_);
   }
 
  private:
@@ -221,8 +224,10 @@ class TomlReader final : public FieldVisitor {
   const toml::node* find(const char* key, bool is_required, const std::string& what) {
     known_.emplace_back(key);
     const toml::node* node = table_.get(key);
-    if (node == nullptr && is_required) {
-      throw std::runtime_error(file_ + ": '" + prefix_ + key + "' is missing; expected " + what);
+    if (node == nullptr && is_required && missing_.empty()) {
+      const auto line = table_.source().begin.line;
+      missing_ = file_ + (line > 0 ? ":" + std::to_string(line) : "") + ": '" + prefix_ + key +
+                 "' is missing; expected " + what;
     }
     return node;
   }
@@ -239,6 +244,7 @@ class TomlReader final : public FieldVisitor {
   std::string file_;
   std::string prefix_;  // "stage."
   std::vector<std::string> known_;
+  std::string missing_;  // what to say of the first required key that is not there
 };
 
 }  // namespace
