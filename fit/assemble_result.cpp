@@ -1,6 +1,9 @@
 #include "fit/assemble_result.h"
 
+#include "fit/bootstrap.h"
 #include "fit/noise_model.h"
+#include "fit/order_doubt.h"
+#include "fit/profile_likelihood.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,11 +47,34 @@ Autoregression noise_of(const SpectralModel& model, const SpectralState& state) 
   return autoregression(model.residual_series(state.ln_tau, state.nuisance, state.coefficients));
 }
 
+// Profiles belong to the parameters of the state; where a material parameter is something else
+// (creep, a frame in series), the covariance stands.
+void add_profiles(const SpectralModel& model, const SpectralFit& fit,
+                  const SeriesFromState& series_from_state, FitResult& result) {
+  const PronySeries series = series_from_state(fit.state);
+  const Eigen::MatrixXd white = parameter_covariance(model, fit.state, fit.variance);
+  result.profiles = profile_likelihoods(model, fit.state, fit.variance, fit.covariance, white);
+  const bool is_same =
+      static_cast<Eigen::Index>(series.terms.size()) == fit.state.n_terms() &&
+      (model.n_common() == 0 || series.equilibrium_modulus_Pa == fit.state.coefficients[0]);
+  if (!is_same) result.profiles.clear();
+  for (const ProfileCurve& curve : result.profiles) {
+    if (curve.parameter == "E_inf") {
+      result.E_inf_interval_95 = curve.interval_95;
+      continue;
+    }
+    const std::size_t term = std::stoul(curve.parameter.substr(7)) - 1;
+    result.terms[term].tau_s_95 = {std::exp(curve.interval_95.low),
+                                   std::exp(curve.interval_95.high)};
+  }
+}
+
 }  // namespace
 
 SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blocks,
                          const FitOptions& options) {
   SpectralFit fit;
+  fit.options = options;
   fit.path = wished_path(model, options);
   ChoiceInput choice;
   choice.n_samples = model.n_samples();
@@ -72,6 +98,13 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
 void fill_result(const SpectralModel& model, const SpectralFit& fit,
                  const SeriesFromState& series_from_state, FitResult& result) {
   fill_parameters(model, fit.state, fit.covariance, series_from_state, result);
+  if (fit.options.with_profiles) add_profiles(model, fit, series_from_state, result);
+  if (fit.options.n_bootstrap > 0) {
+    bootstrap_intervals(
+        model, fit.state, series_from_state,
+        {.n_resamples = fit.options.n_bootstrap, .inflation = fit.noise.inflation()}, result);
+  }
+  carry_order_doubt(model, fit, series_from_state, result);
   result.orders = fit.scores.rows;
   result.noise.sigma = std::sqrt(fit.variance);
   result.noise.inflation = fit.noise.inflation();

@@ -12,6 +12,7 @@ namespace viscard {
 
 // What every kind of fit does after its model stands: path of orders, choice, noise, covariance.
 struct SpectralFit {
+  FitOptions options;
   std::vector<SpectralState> path;
   OrderScores scores;
   SpectralState state;    // the chosen one, polished
@@ -25,8 +26,8 @@ struct SpectralFit {
 SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blocks,
                          const FitOptions& options);
 
-// Fills everything of a result that follows from the fit alone: parameters, intervals, orders,
-// noise.
+// Fills everything of a result that follows from the fit alone: parameters, intervals (with the
+// doubt about the order, profiles and bootstrap as the options ask), orders, noise.
 void fill_result(const SpectralModel& model, const SpectralFit& fit,
                  const SeriesFromState& series_from_state, FitResult& result);
 

@@ -1,5 +1,7 @@
 #include "fit/clean_data.h"
 
+#include "fit/spikes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -70,6 +72,14 @@ CleanViews::CleanViews(const std::vector<std::span<const double>>& columns, std:
 
 void CleanViews::drop_first(std::size_t rows) {
   for (std::span<const double>& view : views_) view = view.subspan(rows);
+}
+
+void CleanViews::drop(const std::vector<std::size_t>& rows) {
+  if (rows.empty()) return;
+  std::vector<std::vector<double>> kept;
+  for (const std::span<const double> view : views_) kept.push_back(without_rows(view, rows));
+  copies_ = std::move(kept);
+  for (std::size_t i = 0; i < views_.size(); ++i) views_[i] = copies_[i];
 }
 
 CleanColumns clean_columns(const std::vector<std::span<const double>>& columns, std::size_t least) {

@@ -24,6 +24,7 @@ class CleanViews {
   std::span<const double> column(std::size_t i) const { return views_[i]; }
   std::size_t n_left_out() const { return n_left_out_; }
   void drop_first(std::size_t rows);
+  void drop(const std::vector<std::size_t>& rows);  // ascending
 
  private:
   std::vector<std::span<const double>> views_;

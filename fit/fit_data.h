@@ -67,6 +67,9 @@ struct FitOptions {
   bool full_data = false;       // every sample for itself instead of averages in log time
   bool with_drift = true;   // indentation: force drift linear in time, where the data can tell it
   bool with_curves = true;  // fill FitResult::curves
+  // Profile likelihoods: their intervals replace those of E_inf and the times.
+  bool with_profiles = false;
+  int n_bootstrap = 0;  // resamples for all intervals (0: from the covariance)
 };
 
 }  // namespace viscard

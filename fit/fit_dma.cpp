@@ -4,14 +4,53 @@
 #include "fit/clean_data.h"
 #include "fit/dma_model.h"
 #include "fit/flags.h"
+#include "fit/nnls.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 
 namespace viscard {
 
+namespace {
+
 using Index = Eigen::Index;
+
+// Root mean square of the relative misfit of one half of the rows (E' or E'') by the best spectrum
+// of non-negative moduli on a dense grid of times: what no Prony series can do better.
+double misfit_alone(const DmaModel& model, Index begin, Index count) {
+  const double decades = (model.ln_tau_max() - model.ln_tau_min()) / std::log(10.0);
+  const Index n = std::max<Index>(4, static_cast<Index>(6.0 * decades));
+  const Eigen::VectorXd grid =
+      Eigen::VectorXd::LinSpaced(n, model.ln_tau_min(), model.ln_tau_max());
+  const Eigen::MatrixXd columns =
+      model.columns(grid, Eigen::VectorXd(0), false).values.middleRows(begin, count);
+  const Eigen::VectorXd data = model.data().segment(begin, count);
+  const Eigen::VectorXd x = nonnegative_from_normal_equations(
+      columns.transpose() * columns, columns.transpose() * data, free_columns(model, n));
+  return (columns * x - data).norm() / std::sqrt(static_cast<double>(count));
+}
+
+// Storage and loss of a linear material follow from each other (Kramers-Kronig); says so where the
+// data do not obey.
+void flag_contradiction(const DmaModel& model, FitResult& result) {
+  const Index count = model.n_rows() / 2;
+  const double storage = misfit_alone(model, 0, count);
+  const double loss = misfit_alone(model, count, count);
+  constexpr double kMuch = 3.0, kVisible = 0.01;
+  if (result.noise.sigma < kVisible || result.noise.sigma < kMuch * std::max(storage, loss)) return;
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "storage alone can be fitted to %.2g %%, loss alone to %.2g %%, both together only "
+                "to %.2g %%: they do not belong to one linear material (Kramers-Kronig). Check the "
+                "shift factors and the instrument's own loss",
+                100.0 * storage, 100.0 * loss, 100.0 * result.noise.sigma);
+  result.flags.push_back({"storage-loss-contradict", 0, text});
+}
+
+}  // namespace
 
 FitResult fit_dma(const DmaData& data, const FitOptions& options) {
   constexpr std::size_t kLeastRows = 3;
@@ -46,6 +85,7 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
   result.fit_to_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.front());
   add_identifiability_flags(model, fit.state, fit.covariance,
                             {0.0, 0.0, result.fit_from_s, 3.0 * result.fit_to_s}, result);
+  flag_contradiction(model, result);
   if (options.with_curves) {
     const Eigen::VectorXd fitted =
         model.columns(fit.state.ln_tau, fit.state.nuisance, false).values * fit.state.coefficients;

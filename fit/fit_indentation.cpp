@@ -5,6 +5,7 @@
 #include "fit/fit_stage_indentation.h"
 #include "fit/flags.h"
 #include "fit/history_model.h"
+#include "fit/spikes.h"
 #include "fit/two_point_modulus.h"
 
 #include <algorithm>
@@ -172,6 +173,10 @@ void fill_curves(const HistoryModel& model, const HistoryInput& input, const Spe
 FitResult fit_measured_depth(const IndentationData& data, const FitOptions& options) {
   CleanColumns clean = clean_columns({data.time_s, data.force_N, data.depth_m}, kLeastRows);
   check_force(clean.columns[1]);
+  const std::vector<std::size_t> spikes = isolated_spikes(clean.columns[0], clean.columns[1]);
+  if (!spikes.empty()) {
+    for (Column& column : clean.columns) column = without_rows(column, spikes);
+  }
   check_depth(clean.columns[1], clean.columns[2]);
   if (data.frame_stiffness_N_m > 0.0) {
     for (std::size_t i = 0; i < clean.columns[0].size(); ++i) {
@@ -205,6 +210,7 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
       },
       result);
   result.n_left_out = clean.n_left_out;
+  add_spikes(result, spikes.size());
   result.fit_from_s = input.time_s.front();
   result.fit_to_s = input.time_s.back();
   if (contact.is_fitted) result.contact_position_m = fit.state.nuisance[0];

@@ -4,6 +4,7 @@
 #include "fit/clean_data.h"
 #include "fit/flags.h"
 #include "fit/history_model.h"
+#include "fit/spikes.h"
 #include "fit/step_curves.h"
 #include "fit/step_model.h"
 
@@ -112,9 +113,12 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
     clean.drop_first(n_early);
   }
   check_values(clean.column(0), clean.column(1), is_step);
+  const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
+  clean.drop(spikes);
   FitResult result = is_step ? fit_step(clean.column(0), clean.column(1), options)
                              : fit_strain_history(clean, options);
   result.n_left_out = clean.n_left_out();
+  add_spikes(result, spikes.size());
   if (n_early > 0) {
     result.flags.push_back({"samples-before-zero", 0,
                             std::to_string(n_early) + " samples before t = 0 were left out"});

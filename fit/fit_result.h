@@ -61,6 +61,15 @@ struct FitCurves {
   std::vector<double> motion_start_s;
 };
 
+// How much worse the data are described when one parameter is held at a value and all others are
+// fitted again: rise of the sum of squares over the variance of the noise (3.84 ends the interval).
+struct ProfileCurve {
+  std::string parameter;      // "E_inf", "ln_tau_1" ...
+  std::vector<double> value;  // ascending; Pa, or ln s
+  std::vector<double> rise;
+  Interval interval_95;
+};
+
 struct FitResult {
   FitKind kind = FitKind::kIndentation;
   bool is_stiffness = false;
@@ -88,6 +97,8 @@ struct FitResult {
   bool is_converged = true;    // of the chosen order
   bool is_trustworthy =
       true;  // false: not converged, saturated, a gap in the ramp (flags say which)
+  std::vector<ProfileCurve> profiles;  // with FitOptions::with_profiles
+  int n_bootstrap = 0;                 // resamples behind the intervals; 0: from the covariance
   FitCurves curves;
 };
 

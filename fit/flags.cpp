@@ -49,6 +49,14 @@ void add_defect(FitResult& result, const std::string& name, const std::string& t
   result.is_trustworthy = false;
 }
 
+void add_spikes(FitResult& result, std::size_t count) {
+  result.n_spikes = count;
+  if (count == 0) return;
+  result.flags.push_back(
+      {"spikes-left-out", 0,
+       std::to_string(count) + " samples far from both neighbours were left out as spikes"});
+}
+
 void add_identifiability_flags(const SpectralModel& model, const SpectralState& state,
                                const Eigen::MatrixXd& covariance, const TestWindow& window,
                                FitResult& result) {

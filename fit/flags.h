@@ -19,6 +19,9 @@ void add_identifiability_flags(const SpectralModel& model, const SpectralState& 
                                const Eigen::MatrixXd& covariance, const TestWindow& window,
                                FitResult& result);
 
+// Says how many samples were left out as spikes, if any.
+void add_spikes(FitResult& result, std::size_t count);
+
 // A flag that makes the whole result untrustworthy.
 void add_defect(FitResult& result, const std::string& name, const std::string& text);
 

@@ -47,7 +47,10 @@ Step damped_step(const Projection& at, const std::vector<Index>& list, double da
 SpectralState quick_search(const SpectralModel& model, const SpectralState& start,
                            const RefineOptions& options) {
   const Index n_terms = start.n_terms();
-  const Box box = search_box(model, n_terms);
+  Box box = search_box(model, n_terms);
+  if (options.held >= 0) {
+    box.low[options.held] = box.high[options.held] = start.ln_tau[options.held];
+  }
   Eigen::VectorXd p =
       search_parameters(model, start.ln_tau, start.nuisance).cwiseMax(box.low).cwiseMin(box.high);
   Projection at = project(model, p);

@@ -41,9 +41,12 @@ Eigen::MatrixXd series_slopes(const SpectralModel& model, const SpectralState& s
     SpectralState up = state;
     SpectralState down = state;
     double step = kStep;
-    if (j < linear) {
-      step = kStep * std::abs(state.coefficients[j]);
+    if (j < linear && state.coefficients[j] == 0.0) {  // on its bound: one-sided
+      step = 0.5 * kStep * state.coefficients.cwiseAbs().maxCoeff();
       if (!(step > 0.0)) continue;
+      up.coefficients[j] = 2.0 * step;
+    } else if (j < linear) {
+      step = kStep * std::abs(state.coefficients[j]);
       up.coefficients[j] += step;
       down.coefficients[j] -= step;
     } else {
@@ -146,6 +149,9 @@ void fill_parameters(const SpectralModel& model, const SpectralState& state,
   result.E_inf_se_Pa = std::sqrt(std::max(0.0, cov(0, 0)));
   result.E0_interval_95 = symmetric(result.E0_Pa, result.E0_se_Pa);
   result.E_inf_interval_95 = symmetric(result.E_inf_Pa, result.E_inf_se_Pa);
+  if (!model.may_be_negative()) {
+    result.E_inf_interval_95.low = std::max(0.0, result.E_inf_interval_95.low);
+  }
   const double E0 = result.E0_Pa;
   const auto relative = [&](const Eigen::VectorXd& gradient, double value) {  // of value/E0
     return error_of(cov, (gradient - of_sum * (value / E0)) / E0);

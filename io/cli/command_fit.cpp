@@ -45,6 +45,8 @@ CommandSyntax fit_syntax() {
       "noise", po::value<std::string>()->default_value("auto"),
       "white: no inflation for autocorrelation, sigma^2 = rss/(n - p)")(
       "full-data", "every sample for itself instead of averages in log time")(
+      "profiles", "intervals of E_inf and times from profile likelihoods (asymmetric)")(
+      "bootstrap", po::value<int>(), "intervals from this many resamples of blocks of residuals")(
       "column", po::value<Words>()->composing(),
       "NAME=HEADER or NAME=2: where a column is, also -HEADER and 1e9*HEADER")(
       "segment", po::value<Words>()->composing(), "only rows of this segment (repeatable)")(
@@ -103,6 +105,16 @@ FitOptions options_from(const po::variables_map& values) {
   options.is_liquid = values.count("liquid") > 0;
   options.allow_negative = values.count("allow-negative") > 0;
   options.full_data = values.count("full-data") > 0;
+  options.with_profiles = values.count("profiles") > 0;
+  if (values.count("bootstrap") > 0) {
+    options.n_bootstrap = values["bootstrap"].as<int>();
+    constexpr int kFewest = 20;  // below, there are no percentiles
+    constexpr int kMostResamples = 100000;
+    if (options.n_bootstrap < kFewest || options.n_bootstrap > kMostResamples) {
+      throw UsageError("--bootstrap " + std::to_string(options.n_bootstrap) +
+                       " is outside 20 to 100000");
+    }
+  }
   const std::string noise = values["noise"].as<std::string>();
   if (noise != "auto" && noise != "white") {
     throw UsageError("--noise " + noise + " is not known; there are auto and white");
@@ -255,7 +267,9 @@ int run_fit(const Words& words, Streams& streams) {
         "'" + (*values)["out"].as<std::string>() +
         "' exists already. Choose another --out, or add --force to replace it");
   }
-  const std::vector<FittedFile> fitted = fit_files(files, words_from(*values), streams);
+  FitWords fit_words = words_from(*values);
+  fit_words.needs_modulus = has_out;
+  const std::vector<FittedFile> fitted = fit_files(files, fit_words, streams);
   print(fitted, values->count("json") > 0, streams.out);
   if (has_out) {
     const Material material = material_from_fitted(

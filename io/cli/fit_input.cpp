@@ -73,6 +73,11 @@ FitResult fit_relaxation_table(const CsvTable& table, const FitWords& words) {
 }
 
 FitResult fit_indentation_table(const CsvTable& table, const FitWords& words) {
+  if (words.needs_modulus && !words.specimen) {
+    throw std::runtime_error(
+        "--out writes moduli, and without the punch an indentation gives stiffnesses only. Add "
+        "--specimen FILE, or --punch-diameter (and --layer-thickness)");
+  }
   IndentationData data;
   data.time_s = time_of(table, words);
   data.force_N = column_SI(table, "force_N", words.columns);

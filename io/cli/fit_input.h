@@ -19,6 +19,7 @@ struct FitWords {
   std::vector<std::string> segments;  // rows of these only; empty: all
   double time_zero_s = 0.0;           // t = 0
   std::optional<Specimen> specimen;   // geometry, in place of the capture's own
+  bool needs_modulus = false;         // a stiffness will not do: a material is to be written
   double frame_stiffness_N_m = 0.0;   // for tables whose depth is the stage's
 };
 

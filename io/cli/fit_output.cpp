@@ -74,6 +74,17 @@ Json flags_of(const FitResult& fit) {
   return flags;
 }
 
+Json profiles_of(const FitResult& fit) {
+  Json profiles = Json::array();
+  for (const ProfileCurve& curve : fit.profiles) {
+    profiles.push_back({{"parameter", curve.parameter},
+                        {"value", curve.value},
+                        {"rise", curve.rise},
+                        {"interval_95", interval(curve.interval_95)}});
+  }
+  return profiles;
+}
+
 // 1.8800e+06 Pa as "1.8800 MPa".
 struct Shown {
   double factor = 1.0;
@@ -142,6 +153,8 @@ Json json_from_fit(const FittedFile& fitted) {
                          {"half_space_modulus_Pa", number(fit.two_point->half_space_modulus_Pa)},
                          {"bias", fit.two_point->bias}};
   }
+  if (fit.n_bootstrap > 0) json["n_bootstrap"] = fit.n_bootstrap;
+  if (!fit.profiles.empty()) json["profiles"] = profiles_of(fit);
   json["n_spikes"] = fit.n_spikes;
   json["n_left_out"] = fit.n_left_out;
   return json;

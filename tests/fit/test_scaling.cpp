@@ -1,4 +1,7 @@
 #include "fit/fit_relaxation.h"
+#include "fit/history_model.h"
+#include "fit/projection.h"
+#include "fit/step_model.h"
 #include "tests/fit/spectra.h"
 
 #include <catch2/catch.hpp>
@@ -68,4 +71,42 @@ TEST_CASE("thirty terms over twenty decades stay finite and fit", "[fit][stabili
     CHECK(std::isfinite(term.tau_s));
     CHECK(std::isfinite(term.modulus_se_Pa));
   }
+}
+
+TEST_CASE("times from 1e-12 to 1e12 sampling intervals give finite sums and gradients",
+          "[fit][stability]") {
+  const RelaxationData data = relaxation_of(s2(), 3000, 1000.0, 0.01, 13);
+  const StepModel step(data.time_s, data.value, StepShape::kRelaxation, {});
+  const IndentationData pressed =
+      indentation_of(s2(), even_times(60.0, 0.02), ramp_and_hold(1.0), 1e-3, 14);
+  HistoryInput input;
+  input.time_s = pressed.time_s;
+  input.input = pressed.depth_m;
+  input.output = pressed.force_N;
+  const HistoryModel history(input, {});
+  for (const SpectralModel* model :
+       {static_cast<const SpectralModel*>(&step), static_cast<const SpectralModel*>(&history)}) {
+    for (int decade = -12; decade <= 12; decade += 2) {
+      CAPTURE(decade);
+      const Eigen::VectorXd ln_tau =
+          Eigen::Vector2d(std::log(0.02) + decade * std::log(10.0), std::log(5.0));
+      const Projection at = project(*model, ln_tau);
+      CHECK(std::isfinite(at.rss));
+      CHECK(at.coefficients.allFinite());
+      CHECK(at.gradient.allFinite());
+      CHECK(at.normal.allFinite());
+    }
+  }
+}
+
+TEST_CASE("records of a nanosecond and of thirty years are fitted alike", "[fit][stability]") {
+  const double window_s = GENERATE(1e-9, 1e9);
+  const double unit = GENERATE(1e-3, 1e12);
+  RelaxationData data = relaxation_of(s2(), 2500, 1000.0, 0.005, 15);
+  for (double& t : data.time_s) t *= window_s / 1000.0;
+  for (double& value : data.value) value *= unit;
+  const FitResult fit = fit_relaxation(data);
+  REQUIRE(fit.terms.size() == 2);
+  CHECK(fit.terms[1].tau_s == Approx(0.04 * window_s).epsilon(0.1));
+  CHECK(fit.E_inf_Pa == Approx(1.6 * unit).epsilon(2e-3));
 }

@@ -1,0 +1,65 @@
+// Times fit_relaxation() on data in memory: all orders, their choice, covariance and intervals.
+//   bench_fit FILE REPEATS [TERMS]
+// FILE holds doubles: all times in s, then as many moduli. Prints one JSON object: median time of a
+// fit, order, residual sum of squares, and the most memory held beyond the data.
+#include "fit/fit_relaxation.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+viscard::RelaxationData read_data(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) throw std::runtime_error("cannot read " + path);
+  const auto count = static_cast<std::size_t>(file.tellg()) / (2 * sizeof(double));
+  viscard::RelaxationData data;
+  data.time_s.resize(count);
+  data.value.resize(count);
+  file.seekg(0);
+  const auto bytes = static_cast<std::streamsize>(count * sizeof(double));
+  file.read(reinterpret_cast<char*>(data.time_s.data()), bytes);
+  file.read(reinterpret_cast<char*>(data.value.data()), bytes);
+  return data;
+}
+
+double peak_B() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  if (argc < 3) throw std::runtime_error("usage: bench_fit FILE REPEATS [TERMS]");
+  const viscard::RelaxationData data = read_data(argv[1]);
+  viscard::FitOptions options;
+  if (argc > 3) options.n_terms = std::atoi(argv[3]);
+  const double before_B = peak_B();
+  std::vector<double> spent_s;
+  viscard::FitResult fit;
+  for (int i = 0; i < std::max(1, std::atoi(argv[2])); ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    fit = viscard::fit_relaxation(data, options);
+    spent_s.push_back(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  }
+  std::sort(spent_s.begin(), spent_s.end());
+  std::printf("{\"seconds\": %.6g, \"n_terms\": %zu, \"rss\": %.12g, \"orders\": %zu, ",
+              spent_s[spent_s.size() / 2], fit.terms.size(), fit.rss, fit.orders.size());
+  std::printf("\"E_inf\": %.9g, \"data_B\": %.0f, \"extra_B\": %.0f}\n", fit.E_inf_Pa,
+              16.0 * static_cast<double>(data.time_s.size()), peak_B() - before_B);
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "bench_fit: %s\n", error.what());
+  return 1;
+}

@@ -1,0 +1,95 @@
+#include "fit/fit_dma.h"
+#include "fit/fit_relaxation.h"
+#include "tests/fit/spectra.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+using namespace viscard;
+using namespace viscard::test;
+
+namespace {
+
+bool has_flag(const FitResult& fit, const std::string& name) {
+  return std::any_of(fit.flags.begin(), fit.flags.end(),
+                     [&](const MaterialFlag& flag) { return flag.name == name; });
+}
+
+double width(const Interval& interval) {
+  return interval.high - interval.low;
+}
+
+}  // namespace
+
+TEST_CASE("where the data are plenty, profile likelihoods end where the covariance says",
+          "[fit][reduction]") {
+  const RelaxationData data = relaxation_of(s2(), 20000, 1000.0, 0.002, 41);
+  FitOptions options;
+  options.n_terms = 2;
+  options.white_noise = true;
+  const FitResult plain = fit_relaxation(data, options);
+  options.with_profiles = true;
+  const FitResult fit = fit_relaxation(data, options);
+  REQUIRE(fit.profiles.size() == 3);
+  // A quadratic to a few per cent: the errors of times are below 2 %.
+  CHECK(width(fit.E_inf_interval_95) == Approx(width(plain.E_inf_interval_95)).epsilon(0.03));
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(width(fit.terms[i].tau_s_95) == Approx(width(plain.terms[i].tau_s_95)).epsilon(0.03));
+  }
+  for (const ProfileCurve& curve : fit.profiles) {
+    CHECK(std::is_sorted(curve.value.begin(), curve.value.end()));
+    CHECK(*std::min_element(curve.rise.begin(), curve.rise.end()) >= -1e-6);
+    CHECK(curve.rise.front() > 3.8);
+    CHECK(curve.rise.back() > 3.8);
+  }
+}
+
+TEST_CASE("a profile is lopsided where the record ends before the term does", "[fit]") {
+  const PronySeries truth{1.0, {{0.3, 1.0}, {0.2, 100.0}}};
+  const RelaxationData data = relaxation_of(truth, 4000, 100.0, 0.01, 42);
+  FitOptions options;
+  options.n_terms = 2;
+  options.with_profiles = true;
+  const FitResult fit = fit_relaxation(data, options);
+  REQUIRE(fit.terms.size() == 2);
+  const Interval tau = fit.terms[1].tau_s_95;
+  const double best = fit.terms[1].tau_s;
+  CHECK(std::log(tau.high / best) > std::log(best / tau.low));
+  // E_inf is bounded from above much better than from below, where only zero is a bound.
+  CHECK(fit.E_inf_interval_95.high - fit.E_inf_Pa < fit.E_inf_Pa - fit.E_inf_interval_95.low);
+  CHECK(fit.E_inf_interval_95.low >= 0.0);
+}
+
+TEST_CASE("the bootstrap agrees with the covariance, with and without memory of the noise",
+          "[fit]") {
+  const double rho = GENERATE(0.0, 0.8);
+  CAPTURE(rho);
+  const RelaxationData data = relaxation_of(s2(), 1500, 1000.0, 0.003, 43, rho);
+  FitOptions options;
+  options.n_terms = 2;
+  const FitResult plain = fit_relaxation(data, options);
+  options.n_bootstrap = 200;
+  const FitResult fit = fit_relaxation(data, options);
+  CHECK(fit.n_bootstrap >= 190);
+  // 200 percentiles are good to about 10 %, and blocks miss some of the memory.
+  CHECK(width(fit.E_inf_interval_95) == Approx(width(plain.E_inf_interval_95)).epsilon(0.35));
+  CHECK(width(fit.terms[1].tau_s_95) == Approx(width(plain.terms[1].tau_s_95)).epsilon(0.35));
+  CHECK(fit_relaxation(data, options).E0_interval_95.low == fit.E0_interval_95.low);  // fixed seed
+}
+
+TEST_CASE("storage and loss that belong to no one material are said to contradict", "[fit]") {
+  DmaData data;
+  for (int i = 0; i < 80; ++i) {
+    const double f = std::pow(10.0, -4.0 + 0.1 * i);
+    const ComplexModulus modulus = complex_modulus_Pa(s6(), 2.0 * std::numbers::pi * f);
+    data.frequency_Hz.push_back(f);
+    data.storage_Pa.push_back(modulus.storage_Pa);
+    data.loss_Pa.push_back(modulus.loss_Pa);
+  }
+  CHECK_FALSE(has_flag(fit_dma(data), "storage-loss-contradict"));
+  for (double& loss : data.loss_Pa) loss *= 1.5;  // an instrument's own friction, say
+  CHECK(has_flag(fit_dma(data), "storage-loss-contradict"));
+}
