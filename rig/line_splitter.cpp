@@ -1,5 +1,6 @@
 #include "rig/line_splitter.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace viscard {
@@ -31,10 +32,13 @@ void LineSplitter::feed(std::string_view bytes, double time_s, double byte_s) {
 }
 
 void LineSplitter::end_line(double time_s) {
+  // Bytes that came faster than the wire could carry them (a pseudo-terminal, an adapter's buffer)
+  // would otherwise seem to have come before those read earlier.
+  last_line_s_ = std::max(last_line_s_, time_s);
   if (is_overlong_) {
     ++n_overlong_;
   } else {
-    lines_.push_back({std::move(begun_), time_s});
+    lines_.push_back({std::move(begun_), last_line_s_});
   }
   begun_.clear();
   is_overlong_ = false;

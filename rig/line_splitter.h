@@ -10,7 +10,8 @@ namespace viscard {
 
 struct ReceivedLine {
   std::string text;     // without its terminator
-  double time_s = 0.0;  // rig time at which its last byte can have arrived at the latest
+  double time_s = 0.0;  // rig time at which its last byte can have arrived at the latest; never
+                        // before that of the line before
 };
 
 // Cuts a byte stream into lines ended by CR, LF, CRLF or LFCR, however reads split it. A line
@@ -42,6 +43,7 @@ class LineSplitter {
   bool is_overlong_ = false;
   char last_terminator_ = '\0';  // if the byte before was one, which
   std::deque<ReceivedLine> lines_;
+  double last_line_s_ = -1e300;
   std::size_t n_overlong_ = 0;
   std::size_t n_bytes_ = 0;
   std::size_t n_unprintable_ = 0;
