@@ -9,7 +9,7 @@ namespace viscard {
 // edge-to-edge spacing s on a piezoelectric film of thickness t and are pressed together by a mean
 // pressure p.
 
-// How the pillars are arranged decides the share of the area they carry the load on (eq. 25).
+// How the pillars are arranged decides the share of the area they carry the load on (models/array/README.md, eq. D1).
 enum class Lattice {
   kSquare,     // unit cell (d + s)^2
   kHexagonal,  // unit cell sqrt(3)/2 (d + s)^2
@@ -47,31 +47,31 @@ struct SensorGeometry {
 // forces on a unit cell.
 double stress_concentration(double diameter_m, double spacing_m, Lattice lattice);
 
-// Longest pillar before Euler buckling, sigma <= pi^2 E d^2/(16 K^2 l^2) (eq. 26). Source:
+// Longest pillar before Euler buckling, sigma <= pi^2 E d^2/(16 K^2 l^2) (eq. D2). Source:
 // Timoshenko & Gere, Theory of Elastic Stability (1961), ch. 2. Slender: at l = 3 d shear lowers
 // the load by some per cent.
 double longest_unbuckled_m(double diameter_m, double spacing_m, const SensorMaterial& material,
                            const SensorRequirements& requirements);
 
-// Longest pillar that does not stick to its neighbour (matting, lateral collapse, eq. 27):
+// Longest pillar that does not stick to its neighbour (matting, lateral collapse, eq. D3):
 //   l = (3 pi^(4/3)/128)^(1/4) (E/gamma)^(1/4) (E*/gamma)^(1/12) d^(5/6) s^(1/2),
 // E* = E/(1 - nu^2). Source: Glassmaker, Jagota, Hui & Kim, J. R. Soc. Interface 1 (2004) 23.
 double longest_unmatted_m(double diameter_m, double spacing_m, const SensorMaterial& material);
 
-// Longest pillar that does not lie down on the film (ground collapse, eq. 28):
+// Longest pillar that does not lie down on the film (ground collapse, eq. D4):
 //   l = pi^(5/3)/(2^(11/3) 3^(1/2)) (1 - nu^2)^(-1/6) (E/(2 gamma))^(2/3) d^(5/3).
 // Source: Roca-Cusachs, Rico, Martinez, Toset, Farre & Navajas, Langmuir 21 (2005) 5542.
 double longest_upright_m(double diameter_m, const SensorMaterial& material);
 
 // Widest pillar whose contact parts at the adhesion strength and not by a crack from a flaw,
-// d = 16 E* w/(pi sigma_th^2) (eq. 29). Source: Gao & Yao, PNAS 101 (2004) 7851.
+// d = 16 E* w/(pi sigma_th^2) (eq. D5). Source: Gao & Yao, PNAS 101 (2004) 7851.
 double widest_flaw_insensitive_m(const SensorMaterial& material);
 
-// Pull-off force of a flat pillar with a crack at its rim, sqrt(pi E* w d^3) (eq. 29). Source:
+// Pull-off force of a flat pillar with a crack at its rim, sqrt(pi E* w d^3) (eq. D5). Source:
 // Kendall, J. Phys. D 4 (1971) 1186.
 double pull_off_force_N(double diameter_m, const SensorMaterial& material);
 
-// V per Pa of mean pressure: g33 t times the stress concentration (eq. 30), and relative to a film
+// V per Pa of mean pressure: g33 t times the stress concentration (eq. D6), and relative to a film
 // without pillars, g33 t.
 double sensitivity_V_Pa(double diameter_m, double spacing_m, const SensorMaterial& material,
                         const SensorRequirements& requirements);

@@ -130,8 +130,8 @@ ArrayMesh array_mesh(const ArrayGeometry& g, const ArrayElectrodes& e, const Dis
   const bool bottom_electrode = e.is_equipotential && e.grounded == FilmFace::kTop;
   const bool bottom_corner = g.ends == FilmEnds::kFree && edge < t;
   mesh.film_z = line({{-t, bottom_electrode || bottom_corner}, {0.0, true}});
-  mesh.pillar_z =
-      breaks_between({{0.0, true}, {g.length_m, false}}, 2.0 * R, 4.0 * R, d.layers, d.ratio);
+  mesh.pillar_z = breaks_between({{0.0, true}, {g.length_m, false}}, 2.0 * R,
+                                 4.0 * R / d.shaft_elements, d.layers, d.ratio);
   return mesh;
 }
 

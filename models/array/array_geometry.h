@@ -59,6 +59,7 @@ struct ArrayMesh {
   int first_pillar_column = 0;   // of the cell's columns
   int last_pillar_column = 0;    // one past
 };
+// Elements of the shaft are no longer than two diameters over `shaft_elements`.
 ArrayMesh array_mesh(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes,
                      const Discretisation& discretisation);
 

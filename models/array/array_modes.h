@@ -16,7 +16,7 @@ struct ArrayMode {
 // The lowest modes, `clusters` times the number of pillars of each family, ascending. With the
 // inertia carried by the modes of the pillars on a fixed base, u = omega^2 A^-1 M u becomes the
 // dense symmetric eigenproblem  G a = a/omega^2,  G the static compliance between the inertia ports
-// of all pillars (eq. 24); clusters come out whole. The model must have inertia ports for at least
+// of all pillars (eq. A2); clusters come out whole. The model must have inertia ports for at least
 // twice the modes asked for; the film's own inertia is left out, see film_inertia_error(). Throws
 // std::invalid_argument if the ports do not suffice.
 std::vector<ArrayMode> array_modes(const ArrayModel& model, int clusters);

@@ -17,7 +17,7 @@ struct ArrayMedia {
 };
 
 // Ports (condense.h) of a pillar, in this order: 1 Pa of pressure on its top, 1 Pa of shear along
-// +x on its top, then the inertia of each of its lowest modes on a fixed base (eq. 24), unit mass
+// +x on its top, then the inertia of each of its lowest modes on a fixed base (eq. A2), unit mass
 // norm.
 constexpr int kPressurePort = 0;
 constexpr int kShearPort = 1;

@@ -161,11 +161,14 @@ std::vector<SceneEffect> effects_of(const ArrayScene& scene) {
 
 // The field is singular as r^(1/2) at an electrode's edge, which takes more layers than the weaker
 // corners of the pillars do.
-std::vector<Discretisation> meshes(const ArrayElectrodes& electrodes) {
+// The shaft matters to modes only.
+std::vector<Discretisation> meshes(const ArrayScene& scene) {
   std::vector<Discretisation> all;
   for (const auto& [degree, layers] :
        {std::pair{3, 2}, {4, 2}, {5, 2}, {6, 3}, {7, 3}, {8, 4}, {9, 5}}) {
-    all.push_back({.degree = degree, .layers = electrodes.is_equipotential ? degree : layers});
+    all.push_back({.degree = degree,
+                   .layers = scene.electrodes.is_equipotential ? degree : layers,
+                   .shaft_elements = scene.analysis == ArrayAnalysis::kModal ? 2 : 1});
   }
   return all;
 }
@@ -202,7 +205,7 @@ void validate(const ArrayScene& scene) {
 
 SceneAnswer simulate_array(const ArrayScene& scene) {
   validate(scene);
-  const ErrorControl control{scene.tolerance, meshes(scene.electrodes), scene.progress};
+  const ErrorControl control{scene.tolerance, meshes(scene), scene.progress};
   SceneAnswer answer = answer_within(control, [&](const Discretisation& mesh) {
     return scene.analysis == ArrayAnalysis::kModal ? modes_on(scene, mesh)
                                                    : Statics(scene, mesh).run();

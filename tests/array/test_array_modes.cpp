@@ -72,7 +72,7 @@ TEST_CASE("neighbours at 20 um split the clusters as an independent code has it"
   const auto is_axial = std::stable_partition(modes.begin(), modes.end(),
                                               [](const ArrayMode& m) { return m.is_lateral; });
   CHECK(modes[0].frequency_Hz == Approx(17952.8).epsilon(2e-5));
-  CHECK(modes[7].frequency_Hz - modes[0].frequency_Hz < 0.2);
+  CHECK(modes[7].frequency_Hz - modes[0].frequency_Hz < 0.3);  // prints one decimal
   CHECK(modes[8].frequency_Hz == Approx(82000.5).epsilon(2e-5));
   CHECK(modes[15].frequency_Hz == Approx(82003.9).epsilon(2e-5));
   CHECK(is_axial->frequency_Hz == Approx(90306.3).epsilon(2e-5));
