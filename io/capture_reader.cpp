@@ -14,6 +14,7 @@
 #include <fstream>
 #include <optional>
 #include <stdexcept>
+#include <unordered_set>
 
 namespace viscard {
 namespace {
@@ -201,6 +202,19 @@ void read_status(OpenCapture& capture, const fs::path& path, CapturedRun& run) {
                             "seconds may be in the other one"});
 }
 
+// Readings that an event "implausible" names by index, told only after they had been recorded,
+// count as glitches.
+void mark_implausible(CapturedRun& run) {
+  std::unordered_set<std::string> indices;
+  for (const RunEvent& event : run.events) {
+    if (event.name == "implausible") indices.insert(event.value);
+  }
+  if (indices.empty()) return;
+  for (LoadSample& sample : run.load_samples) {
+    if (indices.count(std::to_string(sample.index)) > 0) sample.is_glitch = true;
+  }
+}
+
 }  // namespace
 
 CapturedRun read_capture(const std::filesystem::path& path) {
@@ -216,6 +230,7 @@ CapturedRun read_capture(const std::filesystem::path& path) {
     read_samples(database, run);
     read_stage(database, run);
     read_events(database, run);
+    mark_implausible(run);
     run.n_raw_bytes = static_cast<std::size_t>(
         std::stoull("0" + database.text_of("SELECT sum(length(bytes)) FROM raw_bytes")));
     read_status(capture, path, run);

@@ -114,6 +114,21 @@ TEST_CASE("one finished capture is left alone by --resume", "[cli][capture][pty]
   CHECK(contains(again.out, "run.viscap: finished before"));
 }
 
+TEST_CASE("a reading that was marked implausible is read back as a glitch", "[cli][capture]") {
+  const ScratchFolder folder;
+  leave_interrupted(folder / "old.viscap");
+  CapturedRun about = read_capture(folder / "old.viscap");
+  {
+    CaptureWriter writer(folder / "run.viscap", about);
+    for (int i = 0; i < 4; ++i) writer.append(LoadSample{.index = i, .counts = 1.0 * i});
+    writer.append(RunEvent{0.0, "implausible", "2", "it stands out"});
+    writer.finish("finished");
+  }
+  const CapturedRun run = read_capture(folder / "run.viscap");
+  REQUIRE(run.load_samples.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) CHECK(run.load_samples[i].is_glitch == (i == 2));
+}
+
 TEST_CASE("capture refuses words that do not go together", "[cli][capture]") {
   CHECK(run_command({"capture", "--emulate"}).status == kBadWords);
   CHECK(run_command({"capture", "--emulate", "--out", "x.viscap", "--resume", "--force"}).status ==
