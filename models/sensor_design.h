@@ -9,7 +9,8 @@ namespace viscard {
 // edge-to-edge spacing s on a piezoelectric film of thickness t and are pressed together by a mean
 // pressure p.
 
-// How the pillars are arranged decides the share of the area they carry the load on (models/array/README.md, eq. D1).
+// How the pillars are arranged decides the share of the area they carry the load on
+// (models/array/README.md, eq. D1).
 enum class Lattice {
   kSquare,     // unit cell (d + s)^2
   kHexagonal,  // unit cell sqrt(3)/2 (d + s)^2
