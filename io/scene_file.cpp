@@ -1,8 +1,10 @@
 #include "io/scene_file.h"
 
 #include "io/atomic_file.h"
+#include "io/scene_drive.h"
 #include "io/scene_words.h"
 #include "io/toml_lines.h"
+#include "models/pillar/analysis.h"
 #include "models/pillar/effects.h"
 #include "models/pillar/scene_mistake.h"
 
@@ -23,10 +25,9 @@ struct RawScene {
   std::string electrode_face, electrode_kind = "equipotential", poling = "+z";
   double electrode_radius_m = 0.0;
   RawMaterial pillar, film;
-  std::string analysis = "static", load_on;
+  std::string analysis = "static";
   std::int64_t modes = 4;
-  double pressure_Pa = 0.0;
-  std::vector<std::pair<double, double>> history;
+  RawDrive drive;
   std::vector<std::string> quantities;
   std::map<std::string, std::string> effects;
   std::vector<PrintedValue> printed;
@@ -78,12 +79,9 @@ void show_scene(FieldVisitor& v, RawScene& s) {
   v.section("analysis", [&](FieldVisitor& a) {
     a.text({"kind", "static"}, s.analysis);
     a.integer("modes", 1, 40, s.modes);
-    a.section("load", [&](FieldVisitor& l) {
-      l.quantity({.key = "pressure", .unit = "Pa"}, s.pressure_Pa);
-      l.text({"on", "top"}, s.load_on);
-    });
-    a.quantity_pairs("history", "s", s.analysis == "relaxation" ? "m" : "Pa", s.history);
+    show_drive(a, s.analysis, s.drive);
   });
+  v.section("readout", [&](FieldVisitor& r) { show_readout(r, s.drive); });
   v.section("want", [&](FieldVisitor& w) {
     w.texts({"quantities", "top_displacement"}, s.quantities);
   });
@@ -177,25 +175,13 @@ Scene scene_from(const RawScene& raw, const std::filesystem::path& folder) {
   scene.pillar = pillar_material(raw.pillar, folder);
   if (!raw.film_material.empty() || raw.film_thickness_m > 0.0) fill_film(raw, folder, scene);
   if (!raw.electrode_face.empty()) fill_electrode(raw, scene);
-  scene.kind = choice<AnalysisKind>("analysis.kind", raw.analysis,
-                                    {{"static", AnalysisKind::kStatic},
-                                     {"relaxation", AnalysisKind::kRelaxation},
-                                     {"creep", AnalysisKind::kCreep},
-                                     {"modal", AnalysisKind::kModal},
-                                     {"buckling", AnalysisKind::kBuckling}});
-  if (raw.pressure_Pa != 0.0 && raw.load_on.empty()) {
-    throw SceneMistake("analysis.load", "the load has no place; say on = \"top\"");
-  }
-  if (!raw.load_on.empty()) choice<bool>("analysis.load.on", raw.load_on, {{"top", true}});
+  std::map<std::string, AnalysisKind> kinds;
+  for (const Analysis& analysis : analyses()) kinds[analysis.name] = analysis.kind;
+  scene.kind = choice<AnalysisKind>("analysis.kind", raw.analysis, kinds);
   scene.modes = static_cast<int>(raw.modes);
-  scene.pressure_Pa = raw.pressure_Pa;
   scene.wanted = raw.quantities;
+  fill_drive(raw.drive, scene);
   fill_effects(raw, scene);
-  for (const auto& [time_s, value] : raw.history) scene.history.push_back({time_s, value});
-  // A history may begin with nothing at time 0 and jump there.
-  if (scene.history.size() > 1 && scene.history[0].time_s == scene.history[1].time_s) {
-    if (scene.history[0].value == 0.0) scene.history.erase(scene.history.begin());
-  }
   validate(scene);
   return scene;
 }

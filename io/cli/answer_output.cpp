@@ -1,6 +1,7 @@
 #include "io/cli/answer_output.h"
 
 #include "io/atomic_file.h"
+#include "io/cli/answer_pictures.h"
 #include "io/cli/command_plan.h"
 #include "io/nearest_word.h"
 
@@ -33,6 +34,7 @@ nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s) {
           {"effects", effects},
           {"discretisation",
            {{"degree", answer.discretisation.degree}, {"layers", answer.discretisation.layers}}},
+          {"notes", answer.notes},
           {"unknowns", answer.unknowns},
           {"wall_s", wall_s}};
 }
@@ -46,6 +48,7 @@ void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out) {
     out << fmt::format("  {:<13} m = {}  {:>14.2f} Hz +- {:.1e}\n", m.family, m.harmonic,
                        m.frequency_Hz, m.error_estimate);
   }
+  for (const std::string& note : answer.notes) out << "  note: " << note << "\n";
   out << fmt::format("  effects on: ");
   bool first = true;
   for (const SceneEffect& e : answer.effects) {
@@ -86,9 +89,11 @@ void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer) {
     }
     if (name.find("peak_stress") != std::string::npos || name == "base_stress_max") {
       throw std::runtime_error(
-          "the peak stress at the rim of the bond is infinite in an elastic body: it grows with "
-          "every "
-          "refinement. Ask for base_stress_at_half_radius instead");
+          "the peak stress at the rim of the bond is infinite in an elastic body (a clamped "
+          "corner): "
+          "it grows with every refinement. Ask for base_stress_rim_mean, the mean over the "
+          "outermost "
+          "tenth of the radius, or for base_stress_at_half_radius");
     }
     const std::string near = nearest_word(name, known);
     throw std::runtime_error("want.quantities: this analysis has no '" + name + "'" +
@@ -101,6 +106,23 @@ void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer) {
   });
 }
 
+namespace {
+
+std::string csv_of(const SceneCurve& curve, const std::string& command) {
+  const std::string column = curve.unit == "1" ? curve.name : curve.name + "_" + curve.unit;
+  const bool has_error = curve.error.size() == curve.x.size();
+  std::string text = fmt::format("# {} (viscard {})\n{},{}{}\n", command, VISCARD_VERSION,
+                                 curve.x_name, column, has_error ? ",error_" + column : "");
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    text += fmt::format("{},{}", curve.x[i], curve.value[i]);
+    if (has_error) text += fmt::format(",{:.3g}", curve.error[i]);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
 void write_files(const SceneAnswer& answer, const nlohmann::json& object, const std::string& folder,
                  const std::string& command, bool overwrite) {
   std::filesystem::create_directories(folder);
@@ -110,12 +132,11 @@ void write_files(const SceneAnswer& answer, const nlohmann::json& object, const 
   write_file(std::filesystem::path(folder) / "results.json", with_command.dump(2) + "\n",
              overwrite);
   for (const SceneCurve& curve : answer.curves) {
-    std::string text = fmt::format("# {} (viscard {})\n{},{}_{}\n", command, VISCARD_VERSION,
-                                   curve.x_name, curve.name, curve.unit);
-    for (std::size_t i = 0; i < curve.x.size(); ++i) {
-      text += fmt::format("{},{}\n", curve.x[i], curve.value[i]);
-    }
-    write_file(std::filesystem::path(folder) / (curve.name + ".csv"), text, overwrite);
+    write_file(std::filesystem::path(folder) / (curve.name + ".csv"), csv_of(curve, command),
+               overwrite);
+  }
+  for (const auto& [name, svg] : pictures_of(answer)) {
+    write_file(std::filesystem::path(folder) / (name + ".svg"), svg, overwrite);
   }
 }
 

@@ -16,7 +16,7 @@ namespace {
 using Complex = std::complex<double>;
 
 // Shear waves shorter than this share of the diameter are beyond the finest mesh.
-constexpr double kShortestWave = 0.125;
+constexpr double kShortestWave = 0.5;
 
 // Complex amplitude of one output over frequency, and |y| + |omega dy/domega|: the tolerance refers
 // to it, so that a curve counts as right if it is so within the tolerance in amplitude or
@@ -206,7 +206,7 @@ void run_harmonic(const Scene& scene, SceneAnswer& answer) {
   const ReducedBody reduced = reduce_dynamic(body.system, loads,
                                              {.lowest_rad_s = to_rad * scene.frequencies_Hz.front(),
                                               .highest_rad_s = to_rad * scene.frequencies_Hz.back(),
-                                              .tolerance = 0.05 * scene.tolerance});
+                                              .tolerance = 0.1 * scene.tolerance});
   const bool is_sound = reduced.sound_up_to_rad_s >= to_rad * scene.frequencies_Hz.back();
   answer.step_error = is_sound ? reduced.error : std::numeric_limits<double>::infinity();
   const Response response(scene, body, reduced);

@@ -1,6 +1,11 @@
+#include "models/gauss_legendre.h"
 #include "models/pillar/analysis.h"
 #include "models/pillar/piezo_one_way.h"
+#include "models/pillar/pillar_loads.h"
+#include "models/pillar/scene_mistake.h"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 
@@ -19,6 +24,37 @@ void add_stresses(const PillarModel& model, const PillarState& state, SceneAnswe
       {"film_bottom_stress_mean", model.mean_stress(state, 2, bottom_m, kFilmRegion, R), "Pa"});
 }
 
+// Mean axial stress at the pillar's base over the ring from 0.9 R to R. The stress itself grows
+// without bound toward the rim (rho^(lambda - 1) at a clamped corner; Williams, J. Appl. Mech. 19
+// (1952) 526), but its mean over any ring is finite.
+double rim_mean_Pa(const PillarModel& model, const PillarState& state) {
+  const double R_m = model.radius_m();
+  const double inner_m = 0.9 * R_m;
+  const bool is_round = model.system().kinematics().x_power == 1;
+  const std::vector<double>& breaks = model.mesh().section.x().breaks();
+  static const QuadratureRule rule = gauss_legendre(12);
+  double sum = 0.0;
+  double area = 0.0;
+  for (int column = 0; column < model.mesh().pillar_columns; ++column) {
+    const auto c = static_cast<std::size_t>(column);
+    const double from_m = std::max(breaks[c], inner_m);
+    const double length_m = breaks[c + 1] - from_m;
+    if (!(length_m > 1e-9 * R_m)) continue;
+    const SectionElement& element = model.element_at(from_m + 0.5 * length_m, 0.0, kPillarRegion);
+    for (std::size_t i = 0; i < rule.points.size(); ++i) {
+      const double x_m = from_m + length_m * rule.points[i];
+      const double weight = rule.weights[i] * length_m * (is_round ? x_m : 1.0);
+      sum += weight * model.stress_at(state, element, x_m, 0.0)[2];
+      area += weight;
+    }
+  }
+  return sum / area;
+}
+
+bool names(const Scene& scene, const char* result) {
+  return std::find(scene.wanted.begin(), scene.wanted.end(), result) != scene.wanted.end();
+}
+
 void run_elastic(const Scene& scene, SceneAnswer& answer) {
   const PillarModel axial = model_of(scene, axial_motion(scene), answer);
   count_unknowns(axial, answer);
@@ -27,6 +63,9 @@ void run_elastic(const Scene& scene, SceneAnswer& answer) {
   answer.results.push_back(
       {"top_displacement", traction.dot(state.unknowns) / traction.sum(), "m"});
   add_stresses(axial, state, answer);
+  if (names(scene, "base_stress_rim_mean")) {  // converges slowly: only for who asks for it
+    answer.results.push_back({"base_stress_rim_mean", rim_mean_Pa(axial, state), "Pa"});
+  }
 }
 
 // The film's mesh with the electrode's edge.
@@ -34,6 +73,28 @@ PillarGeometry with_electrode_edge(const Scene& scene) {
   PillarGeometry geometry = scene.geometry;
   geometry.film->electrode_radius_m = scene.electrodes->electrode_radius_m;
   return geometry;
+}
+
+// A voltage on the electrode, and the pressure if there is one (actuator). The stiffness of the
+// pillar on its film is told with the electrode shorted (or driven) and open, and how a drive
+// changes it by changing length and cross-section of the film under it,
+//   dk/k = (d31 + d32 - d33) V/t   (eq. 25, from k = E A/L).
+void add_driven(const Scene& scene, const PillarModel& model, SceneAnswer& answer) {
+  const PiezoAnswer unit = piezo_static(model, 1.0);  // 1 Pa
+  const double p_Pa = scene.pressure_Pa;
+  const double V = scene.drive_V;
+  const double short_m_Pa = unit.top_displacement_m - unit.displacement_per_V_m * unit.voltage_V;
+  const double force_N_Pa = top_area_m2(model);
+  const PiezoMatrix& d = scene.film_charge_C_N;
+  answer.results = {{"electrode_voltage", V, "V"},
+                    {"electrode_charge", unit.charge_C * p_Pa + unit.capacitance_F * V, "C"},
+                    {"electrode_capacitance", unit.capacitance_F, "F"},
+                    {"top_displacement", short_m_Pa * p_Pa + unit.displacement_per_V_m * V, "m"},
+                    {"displacement_per_volt", unit.displacement_per_V_m, "m/V"},
+                    {"stiffness_driven", -force_N_Pa / short_m_Pa, "N/m"},
+                    {"stiffness_open", -force_N_Pa / unit.top_displacement_m, "N/m"},
+                    {"film_stiffness_change_by_drive",
+                     (d(2, 0) + d(2, 1) - d(2, 2)) * V / scene.geometry.film->thickness_m, "1"}};
 }
 
 void run_piezoelectric(const Scene& scene, SceneAnswer& answer) {
@@ -53,8 +114,11 @@ void run_piezoelectric(const Scene& scene, SceneAnswer& answer) {
     const double z_m = top ? 0.0 : -scene.geometry.film->thickness_m;
     answer.results.push_back(
         {"potential_at_centre", potential_at_V(coupled, state, 0.0, z_m), "V"});
+    answer.results.push_back(
+        {"potential_mean", mean_potential_V(coupled, state, z_m, coupled.radius_m()), "V"});
     return;
   }
+  if (scene.drive_V != 0.0) return add_driven(scene, coupled, answer);
   const PiezoAnswer piezo = elastic ? piezo_one_way(*elastic, coupled, scene.pressure_Pa)
                                     : piezo_static(coupled, scene.pressure_Pa);
   answer.results = {{"electrode_voltage", piezo.voltage_V, "V"},
@@ -64,13 +128,27 @@ void run_piezoelectric(const Scene& scene, SceneAnswer& answer) {
   if (!elastic) {
     answer.results.push_back({"displacement_per_volt", piezo.displacement_per_V_m, "m/V"});
   }
+  if (!scene.readout) return;
+  const ReadoutFilter filter = readout_filter(*scene.readout, piezo.capacitance_F);
+  answer.results.push_back({"reading_at_once", filter.gain * piezo.voltage_V, "V"});
+  if (std::isfinite(filter.time_constant_s)) {
+    answer.results.push_back({"readout_time_constant", filter.time_constant_s, "s"});
+  }
 }
 
 }  // namespace
 
 void check_static(const Scene& scene) {
-  if (scene.pressure_Pa == 0.0) {
-    throw std::invalid_argument("a static analysis needs a pressure on the top");
+  if (scene.pressure_Pa == 0.0 && scene.drive_V == 0.0) {
+    throw SceneMistake("analysis.load",
+                       "a static analysis needs a pressure on the top or a voltage");
+  }
+  if (scene.drive_V != 0.0 &&
+      (!scene.electrodes || !(scene.electrodes->electrode_radius_m > 0.0))) {
+    throw SceneMistake("analysis.load.voltage", "needs an electrode with a radius to drive");
+  }
+  if (!std::isfinite(scene.drive_V)) {
+    throw SceneMistake("analysis.load.voltage", "the voltage is not finite");
   }
 }
 

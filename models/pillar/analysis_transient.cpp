@@ -71,10 +71,11 @@ void run_transient_scene(const Scene& scene, SceneAnswer& answer) {
   // A mode's share of a displacement under a jump of load falls as (omega_1/omega)^2; what the
   // basis leaves of the higher ones is their static part.
   const double first_rad_s = first_resonance_rad_s(scene);
-  const DynamicRange range{.lowest_rad_s = 2.0 * std::numbers::pi / scene.end_time_s,
-                           .highest_rad_s = first_rad_s / std::sqrt(scene.tolerance),
-                           .tolerance = 0.05 * scene.tolerance,
-                           .corner_rad_s = first_rad_s};
+  const DynamicRange range{
+      .lowest_rad_s = 2.0 * std::numbers::pi / scene.end_time_s,
+      .highest_rad_s = first_rad_s * std::clamp(0.5 / scene.tolerance, 5.0, 60.0),
+      .tolerance = 0.2 * scene.tolerance,
+      .corner_rad_s = first_rad_s};
   const ReducedBody reduced = reduce_dynamic(body.system, {load}, range);
   TransientRequest request{.load = reduced.load(load), .end_s = scene.end_time_s};
   request.outputs = scene.outputs;

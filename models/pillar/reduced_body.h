@@ -32,15 +32,16 @@ struct ReducedBody {
 ReducedBody reduce_quasi_static(const ViscoelasticSystem& system, double tolerance);
 
 // With inertia, under any of the loads, from rest to the highest frequency: Krylov vectors
-// (K^-1 M)^j K^-1 load at the instantaneous and, where they relax differently, the slowest moduli,
-// until the residual at test frequencies says that the energy norm of the error is below the
-// tolerance. Basis vectors are real, so the same basis serves frequency and time.
+// (K^-1 M)^j K^-1 load at the instantaneous moduli and, where shapes change as the material
+// relaxes, answers of the whole body, until the residual at test frequencies says that the energy
+// norm of the error is below the tolerance. Basis vectors are real, so the same basis serves
+// frequency and time.
 struct DynamicRange {
   double lowest_rad_s = 0.0;
   double highest_rad_s = 0.0;
   double tolerance = 1e-4;
   double corner_rad_s = 0.0;  // above it (if > 0) the tolerance grows as omega^2
-  int largest_basis = 160;
+  int largest_basis = 120;
 };
 ReducedBody reduce_dynamic(const ViscoelasticSystem& system,
                            const std::vector<Eigen::VectorXd>& loads, const DynamicRange& range);

@@ -1,14 +1,13 @@
+#include "models/pillar/harmonic_response.h"
 #include "models/pillar/reduced_span.h"
 #include "models/pillar/relative_modulus.h"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <memory>
-#include <numbers>
+#include <limits>
 #include <stdexcept>
 
 namespace viscard {
@@ -19,6 +18,7 @@ using Complex = std::complex<double>;
 // Distance to a pole below which a residual is not held against the basis: there every answer is as
 // uncertain as the frequency of the pole itself.
 constexpr double kNearestPole = 0.02;
+constexpr int kMostAnswers = 10;  // of the whole body; each costs a sparse complex elimination
 
 struct ComplexModuli {
   Complex shear, bulk;
@@ -30,19 +30,41 @@ ComplexModuli moduli_at(const ViscoelasticSystem& body, double omega_rad_s) {
           relative_modulus(body.terms, &MaterialTerm::k, s)};
 }
 
-// Relative error of the restricted answer in the energy norm at one frequency, by its residual and
-// the smallest singular value of the restricted dynamic stiffness.
+// Smallest singular value of a factored matrix, by a few inverse iterations (from above, close
+// enough for an estimate). Source: Golub & Van Loan, Matrix Computations (2013), 8.2.
+double smallest_singular_value(const Eigen::PartialPivLU<Eigen::MatrixXcd>& lu) {
+  Eigen::VectorXcd v =
+      Eigen::VectorXcd::LinSpaced(lu.rows(), Complex(1.0, 0.5), Complex(2.0, -0.5));
+  double value = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    v.normalize();
+    const Eigen::VectorXcd image = lu.solve(v);
+    value = 1.0 / image.norm();
+    v = lu.adjoint().solve(image);
+  }
+  return value;
+}
+
+// Largest relative error of the restricted answers in the energy norm at one frequency, by their
+// residuals and the smallest singular value of the restricted dynamic stiffness.
 double error_at(const ReducedSpan& span, const ViscoelasticSystem& body,
-                const Eigen::VectorXd& load, double omega_rad_s) {
+                const std::vector<Eigen::VectorXd>& loads, double omega_rad_s) {
   const ComplexModuli m = moduli_at(body, omega_rad_s);
   const Eigen::MatrixXcd image = span.image(m.shear, m.bulk, omega_rad_s * omega_rad_s);
-  const Eigen::MatrixXcd small = span.basis().transpose() * image;
-  const Eigen::VectorXcd c =
-      small.partialPivLu().solve((span.basis().transpose() * load).cast<Complex>());
-  const Eigen::VectorXcd residual = load.cast<Complex>() - image * c;
-  const double nearest = Eigen::BDCSVD<Eigen::MatrixXcd>(small).singularValues().tail<1>()[0];
-  return std::hypot(span.dual_norm(residual.real()), span.dual_norm(residual.imag())) /
-         (std::max(nearest, kNearestPole) * c.norm());
+  Eigen::MatrixXcd small(span.count(), span.count());
+  small.real() = span.basis().transpose() * image.real();
+  small.imag() = span.basis().transpose() * image.imag();
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(small);
+  const double nearest = std::max(smallest_singular_value(lu), kNearestPole);
+  double largest = 0.0;
+  for (const Eigen::VectorXd& load : loads) {
+    const Eigen::VectorXcd c = lu.solve((span.basis().transpose() * load).cast<Complex>());
+    const Eigen::VectorXcd residual = load.cast<Complex>() - image * c;
+    const double size =
+        std::hypot(span.dual_norm(residual.real()), span.dual_norm(residual.imag()));
+    largest = std::max(largest, size / (nearest * c.norm()));
+  }
+  return largest;
 }
 
 // Densest near the top, where the basis is weakest.
@@ -59,70 +81,71 @@ std::vector<double> test_frequencies(const DynamicRange& range) {
   return test;
 }
 
-// Stops at the first frequency that is not met; the error and the sound range go to `body`.
-bool meets(const ReducedSpan& span, const ViscoelasticSystem& system,
-           const std::vector<Eigen::VectorXd>& loads, const DynamicRange& range, bool all,
-           ReducedBody& body) {
-  body.error = 0.0;
-  body.sound_up_to_rad_s = 0.0;
-  bool met = true;
+// What the test of a basis found.
+struct Verdict {
+  double error = 0.0;              // largest over what is allowed there, times the tolerance
+  double worst_rad_s = 0.0;        // where that is
+  double sound_up_to_rad_s = 0.0;  // below this every test frequency is met
+};
+
+Verdict test_basis(const ReducedSpan& span, const ViscoelasticSystem& system,
+                   const std::vector<Eigen::VectorXd>& loads, const DynamicRange& range) {
+  Verdict verdict;
+  verdict.sound_up_to_rad_s = range.highest_rad_s;
   for (const double omega : test_frequencies(range)) {
-    for (const Eigen::VectorXd& load : loads) {
-      const double error = error_at(span, system, load, omega);
-      const double beyond = range.corner_rad_s > 0.0 ? omega / range.corner_rad_s : 1.0;
-      const double weight = std::max(1.0, beyond * beyond);
-      if (error <= range.tolerance * weight) {
-        body.sound_up_to_rad_s = std::max(body.sound_up_to_rad_s, omega);
-        body.error = std::max(body.error, error / weight);
-        continue;
-      }
-      met = false;
-      if (!all) return false;
+    const double beyond = range.corner_rad_s > 0.0 ? omega / range.corner_rad_s : 1.0;
+    const double error = error_at(span, system, loads, omega) / std::max(1.0, beyond * beyond);
+    if (!(error <= range.tolerance)) {
+      verdict.sound_up_to_rad_s = std::min(verdict.sound_up_to_rad_s, 0.99 * omega);
+    }
+    if (!(error <= verdict.error)) {
+      verdict.error = error;
+      verdict.worst_rad_s = omega;
     }
   }
-  return met;
+  return verdict;
 }
 
-// Chains of vectors (K^-1 M)^j K^-1 load, each grown by one operator.
+// A chain of vectors (K^-1 M)^j K^-1 load.
 struct Chain {
-  std::shared_ptr<StiffnessFactor> factor;
   Eigen::VectorXd last;
   bool is_exhausted = false;
 };
 
-// Moduli at which chains are started: Chebyshev points between those at the lowest frequency and
-// the instantaneous ones, as many as interpolation over that range needs for the tolerance
-// (Trefethen, Approximation Theory and Approximation Practice (2013), ch. 8). One if shape does not
-// depend on them: constant Poisson ratio and no elastic part.
-std::vector<std::pair<double, double>> chain_moduli(const ViscoelasticSystem& system,
-                                                    const DynamicRange& range) {
+// True when the shape of the answers depends on how far the material has relaxed: shear and bulk
+// relax differently, or the body has an elastic part.
+bool shape_relaxes(const ViscoelasticSystem& system, const DynamicRange& range) {
   const ComplexModuli slow = moduli_at(system, range.lowest_rad_s);
-  const double g = std::max(std::abs(slow.shear), 1e-6);
-  const double k = system.incompressible ? g : std::max(std::abs(slow.bulk), 1e-6);
+  const double g = std::abs(slow.shear);
+  const double k = system.incompressible ? g : std::abs(slow.bulk);
   const bool has_film = system.elastic.coeffs().cwiseAbs().sum() > 0.0;
-  const double spread = has_film ? -std::log(std::min(g, k)) : std::abs(std::log(g / k));
-  int count = 1;
-  for (double left = spread; left > 30.0 * range.tolerance && count < 5; ++count) {
-    left *= 0.25 * spread;
-  }
-  std::vector<std::pair<double, double>> moduli;
-  for (int i = 0; i < count; ++i) {
-    const double angle = (2 * i + 1) * std::numbers::pi / (2 * count);
-    const double share = count == 1 ? 0.0 : 0.5 * (1.0 - std::cos(angle));
-    moduli.emplace_back(std::pow(g, share), std::pow(k, share));
-  }
-  return moduli;
+  return (has_film ? 1.0 - std::min(g, k) : std::abs(g - k)) > 1e-9;
 }
 
-std::vector<Chain> chains_of(const ReducedSpan& span, const ViscoelasticSystem& system,
-                             const std::vector<Eigen::VectorXd>& loads, const DynamicRange& range) {
-  std::vector<Chain> chains;
-  for (const auto& [shear, bulk] : chain_moduli(system, range)) {
-    const auto factor = std::make_shared<StiffnessFactor>();
-    span.factor(shear, bulk, *factor);
-    for (const Eigen::VectorXd& load : loads) chains.push_back({factor, factor->solve(load)});
+// Adds whole-body answers at one frequency.
+bool add_answers(const ViscoelasticSystem& system, const std::vector<Eigen::VectorXd>& loads,
+                 double omega_rad_s, ReducedSpan& span) {
+  bool grew = false;
+  for (const Eigen::VectorXd& load : loads) {
+    const Eigen::VectorXcd u = solve_harmonic(system, load, omega_rad_s);
+    grew = span.add(u.real()) || grew;
+    grew = span.add(u.imag()) || grew;
   }
-  return chains;
+  return grew;
+}
+
+// Grows every chain by one vector.
+bool grow(std::vector<Chain>& chains, const StiffnessFactor& factor,
+          const ViscoelasticSystem& system, ReducedSpan& span) {
+  bool grew = false;
+  for (Chain& chain : chains) {
+    if (chain.is_exhausted) continue;
+    chain.is_exhausted = !span.add(chain.last);
+    if (chain.is_exhausted) continue;
+    chain.last = factor.solve(times(system.mass, span.basis().rightCols<1>()));
+    grew = true;
+  }
+  return grew;
 }
 
 }  // namespace
@@ -133,29 +156,31 @@ ReducedBody reduce_dynamic(const ViscoelasticSystem& system,
     throw std::invalid_argument("a dynamic analysis needs masses and a highest frequency");
   }
   ReducedSpan span(system);
-  std::vector<Chain> chains = chains_of(span, system, loads, range);
-  ReducedBody tested;
-  bool met = false;
-  bool grows = true;
-  Eigen::Index next_check = 4;
-  while (grows && !met && span.count() < range.largest_basis) {
-    grows = false;
-    for (Chain& chain : chains) {
-      if (chain.is_exhausted) continue;
-      chain.is_exhausted = !span.add(chain.last);
-      if (chain.is_exhausted) continue;
-      chain.last = chain.factor->solve(times(system.mass, span.basis().rightCols<1>()));
-      grows = true;
-    }
-    if (span.count() >= next_check || !grows) {
-      met = meets(span, system, loads, range, false, tested);
-      next_check = span.count() + std::max<Eigen::Index>(3, span.count() / 3);
-    }
+  std::vector<Chain> chains;
+  for (const Eigen::VectorXd& load : loads) {
+    chains.push_back({span.instantaneous().solve(load)});
   }
-  if (!met) meets(span, system, loads, range, true, tested);
+  int answers_left = shape_relaxes(system, range) && !system.incompressible ? kMostAnswers : 0;
+  Verdict verdict;
+  bool grows = true;
+  double last_error = std::numeric_limits<double>::infinity();
+  Eigen::Index next_check = 4;
+  while (grows && span.count() < range.largest_basis) {
+    grows = grow(chains, span.instantaneous(), system, span);
+    if (grows && span.count() < next_check) continue;
+    verdict = test_basis(span, system, loads, range);
+    if (verdict.error <= range.tolerance) break;
+    // Chains do not know how shapes relax: where they stall, the whole body's answer helps.
+    if (answers_left > 0 && verdict.error > 0.1 * last_error) {
+      grows = add_answers(system, loads, verdict.worst_rad_s, span) || grows;
+      --answers_left;
+    }
+    last_error = verdict.error;
+    next_check = span.count() + std::max<Eigen::Index>(2, span.count() / 4);
+  }
   ReducedBody result = span.reduced();
-  result.error = tested.error;
-  result.sound_up_to_rad_s = met ? range.highest_rad_s : tested.sound_up_to_rad_s;
+  result.error = verdict.error;
+  result.sound_up_to_rad_s = verdict.sound_up_to_rad_s;
   return result;
 }
 

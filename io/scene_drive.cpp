@@ -1,0 +1,148 @@
+#include "io/scene_drive.h"
+
+#include "io/scene_words.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace viscard {
+namespace {
+
+// Straight pieces that stand for half a sine: they err by (pi/256)^2/8 = 2e-5 of its height.
+constexpr int kPulsePieces = 256;
+
+std::vector<HistoryPoint> half_sine(double height, double duration_s) {
+  std::vector<HistoryPoint> points;
+  for (int i = 0; i <= kPulsePieces; ++i) {
+    const double share = static_cast<double>(i) / kPulsePieces;
+    points.push_back({share * duration_s, height * std::sin(std::numbers::pi * share)});
+  }
+  points.back().value = 0.0;
+  return points;
+}
+
+void fill_frequencies(const RawDrive& raw, Scene& scene) {
+  if (raw.from_Hz == 0.0) return;
+  const bool is_log =
+      choice<bool>("analysis.frequencies.spacing", raw.spacing, {{"log", true}, {"linear", false}});
+  const double to_Hz = raw.to_Hz > 0.0 ? raw.to_Hz : raw.from_Hz;
+  const auto n = raw.count > 0 ? raw.count : (raw.to_Hz > 0.0 ? 100 : 1);
+  if (n > 1 && !(to_Hz > raw.from_Hz)) {
+    throw SceneMistake("analysis.frequencies", "'to' must lie above 'from'");
+  }
+  for (std::int64_t i = 0; i < n; ++i) {
+    const double share = n == 1 ? 0.0 : static_cast<double>(i) / static_cast<double>(n - 1);
+    scene.frequencies_Hz.push_back(is_log ? raw.from_Hz * std::pow(to_Hz / raw.from_Hz, share)
+                                          : raw.from_Hz + share * (to_Hz - raw.from_Hz));
+  }
+}
+
+void fill_history(const RawDrive& raw, Scene& scene) {
+  if (raw.pulse_duration_s > 0.0) {
+    if (!raw.history.empty()) {
+      throw SceneMistake("analysis.pulse", "a scene has a history or a pulse, not both");
+    }
+    scene.history = half_sine(raw.pulse_height, raw.pulse_duration_s);
+    return;
+  }
+  for (const auto& [time_s, value] : raw.history) scene.history.push_back({time_s, value});
+  // A history may begin with nothing at time 0 and jump there.
+  if (scene.history.size() > 1 && scene.history[0].time_s == scene.history[1].time_s) {
+    if (scene.history[0].value == 0.0) scene.history.erase(scene.history.begin());
+  }
+}
+
+void fill_readout(const RawDrive& raw, Scene& scene) {
+  if (raw.readout.empty()) return;
+  Readout readout;
+  readout.kind =
+      choice<ReadoutKind>("readout.kind", raw.readout,
+                          {{"voltage", ReadoutKind::kVoltage}, {"charge", ReadoutKind::kCharge}});
+  if (!scene.electrodes || scene.electrodes->electrode_radius_m == 0.0) {
+    throw SceneMistake("readout", "needs an electrode with a radius to be wired to");
+  }
+  if (raw.resistance_Ohm > 0.0) readout.resistance_Ohm = raw.resistance_Ohm;
+  readout.capacitance_F = raw.capacitance_F;
+  if (raw.film_resistivity_Ohm_m > 0.0) {
+    readout.film_leakage_s = raw.film_resistivity_Ohm_m * scene.film->permittivity_F_m(2, 2);
+  }
+  try {
+    validate(readout);
+  } catch (const std::invalid_argument& error) {
+    throw SceneMistake("readout", error.what());
+  }
+  scene.readout = readout;
+}
+
+}  // namespace
+
+void show_drive(FieldVisitor& v, const std::string& analysis, RawDrive& d) {
+  v.section("load", [&](FieldVisitor& l) {
+    l.quantity({.key = "pressure", .unit = "Pa"}, d.pressure_Pa);
+    l.quantity({.key = "acceleration", .unit = "m/s2"}, d.acceleration_m_s2);
+    l.quantity({.key = "voltage", .unit = "V"}, d.voltage_V);
+    l.text({"on", "top"}, d.load_on);
+    l.text({"direction", "axial"}, d.direction);
+  });
+  v.section("frequencies", [&](FieldVisitor& f) {
+    f.quantity({.key = "from", .unit = "Hz", .range = Range::kPositive}, d.from_Hz);
+    f.quantity({.key = "to", .unit = "Hz", .range = Range::kPositive}, d.to_Hz);
+    f.integer("count", 1, 100000, d.count);
+    f.text({"spacing", "log"}, d.spacing);
+  });
+  v.quantity({.key = "end_time", .unit = "s", .range = Range::kPositive}, d.end_time_s);
+  v.integer("outputs", 10, 200000, d.outputs);
+  const char* unit = d.load_on == "base" ? "m/s2" : analysis == "relaxation" ? "m" : "Pa";
+  v.section("pulse", [&](FieldVisitor& p) {
+    p.quantity({.key = "height", .unit = unit}, d.pulse_height);
+    p.quantity({.key = "duration", .unit = "s", .range = Range::kPositive}, d.pulse_duration_s);
+  });
+  v.quantity_pairs("history", "s", unit, d.history);
+}
+
+void show_readout(FieldVisitor& v, RawDrive& d) {
+  v.text({"kind", "voltage"}, d.readout);
+  v.quantity({.key = "resistance", .unit = "ohm", .range = Range::kPositive}, d.resistance_Ohm);
+  v.quantity({.key = "capacitance", .unit = "F", .range = Range::kPositive}, d.capacitance_F);
+  v.quantity({.key = "film_resistivity", .unit = "ohm m", .range = Range::kPositive},
+             d.film_resistivity_Ohm_m);
+}
+
+void fill_drive(const RawDrive& raw, Scene& scene) {
+  if (raw.pressure_Pa != 0.0 && raw.load_on.empty()) {
+    throw SceneMistake("analysis.load", "the load has no place; say on = \"top\"");
+  }
+  if (!raw.load_on.empty()) {
+    scene.load_place = choice<LoadPlace>("analysis.load.on", raw.load_on,
+                                         {{"top", LoadPlace::kTop}, {"base", LoadPlace::kBase}});
+  }
+  const bool moves =
+      scene.kind == AnalysisKind::kHarmonic || scene.kind == AnalysisKind::kTransient;
+  if (scene.load_place == LoadPlace::kBase && !moves) {
+    throw SceneMistake("analysis.load.on",
+                       "only harmonic and transient analyses shake the base; say \"top\"");
+  }
+  if (raw.acceleration_m_s2 != 0.0 && scene.load_place != LoadPlace::kBase) {
+    throw SceneMistake("analysis.load.acceleration", "is of the base; say on = \"base\"");
+  }
+  if (raw.pressure_Pa != 0.0 && scene.load_place == LoadPlace::kBase) {
+    throw SceneMistake("analysis.load.pressure", "is on the top; the base takes an acceleration");
+  }
+  scene.direction = choice<LoadDirection>(
+      "analysis.load.direction", raw.direction,
+      {{"axial", LoadDirection::kAxial}, {"lateral", LoadDirection::kLateral}});
+  if (scene.direction == LoadDirection::kLateral && !moves) {
+    throw SceneMistake("analysis.load.direction",
+                       "only harmonic and transient analyses push sideways; say \"axial\"");
+  }
+  scene.pressure_Pa = raw.pressure_Pa;
+  scene.base_acceleration_m_s2 = raw.acceleration_m_s2;
+  scene.drive_V = raw.voltage_V;
+  scene.end_time_s = raw.end_time_s;
+  scene.outputs = static_cast<int>(raw.outputs);
+  fill_frequencies(raw, scene);
+  fill_history(raw, scene);
+  fill_readout(raw, scene);
+}
+
+}  // namespace viscard

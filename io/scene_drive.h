@@ -1,0 +1,37 @@
+#pragma once
+
+#include "io/config_fields.h"
+#include "models/pillar/scene.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace viscard {
+
+// How a scene's pillar is driven and what its electrode is wired to, as it stands in the file.
+struct RawDrive {
+  std::string load_on, direction = "axial";
+  double pressure_Pa = 0.0, acceleration_m_s2 = 0.0, voltage_V = 0.0;
+  double from_Hz = 0.0, to_Hz = 0.0;
+  std::string spacing = "log";
+  std::int64_t count = 0;
+  double end_time_s = 0.0;
+  std::int64_t outputs = 1000;
+  double pulse_height = 0.0, pulse_duration_s = 0.0;
+  std::vector<std::pair<double, double>> history;
+  std::string readout;
+  double resistance_Ohm = 0.0, capacitance_F = 0.0, film_resistivity_Ohm_m = 0.0;
+};
+
+// Keys of [analysis]: load = { pressure | acceleration | voltage, on = "top" | "base", direction },
+// frequencies = { from, to, count, spacing }, end_time, outputs, pulse = { height, duration } and
+// history. `analysis` is its kind, which decides the unit of the history.
+void show_drive(FieldVisitor& analysis_table, const std::string& analysis, RawDrive& drive);
+// [readout]: kind = "voltage" | "charge", resistance, capacitance, film_resistivity.
+void show_readout(FieldVisitor& readout_table, RawDrive& drive);
+
+// Fills the scene's loads, histories, frequencies and readout. Throws SceneMistake.
+void fill_drive(const RawDrive& drive, Scene& scene);
+
+}  // namespace viscard
