@@ -1,6 +1,7 @@
 #include "fit/assemble_result.h"
 
 #include "fit/bootstrap.h"
+#include "fit/constraints.h"
 #include "fit/noise_model.h"
 #include "fit/order_doubt.h"
 #include "fit/profile_likelihood.h"
@@ -92,19 +93,23 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
   fit.variance = variance_of(model, fit.state);
   if (!options.white_noise) fit.noise = noise_of(model, fit.state);
   fit.covariance = parameter_covariance(model, fit.state, fit.variance, fit.noise);
+  if (!options.constraints.empty()) constrain(model, options, fit);
   return fit;
 }
 
 void fill_result(const SpectralModel& model, const SpectralFit& fit,
                  const SeriesFromState& series_from_state, FitResult& result) {
   fill_parameters(model, fit.state, fit.covariance, series_from_state, result);
-  if (fit.options.with_profiles) add_profiles(model, fit, series_from_state, result);
-  if (fit.options.n_bootstrap > 0) {
-    bootstrap_intervals(
-        model, fit.state, series_from_state,
-        {.n_resamples = fit.options.n_bootstrap, .inflation = fit.noise.inflation()}, result);
+  if (fit.notes.empty()) {
+    if (fit.options.with_profiles) add_profiles(model, fit, series_from_state, result);
+    if (fit.options.n_bootstrap > 0) {
+      bootstrap_intervals(
+          model, fit.state, series_from_state,
+          {.n_resamples = fit.options.n_bootstrap, .inflation = fit.noise.inflation()}, result);
+    }
+    carry_order_doubt(model, fit, series_from_state, result);
   }
-  carry_order_doubt(model, fit, series_from_state, result);
+  result.flags.insert(result.flags.end(), fit.notes.begin(), fit.notes.end());
   result.orders = fit.scores.rows;
   result.noise.sigma = std::sqrt(fit.variance);
   result.noise.inflation = fit.noise.inflation();

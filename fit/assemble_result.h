@@ -19,7 +19,8 @@ struct SpectralFit {
   double rss = 0.0;       // weighted, over all samples
   double variance = 1.0;  // of one weighted sample
   Autoregression noise;
-  Eigen::MatrixXd covariance;  // of all parameters of the state
+  Eigen::MatrixXd covariance;       // of all parameters of the state
+  std::vector<MaterialFlag> notes;  // constraints that were kept
 };
 
 // blocks: number of each row's block for cross-validation (log_time_blocks).

@@ -30,6 +30,10 @@ PronySeries series_from_creep(const SpectralModel& model, const SpectralState& s
 
 FitResult fit_creep(const CreepData& data, const FitOptions& options) {
   constexpr std::size_t kLeastRows = 4;
+  if (!options.constraints.empty()) {
+    throw std::runtime_error(
+        "moduli and times of creep follow from its retardation spectrum and cannot be constrained");
+  }
   const CleanColumns clean = clean_columns({data.time_s, data.compliance_1_Pa}, kLeastRows);
   const std::vector<double>& time_s = clean.columns[0];
   if (time_s.front() < 0.0) {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace viscard {
@@ -58,8 +59,16 @@ struct DmaData {
   std::vector<double> loss_Pa;
 };
 
+// A parameter held fixed (low == high) or within bounds; names and rules: fit/constraints.h.
+struct ParameterConstraint {
+  std::string name;
+  double low = 0.0, high = 0.0;
+};
+
 struct FitOptions {
   std::optional<int> n_terms;  // this order instead of a choice
+  // Need n_terms; for relaxation, storage and loss, and tables of indentation.
+  std::vector<ParameterConstraint> constraints;
   int max_terms = 40;
   bool is_liquid = false;       // E_inf = 0
   bool allow_negative = false;  // moduli of single terms

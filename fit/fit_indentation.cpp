@@ -28,10 +28,11 @@ struct Contact {
   std::size_t first = 0;  // first sample beyond it
 };
 
-// Where the line through the loading curve between a fifth and four fifths of the force meets zero
-// force. With samples before that the contact is fitted; without, the table's own zero of depth
-// holds (or its first sample, when the record begins under load).
-Contact find_contact(const Column& force_N, const Column& depth_m, std::size_t loaded) {
+// Where the line through the loading curve (force^(1/power) over depth) between a fifth and four
+// fifths of the force meets zero force. With samples before that the contact is fitted; without,
+// the table's own zero of depth holds (or its first sample, when the record begins under load).
+Contact find_contact(const Column& force_N, const Column& depth_m, std::size_t loaded,
+                     double power) {
   Contact contact;
   // Force at no load: the lowest tenth of what comes before the end of loading.
   Column before(force_N.begin(), force_N.begin() + static_cast<std::ptrdiff_t>(loaded) + 1);
@@ -40,8 +41,9 @@ Contact find_contact(const Column& force_N, const Column& depth_m, std::size_t l
   const double peak_N = before.back() - zero_N;
   double n = 0, sd = 0, sf = 0, sdd = 0, sdf = 0;
   for (std::size_t i = 0; i <= loaded; ++i) {
-    const double force = force_N[i] - zero_N;
+    double force = force_N[i] - zero_N;
     if (force < 0.2 * peak_N || force > 0.8 * peak_N) continue;
+    if (power != 1.0) force = std::pow(force, 1.0 / power);
     const double d = depth_m[i] - depth_m[loaded];
     n += 1.0;
     sd += d;
@@ -126,13 +128,13 @@ void flag_gap(const Column& time_s, std::size_t contact, std::size_t loaded, Fit
   }
 }
 
-HistoryInput history_input(const IndentationData& data, const CleanColumns& clean,
-                           const Contact& contact, double factor) {
+HistoryInput history_input(const CleanColumns& clean, const Contact& contact, const DepthLaw& law) {
   HistoryInput input;
   input.time_s = clean.columns[0];
   input.output = clean.columns[1];
   input.input = clean.columns[2];
-  input.factor = factor;
+  input.factor = law.factor;
+  input.power = law.power;
   input.contact = contact.first;
   if (contact.is_fitted) {
     const auto [low, high] = std::minmax_element(input.input.begin(), input.input.end());
@@ -144,9 +146,11 @@ HistoryInput history_input(const IndentationData& data, const CleanColumns& clea
   const std::size_t loaded = end_of_loading(input.input);
   const double limit_m = contact.is_fitted ? contact.depth_m : 0.0;
   std::size_t end = loaded;
-  while (end < input.time_s.size() && input.input[end] > limit_m) ++end;
+  // A sphere's or cone's contact must not shrink, or the integral no longer holds.
+  const double least_m =
+      law.power == 1.0 ? limit_m : limit_m + 0.98 * (input.input[loaded] - limit_m);
+  while (end < input.time_s.size() && input.input[end] > least_m) ++end;
   for (Column* column : {&input.time_s, &input.output, &input.input}) column->resize(end);
-  (void)data;
   return input;
 }
 
@@ -184,9 +188,9 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
     }
   }
   const std::size_t loaded = end_of_loading(clean.columns[2]);
-  const Contact contact = find_contact(clean.columns[1], clean.columns[2], loaded);
-  const double factor_m = data.contact ? force_per_modulus_and_depth_m(*data.contact) : 1.0;
-  const HistoryInput input = history_input(data, clean, contact, factor_m);
+  const DepthLaw law = data.contact ? depth_law(*data.contact) : DepthLaw{1.0, 1.0};
+  const Contact contact = find_contact(clean.columns[1], clean.columns[2], loaded, law.power);
+  const HistoryInput input = history_input(clean, contact, law);
   if (input.time_s.size() < kLeastRows) {
     throw std::runtime_error("only " + std::to_string(input.time_s.size()) +
                              " samples lie between contact and its loss; a fit takes at least " +
@@ -222,7 +226,12 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
                             result);
   flag_saturation(input.output, result);
   flag_gap(input.time_s, contact.first, end, result);
-  if (data.contact && end > contact.first) {
+  if (law.power != 1.0 && input.time_s.size() < clean.columns[0].size()) {
+    result.flags.push_back({"unloading-left-out", 0,
+                            "samples after the depth began to fall were left out: the formula for "
+                            "a sphere or cone holds while the contact does not shrink"});
+  }
+  if (data.contact && law.power == 1.0 && end > contact.first) {
     const auto slice = [&](const Column& column) {
       return Column(column.begin() + static_cast<std::ptrdiff_t>(contact.first),
                     column.begin() + static_cast<std::ptrdiff_t>(end) + 1);
@@ -243,8 +252,13 @@ double systematic_share(const IndentationData& data, const FitResult& result) {
   double square = std::pow(data.force_relative_u, 2);
   if (data.contact) square += std::pow(relative_uncertainty(*data.contact), 2);
   if (data.frame_stiffness_N_m > 0.0) {
-    const double factor_m = data.contact ? force_per_modulus_and_depth_m(*data.contact) : 1.0;
-    const double share = factor_m * result.E0_Pa / data.frame_stiffness_N_m;
+    const DepthLaw law = data.contact ? depth_law(*data.contact) : DepthLaw{1.0, 1.0};
+    // Stiffness of the contact at the largest depth.
+    const double depth_m =
+        law.power == 1.0 ? 1.0 : *std::max_element(data.depth_m.begin(), data.depth_m.end());
+    const double stiffness_N_m =
+        law.power * law.factor * std::pow(depth_m, law.power - 1.0) * result.E0_Pa;
+    const double share = stiffness_N_m / data.frame_stiffness_N_m;
     square = std::pow(data.force_relative_u * (1.0 + share), 2) +
              (square - std::pow(data.force_relative_u, 2)) +
              std::pow(share * data.frame_stiffness_relative_u, 2);
@@ -255,6 +269,11 @@ double systematic_share(const IndentationData& data, const FitResult& result) {
 }  // namespace
 
 FitResult fit_indentation(const IndentationData& data, const FitOptions& options) {
+  if (!data.moves.empty() && data.contact && data.contact->shape != TipShape::kFlat) {
+    throw std::runtime_error(
+        "captured runs are fitted for a flat punch only; export the run (viscard export) and fit "
+        "its table of force and depth for a sphere or cone");
+  }
   FitResult result =
       data.moves.empty() ? fit_measured_depth(data, options) : fit_stage_indentation(data, options);
   result.kind = FitKind::kIndentation;

@@ -268,9 +268,9 @@ Material common_of(const std::vector<Material>& specimens) {
   common.provenance = first.provenance;
   common.provenance.raw_files.clear();
   common.uncertainty.emplace();
-  double nu = 0.0;
+  double of_others = 0.0;
   for (const Material& one : specimens) {
-    nu += one.nu / static_cast<double>(specimens.size());
+    of_others += (one.nu - first.nu) / static_cast<double>(specimens.size());
     if (common.rho_kg_m3 == 0.0) common.rho_kg_m3 = one.rho_kg_m3;
     if (one.T_ref_C != common.T_ref_C) {
       common.T_ref_C.reset();
@@ -285,7 +285,7 @@ Material common_of(const std::vector<Material>& specimens) {
     auto& all = common.provenance.raw_files;
     all.insert(all.end(), raw.begin(), raw.end());
   }
-  common.nu = nu;
+  common.nu = first.nu + of_others;
   common.E0_Pa = first.E0_Pa;
   return common;
 }

@@ -189,6 +189,11 @@ void report_stage_fit(const StageModel& model, const IndentationData& data, cons
 }  // namespace
 
 FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& options) {
+  if (!options.constraints.empty()) {
+    throw std::runtime_error(
+        "parameters of a captured run cannot be constrained: specimen and frame are fitted "
+        "together; export the run and fit its table");
+  }
   const double factor_m = data.contact ? force_per_modulus_and_depth_m(*data.contact) : 1.0;
   Eigen::VectorXd start = nuisance_start(data);
   TwoSigmas sigmas;

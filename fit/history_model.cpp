@@ -30,6 +30,16 @@ struct StepFactors {
   }
 };
 
+// Depth counted from contact, to the power of the tip.
+double powered(double depth, double power) {
+  if (power == 1.0) return depth;
+  return depth > 0.0 ? std::pow(depth, power) : 0.0;
+}
+double powered_slope(double depth, double power) {
+  if (power == 1.0) return 1.0;
+  return depth > 0.0 ? power * std::pow(depth, power - 1.0) : 0.0;
+}
+
 }  // namespace
 
 std::size_t end_of_loading(const std::vector<double>& input) {
@@ -123,9 +133,11 @@ ModelColumns HistoryModel::sample_columns(const Eigen::VectorXd& ln_tau,
   Index column = 0;
   if (with_equilibrium_) {
     for (std::size_t k = first; k < in_.time_s.size(); ++k) {
-      out.values(static_cast<Index>(k), column) = c * (in_.input[k] - contact_input);
+      const double depth = in_.input[k] - contact_input;
+      out.values(static_cast<Index>(k), column) = c * powered(depth, in_.power);
       if (with_slopes && in_.contact_input)
-        out.nuisance_slopes[0](static_cast<Index>(k), column) = -c;
+        out.nuisance_slopes[0](static_cast<Index>(k), column) =
+            -c * powered_slope(depth, in_.power);
     }
     ++column;
   }
@@ -140,22 +152,32 @@ ModelColumns HistoryModel::sample_columns(const Eigen::VectorXd& ln_tau,
     StepFactors step;
     double q = 0.0;
     double slope = 0.0;
+    double contact_slope = 0.0;  // d q/d contact_input, for other tips than flat
     double previous_s = contact_s;
-    double previous = contact_input;
+    double previous = 0.0;
+    double previous_slope = 0.0;
     for (std::size_t k = first; k < in_.time_s.size(); ++k) {
       step.set(in_.time_s[k] - previous_s, tau_s);
-      const double change = in_.input[k] - previous;
+      const double depth = in_.input[k] - contact_input;
+      const double value = powered(depth, in_.power);
+      const double change = value - previous;
       if (with_slopes) slope = step.decay * (slope + step.x * q) + change * step.slope;
       q = step.decay * q + step.p1 * change;
       previous_s = in_.time_s[k];
-      previous = in_.input[k];
+      previous = value;
       const auto row = static_cast<Index>(k);
       out.values(row, n_common() + i) = c * q;
       if (!with_slopes) continue;
       out.term_slopes(row, i) = c * slope;
-      if (in_.contact_input) {
+      if (!in_.contact_input) continue;
+      if (in_.power == 1.0) {
         out.nuisance_slopes[0](row, n_common() + i) =
             -c * std::exp(-(in_.time_s[k] - contact_s) / tau_s);
+      } else {
+        const double next_slope = -powered_slope(depth, in_.power);
+        contact_slope = step.decay * contact_slope + step.p1 * (next_slope - previous_slope);
+        previous_slope = next_slope;
+        out.nuisance_slopes[0](row, n_common() + i) = c * contact_slope;
       }
     }
   }

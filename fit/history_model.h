@@ -12,7 +12,7 @@ namespace viscard {
 
 // Response to a measured history of depth or strain, linear between samples   (fit/README.md, eq.
 // 2):
-//   y(t) = c int E(t - s) d(input) + offset [+ drift t]
+//   y(t) = c int E(t - s) d(input^power) + offset [+ drift t]
 // by the exact recursion of models/hereditary.h, one pass over all samples for each relaxation
 // time. Every sample up to the end of loading is a row; later ones are averaged in log time, the
 // data and the basis alike.
@@ -20,7 +20,10 @@ struct HistoryInput {
   std::vector<double> time_s;  // sorted
   std::vector<double> input;   // depth in m, or strain
   std::vector<double> output;  // force in N, or stress in Pa
-  double factor = 1.0;         // c; moduli come out in output/(c input)
+  double factor = 1.0;         // c; moduli come out in output/(c input^power)
+  // 1.5 for a sphere, 2 for a cone. input^power is then taken as linear between samples, and the
+  // input must not fall: Lee & Radok (models/punch_contact.h).
+  double power = 1.0;
   std::size_t contact = 0;  // first sample that may be in contact; before it the input counts as 0
   // Contact position as a nuisance, counted in the input; none: contact at input 0.
   std::optional<double> contact_input;

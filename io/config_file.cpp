@@ -157,11 +157,37 @@ void show_test(FieldVisitor& fields, TestPlan& plan) {
   });
 }
 
+// [tip]: left out for a flat punch.
+void show_tip(FieldVisitor& fields, PunchContact& contact) {
+  std::string shape = contact.shape == TipShape::kSphere ? "sphere"
+                      : contact.shape == TipShape::kCone ? "cone"
+                                                         : "flat";
+  fields.text({"shape", "flat"}, shape);
+  if (shape != "flat" && shape != "sphere" && shape != "cone") {
+    throw std::runtime_error("tip.shape is '" + shape +
+                             "'; expected \"flat\", \"sphere\" or \"cone\"");
+  }
+  contact.shape = shape == "sphere" ? TipShape::kSphere
+                  : shape == "cone" ? TipShape::kCone
+                                    : TipShape::kFlat;
+  fields.boolean("sticking", contact.is_sticking);
+  if (shape == "sphere") {
+    fields.quantity({"radius", "m", kPositive, true}, contact.punch_radius_m);
+    fields.quantity({"radius_u", "m", kNotNegative}, contact.punch_radius_u_m);
+  }
+  if (shape == "cone") {
+    fields.quantity({"half_angle", "rad", kPositive, true}, contact.half_angle_rad);
+    fields.quantity({"half_angle_u", "rad", kNotNegative}, contact.half_angle_u_rad);
+  }
+}
+
 void show_contact(FieldVisitor& fields, PunchContact& contact) {
-  fields.quantity({"punch_diameter", "m", kPositive, true, 2.0}, contact.punch_radius_m);
-  fields.quantity(
-      {.key = "punch_diameter_u", .unit = "m", .range = kNotNegative, .written_per_value = 2.0},
-      contact.punch_radius_u_m);
+  if (contact.shape == TipShape::kFlat) {
+    fields.quantity({"punch_diameter", "m", kPositive, true, 2.0}, contact.punch_radius_m);
+    fields.quantity(
+        {.key = "punch_diameter_u", .unit = "m", .range = kNotNegative, .written_per_value = 2.0},
+        contact.punch_radius_u_m);
+  }
   // Required: a half-space taken for granted overestimates the modulus of a thin layer.
   fields.quantity({.key = "layer_thickness",
                    .unit = "m",
@@ -183,6 +209,7 @@ void show_specimen(FieldVisitor& fields, Specimen& specimen) {
   fields.quantity({"modulus_guess", "Pa", kPositive, true}, specimen.modulus_guess_Pa);
   fields.quantity({"density", "kg/m3", kNotNegative}, specimen.rho_kg_m3);
   fields.quantity({"temperature", "degC"}, specimen.temperature_C);
+  fields.section("tip", [&](FieldVisitor& inner) { show_tip(inner, specimen.contact); });
   fields.section("contact", [&](FieldVisitor& inner) { show_contact(inner, specimen.contact); });
 }
 

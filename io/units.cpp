@@ -71,14 +71,15 @@ std::string with_known_words(std::string_view text, bool is_temperature) {
   struct Word {
     std::string_view word, meaning;
   };
-  constexpr std::array<Word, 8> kWords{{{"step", "1"},
+  constexpr std::array<Word, 9> kWords{{{"step", "1"},
                                         {"steps", "1"},
                                         {"sample", "1"},
                                         {"samples", "1"},
                                         {"sps", "s-1"},
                                         {"SPS", "s-1"},
                                         {"counts", "count"},
-                                        {"secs", "s"}}};
+                                        {"secs", "s"},
+                                        {"deg", "arc_degree"}}};
   if (is_temperature && (text == "C" || text == "°C")) return "degC";
   std::string out;
   for (std::size_t i = 0; i < text.size();) {

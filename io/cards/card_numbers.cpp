@@ -128,6 +128,9 @@ CardNumbers numbers_from_material(const Material& given, const CardTarget& targe
   numbers.bulk = to_card(is_instantaneous ? moduli.K0_Pa : moduli.K_inf_Pa, stress);
   numbers.shear = to_card(is_instantaneous ? moduli.G0_Pa : moduli.G_inf_Pa, stress);
   numbers.density = to_card(material.rho_kg_m3, units.density_exponent);
+  if (material.shift && material.shift->law == ShiftLaw::kWlf && target.takes_wlf) {
+    numbers.shift = material.shift;
+  }
   switch (target.branch) {
     case BranchNumber::kRelative:
       numbers.equilibrium = 1.0 - moduli.sum_g;
@@ -187,6 +190,8 @@ Material material_from_numbers(const CardNumbers& numbers, const CardTarget& tar
   material.E0_Pa = 9.0 * moduli.G0_Pa / (3.0 + ratio);
   material.nu = (3.0 - 2.0 * ratio) / (2.0 * (3.0 + ratio));
   material.rho_kg_m3 = from_card(numbers.density, units.density_exponent);
+  material.shift = numbers.shift;
+  if (numbers.shift) material.T_ref_C = numbers.shift->T_ref_C;
   return material;
 }
 

@@ -4,6 +4,7 @@
 #include "io/cards/unit_system.h"
 #include "models/material.h"
 
+#include <optional>
 #include <vector>
 
 namespace viscard {
@@ -22,6 +23,9 @@ struct CardNumbers {
   double equilibrium = 0.0;           // like CardBranch::shear, of the branch that never relaxes
   double density = 0.0;               // 0: not given
   std::vector<CardBranch> branches;
+  // Temperatures in C: they have one unit in all our unit systems. Only if the target takes the
+  // law.
+  std::optional<TemperatureShift> shift;
 };
 
 // The same material under the bulk rule of the target: k_i kept, zero, or g_i.

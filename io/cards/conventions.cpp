@@ -18,6 +18,7 @@ CardTarget abaqus() {
           .extension = ".inp",
           .comment = "**",
           .takes_incompressible = true,
+          .takes_wlf = true,
           .evidence = kParsed,
           .evidence_note = "public keyword manual; an independent reader found the numbers",
           .advice =
@@ -31,6 +32,7 @@ CardTarget ansys() {
           .extension = ".mac",
           .comment = "!",
           .max_terms = 100,
+          .takes_wlf = true,
           .evidence = kParsed,
           .evidence_note = "public command manual; an independent reader found the numbers",
           .advice =
@@ -147,6 +149,7 @@ CardTarget comsol() {
           .at = kLongTerm,
           .branch = kAbsoluteShear,
           .bulk = kConstantBulk,
+          .takes_wlf = true,
           .evidence = kDocumentation,
           .evidence_note = "public documentation and published model files; not run",
           .advice =
@@ -173,6 +176,7 @@ CardTarget frontistr() {
           .extension = ".cnt",
           .comment = "#",
           .bulk = kConstantBulk,
+          .takes_wlf = true,
           .evidence = kRun,
           .evidence_note = "FrontISTR on one element, ramp and hold: 3e-8",
           .advice = "Needs !SOLUTION, TYPE=NLSTATIC and !STEP, TYPE=VISCO."};
@@ -184,6 +188,7 @@ CardTarget json() {
           .extension = ".json",
           .comment = "",
           .takes_incompressible = true,
+          .takes_wlf = true,
           .evidence = kOurs,
           .evidence_note = "read back by viscard; units stand beside the numbers",
           .advice = ""};

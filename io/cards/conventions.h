@@ -59,6 +59,7 @@ struct CardTarget {
   bool states_equilibrium = false;  // the share that never relaxes stands in the card
   int max_terms = 0;                // 0: no limit known
   bool takes_incompressible = false;
+  bool takes_wlf = false;  // a place for log10 a_T = -C1 (T - T_ref)/(C2 + T - T_ref)
   Evidence evidence = Evidence::kOurs;
   std::string evidence_note;
   std::string advice;  // what the user of this code must do besides pasting the card

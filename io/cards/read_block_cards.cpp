@@ -252,12 +252,22 @@ void read_comsol(const std::string& text, ReadCard& card) {
   std::map<int, CardBranch> branches;
   bool has_young = false;
   const std::regex row("^\\s*(\\w+)\\s+([-+.\\deE]+)(?:\\[([^\\]]*)\\])?(?:\\s.*)?$");
-  const std::regex suffix("^(.*_)?(Einf|E_inf|nuinf|nu|rho|G\\d+|tau\\d+)$");
+  const std::regex suffix("^(.*_)?(Einf|E_inf|nuinf|nu|rho|Tref|C1|C2|G\\d+|tau\\d+)$");
   for (const CardLine& line : card_lines(text, "%")) {
     std::smatch match, role;
     if (!std::regex_match(line.text, match, row)) continue;
     const std::string name = match[1].str();
     if (!std::regex_match(name, role, suffix)) continue;
+    const std::string shift_role = role[2].str();
+    if (shift_role == "Tref" || shift_role == "C1" || shift_role == "C2") {
+      if (!card.numbers.shift) card.numbers.shift.emplace();
+      double& constant = shift_role == "Tref" ? card.numbers.shift->T_ref_C
+                         : shift_role == "C1" ? card.numbers.shift->C1
+                                              : card.numbers.shift->C2_K;
+      constant = card_number(match[2].str(), line, name);
+      if (shift_role == "Tref" && match[3].str() == "K") constant += kAbsoluteZero_C;
+      continue;
+    }
     const double factor = comsol_factor(match[3].str(), line);
     const double number = card_number(match[2].str(), line, name);
     const double value = factor < 1.0 ? number / std::round(1.0 / factor) : number * factor;
@@ -300,6 +310,12 @@ void read_card_json(const std::string& text, ReadCard& card) {
     }
     for (std::size_t i = 0; i < g.size(); ++i)
       card.numbers.branches.push_back({g[i], k[i], tau[i]});
+    if (json.contains("shift")) {
+      const nlohmann::json& shift = json["shift"];
+      card.numbers.shift = TemperatureShift{.T_ref_C = shift.at("T_ref_C").get<double>(),
+                                            .C1 = shift.at("C1").get<double>(),
+                                            .C2_K = shift.at("C2_K").get<double>()};
+    }
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(std::string("not a JSON card: ") + error.what());
   }

@@ -76,6 +76,22 @@ void require(bool is_there, const std::string& what) {
   if (!is_there) throw std::runtime_error("the card has no " + what);
 }
 
+// T_ref, C1, C2 of a WLF law. Other laws are not read.
+void read_wlf(const KeywordBlock& block, ReadCard& card) {
+  if (!block.parameters.empty() && !block.has("DEFINITION=WLF")) {
+    card.findings.push_back({"shift-not-read",
+                             "line " + std::to_string(block.line.number) +
+                                 ": only DEFINITION=WLF is read; the shift is left out",
+                             false});
+    return;
+  }
+  const CardLine& line = first_data(block);
+  const auto row = cells(line.text, ',');
+  card.numbers.shift = TemperatureShift{.T_ref_C = cell_number(row, 0, line, "T_ref"),
+                                        .C1 = cell_number(row, 1, line, "C1"),
+                                        .C2_K = cell_number(row, 2, line, "C2")};
+}
+
 void note_static_step(const KeywordBlock& block, const char* wanted, ReadCard& card) {
   if (block.keyword == "*STATIC" && !block.has("LONGTERM")) {
     card.findings.push_back({"static-step",
@@ -100,6 +116,8 @@ void read_abaqus(const std::string& text, ReadCard& card) {
       read_elastic(block, card.numbers);
       card.understood.at =
           block.has("MODULI=INSTANTANEOUS") ? ModulusAt::kInstantaneous : ModulusAt::kLongTerm;
+    } else if (block.keyword == "*TRS") {
+      read_wlf(block, card);
     } else if (block.keyword == "*VISCOELASTIC") {
       if (!block.has("TIME=PRONY")) {
         throw std::runtime_error("line " + std::to_string(block.line.number) +
@@ -196,6 +214,8 @@ void read_frontistr(const std::string& text, ReadCard& card) {
         card.numbers.branches.push_back(
             {cell_number(row, 0, line, "mu_i"), 0.0, cell_number(row, 1, line, "tau_i")});
       }
+    } else if (block.keyword == "!TRS") {
+      read_wlf(block, card);
     } else if (block.keyword == "!SOLUTION" && block.has("TYPE=STATIC")) {
       card.findings.push_back({"static-step",
                                "line " + std::to_string(block.line.number) +
@@ -291,7 +311,7 @@ void read_ansys_property(const std::vector<std::string>& row, const CardLine& li
 
 void read_ansys(const std::string& text, ReadCard& card) {
   std::vector<PronyTable> tables;
-  bool in_elastic = false, has_young = false;
+  bool in_elastic = false, in_shift = false, has_young = false;
   for (CardLine line : card_lines(text, "!")) {
     line.text = line.text.substr(0, line.text.find('!'));
     const std::vector<std::string> row = cells(line.text, ',');
@@ -301,6 +321,7 @@ void read_ansys(const std::string& text, ReadCard& card) {
     } else if (command == "TB") {
       const std::string kind = upper(row.size() > 1 ? row[1] : "").substr(0, 4);
       in_elastic = kind == "ELAS";
+      in_shift = kind == "SHIF" && upper(row.size() > 5 ? row[5] : "") == "WLF";
       if (kind == "PRON") {
         const std::string part = upper(row.size() > 5 ? row[5] : "SHEAR").substr(0, 4);
         tables.push_back({line,
@@ -313,6 +334,10 @@ void read_ansys(const std::string& text, ReadCard& card) {
       card.numbers.young = cell_number(row, 2, line, "E");
       card.numbers.poisson = cell_number(row, 3, line, "nu");
       has_young = true;
+    } else if (command == "TBDATA" && in_shift) {
+      card.numbers.shift = TemperatureShift{.T_ref_C = cell_number(row, 2, line, "Tref"),
+                                            .C1 = cell_number(row, 3, line, "C1"),
+                                            .C2_K = cell_number(row, 4, line, "C2")};
     } else if (command == "TBDATA" && !tables.empty()) {
       add_constants(row, line, tables.back(), card);
     }

@@ -125,6 +125,11 @@ std::string comsol_body(const CardBody& body) {
     out +=
         row("tau" + index, numbers.branches[i].time, time, "branch " + index + " relaxation time");
   }
+  if (numbers.shift) {
+    out += row("Tref", numbers.shift->T_ref_C, "degC", "WLF reference temperature");
+    out += row("C1", numbers.shift->C1, "", "WLF constant C1");
+    out += row("C2", numbers.shift->C2_K, "K", "WLF constant C2");
+  }
   return out;
 }
 

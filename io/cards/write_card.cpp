@@ -90,6 +90,25 @@ void settle_bulk(Material& material, const CardTarget& target, const CardOptions
   material = mapped;
 }
 
+// Only WLF has a common form; what else is known of temperature stands in the header alone.
+void settle_shift(const Material& material, const CardTarget& target,
+                  std::vector<FidelityItem>& fidelity) {
+  if (!material.shift) return;
+  const TemperatureShift& shift = *material.shift;
+  const bool is_wlf = shift.law == ShiftLaw::kWlf;
+  const std::string law =
+      is_wlf ? fmt::format("WLF, C1 = {}, C2 = {} K at {} C", shift.C1, shift.C2_K, shift.T_ref_C)
+             : fmt::format("Arrhenius, {} J/mol at {} C", shift.activation_J_mol, shift.T_ref_C);
+  if (is_wlf && target.takes_wlf) {
+    fidelity.push_back({"temperature", Mapping::kExact, law + "; temperatures in C"});
+  } else {
+    fidelity.push_back({"temperature", Mapping::kDropped,
+                        law + (is_wlf ? "; this card has no place for a shift"
+                                      : "; only WLF is written, so the card holds at its "
+                                        "reference temperature")});
+  }
+}
+
 // What a reader of the body gets, and how far the printed digits take E(t) and the density from the
 // numbers they stand for.
 void read_back(const std::string& body, const CardTarget& target, const UnitSystem& units,
@@ -99,6 +118,14 @@ void read_back(const std::string& body, const CardTarget& target, const UnitSyst
     if (finding.is_mistake) throw std::logic_error("viscard wrote a wrong card: " + finding.text);
   }
   card.written = read.material;
+  if (target.takes_wlf && material.shift && material.shift->law == ShiftLaw::kWlf) {
+    const auto& back = read.material.shift;
+    const auto is_same = [](double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(b); };
+    if (!back || !is_same(back->C1, material.shift->C1) ||
+        !is_same(back->C2_K, material.shift->C2_K)) {
+      throw std::logic_error("viscard wrote a wrong temperature shift for " + target.name);
+    }
+  }
   const double rounding =
       largest_E_difference(read.material, material, comparison_times_s(material));
   if (!(rounding <= kWorstRounding)) {
@@ -140,6 +167,7 @@ Card write_card(const Material& given, const CardOptions& options) {
   settle_nu(material, target, options, card.fidelity);
   settle_terms(material, target);
   settle_bulk(material, target, options, card.fidelity);
+  settle_shift(material, target, card.fidelity);
   const bool is_reduced =
       std::any_of(card.fidelity.begin(), card.fidelity.end(),
                   [](const FidelityItem& item) { return item.item == "terms"; });

@@ -127,6 +127,12 @@ std::string json_body(const CardBody& body) {
     json["k"].push_back(branch.bulk);
     json["tau"].push_back(branch.time);
   }
+  if (body.numbers.shift) {
+    json["shift"] = {{"law", "wlf"},
+                     {"T_ref_C", body.numbers.shift->T_ref_C},
+                     {"C1", body.numbers.shift->C1},
+                     {"C2_K", body.numbers.shift->C2_K}};
+  }
   auto& derived = json["derived"];
   derived["E_inf"] = stress(moduli.E_inf_Pa);
   derived["G0"] = stress(moduli.G0_Pa);

@@ -23,6 +23,11 @@ std::string ansys_table(const char* kind, const std::vector<CardBranch>& branche
   return out;
 }
 
+// T_ref, C1, C2: the order all three codes take.
+std::string wlf_row(const TemperatureShift& shift) {
+  return number(shift.T_ref_C) + ", " + number(shift.C1) + ", " + number(shift.C2_K) + "\n";
+}
+
 bool any_bulk(const std::vector<CardBranch>& branches) {
   for (const CardBranch& branch : branches) {
     if (branch.bulk != 0.0) return true;
@@ -65,6 +70,9 @@ std::string abaqus_body(const CardBody& body) {
   for (const CardBranch& branch : numbers.branches) {
     out += number(branch.shear) + ", " + number(branch.bulk) + ", " + number(branch.time) + "\n";
   }
+  // log10 a_T = -C1 (T - T0)/(C2 + T - T0): Abaqus Analysis User's Manual, time domain
+  // viscoelasticity, thermorheologically simple temperature effects.
+  if (numbers.shift) out += "*TRS, DEFINITION=WLF\n" + wlf_row(*numbers.shift);
   return out;
 }
 
@@ -78,6 +86,13 @@ std::string ansys_body(const CardBody& body) {
   if (!numbers.branches.empty()) {
     out += ansys_table("SHEAR", numbers.branches, &CardBranch::shear);
     if (any_bulk(numbers.branches)) out += ansys_table("BULK", numbers.branches, &CardBranch::bulk);
+  }
+  // MAPDL multiplies time by A = 1/a_T, log10 A = C1 (T - Tref)/(C2 + T - Tref): the usual
+  // constants go in with their sign. MAPDL Material Reference, viscoelasticity, shift functions.
+  if (numbers.shift) {
+    std::string row = wlf_row(*numbers.shift);
+    std::erase(row, ' ');
+    out += "TB,SHIFT,1,1,3,WLF\nTBDATA,1," + row;
   }
   return out;
 }
@@ -110,6 +125,7 @@ std::string frontistr_body(const CardBody& body) {
   for (const CardBranch& branch : numbers.branches) {
     out += " " + shortest_number(branch.shear) + ", " + shortest_number(branch.time) + "\n";
   }
+  if (numbers.shift) out += "!TRS, DEFINITION=WLF\n " + wlf_row(*numbers.shift);
   return out;
 }
 

@@ -49,6 +49,12 @@ nlohmann::ordered_json json_of(const CardCheck& check, const CardWords& words) {
   for (const MaterialTerm& term : material.terms) {
     out["terms"].push_back({{"g", term.g}, {"k", term.k}, {"tau_s", term.tau_s}});
   }
+  if (material.shift) {
+    out["shift"] = {{"law", "wlf"},
+                    {"T_ref_C", material.shift->T_ref_C},
+                    {"C1", material.shift->C1},
+                    {"C2_K", material.shift->C2_K}};
+  }
   json["E_difference"] = optional_json(check.E_difference);
   json["G_difference"] = optional_json(check.G_difference);
   json["E_difference_with_bulk"] = optional_json(check.E_difference_with_bulk);
@@ -71,6 +77,10 @@ void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
     for (std::size_t i = 0; i < material.terms.size(); ++i) {
       out << fmt::format("  term {}: g = {:.9g}, k = {:.9g}, tau = {:.9g} s\n", i + 1,
                          material.terms[i].g, material.terms[i].k, material.terms[i].tau_s);
+    }
+    if (material.shift) {
+      out << fmt::format("  WLF: C1 = {:.9g}, C2 = {:.9g} K, T_ref = {:.9g} C\n",
+                         material.shift->C1, material.shift->C2_K, material.shift->T_ref_C);
     }
   }
   if (check.E_difference) {

@@ -22,6 +22,8 @@ struct CardWords {
   std::optional<int> terms;
   std::optional<double> clamped_nu;
   double tolerance = 1e-6;
+  std::optional<double> ratio;  // of a joint fit
+  bool may_extrapolate = false;
   bool list = false, force = false, json = false, is_reproducible = false;
   bool accepts_flags = false, may_approximate = false;
   std::string command_line;

@@ -3,6 +3,7 @@
 #include "io/cards/card.h"
 #include "io/cli/card_words.h"
 #include "io/material_file.h"
+#include "io/ratio_file.h"
 #include "io/sha256.h"
 
 #include <fmt/format.h>
@@ -123,9 +124,48 @@ std::string companion_path(const std::string& out, const std::string& suffix) {
 
 }  // namespace
 
+namespace {
+
+// The material of a joint fit at one ratio, and what the header should say of it.
+void take_ratio(const CardWords& words, PreparedMaterial& prepared) {
+  const RatioFit fit = read_ratio_fit(words.material);
+  if (!words.ratio) {
+    std::string measured;
+    for (const double ratio : fit.best.ratios) {
+      measured += fmt::format("{}{:g}", measured.empty() ? "" : ", ", ratio);
+    }
+    throw UsageError(words.material + " is a joint fit; name the mixing ratio with --ratio R (" +
+                     measured + " were measured, others between them follow the law)");
+  }
+  prepared.material = material_at_ratio(fit, *words.ratio, words.may_extrapolate);
+  const auto& ratios = fit.best.ratios;
+  const bool is_measured = std::find(ratios.begin(), ratios.end(), *words.ratio) != ratios.end();
+  const bool is_outside = *words.ratio < ratios.front() || *words.ratio > ratios.back();
+  const RatioModel& model = is_measured ? fit.best : fit.law;
+  prepared.notes.push_back(fmt::format(
+      "mixing ratio {:g}: {}, from {} specimens at {} ratios ({:g} to {:g})", *words.ratio,
+      is_measured  ? "measured"
+      : is_outside ? "EXTRAPOLATED by the law in the ratio"
+                   : "interpolated by the law in the ratio",
+      model.n_specimens, ratios.size(), ratios.front(), ratios.back()));
+  prepared.notes.push_back("form: " + form_in_words(model.form));
+  prepared.notes.push_back(
+      "the intervals are those of a new specimen: error of the law and scatter between specimens");
+}
+
+}  // namespace
+
 PreparedMaterial prepare_card_material(const CardWords& words) {
   PreparedMaterial prepared;
-  prepared.material = read_material(words.material).material;
+  if (looks_like_ratio_file(words.material)) {
+    take_ratio(words, prepared);
+  } else {
+    if (words.ratio) {
+      throw UsageError(words.material +
+                       " is one material; --ratio needs a joint fit (viscard fit --joint)");
+    }
+    prepared.material = read_material(words.material).material;
+  }
   prepared.sha256 = sha256_of_file(words.material);
   if (prepared.material.name.empty()) {
     prepared.material.name = std::filesystem::path(words.material).stem().string();

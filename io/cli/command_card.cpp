@@ -54,6 +54,10 @@ void add_options(CommandSyntax& syntax, CardWords& words, std::string& terms, do
       "write what the target cannot take exactly, with the error in the header; too many terms are "
       "refitted to fewer")("terms", po::value(&terms)->value_name("N"),
                            "with --approximate: refit to N terms")(
+      "ratio", po::value<double>()->value_name("R"),
+      "mixing ratio, when the material is a joint fit: measured, or between measured ones")(
+      "extrapolate", po::bool_switch(&words.may_extrapolate),
+      "with --ratio: also outside the measured range; the header says so")(
       "bound", po::value(&words.bound)->value_name("END"),
       "lower or upper: the card at that end of the 95 % intervals of the moduli")(
       "elastic-only", po::value(&words.elastic_only)->value_name("WHEN"),
@@ -130,6 +134,7 @@ int run_card(const std::vector<std::string>& words, Streams& streams) {
   card.json = values->count("json") > 0;
   if (values->count("terms") > 0) card.terms = number_of_terms(terms);
   if (values->count("clamp-nu") > 0) card.clamped_nu = nu;
+  if (values->count("ratio") > 0) card.ratio = (*values)["ratio"].as<double>();
   card.command_line = quoted_command_line("card", words);
   check_words(card);
   if (card.list) return list_card_targets(card, streams);

@@ -1,10 +1,12 @@
 #include "io/cli/command_fit.h"
 
+#include "fit/constraints.h"
 #include "io/atomic_file.h"
 #include "io/cli/command_line.h"
+#include "io/cli/fit_batch.h"
+#include "io/cli/fit_joint.h"
 #include "io/cli/fit_material.h"
 #include "io/cli/fit_output.h"
-#include "io/cli/progress.h"
 #include "io/config_file.h"
 #include "io/material_file.h"
 #include "io/units.h"
@@ -12,12 +14,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
+#include <cctype>
 #include <filesystem>
-#include <mutex>
 #include <ostream>
-#include <thread>
+#include <sstream>
 
 namespace po = boost::program_options;
 
@@ -58,9 +58,24 @@ CommandSyntax fit_syntax() {
                                                          "default 0.495")(
       "frame-stiffness", po::value<std::string>(),
       "when depth_m is the stage's: \"10 N/mm\" between stage and punch")(
-      "density", po::value<std::string>(), "for the material file, for instance \"965 kg/m3\"")(
+      "reference-temperature", po::value<std::string>(),
+      "of the master curve that a table with several temperatures (temperature_C) becomes: \"20 "
+      "degC\"; default: the middle one")("density", po::value<std::string>(),
+                                         "for the material file, for instance \"965 kg/m3\"")(
       "out", po::value<std::string>(), "material file to write (one input file)")(
-      "force", "replace an existing material file");
+      "force", "replace an existing material file")(
+      "ratio", po::value<std::vector<double>>()->composing(),
+      "mixing ratio, parts of base to one of curing agent; with --joint once for each file")(
+      "joint",
+      "all files together: the law of the material in its mixing ratio, from captures, tables or "
+      "material files; --out takes the joint file that viscard card reads")(
+      "fix", po::value<Words>()->composing(),
+      "tau_1=0.2: this parameter at this value, in SI; E0, E_inf, and E_i, g_i, tau_i of term i "
+      "(repeatable, needs --terms)")("bound", po::value<Words>()->composing(),
+                                     "g_2=0:0.1: this parameter within bounds")(
+      "constraints", po::value<std::string>(), "file with one --fix or --bound text a line")(
+      "share", po::value<Words>()->composing(),
+      "with --joint: E0, g or tau the same at all ratios (repeatable)");
   syntax.positional = {"file"};
   syntax.last_is_repeatable = true;
   return syntax;
@@ -92,6 +107,33 @@ FitKind kind_from_word(const std::string& word) {
                    " There are indentation, relaxation, creep, dma");
 }
 
+// From --fix, --bound and the lines of --constraints.
+std::vector<ParameterConstraint> constraints_from(const po::variables_map& values) {
+  Words texts;
+  for (const char* option : {"fix", "bound"}) {
+    if (values.count(option) == 0) continue;
+    const auto words = values[option].as<Words>();
+    texts.insert(texts.end(), words.begin(), words.end());
+  }
+  if (values.count("constraints") > 0) {
+    std::istringstream lines(read_file(values["constraints"].as<std::string>()));
+    for (std::string line; std::getline(lines, line);) {
+      line.resize(std::min(line.find('#'), line.size()));
+      std::erase_if(line, [](unsigned char c) { return std::isspace(c) != 0; });
+      if (!line.empty()) texts.push_back(line);
+    }
+  }
+  std::vector<ParameterConstraint> constraints;
+  try {
+    for (const std::string& text : texts) constraints.push_back(constraint_from_text(text));
+    const int n_terms = values.count("terms") > 0 ? values["terms"].as<int>() : 1000;
+    validate(constraints, n_terms);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  return constraints;
+}
+
 FitOptions options_from(const po::variables_map& values) {
   FitOptions options;
   constexpr int kMost = 100;
@@ -120,6 +162,10 @@ FitOptions options_from(const po::variables_map& values) {
     throw UsageError("--noise " + noise + " is not known; there are auto and white");
   }
   options.white_noise = noise == "white";
+  options.constraints = constraints_from(values);
+  if (!options.constraints.empty() && !options.n_terms) {
+    throw UsageError("--fix and --bound name terms by number, so say how many with --terms N");
+  }
   if (options.is_liquid && options.n_terms == 0) {
     throw UsageError("--liquid needs at least one term; nothing is left with --terms 0");
   }
@@ -169,39 +215,11 @@ FitWords words_from(const po::variables_map& values) {
       throw UsageError("--frame-stiffness must be positive; leave it away for a rigid frame");
     }
   }
+  if (values.count("reference-temperature") > 0) {
+    words.T_ref_C = quantity(values, "reference-temperature", "degC");
+  }
   words.specimen = specimen_from(values);
   return words;
-}
-
-// All files on all cores; the first failure in the order of the files is thrown.
-std::vector<FittedFile> fit_files(const Words& files, const FitWords& words, Streams& streams) {
-  std::vector<FittedFile> fitted(files.size());
-  std::vector<std::exception_ptr> failures(files.size());
-  std::atomic<std::size_t> next{0};
-  std::atomic<std::size_t> done{0};
-  std::mutex drawing;
-  Progress progress(streams, "fit");
-  const auto work = [&] {
-    for (std::size_t i = next++; i < files.size(); i = next++) {
-      try {
-        fitted[i] = fit_file(files[i], words);
-      } catch (...) {
-        failures[i] = std::current_exception();
-      }
-      const std::lock_guard lock(drawing);
-      progress.show(static_cast<double>(++done) / static_cast<double>(files.size()), files[i]);
-    }
-  };
-  std::vector<std::thread> threads;
-  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  for (std::size_t i = 1; i < std::min(cores, files.size()); ++i) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
-  progress.clear();
-  for (const std::exception_ptr& failure : failures) {
-    if (failure) std::rethrow_exception(failure);
-  }
-  return fitted;
 }
 
 FittedMaterialWords material_words(const po::variables_map& values, const std::string& command) {
@@ -209,6 +227,18 @@ FittedMaterialWords material_words(const po::variables_map& values, const std::s
   if (values.count("poisson-ratio") > 0) words.nu = values["poisson-ratio"].as<double>();
   if (values.count("density") > 0) words.rho_kg_m3 = quantity(values, "density", "kg/m3");
   return words;
+}
+
+int run_joint(const po::variables_map& values, const Words& files, const std::string& command,
+              Streams& streams) {
+  JointWords joint{.files = files, .fit = words_from(values)};
+  if (values.count("ratio") > 0) joint.ratios = values["ratio"].as<std::vector<double>>();
+  if (values.count("share") > 0) joint.shared = values["share"].as<Words>();
+  joint.material = material_words(values, command);
+  if (values.count("out") > 0) joint.out = values["out"].as<std::string>();
+  joint.overwrite = values.count("force") > 0;
+  joint.json = values.count("json") > 0;
+  return run_joint_fit(joint, streams);
 }
 
 void print(const std::vector<FittedFile>& fitted, bool as_json, std::ostream& out) {
@@ -257,7 +287,12 @@ int run_fit(const Words& words, Streams& streams) {
   }
   const auto files = (*values)["file"].as<Words>();
   const bool has_out = values->count("out") > 0;
-  if (has_out && files.size() > 1) {
+  const bool is_joint = values->count("joint") > 0;
+  if (!is_joint && values->count("share") > 0) throw UsageError("--share needs --joint");
+  if (!is_joint && values->count("ratio") > 0 && files.size() > 1) {
+    throw UsageError("--ratio is of one file here; with --joint once for each");
+  }
+  if (has_out && files.size() > 1 && !is_joint) {
     throw UsageError("--out takes the material of one input file; fit the " +
                      std::to_string(files.size()) + " files one by one");
   }
@@ -267,13 +302,17 @@ int run_fit(const Words& words, Streams& streams) {
         "'" + (*values)["out"].as<std::string>() +
         "' exists already. Choose another --out, or add --force to replace it");
   }
+  if (is_joint) return run_joint(*values, files, quoted_command_line("fit", words), streams);
   FitWords fit_words = words_from(*values);
   fit_words.needs_modulus = has_out;
   const std::vector<FittedFile> fitted = fit_files(files, fit_words, streams);
   print(fitted, values->count("json") > 0, streams.out);
   if (has_out) {
-    const Material material = material_from_fitted(
+    Material material = material_from_fitted(
         fitted.front(), material_words(*values, quoted_command_line("fit", words)));
+    if (values->count("ratio") > 0) {
+      material.mixing_ratio = (*values)["ratio"].as<std::vector<double>>().front();
+    }
     write_file((*values)["out"].as<std::string>(), json_from_material(material), overwrite);
   }
   return report_defects(fitted, streams.err);

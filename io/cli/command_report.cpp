@@ -6,6 +6,7 @@
 #include "io/cli/command_line.h"
 #include "io/cli/fit_material.h"
 #include "io/cli/progress.h"
+#include "io/cli/report_law.h"
 #include "io/cli/report_specimens.h"
 
 #include <fmt/format.h>
@@ -24,8 +25,8 @@ namespace {
 CommandSyntax report_syntax() {
   CommandSyntax syntax{
       "viscard report FILE... --out PAGE.html [OPTIONS]",
-      "Makes one self-contained HTML page of captures and tables (fitted on the way) and material "
-      "files: "
+      "Makes one self-contained HTML page of captures and tables (fitted on the way), material "
+      "files and a joint fit: "
       "estimates with\nintervals, raw record, fit and residuals, spectrum, mixing ratios side by "
       "side, the pillar, cards, provenance.",
       "viscard report data/materials/pdms_1to10_seed.json --out report.html"};
@@ -82,6 +83,7 @@ ReportInput input_from_words(const ReportWords& words, const std::string& title,
   Progress progress(streams, "report");
   input.specimens = read_specimens(
       words, [&](double fraction, const std::string& what) { progress.show(fraction, what); });
+  input.law = mixing_law_of(words.files, input.specimens);
   return input;
 }
 

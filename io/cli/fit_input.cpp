@@ -87,11 +87,44 @@ FitResult fit_indentation_table(const CsvTable& table, const FitWords& words) {
   return fit_indentation(data, words.options);
 }
 
+// Several temperatures in a table of relaxation moduli or frequency sweeps: a master curve.
+std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
+                                            const FitWords& words) {
+  const bool is_step =
+      kind == FitKind::kRelaxation && find_column(table, "modulus_Pa", words.columns);
+  const bool has_temperature = find_column(table, "temperature_C", words.columns).has_value();
+  MasterData data;
+  if (has_temperature) data.temperature_C = column_SI(table, "temperature_C", words.columns);
+  if ((!is_step && kind != FitKind::kDma) || !has_several_temperatures(data.temperature_C)) {
+    if (!words.T_ref_C) return std::nullopt;
+    throw std::runtime_error(
+        "a reference temperature is for tables of modulus_Pa, or storage and loss moduli, with a "
+        "column temperature_C of several temperatures");
+  }
+  if (is_step) {
+    data.argument = time_of(table, words);
+    data.modulus_Pa = column_SI(table, "modulus_Pa", words.columns);
+  } else {
+    data.argument = column_SI(table, "frequency_Hz", words.columns);
+    data.modulus_Pa = column_SI(table, "storage_modulus_Pa", words.columns);
+    data.loss_Pa = column_SI(table, "loss_modulus_Pa", words.columns);
+  }
+  data.T_ref_C = words.T_ref_C;
+  return fit_master_curve(data, words.options);
+}
+
 FittedFile fit_table(const std::string& path, const FitWords& words) {
   const CsvTable table = rows_of_segments(read_csv(path), words);
   FittedFile fitted;
   if (words.specimen) fitted.specimen = *words.specimen;
-  switch (kind_of_table(table, words)) {
+  const FitKind kind = kind_of_table(table, words);
+  fitted.master = fit_temperatures(table, kind, words);
+  if (fitted.master) {
+    fitted.result = fitted.master->fit;
+    fitted.fitted_unit = "Pa";
+    return fitted;
+  }
+  switch (kind) {
     case FitKind::kIndentation:
       fitted.result = fit_indentation_table(table, words);
       fitted.fitted_unit = "N";

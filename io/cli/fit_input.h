@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fit/fit_data.h"
+#include "fit/fit_master_curve.h"
 #include "fit/fit_result.h"
 #include "io/column_map.h"
 #include "models/specimen.h"
@@ -21,6 +22,7 @@ struct FitWords {
   std::optional<Specimen> specimen;   // geometry, in place of the capture's own
   bool needs_modulus = false;         // a stiffness will not do: a material is to be written
   double frame_stiffness_N_m = 0.0;   // for tables whose depth is the stage's
+  std::optional<double> T_ref_C;      // of a master curve
 };
 
 // One file fitted, with what the file said about the specimen.
@@ -29,6 +31,8 @@ struct FittedFile {
   FitResult result;
   Specimen specimen;        // empty for a table without --specimen
   std::string fitted_unit;  // of the fitted column: "N", "Pa", "1/Pa"
+  // A table of several temperatures: `result` is the master curve at the reference.
+  std::optional<MasterCurve> master;
 };
 
 // Reads a capture or a table and fits it. Throws std::runtime_error naming the file.

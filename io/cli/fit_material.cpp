@@ -43,6 +43,10 @@ Material material_from_fitted(const FittedFile& fitted, const FittedMaterialWord
       specimen.id.empty() ? std::filesystem::path(fitted.path).stem().string() : specimen.id;
   if (!specimen.id.empty()) material.T_ref_C = specimen.temperature_C;
   material.mixing_ratio = specimen.mixing_ratio;
+  if (fitted.master) {
+    material.T_ref_C = fitted.master->T_ref_C;
+    if (const TemperatureShift* shift = fitted.master->laws.better()) material.shift = *shift;
+  }
   material.valid = window_of(fitted.result);
   material.provenance.created_by = "viscard " VISCARD_VERSION;
   material.provenance.created_at = words.created_at;

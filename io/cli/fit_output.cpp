@@ -118,6 +118,58 @@ void print_orders(const FitResult& fit, const std::string& unit, std::ostream& o
   }
 }
 
+Json json_of(const TemperatureShift& shift, double chi2, double bic) {
+  Json json;
+  if (shift.law == ShiftLaw::kWlf) {
+    json = {{"C1", number(shift.C1)},
+            {"C2_K", number(shift.C2_K)},
+            {"interval_95", {{"C1", interval(shift.C1_95)}, {"C2_K", interval(shift.C2_K_95)}}}};
+  } else {
+    json = {{"activation_J_mol", number(shift.activation_J_mol)},
+            {"interval_95", {{"activation_J_mol", interval(shift.activation_J_mol_95)}}}};
+  }
+  json["chi2"] = number(chi2);
+  json["bic"] = number(bic);
+  return json;
+}
+
+Json json_of(const MasterCurve& curve) {
+  const ShiftLaws& laws = curve.laws;
+  Json json{{"T_ref_C", number(curve.T_ref_C)}};
+  json["factors"] = Json::array();
+  for (const ShiftFactor& factor : curve.factors) {
+    json["factors"].push_back({{"temperature_C", number(factor.temperature_C)},
+                               {"ln_a", number(factor.ln_a)},
+                               {"ln_a_se", number(factor.ln_a_se)}});
+  }
+  if (laws.wlf) json["wlf"] = json_of(*laws.wlf, laws.wlf_chi2, laws.wlf_bic);
+  if (laws.arrhenius) {
+    json["arrhenius"] = json_of(*laws.arrhenius, laws.arrhenius_chi2, laws.arrhenius_bic);
+  }
+  json["better"] = laws.wlf_is_better ? "wlf" : "arrhenius";
+  return json;
+}
+
+void print_master(const MasterCurve& curve, std::ostream& out) {
+  out << fmt::format("  master curve at {:.4g} C from {} temperatures\n", curve.T_ref_C,
+                     curve.factors.size());
+  for (const ShiftFactor& factor : curve.factors) {
+    out << fmt::format("    {:>8.4g} C   log10 a_T {:>9.4f} +- {:.2g}\n", factor.temperature_C,
+                       factor.ln_a / std::log(10.0), factor.ln_a_se / std::log(10.0));
+  }
+  const ShiftLaws& laws = curve.laws;
+  if (laws.wlf) {
+    out << fmt::format("  {} WLF        C1 {:.5g} (95 % {}), C2 {:.5g} K (95 % {}), BIC {:.2f}\n",
+                       laws.wlf_is_better ? "*" : " ", laws.wlf->C1, range(laws.wlf->C1_95, 1.0, 4),
+                       laws.wlf->C2_K, range(laws.wlf->C2_K_95, 1.0, 4), laws.wlf_bic);
+  }
+  if (laws.arrhenius) {
+    out << fmt::format("  {} Arrhenius  {:.5g} kJ/mol (95 % {}), BIC {:.2f}\n",
+                       laws.wlf_is_better ? " " : "*", 1e-3 * laws.arrhenius->activation_J_mol,
+                       range(laws.arrhenius->activation_J_mol_95, 1e-3, 4), laws.arrhenius_bic);
+  }
+}
+
 }  // namespace
 
 Json json_from_fit(const FittedFile& fitted) {
@@ -155,6 +207,7 @@ Json json_from_fit(const FittedFile& fitted) {
   }
   if (fit.n_bootstrap > 0) json["n_bootstrap"] = fit.n_bootstrap;
   if (!fit.profiles.empty()) json["profiles"] = profiles_of(fit);
+  if (fitted.master) json["shift"] = json_of(*fitted.master);
   json["n_spikes"] = fit.n_spikes;
   json["n_left_out"] = fit.n_left_out;
   return json;
@@ -190,6 +243,7 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   const std::string sigma_unit = fit.kind == FitKind::kDma ? "(relative)" : fitted.fitted_unit;
   out << fmt::format("  noise {:.3g} {}, variance x {:.3g} for its memory\n", fit.noise.sigma,
                      sigma_unit, fit.noise.inflation);
+  if (fitted.master) print_master(*fitted.master, out);
   print_orders(fit, fitted.fitted_unit, out);
   if (!fit.flags.empty()) out << "\n";
   for (const MaterialFlag& flag : fit.flags) {

@@ -9,6 +9,7 @@
 #include "io/cli/fit_material.h"
 #include "io/config_file.h"
 #include "io/material_file.h"
+#include "io/ratio_file.h"
 #include "io/sha256.h"
 #include "models/pillar/validate_material.h"
 
@@ -41,6 +42,7 @@ InputFiles sorted_by_kind(const std::vector<std::string>& files) {
     if (!fs::exists(file)) throw std::runtime_error(file + ": there is no such file");
     if (fs::is_directory(file))
       throw std::runtime_error(file + ": is a folder; name the files in it");
+    if (looks_like_ratio_file(file)) continue;  // the law over ratios: report_law
     const bool is_material = fs::path(file).extension() == ".json" && !looks_like_capture(file);
     (is_material ? sorted.materials : sorted.measured).push_back(file);
   }
@@ -110,6 +112,7 @@ SpecimenReport specimen_from_material(const std::string& path) {
   report.material = read_material(path).material;
   report.specimen.id =
       report.material->name.empty() ? fs::path(path).stem().string() : report.material->name;
+  report.specimen.mixing_ratio = report.material->mixing_ratio;
   report.files = {{path, sha256_of_file(path)}};
   return report;
 }

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "fit/assemble_result.h"
+#include "fit/fit_data.h"
+
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// "tau_1=0.2" fixes, "g_2=0:0.1" bounds. Names: E_inf, E_i, or E0, g_i (not both kinds), and tau_i,
+// in SI; terms are counted as in the result, from 1 at the shortest time. Throws
+// std::invalid_argument naming the text.
+ParameterConstraint constraint_from_text(const std::string& text);
+
+// Throws std::invalid_argument: an unknown name, a term beyond n_terms, bounds the wrong way round,
+// or moduli and shares both.
+void validate(const std::vector<ParameterConstraint>& constraints, int n_terms);
+
+// Replaces the fit's state by the best one that keeps the constraints: least squares in all
+// parameters within bounds (trust region of Ceres) from the free optimum and from one that starts
+// at the fixed times. Its covariance is that of the parameters left free; parameters that end on a
+// bound count as fixed there. Common columns but the first (E_inf) and nuisances stay free.
+void constrain(const SpectralModel& model, const FitOptions& options, SpectralFit& fit);
+
+}  // namespace viscard

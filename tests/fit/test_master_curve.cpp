@@ -1,0 +1,166 @@
+#include "fit/fit_master_curve.h"
+#include "fit/master_model.h"
+#include "models/prony_series.h"
+#include "tests/support/error_text.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+using namespace viscard;
+using viscard::test::error_text;
+
+namespace {
+
+const PronySeries kTruth{2e6, {{4e6, 1e-3}, {3e6, 0.1}, {2e6, 3.0}, {1e6, 100.0}}};
+const TemperatureShift kWlf{.law = ShiftLaw::kWlf, .T_ref_C = 20.0, .C1 = 8.86, .C2_K = 101.6};
+const TemperatureShift kArrhenius{
+    .law = ShiftLaw::kArrhenius, .T_ref_C = 20.0, .activation_J_mol = 9e4};
+
+// Steps of 1 to 100 s at each temperature, noise relative to the value.
+MasterData relaxation_data(const TemperatureShift& shift, double noise, std::uint64_t seed) {
+  std::mt19937_64 dice(seed);
+  std::normal_distribution<double> normal;
+  MasterData data;
+  for (const double T_C : {0.0, 10.0, 20.0, 30.0, 45.0, 60.0}) {
+    const double a = std::exp(ln_shift_factor(shift, T_C));
+    for (int i = 0; i < 40; ++i) {
+      const double t_s = std::pow(10.0, -1.0 + 3.0 * i / 39.0);
+      data.temperature_C.push_back(T_C + 0.1 * normal(dice) * (noise > 0.0 ? 1.0 : 0.0));
+      data.argument.push_back(t_s);
+      data.modulus_Pa.push_back(relaxation_modulus_Pa(kTruth, t_s / a) *
+                                (1.0 + noise * normal(dice)));
+    }
+  }
+  data.T_ref_C = 20.0;
+  return data;
+}
+
+bool holds(const Interval& interval, double value) {
+  return value >= interval.low && value <= interval.high;
+}
+
+}  // namespace
+
+TEST_CASE("WLF and Arrhenius factors are those of their formulas", "[models]") {
+  // Ferry's universal constants at T_g + 50 K: log10 a = -8.86 x 50/151.6.
+  CHECK(ln_shift_factor(kWlf, 70.0) ==
+        Approx(-std::numbers::ln10 * 8.86 * 50.0 / 151.6).epsilon(1e-14));
+  CHECK(ln_shift_factor(kWlf, 20.0) == 0.0);
+  CHECK(ln_shift_factor(kArrhenius, 60.0) ==
+        Approx(9e4 / 8.314462618 * (1.0 / 333.15 - 1.0 / 293.15)).epsilon(1e-14));
+  const TemperatureShift moved = with_reference(kWlf, 45.0);
+  CHECK(ln_shift_factor(moved, 70.0) ==
+        Approx(ln_shift_factor(kWlf, 70.0) - ln_shift_factor(kWlf, 45.0))
+            .epsilon(1e-13));  // rounding
+  CHECK(error_text([] { ln_shift_factor(kWlf, -90.0); }).find("pole") != std::string::npos);
+}
+
+TEST_CASE("the master model's slopes are its finite differences", "[fit][gradient]") {
+  MasterSegment cold{0.0, {0.1, 1.0, 10.0}, {3e6, 2e6, 1e6}, {}};
+  MasterSegment sweep{30.0, {0.1, 1.0, 10.0}, {1e6, 2e6, 3e6}, {2e5, 3e5, 2e5}};
+  const MasterModel model({cold, sweep}, 0, {0.0, -1.0}, {});
+  Eigen::VectorXd ln_tau(2), nuisance(1);
+  ln_tau << -1.0, 1.5;
+  nuisance << -1.2;
+  const ModelColumns at = model.columns(ln_tau, nuisance, true);
+  constexpr double kStep = 1e-6;
+  for (int i = 0; i < 2; ++i) {
+    Eigen::VectorXd up = ln_tau, down = ln_tau;
+    up[i] += kStep;
+    down[i] -= kStep;
+    const Eigen::VectorXd slope = (model.columns(up, nuisance, false).values.col(1 + i) -
+                                   model.columns(down, nuisance, false).values.col(1 + i)) /
+                                  (2.0 * kStep);
+    // Central differences: step^2 and rounding/step, of columns of size 1e-6.
+    CHECK((slope - at.term_slopes.col(i)).norm() <= 1e-8 * slope.norm());
+  }
+  Eigen::VectorXd up = nuisance, down = nuisance;
+  up[0] += kStep;
+  down[0] -= kStep;
+  const Eigen::MatrixXd slope =
+      (model.columns(ln_tau, up, false).values - model.columns(ln_tau, down, false).values) /
+      (2.0 * kStep);
+  CHECK((slope - at.nuisance_slopes[0]).norm() <= 1e-8 * slope.norm());
+}
+
+TEST_CASE("segments without noise shift onto the truth they were made from", "[fit][master]") {
+  const MasterCurve curve = fit_master_curve(relaxation_data(kWlf, 0.0, 1), {.n_terms = 4});
+  REQUIRE(curve.laws.wlf);
+  CHECK(curve.laws.wlf_is_better);
+  // The search for the best times stops at 1e-12 of the residual's own size.
+  CHECK(curve.laws.wlf->C1 == Approx(8.86).epsilon(1e-4));
+  CHECK(curve.laws.wlf->C2_K == Approx(101.6).epsilon(1e-4));
+  CHECK(curve.fit.E_inf_Pa == Approx(2e6).epsilon(1e-4));
+  CHECK(curve.fit.terms.back().tau_s == Approx(100.0).epsilon(1e-3));
+  CHECK(curve.T_ref_C == 20.0);
+  CHECK(curve.factors[2].ln_a == 0.0);
+}
+
+TEST_CASE("noisy segments give WLF constants within their intervals, and WLF is named",
+          "[fit][master]") {
+  const MasterCurve curve = fit_master_curve(relaxation_data(kWlf, 0.005, 7));
+  REQUIRE(curve.laws.wlf);
+  CHECK(curve.laws.wlf_is_better);
+  CHECK(curve.laws.wlf_bic < curve.laws.arrhenius_bic);
+  CHECK(holds(curve.laws.wlf->C1_95, 8.86));
+  CHECK(holds(curve.laws.wlf->C2_K_95, 101.6));
+  for (const ShiftFactor& factor : curve.factors) {
+    if (factor.ln_a == 0.0) continue;
+    CAPTURE(factor.temperature_C);
+    CHECK(factor.ln_a == Approx(ln_shift_factor(kWlf, factor.temperature_C))
+                             .margin(4.0 * factor.ln_a_se + 0.03));  // .1 K of scatter: .02
+  }
+}
+
+TEST_CASE("Arrhenius segments are named so, with the activation energy in its interval",
+          "[fit][master]") {
+  const MasterCurve curve = fit_master_curve(relaxation_data(kArrhenius, 0.005, 3));
+  REQUIRE(curve.laws.arrhenius);
+  CHECK_FALSE(curve.laws.wlf_is_better);
+  CHECK(holds(curve.laws.arrhenius->activation_J_mol_95, 9e4));
+}
+
+TEST_CASE("frequency sweeps at several temperatures make a master curve too", "[fit][master]") {
+  MasterData data;
+  for (const double T_C : {0.0, 15.0, 30.0, 45.0}) {
+    const double a = std::exp(ln_shift_factor(kArrhenius, T_C));
+    for (int i = 0; i < 25; ++i) {
+      const double f_Hz = std::pow(10.0, -2.0 + 3.0 * i / 24.0);
+      const double w = 2.0 * std::numbers::pi * f_Hz * a;
+      double storage = kTruth.equilibrium_modulus_Pa, loss = 0.0;
+      for (const MaxwellTerm& term : kTruth.terms) {
+        const double x = w * term.relaxation_time_s;
+        storage += term.modulus_Pa * x * x / (1.0 + x * x);
+        loss += term.modulus_Pa * x / (1.0 + x * x);
+      }
+      data.temperature_C.push_back(T_C);
+      data.argument.push_back(f_Hz);
+      data.modulus_Pa.push_back(storage);
+      data.loss_Pa.push_back(loss);
+    }
+  }
+  data.T_ref_C = 15.0;
+  const MasterCurve curve = fit_master_curve(data, {.n_terms = 4});
+  CHECK(curve.fit.kind == FitKind::kDma);
+  REQUIRE(curve.laws.arrhenius);
+  CHECK(curve.laws.arrhenius->activation_J_mol == Approx(9e4).epsilon(1e-4));  // no noise
+}
+
+TEST_CASE("segments that share no modulus are refused by name", "[fit][master]") {
+  MasterData data;
+  for (int i = 0; i < 10; ++i) {
+    for (const double T_C : {0.0, 50.0}) {
+      data.temperature_C.push_back(T_C);
+      data.argument.push_back(1.0 + i);
+      data.modulus_Pa.push_back((T_C > 0.0 ? 1e6 : 3e6) - 1e4 * i);
+    }
+  }
+  CHECK(error_text([&] { fit_master_curve(data); }).find("0 C and 50 C have no value in common") !=
+        std::string::npos);
+  data.T_ref_C = 25.0;
+  CHECK(error_text([&] { fit_master_curve(data); }).find("there are 0 C, 50 C") !=
+        std::string::npos);
+}
