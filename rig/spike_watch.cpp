@@ -7,7 +7,9 @@ namespace viscard {
 namespace {
 
 constexpr int kToLearn = 6;
-constexpr double kForget = 0.02;  // of the usual distance, per reading
+constexpr double kForget = 0.05;  // of the usual distance, per reading
+constexpr double kFarBelow = 0.1;
+constexpr double kFastDown = 0.8;
 constexpr double kTimesUsual = 10.0;
 constexpr double kTimesNeighbours = 5.0;
 constexpr double kTeaches = 5.0;  // further off is no noise
@@ -40,10 +42,18 @@ std::optional<std::int64_t> SpikeWatch::take(std::int64_t index, double value) {
   return is_spike ? std::optional(last_[2].index) : std::nullopt;
 }
 
+// Follows the median of the distances, so that no single one matters; quickly down from a value
+// that a spoilt beginning has left.
 void SpikeWatch::learn(double distance, double noise) {
-  if (n_learnt_ >= kToLearn && distance > kTeaches * noise) return;
-  ++n_learnt_;
-  usual_ += (distance - usual_) * std::max(kForget, 1.0 / n_learnt_);
+  if (++n_learnt_ == 1) {
+    usual_ = distance;
+  } else if (distance > kTeaches * noise && n_learnt_ > kToLearn) {
+    return;
+  } else if (distance < usual_) {
+    usual_ *= distance < kFarBelow * usual_ ? kFastDown : 1.0 - kForget;
+  } else {
+    usual_ = std::min(distance, std::max(usual_ * (1.0 + kForget), kFarBelow * distance));
+  }
 }
 
 }  // namespace viscard

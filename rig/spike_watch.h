@@ -35,7 +35,7 @@ class SpikeWatch {
   double least_;
   std::array<Reading, 5> last_;  // oldest first
   std::size_t n_ = 0;            // of them that count
-  double usual_ = 0.0;           // mean distance, spikes left out
+  double usual_ = 0.0;           // distance, a running median
   double least_step_ = 0.0;      // smallest between two readings that is not 0
   int n_learnt_ = 0;
 };

@@ -128,6 +128,11 @@ void check_readings(const RigFixture& rig, Tally& tally) {
     bool is_alone = i >= 10 && i + 2 < samples.size();
     for (std::size_t k = i >= 2 ? i - 2 : 0; k < std::min(i + 3, samples.size()); ++k) {
       is_alone = is_alone && (k == i || (!is_wrong[k] && !samples[k].is_glitch));
+      // A lost neighbour bends the line through the others.
+      if (k > 0) {
+        const double step_s = *samples[k].device_time_s - *samples[k - 1].device_time_s;
+        is_alone = is_alone && step_s < 1.5 * rig.load_cell.period_s();
+      }
     }
     INFO("reading " << samples[i].index << " at " << micros << " us: " << *samples[i].counts
                     << " is off by " << off[i] << ", noticed from " << notice);
