@@ -5,10 +5,12 @@
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 using namespace viscard;
@@ -31,7 +33,9 @@ Ran run(const std::vector<std::string>& words) {
 
 class Folder {
  public:
-  Folder() : path_(std::filesystem::temp_directory_path() / "viscard_test_fit") {
+  Folder()
+      : path_(std::filesystem::temp_directory_path() /
+              ("viscard_test_fit_" + std::to_string(getpid()))) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
@@ -151,6 +155,7 @@ TEST_CASE("force and depth without geometry are called stiffness, and give no ma
   CHECK_FALSE(json.contains("E0_Pa"));
   const Ran refused = run({"fit", file, "--out", folder.file("m.json")});
   CHECK(refused.status == kFailed);
+  CHECK(refused.out == "");  // refused before any work
   CHECK_THAT(refused.err, Contains("--punch-diameter"));
   const Ran given = run({"fit", file, "--punch-diameter", "4.4 mm", "--layer-thickness", "11 mm",
                          "--out", folder.file("m.json"), "--json"});
@@ -172,6 +177,7 @@ TEST_CASE("wrong words give one line and exit status 2", "[cli]") {
       {{"fit", file, "--punch-diameter", "4.4 kg"}, "--punch-diameter"},
       {{"fit", file, "--layer-thickness", "1 mm"}, "need --punch-diameter"},
       {{"fit", file, "--column", "modulus=2"}, "modulus"},
+      {{"fit", file, "--bootstrap", "5"}, "outside 20 to 100000"},
       {{"fit", file, "--liquid", "--terms", "0"}, "at least one term"},
       {{"fit", file, file, "--out", folder.file("m.json")}, "one input file"}};
   for (const auto& [words, expected] : cases) {
@@ -199,6 +205,74 @@ TEST_CASE("data that cannot be fitted give one line with the file and exit statu
     CHECK_THAT(ran.err, Contains(expected) && Contains(file));
     CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
   }
+}
+
+namespace {
+
+// Ramp of 1 s and hold, 2e4 N/m, a trace of the last digits in place of noise.
+std::string pressed_table(const std::function<double(double, double)>& force_of,
+                          const std::function<bool(double)>& is_kept) {
+  std::ostringstream text;
+  text.precision(12);
+  text << "time_s,force_N,depth_m\n";
+  for (int i = 0; i <= 800; ++i) {
+    const double t = 0.02 * i;
+    if (!is_kept(t)) continue;
+    const double depth = 1e-4 * std::min(1.0, t);
+    const double force = 2.0e4 * depth * (0.9 + 0.1 * std::exp(-t / 2.0) + 1e-5 * ((7 * i) % 11));
+    text << t << "," << force_of(t, force) << "," << depth << "\n";
+  }
+  return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("bad data get a clear refusal or a flagged answer", "[cli]") {
+  const Folder folder;
+  const auto all = [](double) { return true; };
+  const auto as_is = [](double, double force) { return force; };
+  SECTION("refusals") {
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {"time_s,modulus_Pa\n0,nan\n1,nan\n2,nan\n3,nan\n4,nan\n", "nan"},
+        {pressed_table([](double, double) { return 0.5; }, all), "constant"},
+        {pressed_table([](double, double force) { return -force; }, all), "--column force_N=-NAME"},
+        {"time_s,force_N,depth_m\n0,0,0\n1,1,1e-4\n", "at least"}};
+    for (const auto& [table, expected] : cases) {
+      const Ran ran = run({"fit", folder.write("bad.csv", table)});
+      CAPTURE(ran.err);
+      CHECK(ran.status == kFailed);
+      CHECK(ran.out == "");
+      CHECK_THAT(ran.err, Contains(expected));
+      CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
+    }
+  }
+  SECTION("flagged") {
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {pressed_table(as_is, [](double t) { return t < 0.3 || t > 0.7; }), "gap-in-ramp"},
+        {pressed_table([](double, double force) { return std::min(force, 1.85); }, all),
+         "saturated"}};
+    for (const auto& [table, flag] : cases) {
+      const Ran ran = run({"fit", folder.write("bad.csv", table), "--json"});
+      CHECK(ran.status == kFailed);
+      CHECK_THAT(ran.err, Contains("not to be trusted"));
+      const auto json = nlohmann::json::parse(ran.out);
+      CHECK_FALSE(json["trustworthy"].get<bool>());
+      CHECK_THAT(json["flags"].dump(), Contains(flag));
+    }
+  }
+}
+
+TEST_CASE("profiles and a bootstrap are part of the JSON when asked for", "[cli]") {
+  const Folder folder;
+  const std::string file = folder.write("E.csv", relaxation_table());
+  const Ran ran = run({"fit", file, "--profiles", "--bootstrap", "40", "--terms", "1", "--json"});
+  CHECK(ran.err == "");
+  REQUIRE(ran.status == kDone);
+  const auto json = nlohmann::json::parse(ran.out);
+  CHECK(json["n_bootstrap"] == 40);
+  REQUIRE(json["profiles"].size() == 2);
+  CHECK(json["profiles"][1]["parameter"] == "ln_tau_1");
+  CHECK(json["profiles"][1]["value"].size() == json["profiles"][1]["rise"].size());
 }
 
 TEST_CASE("several files are fitted together, in their order", "[cli]") {
