@@ -1,6 +1,7 @@
 #include "io/cli/command_plan.h"
 
 #include "io/cli/command_line.h"
+#include "io/scene_array.h"
 #include "io/scene_file.h"
 #include "models/pillar/plan.h"
 
@@ -85,6 +86,10 @@ int run_plan(const std::vector<std::string>& words, Streams& streams) {
     throw UsageError(std::string("which scene? usage: ") + syntax.usage);
   }
   const auto path = (*values)["scene"].as<std::string>();
+  if (scene_kind(path) == "array") {
+    throw std::runtime_error(
+        path + ": plans are made for scenes of one pillar; 'viscard simulate' answers arrays");
+  }
   Scene scene = read_scene(path).scene;
   if (values->count("tol") > 0) scene.tolerance = (*values)["tol"].as<double>();
   if (!(scene.tolerance >= 1e-9 && scene.tolerance < 1.0)) {
