@@ -4,7 +4,6 @@
 #include "io/cli/command_line.h"
 #include "io/cli/progress.h"
 #include "io/plot.h"
-#include "io/scene_array.h"
 #include "io/scene_file.h"
 #include "io/study_cost.h"
 #include "io/units.h"
@@ -150,11 +149,6 @@ int run_cost(const std::vector<std::string>& words, Streams& streams) {
     throw UsageError(std::string("which scene? usage: ") + syntax.usage);
   }
   const auto path = (*values)["scene"].as<std::string>();
-  if (scene_kind(path) == "array") {
-    throw std::runtime_error(
-        path +
-        ": cost studies are made for scenes of one pillar; 'viscard simulate' answers arrays");
-  }
   CostOptions options{.budget_s = budget_s((*values)["budget"].as<std::string>())};
   const Scene scene = read_scene(path).scene;
   CostStudy study;
