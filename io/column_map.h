@@ -12,8 +12,9 @@ namespace viscard {
 
 // Columns have one name each in viscard, with the SI unit in it: time_s, force_N, depth_m,
 // modulus_Pa, stress_Pa, strain, compliance_1_Pa, frequency_Hz, storage_modulus_Pa,
-// loss_modulus_Pa, temperature_C, segment. A table's own header is matched by name and unit ("t
-// (s)", "Force [mN]", "E_relax" over "MPa"), or by what the user says in a ColumnMap.
+// loss_modulus_Pa, mass_kg, volts_V, position_m, temperature_C, segment. A table's own header is
+// matched by name and unit ("t (s)", "Force [mN]", "E_relax" over "MPa"), or by what the user says
+// in a ColumnMap.
 
 // Right-hand sides of --column NAME=EXPRESSION: [factor*][-]column, where column is a header as
 // written, a header without its unit, or a number counting columns from 1; a unit in brackets

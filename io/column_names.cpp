@@ -82,6 +82,9 @@ const std::vector<Quantity>& quantities() {
        "loss_modulus",
        "Pa",
        {"E''", "G''", "E\"", "G\"", "e loss", "g loss", "loss modulus", "loss"}},
+      {"mass_kg", "mass", "kg", {"m", "mass", "weight"}},
+      {"volts_V", "volts", "V", {"U", "V", "volts", "voltage", "reading", "output", "amplifier"}},
+      {"position_m", "position", "m", {"z", "position", "stage", "stage position"}},
       {"temperature_C", "temperature", "degC", {"T", "temp", "temperature"}},
       {"segment", "segment", "1", {"segment", "set", "phase", "step", "step name"}, true}};
   return kQuantities;

@@ -2,6 +2,7 @@
 
 #include "io/atomic_file.h"
 #include "io/config_fields.h"
+#include "io/config_show.h"
 #include "models/test_phases.h"
 
 #include <cmath>
@@ -14,15 +15,6 @@ namespace {
 constexpr Range kPositive = Range::kPositive;
 constexpr Range kNotNegative = Range::kNotNegative;
 constexpr Range kFraction = Range::kFraction;
-
-// Shows an integer member of any width.
-template <typename Integer>
-void show_integer(FieldVisitor& fields, const char* key, std::int64_t low, std::int64_t high,
-                  Integer& value) {
-  auto wide = static_cast<std::int64_t>(value);
-  fields.integer(key, low, high, wide);
-  value = static_cast<Integer>(wide);
-}
 
 void show_stage(FieldVisitor& fields, StageConfig& stage) {
   fields.text({"driver", "grbl"}, stage.driver);
@@ -56,104 +48,34 @@ void show_load_cell(FieldVisitor& fields, LoadCellConfig& cell) {
   fields.text({"framing", "8N1"}, cell.framing);
 }
 
-void show_calibration(FieldVisitor& fields, LoadCellCalibration& calibration) {
-  fields.quantity({.key = "volts_per_newton", .unit = "V/N", .is_required = true},
-                  calibration.volts_per_newton);
-  fields.quantity({"volts_per_newton_u", "V/N", kNotNegative}, calibration.volts_per_newton_u);
-  fields.quantity({"zero_volts", "V"}, calibration.zero_volts);
-  fields.quantity({"capacity", "N", kPositive, true}, calibration.capacity_N);
-  fields.text({"id", "cell-7 2026-11"}, calibration.id);
-  fields.text({"date", "2026-11-21"}, calibration.date);
-}
-
 void show_rig(FieldVisitor& fields, RigConfig& rig) {
   fields.text({"name", "bench 1"}, rig.name);
   fields.quantity({"clock_speed", "1", kPositive}, rig.clock_speed);
   fields.section("stage", [&](FieldVisitor& inner) { show_stage(inner, rig.stage); });
   fields.section("load_cell", [&](FieldVisitor& inner) { show_load_cell(inner, rig.load_cell); });
-  fields.section("calibration",
-                 [&](FieldVisitor& inner) { show_calibration(inner, rig.calibration); });
+  const LoadCellConfig& cell = rig.load_cell;
+  const bool knows_gain = cell.driver == "mark10" || cell.driver == "sauter" || !cell.unit.empty();
+  fields.section("calibration", [&](FieldVisitor& inner) {
+    show_calibration(inner, rig.calibration, knows_gain);
+  });
   fields.section("frame", [&](FieldVisitor& inner) {
+    inner.text({"file", "bench.frame.toml"}, rig.frame.file);
     // Required: a frame taken as rigid without a word about it can halve the modulus.
     inner.quantity({.key = "stiffness",
                     .unit = "N/m",
                     .range = kPositive,
-                    .is_required = true,
+                    .is_required = rig.frame.file.empty(),
                     .word = "rigid",
                     .word_value = 0.0},
                    rig.frame.stiffness_N_m);
     inner.quantity({"stiffness_relative_u", "1", kNotNegative}, rig.frame.stiffness_relative_u);
+    inner.text({"id", "bench 2026-11"}, rig.frame.id);
+    inner.text({"date", "2026-11-21"}, rig.frame.date);
   });
   fields.section("safety", [&](FieldVisitor& inner) {
     inner.quantity({"warn_fraction", "1", kFraction}, rig.safety.warn_fraction);
     inner.quantity({"soft_fraction", "1", kFraction}, rig.safety.soft_fraction);
     inner.quantity({"hard_fraction", "1", kFraction}, rig.safety.hard_fraction);
-  });
-}
-
-// What belongs to one protocol each. Its section must be there when it is the one asked for.
-void show_protocols(FieldVisitor& fields, TestPlan& plan) {
-  fields.section("preload", [&](FieldVisitor& inner) {
-    inner.quantity({"force", "N", kNotNegative}, plan.preload_N);
-    inner.quantity({"hold", "s", kNotNegative}, plan.preload_s);
-  });
-  fields.list(
-      "levels", plan.levels.size(), [&](std::size_t size) { plan.levels.assign(size, {}); },
-      [&](FieldVisitor& inner, std::size_t i) {
-        inner.quantity({"depth", "m", kNotNegative, true}, plan.levels[i].depth_m);
-        inner.quantity({"duration", "s", kPositive}, plan.levels[i].ramp_s);
-        inner.quantity({"hold", "s", kNotNegative}, plan.levels[i].hold_s);
-      });
-  fields.section("creep", [&](FieldVisitor& inner) {
-    inner.quantity({"force", "N", kNotNegative, plan.protocol == "creep"}, plan.creep.force_N);
-    inner.quantity({"duration", "s", kPositive}, plan.creep.ramp_s);
-    inner.quantity({"hold", "s", kPositive}, plan.creep.hold_s);
-    inner.quantity({"tolerance", "N", kNotNegative}, plan.creep.tolerance_N);
-    inner.quantity({"depth_limit", "m", kNotNegative}, plan.creep.depth_limit_m);
-  });
-  fields.section("cycles", [&](FieldVisitor& inner) {
-    show_integer(inner, "count", 1, 100000, plan.cycles.count);
-    inner.quantity({"depth", "m", kNotNegative, plan.protocol == "cycles"}, plan.cycles.depth_m);
-    inner.quantity({"duration", "s", kPositive}, plan.cycles.ramp_s);
-    inner.quantity({"hold", "s", kNotNegative}, plan.cycles.hold_s);
-    inner.quantity({"rest", "s", kNotNegative}, plan.cycles.rest_s);
-    inner.quantity({"unload_to_fraction", "1", kFraction}, plan.cycles.unload_to_fraction);
-  });
-  fields.section("staircase", [&](FieldVisitor& inner) {
-    show_integer(inner, "steps", 1, 10000, plan.staircase.steps);
-    inner.quantity({"depth", "m", kNotNegative, plan.protocol == "staircase"},
-                   plan.staircase.depth_m);
-    inner.quantity({"duration", "s", kPositive}, plan.staircase.step_s);
-    inner.quantity({"hold", "s", kNotNegative}, plan.staircase.hold_s);
-    inner.boolean("down", plan.staircase.is_down_too);
-  });
-}
-
-void show_test(FieldVisitor& fields, TestPlan& plan) {
-  fields.text({"name", "stress relaxation"}, plan.name);
-  fields.section("approach", [&](FieldVisitor& inner) {
-    inner.quantity({"speed", "m/s", kPositive}, plan.approach_speed_m_s);
-    inner.quantity({"limit", "m", kPositive}, plan.approach_limit_m);
-    inner.quantity({"contact_force", "N", kPositive}, plan.contact_force_N);
-    inner.quantity({"gap", "m", kNotNegative}, plan.gap_m);
-    inner.quantity({"baseline", "s", kNotNegative}, plan.baseline_s);
-  });
-  fields.text({"protocol", "ramp-hold"}, plan.protocol);
-  show_protocols(fields, plan);
-  const bool is_ramp_hold = plan.protocol == "ramp-hold";
-  fields.section("ramp", [&](FieldVisitor& inner) {
-    inner.quantity({"depth", "m", kPositive, is_ramp_hold}, plan.depth_m);
-    inner.quantity({"duration", "s", kPositive}, plan.ramp_s);
-    inner.quantity({"hold", "s", kNotNegative}, plan.hold_s);
-  });
-  fields.section("recovery", [&](FieldVisitor& inner) {
-    inner.quantity({"unload_to_fraction", "1", kFraction}, plan.unload_to_fraction);
-    inner.quantity({"unload_speed", "m/s", kPositive}, plan.unload_speed_m_s);
-    inner.quantity({"hold", "s", kNotNegative}, plan.recovery_s);
-  });
-  fields.section("retract", [&](FieldVisitor& inner) {
-    inner.quantity({"speed", "m/s", kPositive}, plan.retract_speed_m_s);
-    inner.quantity({"distance", "m", kPositive}, plan.retract_m);
   });
 }
 
@@ -284,7 +206,7 @@ void check_rig(RigConfig& rig) {
         "stage.toward_specimen is 0; expected 1 or -1, the sign of machine motion that presses "
         "into the specimen");
   }
-  validate(rig.calibration);
+  if (rig.calibration.file.empty()) validate(rig.calibration);
   const SafetyConfig& safety = rig.safety;
   if (!(safety.warn_fraction <= safety.soft_fraction &&
         safety.soft_fraction < safety.hard_fraction)) {
@@ -333,7 +255,30 @@ EmulatedTruth truth_from_toml(const std::string& text, const std::string& name) 
 }
 
 RigConfig read_rig(const std::filesystem::path& path) {
-  return rig_from_toml(read_file(path), path.string());
+  RigConfig rig = rig_from_toml(read_file(path), path.string());
+  const std::filesystem::path folder = path.parent_path();
+  // What a record says replaces all of the section, so that it cannot be mixed with older numbers;
+  // only the cell's rating may stand in the rig file alone.
+  if (!rig.calibration.file.empty()) {
+    const double capacity_N = rig.calibration.capacity_N;
+    const CalibrationRecord record = read_calibration(folder / rig.calibration.file);
+    if (!record.calibration) {
+      throw std::runtime_error((folder / rig.calibration.file).string() +
+                               ": holds no [calibration]; make one with viscard calibrate");
+    }
+    rig.calibration = *record.calibration;
+    if (rig.calibration.capacity_N == 0.0) rig.calibration.capacity_N = capacity_N;
+    validate(rig.calibration);
+  }
+  if (!rig.frame.file.empty()) {
+    const CalibrationRecord record = read_calibration(folder / rig.frame.file);
+    if (!record.frame) {
+      throw std::runtime_error((folder / rig.frame.file).string() +
+                               ": holds no [frame]; make one with viscard calibrate --compliance");
+    }
+    rig.frame = *record.frame;
+  }
+  return rig;
 }
 TestPlan read_test(const std::filesystem::path& path) {
   return test_from_toml(read_file(path), path.string());

@@ -1,12 +1,15 @@
 #pragma once
 
+#include "models/calibration.h"
 #include "models/emulated_specimen.h"
 #include "models/rig_config.h"
 #include "models/specimen.h"
 #include "models/test_plan.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -18,6 +21,17 @@ RigConfig read_rig(const std::filesystem::path& path);
 TestPlan read_test(const std::filesystem::path& path);
 Specimen read_specimen(const std::filesystem::path& path);
 EmulatedTruth read_truth(const std::filesystem::path& path);
+
+// A record of `viscard calibrate`, which a rig file names by file = "..." under [calibration] or
+// [frame] (beside the rig file). Keys as in those sections, and [[budget]].
+struct CalibrationRecord {
+  std::optional<LoadCellCalibration> calibration;
+  std::optional<FrameConfig> frame;
+  std::vector<UncertaintyRow> budget;
+};
+CalibrationRecord read_calibration(const std::filesystem::path& path);
+CalibrationRecord calibration_from_toml(const std::string& text, const std::string& name);
+std::string toml_from_calibration(const CalibrationRecord& record);
 
 // The same from text; name stands for the file in messages.
 RigConfig rig_from_toml(const std::string& text, const std::string& name);

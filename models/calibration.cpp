@@ -17,6 +17,30 @@ void validate(const LoadCellCalibration& calibration) {
   }
 }
 
+std::string last_valid_day(const LoadCellCalibration& calibration) {
+  if (!calibration.valid_until.empty()) return calibration.valid_until;
+  const std::string& date = calibration.date;
+  if (date.size() < 10 || date.find_first_not_of("0123456789") != 4) return {};
+  const int year = std::stoi(date.substr(0, 4)) + 1;
+  // A year after a leap day there is none.
+  const std::string day = date.substr(4, 6) == "-02-29" ? "-02-28" : date.substr(4, 6);
+  return std::to_string(year) + day;
+}
+
+std::string calibration_trouble(const LoadCellCalibration& calibration, const std::string& today) {
+  const std::string last = last_valid_day(calibration);
+  const std::string name = calibration.id.empty() ? "" : " '" + calibration.id + "'";
+  if (last.empty()) {
+    return "the load cell's calibration" + name +
+           " has no date, so nobody can tell whether it still holds. Make one with: viscard "
+           "calibrate; or set date under [calibration] of the rig file";
+  }
+  // ISO dates compare as text.
+  if (today.substr(0, 10) <= last.substr(0, 10)) return {};
+  return "the load cell's calibration" + name + " expired on " + last +
+         ". Make a new one with: viscard calibrate";
+}
+
 double force_N_from_volts(const LoadCellCalibration& calibration, double volts) {
   return (volts - calibration.zero_volts) / calibration.volts_per_newton;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -16,7 +17,27 @@ struct LoadCellCalibration {
   double capacity_N = 0.0;          // rated load of the cell
   std::string id;                   // names the calibration record
   std::string date;                 // ISO 8601
+  std::string valid_until;          // ISO 8601, the last day; empty: a year after date
+  std::string file;  // of the record that a rig file names; empty once it has been read
+  // Of the readings with dead weights, as shares of that at the largest load; 0 where not measured.
+  double nonlinearity = 0.0;   // largest departure from the line
+  double hysteresis = 0.0;     // largest difference between falling and rising load
+  double repeatability = 0.0;  // standard deviation of the same load again
 };
+
+// One line of an uncertainty budget (JCGM 100:2008): standard uncertainty relative to the gain.
+struct UncertaintyRow {
+  std::string source;
+  double relative_u = 0.0;
+  std::string how;  // where the number is from
+};
+
+// "2027-01-15": the last day on which the calibration counts; empty if it has no date.
+std::string last_valid_day(const LoadCellCalibration& calibration);
+
+// Why a calibration should not be used on that day (ISO 8601), or "" if it may be: expired, or
+// undated so that nobody can tell.
+std::string calibration_trouble(const LoadCellCalibration& calibration, const std::string& today);
 
 // Throws std::invalid_argument unless the gain is finite and not zero and the capacity positive.
 void validate(const LoadCellCalibration& calibration);

@@ -44,6 +44,9 @@ struct LoadCellConfig {
 struct FrameConfig {
   double stiffness_N_m = 0.0;         // 0: rigid
   double stiffness_relative_u = 0.0;  // standard uncertainty, relative
+  std::string id;                     // names its record
+  std::string date;                   // ISO 8601
+  std::string file;                   // of the record that a rig file names; empty once read
 };
 
 struct SafetyConfig {

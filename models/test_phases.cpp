@@ -147,12 +147,23 @@ void add_staircase(const TestPlan& plan, std::vector<TestPhase>& phases) {
   }
 }
 
+void add_compliance(const TestPlan& plan, std::vector<TestPhase>& phases) {
+  const CompliancePlan& block = plan.compliance;
+  require(block.steps > 2 && block.force_N > 0.0 && block.hold_s > 0.0,
+          "force and hold under [compliance] must be positive, and steps at least 3");
+  const auto n = static_cast<std::size_t>(block.steps);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double force_N = block.force_N * static_cast<double>(i + 1) / block.steps;
+    phases.push_back(by_force(Kind::kLoad, numbered("press", i, n), "ramp", force_N, 1.0, 0.0,
+                              "force under [compliance]", "Pressing harder"));
+    phases.push_back(wait(numbered("hold", i, n), block.hold_s, "At that force"));
+  }
+}
+
 using AddPhases = void (*)(const TestPlan&, std::vector<TestPhase>&);
-constexpr std::pair<const char*, AddPhases> kProtocols[] = {{"ramp-hold", add_ramp_hold},
-                                                            {"levels", add_levels},
-                                                            {"creep", add_creep},
-                                                            {"cycles", add_cycles},
-                                                            {"staircase", add_staircase}};
+constexpr std::pair<const char*, AddPhases> kProtocols[] = {
+    {"ramp-hold", add_ramp_hold}, {"levels", add_levels},       {"creep", add_creep},
+    {"cycles", add_cycles},       {"staircase", add_staircase}, {"compliance", add_compliance}};
 
 AddPhases protocol_named(const std::string& name) {
   std::string known;

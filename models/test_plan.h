@@ -40,16 +40,25 @@ struct StaircasePlan {
   bool is_down_too = true;
 };
 
+// Equal steps of force on a rigid block, to measure how the frame gives way.
+struct CompliancePlan {
+  int steps = 6;
+  double force_N = 0.0;  // at the highest step
+  double hold_s = 2.0;
+};
+
 // What test.toml says (data/demo/02_test.toml and data/protocols/*.toml are commented examples).
 // SI. models/test_phases.h makes the list of phases of it that is carried out.
 struct TestPlan {
   std::string name;
-  // "ramp-hold" (depth_m ... recovery_s below) | "levels" | "creep" | "cycles" | "staircase"
+  // "ramp-hold" (depth_m ... recovery_s below) | "levels" | "creep" | "cycles" | "staircase" |
+  // "compliance"
   std::string protocol = "ramp-hold";
   std::vector<DepthLevel> levels;
   CreepPlan creep;
   CyclePlan cycles;
   StaircasePlan staircase;
+  CompliancePlan compliance;
   // A small force held before the test itself, to seat the punch; 0 leaves it out.
   double preload_N = 0.0;
   double preload_s = 10.0;

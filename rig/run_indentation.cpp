@@ -20,6 +20,7 @@ constexpr double kJog_m = 25e-6;        // longest way a dead host lets the stag
 constexpr int kMostBackOffs = 10;
 constexpr double kDepthAfter_s = 0.5;  // of a hold's beginning: the depth reached is told then
 // Force control.
+constexpr double kNearShare = 0.45;    // of the force: from there on the stiffness is well seen
 constexpr double kFirstShare = 0.7;    // of the force, reached by the stiffness guessed
 constexpr double kLeastRatio = 0.2;    // of the stiffness seen over the one guessed
 constexpr double kMeanReadings = 8.0;  // for one step
@@ -204,12 +205,16 @@ void IndentationRun::go_to_depth(const TestPhase& phase) {
 void IndentationRun::load(const TestPhase& phase) {
   is_in_contact_ = true;
   const double guess_N_m = outcome.expected.total_stiffness_N_m;
-  const double first_N = kFirstShare * phase.force_N;
   const double speed_m_s = phase.force_N / guess_N_m / phase.move_s;
-  session_.move(contact_m_ + first_N / guess_N_m, speed_m_s, phase.purpose, first_N);
-  const ForceMean reached = session_.mean_force(mean_s());
+  ForceMean reached = session_.mean_force(mean_s());
+  if (reached.force_N < kNearShare * phase.force_N) {
+    const double first_N = kFirstShare * phase.force_N;
+    const double believed_N_m = measured_N_m_ > 0.0 ? measured_N_m_ : guess_N_m;
+    session_.move(contact_m_ + first_N / believed_N_m, speed_m_s, phase.purpose, first_N);
+    reached = session_.mean_force(mean_s());
+  }
   const double way_m = session_.stage().position_m() - contact_m_;
-  measured_N_m_ = std::clamp(reached.force_N / std::max(way_m, plan_.gap_m),
+  measured_N_m_ = std::clamp(reached.force_N / std::max(way_m, 0.1 * plan_.gap_m),
                              kLeastRatio * guess_N_m, guess_N_m / kLeastRatio);
   const double rest_N = phase.force_N - reached.force_N;
   if (rest_N <= 0.0) return;

@@ -22,10 +22,11 @@ struct CaptureWords {
   double speed = 1.0;
   bool overwrite = false;
   bool as_json = false;
-  bool resumes = false;       // leave out what is finished already
-  bool asks_nobody = false;   // no prompt between specimens
-  bool shows_page = false;    // --live
-  bool acknowledges = false;  // say on stderr how many records are safe
+  bool resumes = false;          // leave out what is finished already
+  bool asks_nobody = false;      // no prompt between specimens
+  bool shows_page = false;       // --live
+  bool is_uncalibrated = false;  // an expired calibration will do
+  bool acknowledges = false;     // say on stderr how many records are safe
 };
 
 // Everything a run needs to know, read from files or, for an emulated rig, made up where files are

@@ -1,5 +1,6 @@
 #include "io/cli/command.h"
 
+#include "io/cli/command_calibrate.h"
 #include "io/cli/command_capture.h"
 #include "io/cli/command_card.h"
 #include "io/cli/command_cost.h"
@@ -56,6 +57,8 @@ const std::vector<Command>& commands() {
   static const std::vector<Command> table{
       {"rig", "list serial ports, check a rig", run_rig},
       {"capture", "run one indentation on the rig, or on an emulated one", run_capture},
+      {"calibrate", "find the load cell's gain with weights, or the frame's stiffness on a block",
+       run_calibrate},
       {"export", "a capture as CSV", run_export},
       {"fit", "find modulus and Prony series in captures or tables", run_fit},
       {"card", "write, check or prove a material card for a solver", run_card},

@@ -1,5 +1,6 @@
 #include "io/cli/command_capture.h"
 
+#include "io/cli/calibrate_words.h"
 #include "io/cli/capture_run.h"
 #include "io/cli/capture_series.h"
 #include "io/cli/capture_setup.h"
@@ -27,7 +28,7 @@ CommandSyntax capture_syntax() {
   CommandSyntax syntax;
   syntax.usage = "viscard capture --rig FILE --test FILE --specimen FILE... --out FILE [OPTIONS]";
   syntax.description =
-      "Runs one stress-relaxation indentation and records every byte of it. With --emulate no rig\n"
+      "Runs one indentation test and records every byte of it. With --emulate no rig\n"
       "and no file is needed: a GRBL stage and an HX711 amplifier are emulated behind real ports.\n"
       "Ctrl-C stops the stage, lifts the punch and keeps what was recorded. Several --specimen "
       "make\n"
@@ -43,6 +44,7 @@ CommandSyntax capture_syntax() {
   add("yes", "do not wait for Enter between specimens");
   add("live", "keep a page with force against time beside the capture: *.live.html");
   add("acknowledge", "say on stderr how many records are safe from a crash");
+  add("uncalibrated", "capture although the load cell's calibration has expired");
   add("emulate", "use an emulated rig");
   add("truth", po::value<std::string>(), "truth.toml: what the emulated specimen is made of");
   add("seed", po::value<std::uint64_t>(), "seed of the emulated noise");
@@ -73,7 +75,19 @@ CaptureWords words_from(const po::variables_map& values) {
   words.asks_nobody = values.count("yes") > 0;
   words.shows_page = values.count("live") > 0;
   words.acknowledges = values.count("acknowledge") > 0;
+  words.is_uncalibrated = values.count("uncalibrated") > 0;
   return words;
+}
+
+// Expired is refused. Undated is said on a real rig: with numbers written by hand nobody can tell.
+void check_calibration(const CaptureWords& words, const CaptureSetup& setup, Streams& streams) {
+  if (!words.rig_file || words.is_uncalibrated) return;
+  const std::string trouble = calibration_trouble(setup.rig.calibration, today());
+  if (trouble.empty()) return;
+  if (!last_valid_day(setup.rig.calibration).empty()) {
+    throw std::runtime_error(trouble + "; or add --uncalibrated to capture all the same");
+  }
+  if (!words.is_emulated) streams.err << "viscard: " << trouble << "\n";
 }
 
 void check_before_start(const CaptureWords& words, const CaptureSetup& setup) {
@@ -172,6 +186,7 @@ SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords
     one.out_file = step.out_file;
     const CaptureSetup setup = capture_setup(one, step.specimen_file);
     check_before_start(one, setup);
+    check_calibration(one, setup, streams);
     if (!is_first && !is_next_ready(step, words, streams)) {
       result.trouble = "the series was ended before " + step.specimen_file;
       return result;

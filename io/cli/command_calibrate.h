@@ -1,0 +1,10 @@
+#pragma once
+
+#include "io/cli/command.h"
+
+namespace viscard {
+
+// viscard calibrate: dead weights on the load cell, or a rigid block under the punch.
+int run_calibrate(const std::vector<std::string>& words, Streams& streams);
+
+}  // namespace viscard

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "models/rig_config.h"
+#include "rig/load_cell.h"
+#include "rig/rig_clock.h"
+
+#include <atomic>
+#include <functional>
+#include <vector>
+
+namespace viscard {
+
+// One weight on the load cell.
+struct WeighedLoad {
+  double force_N = 0.0;
+  double reading = 0.0;  // mean, in the unit of the calibration (models/sample_force.h)
+  double sd = 0.0;       // of one reading
+  int n = 0;
+};
+
+struct WeighOptions {
+  double settle_s = 1.0;  // after a weight was put on, before its readings count
+  double mean_s = 3.0;
+  // Puts a weight on (or asks somebody to) and returns when it hangs; false ends the weighing.
+  std::function<bool(double force_N)> put_on;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+// Weighs one load after another, times in rig seconds. Throws RigError when readings stop, are
+// saturated, or still drift by more than a thousandth of the largest load while the mean is taken.
+std::vector<WeighedLoad> weigh(LoadCell& load_cell, const RigConfig& rig, const RigClock& clock,
+                               const std::vector<double>& forces_N, const WeighOptions& options);
+
+}  // namespace viscard
