@@ -33,12 +33,13 @@ TEST_CASE("a sticking punch on a bonded layer agrees with finite elements", "[mo
 }
 
 // On thick layers the gain is that of the half-space, .3 % at nu = .45; it first falls a little
-// with a/H, because the coupling of pressure and shear changes sign, then grows.
+// with a/H, because the coupling of pressure and shear changes sign, then grows
+// until the layer is squeezed as a column, sticking or not.
 TEST_CASE("sticking always stiffens, and on thin layers the more the thinner", "[models]") {
   CHECK(sticking_layer_factor(0.1, 0.45) > layer_factor(0.1, 0.45));
   CHECK(sticking_layer_factor(0.5, 0.45) > layer_factor(0.5, 0.45));
   double before = 0.0;
-  for (const double ratio : {1.0, 2.0, 3.0, 5.0}) {
+  for (const double ratio : {1.0, 2.0, 3.0}) {
     const double gain = sticking_layer_factor(ratio, 0.45) / layer_factor(ratio, 0.45);
     CAPTURE(ratio, gain);
     CHECK(gain > 1.0);
