@@ -88,7 +88,10 @@ TEST_CASE("contact before the record's zero of depth is found", "[fit]") {
 TEST_CASE("geometry turns stiffness into modulus, and its uncertainty stands apart", "[fit]") {
   IndentationData data = indentation_of(s2(), even_times(60.0, 0.02), ramp_and_hold(1.0), 1e-3, 23);
   const double stiffness = fit_indentation(data).E0_Pa;
-  data.contact = PunchContact{2.2e-3, 11e-3, 0.495, 22e-6};
+  data.contact = PunchContact{.punch_radius_m = 2.2e-3,
+                              .layer_thickness_m = 11e-3,
+                              .poisson_ratio = 0.495,
+                              .punch_radius_u_m = 22e-6};
   const FitResult fit = fit_indentation(data);
   CHECK_FALSE(fit.is_stiffness);
   CHECK(fit.E0_Pa * force_per_modulus_and_depth_m(*data.contact) ==
