@@ -159,8 +159,9 @@ TEST_CASE("a missing key is named with what belongs there", "[io][config]") {
   CHECK(rig_error("[frame]\nstiffness = 1e4\n[calibration]\ncapacity = 2.45\n") ==
         "rig.toml:3: 'calibration.volts_per_newton' is missing; expected a finite number with a "
         "unit of V/N");
-  CHECK(rig_error("[frame]\nstifness = 1e4\n[calibration]\ncapacity = 2.45\n")
-            .find("rig.toml:2: there is no key 'frame.stifness'; did you mean 'stiffness'?") == 0);
+  CHECK(
+      rig_error("[frame]\nstifness = 1e4\n[calibration]\ncapacity = 2.45\nvolts_per_newton = 0.7\n")
+          .find("rig.toml:2: there is no key 'frame.stifness'; did you mean 'stiffness'?") == 0);
   CHECK(rig_error("[calibration]\ncapacity = 2.45\nvolts_per_newton = 0.7\n") ==
         "rig.toml: 'frame.stiffness' is missing; expected a positive number with a unit of N/m, or "
         "\"rigid\"");
