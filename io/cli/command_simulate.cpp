@@ -4,6 +4,7 @@
 #include "io/cli/array_run.h"
 #include "io/cli/command_line.h"
 #include "io/cli/printed_values.h"
+#include "io/cli/progress.h"
 #include "io/scene_array.h"
 #include "io/scene_file.h"
 #include "models/pillar/plan.h"
@@ -18,7 +19,9 @@ namespace po = boost::program_options;
 namespace viscard {
 namespace {
 
-SceneAnswer answer_of(const Scene& scene, const std::string& path) {
+SceneAnswer answer_of(Scene scene, const std::string& path, Streams& streams) {
+  Progress progress(streams, "simulate");
+  scene.progress = [&](double done) { progress.show(done, ""); };
   try {
     return simulate_planned(scene);
   } catch (const SceneMistake& mistake) {
@@ -29,9 +32,10 @@ SceneAnswer answer_of(const Scene& scene, const std::string& path) {
 CommandSyntax simulate_syntax() {
   CommandSyntax syntax{
       "viscard simulate SCENE.toml [OPTIONS]",
-      "Answers a scene: static, modal, buckling, creep or relaxation of one pillar, on a "
-      "rigid base or a film.\nThe mesh is refined until the estimated error meets the "
-      "tolerance.",
+      "Answers a scene: static, modal, buckling, creep, relaxation, harmonic or transient of one "
+      "pillar, on a rigid base or a film,\nor voltages, cross-talk and modes of a row of pillars. "
+      "The "
+      "mesh is refined until the estimated error meets the tolerance.",
       "viscard simulate data/scenes/pillar_modal.toml"};
   syntax.options.add_options()("tol", po::value<double>(),
                                "relative error allowed, instead of the scene's")(
@@ -57,7 +61,7 @@ int run_simulate(const std::vector<std::string>& words, Streams& streams) {
     throw UsageError("--tol must lie between 1e-9 and 1");
   }
   const auto start = std::chrono::steady_clock::now();
-  SceneAnswer answer = answer_of(file.scene, path);
+  SceneAnswer answer = answer_of(file.scene, path, streams);
   const double wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const auto printed = compare_printed(file.printed, answer);
