@@ -14,6 +14,8 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <optional>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -226,6 +228,31 @@ CostStudy study_cost(const Scene& scene, const CostOptions& options) {
     study.advice.push_back(advice_for(tolerance, study.rows));
   }
   return study;
+}
+
+std::optional<LinearFactor> factor_over_linear(const CostStudy& study, double error) {
+  const CostRow* quickest = nullptr;
+  std::vector<const CostRow*> linear;
+  for (const CostRow& row : study.rows) {
+    if (row.effects != "all on") continue;
+    if (row.discretisation.rfind("h1 ", 0) == 0) linear.push_back(&row);
+    const bool reaches = row.error <= error && row.wall_s > 0.0;
+    if (reaches && (quickest == nullptr || row.wall_s < quickest->wall_s)) quickest = &row;
+  }
+  if (quickest == nullptr || linear.size() < 2) return std::nullopt;
+  std::sort(linear.begin(), linear.end(),
+            [](const CostRow* a, const CostRow* b) { return a->error > b->error; });
+  std::size_t fine = 1;
+  while (fine + 1 < linear.size() && linear[fine]->error > error) ++fine;
+  const CostRow &coarser = *linear[fine - 1], &finer = *linear[fine];
+  const double fall = std::log(coarser.error / finer.error);
+  const double rise = std::log(finer.wall_s / coarser.wall_s);
+  if (!(fall > 0.0 && rise > 0.0)) return std::nullopt;
+  const double log_time = std::log(finer.wall_s) + std::log(finer.error / error) * rise / fall;
+  return LinearFactor{.error = error,
+                      .factor = std::exp(log_time) / quickest->wall_s,
+                      .is_extrapolated = error < linear.back()->error,
+                      .quickest = quickest->discretisation};
 }
 
 }  // namespace viscard

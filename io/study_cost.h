@@ -3,6 +3,7 @@
 #include "models/pillar/scene.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,18 @@ struct CostOptions {
   int repeats = 3;                                           // of rows that take less than 0.3 s
   std::function<void(double, const std::string&)> progress;  // fraction, row; may be empty
 };
+
+// How much longer plain linear elements ("h1" rows) take to an error than the quickest row that has
+// it. Between and beyond the h1 rows the time is read off the straight line through the nearest two
+// in log error against log time, as errors fall with a power of the mesh size.
+struct LinearFactor {
+  double error = 0.0;
+  double factor = 0.0;
+  bool is_extrapolated = false;  // finer linear meshes than any that were run
+  std::string quickest;          // discretisation it is compared with
+};
+// Empty where no row reaches the error or there are fewer than two h1 rows with falling errors.
+std::optional<LinearFactor> factor_over_linear(const CostStudy& study, double error);
 
 // Throws what simulate() throws for scenes that contradict themselves.
 CostStudy study_cost(const Scene& scene, const CostOptions& options);

@@ -37,8 +37,16 @@ nlohmann::json json_from_study(const CostStudy& study) {
                       {"row", one.row < 0 ? nlohmann::json() : nlohmann::json(one.row)},
                       {"text", one.text}});
   }
+  nlohmann::json linear;  // null where it cannot be told
+  if (const auto factor = factor_over_linear(study, 1e-3)) {
+    linear = {{"error", factor->error},
+              {"factor", factor->factor},
+              {"extrapolated", factor->is_extrapolated},
+              {"quickest", factor->quickest}};
+  }
   return {{"rows", rows},
           {"recommendations", advice},
+          {"linear_elements", linear},
           {"reference_error", study.reference_error},
           {"rows_left_out", study.left_out}};
 }
@@ -61,21 +69,9 @@ std::string kind_of(const CostRow& row) {
   return row.discretisation.substr(0, row.discretisation[0] == 'p' ? 1 : 2);
 }
 
-Plot plot_from_study(const CostStudy& study, const std::string& scene) {
-  PlotPanel panel;
-  panel.x = {.label = "time (s)", .is_log = true};
-  panel.y = {.label = "relative error", .is_log = true};
-  constexpr double kLeast = 1e-12;  // a logarithmic axis has no zero
-  for (const char* kind : {"h1", "h2", "p", "graded p", "effects"}) {
-    PlotSeries series{.mark = Mark::kPoints, .label = kind};
-    for (const CostRow& row : study.rows) {
-      if (kind_of(row) != kind) continue;
-      series.x.push_back(row.wall_s);
-      series.y.push_back(std::max(row.error, kLeast));
-    }
-    series.ink = ink_of_series(panel.series.size());
-    if (!series.x.empty()) panel.series.push_back(series);
-  }
+constexpr double kLeastError = 1e-12;  // a logarithmic axis has no zero
+
+PlotSeries pareto_line(const CostStudy& study) {
   std::vector<CostRow> front;
   std::copy_if(study.rows.begin(), study.rows.end(), std::back_inserter(front),
                [](const CostRow& row) { return row.is_on_front; });
@@ -84,9 +80,26 @@ Plot plot_from_study(const CostStudy& study, const std::string& scene) {
   PlotSeries line{.mark = Mark::kLine, .label = "Pareto front", .ink = Ink::kGrey};
   for (const CostRow& row : front) {
     line.x.push_back(row.wall_s);
-    line.y.push_back(std::max(row.error, kLeast));
+    line.y.push_back(std::max(row.error, kLeastError));
   }
-  panel.series.push_back(line);
+  return line;
+}
+
+Plot plot_from_study(const CostStudy& study, const std::string& scene) {
+  PlotPanel panel;
+  panel.x = {.label = "time (s)", .is_log = true};
+  panel.y = {.label = "relative error", .is_log = true};
+  panel.series.push_back(pareto_line(study));
+  for (const char* kind : {"h1", "h2", "p", "graded p", "effects"}) {
+    PlotSeries series{.mark = Mark::kPoints, .label = kind, .size = 3.0};
+    for (const CostRow& row : study.rows) {
+      if (kind_of(row) != kind) continue;
+      series.x.push_back(row.wall_s);
+      series.y.push_back(std::max(row.error, kLeastError));
+    }
+    series.ink = ink_of_series(panel.series.size() - 1);
+    if (!series.x.empty()) panel.series.push_back(series);
+  }
   return {.title = "What accuracy costs: " + scene,
           .description =
               "Relative error against time for each discretisation, with the front of "
@@ -109,6 +122,11 @@ void print_study(const CostStudy& study, const std::string& path, std::ostream& 
   if (study.left_out > 0) {
     out << fmt::format("  {} more did not fit into the budget; --budget gives more time\n",
                        study.left_out);
+  }
+  if (const auto linear = factor_over_linear(study, 1e-3)) {
+    out << fmt::format("linear elements need {:.3g} times the time of {} for an error of 0.1 %{}\n",
+                       linear->factor, linear->quickest,
+                       linear->is_extrapolated ? " (extrapolated from the two finest)" : "");
   }
   out << "recommended for a tolerance of\n";
   for (const CostAdvice& advice : study.advice) out << "  " << advice.text << "\n";

@@ -1,3 +1,4 @@
+#include "io/study_cost.h"
 #include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
 
@@ -8,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 
+using namespace viscard;
 using namespace viscard::test;
 
 namespace {
@@ -136,4 +138,24 @@ TEST_CASE("what accuracy costs: rows, a front, and advice that keeps what it pro
     CHECK(std::ifstream(out + "/" + name).good());
   }
   CHECK(run_command({"cost", scene.path(), "--budget", "soon"}).status == 2);
+}
+
+TEST_CASE("the factor over linear elements is read off the line through their errors",
+          "[io][scene]") {
+  CostStudy study;
+  study.rows = {{.discretisation = "h1 10 um", .effects = "all on", .wall_s = 1e-3, .error = 4e-2},
+                {.discretisation = "h1 5 um", .effects = "all on", .wall_s = 1e-2, .error = 4e-3},
+                {.discretisation = "graded p4, 2 layers",
+                 .effects = "all on",
+                 .wall_s = 2e-3,
+                 .error = 9e-4}};
+  const auto beyond = factor_over_linear(study, 1e-3);  // error falls as 1/time here
+  REQUIRE(beyond);
+  CHECK(beyond->factor == Approx(4e-2 / 2e-3).epsilon(1e-12));
+  CHECK(beyond->is_extrapolated);
+  const auto between = factor_over_linear(study, 1e-2);
+  REQUIRE(between);
+  CHECK(between->factor == Approx(4e-3 / 2e-3).epsilon(1e-12));
+  CHECK_FALSE(between->is_extrapolated);
+  CHECK_FALSE(factor_over_linear(study, 1e-5));  // no row is that accurate
 }
