@@ -21,9 +21,12 @@ std::vector<PillarMode> lowest_modes(const PillarModel& model, int count);
 //   (K + factor K_sigma) v = 0, K_sigma = int sigma_ij (d_i u_k)(d_j u_k) dV   (eq. 21)
 // Source: Washizu, Variational Methods in Elasticity and Plasticity (1982), ch. 5.
 // The axial model gives the stresses; the lateral one must have the same mesh.
+// Modes that live at the singular rim of the bond alone are passed over: the pillar's own mode is
+// the lowest one that holds more than half of its compliance under a side force. Throws
+// std::runtime_error where there is none among the lowest eight.
 struct Buckling {
-  double pressure_Pa = 0.0;  // lowest critical pressure
-  std::vector<double> pressures_Pa;
+  double pressure_Pa = 0.0;          // at which the pillar as a whole buckles
+  std::vector<double> pressures_Pa;  // lowest of all modes, ascending, local ones included
 };
 Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int count = 1);
 
