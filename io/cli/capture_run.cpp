@@ -34,7 +34,7 @@ LiveViewOptions view_options(const CaptureWords& words, const CaptureSetup& setu
   options.clock_speed = rig.clock_speed;
   options.title = setup.specimen.id.empty() ? words.out_file : setup.specimen.id;
   if (words.shows_page) {
-    options.page = std::filesystem::path(words.out_file).replace_extension(".live.html");
+    options.page = std::filesystem::path(words.out_file).replace_extension(kPageEnding);
   }
   if (words.acknowledges) options.n_safe = [&writer] { return writer.counts().committed; };
   return options;
@@ -65,17 +65,16 @@ CaptureOutcome capture_with(const RigConfig& rig, const CaptureWords& words,
   CaptureWriter writer(words.out_file, about_run(setup, rig, command), options);
   if (setup.truth) {
     std::filesystem::path path = words.out_file;
-    write_file(path.replace_extension(".truth.json"), json_from_truth(*setup.truth), true);
+    write_file(path.replace_extension(kTruthEnding), json_from_truth(*setup.truth), true);
   }
   const RecordSink sink =
       failing_once([&writer](const RunRecord& record) { writer.append(record); });
   add_drivers(devices, rig, clock, sink);
   LiveView view(streams, view_options(words, setup, rig, writer));
   if (words.shows_page) {
-    streams.err
-        << "live page: "
-        << std::filesystem::absolute(words.out_file).replace_extension(".live.html").string()
-        << "\n";
+    streams.err << "live page: "
+                << std::filesystem::absolute(words.out_file).replace_extension(kPageEnding).string()
+                << "\n";
   }
   RunControl control;
   control.clock = &clock;

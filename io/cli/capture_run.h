@@ -10,6 +10,11 @@
 
 namespace viscard {
 
+// What stands beside the capture, in place of its extension: what an emulated rig was made with,
+// and the live page.
+inline constexpr const char* kTruthEnding = ".truth.json";
+inline constexpr const char* kPageEnding = ".live.html";
+
 // How one capture ended, and the force it saw, for a summary.
 struct CaptureOutcome {
   RunOutcome run;

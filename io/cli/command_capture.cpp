@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <iostream>
 #include <ostream>
+#include <vector>
 
 namespace po = boost::program_options;
 
@@ -93,9 +94,16 @@ void check_calibration(const CaptureWords& words, const CaptureSetup& setup, Str
 void check_before_start(const CaptureWords& words, const CaptureSetup& setup) {
   const Preflight expected = preflight(setup.rig, setup.plan, setup.specimen);
   if (!expected.problems.empty()) throw std::runtime_error(expected.problems.front());
-  if (!words.overwrite && std::filesystem::exists(words.out_file)) {
+  if (words.overwrite) return;
+  const std::filesystem::path file = words.out_file;
+  std::vector<std::filesystem::path> written{file};
+  if (setup.truth) written.push_back(std::filesystem::path(file).replace_extension(kTruthEnding));
+  if (words.shows_page)
+    written.push_back(std::filesystem::path(file).replace_extension(kPageEnding));
+  for (const std::filesystem::path& path : written) {
+    if (!std::filesystem::exists(path)) continue;
     throw std::runtime_error(
-        "'" + words.out_file +
+        "'" + path.string() +
         "' exists already. Choose another --out, or add --force to replace it");
   }
 }

@@ -127,3 +127,14 @@ TEST_CASE("contradictory rows name the place that has to change", "[array]") {
   scene.pillar.rho_kg_m3 = 0.0;
   CHECK(key_of(scene) == "materials.pillar");
 }
+
+TEST_CASE("a row is not pressed beyond the load at which its pillars buckle", "[array]") {
+  ArrayScene scene = seed_scene();
+  // Strip, clamped and free: Euler pi^2 E d^2/(48 L^2) = 41.1 kPa; shear lowers it to 38.3.
+  scene.load_Pa = 38.2e3;
+  CHECK_NOTHROW(validate(scene));
+  scene.load_Pa = 38.5e3;
+  CHECK_THROWS_WITH(validate(scene), Catch::Contains("buckle"));
+  scene.load_Pa = -38.5e3;  // a pull
+  CHECK_NOTHROW(validate(scene));
+}

@@ -66,6 +66,16 @@ void leave_interrupted(const std::filesystem::path& path) {
 
 }  // namespace
 
+TEST_CASE("what would stand beside a capture is not overwritten either", "[cli][capture]") {
+  const ScratchFolder folder;
+  write_file(folder / "run.truth.json", "precious", false);
+  const auto refused = run_command(
+      {"capture", "--emulate", "--speed", "100", "--out", (folder / "run.viscap").string()});
+  CHECK(refused.status == kFailed);
+  CHECK(contains(refused.err, "run.truth.json' exists already"));
+  CHECK(read_file(folder / "run.truth.json") == "precious");
+}
+
 TEST_CASE("a series is resumed with what is not finished, and nothing is overwritten",
           "[cli][capture][pty]") {
   const ScratchFolder folder;
