@@ -85,6 +85,7 @@ std::vector<int> minimum_degree_places(const Groups& groups) {
     inner.push_back(g);
     const auto& list = groups.neighbours[static_cast<std::size_t>(g)];
     inner.insert(inner.end(), list.begin(), list.end());
+    std::sort(inner.begin() + outer.back(), inner.end());  // as a sparse matrix wants it
     outer.push_back(static_cast<int>(inner.size()));
   }
   const std::vector<double> ones(inner.size(), 1.0);
