@@ -57,7 +57,9 @@ class NormalSolution {
   void refine(const Eigen::VectorXd& right) { x_(used_) += solve(right); }
   // What columns with these products V^T D have in common with the columns in use.
   Eigen::MatrixXd shared(const Eigen::MatrixXd& products) const {
-    if (used_.empty()) return Eigen::MatrixXd::Zero(products.cols(), products.cols());
+    if (used_.empty() || products.cols() == 0) {
+      return Eigen::MatrixXd::Zero(products.cols(), products.cols());
+    }
     const Eigen::MatrixXd half =
         cholesky_.matrixL().solve(scale_.asDiagonal() * products(used_, Eigen::all));
     return half.transpose() * half;
