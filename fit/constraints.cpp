@@ -260,6 +260,7 @@ Eigen::MatrixXd free_covariance(const Parametrisation& form, const Box& box,
     const double reach = 1e-9 * (1.0 + std::abs(theta[i]));
     if (theta[i] > box.low[i] + reach && theta[i] < box.high[i] - reach) free.push_back(i);
   }
+  if (free.empty()) return Eigen::MatrixXd::Zero(slopes.rows(), slopes.rows());  // all at a bound
   const Eigen::MatrixXd chosen = slopes(Eigen::all, free);
   const Eigen::MatrixXd jacobian = full_jacobian(form.model(), state) * chosen;
   const Eigen::VectorXd scale = jacobian.colwise().norm().transpose().cwiseMax(1e-300);

@@ -26,6 +26,7 @@ std::vector<Index> used_columns(const Eigen::VectorXd& x, const std::vector<bool
 // A^T A, each product formed once.
 Eigen::MatrixXd gram_of(const Eigen::MatrixXd& columns) {
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
+  if (gram.size() == 0) return gram;
   gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
   gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
   return gram;
