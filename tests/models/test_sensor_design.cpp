@@ -84,7 +84,9 @@ TEST_CASE("ground collapse: bending a quarter turn pays from the published lengt
 
 TEST_CASE("adhesion: pull-off force and the widest flaw-insensitive pillar", "[models][design]") {
   SensorMaterial m;
-  CHECK(pull_off_force_N(kD, m) == Approx(127.46e-6).epsilon(1e-4));
+  CHECK(pull_off_force_N(kD, m) == Approx(127.46e-6).epsilon(4e-5));  // printed digits
+  CHECK(4.0 * pull_off_force_N(kD, m) / (std::numbers::pi * kD * kD) ==
+        Approx(101.43e3).epsilon(5e-5));
   const auto widest_um = [&](double strength_Pa) {
     m.adhesion_strength_Pa = strength_Pa;
     return 1e6 * widest_flaw_insensitive_m(m);

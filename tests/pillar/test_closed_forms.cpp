@@ -205,6 +205,13 @@ TEST_CASE("a slender cantilever bends as Timoshenko says", "[pillar][reduction]"
 }
 
 TEST_CASE("a slender pillar buckles at Euler's load", "[pillar][reduction]") {
+  // Symmetry makes a clamped-free pillar (K = 2) half of one hinged at both ends (K = 1) and a
+  // quarter of one clamped at both (K = .5), so that a pillar of three diameters buckles at these.
+  const double force_N = std::pow(kPi, 3) * kModulus_Pa * std::pow(40e-6, 4) / 64.0;
+  const auto euler_N = [&](double K) { return force_N / std::pow(K * 120e-6, 2); };
+  CHECK(euler_N(2.0) == Approx(3.875785e-5).epsilon(1e-6));
+  CHECK(euler_N(1.0) == Approx(1.550314e-4).epsilon(1e-6));
+  CHECK(euler_N(0.5) == Approx(6.201255e-4).epsilon(1e-6));
   const double slenderness = GENERATE(3.0, 20.0, 80.0);
   const PillarGeometry geometry{.diameter_m = 40e-6, .length_m = slenderness * 40e-6};
   const Discretisation mesh{.degree = 7, .layers = 2, .shaft_elements = 4};

@@ -72,6 +72,16 @@ TEST_CASE(
       system.form(system.kinematics().strain, {isotropic_moduli_Pa(1.8e6, 0.33)});
   const double u_m = top_displacement_m(mesh, system, stiffness, 1e4);
   CHECK(u_m == Approx(-1e4 * 120e-6 / 1.8e6).epsilon(1e-12));  // linear field: exact to rounding
+  CHECK(u_m == Approx(-.6666667e-6).epsilon(6e-8));            // printed digits
+  StiffnessFactor factor;
+  factor.factor(stiffness);
+  const Eigen::VectorXd u =
+      factor.solve(-1e4 * system.line_load(1, mesh.top_row, 0, mesh.pillar_columns));
+  for (int node = 0; node < mesh.section.node_count(); ++node) {
+    if (std::abs(mesh.section.node_x(node) - 20e-6) > 1e-12) continue;
+    const int dof = system.dofs().dof(0, node);
+    CHECK(u[dof] == Approx(0.33 * 1e4 * 20e-6 / 1.8e6).epsilon(1e-11));
+  }
 }
 
 TEST_CASE("a fixed pillar under 10 kPa shortens by the converged values", "[pillar]") {
