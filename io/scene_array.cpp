@@ -13,6 +13,8 @@
 namespace viscard {
 namespace {
 
+constexpr double kAllPillars = -1.0;  // nothing said of single ones
+
 // What stands in the file before it is made sense of.
 struct RawArray {
   double tolerance = 1e-3;
@@ -23,9 +25,9 @@ struct RawArray {
   std::string electrode_face = "bottom", electrode_kind = "sampled";
   ArrayElectrodes electrodes;
   RawMaterial pillar, film;
-  std::string analysis = "static", load_on = "top";
+  std::string analysis = "static", load_on;
   double pressure_Pa = 0.0, shear_Pa = 0.0;
-  std::vector<double> pillars;
+  std::vector<double> pillars = {kAllPillars};
   std::int64_t modes = 3;
   std::vector<std::string> quantities;
   ArraySweep sweep;
@@ -90,22 +92,41 @@ void show_array(FieldVisitor& v, RawArray& s) {
   show_printed(v, s.printed);
 }
 
+Medium elastic_film(const RawArray& raw) {
+  const std::string key = "materials." + raw.film_material;
+  if (!(raw.film.E_Pa > 0.0)) throw SceneMistake(key, "needs E (and nu, rho) or a file");
+  try {
+    return isotropic_medium(raw.film.E_Pa, raw.film.nu, raw.film.rho_kg_m3);
+  } catch (const std::invalid_argument& error) {
+    throw SceneMistake(key, error.what());
+  }
+}
+
 Medium film_medium(const RawArray& raw, const std::filesystem::path& folder) {
-  Medium film = raw.film.file.empty()
-                    ? isotropic_medium(raw.film.E_Pa, raw.film.nu, raw.film.rho_kg_m3)
-                    : read_medium(folder / raw.film.file).medium;
+  Medium film =
+      raw.film.file.empty() ? elastic_film(raw) : read_medium(folder / raw.film.file).medium;
   const bool is_reversed =
       choice<bool>("geometry.poling", raw.poling, {{"+z", false}, {"-z", true}});
   return is_reversed ? with_reversed_poling(film) : film;
 }
 
 void fill_load(const RawArray& raw, ArrayScene& scene) {
-  choice<bool>("analysis.load.on", raw.load_on, {{"top", true}});
+  const bool has_load = raw.pressure_Pa != 0.0 || raw.shear_Pa != 0.0;
+  if (has_load && raw.load_on.empty()) {
+    throw SceneMistake("analysis.load", "the load has no place; say on = \"top\"");
+  }
+  if (!raw.load_on.empty()) choice<bool>("analysis.load.on", raw.load_on, {{"top", true}});
   if (raw.pressure_Pa != 0.0 && raw.shear_Pa != 0.0) {
     throw SceneMistake("analysis.load", "has both a pressure and a shear; give one of them");
   }
   scene.load = raw.shear_Pa != 0.0 ? ArrayLoad::kShear : ArrayLoad::kPressure;
   scene.load_Pa = raw.shear_Pa != 0.0 ? raw.shear_Pa : raw.pressure_Pa;
+  if (raw.pillars == std::vector<double>{kAllPillars}) return;
+  if (raw.pillars.empty()) {
+    throw SceneMistake("analysis.load.pillars",
+                       "names no pillar; give their numbers, such as [4], or leave it out to load "
+                       "all of them");
+  }
   for (const double number : raw.pillars) {
     if (number != std::floor(number) || number > 4096.0) {
       throw SceneMistake("analysis.load.pillars", "are numbers of pillars, such as [4]");
@@ -143,15 +164,46 @@ ArrayScene scene_from(const RawArray& raw, const std::filesystem::path& folder) 
   return scene;
 }
 
+// "centre_voltage_4" asks for pillar 4 alone.
+void check_wanted(const ArrayScene& scene) {
+  for (const std::string& name : scene.wanted) {
+    const std::size_t end = name.find_last_not_of("0123456789");
+    const bool is_numbered = end != std::string::npos && end + 1 < name.size() && name[end] == '_';
+    viscard::check_wanted({is_numbered ? name.substr(0, end) : name}, result_names(scene));
+    if (!is_numbered) continue;
+    const std::string digits = name.substr(end + 1);
+    if (digits.size() > 4 || std::stoi(digits) < 1 || std::stoi(digits) > scene.geometry.count) {
+      throw SceneMistake("want.quantities", "'" + name + "': there is no pillar " + digits +
+                                                "; they are numbered from 1 to " +
+                                                std::to_string(scene.geometry.count));
+    }
+  }
+}
+
 }  // namespace
 
 std::string scene_kind(const std::filesystem::path& path) {
+  std::string kind;
+  bool has_count = false;
   try {
     const toml::table table = toml::parse(read_file(path), path.string());
-    return table["geometry"]["kind"].value_or(std::string("pillar"));
+    const toml::node_view<const toml::node> geometry = table["geometry"];
+    has_count = geometry["count"] || geometry["spacing"];
+    kind = geometry["kind"].value_or(std::string(has_count ? "" : "pillar"));
   } catch (const toml::parse_error&) {
     return "pillar";
   }
+  try {
+    if (kind.empty()) {
+      throw SceneMistake("geometry",
+                         "has the count or spacing of a row of pillars; say kind = "
+                         "\"array\", or leave them out for a single one");
+    }
+    choice<bool>("geometry.kind", kind, {{"pillar", true}, {"array", true}});
+  } catch (const SceneMistake& mistake) {
+    throw std::runtime_error(told_with_line(path, mistake));
+  }
+  return kind;
 }
 
 ArraySceneFile read_array_scene(const std::filesystem::path& path) {
@@ -162,6 +214,7 @@ ArraySceneFile read_array_scene(const std::filesystem::path& path) {
   try {
     file.scene = scene_from(raw, path.parent_path());
     for (const SweepPoint& point : points_of(file)) validate(point.scene);
+    check_wanted(file.scene);
   } catch (const SceneMistake& mistake) {
     throw std::runtime_error(told_with_line(path, mistake));
   } catch (const std::invalid_argument& error) {

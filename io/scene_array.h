@@ -30,7 +30,8 @@ struct ArraySceneFile {
 };
 
 // geometry.kind of a scene file, "pillar" if it does not say or cannot be read as TOML (the reader
-// of that kind then tells why). Throws std::runtime_error if there is no such file.
+// of that kind then tells why). Throws std::runtime_error if there is no such file, the kind is
+// another word, or there is none though pillars are counted.
 std::string scene_kind(const std::filesystem::path& path);
 
 // A scene with kind = "array"; data/scenes/array_*.toml are commented examples. Throws

@@ -46,6 +46,7 @@ void fill_history(const RawDrive& raw, Scene& scene) {
     return;
   }
   for (const auto& [time_s, value] : raw.history) scene.history.push_back({time_s, value});
+  validate(scene.history);
   // A history may begin with nothing at time 0 and jump there.
   if (scene.history.size() > 1 && scene.history[0].time_s == scene.history[1].time_s) {
     if (scene.history[0].value == 0.0) scene.history.erase(scene.history.begin());

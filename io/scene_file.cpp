@@ -7,6 +7,7 @@
 #include "models/pillar/analysis.h"
 #include "models/pillar/effects.h"
 #include "models/pillar/scene_mistake.h"
+#include "models/pillar/scene_results.h"
 
 #include <algorithm>
 #include <map>
@@ -183,6 +184,7 @@ Scene scene_from(const RawScene& raw, const std::filesystem::path& folder) {
   fill_drive(raw.drive, scene);
   fill_effects(raw, scene);
   validate(scene);
+  check_wanted(scene.wanted, result_names(scene));
   return scene;
 }
 

@@ -1,6 +1,9 @@
 #include "io/scene_words.h"
 
 #include "io/material_file.h"
+#include "models/pillar/scene_results.h"
+
+#include <algorithm>
 
 namespace viscard {
 
@@ -19,6 +22,26 @@ void show_printed(FieldVisitor& v, std::vector<PrintedValue>& printed) {
         p.text({"value", "16103 Hz", true}, printed[i].value);
         p.text({"note", "the mesh of the source is coarse"}, printed[i].note);
       });
+}
+
+void check_wanted(const std::vector<std::string>& wanted, const std::vector<std::string>& known) {
+  for (const std::string& name : wanted) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (is_peak_stress(name)) {
+      throw SceneMistake("want.quantities",
+                         "the peak stress at the rim of the bond is infinite in an elastic body (a "
+                         "clamped corner): it grows with every refinement. Ask for "
+                         "base_stress_rim_mean, the mean over the outermost tenth of the radius, "
+                         "or for base_stress_at_half_radius");
+    }
+    std::string list;
+    for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
+    const std::string near = nearest_word(name, known);
+    throw SceneMistake("want.quantities",
+                       "this analysis has no '" + name + "'" +
+                           (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                           " It has: " + list);
+  }
 }
 
 Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder) {

@@ -42,6 +42,10 @@ struct RawMaterial {
 void show_material(FieldVisitor& v, RawMaterial& material);
 void show_printed(FieldVisitor& v, std::vector<PrintedValue>& printed);
 
+// Every wanted name must be one of the known ones. Throws SceneMistake with the nearest and all
+// that are known.
+void check_wanted(const std::vector<std::string>& wanted, const std::vector<std::string>& known);
+
 // Files are looked for in `folder`. Throws SceneMistake for neither file nor modulus.
 Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder);
 

@@ -123,11 +123,7 @@ std::vector<Trial> mesh_trials(const Scene& scene) {
 }
 
 Scene with_all_on(const Scene& scene) {
-  Scene all = scene;
-  for (const std::string& name : effect_names()) {
-    if (name != "incompressibility") all.effects.insert({name, EffectChoice::kOn});
-  }
-  return plan_effects(all).reduced;
+  return plan_effects(with_all_effects_on(scene)).reduced;
 }
 
 std::vector<Trial> effect_trials(const Scene& scene, const Discretisation& mesh) {

@@ -22,6 +22,12 @@ int line_of_key(const std::string& toml, const std::string& dotted_key) {
     if (node == nullptr) break;
     line = static_cast<int>(node->source().begin.line);
     around = node->as_table();
+    if (const toml::array* entries = node->as_array()) {
+      std::size_t number = 0;
+      if (keys >> number && number >= 1 && number <= entries->size()) {
+        line = static_cast<int>(entries->get(number - 1)->source().begin.line);
+      }
+    }
   }
   return line;
 }

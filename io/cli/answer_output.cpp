@@ -3,7 +3,6 @@
 #include "io/atomic_file.h"
 #include "io/cli/answer_pictures.h"
 #include "io/cli/command_plan.h"
-#include "io/nearest_word.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -76,33 +75,17 @@ bool is_named(const std::string& result, const std::string& wanted) {
 
 void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer) {
   if (wanted.empty() || answer.results.empty()) return;
-  std::vector<std::string> known;
-  std::string list;
-  for (const SceneResult& r : answer.results) {
-    known.push_back(r.name);
-    list += (list.empty() ? "" : ", ") + r.name;
-  }
-  for (const std::string& name : wanted) {
-    if (std::any_of(known.begin(), known.end(),
-                    [&](const std::string& result) { return is_named(result, name); })) {
-      continue;
-    }
-    if (name.find("peak_stress") != std::string::npos || name == "base_stress_max") {
-      throw std::runtime_error(
-          "the peak stress at the rim of the bond is infinite in an elastic body (a clamped "
-          "corner): "
-          "it grows with every refinement. Ask for base_stress_rim_mean, the mean over the "
-          "outermost "
-          "tenth of the radius, or for base_stress_at_half_radius");
-    }
-    const std::string near = nearest_word(name, known);
-    throw std::runtime_error("want.quantities: this analysis has no '" + name + "'" +
-                             (near.empty() ? "" : "; did you mean '" + near + "'?") +
-                             " It has: " + list);
-  }
+  const auto stands_for = [&](const std::string& name, const SceneResult& r) {
+    if (is_named(r.name, name)) return true;
+    const bool is_curve =
+        std::any_of(answer.curves.begin(), answer.curves.end(), [&](const SceneCurve& curve) {
+          return curve.name == name || curve.name.starts_with(name + "_");
+        });
+    return is_curve && r.name.starts_with(name + "_");
+  };
   std::erase_if(answer.results, [&](const SceneResult& r) {
     return std::none_of(wanted.begin(), wanted.end(),
-                        [&](const std::string& name) { return is_named(r.name, name); });
+                        [&](const std::string& name) { return stands_for(name, r); });
   });
 }
 

@@ -16,8 +16,7 @@ nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s);
 void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out);
 
 // Drops the results that are not among the wanted ones, if any are; a wanted name also stands for
-// the same with a pillar's number behind it. Throws std::runtime_error
-// naming one that this analysis does not have.
+// the same with a pillar's number behind it, and the name of a curve for what is read off it.
 void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer);
 
 // results.json and a CSV table of every curve. Throws std::runtime_error if a file exists and may

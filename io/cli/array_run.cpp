@@ -78,7 +78,7 @@ int run_array_scene(const std::string& path, const Words& values,
   ArraySceneFile file = read_array_scene(path);
   if (values.count("tol") > 0) file.scene.tolerance = values["tol"].as<double>();
   if (!(file.scene.tolerance >= 1e-7 && file.scene.tolerance < 1.0)) {
-    throw UsageError("the tolerance of a row of pillars must lie between 1e-7 and 1");
+    throw UsageError("--tol must lie between 1e-7 and 1 for a row of pillars");
   }
   const std::string command = quoted_command_line("simulate", words);
   const auto start = std::chrono::steady_clock::now();

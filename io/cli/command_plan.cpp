@@ -41,6 +41,7 @@ void print_plan(const std::string& path, const Scene& scene, const ScenePlan& pl
 
 ScenePlan plan_of(const Scene& scene, const std::string& path) {
   try {
+    refuse_beyond_buckling(scene);
     return plan_effects(scene);
   } catch (const SceneMistake& mistake) {
     throw std::runtime_error(told_with_line(path, mistake));
@@ -87,6 +88,7 @@ int run_plan(const std::vector<std::string>& words, Streams& streams) {
   }
   const auto path = (*values)["scene"].as<std::string>();
   if (scene_kind(path) == "array") {
+    read_array_scene(path);
     throw std::runtime_error(
         path + ": plans are made for scenes of one pillar; 'viscard simulate' answers arrays");
   }

@@ -5,10 +5,8 @@
 #include "io/scene_array.h"
 #include "io/scene_file.h"
 #include "io/scene_picture.h"
-#include "models/pillar/effects.h"
 #include "models/pillar/plan.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
@@ -34,14 +32,7 @@ CommandSyntax scene_syntax() {
 // What reading alone does not find: effects that cannot be off, a load beyond buckling.
 void check_pillar(const Scene& scene) {
   plan_effects(scene);
-  const bool stands_load = scene.plane || scene.kind == AnalysisKind::kBuckling ||
-                           largest_pressure_Pa(scene) < engesser_pressure_Pa(scene);
-  if (stands_load) return;
-  throw SceneMistake(scene.kind == AnalysisKind::kCreep ? "analysis.history" : "analysis.load",
-                     fmt::format("a pressure of {:.4g} Pa is beyond the buckling pressure of about "
-                                 "{:.4g} Pa (Euler, Engesser); reduce the load, or make the pillar "
-                                 "shorter or thicker",
-                                 largest_pressure_Pa(scene), engesser_pressure_Pa(scene)));
+  refuse_beyond_buckling(scene);
 }
 
 }  // namespace

@@ -1,18 +1,25 @@
 #include "models/array/array_geometry.h"
 
+#include "models/pillar/scene_mistake.h"
+
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <cstdio>
 #include <string>
 
 namespace viscard {
 namespace {
 
-void require(double value_m, bool may_be_zero, const char* what) {
+std::string micrometres(double value_m) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g um", value_m * 1e6);
+  return text;
+}
+
+void require(double value_m, bool may_be_zero, const char* key, const char* what) {
   if (std::isfinite(value_m) && (value_m > 0.0 || (may_be_zero && value_m == 0.0))) return;
-  throw std::invalid_argument(std::string(what) + " is " + std::to_string(value_m * 1e6) +
-                              " um; it must be " + (may_be_zero ? "zero or " : "") +
-                              "positive and finite");
+  throw SceneMistake(key, std::string(what) + " is " + micrometres(value_m) + "; it must be " +
+                              (may_be_zero ? "zero or " : "") + "positive and finite");
 }
 
 void append(std::vector<double>& breaks, const std::vector<double>& more) {
@@ -41,27 +48,33 @@ double pillar_centre_m(const ArrayGeometry& g, int pillar) {
 
 void validate(const ArrayGeometry& g, const ArrayElectrodes& e) {
   if (g.count < 1 || g.count > 4096) {
-    throw std::invalid_argument("the array has " + std::to_string(g.count) +
-                                " pillars; it must have between 1 and 4096");
+    throw SceneMistake("geometry.count", "the array has " + std::to_string(g.count) +
+                                             " pillars; it must have between 1 and 4096");
   }
-  require(g.diameter_m, false, "the pillars' diameter");
-  require(g.length_m, false, "the pillars' length");
-  require(g.film_thickness_m, false, "the film's thickness");
-  require(e.half_width_m, true, "the electrodes' half width");
+  require(g.diameter_m, false, "geometry.diameter", "the pillars' diameter");
+  require(g.length_m, false, "geometry.length", "the pillars' length");
+  require(g.film_thickness_m, false, "geometry.film.thickness", "the film's thickness");
+  require(e.half_width_m, true, "geometry.electrode.radius", "the electrodes' half width");
   const bool has_gap = g.count > 1 || g.ends == FilmEnds::kMirror;
-  if (has_gap) require(g.spacing_m, false, "the spacing (edge to edge; pillars must not overlap)");
-  if (g.ends == FilmEnds::kFree) require(g.film_edge_m, true, "the film's edge");
+  if (has_gap) {
+    require(g.spacing_m, false, "geometry.spacing",
+            "the spacing (edge to edge; pillars must not overlap)");
+  }
+  if (g.ends == FilmEnds::kFree) {
+    require(g.film_edge_m, true, "geometry.film.edge", "the film's edge");
+  }
   const double beyond_m = electrode_half_width_m(g, e) - 0.5 * g.diameter_m;
   if (has_gap && !(beyond_m < 0.5 * g.spacing_m)) {
-    throw std::invalid_argument("the electrodes reach " + std::to_string(beyond_m * 1e6) +
-                                " um beyond their pillars and overlap at a spacing of " +
-                                std::to_string(g.spacing_m * 1e6) + " um");
+    throw SceneMistake("geometry.electrode.radius",
+                       "the electrodes reach " + micrometres(beyond_m) +
+                           " beyond their pillars and overlap at a spacing of " +
+                           micrometres(g.spacing_m));
   }
   if (g.ends == FilmEnds::kFree && beyond_m > g.film_edge_m) {
-    throw std::invalid_argument(
-        "the outer electrodes reach beyond the film's edge; make "
-        "geometry.film.edge at least " +
-        std::to_string(beyond_m * 1e6) + " um");
+    throw SceneMistake("geometry.film.edge",
+                       "the outer electrodes lie outside the film; make it at "
+                       "least " +
+                           micrometres(beyond_m));
   }
 }
 

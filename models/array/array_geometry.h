@@ -32,7 +32,7 @@ struct ArrayElectrodes {
   bool is_equipotential = false;  // false: the face carries no charge, and its potential is read
 };
 
-// Throws std::invalid_argument naming the length that is wrong, or the electrodes that overlap or
+// Throws SceneMistake naming the length that is wrong, or the electrodes that overlap or
 // leave the film.
 void validate(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes);
 

@@ -33,6 +33,12 @@ struct ArrayScene {
 // Throws SceneMistake naming what is missing or contradictory.
 void validate(const ArrayScene& scene);
 
+// One pillar of the row, a strip on a rigid base, without load.
+Scene single_pillar(const ArrayScene& scene);
+
+// What a scene may ask for, without the pillars' numbers (simulate_array()).
+std::vector<std::string> result_names(const ArrayScene& scene);
+
 // Answers the scene on meshes of rising degree as simulate() does for one pillar. Results of pillar
 // i carry its number: centre_voltage_i and mean_voltage_i of a charge-free face,
 // electrode_voltage_i and electrode_charge_i (shorted) of equipotential electrodes,

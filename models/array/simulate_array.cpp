@@ -2,7 +2,6 @@
 #include "models/array/array_scene.h"
 #include "models/pillar/effects.h"
 #include "models/pillar/error_control.h"
-#include "models/pillar/scene_mistake.h"
 
 #include <algorithm>
 #include <atomic>
@@ -174,52 +173,7 @@ std::vector<Discretisation> meshes(const ArrayScene& scene) {
   return all;
 }
 
-// A strip as free at its top as a single pillar; its neighbours only stand beside it.
-double buckling_pressure_Pa(const ArrayScene& scene) {
-  Scene one;
-  one.geometry.diameter_m = scene.geometry.diameter_m;
-  one.geometry.length_m = scene.geometry.length_m;
-  one.plane = scene.plane;
-  one.pillar = scene.pillar;
-  return engesser_pressure_Pa(one);
-}
-
 }  // namespace
-
-void validate(const ArrayScene& scene) {
-  try {
-    validate(scene.geometry, scene.electrodes);
-  } catch (const std::invalid_argument& error) {
-    throw SceneMistake("geometry", error.what());
-  }
-  validate(scene.pillar);
-  if (!(scene.tolerance > 0.0 && scene.tolerance < 1.0)) {
-    throw SceneMistake("tolerance", "must lie between 0 and 1");
-  }
-  if (scene.analysis == ArrayAnalysis::kModal) {
-    if (!(scene.pillar.rho_kg_m3 > 0.0)) throw SceneMistake("materials.pillar", "modes need rho");
-    if (!(scene.film.rho_kg_m3 > 0.0)) throw SceneMistake("materials", "modes need the film's rho");
-    return;
-  }
-  if (scene.load_Pa == 0.0 || !std::isfinite(scene.load_Pa)) {
-    throw SceneMistake("analysis.load",
-                       "needs a pressure or a shear, such as pressure = \"1 kPa\"");
-  }
-  const double critical_Pa = buckling_pressure_Pa(scene);
-  if (scene.load == ArrayLoad::kPressure && scene.load_Pa >= critical_Pa) {
-    throw SceneMistake("analysis.load", "a pressure of " + std::to_string(scene.load_Pa) +
-                                            " Pa is beyond the " + std::to_string(critical_Pa) +
-                                            " Pa at which these pillars buckle (Euler, Engesser); "
-                                            "load them less, or make them shorter or thicker");
-  }
-  for (const int pillar : scene.loaded) {
-    if (pillar < 1 || pillar > scene.geometry.count) {
-      throw SceneMistake("analysis.load.pillars", "there is no pillar " + std::to_string(pillar) +
-                                                      "; they are numbered from 1 to " +
-                                                      std::to_string(scene.geometry.count));
-    }
-  }
-}
 
 SceneAnswer simulate_array(const ArrayScene& scene) {
   validate(scene);

@@ -1,5 +1,6 @@
 #include "models/pillar/pillar_loads.h"
 #include "models/pillar/scene_body.h"
+#include "models/pillar/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +40,17 @@ std::vector<double> times_of_decay(const std::vector<HistoryPoint>& history,
 
 void check_history(const Scene& scene) {
   if (scene.history.size() < 2) {
-    throw std::invalid_argument("creep and relaxation need a history of at least two points");
+    throw SceneMistake("analysis.history",
+                       "creep and relaxation need a history of at least two points, such as [[\"0 "
+                       "s\", \"10 kPa\"], [\"10 s\", \"10 kPa\"]]");
+  }
+  validate(scene.history);
+  if (scene.history.front().time_s != 0.0 || !(scene.history.back().time_s > 0.0)) {
+    throw SceneMistake("analysis.history", "a history starts at 0 s and ends later");
+  }
+  const auto is_zero = [](const HistoryPoint& point) { return point.value == 0.0; };
+  if (std::all_of(scene.history.begin(), scene.history.end(), is_zero)) {
+    throw SceneMistake("analysis.history", "nothing happens: every value of the history is zero");
   }
 }
 

@@ -49,13 +49,7 @@ void check_transient(const Scene& scene) {
     throw std::invalid_argument("outputs: " + std::to_string(scene.outputs) +
                                 "; it must lie between 10 and 200000");
   }
-  for (std::size_t i = 0; i < scene.history.size(); ++i) {
-    const HistoryPoint& p = scene.history[i];
-    if (!std::isfinite(p.value) || !(p.time_s >= (i == 0 ? 0.0 : scene.history[i - 1].time_s))) {
-      throw std::invalid_argument("point " + std::to_string(i + 1) +
-                                  " of the history goes back in time or is not finite");
-    }
-  }
+  validate(scene.history);
 }
 
 void run_transient_scene(const Scene& scene, SceneAnswer& answer) {

@@ -42,8 +42,12 @@ std::vector<std::string> effect_names() {
 }
 
 bool asks_for(const Scene& scene, const std::string& result) {
+  // A name stands for what is read off its curve: "reading" for "reading_end", and the other way.
   return scene.wanted.empty() ||
-         std::find(scene.wanted.begin(), scene.wanted.end(), result) != scene.wanted.end();
+         std::any_of(scene.wanted.begin(), scene.wanted.end(), [&](const std::string& wanted) {
+           return wanted == result || wanted.starts_with(result + "_") ||
+                  result.starts_with(wanted + "_");
+         });
 }
 
 }  // namespace viscard

@@ -1,7 +1,10 @@
 #include "models/pillar/load_history.h"
 
+#include "models/pillar/scene_mistake.h"
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -19,6 +22,12 @@ struct Block {
   double first = 0.0, last = 0.0;     // controlled value
   bool after_corner = false;          // the rate of loading jumps at the start
 };
+
+std::string seconds(double time_s) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g s", time_s);
+  return text;
+}
 
 double fastest_time_s(const std::vector<MaterialTerm>& terms) {
   double fastest_s = std::numeric_limits<double>::infinity();
@@ -56,6 +65,7 @@ std::vector<double> block_ends(double start_s, double end_s, double first_s,
 
 std::vector<Block> blocks_of(const std::vector<HistoryPoint>& history, double first_s,
                              const std::vector<double>& wanted_s) {
+  validate(history);
   if (history.size() < 2 || history.front().time_s != 0.0 || !(history.back().time_s > 0.0)) {
     throw std::invalid_argument("a load history starts at 0 s and ends later");
   }
@@ -64,11 +74,6 @@ std::vector<Block> blocks_of(const std::vector<HistoryPoint>& history, double fi
   for (std::size_t i = 1; i < history.size(); ++i) {
     const HistoryPoint& from = history[i - 1];
     const HistoryPoint& to = history[i];
-    if (!(to.time_s >= from.time_s) || !std::isfinite(to.time_s) || !std::isfinite(to.value)) {
-      throw std::invalid_argument("point " + std::to_string(i + 1) + " of the load history at " +
-                                  std::to_string(to.time_s) +
-                                  " s: times must not go back and values must be finite");
-    }
     if (to.time_s == from.time_s) {
       blocks.push_back({to.time_s, to.time_s, from.value, to.value});
       continue;
@@ -154,6 +159,23 @@ std::vector<double> row_of(const Eigen::MatrixXd& values, Eigen::Index row) {
 }
 
 }  // namespace
+
+void validate(const std::vector<HistoryPoint>& history) {
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    const HistoryPoint& point = history[i];
+    const std::string key = "analysis.history." + std::to_string(i + 1);
+    if (!std::isfinite(point.time_s) || !std::isfinite(point.value)) {
+      throw SceneMistake(key, "point " + std::to_string(i + 1) + " of the history is not finite");
+    }
+    const double last_s = i == 0 ? 0.0 : history[i - 1].time_s;
+    if (point.time_s < last_s) {
+      throw SceneMistake(key, "point " + std::to_string(i + 1) +
+                                  " of the history goes back in time, from " + seconds(last_s) +
+                                  " to " + seconds(point.time_s) +
+                                  "; put the points in order (a time given twice is a jump)");
+    }
+  }
+}
 
 HistoryResult run_history(const ViscoelasticSystem& system, Control control,
                           const std::vector<HistoryPoint>& history, const HistoryOptions& options) {

@@ -15,6 +15,10 @@ struct HistoryPoint {
   double value = 0.0;
 };
 
+// Throws SceneMistake with the key of the first point that is wrong, "analysis.history.3": values
+// must be finite, and no time may lie before 0 or before the point ahead of it.
+void validate(const std::vector<HistoryPoint>& history);
+
 struct HistoryOptions {
   double tolerance = 1e-8;       // relative error aimed at
   double relative_floor = 1e-3;  // errors are relative to max(|value|, floor * largest |value|)

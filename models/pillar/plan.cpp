@@ -25,7 +25,7 @@ void refuse_unknown(const Scene& scene) {
   const std::vector<std::string> names = effect_names();
   for (const auto& [name, choice] : scene.effects) {
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-      throw std::invalid_argument("there is no effect '" + name + "'");
+      throw SceneMistake("effects." + name, "there is no effect '" + name + "'");
     }
   }
 }
@@ -44,8 +44,16 @@ SceneEffect decided_by_role(const Effect& effect, const EffectEstimate& estimate
   decision.is_forced = choice != EffectChoice::kAuto;
   switch (estimate.role) {
     case EffectRole::kAbsent:
+      if (choice == EffectChoice::kOn) decision.reason += "; switching it on changes nothing";
+      decision.is_forced = false;
+      break;
     case EffectRole::kOutside:
-      if (choice == EffectChoice::kOn) decision.reason += "; it cannot be switched on here";
+      if (choice == EffectChoice::kOn) {
+        throw SceneMistake("effects." + decision.name,
+                           "cannot be on: no analysis of this kind can have it (" +
+                               estimate.reason + "). It would change the results by up to " +
+                               percent(estimate.error) + "; say \"auto\" to be warned of it");
+      }
       decision.is_forced = false;
       break;
     case EffectRole::kNeeded:
@@ -132,6 +140,16 @@ ScenePlan plan_effects(const Scene& scene) {
   plan.reduced.tolerance =
       std::max(scene.tolerance - plan.left_out, kShareOfEffects * scene.tolerance);
   return plan;
+}
+
+Scene with_all_effects_on(const Scene& scene) {
+  Scene all = scene;
+  for (const Effect& effect : effects()) {
+    if (effect.leave_out == leave_out_incompressibility) continue;
+    if (effect.estimate(scene).role != EffectRole::kOptional) continue;
+    all.effects[effect.name] = EffectChoice::kOn;
+  }
+  return all;
 }
 
 SceneAnswer simulate_planned(const Scene& scene) {

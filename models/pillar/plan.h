@@ -14,9 +14,13 @@ struct ScenePlan {
 };
 
 // Leaves out the effects of least estimate as long as their sum stays within half the tolerance;
-// the mesh gets the rest. Throws std::invalid_argument naming an unknown effect, or one that is
-// forced off though what is asked for does not exist without it.
+// the mesh gets the rest. Throws SceneMistake naming an unknown effect, one that is forced off
+// though what is asked for does not exist without it, or one forced on that no analysis can have.
 ScenePlan plan_effects(const Scene& scene);
+
+// The scene with every effect forced on that the plan might leave out, except incompressibility,
+// which is another kind of element and not another answer.
+Scene with_all_effects_on(const Scene& scene);
 
 // Answers the scene with the effects of its plan: simulate() of the reduced scene. What is left out
 // is part of every error estimate; effects that no analysis can have and that may exceed the

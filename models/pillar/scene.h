@@ -109,6 +109,11 @@ struct SceneAnswer {
 // Throws std::invalid_argument naming what is missing or contradictory.
 void validate(const Scene& scene);
 
+// Throws SceneMistake if the largest pressure would buckle the pillar: by its own buckling pressure
+// on a coarse mesh where Euler's formula comes near, for a strip by Engesser's formula (eq. 32). A
+// straight answer has no meaning there.
+void refuse_beyond_buckling(const Scene& scene);
+
 // Answers the scene (analysis.h) on meshes of rising degree and grading until every result meets
 // the tolerance (error_control.h). Throws std::runtime_error, with the reason, when the finest mesh
 // does not, or the pillar would buckle under the load.

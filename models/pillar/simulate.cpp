@@ -5,38 +5,25 @@
 #include "models/pillar/scene_mistake.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <numbers>
-#include <stdexcept>
-#include <string>
 
 namespace viscard {
 namespace {
 
-// A load on the straight pillar beyond its buckling pressure has no meaning; worth computing only
-// where Euler's formula (clamped-free, K = 2) comes near.
-void refuse_buckled(const Scene& scene) {
-  if (scene.plane || scene.kind == AnalysisKind::kModal || scene.kind == AnalysisKind::kBuckling)
-    return;
+double largest_push_Pa(const Scene& scene) {
   double largest_Pa = scene.pressure_Pa;
   if (scene.kind == AnalysisKind::kCreep) {
     for (const HistoryPoint& point : scene.history) largest_Pa = std::max(largest_Pa, point.value);
   }
-  const double slenderness = scene.geometry.diameter_m / scene.geometry.length_m;
-  const double pi = std::numbers::pi;
-  const double euler_Pa = pi * pi / 64.0 * scene.pillar.E0_Pa * slenderness * slenderness;
-  if (largest_Pa < 0.5 * euler_Pa) return;
+  return largest_Pa;
+}
+
+double buckling_pressure_Pa(const Scene& scene) {
   const Discretisation mesh = mesh_sequence(scene.geometry)[1];
   const PillarModel axial(scene.geometry, mesh, media_of(scene), {.motion = Motion::kLongitudinal});
   const PillarModel lateral(scene.geometry, mesh, media_of(scene), {.motion = Motion::kLateral});
-  const double critical_Pa = buckling(axial, lateral).pressure_Pa;
-  if (largest_Pa >= critical_Pa) {
-    throw SceneMistake(
-        scene.kind == AnalysisKind::kCreep ? "analysis.history" : "analysis.load.pressure",
-        "a pressure of " + std::to_string(largest_Pa) +
-            " Pa is beyond the buckling pressure of about " + std::to_string(critical_Pa) +
-            " Pa: the straight pillar gives way sideways. Reduce the load, or make the "
-            "pillar shorter or thicker");
-  }
+  return buckling(axial, lateral).pressure_Pa;
 }
 
 // Errors are watched only of what is asked for.
@@ -46,9 +33,29 @@ void mark_wanted(const Scene& scene, SceneAnswer& answer) {
 
 }  // namespace
 
+void refuse_beyond_buckling(const Scene& scene) {
+  if (scene.kind == AnalysisKind::kBuckling) return;
+  const double largest_Pa = largest_push_Pa(scene);
+  const double slenderness = scene.geometry.diameter_m / scene.geometry.length_m;
+  const double pi = std::numbers::pi;
+  const double euler_Pa = pi * pi / 64.0 * scene.pillar.E0_Pa * slenderness * slenderness;
+  if (largest_Pa < 0.5 * euler_Pa) return;
+  const double critical_Pa =
+      scene.plane ? engesser_pressure_Pa(scene) : buckling_pressure_Pa(scene);
+  if (largest_Pa < critical_Pa) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "a pressure of %.5g Pa is beyond the buckling pressure of about %.5g Pa: the "
+                "straight pillar gives way sideways. Reduce the load, or make the pillar shorter "
+                "or thicker",
+                largest_Pa, critical_Pa);
+  throw SceneMistake(
+      scene.kind == AnalysisKind::kCreep ? "analysis.history" : "analysis.load.pressure", text);
+}
+
 SceneAnswer simulate(const Scene& scene) {
   validate(scene);
-  refuse_buckled(scene);
+  refuse_beyond_buckling(scene);
   const Analysis& analysis = analysis_of(scene.kind);
   const std::vector<Discretisation> meshes =
       scene.discretisation ? refinements_to(*scene.discretisation) : mesh_sequence(scene.geometry);

@@ -112,13 +112,15 @@ TEST_CASE("contradictory rows name the place that has to change", "[array]") {
   ArrayScene scene = seed_scene();
   CHECK(key_of(scene) == "none");
   scene.loaded = {9};
-  CHECK(key_of(scene) == "analysis.load.pillars");
+  CHECK(key_of(scene) == "analysis.load.pillars.1");
+  scene.loaded = {2, 3, 2};
+  CHECK(key_of(scene) == "analysis.load.pillars.3");
   scene.loaded = {};
   scene.load_Pa = 0.0;
   CHECK(key_of(scene) == "analysis.load");
   scene = seed_scene();
   scene.geometry.spacing_m = -1e-6;
-  CHECK(key_of(scene) == "geometry");
+  CHECK(key_of(scene) == "geometry.spacing");
   scene = seed_scene();
   scene.tolerance = 0.0;
   CHECK(key_of(scene) == "tolerance");

@@ -95,6 +95,6 @@ TEST_CASE("rows of pillars refuse geometry that cannot be", "[array]") {
   refused({.spacing_m = std::nan("")}, {}, "spacing");
   refused({.film_thickness_m = -1e-6}, {}, "thickness");
   refused({.spacing_m = 10e-6}, {.half_width_m = 26e-6}, "overlap");
-  refused({.film_edge_m = 2e-6}, {.half_width_m = 25e-6}, "geometry.film.edge");
+  refused({.film_edge_m = 2e-6}, {.half_width_m = 25e-6}, "outside the film");
   CHECK_NOTHROW(validate({.count = 1, .film_edge_m = 0.0}, {}));
 }

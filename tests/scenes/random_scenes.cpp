@@ -131,9 +131,7 @@ Scene random_scene(std::mt19937_64& random, const Ranges& ranges) {
 }
 
 Scene with_everything_on(const Scene& scene) {
-  Scene on = scene;
-  for (const std::string& name : effect_names()) on.effects[name] = EffectChoice::kOn;
-  on.effects.erase("incompressibility");  // the same answer by other elements
+  Scene on = with_all_effects_on(scene);
   on.tolerance = 0.02 * scene.tolerance;  // of time steps
   return on;
 }
