@@ -2,6 +2,7 @@
 
 #include "fit/bootstrap.h"
 #include "fit/constraints.h"
+#include "fit/flags.h"
 #include "fit/noise_model.h"
 #include "fit/order_doubt.h"
 #include "fit/profile_likelihood.h"
@@ -32,6 +33,15 @@ std::size_t position_of(const std::vector<SpectralState>& path, int n_terms) {
   std::size_t position = 0;
   while (position + 1 < path.size() && path[position + 1].n_terms() <= n_terms) ++position;
   return position;
+}
+
+void note_fewer_terms(SpectralFit& fit) {
+  const auto found = fit.path[fit.scores.chosen].n_terms();
+  const int wanted = fit.options.n_terms.value_or(0);
+  if (found == wanted || !fit.options.constraints.empty()) return;
+  fit.notes.push_back({"fewer-terms", 0,
+                       std::to_string(wanted) + " terms were asked for; no fit with more than " +
+                           std::to_string(found) + " describes these data any better"});
 }
 
 double full_rss(const SpectralModel& model, const SpectralState& state) {
@@ -87,6 +97,7 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
     for (OrderRow& row : fit.scores.rows) row.is_chosen = false;
     fit.scores.chosen = position_of(fit.path, *options.n_terms);
     fit.scores.rows[fit.scores.chosen].is_chosen = true;
+    note_fewer_terms(fit);
   }
   fit.state = polish(model, refine(model, fit.path[fit.scores.chosen]));
   fit.rss = full_rss(model, fit.state);
@@ -100,7 +111,7 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
 void fill_result(const SpectralModel& model, const SpectralFit& fit,
                  const SeriesFromState& series_from_state, FitResult& result) {
   fill_parameters(model, fit.state, fit.covariance, series_from_state, result);
-  if (fit.notes.empty()) {
+  if (fit.options.constraints.empty()) {
     if (fit.options.with_profiles) add_profiles(model, fit, series_from_state, result);
     if (fit.options.n_bootstrap > 0) {
       bootstrap_intervals(
@@ -138,6 +149,7 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
   }
   result.n_samples = static_cast<std::size_t>(model.n_samples());
   result.is_converged = fit.state.is_converged;
+  judge(result);
 }
 
 std::vector<int> log_time_blocks(const std::vector<double>& time_s, double zero_s,

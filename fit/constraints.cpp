@@ -1,31 +1,27 @@
 #include "fit/constraints.h"
 
+#include "fit/flags.h"
+#include "fit/parametrisation.h"
+
 #include <Eigen/Dense>
-#include <ceres/ceres.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace viscard {
 namespace {
 
 using Index = Eigen::Index;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using Stem = ParameterStem;
 
-enum class Stem { kE0, kEInf, kModulus, kShare, kTime };
-
-struct Name {
-  Stem stem = Stem::kE0;
-  int term = 0;  // from 1; 0: not of a term
-};
-
-Name name_of(const std::string& text) {
+ParameterName name_of(const std::string& text) {
   if (text == "E0") return {Stem::kE0, 0};
   if (text == "E_inf") return {Stem::kEInf, 0};
   const std::pair<const char*, Stem> kinds[] = {
@@ -51,121 +47,6 @@ double number_of(const std::string& text, const std::string& whole) {
   return value;
 }
 
-// The parameters that constraints speak of, theta = (E_inf, E_i | E0, g_i; ln tau_i; the rest), and
-// how a state follows from them.
-class Parametrisation {
- public:
-  Parametrisation(const SpectralModel& model, Index n_terms, bool by_shares)
-      : model_(model), n_terms_(n_terms), by_shares_(by_shares) {
-    has_equilibrium_ = model.n_common() > 0 && !model.common()[0].is_free;
-  }
-  // Where a parameter stands; -1 for E_inf of a liquid, which is zero anyway.
-  Index position(const Name& name) const {
-    if (name.stem == Stem::kE0 || name.stem == Stem::kEInf) return has_equilibrium_ ? 0 : -1;
-    if (name.stem == Stem::kTime) return model_.n_common() + n_terms_ + name.term - 1;
-    return model_.n_common() + name.term - 1;
-  }
-  Index size() const { return model_.n_common() + 2 * n_terms_ + model_.n_nuisances(); }
-
-  Eigen::VectorXd theta_of(const SpectralState& state) const {
-    Eigen::VectorXd theta(size());
-    theta << state.coefficients, state.ln_tau, state.nuisance;
-    if (by_shares_) {
-      const Index n = model_.n_common();
-      const double E0 = state.coefficients[0] + theta.segment(n, n_terms_).sum();
-      theta.segment(n, n_terms_) /= E0;
-      theta[0] = E0;
-    }
-    return theta;
-  }
-  SpectralState state_of(const Eigen::VectorXd& theta) const {
-    SpectralState state;
-    const Index n = model_.n_common();
-    state.coefficients = theta.head(n + n_terms_);
-    if (by_shares_) {
-      const double E0 = theta[0];
-      state.coefficients.segment(n, n_terms_) *= E0;
-      state.coefficients[0] = E0 - state.coefficients.segment(n, n_terms_).sum();
-    }
-    state.ln_tau = theta.segment(n + n_terms_, n_terms_);
-    state.nuisance = theta.tail(model_.n_nuisances());
-    return state;
-  }
-  // d(coefficients, ln tau, nuisance)/d theta.
-  Eigen::MatrixXd slopes(const Eigen::VectorXd& theta) const {
-    Eigen::MatrixXd slopes = Eigen::MatrixXd::Identity(size(), size());
-    if (!by_shares_) return slopes;
-    const Index n = model_.n_common();
-    const double E0 = theta[0];
-    slopes(0, 0) = 1.0 - theta.segment(n, n_terms_).sum();
-    for (Index i = n; i < n + n_terms_; ++i) {
-      slopes(i, 0) = theta[i];
-      slopes(i, i) = E0;
-      slopes(0, i) = -E0;
-    }
-    return slopes;
-  }
-  Eigen::VectorXd lower() const {
-    Eigen::VectorXd low = Eigen::VectorXd::Constant(size(), -kInfinity);
-    const Index n = model_.n_common();
-    if (!model_.may_be_negative()) {
-      low.segment(n, n_terms_).setZero();
-      if (has_equilibrium_) low[0] = 0.0;
-    }
-    low.segment(n + n_terms_, n_terms_).setConstant(model_.ln_tau_min());
-    for (Index k = 0; k < model_.n_nuisances(); ++k) {
-      low[n + 2 * n_terms_ + k] = model_.nuisances()[static_cast<std::size_t>(k)].low;
-    }
-    return low;
-  }
-  Eigen::VectorXd upper() const {
-    Eigen::VectorXd high = Eigen::VectorXd::Constant(size(), kInfinity);
-    const Index n = model_.n_common();
-    high.segment(n + n_terms_, n_terms_).setConstant(model_.ln_tau_max());
-    for (Index k = 0; k < model_.n_nuisances(); ++k) {
-      high[n + 2 * n_terms_ + k] = model_.nuisances()[static_cast<std::size_t>(k)].high;
-    }
-    return high;
-  }
-  const SpectralModel& model() const { return model_; }
-
- private:
-  const SpectralModel& model_;
-  Index n_terms_;
-  bool by_shares_;
-  bool has_equilibrium_ = false;
-};
-
-// Residuals in all parameters; scaled so that the solver's absolute thresholds do not know the
-// unit.
-class FullCost final : public ceres::CostFunction {
- public:
-  explicit FullCost(const Parametrisation& form)
-      : form_(form), scale_(1e6 / std::max(form.model().data().norm(), 1e-280)) {
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(form.size()));
-    set_num_residuals(static_cast<int>(form.model().n_rows()));
-  }
-  bool Evaluate(const double* const* parameters, double* residuals,
-                double** jacobians) const override {
-    const Eigen::Map<const Eigen::VectorXd> theta(parameters[0], form_.size());
-    const SpectralModel& model = form_.model();
-    const SpectralState state = form_.state_of(theta);
-    const Eigen::MatrixXd values = model.columns(state.ln_tau, state.nuisance, false).values;
-    Eigen::Map<Eigen::VectorXd> out(residuals, model.n_rows());
-    out = scale_ * (values * state.coefficients - model.data());
-    if (!out.allFinite()) return false;
-    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-        jacobians[0], model.n_rows(), form_.size()) =
-        scale_ * full_jacobian(model, state) * form_.slopes(theta);
-    return true;
-  }
-
- private:
-  const Parametrisation& form_;
-  const double scale_;
-};
-
 struct Box {
   Eigen::VectorXd low, high;
 };
@@ -173,54 +54,94 @@ struct Box {
 Box box_of(const Parametrisation& form, const std::vector<ParameterConstraint>& constraints) {
   Box box{form.lower(), form.upper()};
   for (const ParameterConstraint& one : constraints) {
-    const Name name = name_of(one.name);
+    const ParameterName name = name_of(one.name);
     const Index at = form.position(name);
-    if (at < 0) {
-      throw std::invalid_argument(one.name + " cannot be constrained for a liquid");
-    }
     const bool is_time = name.stem == Stem::kTime;
-    box.low[at] = is_time ? std::log(one.low) : one.low;
+    // A bound reaches no further than signs allow; a share's or time's upper end is the user's.
+    const double low = is_time ? std::log(one.low) : one.low;
+    box.low[at] = is_time || one.low == one.high ? low : std::max(box.low[at], low);
     box.high[at] = is_time ? std::log(one.high) : one.high;
   }
   return box;
 }
 
-SpectralState solve_in_box(const Parametrisation& form, const Box& box,
-                           const SpectralState& start) {
-  Eigen::VectorXd theta = form.theta_of(start).cwiseMax(box.low).cwiseMin(box.high);
-  ceres::Problem problem;
-  problem.AddParameterBlock(theta.data(), static_cast<int>(theta.size()));
-  std::vector<int> fixed;
-  for (Index i = 0; i < theta.size(); ++i) {
-    const int at = static_cast<int>(i);
-    if (box.low[i] == box.high[i]) {
-      fixed.push_back(at);
+std::string range_text(const ParameterConstraint& one) {
+  char text[120];
+  if (one.low == one.high) {
+    std::snprintf(text, sizeof text, "%s = %.6g", one.name.c_str(), one.low);
+  } else {
+    std::snprintf(text, sizeof text, "%s = %.6g:%.6g", one.name.c_str(), one.low, one.high);
+  }
+  return text;
+}
+
+// A time that the record cannot show leaves its modulus open to any size, unless that is held too.
+void check_times(const SpectralModel& model, const std::vector<ParameterConstraint>& constraints) {
+  for (const ParameterConstraint& one : constraints) {
+    const ParameterName name = name_of(one.name);
+    if (name.stem != Stem::kTime) continue;
+    const bool is_held =
+        std::any_of(constraints.begin(), constraints.end(), [&](const ParameterConstraint& other) {
+          const ParameterName of_other = name_of(other.name);
+          return of_other.term == name.term && of_other.stem != Stem::kTime &&
+                 other.low == other.high;
+        });
+    const double shortest_s = std::exp(model.ln_tau_min()),
+                 longest_s = std::exp(model.ln_tau_max());
+    constexpr double kRounding = 1e-9;
+    if (is_held ||
+        (one.high > shortest_s * (1.0 - kRounding) && one.low < longest_s * (1.0 + kRounding))) {
       continue;
     }
-    if (std::isfinite(box.low[i])) problem.SetParameterLowerBound(theta.data(), at, box.low[i]);
-    if (std::isfinite(box.high[i])) problem.SetParameterUpperBound(theta.data(), at, box.high[i]);
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  " is outside the times that the record can show (%.3g to %.3g s); hold the "
+                  "modulus of the term too",
+                  shortest_s, longest_s);
+    throw std::invalid_argument(range_text(one) + text);
   }
-  if (static_cast<Index>(fixed.size()) < theta.size() && !fixed.empty()) {
-    problem.SetManifold(theta.data(),
-                        new ceres::SubsetManifold(static_cast<int>(theta.size()), fixed));
+}
+
+// What no data could mend.
+void check_solution(const SpectralState& state, const std::vector<ParameterConstraint>& constraints,
+                    bool may_be_negative) {
+  std::string all;
+  for (const ParameterConstraint& one : constraints) {
+    all += (all.empty() ? "" : ", ") + range_text(one);
   }
-  problem.AddResidualBlock(new FullCost(form), nullptr, theta.data());
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 500;
-  options.function_tolerance = 1e-15;
-  options.parameter_tolerance = 1e-13;
-  options.gradient_tolerance = 1e-14;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  SpectralState state = form.state_of(theta);
-  const SpectralModel& model = form.model();
-  state.rss = (model.columns(state.ln_tau, state.nuisance, false).values * state.coefficients -
-               model.data())
-                  .squaredNorm();
-  state.is_converged = summary.IsSolutionUsable();
-  return state;
+  const auto refuse = [&](const std::string& why) {
+    throw std::invalid_argument("with " + all + " " + why);
+  };
+  if (!state.coefficients.allFinite() || !state.ln_tau.allFinite() || !std::isfinite(state.rss)) {
+    refuse("no finite fit exists; loosen the constraints");
+  }
+  if (!may_be_negative && state.coefficients[0] < 0.0) {
+    refuse(
+        "the data ask for shares that sum to more than one (a negative E_inf); loosen the "
+        "constraints, or use --liquid");
+  }
+  for (Index i = 1; i < state.n_terms(); ++i) {
+    if (state.ln_tau[i] >= state.ln_tau[i - 1]) continue;
+    refuse("term " + std::to_string(i + 1) + " comes out faster than term " + std::to_string(i) +
+           "; terms are numbered by ascending time, so name them the other way round");
+  }
+}
+
+// How much worse the constraints make the description, beside the free fit of the same data.
+void flag_contradiction(double free_rss, double free_variance, double inflation, int n_held,
+                        SpectralFit& fit) {
+  const double rise = (fit.rss - free_rss) / std::max(free_variance * inflation, 1e-300);
+  // By chance a held true value raises it by n_held +- sqrt(2 n_held).
+  const double by_chance = n_held + 5.0 * std::sqrt(2.0 * n_held);
+  if (!(rise > by_chance)) return;
+  constexpr double kPlain = 2.0;  // seen without statistics
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "the constraints contradict the data: the residual sum of squares is %.4g times "
+                "that of the free fit, %.3g variances of the noise more",
+                fit.rss / std::max(free_rss, 1e-300), rise);
+  fit.notes.push_back(
+      {fit.rss > kPlain * free_rss ? kContradictsData : "constraints-strained", 0, text});
 }
 
 // Times to start from: the constrained ones where they must be, the others spread over the range
@@ -295,10 +216,19 @@ ParameterConstraint constraint_from_text(const std::string& text) {
   return out;
 }
 
-void validate(const std::vector<ParameterConstraint>& constraints, int n_terms) {
+void validate(const std::vector<ParameterConstraint>& constraints, int n_terms,
+              bool may_be_negative) {
   bool has_moduli = false;
+  double least_shares = 0.0;
+  std::set<std::string> seen;
   for (const ParameterConstraint& one : constraints) {
-    const Name name = name_of(one.name);
+    const ParameterName name = name_of(one.name);
+    const auto refuse = [&](const std::string& why) {
+      throw std::invalid_argument(range_text(one) + why);
+    };
+    if (!seen.insert(one.name).second) {
+      throw std::invalid_argument(one.name + " is constrained twice; say it once");
+    }
     if (name.term > n_terms) {
       throw std::invalid_argument(one.name + " is of a term that is not there; the fit has " +
                                   std::to_string(n_terms) + " terms");
@@ -307,7 +237,20 @@ void validate(const std::vector<ParameterConstraint>& constraints, int n_terms) 
       throw std::invalid_argument("the bounds of " + one.name +
                                   " must ascend, and times must be positive");
     }
+    if (name.stem == Stem::kE0 && !(one.high > 0.0)) refuse(": E0 must be positive");
+    const bool has_sign = name.stem != Stem::kE0 && name.stem != Stem::kTime;
+    if (has_sign && !may_be_negative && one.low < 0.0) {
+      refuse(": moduli and shares are not negative (--allow-negative lets them)");
+    }
+    if (name.stem == Stem::kShare) {
+      if (one.low >= 1.0) refuse(": a share of E0 is below 1");
+      least_shares += one.low;
+    }
     has_moduli = has_moduli || name.stem == Stem::kModulus || name.stem == Stem::kEInf;
+  }
+  if (least_shares >= 1.0) {
+    throw std::invalid_argument(
+        "the shares held sum to 1 or more; nothing is left for E_inf. For a liquid use --liquid");
   }
   if (has_moduli && speaks_of_shares(constraints)) {
     throw std::invalid_argument(
@@ -317,18 +260,23 @@ void validate(const std::vector<ParameterConstraint>& constraints, int n_terms) 
 
 void constrain(const SpectralModel& model, const FitOptions& options, SpectralFit& fit) {
   const Index n_terms = options.n_terms.value_or(static_cast<int>(fit.state.n_terms()));
-  validate(options.constraints, static_cast<int>(n_terms));
+  validate(options.constraints, static_cast<int>(n_terms), options.allow_negative);
   const bool by_shares = speaks_of_shares(options.constraints);
   if (model.n_common() == 0 || model.common()[0].is_free) {
     throw std::invalid_argument("parameters of a liquid cannot be constrained");
   }
+  check_times(model, options.constraints);
   const Parametrisation form(model, n_terms, by_shares);
   const Box box = box_of(form, options.constraints);
-  SpectralState best = solve_in_box(form, box, spread_start(model, form, box, fit, n_terms));
+  SpectralState best =
+      solve_in_box(form, box.low, box.high, spread_start(model, form, box, fit, n_terms));
   if (fit.state.n_terms() == n_terms) {
-    const SpectralState other = solve_in_box(form, box, fit.state);
+    const SpectralState other = solve_in_box(form, box.low, box.high, fit.state);
     if (other.rss < best.rss) best = other;
   }
+  check_solution(best, options.constraints, options.allow_negative);
+  const double free_rss = fit.rss, free_variance = fit.variance;
+  const double free_inflation = fit.noise.inflation();
   fit.state = best;
   fit.rss = best.rss + model.hidden_rss(best.ln_tau, best.nuisance, best.coefficients);
   const auto n_parameters = static_cast<double>(form.size());
@@ -342,15 +290,11 @@ void constrain(const SpectralModel& model, const FitOptions& options, SpectralFi
   }
   fit.covariance = free_covariance(form, box, best, fit.variance * inflation);
   for (const ParameterConstraint& one : options.constraints) {
-    char text[160];
-    if (one.low == one.high) {
-      std::snprintf(text, sizeof text, "%s was fixed at %.6g", one.name.c_str(), one.low);
-    } else {
-      std::snprintf(text, sizeof text, "%s was held between %.6g and %.6g", one.name.c_str(),
-                    one.low, one.high);
-    }
-    fit.notes.push_back({"constrained", 0, text});
+    fit.notes.push_back(
+        {"constrained", 0, range_text(one) + (one.low == one.high ? " was held" : " was kept")});
   }
+  flag_contradiction(free_rss, free_variance, free_inflation,
+                     static_cast<int>(options.constraints.size()), fit);
 }
 
 }  // namespace viscard

@@ -1,5 +1,7 @@
 #include "fit/flags.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -43,6 +45,24 @@ double correlation(const Eigen::MatrixXd& covariance, Index i, Index j) {
 }
 
 }  // namespace
+
+bool is_defect(const std::string& name) {
+  constexpr std::array kDefects{"not-converged", "saturated",  "gap-in-ramp",
+                                "contact-lost",  "E0-unknown", kContradictsData};
+  return std::find(kDefects.begin(), kDefects.end(), name) != kDefects.end();
+}
+
+void judge(FitResult& result) {
+  if (!(result.E0_interval_95.low > 0.0) || !std::isfinite(result.E0_interval_95.high)) {
+    add_defect(result, "E0-unknown",
+               "the 95 % interval of E0 (" + number(result.E0_interval_95.low) + " to " +
+                   number(result.E0_interval_95.high) +
+                   ") reaches zero: the data do not tell what it is. Ask for fewer terms");
+  }
+  for (const MaterialFlag& flag : result.flags) {
+    if (is_defect(flag.name)) result.is_trustworthy = false;
+  }
+}
 
 void add_defect(FitResult& result, const std::string& name, const std::string& text) {
   result.flags.push_back({name, 0, text});

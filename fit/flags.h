@@ -3,6 +3,8 @@
 #include "fit/fit_result.h"
 #include "fit/separable.h"
 
+#include <string>
+
 namespace viscard {
 
 // What the test could show at all, for judging each term.
@@ -19,10 +21,18 @@ void add_identifiability_flags(const SpectralModel& model, const SpectralState& 
                                const Eigen::MatrixXd& covariance, const TestWindow& window,
                                FitResult& result);
 
+// What holds of every kind of fit: E0 whose interval reaches zero is no result (E0-unknown), and
+// notes that are defects count.
+void judge(FitResult& result);
+
 // Says how many samples were left out as spikes, if any.
 void add_spikes(FitResult& result, std::size_t count);
 
-// A flag that makes the whole result untrustworthy.
+// Names of flags that make the whole result untrustworthy.
+inline constexpr const char* kContradictsData = "contradicts-data";
+bool is_defect(const std::string& name);
+
+// A flag of that kind.
 void add_defect(FitResult& result, const std::string& name, const std::string& text);
 
 }  // namespace viscard

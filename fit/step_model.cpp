@@ -41,10 +41,10 @@ StepModel::StepModel(std::span<const double> time_s, std::span<const double> val
   if (shape == StepShape::kCreep && is_liquid_) common_.push_back({"fluidity", false});
   may_be_negative_ = options.allow_negative;
 
-  // Times below the first sample or beyond the record are still allowed by a factor of three.
+  // Times below the sampling or beyond the record are still allowed by a factor of three, but none
+  // of which less than exp(-3) is left at the first sample: its modulus could be anything.
   sampling_s_ = shortest_step_s(time_s_);
-  const double first_s = time_s_.front() > 0.0 ? time_s_.front() : sampling_s_;
-  ln_tau_min_ = std::log(std::min(first_s, sampling_s_) / 3.0);
+  ln_tau_min_ = std::log(std::max(time_s_.front(), sampling_s_) / 3.0);
   ln_tau_max_ = std::log(time_s_.back() * 3.0);
 }
 

@@ -1,6 +1,7 @@
 #include "io/cli/command_fit.h"
 
 #include "fit/constraints.h"
+#include "fit/flags.h"
 #include "io/atomic_file.h"
 #include "io/cli/command_line.h"
 #include "io/cli/fit_batch.h"
@@ -127,7 +128,7 @@ std::vector<ParameterConstraint> constraints_from(const po::variables_map& value
   try {
     for (const std::string& text : texts) constraints.push_back(constraint_from_text(text));
     const int n_terms = values.count("terms") > 0 ? values["terms"].as<int>() : 1000;
-    validate(constraints, n_terms);
+    validate(constraints, n_terms, values.count("allow-negative") > 0);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
@@ -267,9 +268,7 @@ int report_defects(const std::vector<FittedFile>& fitted, std::ostream& err) {
     status = kFailed;
     std::string names;
     for (const MaterialFlag& flag : file.result.flags) {
-      for (const char* name : {"not-converged", "saturated", "gap-in-ramp", "contact-lost"}) {
-        if (flag.name == name) names += (names.empty() ? "" : "; ") + flag.text;
-      }
+      if (is_defect(flag.name)) names += (names.empty() ? "" : "; ") + flag.text;
     }
     err << "viscard: " << file.path << ": the result is not to be trusted: " << names << "\n";
   }

@@ -175,10 +175,11 @@ FittedFile fit_capture(const std::string& path, const FitWords& words) {
 }  // namespace
 
 FittedFile fit_file(const std::string& path, const FitWords& words) {
+  // What is called a capture is read as one, so that a damaged one is not taken for a table.
+  const bool is_capture = path.ends_with(".viscap") || looks_like_capture(path);
   // Readers name the file themselves; the fit does not know it.
   try {
-    FittedFile fitted =
-        looks_like_capture(path) ? fit_capture(path, words) : fit_table(path, words);
+    FittedFile fitted = is_capture ? fit_capture(path, words) : fit_table(path, words);
     fitted.path = path;
     return fitted;
   } catch (const std::exception& error) {

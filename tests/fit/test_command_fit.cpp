@@ -286,3 +286,11 @@ TEST_CASE("several files are fitted together, in their order", "[cli]") {
   CHECK(json["fits"][0]["file"] == b);
   CHECK(json["fits"][0]["E0_Pa"] == json["fits"][1]["E0_Pa"]);
 }
+
+TEST_CASE("what is called a capture and is none is not taken for a table", "[cli]") {
+  const Folder folder;
+  const std::string file = folder.write("run.viscap", "SQLxte format 3\n0.1,0.2\n0.3,0.4\n");
+  const Ran ran = run({"fit", file});
+  CHECK(ran.status == kFailed);
+  CHECK_THAT(ran.err, Contains(file) && Contains("not a capture") && !Contains("column"));
+}

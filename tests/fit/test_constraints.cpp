@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <random>
@@ -80,6 +81,49 @@ TEST_CASE("constraints that make no sense are refused by name", "[fit]") {
   CHECK_THAT(text_of({"tau_1=2:1"}), Contains("must ascend"));
   CHECK_THAT(text_of({"tau_1=fast"}), Contains("'fast' is not a number"));
   CHECK_THAT(text_of({"g_1=.1", "E_inf=1"}), Contains("not both"));
+  CHECK_THAT(text_of({"tau_1=1", "tau_1=2"}), Contains("tau_1 is constrained twice"));
+  CHECK_THAT(text_of({"E0=0"}), Contains("E0 must be positive"));
+  CHECK_THAT(text_of({"E0=-2:-1"}), Contains("E0 must be positive"));
+  CHECK_THAT(text_of({"E_inf=-1"}), Contains("not negative"));
+  CHECK_THAT(text_of({"g_1=0.6", "g_2=0.5"}), Contains("sum to 1 or more"));
+  CHECK_THAT(text_of({"g_1=1.5:2"}), Contains("below 1"));
+  CHECK_THAT(text_of({"tau_1=1e-9"}), Contains("outside the times that the record can show"));
+  CHECK_THAT(text_of({"tau_1=300"}), Contains("numbered by ascending time"));
+}
+
+TEST_CASE("constraints that the data contradict make the result untrustworthy", "[fit]") {
+  const auto flag_of = [](const FitResult& fit, const std::string& name) {
+    return std::any_of(fit.flags.begin(), fit.flags.end(),
+                       [&](const MaterialFlag& flag) { return flag.name == name; });
+  };
+  for (const char* text : {"E0=0.9", "E0=3", "E_inf=0.5", "g_1=0.5", "E_2=1"}) {
+    CAPTURE(text);
+    const FitResult fit = fit_with({text});
+    CHECK_FALSE(fit.is_trustworthy);
+    CHECK(flag_of(fit, "contradicts-data"));
+    CHECK(std::isfinite(fit.E0_Pa));
+    CHECK(fit.E_inf_Pa >= 0.0);
+    CHECK(fit.sum_g <= 1.0);
+  }
+  const FitResult near = fit_with({"E0=1.8"});  // the truth
+  CHECK(near.is_trustworthy);
+  CHECK_FALSE(flag_of(near, "contradicts-data"));
+  CHECK_FALSE(flag_of(near, "constraints-strained"));
+  const FitResult beside = fit_with({"tau_1=0.9"});  // seven standard errors off, hardly seen
+  CHECK(beside.is_trustworthy);
+  CHECK(flag_of(beside, "constraints-strained"));
+}
+
+TEST_CASE("terms that the data do not hold leave E0 finite, or say that it is unknown", "[fit]") {
+  const int n_terms = GENERATE(3, 4, 6, 100);
+  const FitResult fit = fit_relaxation(two_terms(), {.n_terms = n_terms});
+  CAPTURE(n_terms, fit.E0_Pa, fit.E0_se_Pa, fit.terms.size());
+  CHECK((fit.E0_Pa == Approx(1.8).epsilon(0.2) || !fit.is_trustworthy));
+  CHECK(fit.E0_Pa < 180.0);
+  const bool is_said =
+      std::any_of(fit.flags.begin(), fit.flags.end(),
+                  [](const MaterialFlag& flag) { return flag.name == "fewer-terms"; });
+  CHECK(is_said == (static_cast<int>(fit.terms.size()) < n_terms));
 }
 
 TEST_CASE("constraints come from the command line or a file", "[cli]") {
@@ -93,17 +137,21 @@ TEST_CASE("constraints come from the command line or a file", "[cli]") {
   }
   out.close();
   const std::string file = (folder / "c.txt").string();
-  std::ofstream(file) << "# from the data sheet\ntau_1 = 0.9\n\ng_2 = 0:0.03\n";
+  std::ofstream(file) << "# from the data sheet\ntau_1 = 0.82\n\ng_2 = 0:0.05\n";
   const CommandOutcome ran =
       run_command({"fit", table, "--terms", "2", "--constraints", file, "--json"});
   INFO(ran.err);
   REQUIRE(ran.status == kDone);
   const auto json = nlohmann::json::parse(ran.out);
-  CHECK(json["terms"][0]["tau_s"].get<double>() == Approx(0.9).epsilon(1e-10));
-  CHECK(json["terms"][1]["g"].get<double>() <= 0.03 * (1.0 + 1e-9));
+  CHECK(json["terms"][0]["tau_s"].get<double>() == Approx(0.82).epsilon(1e-10));
+  CHECK(json["terms"][1]["g"].get<double>() <= 0.05 * (1.0 + 1e-9));
   const CommandOutcome words = run_command(
-      {"fit", table, "--terms", "2", "--fix", "tau_1=0.9", "--bound", "g_2=0:0.03", "--json"});
+      {"fit", table, "--terms", "2", "--fix", "tau_1=0.82", "--bound", "g_2=0:0.05", "--json"});
   CHECK(words.out == ran.out);
   CHECK(run_command({"fit", table, "--fix", "tau_1=0.9"}).status == kBadWords);
   CHECK(run_command({"fit", table, "--terms", "2", "--fix", "tau_1"}).status == kBadWords);
+  const CommandOutcome below = run_command({"fit", table, "--terms", "2", "--fix", "E0=0.9"});
+  CHECK(below.status == kFailed);
+  CHECK_THAT(below.err, Contains("contradict the data"));
+  CHECK(run_command({"fit", table, "--terms", "2", "--fix", "E0=-1"}).status == kBadWords);
 }
