@@ -75,8 +75,13 @@ void write_file(const std::filesystem::path& path, const std::string& contents, 
       if (::rename(temporary.c_str(), path.c_str()) != 0) fail(path, "cannot rename", errno);
     } else {
       // link() refuses an existing name, so nobody's file is lost to a race.
-      if (::link(temporary.c_str(), path.c_str()) != 0) fail(path, "cannot create", errno);
-      ::unlink(temporary.c_str());
+      if (::link(temporary.c_str(), path.c_str()) == 0) {
+        ::unlink(temporary.c_str());
+      } else if (errno != EPERM && errno != EOPNOTSUPP) {
+        fail(path, "cannot create", errno);
+      } else if (::rename(temporary.c_str(), path.c_str()) != 0) {  // no links on a FAT stick
+        fail(path, "cannot rename", errno);
+      }
     }
     sync_folder(folder);
   } catch (...) {

@@ -183,7 +183,7 @@ ColumnMap column_map_from_words(const std::vector<std::string>& words) {
       std::string all;
       for (const std::string& one : names) all += (all.empty() ? "" : ", ") + one;
       throw std::invalid_argument("--column: there is no quantity '" + name + "'" +
-                                  (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                                  (near.empty() ? "." : "; did you mean '" + near + "'?") +
                                   " There are " + all);
     }
     if (!map.emplace(name, word.substr(equals + 1)).second) {

@@ -23,6 +23,7 @@ class Fields {
 
   void require(const char* key, const char* what) const {
     if (has(key)) return;
+    if (json_.contains(key)) fail(key, std::string("is null; expected ") + what);
     std::vector<std::string> keys;
     for (const auto& item : json_.items()) keys.push_back(item.key());
     std::string near = nearest_word(key, keys);

@@ -1,5 +1,7 @@
 #include "models/calibration.h"
 
+#include "models/text_of_number.h"
+
 #include <cmath>
 #include <stdexcept>
 
@@ -7,12 +9,11 @@ namespace viscard {
 
 void validate(const LoadCellCalibration& calibration) {
   if (!std::isfinite(calibration.volts_per_newton) || calibration.volts_per_newton == 0.0) {
-    throw std::invalid_argument("load cell gain is " +
-                                std::to_string(calibration.volts_per_newton) +
+    throw std::invalid_argument("load cell gain is " + text_of(calibration.volts_per_newton) +
                                 " V/N; it must be finite and not zero");
   }
   if (!(calibration.capacity_N > 0.0) || !std::isfinite(calibration.capacity_N)) {
-    throw std::invalid_argument("load cell capacity is " + std::to_string(calibration.capacity_N) +
+    throw std::invalid_argument("load cell capacity is " + text_of(calibration.capacity_N) +
                                 " N; it must be positive");
   }
 }

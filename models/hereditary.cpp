@@ -1,5 +1,7 @@
 #include "models/hereditary.h"
 
+#include "models/text_of_number.h"
+
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -31,7 +33,7 @@ HereditaryStress::HereditaryStress(PronySeries series)
 
 double HereditaryStress::advance(double dt_s, double strain) {
   if (!(dt_s >= 0.0) || !std::isfinite(dt_s)) {
-    throw std::invalid_argument("time step of " + std::to_string(dt_s) +
+    throw std::invalid_argument("time step of " + text_of(dt_s) +
                                 " s; steps must be finite and not negative");
   }
   const double increment = strain - strain_;

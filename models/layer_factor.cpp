@@ -1,6 +1,7 @@
 #include "models/layer_factor.h"
 
 #include "models/gauss_legendre.h"
+#include "models/text_of_number.h"
 
 #include <Eigen/Dense>
 
@@ -29,11 +30,11 @@ double missing_compliance(double x, double nu) {
 double layer_factor(double radius_over_thickness, double poisson_ratio) {
   if (!(radius_over_thickness >= 0.0 && radius_over_thickness <= 10.0)) {
     throw std::invalid_argument("punch radius over layer thickness is " +
-                                std::to_string(radius_over_thickness) +
+                                text_of(radius_over_thickness) +
                                 "; the layer correction holds from 0 to 10");
   }
   if (!(poisson_ratio >= 0.0 && poisson_ratio <= 0.5)) {
-    throw std::invalid_argument("Poisson ratio is " + std::to_string(poisson_ratio) +
+    throw std::invalid_argument("Poisson ratio is " + text_of(poisson_ratio) +
                                 "; the layer correction holds from 0 to 0.5");
   }
   if (radius_over_thickness == 0.0) return 1.0;

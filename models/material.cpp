@@ -1,6 +1,7 @@
 #include "models/material.h"
 
 #include "models/retardation_spectrum.h"
+#include "models/text_of_number.h"
 
 #include <cmath>
 #include <limits>
@@ -23,13 +24,13 @@ double sum_of(const std::vector<MaterialTerm>& terms, double MaterialTerm::*memb
 void validate_term(const MaterialTerm& term, std::size_t number) {
   const std::string where = "term " + std::to_string(number) + ": ";
   if (!(term.g >= 0.0) || !std::isfinite(term.g)) {
-    fail(where + "g is " + std::to_string(term.g) + "; it must be finite and not negative");
+    fail(where + "g is " + text_of(term.g) + "; it must be finite and not negative");
   }
   if (!(term.k >= 0.0) || !std::isfinite(term.k)) {
-    fail(where + "k is " + std::to_string(term.k) + "; it must be finite and not negative");
+    fail(where + "k is " + text_of(term.k) + "; it must be finite and not negative");
   }
   if (!(term.tau_s > 0.0) || !std::isfinite(term.tau_s)) {
-    fail(where + "tau is " + std::to_string(term.tau_s) + " s; it must be positive and finite");
+    fail(where + "tau is " + text_of(term.tau_s) + " s; it must be positive and finite");
   }
 }
 
@@ -45,21 +46,31 @@ PronySeries bulk_series(const Material& material, const DerivedModuli& moduli) {
 
 void validate(const Material& material) {
   if (!(material.E0_Pa > 0.0) || !std::isfinite(material.E0_Pa)) {
-    fail("E0 is " + std::to_string(material.E0_Pa) + " Pa; it must be positive and finite");
+    fail("E0 is " + text_of(material.E0_Pa) + " Pa; it must be positive and finite");
   }
   if (!(material.nu > -1.0 && material.nu <= 0.5)) {
-    fail("Poisson ratio is " + std::to_string(material.nu) + "; it must lie in (-1, 0.5]");
+    fail("Poisson ratio is " + text_of(material.nu) + "; it must lie in (-1, 0.5]");
   }
   if (!(material.rho_kg_m3 >= 0.0) || !std::isfinite(material.rho_kg_m3)) {
-    fail("density is " + std::to_string(material.rho_kg_m3) + " kg/m3; it must not be negative");
+    fail("density is " + text_of(material.rho_kg_m3) + " kg/m3; it must not be negative");
   }
   if (!(material.mixing_ratio >= 0.0) || !std::isfinite(material.mixing_ratio)) {
-    fail("mixing ratio is " + std::to_string(material.mixing_ratio) + "; it must be positive");
+    fail("mixing ratio is " + text_of(material.mixing_ratio) + "; it must be positive");
+  }
+  const ValidityWindow& valid = material.valid;
+  if (!(valid.t_min_s >= 0.0) || !(valid.t_max_s >= 0.0) || !std::isfinite(valid.t_max_s) ||
+      (valid.t_max_s > 0.0 && !(valid.t_min_s < valid.t_max_s))) {
+    fail("the validity window runs from " + text_of(valid.t_min_s) + " s to " +
+         text_of(valid.t_max_s) + " s; it must begin at 0 or later and end after it begins");
+  }
+  if (material.T_ref_C && !(*material.T_ref_C > -273.15 && std::isfinite(*material.T_ref_C))) {
+    fail("the reference temperature is " + text_of(*material.T_ref_C) +
+         " C; it must be above absolute zero");
   }
   if (material.shift) {
     validate(*material.shift);
     if (!material.T_ref_C || *material.T_ref_C != material.shift->T_ref_C) {
-      fail("the temperature shift counts from " + std::to_string(material.shift->T_ref_C) +
+      fail("the temperature shift counts from " + text_of(material.shift->T_ref_C) +
            " C, so T_ref_C must be given and be the same");
     }
   }
@@ -68,11 +79,11 @@ void validate(const Material& material) {
   const double sum_k = sum_of(material.terms, &MaterialTerm::k);
   // Rounding of a liquid's shares may add to 1 + 1e-16; a card for it is refused all the same.
   if (!(sum_g < 1.0)) {
-    fail("the g of all terms add up to " + std::to_string(sum_g) +
+    fail("the g of all terms add up to " + text_of(sum_g) +
          "; they must stay below 1, or nothing of the modulus is left in the end");
   }
   if (!(sum_k < 1.0)) {
-    fail("the k of all terms add up to " + std::to_string(sum_k) + "; they must stay below 1");
+    fail("the k of all terms add up to " + text_of(sum_k) + "; they must stay below 1");
   }
 }
 

@@ -1,5 +1,7 @@
 #include "models/mittag_leffler.h"
 
+#include "models/text_of_number.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,8 +12,8 @@ namespace viscard {
 
 double mittag_leffler_decay(double alpha, double x) {
   if (!(alpha > 0.0 && alpha <= 1.0) || !(x >= 0.0)) {
-    throw std::invalid_argument("Mittag-Leffler decay of order " + std::to_string(alpha) + " at " +
-                                std::to_string(x) + ": the order must lie in (0, 1], x not be < 0");
+    throw std::invalid_argument("Mittag-Leffler decay of order " + text_of(alpha) + " at " +
+                                text_of(x) + ": the order must lie in (0, 1], x not be < 0");
   }
   constexpr double kPi = std::numbers::pi;
   if (x == 0.0) return 1.0;

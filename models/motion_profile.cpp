@@ -1,5 +1,7 @@
 #include "models/motion_profile.h"
 
+#include "models/text_of_number.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -33,8 +35,8 @@ Phases phases_of(const StageMove& move) {
 void validate(const StageMove& move) {
   if (!(move.speed_m_s > 0.0) || !(move.acceleration_m_s2 > 0.0) || !std::isfinite(move.from_m) ||
       !std::isfinite(move.to_m) || !std::isfinite(move.start_time_s)) {
-    throw std::invalid_argument("stage move with speed " + std::to_string(move.speed_m_s) +
-                                " m/s and acceleration " + std::to_string(move.acceleration_m_s2) +
+    throw std::invalid_argument("stage move with speed " + text_of(move.speed_m_s) +
+                                " m/s and acceleration " + text_of(move.acceleration_m_s2) +
                                 " m/s2: both must be positive and all values finite");
   }
 }

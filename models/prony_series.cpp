@@ -1,5 +1,7 @@
 #include "models/prony_series.h"
 
+#include "models/text_of_number.h"
+
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -8,20 +10,19 @@ namespace viscard {
 
 void validate(const PronySeries& series, bool allow_negative) {
   if (!(series.equilibrium_modulus_Pa >= 0.0) || !std::isfinite(series.equilibrium_modulus_Pa)) {
-    throw std::invalid_argument("equilibrium modulus is " +
-                                std::to_string(series.equilibrium_modulus_Pa) +
+    throw std::invalid_argument("equilibrium modulus is " + text_of(series.equilibrium_modulus_Pa) +
                                 " Pa; it must be finite and not negative");
   }
   for (std::size_t i = 0; i < series.terms.size(); ++i) {
     const MaxwellTerm& term = series.terms[i];
     if (!(term.relaxation_time_s > 0.0) || !std::isfinite(term.relaxation_time_s)) {
       throw std::invalid_argument("term " + std::to_string(i + 1) + " has relaxation time " +
-                                  std::to_string(term.relaxation_time_s) +
+                                  text_of(term.relaxation_time_s) +
                                   " s; it must be positive and finite");
     }
     if (!std::isfinite(term.modulus_Pa) || (!allow_negative && !(term.modulus_Pa >= 0.0))) {
       throw std::invalid_argument("term " + std::to_string(i + 1) + " has modulus " +
-                                  std::to_string(term.modulus_Pa) +
+                                  text_of(term.modulus_Pa) +
                                   " Pa; it must be finite and not negative");
     }
   }

@@ -1,6 +1,7 @@
 #include "models/punch_contact.h"
 
 #include "models/layer_factor.h"
+#include "models/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,7 @@ void validate_tip(const PunchContact& contact) {
   const bool is_cone = contact.shape == TipShape::kCone;
   if (is_cone && !(contact.half_angle_rad > 0.0 && contact.half_angle_rad < std::numbers::pi / 2)) {
     throw std::invalid_argument("half-angle of the cone is " +
-                                std::to_string(contact.half_angle_rad * 180.0 / std::numbers::pi) +
+                                text_of(contact.half_angle_rad * 180.0 / std::numbers::pi) +
                                 " degrees; it must lie between 0 and 90");
   }
   const std::string name = is_cone ? "cone" : "sphere";
@@ -39,15 +40,15 @@ void validate(const PunchContact& contact) {
   if (contact.shape != TipShape::kFlat) validate_tip(contact);
   if (contact.shape != TipShape::kCone &&
       !(contact.punch_radius_m > 0.0 && std::isfinite(contact.punch_radius_m))) {
-    throw std::invalid_argument("punch radius is " + std::to_string(contact.punch_radius_m) +
+    throw std::invalid_argument("punch radius is " + text_of(contact.punch_radius_m) +
                                 " m; it must be positive");
   }
   if (!(contact.layer_thickness_m >= 0.0) || !std::isfinite(contact.layer_thickness_m)) {
-    throw std::invalid_argument("layer thickness is " + std::to_string(contact.layer_thickness_m) +
+    throw std::invalid_argument("layer thickness is " + text_of(contact.layer_thickness_m) +
                                 " m; it must be positive, or 0 for a half-space");
   }
   if (!(contact.poisson_ratio >= 0.0 && contact.poisson_ratio <= 0.5)) {
-    throw std::invalid_argument("Poisson ratio is " + std::to_string(contact.poisson_ratio) +
+    throw std::invalid_argument("Poisson ratio is " + text_of(contact.poisson_ratio) +
                                 "; it must lie in [0, 0.5]");
   }
 }

@@ -10,6 +10,9 @@
 namespace viscard {
 namespace {
 
+// Digits a hand may leave out: numbers this close are the same number.
+constexpr double kHandTyped = 2e-3;
+
 struct Context {
   Material material;  // the reference under the target's bulk rule
   CardTarget target;
@@ -320,11 +323,12 @@ bool are_terms_swapped(const CardNumbers& found, const CardNumbers& expected,
   std::sort(times.begin(), times.end());
   std::sort(wanted.begin(), wanted.end());
   for (std::size_t i = 0; i < times.size(); ++i) {
-    if (mismatch(times[i], wanted[i]) > 1e-5) return false;
+    if (mismatch(times[i], wanted[i]) > kHandTyped) return false;
   }
   CardNumbers regrouped = found;
   regrouped.branches = by_share;
-  return mismatch(regrouped, expected, target) < 1e-5;
+  const double off = mismatch(regrouped, expected, target);
+  return off <= kHandTyped && off <= 0.2 * mismatch(found, expected, target);
 }
 
 struct Best {
@@ -347,7 +351,7 @@ Best best_explanation(const std::vector<Mistake>& list, const CardNumbers& found
     one.plant(numbers);
     consider(numbers, {&one});
   }
-  if (best.mismatch <= 2e-3) return best;
+  if (best.mismatch <= kHandTyped) return best;
   for (const Mistake& one : list) {
     for (const Mistake& two : list) {
       if (one.name == two.name) continue;
@@ -378,7 +382,13 @@ std::vector<CardFinding> explain_difference(const ReadCard& read, const Material
   add_order_mistakes(list);
   const Best best = best_explanation(list, read.numbers, expected, context.target);
   const double plain = mismatch(read.numbers, expected, context.target);
-  if (best.mismatch > 2e-3 || best.mismatch > 0.2 * plain) return {};  // hand-typed digits: 2e-3
+  if (best.mismatch > kHandTyped || best.mismatch > 0.2 * plain) {
+    if (plain > kHandTyped) return {};
+    return {
+        {"rounded",
+         "the numbers are the material's, with fewer digits; --tolerance accepts the difference",
+         false}};
+  }
   std::vector<CardFinding> findings;
   for (const Mistake* mistake : best.mistakes) {
     findings.push_back({mistake->name, mistake->text, true});

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <ostream>
 
 namespace viscard {
@@ -55,6 +56,7 @@ nlohmann::ordered_json json_of(const CardCheck& check, const CardWords& words) {
                     {"C1", material.shift->C1},
                     {"C2_K", material.shift->C2_K}};
   }
+  json["tolerance"] = check.tolerance;
   json["E_difference"] = optional_json(check.E_difference);
   json["G_difference"] = optional_json(check.G_difference);
   json["E_difference_with_bulk"] = optional_json(check.E_difference_with_bulk);
@@ -96,9 +98,18 @@ void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
     out << (finding.is_mistake ? "mistake " : "note ") << finding.name << ": " << finding.text
         << "\n";
   }
-  out << (check.agrees ? check.E_difference ? "the card agrees with the material\n"
-                                            : "no mistake found; name a material to compare with\n"
-                       : "the card is wrong\n");
+  const bool has_mistake =
+      std::any_of(check.findings.begin(), check.findings.end(),
+                  [](const CardFinding& finding) { return finding.is_mistake; });
+  if (has_mistake || (!check.agrees && !check.E_difference)) {
+    out << "the card is wrong\n";
+  } else if (!check.agrees) {
+    out << fmt::format("the card differs by more than the {:.1e} allowed\n", check.tolerance);
+  } else if (check.E_difference) {
+    out << fmt::format("the card agrees with the material (within {:.1e})\n", check.tolerance);
+  } else {
+    out << "no mistake found; name a material to compare with\n";
+  }
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct CardWords {
   std::string elastic_only;  // "", "instantaneous", "long-term"
   std::optional<int> terms;
   std::optional<double> clamped_nu;
-  double tolerance = 1e-6;
+  std::optional<double> tolerance;
   std::optional<double> ratio;  // of a joint fit
   bool may_extrapolate = false;
   bool list = false, force = false, json = false, is_reproducible = false;

@@ -59,6 +59,13 @@ void take_bound(const CardWords& words, PreparedMaterial& prepared) {
   prepared.notes.push_back("bound: " + words.bound +
                            " ends of the 95 % intervals of E_inf and every branch modulus" +
                            (found.systematic_relative > 0.0 ? ", systematic part included" : ""));
+  // The moduli of one fit are correlated, so that all at their ends is further out than any one.
+  const double beside = is_lower ? found.E0_Pa_95.low : found.E0_Pa_95.high;
+  if (beside > 0.0) {
+    prepared.notes.push_back(
+        fmt::format("bound: E0 is then {:.4g} Pa; the {} end of its own 95 % interval is {:.4g} Pa",
+                    E0_Pa, words.bound, beside * scale));
+  }
   material.uncertainty.reset();
 }
 
@@ -82,6 +89,10 @@ void reduce_to_target(const CardWords& words, PreparedMaterial& prepared) {
   const int given = static_cast<int>(prepared.material.terms.size());
   int wanted = words.terms.value_or(given);
   if (limit > 0) wanted = std::min(wanted, limit);
+  if (words.terms && *words.terms > given) {
+    prepared.notes.push_back(fmt::format("--terms {} left the {} terms of the material as they are",
+                                         *words.terms, given));
+  }
   if (!words.may_approximate || wanted >= given) return;
   const ReducedMaterial reduced = reduce_material(prepared.material, wanted);
   prepared.terms_change =

@@ -15,6 +15,7 @@
 #include "io/cli/command_simulate.h"
 #include "io/cli/command_validate.h"
 
+#include <filesystem>
 #include <ostream>
 
 namespace viscard {
@@ -82,6 +83,10 @@ int run_viscard(const std::vector<std::string>& words, Streams& streams) {
   } catch (const UsageError& error) {
     streams.err << "viscard: " << error.what() << "\n";
     return kBadWords;
+  } catch (const std::filesystem::filesystem_error& error) {
+    streams.err << "viscard: '" << error.path1().string() << "': " << error.code().message()
+                << "; choose another place\n";
+    return kFailed;
   } catch (const std::exception& error) {
     streams.err << "viscard: " << error.what() << "\n";
     return kFailed;

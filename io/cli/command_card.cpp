@@ -20,7 +20,7 @@ void check_word(const std::string& kind, const std::string& word,
   }
   const std::string near = nearest_word(word, known);
   throw UsageError("there is no " + kind + " '" + word + "'" +
-                   (near.empty() ? "" : "; did you mean '" + near + "'?") + " There are: " + list);
+                   (near.empty() ? "." : "; did you mean '" + near + "'?") + " There are: " + list);
 }
 
 std::vector<std::string> target_names() {
@@ -44,8 +44,9 @@ void add_options(CommandSyntax& syntax, CardWords& words, std::string& terms, do
       "list", po::bool_switch(&words.list), "show targets, conventions, limits and evidence")(
       "check", po::value(&words.check)->value_name("CARD"),
       "read a card back, say what it means, and compare it with the material if one is named")(
-      "tolerance", po::value(&words.tolerance)->value_name("X"),
-      "largest relative difference of E(t) that --check accepts (1e-6)")(
+      "tolerance", po::value<double>()->value_name("X"),
+      "largest relative difference of E(t) that --check accepts; if not given 1e-6, or what the "
+      "target's columns can hold")(
       "prove", po::value(&words.prove)->value_name("CARD"),
       "run a card on one element in its solver (calculix) against the exact answer")(
       "deck", po::value(&words.deck)->value_name("TEST"),
@@ -103,7 +104,9 @@ void check_words(CardWords& words) {
   if (words.terms && !words.may_approximate) {
     throw UsageError("--terms changes the material; say --approximate too");
   }
-  if (!(words.tolerance > 0.0)) throw UsageError("--tolerance must be positive");
+  if (words.tolerance && !(*words.tolerance > 0.0)) {
+    throw UsageError("--tolerance must be positive");
+  }
   if (words.clamped_nu && !(*words.clamped_nu > -1.0 && *words.clamped_nu < 0.5)) {
     throw UsageError("--clamp-nu must lie in (-1, 0.5)");
   }
@@ -135,6 +138,7 @@ int run_card(const std::vector<std::string>& words, Streams& streams) {
   if (values->count("terms") > 0) card.terms = number_of_terms(terms);
   if (values->count("clamp-nu") > 0) card.clamped_nu = nu;
   if (values->count("ratio") > 0) card.ratio = (*values)["ratio"].as<double>();
+  if (values->count("tolerance") > 0) card.tolerance = (*values)["tolerance"].as<double>();
   card.command_line = quoted_command_line("card", words);
   check_words(card);
   if (card.list) return list_card_targets(card, streams);

@@ -84,7 +84,7 @@ Lattice lattice_of(const std::string& word) {
   if (word == "plain") return Lattice::kPlain;
   const std::string near = nearest_word(word, {"square", "hexagonal", "plain"});
   throw UsageError("--lattice cannot be '" + word + "'" +
-                   (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                   (near.empty() ? "." : "; did you mean '" + near + "'?") +
                    " There are: square, hexagonal, plain");
 }
 

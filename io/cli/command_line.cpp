@@ -1,5 +1,7 @@
 #include "io/cli/command_line.h"
 
+#include "io/cli/output_paths.h"
+
 #include <ostream>
 
 namespace po = boost::program_options;
@@ -63,6 +65,7 @@ std::optional<po::variables_map> parse_words(CommandSyntax& syntax,
                 << syntax.options << "\nExample: " << syntax.example << "\n";
     return std::nullopt;
   }
+  check_output_paths(values);
   po::notify(values);
   return values;
 }

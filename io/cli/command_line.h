@@ -22,7 +22,8 @@ struct CommandSyntax {
 };
 
 // Parses; prints the help and returns nothing when --help is among the words. Throws UsageError on
-// an unknown option (with the nearest known one), a missing value or a value that cannot be read.
+// an unknown option (with the nearest known one), a missing value or a value that cannot be read,
+// and what check_output_paths throws: no output may replace an input.
 // --help and --json are added to every command.
 std::optional<boost::program_options::variables_map> parse_words(
     CommandSyntax& syntax, const std::vector<std::string>& words, Streams& streams);

@@ -170,6 +170,41 @@ TEST_CASE("an edited card of ours betrays itself by its header alone", "[cards]"
               "moose") == "header-disagrees");
 }
 
+TEST_CASE("rounding to the columns of a card is no mistake in any unit system", "[cards]") {
+  const double moduli_Pa[] = {1.8812345678e6, 4.7191234567e4, 3.3333333333e9, 9.8765432101e5};
+  for (const CardTarget& target : card_targets()) {
+    if (target.name == "csv" || target.name == "json") continue;
+    for (const UnitSystem& units : unit_systems()) {
+      for (const double E0_Pa : moduli_Pa) {
+        CAPTURE(target.name, units.name, E0_Pa);
+        Material material = reference_material();
+        material.E0_Pa = E0_Pa;
+        material.terms[0].tau_s = 0.19453219876;
+        material.terms[1].g = 0.0138612345678;
+        if (target.max_terms == 1) material.terms.resize(1);
+        std::string text;
+        try {
+          text = write_card(material, {.target = target.name, .units = units.name}).text;
+        } catch (const std::invalid_argument&) {
+          continue;  // refused as not fitting the columns
+        }
+        CHECK(mistakes(text, target.name, material).empty());
+      }
+    }
+  }
+}
+
+TEST_CASE("numbers typed with fewer digits are called rounded, not mistaken", "[cards]") {
+  const Material material = reference_material();
+  const std::string text = replaced(card_text("abaqus"), "1.88, 0.495", "1.8803, 0.495");
+  const CardCheck check = check_card(text, {.target = "abaqus"}, &material);
+  CHECK_FALSE(check.agrees);
+  REQUIRE(check.findings.size() == 1);
+  CHECK(check.findings[0].name == "rounded");
+  CHECK_FALSE(check.findings[0].is_mistake);
+  CHECK(check_card(text, {.target = "abaqus", .tolerance = 1e-3}, &material).agrees);
+}
+
 TEST_CASE("hand-written cards in each dialect are read", "[cards]") {
   const Material material = reference_material();
   const auto check = [&](const std::string& text, const char* target) {

@@ -51,7 +51,9 @@ TEST_CASE("volts become a card, a validated pillar and a page", "[flow][pty]") {
   must_run({"export", capture, "--out", table});
   const std::string fit_json = must_run({"fit", capture, "--out", material, "--json"});
   for (const char* target : {"abaqus", "ansys", "febio", "json"}) {
-    must_run({"card", material, "--for", target, "--units", "mm-t-s", "--out",
+    // A hold of 15 s is short, and the emulated noise follows the machine's clock: now and then the
+    // fit rightly doubts its slowest term, which is no reason not to write the card.
+    must_run({"card", material, "--for", target, "--units", "mm-t-s", "--accept-flags", "--out",
               folder / (std::string("card.") + target)});
   }
   const std::string validation = must_run({"validate", material, "--json"});

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace viscard {
+
+// A number as a person reads it in a message: "1e-14", "0.495", "nan". std::to_string would print
+// the first as 0.000000.
+inline std::string text_of(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+
+}  // namespace viscard
