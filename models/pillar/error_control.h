@@ -25,7 +25,8 @@ struct ErrorControl {
 };
 
 // Runs through the meshes until the change from the last one, and at least a tenth of the change
-// before (so that a chance agreement of two meshes does not pass), is within the tolerance; that
+// before (a quarter if the layers stayed the same), so that a chance agreement of two meshes does
+// not pass, is within the tolerance; that
 // change, plus the answer's own step error, is the error estimate on every number. Throws
 // std::runtime_error saying which number stays how far off when the finest mesh is not enough.
 SceneAnswer answer_within(const ErrorControl& control, const MeshAnswer& answer_on);

@@ -28,7 +28,7 @@ SymmetricSparse stress_stiffness_per_Pa(const PillarModel& axial, const PillarMo
 
 // Where the rim of the bond makes the stress singular, modes that live at the rim alone come down
 // without bound as meshes are refined: they belong to the idealised corner, not to the pillar. So
-// many modes are looked through for the one that bends the pillar as a whole.
+// many modes above a shift are looked through for the one that bends the pillar as a whole.
 constexpr int kMostModes = 8;
 
 std::vector<PillarMode> modes_of(const PillarModel& model, const SymmetricSparse& stiffness,
@@ -70,43 +70,97 @@ std::vector<PillarMode> lowest_modes(const PillarModel& model, int count) {
   return modes_of(model, model.stiffness(), count);
 }
 
-Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int count) {
-  const SymmetricSparse stress = stress_stiffness_per_Pa(axial, lateral);
-  const SymmetricSparse stiffness = lateral.stiffness();
+namespace {
+
+// The pencil K + p K_sigma of a lateral model, and what tells a mode of the whole pillar.
+struct BucklingPencil {
+  const PillarModel& lateral;
+  SymmetricSparse stiffness, stress;
+  Eigen::VectorXd side;  // unit force sideways on the top
+  double side_compliance = 0.0;
+
+  // Vectors of unit energy: (f.v)^2 is what the mode adds to the compliance under a side force.
+  bool is_of_the_pillar(const Eigen::VectorXd& mode) const {
+    const double moved = side.dot(mode);
+    return moved * moved > 0.5 * side_compliance;
+  }
+};
+
+// Modes of largest theta in [K + shift K_sigma]^-1 K v = theta v, p = shift/(1 - 1/theta): those
+// above the shift, from there on upward. The pillar's own is marked if it is among them.
+Buckling buckling_above(const BucklingPencil& pencil, double shift_Pa, int count) {
+  SymmetricSparse shifted = pencil.stiffness;
+  shifted.coeffs() += shift_Pa * pencil.stress.coeffs();
   StiffnessFactor factor;
-  lateral.factor(stiffness, factor);
-  const LinearMap B = [&](const Eigen::VectorXd& x) { return times(stiffness, x); };
-  const LinearMap op = [&](const Eigen::VectorXd& x) { return factor.solve(-times(stress, x)); };
-  const Eigen::VectorXd side = unit_top_force(lateral);
-  const double side_compliance = side.dot(factor.solve(side));
-  for (const int sought : {count, std::max(count, kMostModes)}) {
-    // The factor's own error is the square of the residual; stiff volume leaves some noise in the
-    // latter.
-    const EigenPairs pairs =
-        largest_eigenpairs(op, B, lateral.system().size(), sought, {.tolerance = 1e-6});
-    if (!pairs.converged || !(pairs.values[0] > 0.0)) break;
-    Buckling result;
-    for (Eigen::Index i = 0; i < pairs.values.size() && pairs.values[i] > 0.0; ++i) {
-      result.pressures_Pa.push_back(1.0 / pairs.values[i]);
-      // Vectors of unit energy: (f.v)^2 is what the mode adds to the compliance under a side force.
-      const double moved = side.dot(pairs.vectors.col(i));
-      const bool is_of_the_pillar = moved * moved > 0.5 * side_compliance;
-      if (result.pressure_Pa == 0.0 && is_of_the_pillar) {
-        result.pressure_Pa = result.pressures_Pa.back();
-      }
+  pencil.lateral.factor(shifted, factor);
+  const LinearMap B = [&](const Eigen::VectorXd& x) { return times(pencil.stiffness, x); };
+  const LinearMap op = [&](const Eigen::VectorXd& x) {
+    return factor.solve(times(pencil.stiffness, x));
+  };
+  Buckling result;
+  const EigenPairs pairs =
+      largest_eigenpairs(op, B, pencil.lateral.system().size(), count, {.tolerance = 1e-6});
+  if (!pairs.converged) return result;
+  for (Eigen::Index i = 0; i < pairs.values.size() && pairs.values[i] > 1.0; ++i) {
+    result.pressures_Pa.push_back(shift_Pa / (1.0 - 1.0 / pairs.values[i]));
+    if (result.pressure_Pa == 0.0 && pencil.is_of_the_pillar(pairs.vectors.col(i))) {
+      result.pressure_Pa = result.pressures_Pa.back();
     }
+  }
+  return result;
+}
+
+// Without a pressure if there is none for the pillar as a whole.
+Buckling search_buckling(const PillarModel& axial, const PillarModel& lateral, int count) {
+  BucklingPencil pencil{lateral, lateral.stiffness(), stress_stiffness_per_Pa(axial, lateral),
+                        unit_top_force(lateral)};
+  StiffnessFactor factor;
+  lateral.factor(pencil.stiffness, factor);
+  const Eigen::VectorXd bent = factor.solve(pencil.side);
+  pencil.side_compliance = pencil.side.dot(bent);
+  const LinearMap B = [&](const Eigen::VectorXd& x) { return times(pencil.stiffness, x); };
+  const LinearMap op = [&](const Eigen::VectorXd& x) {
+    return factor.solve(-times(pencil.stress, x));
+  };
+  // The factor's own error is the square of the residual; stiff volume leaves some noise in the
+  // latter.
+  const EigenPairs pairs =
+      largest_eigenpairs(op, B, lateral.system().size(), count, {.tolerance = 1e-6});
+  Buckling result;
+  for (Eigen::Index i = 0; pairs.converged && i < pairs.values.size() && pairs.values[i] > 0.0;
+       ++i) {
+    result.pressures_Pa.push_back(1.0 / pairs.values[i]);
+    if (result.pressure_Pa == 0.0 && pencil.is_of_the_pillar(pairs.vectors.col(i))) {
+      result.pressure_Pa = result.pressures_Pa.back();
+    }
+  }
+  if (result.pressure_Pa > 0.0) return result;
+  // Rayleigh's quotient of the pillar bent by a side force lies above its buckling pressure; local
+  // modes far below it are out of the way of a search that begins not far under it.
+  const double quotient_Pa = -pencil.side_compliance / bent.dot(times(pencil.stress, bent));
+  for (const double share : {0.9, 0.8, 0.6, 0.4}) {
+    if (!(quotient_Pa > 0.0)) break;
+    const Buckling above = buckling_above(pencil, share * quotient_Pa, std::max(count, kMostModes));
+    result.pressure_Pa = above.pressure_Pa;
     if (result.pressure_Pa > 0.0) return result;
   }
+  return result;
+}
+
+}  // namespace
+
+Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int count) {
+  const Buckling found = search_buckling(axial, lateral, count);
+  if (found.pressure_Pa > 0.0) return found;
   throw std::runtime_error(
       "no buckling load of the pillar as a whole was found under this loading: the lowest modes "
-      "are "
-      "local ones at the rim of the bond; a pillar this stubby does not buckle sideways");
+      "are local ones at the rim of the bond; a pillar this stubby does not buckle sideways");
 }
 
 std::vector<PillarMode> modes_under_pressure(const PillarModel& axial, const PillarModel& lateral,
                                              double pressure_Pa, int count) {
-  const double critical_Pa = buckling(axial, lateral).pressure_Pa;
-  if (pressure_Pa >= critical_Pa) {
+  const double critical_Pa = search_buckling(axial, lateral, 1).pressure_Pa;
+  if (critical_Pa > 0.0 && pressure_Pa >= critical_Pa) {
     throw std::runtime_error("a pressure of " + std::to_string(pressure_Pa) +
                              " Pa on the top is beyond the buckling pressure of " +
                              std::to_string(critical_Pa) +

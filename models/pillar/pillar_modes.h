@@ -23,7 +23,8 @@ std::vector<PillarMode> lowest_modes(const PillarModel& model, int count);
 // The axial model gives the stresses; the lateral one must have the same mesh.
 // Modes that live at the singular rim of the bond alone are passed over: the pillar's own mode is
 // the lowest one that holds more than half of its compliance under a side force. Throws
-// std::runtime_error where there is none among the lowest eight.
+// std::runtime_error where there is none near Rayleigh's quotient of the pillar bent by a side
+// force.
 struct Buckling {
   double pressure_Pa = 0.0;          // at which the pillar as a whole buckles
   std::vector<double> pressures_Pa;  // lowest of all modes, ascending, local ones included

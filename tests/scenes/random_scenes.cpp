@@ -118,7 +118,8 @@ Scene random_scene(std::mt19937_64& random, const Ranges& ranges) {
       }
       break;
     case 3:
-      scene.kind = AnalysisKind::kBuckling;
+      scene.kind = AnalysisKind::kBuckling;  // stubbier ones do not bend
+      scene.geometry.length_m = std::max(scene.geometry.length_m, 1.5 * scene.geometry.diameter_m);
       break;
     default:
       scene.kind = draw.chance(0.6) ? AnalysisKind::kCreep : AnalysisKind::kRelaxation;
