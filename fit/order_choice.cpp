@@ -6,19 +6,22 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace viscard {
 namespace {
 
 using Index = Eigen::Index;
+constexpr double kStrongBic = 6.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
 
 double n_parameters(const SpectralModel& model, const SpectralState& state) {
   return static_cast<double>(model.n_common() + 2 * state.n_terms() + model.n_nuisances());
 }
 
-// Whether the paired differences of block errors are above zero by more than their standard error,
-// over the blocks that both orders can predict.
-bool is_worse_by_one_error(const std::vector<LeftOut>& a, const std::vector<LeftOut>& best) {
+// Whether the paired differences of block errors are above zero by more than so many standard
+// errors, over the blocks that both orders can predict.
+bool is_worse(const std::vector<LeftOut>& a, const std::vector<LeftOut>& best,
+              double standard_errors = 1.0) {
   std::vector<double> differences;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (!a[i].is_predictable || !best[i].is_predictable) continue;
@@ -30,7 +33,7 @@ bool is_worse_by_one_error(const std::vector<LeftOut>& a, const std::vector<Left
   for (const double difference : differences) mean += difference / count;
   double square = 0.0;
   for (const double difference : differences) square += std::pow(difference - mean, 2);
-  return mean > std::sqrt(square / (count * (count - 1.0)));
+  return mean > standard_errors * std::sqrt(square / (count * (count - 1.0)));
 }
 
 // Of the space of these columns (of unit length); pivoted only where one hardly leaves the others.
@@ -97,6 +100,8 @@ std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralS
   return errors;
 }
 
+namespace {
+
 // A time at the end of its range is not a time: the order asks for more than the record can show.
 bool is_within_range(const SpectralModel& model, const SpectralState& state) {
   constexpr double kTouch = 1e-6;
@@ -104,52 +109,98 @@ bool is_within_range(const SpectralModel& model, const SpectralState& state) {
                                   state.ln_tau.maxCoeff() < model.ln_tau_max() - kTouch);
 }
 
-OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralState>& path,
+// The range of times ends at three records.
+bool outlasts_record(const SpectralModel& model, const SpectralState& state) {
+  return state.n_terms() > 0 && state.ln_tau.maxCoeff() > model.ln_tau_max() - std::log(9.0);
+}
+
+// What the choice knows of every order of the path.
+struct Candidates {
+  std::vector<OrderRow> rows;
+  std::vector<std::vector<LeftOut>> errors;
+  std::vector<bool> is_eligible;
+  std::size_t best_bic = 0, best_cv = 0;  // among the eligible
+};
+
+OrderRow scored(const SpectralModel& model, const SpectralState& state, double rss,
+                double n_samples, double n_effective) {
+  OrderRow row;
+  row.n_terms = static_cast<int>(state.n_terms());
+  row.rss = rss;
+  const double p = n_parameters(model, state);
+  const double misfit = n_effective * std::log(std::max(rss, 1e-300) / n_samples);
+  const double spare = n_effective - p - 1.0;
+  row.aicc = spare > 0.0 ? misfit + 2.0 * p + 2.0 * p * (p + 1.0) / spare
+                         : std::numeric_limits<double>::infinity();
+  row.bic = misfit + p * std::log(n_effective);
+  return row;
+}
+
+Candidates candidates_of(const SpectralModel& model, const std::vector<SpectralState>& path,
                          const ChoiceInput& input) {
-  OrderScores scores;
+  Candidates all;
   // When even the fullest order misfits, its residual is no noise and its memory no measure of how
   // much was seen: at least five values for each of its parameters are granted.
   const double granted = std::min(input.n_samples, 5.0 * n_parameters(model, path.back()));
   const double n_effective = std::max(granted, input.n_samples / input.inflation);
-  std::vector<std::vector<LeftOut>> errors;
-  std::vector<bool> is_eligible;
-  for (const SpectralState& state : path) is_eligible.push_back(is_within_range(model, state));
-  if (std::find(is_eligible.begin(), is_eligible.end(), true) == is_eligible.end()) {
-    is_eligible.assign(path.size(), true);
+  for (const SpectralState& state : path) {
+    all.is_eligible.push_back(is_within_range(model, state));
   }
-  std::optional<std::size_t> best_bic;
-  std::optional<std::size_t> best_cv;
+  if (std::find(all.is_eligible.begin(), all.is_eligible.end(), true) == all.is_eligible.end()) {
+    all.is_eligible.assign(path.size(), true);
+  }
   const double noise = std::max(input.rss.back(), 1e-300);
+  std::optional<std::size_t> best_bic, best_cv;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    OrderRow row;
-    row.n_terms = static_cast<int>(path[i].n_terms());
-    row.rss = input.rss[i];
-    const double p = n_parameters(model, path[i]);
-    const double misfit = n_effective * std::log(std::max(row.rss, 1e-300) / input.n_samples);
-    const double spare = n_effective - p - 1.0;
-    row.aicc = spare > 0.0 ? misfit + 2.0 * p + 2.0 * p * (p + 1.0) / spare
-                           : std::numeric_limits<double>::infinity();
-    row.bic = misfit + p * std::log(n_effective);
-    errors.push_back(left_out_errors(model, path[i], input.blocks));
+    OrderRow row = scored(model, path[i], input.rss[i], input.n_samples, n_effective);
+    all.errors.push_back(left_out_errors(model, path[i], input.blocks));
     row.cv = row.rss - path[i].rss;  // what averages hide
-    for (const LeftOut& block : errors.back()) row.cv += block.squared_error;
+    for (const LeftOut& block : all.errors.back()) row.cv += block.squared_error;
     row.cv /= noise;
-    scores.rows.push_back(row);
-    if (!is_eligible[i]) continue;
-    if (!best_bic || row.bic < scores.rows[*best_bic].bic) best_bic = i;
-    if (!best_cv || row.cv < scores.rows[*best_cv].cv) best_cv = i;
+    all.rows.push_back(row);
+    if (!all.is_eligible[i]) continue;
+    if (!best_bic || row.bic < all.rows[*best_bic].bic) best_bic = i;
+    if (!best_cv || row.cv < all.rows[*best_cv].cv) best_cv = i;
   }
-  std::size_t choice = *best_cv;
-  for (std::size_t i = *best_cv; i-- > 0;) {
-    if (is_eligible[i] && !is_worse_by_one_error(errors[i], errors[*best_cv])) choice = i;
+  all.best_bic = *best_bic;
+  all.best_cv = *best_cv;
+  return all;
+}
+
+// A term slower than a third of the record is what drift of the force and memory of the noise look
+// like: it takes strong evidence, or the next smaller order without one stands in for this.
+std::size_t without_lasting_term(const SpectralModel& model, const std::vector<SpectralState>& path,
+                                 const Candidates& all, std::size_t chosen) {
+  if (!outlasts_record(model, path[chosen])) return chosen;
+  constexpr double kStandardErrors = 3.0;
+  for (std::size_t i = chosen; i-- > 0;) {
+    if (all.rows[i].bic - all.rows[chosen].bic > kStrongBic ||
+        is_worse(all.errors[i], all.errors[all.best_cv], kStandardErrors)) {
+      return chosen;
+    }
+    if (all.is_eligible[i] && !outlasts_record(model, path[i])) return i;
   }
-  scores.chosen = std::min(choice, *best_bic);
+  return chosen;
+}
+
+}  // namespace
+
+OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralState>& path,
+                         const ChoiceInput& input) {
+  Candidates all = candidates_of(model, path, input);
+  std::size_t choice = all.best_cv;
+  for (std::size_t i = all.best_cv; i-- > 0;) {
+    if (all.is_eligible[i] && !is_worse(all.errors[i], all.errors[all.best_cv])) choice = i;
+  }
+  OrderScores scores;
+  scores.chosen = without_lasting_term(model, path, all, std::min(choice, all.best_bic));
+  scores.rows = std::move(all.rows);
   scores.rows[scores.chosen].is_chosen = true;
   // Orders that were left aside although they describe the data better by far.
   constexpr double kVeryStrong = 10.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool better = scores.rows[i].bic < scores.rows[scores.chosen].bic - kVeryStrong;
-    if (is_eligible[i] || !better) continue;
+    if (all.is_eligible[i] || !better) continue;
     scores.wants_faster |= path[i].ln_tau.minCoeff() <= model.ln_tau_min() + 1e-6;
     scores.wants_slower |= path[i].ln_tau.maxCoeff() >= model.ln_tau_max() - 1e-6;
   }

@@ -10,7 +10,8 @@ namespace viscard {
 // Scores of every order of a path and the choice among them   (fit/README.md, sect. 4): the fewest
 // terms whose left-out blocks are predicted as well as by the best order, within one standard error
 // of the paired difference, and never more than BIC asks for. An order with a time at the end of
-// the range is not eligible.
+// the range is not eligible; one with a time above a third of the record gives way to a smaller one
+// without, unless BIC (by 6) or three standard errors speak for it.
 struct OrderScores {
   std::vector<OrderRow> rows;  // one is marked as chosen
   std::size_t chosen = 0;      // position in the path
