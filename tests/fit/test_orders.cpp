@@ -134,3 +134,24 @@ TEST_CASE("left-out errors of a linear model are those of really leaving blocks 
     CHECK(errors[static_cast<std::size_t>(b)].squared_error == Approx(error).epsilon(1e-10));
   }
 }
+
+TEST_CASE("a term that outlasts the record takes strong evidence", "[fit]") {
+  // Beside a term of .8 s, one of 20 s in 30 s, from nothing to what cannot be overlooked.
+  int withstood = 0, found = 0;
+  for (int step = 1; step <= 24; ++step) {
+    const double modulus = 4e-4 * step;
+    const PronySeries truth{1.6, {{0.12, 0.8}, {modulus, 20.0}}};
+    FitOptions options;
+    options.with_curves = false;
+    const FitResult fit = fit_relaxation(relaxation_of(truth, 1500, 30.0, 0.003, 41), options);
+    if (fit.orders.size() < 3) continue;
+    const double gain = fit.orders[1].bic - fit.orders[2].bic;
+    CAPTURE(modulus, gain, fit.terms.size());
+    if (fit.terms.size() == 1 && gain > 0.0) ++withstood;
+    if (fit.terms.size() == 2) ++found;
+    if (fit.terms.size() == 2 && fit.terms[1].tau_s > 10.0) CHECK(gain >= 6.0);
+    if (gain > 20.0) CHECK(fit.terms.size() >= 2);
+  }
+  CHECK(withstood > 0);  // BIC alone would have taken it
+  CHECK(found > 0);
+}
