@@ -70,7 +70,10 @@ class ChangeTracker {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       if (comparable) change[i] = std::abs(numbers[i].value - last_[i]);
       if (comparable && last_change_.size() == change.size()) {
-        change[i] = std::max(remaining(change[i], last_change_[i]), left * last_change_[i]);
+        // A change that the steps of both answers explain says nothing about the mesh.
+        const bool is_noise = change[i] <= 2.0 * answer.step_error * numbers[i].size;
+        const double left_over = is_noise ? change[i] : remaining(change[i], last_change_[i]);
+        change[i] = std::max(left_over, left * last_change_[i]);
       }
       const double error = change[i] + answer.step_error * numbers[i].size;
       *numbers[i].error = error;

@@ -63,10 +63,15 @@ struct TransientResult {
   int steps = 0;  // all levels together
 };
 
-// Runs from rest; all steps are halved until the extrapolated answer (Richardson, fourth order)
-// changes by less than the tolerance. Rows of `observers` are linear outputs.
+// Runs from rest. Rows of `observers` are linear outputs. Bodies whose stiffness relaxes all alike
+// are answered exactly (modal_response.h), others by steps.
 TransientResult run_transient(const ViscoelasticSystem& small, const TransientRequest& request,
                               const Eigen::MatrixXd& observers);
+
+// By steps: all are halved until the extrapolated answer (Richardson, fourth order) changes by less
+// than the tolerance.
+TransientResult run_by_steps(const ViscoelasticSystem& small, const TransientRequest& request,
+                             const Eigen::MatrixXd& observers);
 
 // Amplitude spectrum of equally spaced samples, mean removed, Hann window, so that a steady sine of
 // amplitude A gives a peak of about A: frequencies k/(n dt). Source: Harris, Proc. IEEE 66

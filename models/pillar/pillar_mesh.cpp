@@ -42,6 +42,23 @@ std::vector<double> cut(const std::vector<double>& breaks, double size) {
   return fine;
 }
 
+// The same between two breaks only.
+std::vector<double> cut_between(const std::vector<double>& breaks, double from, double to,
+                                double size) {
+  std::vector<double> before, inside, after;
+  const double near = 1e-9 * (to - from);
+  for (const double b : breaks) {
+    if (b >= from - near && b <= to + near) {
+      inside.push_back(b);
+    } else {
+      (b < from ? before : after).push_back(b);
+    }
+  }
+  append(before, cut(inside, size));
+  append(before, after);
+  return before;
+}
+
 std::vector<double> film_radii(const FilmGeometry& film, double radius_m, const Discretisation& d) {
   std::vector<double> breaks;
   const double graded_m = std::min(2.0 * radius_m, film.radius_m);
@@ -167,7 +184,12 @@ PillarMesh pillar_mesh(const PillarGeometry& g, const Discretisation& d) {
   if (g.film && g.film->electrode_radius_m > 0.0) insert(breaks.x, g.film->electrode_radius_m);
   if (g.foot.width_m != 0.0) insert(breaks.z, g.foot.height_m);
   if (g.tip.width_m != 0.0) insert(breaks.z, g.length_m - g.tip.height_m);
-  if (is_uniform) breaks = {cut(breaks.x, d.uniform_m), cut(breaks.z, d.uniform_m)};
+  if (is_uniform) {
+    breaks = {cut(breaks.x, d.uniform_m), cut(breaks.z, d.uniform_m)};
+  } else if (d.longest_m > 0.0) {
+    breaks = {cut_between(breaks.x, 0.0, radius_m, d.longest_m),
+              cut_between(breaks.z, 0.0, g.length_m, d.longest_m)};
+  }
   const auto below = [](const std::vector<double>& all, double at) {
     return static_cast<int>(
         std::count_if(all.begin(), all.end(), [&](double b) { return b < at; }));

@@ -41,6 +41,8 @@ struct Discretisation {
   double ratio = 0.15;
   int shaft_elements = 2;  // along the pillar above the graded foot
   int film_elements = 1;   // across the film outside the graded part
+  // No element of the pillar longer than this either way, for waves of about that length; 0: none.
+  double longest_m = 0.0;
   // Uniform instead, as ordinary meshes are: elements of about this size in both directions.
   double uniform_m = 0.0;
 };

@@ -50,16 +50,14 @@ double smallest_singular_value(const Eigen::PartialPivLU<Eigen::MatrixXcd>& lu) 
 double error_at(const ReducedSpan& span, const ViscoelasticSystem& body,
                 const std::vector<Eigen::VectorXd>& loads, double omega_rad_s) {
   const ComplexModuli m = moduli_at(body, omega_rad_s);
-  const Eigen::MatrixXcd image = span.image(m.shear, m.bulk, omega_rad_s * omega_rad_s);
-  Eigen::MatrixXcd small(span.count(), span.count());
-  small.real() = span.basis().transpose() * image.real();
-  small.imag() = span.basis().transpose() * image.imag();
-  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(small);
+  const double omega2 = omega_rad_s * omega_rad_s;
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(span.restricted(m.shear, m.bulk, omega2));
   const double nearest = std::max(smallest_singular_value(lu), kNearestPole);
   double largest = 0.0;
   for (const Eigen::VectorXd& load : loads) {
     const Eigen::VectorXcd c = lu.solve((span.basis().transpose() * load).cast<Complex>());
-    const Eigen::VectorXcd residual = load.cast<Complex>() - image * c;
+    const Eigen::VectorXcd residual =
+        load.cast<Complex>() - span.image_of(m.shear, m.bulk, omega2, c);
     const double size =
         std::hypot(span.dual_norm(residual.real()), span.dual_norm(residual.imag()));
     largest = std::max(largest, size / (nearest * c.norm()));

@@ -22,6 +22,14 @@ void append(Eigen::MatrixXd& matrix, const Eigen::VectorXd& column) {
   matrix.col(matrix.cols() - 1) = column;
 }
 
+// basis' image, one row and column larger than before.
+void border(Eigen::MatrixXd& small, const Eigen::MatrixXd& basis, const Eigen::MatrixXd& image) {
+  const Eigen::Index n = basis.cols();
+  small.conservativeResize(n, n);
+  small.col(n - 1) = basis.transpose() * image.col(n - 1);
+  small.row(n - 1) = small.col(n - 1).transpose();
+}
+
 }  // namespace
 
 ReducedSpan::ReducedSpan(const ViscoelasticSystem& body) : body_(body) {
@@ -52,7 +60,35 @@ bool ReducedSpan::add(Eigen::VectorXd v) {
   append(shear_, times(body_.shear, v));
   append(bulk_, body_.incompressible ? none : times(body_.bulk, v));  // its volume does not change
   append(mass_, has_mass() ? times(body_.mass, v) : none);
+  border(small_elastic_, basis_, elastic_);
+  border(small_shear_, basis_, shear_);
+  border(small_bulk_, basis_, bulk_);
+  border(small_mass_, basis_, mass_);
   return true;
+}
+
+Eigen::MatrixXcd ReducedSpan::restricted(std::complex<double> shear, std::complex<double> bulk,
+                                         double omega2) const {
+  Eigen::MatrixXcd sum(count(), count());
+  sum.real() = small_elastic_ + shear.real() * small_shear_ + bulk.real() * small_bulk_ -
+               omega2 * small_mass_;
+  sum.imag() = shear.imag() * small_shear_ + bulk.imag() * small_bulk_;
+  return sum;
+}
+
+Eigen::VectorXcd ReducedSpan::image_of(std::complex<double> shear, std::complex<double> bulk,
+                                       double omega2, const Eigen::VectorXcd& c) const {
+  Eigen::MatrixXd parts(c.size(), 2);
+  parts << c.real(), c.imag();
+  const auto whole = [&](const Eigen::MatrixXd& matrix) -> Eigen::VectorXcd {
+    const Eigen::MatrixXd product = matrix * parts;
+    Eigen::VectorXcd sum(product.rows());
+    sum.real() = product.col(0);
+    sum.imag() = product.col(1);
+    return sum;
+  };
+  Eigen::VectorXcd sum = shear * whole(shear_) + bulk * whole(bulk_) - omega2 * whole(mass_);
+  return sum + whole(elastic_);
 }
 
 double ReducedSpan::dual_norm(const Eigen::VectorXd& residual) const {
@@ -63,10 +99,10 @@ ReducedBody ReducedSpan::reduced() const {
   ReducedBody result;
   result.basis = basis_;
   result.system.terms = body_.terms;
-  result.system.elastic = full_lower(basis_.transpose() * elastic_);
-  result.system.shear = full_lower(basis_.transpose() * shear_);
-  result.system.bulk = full_lower(basis_.transpose() * bulk_);
-  if (has_mass()) result.system.mass = full_lower(basis_.transpose() * mass_);
+  result.system.elastic = full_lower(small_elastic_);
+  result.system.shear = full_lower(small_shear_);
+  result.system.bulk = full_lower(small_bulk_);
+  if (has_mass()) result.system.mass = full_lower(small_mass_);
   if (body_.load.size() > 0) result.system.load = basis_.transpose() * body_.load;
   return result;
 }

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <complex>
+
 namespace viscard {
 
 // The span that a ReducedBody is made of while it grows, with what every matrix of the body makes
@@ -34,6 +36,13 @@ class ReducedSpan {
     return sum;
   }
 
+  // The same seen from the basis: basis' (elastic + shear S + bulk B - omega^2 M) basis.
+  Eigen::MatrixXcd restricted(std::complex<double> shear, std::complex<double> bulk,
+                              double omega2) const;
+  // (elastic + shear S + bulk B - omega^2 M) basis c, without forming the sum.
+  Eigen::VectorXcd image_of(std::complex<double> shear, std::complex<double> bulk, double omega2,
+                            const Eigen::VectorXcd& c) const;
+
   // Norm of a residual in the inverse of the instantaneous stiffness.
   double dual_norm(const Eigen::VectorXd& residual) const;
 
@@ -45,6 +54,8 @@ class ReducedSpan {
   const ViscoelasticSystem& body_;
   StiffnessFactor instantaneous_;
   Eigen::MatrixXd basis_, elastic_, shear_, bulk_, mass_;  // unknowns x count()
+  // count() x count(): basis' times these.
+  Eigen::MatrixXd small_elastic_, small_shear_, small_bulk_, small_mass_;
 };
 
 }  // namespace viscard

@@ -1,4 +1,6 @@
 #include "models/pillar/inertial_stepper.h"
+#include "models/pillar/modal_response.h"
+#include "models/pillar/transient_stops.h"
 
 #include <unsupported/Eigen/FFT>
 
@@ -11,63 +13,23 @@
 namespace viscard {
 namespace {
 
-// Load factor just after (before) a time that may be a jump.
-double factor_at(const TransientRequest& r, double time_s, bool after) {
-  const auto& t = r.corner_time_s;
-  const auto next = after ? std::upper_bound(t.begin(), t.end(), time_s)
-                          : std::lower_bound(t.begin(), t.end(), time_s);
-  if (next == t.begin()) return after || t.front() > time_s ? 0.0 : r.corner_value.front();
-  const auto i = static_cast<std::size_t>(next - t.begin());
-  if (next == t.end()) return r.corner_value.back();
-  const double share = (time_s - t[i - 1]) / (t[i] - t[i - 1]);
-  return r.corner_value[i - 1] + share * (r.corner_value[i] - r.corner_value[i - 1]);
-}
-
-// Times at which a step must end: outputs, and corners between them.
-struct Stop {
-  double time_s = 0.0;
-  bool is_output = false;
-};
-
-std::vector<Stop> stops_of(const TransientRequest& r) {
-  const double spacing_s = r.end_s / r.outputs;
-  std::vector<Stop> stops;
-  for (int i = 1; i <= r.outputs; ++i) stops.push_back({spacing_s * i, true});
-  for (const double corner_s : r.corner_time_s) {
-    const double nearest_s = spacing_s * std::round(corner_s / spacing_s);
-    const bool is_new = corner_s > 0.0 && corner_s < r.end_s;
-    if (is_new && std::abs(corner_s - nearest_s) > 1e-9 * spacing_s) {
-      stops.push_back({corner_s, false});
-    }
-  }
-  std::sort(stops.begin(), stops.end(),
-            [](const Stop& a, const Stop& b) { return a.time_s < b.time_s; });
-  return stops;
-}
-
 Eigen::MatrixXd run_once(const ViscoelasticSystem& small, const TransientRequest& r,
-                         const std::vector<Stop>& stops, const Eigen::MatrixXd& observers,
-                         int refinement, int& steps) {
+                         const std::vector<TransientPiece>& pieces,
+                         const Eigen::MatrixXd& observers, int refinement, int& steps) {
   InertialStepper stepper(small);
   Eigen::MatrixXd values = Eigen::MatrixXd::Zero(observers.rows(), r.outputs + 1);
-  const double spacing_s = r.end_s / r.outputs;
-  double at_s = 0.0;
   Eigen::Index output = 0;
-  for (const Stop& stop : stops) {
-    double length_s = stop.time_s - at_s;
-    if (std::abs(length_s - spacing_s) <= 1e-9 * spacing_s) length_s = spacing_s;
-    const int n = refinement * std::max(1, static_cast<int>(std::ceil(length_s / r.first_step_s)));
-    stepper.set_step(length_s / n);
-    const double first = factor_at(r, at_s * (1.0 + 1e-12), true);
-    const double last = factor_at(r, stop.time_s * (1.0 - 1e-12), false);
+  for (const TransientPiece& piece : pieces) {
+    const int n =
+        refinement * std::max(1, static_cast<int>(std::ceil(piece.length_s / r.first_step_s)));
+    stepper.set_step(piece.length_s / n);
     for (int i = 0; i < n; ++i) {
-      const double a = first + (last - first) * i / n;
-      const double b = first + (last - first) * (i + 1) / n;
+      const double a = piece.first + (piece.last - piece.first) * i / n;
+      const double b = piece.first + (piece.last - piece.first) * (i + 1) / n;
       stepper.advance(a * r.load, b * r.load);
     }
     steps += n;
-    at_s = stop.time_s;
-    if (stop.is_output) values.col(++output) = observers * stepper.displacement();
+    if (piece.ends_with_output) values.col(++output) = observers * stepper.displacement();
   }
   return values;
 }
@@ -92,13 +54,19 @@ TransientResult run_transient(const ViscoelasticSystem& small, const TransientRe
     throw std::invalid_argument(
         "a transient needs an end, at least two outputs and a load whose times do not go back");
   }
-  const std::vector<Stop> stops = stops_of(r);
+  return relaxes_alike(small) ? run_by_modes(small, r, observers)
+                              : run_by_steps(small, r, observers);
+}
+
+TransientResult run_by_steps(const ViscoelasticSystem& small, const TransientRequest& r,
+                             const Eigen::MatrixXd& observers) {
+  const std::vector<TransientPiece> pieces = pieces_of(r);
   TransientResult result;
   for (int i = 0; i <= r.outputs; ++i) result.time_s.push_back(r.end_s / r.outputs * i);
   Eigen::MatrixXd last;
   int refinement = 1;
   for (int level = 0; !result.converged; ++level, refinement *= 2) {
-    const Eigen::MatrixXd run = run_once(small, r, stops, observers, refinement, result.steps);
+    const Eigen::MatrixXd run = run_once(small, r, pieces, observers, refinement, result.steps);
     if (level > 0) {
       const Eigen::MatrixXd better = (4.0 * run - last) / 3.0;
       if (level > 1) {
