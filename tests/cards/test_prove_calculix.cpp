@@ -49,8 +49,11 @@ TEST_CASE("the expected curve is the hereditary integral of ramp and hold", "[ca
 TEST_CASE("CalculiX returns the exact relaxation and creep of the reference card", "[cards]") {
   if (!has_ccx()) return;
   const CalculixProof proof = proof_of(reference_material(), "mm-t-s", 40);
-  CHECK(proof.relaxation_error <= 1e-4);  // first order in the step, tau/40
-  CHECK(proof.creep_error <= 2e-4);
+  CHECK(proof.relaxation.at_step <= 1e-4);  // first order in the step, tau/40
+  CHECK(proof.creep.at_step <= 2e-4);
+  CHECK(proof.relaxation.remaining <= 2e-6);  // second order is left, and ccx's seven digits
+  CHECK(proof.creep.remaining <= 2e-6);
+  CHECK(proof.holds());
   CHECK(proof.increments > 100);
 }
 
@@ -58,8 +61,8 @@ TEST_CASE("CalculiX converges to the exact relaxation at first order in the step
           "[cards][convergence]") {
   if (!has_ccx()) return;
   Material material = material_of_terms(2, 0.45);
-  const double coarse = proof_of(material, "SI", 10).relaxation_error;
-  const double fine = proof_of(material, "SI", 20).relaxation_error;
+  const double coarse = proof_of(material, "SI", 10).relaxation.at_step;
+  const double fine = proof_of(material, "SI", 20).relaxation.at_step;
   const double order = std::log2(coarse / fine);
   CAPTURE(coarse, fine);
   CHECK(order == Approx(1.0).margin(0.15));
@@ -71,17 +74,18 @@ TEST_CASE("CalculiX takes the overlay in unlike unit systems", "[cards]") {
     CAPTURE(units);
     const Material material = material_of_terms(3, 0.48);
     const CalculixProof proof = proof_of(material, units, 10);
-    CAPTURE(proof.relaxation_worst_s);
+    CAPTURE(proof.relaxation.worst_s, proof.relaxation.remaining, proof.creep.remaining);
+    CHECK(proof.holds());
     // First order: 6e-3 of the sum of g at tau/40, four times that here, of a modulus fallen to
     // 0.4.
-    CHECK(proof.relaxation_error <= 4.0 * 6e-3 * 0.6 / 0.4);
+    CHECK(proof.relaxation.at_step <= 4.0 * 6e-3 * 0.6 / 0.4);
   }
 }
 
 TEST_CASE("CalculiX takes nine terms over three decades", "[cards][slow]") {
   if (!has_ccx()) return;
   const CalculixProof proof = proof_of(material_of_terms(9, 0.495), "mm-t-s", 10);
-  CHECK(proof.relaxation_error <= 4.0 * 6e-3 * 0.6 / 0.4);
+  CHECK(proof.relaxation.at_step <= 4.0 * 6e-3 * 0.6 / 0.4);
   CHECK(proof.end_s > 1.0);
 }
 
@@ -90,7 +94,25 @@ TEST_CASE("a card that CalculiX would leave elastic fails the proof", "[cards]")
   const Material material = with_bulk_rule(reference_material(), BulkRule::kConstantBulk);
   const Card card = write_card(material, {.target = "abaqus", .units = "mm-t-s"});
   const CalculixProof proof = prove_in_calculix(card.text, material, unit_system("mm-t-s"), 10);
-  CHECK(proof.relaxation_error > 0.02);  // 1/(1 - sum g) - 1 = 2.26e-2
+  CHECK(proof.relaxation.at_step > 0.02);  // 1/(1 - sum g) - 1 = 2.26e-2
+  CHECK_FALSE(proof.holds());
+}
+
+TEST_CASE("strong relaxation is proven by the error that goes with the step", "[cards]") {
+  if (!has_ccx()) return;
+  Material material = reference_material();
+  material.terms = {{0.95, 0.95, 2.0}};
+  const CalculixProof right = proof_of(material, "mm-t-s", 40);
+  CAPTURE(right.relaxation.at_step, right.relaxation.remaining, right.creep.remaining);
+  CHECK(right.relaxation.at_step > 1e-3);  // at tau/40 far above what proves anything
+  CHECK(right.holds());
+  Material wrong = material;
+  wrong.terms[0].tau_s *= 1.01;
+  const Card card = write_card(with_bulk_rule(wrong, BulkRule::kConstantBulk),
+                               {.target = "calculix", .units = "mm-t-s"});
+  const CalculixProof refused = prove_in_calculix(
+      card.text, with_bulk_rule(material, BulkRule::kConstantBulk), unit_system("mm-t-s"));
+  CHECK_FALSE(refused.holds());
 }
 
 TEST_CASE("ccx errors come back in one line", "[cards]") {
