@@ -1,14 +1,11 @@
 #include "models/array/condense.h"
 
-#include <Eigen/SparseCholesky>
+#include "models/pillar/supernodal_factor.h"
 
 #include <stdexcept>
 
 namespace viscard {
 namespace {
-
-// Row-wise storage lets the substitution below run over all columns at once.
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 struct Split {
   std::vector<int> place;  // unknown -> number among the kept (>= 0) or -1 - number inside
@@ -37,7 +34,7 @@ Eigen::MatrixXd condensed(const SymmetricSparse& A, const std::vector<int>& kept
   const Eigen::Index width = n_kept + F.cols();
   Eigen::MatrixXd corner = Eigen::MatrixXd::Zero(width, width);
   corner.bottomRightCorner(F.cols(), F.cols()) = B;
-  RowMatrix beside = RowMatrix::Zero(split.inside, width);
+  Eigen::MatrixXd beside = Eigen::MatrixXd::Zero(split.inside, width);
   std::vector<Eigen::Triplet<double>> inside;
   inside.reserve(static_cast<std::size_t>(A.nonZeros()));
   for (int column = 0; column < A.outerSize(); ++column) {
@@ -64,18 +61,13 @@ Eigen::MatrixXd condensed(const SymmetricSparse& A, const std::vector<int>& kept
   }
   SymmetricSparse A_inside(split.inside, split.inside);
   A_inside.setFromTriplets(inside.begin(), inside.end());
-  const Eigen::SimplicialLDLT<SymmetricSparse, Eigen::Lower> ldlt(A_inside);
-  if (ldlt.info() != Eigen::Success || !ldlt.vectorD().allFinite()) {
+  SupernodalFactor factor;
+  factor.analyse(A_inside);
+  if (!factor.factor(A_inside)) {
     throw std::runtime_error("a piece of the array is singular: a modulus is zero or not finite");
   }
-  RowMatrix reduced = ldlt.permutationP() * beside;  // becomes L^-1 P beside
-  const auto& L = ldlt.matrixL().nestedExpression();
-  for (int column = 0; column < L.outerSize(); ++column) {
-    for (SymmetricSparse::InnerIterator it(L, column); it; ++it) {
-      if (it.row() > column) reduced.row(it.row()) -= it.value() * reduced.row(column);
-    }
-  }
-  const RowMatrix scaled = ldlt.vectorD().cwiseInverse().asDiagonal() * reduced;
+  const Eigen::MatrixXd reduced = factor.forward(beside);
+  const Eigen::MatrixXd scaled = factor.pivots().cwiseInverse().asDiagonal() * reduced;
   corner.noalias() -= scaled.transpose() * reduced;
   return corner;
 }

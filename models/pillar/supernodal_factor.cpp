@@ -158,6 +158,23 @@ Eigen::VectorXd SupernodalFactor::solve(const Eigen::VectorXd& right_side) const
   return solution;
 }
 
+Eigen::MatrixXd SupernodalFactor::forward(const Eigen::MatrixXd& right_sides) const {
+  Eigen::MatrixXd x(right_sides.rows(), right_sides.cols());
+  for (std::size_t i = 0; i < position_.size(); ++i) {
+    x.row(position_[i]) = right_sides.row(static_cast<Eigen::Index>(i));
+  }
+  Eigen::MatrixXd outside;
+  for (const Block& block : blocks_) {
+    auto own = x.middleRows(block.first, block.count);
+    block.L.topRows(block.count).triangularView<Eigen::UnitLower>().solveInPlace(own);
+    outside.noalias() = block.L.bottomRows(block.L.rows() - block.count) * own;
+    for (std::size_t i = 0; i < block.rows.size(); ++i) {
+      x.row(block.rows[i]) -= outside.row(static_cast<Eigen::Index>(i));
+    }
+  }
+  return x;
+}
+
 Eigen::Index SupernodalFactor::entries() const {
   Eigen::Index count = 0;
   for (const Block& block : blocks_) count += block.L.size();

@@ -22,6 +22,10 @@ class SupernodalFactor {
   bool factor(const Eigen::SparseMatrix<double>& lower);
   Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const;
 
+  // L^-1 P B for many right sides at once, rows in the order of elimination, that of pivots(): with
+  // X from B and Y from C, the sum X' D^-1 Y is B' A^-1 C.
+  Eigen::MatrixXd forward(const Eigen::MatrixXd& right_sides) const;
+
   const Eigen::VectorXd& pivots() const { return pivots_; }
   Eigen::Index entries() const;  // of L, zeros of merged blocks included
 
