@@ -2,6 +2,7 @@
 
 #include "io/atomic_file.h"
 #include "io/capture_file.h"
+#include "io/capture_lock.h"
 #include "io/cli/live_view.h"
 #include "io/cli/stop_on_signal.h"
 #include "rig/emulator/emulated_rig.h"
@@ -12,6 +13,8 @@
 #include <filesystem>
 #include <memory>
 #include <ostream>
+#include <stdexcept>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -40,6 +43,59 @@ LiveViewOptions view_options(const CaptureWords& words, const CaptureSetup& setu
   return options;
 }
 
+// What --force replaces stays beside the new capture until the run has begun, and comes back if it
+// never does: a cable that is not plugged in must not cost yesterday's record.
+class PreviousCapture {
+ public:
+  PreviousCapture(std::filesystem::path path, bool is_replaced) : path_(std::move(path)) {
+    if (!is_replaced || !std::filesystem::is_regular_file(path_) || is_being_captured(path_)) {
+      return;  // the writer says what is wrong
+    }
+    if (std::filesystem::exists(aside(""))) {
+      throw std::runtime_error(aside("").string() +
+                               " is a capture that an earlier --force had put aside; move it away");
+    }
+    move([this](const char* suffix) { return part(suffix); },
+         [this](const char* suffix) { return aside(suffix); });
+    is_aside_ = true;
+  }
+  ~PreviousCapture() {
+    if (!is_aside_) return;
+    try {
+      for (const char* suffix : kParts) std::filesystem::remove(part(suffix));
+      move([this](const char* suffix) { return aside(suffix); },
+           [this](const char* suffix) { return part(suffix); });
+    } catch (const std::filesystem::filesystem_error&) {
+      // It is still there under its other name.
+    }
+  }
+  PreviousCapture(const PreviousCapture&) = delete;
+  PreviousCapture& operator=(const PreviousCapture&) = delete;
+
+  void drop() {
+    if (!is_aside_) return;
+    for (const char* suffix : kParts) std::filesystem::remove(aside(suffix));
+    is_aside_ = false;
+  }
+
+ private:
+  static constexpr const char* kParts[] = {"", "-wal", "-shm", "-journal"};
+
+  std::filesystem::path part(const char* suffix) const { return path_.string() + suffix; }
+  std::filesystem::path aside(const char* suffix) const {
+    return path_.string() + ".previous" + suffix;
+  }
+  template <class From, class To>
+  static void move(From from, To to) {
+    for (const char* suffix : kParts) {
+      if (std::filesystem::exists(from(suffix))) std::filesystem::rename(from(suffix), to(suffix));
+    }
+  }
+
+  std::filesystem::path path_;
+  bool is_aside_ = false;
+};
+
 // Ends the file. A run that lost records to a slow disk did not finish.
 void close_file(CaptureWriter& writer, RunOutcome& outcome) {
   try {
@@ -62,6 +118,7 @@ CaptureOutcome capture_with(const RigConfig& rig, const CaptureWords& words,
   RigDevices devices = open_ports(rig, clock);
   CaptureOptions options;
   options.overwrite = words.overwrite;
+  PreviousCapture previous(words.out_file, words.overwrite);
   CaptureWriter writer(words.out_file, about_run(setup, rig, command), options);
   if (setup.truth) {
     std::filesystem::path path = words.out_file;
@@ -84,6 +141,7 @@ CaptureOutcome capture_with(const RigConfig& rig, const CaptureWords& words,
   outcome.file = words.out_file;
   outcome.run = run_indentation(*devices.stage, *devices.load_cell, rig, setup.plan, setup.specimen,
                                 sink, control);
+  previous.drop();
   outcome.force_N = view.history().force_N();
   close_file(writer, outcome.run);
   return outcome;

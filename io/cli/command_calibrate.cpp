@@ -139,6 +139,9 @@ void check_words(const CalibrateWords& words) {
   if (!day.empty() && !is_day) {
     throw UsageError("--valid-until '" + day + "' is no day such as 2027-11-21");
   }
+  if (!day.empty() && day < today()) {
+    throw UsageError("--valid-until " + day + " is past; the record would be refused at once");
+  }
   if (!words.overwrite && std::filesystem::exists(words.out_file)) {
     throw std::runtime_error(
         "'" + words.out_file +

@@ -146,6 +146,10 @@ int run_rig(const std::vector<std::string>& words, Streams& streams) {
   if (!values) return kDone;
   const std::string what = values->count("what") > 0 ? (*values)["what"].as<std::string>() : "";
   const bool as_json = values->count("json") > 0;
+  for (const char* option : {"rig", "seconds", "emulate"}) {
+    if (what == "check" || values->count(option) == 0 || (*values)[option].defaulted()) continue;
+    throw UsageError("--" + std::string(option) + " belongs to 'viscard rig check'");
+  }
   if (what == "list") return list_ports(as_json, streams);
   if (what == "overshoot") return show_overshoot(as_json, streams);
   if (what != "check") {

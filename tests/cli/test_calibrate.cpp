@@ -141,6 +141,8 @@ TEST_CASE("Bad words of a calibration are named", "[cli]") {
                     Contains("300 g is more than"));
   CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--gravity", "1.6 m/s2"}),
                     Contains("nowhere on Earth"));
+  CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--valid-until", "2020-01-31"}),
+                    Catch::Contains("--valid-until 2020-01-31 is past"));
   CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--valid-until", "soon"}),
                     Contains("'soon'"));
 }

@@ -2,6 +2,7 @@
 #include "io/atomic_file.h"
 #include "io/capture_file.h"
 #include "io/cli/live_picture.h"
+#include "rig/emulator/pty_port.h"
 #include "tests/support/error_text.h"
 #include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
@@ -165,6 +166,37 @@ TEST_CASE("capture names the port that is not there", "[cli][capture]") {
   CHECK(outcome.status == kFailed);
   CHECK(contains(outcome.err, "there is no port '/dev/serial/by-id/stage'"));
   CHECK_FALSE(std::filesystem::exists(folder / "run.viscap"));
+}
+
+TEST_CASE("a run that never begins leaves the capture that --force would have replaced",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const std::filesystem::path capture = folder / "run.viscap";
+  leave_interrupted(capture);
+  const std::string before = read_file(capture);
+  const PtyPort stage, load_cell;  // plugged in, and silent
+  std::string rig = read_file(demo("01_rig.toml"));
+  const auto put = [&rig](const std::string& from, const std::string& to) {
+    rig.replace(rig.find(from), from.size(), to);
+  };
+  put("/dev/serial/by-id/stage", stage.path());
+  put("/dev/serial/by-id/load_cell", load_cell.path());
+  write_file(folder / "rig.toml", rig, false);
+  const auto outcome =
+      run_command({"capture", "--rig", folder / "rig.toml", "--test", demo("02_test.toml"),
+                   "--specimen", demo("03_pdms_1to10.toml"), "--out", capture, "--force"});
+  CAPTURE(outcome.err);
+  CHECK(outcome.status == kFailed);
+  CHECK(contains(outcome.err, "nothing came from the load cell"));
+  CHECK(read_file(capture) == before);
+  CHECK(read_capture(capture).specimen.id == "left behind");
+  CHECK_FALSE(std::filesystem::exists(capture.string() + ".previous"));
+}
+
+TEST_CASE("options of rig check are refused where they mean nothing", "[cli][rig]") {
+  const auto outcome = run_command({"rig", "overshoot", "--rig", "none.toml"});
+  CHECK(outcome.status == kBadWords);
+  CHECK(contains(outcome.err, "--rig belongs to 'viscard rig check'"));
 }
 
 TEST_CASE("rig list and rig check say what they find, and what they cannot do", "[cli][rig][pty]") {
