@@ -1,11 +1,12 @@
 #include "models/pillar/harmonic_response.h"
 #include "models/pillar/pillar_loads.h"
 #include "models/pillar/scene_body.h"
+#include "models/pillar/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
+#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -14,9 +15,29 @@ namespace viscard {
 namespace {
 
 using Complex = std::complex<double>;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-// Shear waves shorter than this share of the diameter are beyond the finest mesh.
-constexpr double kShortestWave = 0.5;
+// A mesh has elements of about the length of a bar's wave both ways; more of them than this, at the
+// highest degree, would be too many unknowns.
+constexpr double kMostCells = 150.0;
+// Up to this many frequencies are solved one by one on the whole body.
+constexpr std::size_t kMostDirect = 16;
+
+double bar_speed_m_s(const Scene& scene) {
+  return std::sqrt(scene.pillar.E0_Pa / scene.pillar.rho_kg_m3);
+}
+
+// Frequency whose waves make that many cells.
+double highest_Hz(const Scene& scene) {
+  const double section_m2 = 0.5 * scene.geometry.diameter_m * scene.geometry.length_m;
+  return bar_speed_m_s(scene) * std::sqrt(kMostCells / section_m2);
+}
+
+std::string number(double value, int digits = 4) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
 
 // Complex amplitude of one output over frequency, and |y| + |omega dy/domega|: the tolerance refers
 // to it, so that a curve counts as right if it is so within the tolerance in amplitude or
@@ -47,7 +68,7 @@ class Response {
 
   // Values of all outputs, and what the tolerance refers to.
   void add(double frequency_Hz, std::vector<Sweep>& sweeps) const {
-    const double omega = 2.0 * std::numbers::pi * frequency_Hz;
+    const double omega = kTwoPi * frequency_Hz;
     const Eigen::MatrixXcd answers = solver_.solve(omega, sides_.cast<Complex>());
     const Eigen::VectorXcd inertia = 2.0 * omega * omega * (mass_ * answers.col(0));
     for (std::size_t i = 0; i < sweeps.size(); ++i) {
@@ -151,7 +172,7 @@ void note_poles(const Scene& scene, const Sweep& sweep, SceneAnswer& answer) {
   for (std::size_t i = 0; i < sweep.value.size(); ++i) {
     const double size = std::abs(sweep.value[i]);
     if (sweep.allowed[i] * scene.tolerance < 0.5 * size) continue;
-    if (++count <= 4) list += (count > 1 ? ", " : "") + std::to_string(scene.frequencies_Hz[i]);
+    if (++count <= 4) list += (count > 1 ? ", " : "") + number(scene.frequencies_Hz[i], 8);
   }
   if (count == 0) return;
   if (scene.frequencies_Hz.size() == 1) {
@@ -165,6 +186,31 @@ void note_poles(const Scene& scene, const Sweep& sweep, SceneAnswer& answer) {
                          (count > 4 ? ", ..." : "") +
                          " Hz) lie on a resonance or a node too sharp for the tolerance: see the "
                          "error column there");
+}
+
+bool is_solved_one_by_one(const Scene& scene, const SceneBody& body) {
+  return scene.frequencies_Hz.size() <= kMostDirect && !body.system.incompressible;
+}
+
+ReducedBody reduced_for(const Scene& scene, const SceneBody& body,
+                        const std::vector<Eigen::VectorXd>& loads) {
+  if (is_solved_one_by_one(scene, body)) {
+    std::vector<double> omega;
+    for (const double f : scene.frequencies_Hz) omega.push_back(kTwoPi * f);
+    return reduce_at(body.system, loads, omega);
+  }
+  const DynamicRange range{.lowest_rad_s = kTwoPi * scene.frequencies_Hz.front(),
+                           .highest_rad_s = kTwoPi * scene.frequencies_Hz.back(),
+                           .tolerance = 0.1 * scene.tolerance};
+  ReducedBody reduced = reduce_dynamic(body.system, loads, range);
+  if (reduced.sound_up_to_rad_s < range.highest_rad_s) {
+    throw std::runtime_error(
+        "a sweep of that many modes is sound up to about " +
+        number(reduced.sound_up_to_rad_s / kTwoPi) + " Hz only: end it there, or ask for at most " +
+        std::to_string(kMostDirect) +
+        " frequencies, which are solved one by one, or for a larger tolerance");
+  }
+  return reduced;
 }
 
 }  // namespace
@@ -183,39 +229,39 @@ void check_harmonic(const Scene& scene) {
     throw std::invalid_argument(
         "a harmonic analysis needs a pressure on the top or an acceleration of the base");
   }
-  const double speed_m_s =
-      std::sqrt(scene.pillar.E0_Pa / (2.0 * (1.0 + scene.pillar.nu)) / scene.pillar.rho_kg_m3);
-  const double highest_Hz = speed_m_s / (kShortestWave * scene.geometry.diameter_m);
-  if (f.back() > highest_Hz) {
-    throw std::invalid_argument("at " + std::to_string(f.back()) +
-                                " Hz shear waves are shorter than " +
-                                std::to_string(kShortestWave) +
-                                " of the diameter, too short for any mesh here; stay below " +
-                                std::to_string(highest_Hz) + " Hz");
+  if (f.back() > highest_Hz(scene)) {
+    const double wave_m = bar_speed_m_s(scene) / f.back();
+    throw SceneMistake(
+        "analysis.frequencies",
+        "at " + number(f.back()) + " Hz waves are " + number(1e6 * wave_m) + " um long, " +
+            number(scene.geometry.length_m / wave_m) + " to the length of the pillar and " +
+            number(scene.geometry.diameter_m / wave_m) +
+            " to its diameter: too many for any mesh here. The highest frequency this pillar can "
+            "be answered at is " +
+            number(highest_Hz(scene)) + " Hz; a smaller pillar reaches higher");
   }
 }
 
 void run_harmonic(const Scene& scene, SceneAnswer& answer) {
   const bool is_axial = scene.direction == LoadDirection::kAxial;
   const Motion lateral = scene.plane ? Motion::kPlaneAntisymmetric : Motion::kLateral;
+  // Elements as long as the waves, so that a rising degree resolves them.
+  if (!scene.discretisation) {
+    answer.discretisation.longest_m = bar_speed_m_s(scene) / scene.frequencies_Hz.back();
+  }
   const SceneBody body =
       body_of(scene, is_axial ? axial_motion(scene) : lateral, {.with_mass = true}, answer);
   std::vector<Eigen::VectorXd> loads = {body.system.load};
   if (scene.load_place == LoadPlace::kBase) loads.push_back(unit_acceleration_force(*body.model));
-  const double to_rad = 2.0 * std::numbers::pi;
-  const ReducedBody reduced = reduce_dynamic(body.system, loads,
-                                             {.lowest_rad_s = to_rad * scene.frequencies_Hz.front(),
-                                              .highest_rad_s = to_rad * scene.frequencies_Hz.back(),
-                                              .tolerance = 0.1 * scene.tolerance});
-  const bool is_sound = reduced.sound_up_to_rad_s >= to_rad * scene.frequencies_Hz.back();
-  answer.step_error = is_sound ? reduced.error : std::numeric_limits<double>::infinity();
+  const ReducedBody reduced = reduced_for(scene, body, loads);
+  answer.step_error = reduced.error;
   const Response response(scene, body, reduced);
   std::vector<Sweep> sweeps(body.outputs.size());
   for (const double frequency_Hz : scene.frequencies_Hz) response.add(frequency_Hz, sweeps);
   const bool is_base = scene.load_place == LoadPlace::kBase;
   const std::string first = is_base ? "transmissibility" : "top_displacement";
   add_curves(scene, first, is_base ? "1" : "m", sweeps[0], answer);
-  add_peaks(scene, response, first, sweeps[0], answer);
+  if (!is_solved_one_by_one(scene, body)) add_peaks(scene, response, first, sweeps[0], answer);
   note_poles(scene, sweeps[0], answer);
   if (sweeps.size() < 2) return;
   add_curves(scene, body.outputs[1].name, "V", sweeps[1], answer);
@@ -223,7 +269,7 @@ void run_harmonic(const Scene& scene, SceneAnswer& answer) {
   const ReadoutFilter filter = readout_of(scene, body, answer);
   Sweep reading = sweeps[1];
   for (std::size_t i = 0; i < reading.value.size(); ++i) {
-    const Complex gain = viscard::response(filter, to_rad * scene.frequencies_Hz[i]);
+    const Complex gain = viscard::response(filter, kTwoPi * scene.frequencies_Hz[i]);
     reading.value[i] *= gain;
     reading.allowed[i] *= std::abs(gain);
   }

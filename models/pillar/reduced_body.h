@@ -46,4 +46,10 @@ struct DynamicRange {
 ReducedBody reduce_dynamic(const ViscoelasticSystem& system,
                            const std::vector<Eigen::VectorXd>& loads, const DynamicRange& range);
 
+// With inertia, at a few frequencies only: the answers of the whole body there, by elimination,
+// which the small body then returns exactly. For frequencies so high that a basis for all up to
+// them would be too large. Throws std::invalid_argument for an incompressible body.
+ReducedBody reduce_at(const ViscoelasticSystem& system, const std::vector<Eigen::VectorXd>& loads,
+                      const std::vector<double>& omega_rad_s);
+
 }  // namespace viscard

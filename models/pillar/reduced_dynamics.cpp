@@ -182,4 +182,13 @@ ReducedBody reduce_dynamic(const ViscoelasticSystem& system,
   return result;
 }
 
+ReducedBody reduce_at(const ViscoelasticSystem& system, const std::vector<Eigen::VectorXd>& loads,
+                      const std::vector<double>& omega_rad_s) {
+  ReducedSpan span(system);
+  for (const double omega : omega_rad_s) add_answers(system, loads, omega, span);
+  ReducedBody result = span.reduced();
+  result.sound_up_to_rad_s = omega_rad_s.back();
+  return result;
+}
+
 }  // namespace viscard

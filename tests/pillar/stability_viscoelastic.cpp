@@ -1,4 +1,6 @@
 #include "models/pillar/load_history.h"
+#include "models/pillar/relative_modulus.h"
+#include "models/pillar/scene.h"
 #include "models/pillar/viscoelastic_pillar.h"
 #include "models/retardation_spectrum.h"
 #include "tests/pillar/stability_cases.h"
@@ -7,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 namespace viscard::test {
 namespace {
@@ -87,6 +90,29 @@ double kelvin_voigt_error() {
   return worst;
 }
 
+// A rod of 40 nm without contraction, shaken by pressure: -p tan(k L)/(k E*), k = w sqrt(rho/E*).
+double oscillation_error(double frequency_Hz) {
+  Scene scene;
+  scene.kind = AnalysisKind::kHarmonic;
+  scene.geometry.diameter_m = 40e-9;
+  scene.geometry.length_m = 120e-9;
+  scene.pillar.E0_Pa = 1.8e6;
+  scene.pillar.nu = 0.0;
+  scene.pillar.rho_kg_m3 = 965.0;
+  scene.pillar.terms = {{0.2, 0.2, 1e-9}, {0.1, 0.1, 1e-5}, {0.05, 0.05, 1.0}};
+  scene.pressure_Pa = 1e3;
+  scene.tolerance = 1e-4;
+  scene.frequencies_Hz = {frequency_Hz};
+  const SceneAnswer answer = simulate(scene);
+  const std::complex<double> omega = 2.0 * std::acos(-1.0) * frequency_Hz;
+  const std::complex<double> modulus_Pa =
+      1.8e6 * relative_modulus(scene.pillar.terms, &MaterialTerm::g, {0.0, omega.real()});
+  const std::complex<double> k = omega * std::sqrt(965.0 / modulus_Pa);
+  const std::complex<double> exact = -1e3 * std::tan(k * 120e-9) / (k * modulus_Pa);
+  const std::complex<double> found(answer.curves[0].value[0], answer.curves[1].value[0]);
+  return std::abs(found / exact - 1.0);
+}
+
 }  // namespace
 
 std::vector<StabilityCase> viscoelastic_stability_cases() {
@@ -109,6 +135,10 @@ std::vector<StabilityCase> viscoelastic_stability_cases() {
                    1e-6});
   cases.push_back(
       {"Kelvin-Voigt limit (instantaneous modulus 1e8 times the last)", kelvin_voigt_error, 1e-6});
+  for (const double frequency_Hz : {1e-6, 1.0, 1e6, 1e8, 1e9}) {
+    cases.push_back({fmt::format("oscillation at {:g} Hz, pillar of 40 nm: rod", frequency_Hz),
+                     [=] { return oscillation_error(frequency_Hz); }, 1e-3});
+  }
   return cases;
 }
 
