@@ -1,85 +1,10 @@
-// Which mistake turns the material that was meant into the card that was found? Each known mistake
-// is planted into the expected numbers; the one that reproduces the card is named.
-#include "io/cards/check_card.h"
+#include "io/cards/known_mistakes.h"
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
+#include <utility>
 
 namespace viscard {
 namespace {
-
-// Digits a hand may leave out: numbers this close are the same number.
-constexpr double kHandTyped = 2e-3;
-
-struct Context {
-  Material material;  // the reference under the target's bulk rule
-  CardTarget target;
-  UnitSystem units;
-
-  CardNumbers as(const CardTarget& other) const {
-    return numbers_from_material(material, other, units);
-  }
-};
-
-struct Mistake {
-  std::string name;
-  std::string text;
-  std::function<void(CardNumbers&)> plant;
-};
-
-double mismatch(double a, double b) {
-  if (a == b) return 0.0;
-  const double size = std::max(std::abs(a), std::abs(b));
-  return std::isfinite(size) ? std::abs(a - b) / size : 1.0;
-}
-
-std::vector<CardBranch> by_time(std::vector<CardBranch> branches) {
-  std::sort(branches.begin(), branches.end(), [](const CardBranch& a, const CardBranch& b) {
-    return a.time != b.time ? a.time < b.time : a.shear < b.shear;
-  });
-  return branches;
-}
-
-double branch_mismatch(const CardNumbers& one, const CardNumbers& other, const CardTarget& target) {
-  if (one.branches.size() != other.branches.size()) return 1.0;
-  double worst = 0.0;
-  const std::vector<CardBranch> a = by_time(one.branches), b = by_time(other.branches);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    worst = std::max({worst, mismatch(a[i].shear, b[i].shear), mismatch(a[i].time, b[i].time)});
-    if (target.bulk == BulkRule::kOwnNumbers)
-      worst = std::max(worst, mismatch(a[i].bulk, b[i].bulk));
-  }
-  return worst;
-}
-
-// Largest relative difference of the numbers this target states.
-double mismatch(const CardNumbers& one, const CardNumbers& other, const CardTarget& target) {
-  double worst = branch_mismatch(one, other, target);
-  const auto compare = [&](double CardNumbers::*member) {
-    worst = std::max(worst, mismatch(one.*member, other.*member));
-  };
-  switch (target.elastic) {
-    case ElasticForm::kYoungPoisson:
-      compare(&CardNumbers::young);
-      compare(&CardNumbers::poisson);
-      break;
-    case ElasticForm::kBulkShear:
-      compare(&CardNumbers::bulk);
-      compare(&CardNumbers::shear);
-      break;
-    case ElasticForm::kBulkOnly:
-      compare(&CardNumbers::bulk);
-      break;
-    case ElasticForm::kPoissonOnly:
-      compare(&CardNumbers::poisson);
-      break;
-  }
-  if (target.states_equilibrium) compare(&CardNumbers::equilibrium);
-  if (one.density > 0.0 && other.density > 0.0) compare(&CardNumbers::density);
-  return worst;
-}
 
 void scale_moduli(CardNumbers& numbers, const CardTarget& target, double factor) {
   numbers.young *= factor;
@@ -106,7 +31,7 @@ void copy_times(CardNumbers& numbers, const CardNumbers& from) {
   }
 }
 
-void add_elastic_mistakes(const Context& context, std::vector<Mistake>& list) {
+void add_elastic_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
   const CardTarget& target = context.target;
   CardTarget flipped = target;
   const bool is_long_term = target.at == ModulusAt::kLongTerm;
@@ -174,7 +99,7 @@ void add_elastic_mistakes(const Context& context, std::vector<Mistake>& list) {
   }
 }
 
-void add_branch_mistakes(const Context& context, std::vector<Mistake>& list) {
+void add_branch_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
   struct Other {
     BranchNumber branch;
     const char* letter;
@@ -229,7 +154,7 @@ void add_branch_mistakes(const Context& context, std::vector<Mistake>& list) {
                   }});
 }
 
-void add_time_mistakes(const Context& context, std::vector<Mistake>& list) {
+void add_time_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
   struct Other {
     TimeNumber time;
     const char* letter;
@@ -268,7 +193,7 @@ void add_time_mistakes(const Context& context, std::vector<Mistake>& list) {
   }
 }
 
-void add_order_mistakes(std::vector<Mistake>& list) {
+void add_order_mistakes(std::vector<CardMistake>& list) {
   list.push_back(
       {"columns-swapped", "share and time have changed places in the rows", [](CardNumbers& n) {
          for (CardBranch& b : n.branches) std::swap(b.shear, b.time);
@@ -283,7 +208,7 @@ void add_order_mistakes(std::vector<Mistake>& list) {
        }});
 }
 
-void add_unit_mistakes(const Context& context, std::vector<Mistake>& list) {
+void add_unit_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
   for (const UnitSystem& system : unit_systems()) {
     if (std::string(system.name) == context.units.name) continue;
     const CardNumbers numbers = numbers_from_material(context.material, context.target, system);
@@ -305,95 +230,16 @@ void add_unit_mistakes(const Context& context, std::vector<Mistake>& list) {
   }
 }
 
-// The right shares and the right times, but not with each other.
-bool are_terms_swapped(const CardNumbers& found, const CardNumbers& expected,
-                       const CardTarget& target) {
-  if (found.branches.size() != expected.branches.size()) return false;
-  CardNumbers paired = expected;
-  std::vector<CardBranch> by_share = found.branches;
-  const auto less = [](const CardBranch& a, const CardBranch& b) { return a.shear < b.shear; };
-  std::sort(by_share.begin(), by_share.end(), less);
-  std::sort(paired.branches.begin(), paired.branches.end(), less);
-  std::vector<double> times, wanted;
-  for (std::size_t i = 0; i < by_share.size(); ++i) {
-    times.push_back(by_share[i].time);
-    wanted.push_back(paired.branches[i].time);
-    by_share[i].time = paired.branches[i].time;
-  }
-  std::sort(times.begin(), times.end());
-  std::sort(wanted.begin(), wanted.end());
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (mismatch(times[i], wanted[i]) > kHandTyped) return false;
-  }
-  CardNumbers regrouped = found;
-  regrouped.branches = by_share;
-  const double off = mismatch(regrouped, expected, target);
-  return off <= kHandTyped && off <= 0.2 * mismatch(found, expected, target);
-}
-
-struct Best {
-  double mismatch = std::numeric_limits<double>::infinity();
-  std::vector<const Mistake*> mistakes;
-};
-
-Best best_explanation(const std::vector<Mistake>& list, const CardNumbers& found,
-                      const CardNumbers& expected, const CardTarget& target) {
-  Best best;
-  const auto consider = [&](const CardNumbers& numbers, std::vector<const Mistake*> mistakes) {
-    const double off = mismatch(found, numbers, target);
-    // Two mistakes must explain much better than one.
-    const double penalty =
-        mistakes.size() > best.mistakes.size() && !best.mistakes.empty() ? 10.0 : 1.0;
-    if (off * penalty < best.mismatch) best = {off, std::move(mistakes)};
-  };
-  for (const Mistake& one : list) {
-    CardNumbers numbers = expected;
-    one.plant(numbers);
-    consider(numbers, {&one});
-  }
-  if (best.mismatch <= kHandTyped) return best;
-  for (const Mistake& one : list) {
-    for (const Mistake& two : list) {
-      if (one.name == two.name) continue;
-      CardNumbers numbers = expected;
-      one.plant(numbers);
-      two.plant(numbers);
-      consider(numbers, {&one, &two});
-    }
-  }
-  return best;
-}
-
 }  // namespace
 
-std::vector<CardFinding> explain_difference(const ReadCard& read, const Material& reference) {
-  const Context context{with_bulk_rule(reference, read.understood.bulk), read.understood,
-                        read.units};
-  const CardNumbers expected = context.as(context.target);
-  if (are_terms_swapped(read.numbers, expected, context.target)) {
-    return {{"terms-swapped",
-             "the shares and the times are right, but paired with the wrong partner", true}};
-  }
-  std::vector<Mistake> list;
+std::vector<CardMistake> known_mistakes(const CardContext& context) {
+  std::vector<CardMistake> list;
   add_unit_mistakes(context, list);
   add_elastic_mistakes(context, list);
   add_branch_mistakes(context, list);
   add_time_mistakes(context, list);
   add_order_mistakes(list);
-  const Best best = best_explanation(list, read.numbers, expected, context.target);
-  const double plain = mismatch(read.numbers, expected, context.target);
-  if (best.mismatch > kHandTyped || best.mismatch > 0.2 * plain) {
-    if (plain > kHandTyped) return {};
-    return {
-        {"rounded",
-         "the numbers are the material's, with fewer digits; --tolerance accepts the difference",
-         false}};
-  }
-  std::vector<CardFinding> findings;
-  for (const Mistake* mistake : best.mistakes) {
-    findings.push_back({mistake->name, mistake->text, true});
-  }
-  return findings;
+  return list;
 }
 
 }  // namespace viscard
