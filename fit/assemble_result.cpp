@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -19,7 +21,21 @@ namespace {
 std::vector<SpectralState> wished_path(const SpectralModel& model, const FitOptions& options) {
   OrderPathOptions path_options;
   path_options.max_terms = std::max(options.n_terms.value_or(0), options.max_terms);
-  std::vector<SpectralState> path = order_path(model, path_options);
+  const std::unique_ptr<SpectralModel> coarse = model.coarse();
+  std::vector<SpectralState> path = order_path(coarse ? *coarse : model, path_options);
+  if (coarse) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (SpectralState& state : path) {
+      const bool is_converged = state.is_converged;
+      state = solve_coefficients(model, state.ln_tau, state.nuisance);
+      state.is_converged = is_converged;
+    }
+    std::erase_if(path, [&](const SpectralState& state) {
+      const bool is_better = state.rss < lowest;
+      lowest = std::min(lowest, state.rss);
+      return !is_better;
+    });
+  }
   if (path.empty()) {
     throw std::runtime_error(
         "no model fits these data: every modulus comes out zero. Check the sign "
@@ -150,6 +166,16 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
   result.n_samples = static_cast<std::size_t>(model.n_samples());
   result.is_converged = fit.state.is_converged;
   judge(result);
+}
+
+SeriesFromState relaxation_series_of(const SpectralModel& model, bool is_liquid) {
+  return [&model, is_liquid](const SpectralState& state) {
+    PronySeries series{is_liquid ? 0.0 : state.coefficients[0], {}};
+    for (Eigen::Index i = 0; i < state.n_terms(); ++i) {
+      series.terms.push_back({state.coefficients[model.n_common() + i], std::exp(state.ln_tau[i])});
+    }
+    return series;
+  };
 }
 
 std::vector<int> log_time_blocks(const std::vector<double>& time_s, double zero_s,

@@ -32,6 +32,10 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
 void fill_result(const SpectralModel& model, const SpectralFit& fit,
                  const SeriesFromState& series_from_state, FitResult& result);
 
+// The series where the state's parameters are the material's own: E_inf first (a liquid has none),
+// then the moduli. The model must outlive it.
+SeriesFromState relaxation_series_of(const SpectralModel& model, bool is_liquid);
+
 // Block numbers for cross-validation: contiguous runs of rows that end when they cover a tenth of a
 // decade of the time since `zero_s`, but not before `shortest` rows nor after a fiftieth of all.
 std::vector<int> log_time_blocks(const std::vector<double>& time_s, double zero_s,

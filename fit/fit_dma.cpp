@@ -68,17 +68,7 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
   const SpectralFit fit = fit_spectrum(model, blocks, options);
   FitResult result;
   result.kind = FitKind::kDma;
-  fill_result(
-      model, fit,
-      [&](const SpectralState& state) {
-        PronySeries series{options.is_liquid ? 0.0 : state.coefficients[0], {}};
-        for (Index i = 0; i < state.n_terms(); ++i) {
-          series.terms.push_back(
-              {state.coefficients[model.n_common() + i], std::exp(state.ln_tau[i])});
-        }
-        return series;
-      },
-      result);
+  fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
   result.n_samples = frequency_Hz.size();
   result.n_left_out = clean.n_left_out;
   result.fit_from_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.back());

@@ -202,17 +202,7 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
       fit_spectrum(model, log_time_blocks(model.row_time_s(), zero_s, 2), options);
   FitResult result;
   result.is_stiffness = !data.contact;
-  fill_result(
-      model, fit,
-      [&](const SpectralState& state) {
-        PronySeries series{options.is_liquid ? 0.0 : state.coefficients[0], {}};
-        for (Index i = 0; i < state.n_terms(); ++i) {
-          series.terms.push_back(
-              {state.coefficients[model.n_common() + i], std::exp(state.ln_tau[i])});
-        }
-        return series;
-      },
-      result);
+  fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
   result.n_left_out = clean.n_left_out;
   add_spikes(result, spikes.size());
   result.fit_from_s = input.time_s.front();

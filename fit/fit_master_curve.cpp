@@ -235,17 +235,7 @@ MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) 
 
   FitResult& result = curve.fit;
   result.kind = data.loss_Pa.empty() ? FitKind::kRelaxation : FitKind::kDma;
-  fill_result(
-      model, fit,
-      [&](const SpectralState& state) {
-        PronySeries series{options.is_liquid ? 0.0 : state.coefficients[0], {}};
-        for (Index i = 0; i < state.n_terms(); ++i) {
-          series.terms.push_back(
-              {state.coefficients[model.n_common() + i], std::exp(state.ln_tau[i])});
-        }
-        return series;
-      },
-      result);
+  fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
   result.n_samples = data.argument.size() - n_left_out;
   result.n_left_out = n_left_out;
   fill_window(segments, curve.factors, result);

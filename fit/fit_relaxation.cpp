@@ -19,16 +19,7 @@
 namespace viscard {
 namespace {
 
-using Index = Eigen::Index;
 constexpr std::size_t kLeastRows = 4;
-
-PronySeries plain_series(const SpectralModel& model, const SpectralState& state, bool is_liquid) {
-  PronySeries series{is_liquid ? 0.0 : state.coefficients[0], {}};
-  for (Index i = 0; i < state.n_terms(); ++i) {
-    series.terms.push_back({state.coefficients[model.n_common() + i], std::exp(state.ln_tau[i])});
-  }
-  return series;
-}
 
 std::vector<double> copy_of(std::span<const double> column) {
   return {column.begin(), column.end()};
@@ -47,10 +38,7 @@ FitResult fit_strain_history(const CleanViews& clean, const FitOptions& options)
       model, log_time_blocks(model.row_time_s(), input.time_s[input.contact], 1), options);
   FitResult result;
   result.kind = FitKind::kRelaxation;
-  fill_result(
-      model, fit,
-      [&](const SpectralState& state) { return plain_series(model, state, options.is_liquid); },
-      result);
+  fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
   const double zero_s = input.time_s[input.contact];
   const TestWindow window{shortest_step_s(input.time_s),
                           input.time_s[end_of_loading(input.input)] - zero_s, 0.0,
@@ -69,10 +57,7 @@ FitResult fit_step(std::span<const double> time_s, std::span<const double> value
   const SpectralFit fit = fit_spectrum(model, log_time_blocks(row_time_s, 0.0, 1), options);
   FitResult result;
   result.kind = FitKind::kRelaxation;
-  fill_result(
-      model, fit,
-      [&](const SpectralState& state) { return plain_series(model, state, options.is_liquid); },
-      result);
+  fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
   const TestWindow window{model.sampling_s(), 0.0, time_s.front(), time_s.back()};
   add_identifiability_flags(model, fit.state, fit.covariance, window, result);
   if (options.with_curves) fill_step_curves(model, fit, "Pa", result);

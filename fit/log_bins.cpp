@@ -42,6 +42,35 @@ LogBin make_bin(std::span<const double> time_s, std::span<const double> value, s
   return bin;
 }
 
+// Moments about the common mean from those about each bin's own.
+LogBin put_together(std::span<const LogBin> parts) {
+  LogBin sum;
+  sum.begin = parts.front().begin;
+  sum.end = parts.back().end;
+  for (const LogBin& part : parts) sum.count += part.count;
+  sum.time_s = parts.front().time_s;
+  sum.value = parts.front().value;
+  double time = 0.0, value = 0.0;
+  for (const LogBin& part : parts) {
+    time += part.count / sum.count * (part.time_s - parts.front().time_s);
+    value += part.count / sum.count * (part.value - parts.front().value);
+  }
+  sum.time_s += time;
+  sum.value += value;
+  for (const LogBin& part : parts) {
+    const double share = part.count / sum.count;
+    const double d = part.time_s - sum.time_s;
+    const double y = part.value - sum.value;
+    sum.m2 += share * (part.m2 + d * d);
+    sum.m3 += share * (part.m3 + 3.0 * d * part.m2 + d * d * d);
+    sum.m4 += share * (part.m4 + 4.0 * d * part.m3 + 6.0 * d * d * part.m2 + d * d * d * d);
+    sum.c1 += share * (part.c1 + y * d);
+    sum.c2 += share * (part.c2 + 2.0 * d * part.c1 + y * (part.m2 + d * d));
+    sum.value_m2 += share * (part.value_m2 + y * y);
+  }
+  return sum;
+}
+
 }  // namespace
 
 std::vector<LogBin> log_bins(std::span<const double> time_s, std::span<const double> value,
@@ -58,6 +87,21 @@ std::vector<LogBin> log_bins(std::span<const double> time_s, std::span<const dou
     begin = end;
   }
   return bins;
+}
+
+std::vector<LogBin> merged_bins(const std::vector<LogBin>& bins, double per_decade) {
+  const double ratio = std::pow(10.0, 1.0 / per_decade);
+  std::vector<LogBin> merged;
+  for (std::size_t begin = 0; begin < bins.size();) {
+    std::size_t end = begin + 1;
+    if (bins[begin].time_s > 0.0) {
+      const double limit = bins[begin].time_s * ratio;
+      while (end < bins.size() && bins[end].time_s < limit) ++end;
+    }
+    merged.push_back(put_together({bins.data() + begin, end - begin}));
+    begin = end;
+  }
+  return merged;
 }
 
 BinExponential average_exponential(const LogBin& bin, double tau_s) {

@@ -24,6 +24,9 @@ struct LogBin {
 std::vector<LogBin> log_bins(std::span<const double> time_s, std::span<const double> value,
                              double per_decade);
 
+// Neighbouring bins put together until they are so wide; their moments stay exact.
+std::vector<LogBin> merged_bins(const std::vector<LogBin>& bins, double per_decade);
+
 // Average of exp(-t/tau) over a bin, and its derivative by ln tau.
 struct BinExponential {
   double value = 0.0;

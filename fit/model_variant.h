@@ -34,6 +34,8 @@ class ModelVariant final : public SpectralModel {
     return out;
   }
 
+  double sample_variance() const override { return base_.sample_variance(); }
+
  private:
   const SpectralModel& base_;
   Eigen::Index skipped_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 namespace viscard {
@@ -25,7 +26,11 @@ double width(const Interval& interval) {
 
 // How low E_inf can be when one more term at the end of the range may take its place, until the sum
 // of squares rises by 3.84 variances: steps that double, the root of the rise taken as linear.
-double lowest_equilibrium(const SpectralModel& model, const SpectralFit& fit, double step) {
+double lowest_equilibrium(const SpectralModel& fine, const SpectralFit& fit, double step) {
+  const std::unique_ptr<SpectralModel> coarse = fine.coarse();
+  const SpectralModel& model = coarse ? *coarse : fine;
+  const double least_rss =
+      coarse ? solve_coefficients(model, fit.state.ln_tau, fit.state.nuisance).rss : fit.state.rss;
   constexpr double kChiSquare95 = 3.841458820694124;
   SpectralState slower = fit.state;
   slower.ln_tau.conservativeResize(slower.n_terms() + 1);
@@ -38,9 +43,9 @@ double lowest_equilibrium(const SpectralModel& model, const SpectralFit& fit, do
     const double value = std::max(0.0, best - distance);
     const ModelVariant lowered(model, model.data() - value * column, /*without_first=*/true);
     slower.nuisance = fit.state.nuisance;
-    const SpectralState refitted =
-        quick_search(lowered, slower, {.max_iterations = 30, .tolerance = 1e-6});
-    const double rise = (refitted.rss - fit.state.rss) / fit.variance;
+    const SpectralState refitted = quick_search(
+        lowered, slower, {.max_iterations = 30, .tolerance = 1e-6, .unseen_variances = 1e-2});
+    const double rise = (refitted.rss - least_rss) / fit.variance;
     const double root = std::sqrt(std::max(0.0, rise));
     if (rise >= kChiSquare95) {
       const double share = (std::sqrt(kChiSquare95) - last_root) / (root - last_root);

@@ -160,6 +160,7 @@ SpectralState with_one_less_term(const SpectralModel& model, const SpectralState
                                  RefineOptions options) {
   constexpr Index kFew = 12;
   constexpr std::size_t kWays = 5;
+  constexpr double kHidden = 2.0;
   const std::vector<Eigen::VectorXd> ways = reductions(model, state);
   const std::size_t tried = state.n_terms() <= kFew ? std::min(kWays, ways.size()) : 1;
   SpectralState best;
@@ -172,6 +173,8 @@ SpectralState with_one_less_term(const SpectralModel& model, const SpectralState
     if (!(less.rss < best.rss)) continue;
     options.target = std::min(options.target, less.rss);
     best = std::move(less);
+    // Nothing was lost that the noise would not hide: other ways lead no lower.
+    if (best.rss - state.rss < kHidden * model.sample_variance()) break;
   }
   return best;
 }
@@ -263,7 +266,8 @@ SpectralState with_one_more_term(const SpectralModel& model, const SpectralState
       best = i;
     }
   }
-  if (best < 0) return state;
+  constexpr double kChance = 1.0;  // variances: nothing, or less than chance, to be had
+  if (best < 0 || best_gain < kChance * model.sample_variance()) return state;
   const SpectralState start =
       solve_coefficients(model, with(state.ln_tau, grid[best]), state.nuisance);
   const SpectralState more = quick_search(model, start, options.refine);

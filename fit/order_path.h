@@ -10,7 +10,7 @@ namespace viscard {
 struct OrderPathOptions {
   int max_terms = 40;
   double grid_per_decade = 8.0;  // of the non-negative start
-  RefineOptions refine{.max_iterations = 100, .tolerance = 1e-7};
+  RefineOptions refine{.max_iterations = 100, .tolerance = 1e-7, .unseen_variances = 1e-3};
 };
 
 // The best fits found with 0, 1, 2 ... terms, from no starting values. First a non-negative

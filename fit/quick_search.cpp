@@ -58,6 +58,7 @@ SpectralState quick_search(const SpectralModel& model, const SpectralState& star
   double growth = 2.0;
   bool is_converged = p.size() == 0;
   constexpr double kTooStiff = 1e12;
+  const double unseen = options.unseen_variances * model.sample_variance();
   for (int i = 0; i < options.max_iterations && !is_converged && damping < kTooStiff; ++i) {
     const std::vector<Index> list = movable(at, p, box);
     is_converged = list.empty();
@@ -66,7 +67,8 @@ SpectralState quick_search(const SpectralModel& model, const SpectralState& star
     const Eigen::VectorXd trial = (p + step.change).cwiseMax(box.low).cwiseMin(box.high);
     const Projection next = project(model, trial);
     const double gain = at.rss - next.rss;
-    is_converged = std::max(std::abs(gain), step.predicted) <= options.tolerance * at.rss;
+    const double little = std::max(options.tolerance * at.rss, unseen);
+    is_converged = std::max(std::abs(gain), step.predicted) <= little;
     if (gain > 0.0) {
       // Convergence is linear at worst: what a step gains, the next ten do not multiply by more.
       constexpr double kStepsLeft = 10.0;

@@ -153,44 +153,77 @@ Eigen::MatrixXd full_jacobian(const SpectralModel& model, const SpectralState& s
   return jacobian;
 }
 
+namespace {
+
+// Jacobian and residual of all rows, those hidden in averages too.
+struct FullSystem {
+  Eigen::MatrixXd jacobian;
+  Eigen::VectorXd residual;
+};
+
+FullSystem full_system(const SpectralModel& model, const SpectralState& state) {
+  const Index linear = state.coefficients.size();
+  FullSystem all{full_jacobian(model, state), {}};
+  all.residual = model.data() - all.jacobian.leftCols(linear) * state.coefficients;
+  const SpectralModel::HiddenRows hidden = model.hidden_rows(state.ln_tau);
+  const Index visible = all.residual.size(), more = hidden.data.size();
+  if (more == 0) return all;
+  all.jacobian.conservativeResize(visible + more, Eigen::NoChange);
+  all.residual.conservativeResize(visible + more);
+  auto rows = all.jacobian.bottomRows(more);
+  rows.setZero();
+  rows.leftCols(linear) = hidden.columns.values;
+  rows.middleCols(linear, state.n_terms()) =
+      hidden.columns.term_slopes *
+      state.coefficients.segment(model.n_common(), state.n_terms()).asDiagonal();
+  all.residual.tail(more) = hidden.data - hidden.columns.values * state.coefficients;
+  return all;
+}
+
+bool is_allowed(const SpectralModel& model, const SpectralState& state) {
+  const std::vector<bool> is_free = free_columns(model, state.n_terms());
+  for (Index j = 0; j < state.coefficients.size(); ++j) {
+    if (!is_free[static_cast<std::size_t>(j)] && !(state.coefficients[j] > 0.0)) return false;
+  }
+  return state.n_terms() == 0 || (state.ln_tau.minCoeff() >= model.ln_tau_min() &&
+                                  state.ln_tau.maxCoeff() <= model.ln_tau_max());
+}
+
+}  // namespace
+
 SpectralState polish(const SpectralModel& model, const SpectralState& start) {
   constexpr int kMaxSteps = 60;
-  constexpr double kSmallStep = 1e-13;
-  const std::vector<bool> is_free = free_columns(model, start.n_terms());
+  constexpr double kSmallStep = 1e-13, kNearly = 1e-9;
+  double last_moved = 1.0;
   const Index linear = start.coefficients.size();
   const Index n_terms = start.n_terms();
-  for (Index j = 0; j < linear; ++j) {  // on a sign bound there is no interior to step in
-    if (!is_free[static_cast<std::size_t>(j)] && !(start.coefficients[j] > 0.0)) return start;
-  }
+  if (!is_allowed(model, start)) return start;  // on a sign bound there is no interior to step in
   SpectralState state = start;
+  FullSystem now = full_system(model, state);
   for (int step = 0; step < kMaxSteps; ++step) {
-    const Eigen::MatrixXd jacobian = full_jacobian(model, state);
-    const Eigen::VectorXd residual = model.data() - jacobian.leftCols(linear) * state.coefficients;
-    const Eigen::VectorXd scale = jacobian.colwise().norm().transpose().cwiseMax(1e-300);
-    const Eigen::VectorXd change = (jacobian * scale.cwiseInverse().asDiagonal())
+    const Eigen::VectorXd scale = now.jacobian.colwise().norm().transpose().cwiseMax(1e-300);
+    const Eigen::VectorXd change = (now.jacobian * scale.cwiseInverse().asDiagonal())
                                        .colPivHouseholderQr()
-                                       .solve(residual)
+                                       .solve(now.residual)
                                        .cwiseQuotient(scale);
     if (!change.allFinite()) return state;
     SpectralState next = state;
     next.coefficients += change.head(linear);
     next.ln_tau += change.segment(linear, n_terms);
     next.nuisance += change.tail(model.n_nuisances());
-    const bool inside = n_terms == 0 || (next.ln_tau.minCoeff() >= model.ln_tau_min() &&
-                                         next.ln_tau.maxCoeff() <= model.ln_tau_max());
-    if (!inside) return state;
-    for (Index j = 0; j < linear; ++j) {
-      if (!is_free[static_cast<std::size_t>(j)] && !(next.coefficients[j] > 0.0)) return state;
-    }
-    const ModelColumns columns = model.columns(next.ln_tau, next.nuisance, false);
-    next.rss = (columns.values * next.coefficients - model.data()).squaredNorm();
+    if (!is_allowed(model, next)) return state;
+    FullSystem then = full_system(model, next);
     // Rounding may raise the sum by a few units in the last place near the optimum.
-    if (!(next.rss <= state.rss * (1.0 + 1e-9) + 1e-300)) return state;
-    state = next;
-    const double largest = change.segment(linear, n_terms).size() > 0
-                               ? change.segment(linear, n_terms).cwiseAbs().maxCoeff()
-                               : 0.0;
-    if (largest < kSmallStep) break;
+    if (!(then.residual.squaredNorm() <= now.residual.squaredNorm() * (1.0 + 1e-9) + 1e-300)) {
+      return state;
+    }
+    next.rss = then.residual.head(model.n_rows()).squaredNorm();
+    state = std::move(next);
+    now = std::move(then);
+    const double moved = n_terms == 0 ? 0.0 : change.segment(linear, n_terms).cwiseAbs().maxCoeff();
+    // Steps that no longer shrink are rounding.
+    if (moved < kSmallStep || (moved < kNearly && moved > 0.5 * last_moved)) break;
+    last_moved = moved;
   }
   return state;
 }

@@ -31,7 +31,9 @@ SpectralState solve_coefficients(const SpectralModel& model, const Eigen::Vector
 struct RefineOptions {
   int max_iterations = 200;
   double tolerance = 1e-12;  // relative change of the residual sum of squares
-  Eigen::Index held = -1;    // number of the time that quick_search() keeps as it is
+  // quick_search() also ends when a step gains less than this many sample_variance() of the model.
+  double unseen_variances = 0.0;
+  Eigen::Index held = -1;  // number of the time that quick_search() keeps as it is
   // quick_search() gives up on a fit that will not come below this sum of squares.
   double target = std::numeric_limits<double>::infinity();
 };

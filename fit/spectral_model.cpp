@@ -24,6 +24,10 @@ double SpectralModel::hidden_rss(const Eigen::VectorXd& /*ln_tau*/,
   return 0.0;
 }
 
+SpectralModel::HiddenRows SpectralModel::hidden_rows(const Eigen::VectorXd& /*ln_tau*/) const {
+  return {};
+}
+
 Eigen::VectorXd SpectralModel::residual_series(const Eigen::VectorXd& ln_tau,
                                                const Eigen::VectorXd& nuisance,
                                                const Eigen::VectorXd& coefficients) const {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,19 @@ class SpectralModel {
   virtual double n_samples() const { return static_cast<double>(n_rows()); }
   virtual double hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                             const Eigen::VectorXd& coefficients) const;
+  // What averages hide, as further rows: shape of data and model within each average. None where
+  // rows are samples. With them the optimum is that of all samples.
+  struct HiddenRows {
+    Eigen::VectorXd data;
+    ModelColumns columns;
+  };
+  virtual HiddenRows hidden_rows(const Eigen::VectorXd& ln_tau) const;
+  // Variance of a weighted sample as seen within averages; 0: not known before a fit. What changes
+  // the sum of squares by much less than this is not worth searching for.
+  virtual double sample_variance() const { return 0.0; }
+  // The same data in fewer rows, good enough to search with; nothing where that saves nothing. Must
+  // not outlive this model.
+  virtual std::unique_ptr<SpectralModel> coarse() const { return nullptr; }
   // Standard deviation that each row was divided by; empty: rows are in the unit of the data.
   virtual Eigen::VectorXd row_sigma() const { return {}; }
   // Consecutive weighted residuals of samples (a stretch of them if there are very many), for their

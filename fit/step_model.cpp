@@ -14,7 +14,7 @@ using Index = Eigen::Index;
 constexpr std::size_t kSmallRecord = 2000;
 constexpr double kBinsPerDecade = 60.0;
 // Autocorrelation is taken from at most this many consecutive samples.
-constexpr std::size_t kLongSeries = 16384;
+constexpr std::size_t kLongSeries = 8192;
 constexpr double kGone = 100.0;  // exp(-100) is nothing
 
 // exp(-x) of ascending x, computed only where it is neither 1 nor nothing beside 1.
@@ -28,6 +28,26 @@ void decays(const Eigen::ArrayXd& x, Eigen::ArrayXd& value) {
   value.tail(x.size() - end).setZero();
 }
 
+// Of d^2 - m2 - d m3/m2, d = t - mean: what is left of d^2 beside a mean and a slope. Two samples
+// have none.
+double norm_of_bend(const LogBin& bin) {
+  const double square = bin.m4 - bin.m2 * bin.m2 - bin.m3 * bin.m3 / bin.m2;
+  return square > 1e-9 * bin.m4 ? std::sqrt(square) : 0.0;
+}
+
+// Scatter within bins about a parabola; a smooth curve adds nothing to it.
+double variance_within(const std::vector<LogBin>& bins) {
+  double square = 0.0, freedom = 0.0;
+  for (const LogBin& bin : bins) {
+    if (bin.count < 6.0 || !(bin.m2 > 0.0)) continue;
+    const double norm = norm_of_bend(bin);
+    const double bend = norm > 0.0 ? (bin.c2 - bin.c1 * bin.m3 / bin.m2) / norm : 0.0;
+    square += bin.count * (bin.value_m2 - bin.c1 * bin.c1 / bin.m2 - bend * bend);
+    freedom += bin.count - 3.0;
+  }
+  return freedom > 0.0 ? std::max(0.0, square / freedom) : 0.0;
+}
+
 }  // namespace
 
 StepModel::StepModel(std::span<const double> time_s, std::span<const double> value, StepShape shape,
@@ -35,6 +55,7 @@ StepModel::StepModel(std::span<const double> time_s, std::span<const double> val
     : time_s_(time_s), value_(value), shape_(shape), is_liquid_(options.is_liquid) {
   const bool is_small = time_s_.size() <= kSmallRecord;
   bins_ = log_bins(time_s_, value_, is_small || options.full_data ? 0.0 : kBinsPerDecade);
+  sample_variance_ = variance_within(bins_);
   keep_arrays();
   with_constant_ = shape == StepShape::kCreep || !is_liquid_;
   if (with_constant_) common_.push_back({shape == StepShape::kCreep ? "J_g" : "E_inf", false});
@@ -128,6 +149,54 @@ double StepModel::hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorX
             2.0 * slope * bend * bin.m3 + bend * bend * (bin.m4 - bin.m2 * bin.m2));
   }
   return sum;
+}
+
+SpectralModel::HiddenRows StepModel::hidden_rows(const Eigen::VectorXd& ln_tau) const {
+  // Data and model within a bin against its first two orthogonal polynomials,
+  //   P1 = d/sqrt(m2), P2 = (d^2 - m2 - d m3/m2)/norm, d = t - mean;  <exp P1> to third order in d.
+  const double sign = shape_ == StepShape::kCreep ? -1.0 : 1.0;
+  const auto n_bins =
+      std::count_if(bins_.begin(), bins_.end(), [](const LogBin& bin) { return bin.m2 > 0.0; });
+  HiddenRows out;
+  out.data = Eigen::VectorXd::Zero(2 * n_bins);
+  out.columns.values = Eigen::MatrixXd::Zero(2 * n_bins, n_common() + ln_tau.size());
+  out.columns.term_slopes = Eigen::MatrixXd::Zero(2 * n_bins, ln_tau.size());
+  Index row = 0;
+  for (const LogBin& bin : bins_) {
+    if (!(bin.m2 > 0.0)) continue;
+    const double root = std::sqrt(bin.m2);
+    const double norm = norm_of_bend(bin);
+    const double weight = std::sqrt(bin.count);
+    out.data[row] = weight * bin.c1 / root;
+    if (norm > 0.0) out.data[row + 1] = weight * (bin.c2 - bin.c1 * bin.m3 / bin.m2) / norm;
+    if (shape_ == StepShape::kCreep && is_liquid_) out.columns.values(row, 1) = weight * root;
+    for (Index i = 0; i < ln_tau.size(); ++i) {
+      const double u = std::exp(-ln_tau[i]);
+      const double x = u * bin.time_s;
+      const double e = sign * weight * std::exp(-x);
+      const double a = 0.5 * bin.m3 / bin.m2, b = bin.m4 / (6.0 * bin.m2);
+      const double first = e * root * u * (-1.0 + u * (a - u * b));
+      const double second = 0.5 * e * u * u * norm;
+      const Index column = n_common() + i;
+      out.columns.values(row, column) = first;
+      out.columns.values(row + 1, column) = second;
+      out.columns.term_slopes(row, i) =
+          x * first + e * root * u * (1.0 - u * (2.0 * a - 3.0 * u * b));
+      out.columns.term_slopes(row + 1, i) = (x - 2.0) * second;
+    }
+    row += 2;
+  }
+  return out;
+}
+
+std::unique_ptr<SpectralModel> StepModel::coarse() const {
+  constexpr double kCoarsePerDecade = 20.0;
+  constexpr std::size_t kFew = 120;
+  if (!has_averages_ || bins_.size() < kFew) return nullptr;
+  auto model = std::make_unique<StepModel>(*this);
+  model->bins_ = merged_bins(bins_, kCoarsePerDecade);
+  model->keep_arrays();
+  return model;
 }
 
 Eigen::VectorXd StepModel::residual_series(const Eigen::VectorXd& ln_tau,

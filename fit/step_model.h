@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,9 @@ class StepModel final : public SpectralModel {
   double n_samples() const override { return static_cast<double>(time_s_.size()); }
   double hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                     const Eigen::VectorXd& coefficients) const override;
+  double sample_variance() const override { return sample_variance_; }
+  HiddenRows hidden_rows(const Eigen::VectorXd& ln_tau) const override;
+  std::unique_ptr<SpectralModel> coarse() const override;
   Eigen::VectorXd residual_series(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                                   const Eigen::VectorXd& coefficients) const override;
 
@@ -43,6 +47,7 @@ class StepModel final : public SpectralModel {
   std::vector<LogBin> bins_;
   // Of the bins, for whole columns at once: mean time, its moments, sqrt(count).
   Eigen::ArrayXd bin_time_s_, m2_, m3_, m4_, weight_;
+  double sample_variance_ = 0.0;
   bool has_averages_ = false;
   bool is_liquid_ = false;
   bool with_constant_ = true;
