@@ -28,6 +28,28 @@ struct Contact {
   std::size_t first = 0;  // first sample beyond it
 };
 
+// Whether the force rises over the first samples as it does in contact: then the record has no
+// stretch out of contact, and what lies before the line's zero is the bend of a relaxing material.
+bool rises_like_contact(const Column& force_N, const Column& depth_m, std::size_t count,
+                        double slope) {
+  const auto n = static_cast<double>(count);
+  double sd = 0, sf = 0, sdd = 0, sdf = 0, sff = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double d = depth_m[i] - depth_m[0], f = force_N[i] - force_N[0];
+    sd += d;
+    sf += f;
+    sdd += d * d;
+    sdf += d * f;
+    sff += f * f;
+  }
+  const double spread = sdd - sd * sd / n, product = sdf - sd * sf / n;
+  if (!(spread > 0.0)) return false;
+  const double rise = product / spread;
+  const double left = std::max(0.0, sff - sf * sf / n - rise * product);
+  const double error = std::sqrt(left / (n - 2.0) / spread);
+  return rise - 2.0 * error > 0.5 * slope;
+}
+
 // Where the line through the loading curve (force^(1/power) over depth) between a fifth and four
 // fifths of the force meets zero force. With samples before that the contact is fitted; without,
 // the table's own zero of depth holds (or its first sample, when the record begins under load).
@@ -58,7 +80,8 @@ Contact find_contact(const Column& force_N, const Column& depth_m, std::size_t l
   contact.depth_m = depth_m[loaded] + (sd * slope - sf) / (n * slope);
   while (contact.first < loaded && depth_m[contact.first] <= contact.depth_m) ++contact.first;
   constexpr std::size_t kFewSamples = 5;
-  contact.is_fitted = contact.first >= kFewSamples;
+  contact.is_fitted = contact.first >= kFewSamples &&
+                      !(power == 1.0 && rises_like_contact(force_N, depth_m, contact.first, slope));
   if (!contact.is_fitted) contact = {};
   return contact;
 }

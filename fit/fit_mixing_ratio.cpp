@@ -215,6 +215,10 @@ RatioModel fitted_form(const std::vector<Estimate>& estimates, const RatioForm& 
     if (change < 1e-4) break;
   }
   if (kinds == 1) spreads[1] = spreads[2] = 0.0;
+  for (std::size_t kind = 0; kind < kinds; ++kind) {  // as many values as specimens: no scatter
+    const int first = kind == 0 ? 0 : 1 + (kind == 2 ? model.n_terms : 0);
+    if (!has_known_spread(model, first)) spreads[kind] = 0.0;
+  }
   const Solution solution = likelihood.at(spreads);
   model.coefficients = solution.beta;
   model.covariance = solution.covariance;

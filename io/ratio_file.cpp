@@ -42,6 +42,10 @@ Json json_from(const RatioModel& model) {
     const Eigen::VectorXd row = model.covariance.row(i);
     rows.push_back(std::vector<double>(row.begin(), row.end()));
   }
+  const auto spread = [&](double value, int parameter) {  // null: unknown
+    const bool is_known = parameter > 2 * model.n_terms || has_known_spread(model, parameter);
+    return is_known ? Json(value) : Json(nullptr);
+  };
   return {
       {"form", json_from(model.form)},
       {"n_terms", model.n_terms},
@@ -49,9 +53,9 @@ Json json_from(const RatioModel& model) {
       {"coefficients", std::vector<double>(model.coefficients.begin(), model.coefficients.end())},
       {"covariance", rows},
       {"between_specimens",
-       {{"ln_E0", model.spread_ln_E0},
-        {"ln_g", model.spread_ln_g},
-        {"ln_tau", model.spread_ln_tau}}},
+       {{"ln_E0", spread(model.spread_ln_E0, 0)},
+        {"ln_g", spread(model.spread_ln_g, 1)},
+        {"ln_tau", spread(model.spread_ln_tau, model.n_terms + 1)}}},
       {"n_specimens", model.n_specimens},
       {"n_parameters", model.n_parameters},
       {"log_likelihood", model.log_likelihood},
@@ -103,10 +107,13 @@ RatioModel model_from(const Json& json) {
     if (row.size() != beta.size()) throw std::runtime_error("covariance is not square");
     model.covariance.row(i) = Eigen::Map<const Eigen::VectorXd>(row.data(), size);
   }
-  const Json& spread = json.at("between_specimens");
-  model.spread_ln_E0 = spread.at("ln_E0").get<double>();
-  model.spread_ln_g = spread.at("ln_g").get<double>();
-  model.spread_ln_tau = spread.at("ln_tau").get<double>();
+  const auto spread = [&](const char* name) {
+    const Json& value = json.at("between_specimens").at(name);
+    return value.is_null() ? 0.0 : value.get<double>();
+  };
+  model.spread_ln_E0 = spread("ln_E0");
+  model.spread_ln_g = spread("ln_g");
+  model.spread_ln_tau = spread("ln_tau");
   model.n_specimens = json.at("n_specimens").get<int>();
   model.n_parameters = json.at("n_parameters").get<int>();
   model.log_likelihood = json.at("log_likelihood").get<double>();

@@ -5,6 +5,9 @@
 #include <cstdio>
 #include <numbers>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -81,14 +84,20 @@ struct Prediction {
   Eigen::MatrixXd covariance;
   Eigen::VectorXd quantile;  // of Student's t, for each parameter
 };
+constexpr double kNormal975 = 1.959963984540054;  // 97.5 % quantile of the normal distribution
+
 Prediction predict(const RatioModel& model, double ratio) {
   const Eigen::MatrixXd design = design_at(model, ratio);
   Prediction out{design * model.coefficients, design * model.covariance * design.transpose(),
                  Eigen::VectorXd(design.rows())};
   for (Index k = 0; k < design.rows(); ++k) {
     const int parameter = static_cast<int>(k);
+    if (!has_known_spread(model, parameter)) {
+      out.quantile[k] = kNormal975;
+      continue;
+    }
     out.covariance(k, k) += std::pow(spread_of(model, parameter), 2);
-    out.quantile[k] = student_t_975(std::max(1, model.n_specimens - n_columns(model, parameter)));
+    out.quantile[k] = student_t_975(model.n_specimens - n_columns(model, parameter));
   }
   return out;
 }
@@ -222,6 +231,20 @@ Eigen::MatrixXd design_at(const RatioModel& model, double ratio) {
   return design;
 }
 
+bool has_known_spread(const RatioModel& model, int parameter) {
+  return model.n_specimens > n_columns(model, parameter);
+}
+
+namespace {
+
+// Name and number of the first parameter that each of the three spreads is of.
+std::vector<std::pair<std::string, int>> first_of_each_kind(int n_terms) {
+  if (n_terms == 0) return {{"E0", 0}};
+  return {{"E0", 0}, {"g", 1}, {"tau", n_terms + 1}};
+}
+
+}  // namespace
+
 Material material_at_ratio(const RatioFit& fit, double ratio, bool may_extrapolate) {
   check_range(fit, ratio, may_extrapolate);
   const bool is_measured = position_of(fit.best, ratio) >= 0;
@@ -246,6 +269,16 @@ Material material_at_ratio(const RatioFit& fit, double ratio, bool may_extrapola
   material.uncertainty->systematic_relative = systematic;
   material.name += (material.name.empty() ? "ratio " : " ") + text_of(ratio) + ":1";
   material.flags = fit.flags;
+  std::string unknown;
+  for (const auto& [name, parameter] : first_of_each_kind(model.n_terms)) {
+    if (!has_known_spread(model, parameter)) unknown += (unknown.empty() ? "" : ", ") + name;
+  }
+  if (!unknown.empty()) {
+    material.flags.push_back({"spread-unknown", 0,
+                              "too few specimens to tell how " + unknown +
+                                  " scatter between them; the intervals are those of the "
+                                  "specimen that was measured"});
+  }
   if (ratio < fit.law.ratios.front() || ratio > fit.law.ratios.back()) {
     material.flags.push_back({"extrapolated-ratio", 0,
                               "ratio " + text_of(ratio) + " lies outside the measured range, " +
@@ -290,7 +323,9 @@ std::string law_in_words(const RatioFit& fit) {
   } else {
     text = form_in_words(law.form);
   }
-  text += "; between specimens E0 scatters by " + text_of(100.0 * law.spread_ln_E0) + " %";
+  text += has_known_spread(law, 0)
+              ? "; between specimens E0 scatters by " + text_of(100.0 * law.spread_ln_E0) + " %"
+              : "; scatter of E0 between specimens unknown";
   return text + " (" + std::to_string(law.n_specimens) + " specimens, " +
          std::to_string(law.ratios.size()) + " ratios)";
 }

@@ -53,6 +53,9 @@ struct RatioModel {
 
 // How many of beta belong to row `parameter` of theta.
 int n_columns(const RatioModel& model, int parameter);
+// Whether there are more specimens than values that describe this parameter; if not, nothing is
+// known of the scatter between specimens.
+bool has_known_spread(const RatioModel& model, int parameter);
 // X(ratio), 1 + 2N rows. Throws std::invalid_argument if the form holds for measured ratios only
 // and this is none.
 Eigen::MatrixXd design_at(const RatioModel& model, double ratio);
@@ -84,7 +87,8 @@ struct RatioFit {
 };
 
 // The material at a ratio: mean of the specimens, its intervals those of a new specimen (estimate
-// and between-specimen spread, Student's t), its covariance likewise. A measured ratio is answered
+// and between-specimen spread, Student's t; where the spread is not known those of the measured
+// specimen itself, flagged spread-unknown), its covariance likewise. A measured ratio is answered
 // by the best form, another by the best law. Outside the measured range it throws
 // std::invalid_argument unless may_extrapolate, and then the material carries the flag
 // "extrapolated-ratio".

@@ -89,14 +89,22 @@ void print(const RatioFit& fit, std::ostream& out) {
                        row.n_parameters, form_name(row.form), form_in_words(row.form));
   }
   out << "\n" << law_in_words(fit) << "\n";
-  out << fmt::format(
-      "between specimens: E0 {:.2g} %, g {:.2g} %, tau {:.2g} % (standard deviations)\n\n",
-      100.0 * fit.law.spread_ln_E0, 100.0 * fit.law.spread_ln_g, 100.0 * fit.law.spread_ln_tau);
+  const auto scatter = [&](double spread, int parameter) {
+    return has_known_spread(fit.law, parameter) ? fmt::format("{:.2g} %", 100.0 * spread)
+                                                : std::string("unknown");
+  };
+  out << "between specimens: E0 " << scatter(fit.law.spread_ln_E0, 0);
+  if (fit.law.n_terms > 0) {
+    out << ", g " << scatter(fit.law.spread_ln_g, 1) << ", tau "
+        << scatter(fit.law.spread_ln_tau, fit.law.n_terms + 1);
+  }
+  out << " (standard deviations)\n\n";
   for (const double ratio : fit.best.ratios) {
     const Material at = material_at_ratio(fit, ratio);
-    out << fmt::format("ratio {:>6.4g}: E0 {:.5g} Pa, a new specimen 95 % {:.5g} to {:.5g}\n",
-                       ratio, at.E0_Pa, at.uncertainty->E0_Pa_95.low,
-                       at.uncertainty->E0_Pa_95.high);
+    out << fmt::format(
+        "ratio {:>6.4g}: E0 {:.5g} Pa, {} 95 % {:.5g} to {:.5g}\n", ratio, at.E0_Pa,
+        has_known_spread(fit.best, 0) ? "a new specimen" : "the one specimen (scatter unknown)",
+        at.uncertainty->E0_Pa_95.low, at.uncertainty->E0_Pa_95.high);
   }
   for (const MaterialFlag& flag : fit.flags) {
     out << "  ! " << flag.name << ": " << flag.text << "\n";

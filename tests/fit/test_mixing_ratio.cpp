@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -276,4 +277,26 @@ TEST_CASE("specimens fitted from records join into the law they were made from",
   CHECK(at.E0_Pa == Approx(20e6 / 12.5).epsilon(0.07));
   CHECK(at.terms[0].g == Approx(0.10).epsilon(0.12));
   CHECK(at.terms[1].tau_s == Approx(40.0).epsilon(0.12));
+}
+
+TEST_CASE("one specimen at each ratio leaves its own intervals and an unknown scatter",
+          "[fit][joint]") {
+  std::mt19937_64 dice(23);
+  const Campaign campaign{.specimens_per_ratio = 1, .fit_se = 0.02};
+  const std::vector<Material> specimens = measured(campaign, dice);
+  REQUIRE(specimens.size() == 3);
+  RatioFit fit = fit_mixing_ratio(specimens);
+  fit.best = fit_ratio_form(specimens, {RatioVariable::kLogRatio, kPerRatio, kPerRatio, kPerRatio},
+                            /*restricted=*/true);
+  CHECK_FALSE(has_known_spread(fit.best, 0));
+  CHECK_FALSE(has_known_spread(fit.best, 4));
+  const Material at = material_at_ratio(fit, 13.0);
+  REQUIRE(at.uncertainty);
+  const double half = 1.959963984540054 * 0.02;
+  for (const TermUncertainty& term : at.uncertainty->terms) {
+    CHECK(std::log(term.tau_s_95.high / term.tau_s_95.low) == Approx(2.0 * half).epsilon(1e-3));
+    CHECK(std::log(term.g_95.high / term.g_95.low) == Approx(2.0 * half).epsilon(1e-3));
+  }
+  CHECK(std::any_of(at.flags.begin(), at.flags.end(),
+                    [](const MaterialFlag& flag) { return flag.name == "spread-unknown"; }));
 }
