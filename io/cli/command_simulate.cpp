@@ -1,5 +1,6 @@
 #include "io/cli/command_simulate.h"
 
+#include "io/atomic_file.h"
 #include "io/cli/answer_output.h"
 #include "io/cli/array_run.h"
 #include "io/cli/command_line.h"
@@ -7,11 +8,14 @@
 #include "io/cli/progress.h"
 #include "io/scene_array.h"
 #include "io/scene_file.h"
+#include "io/section_picture.h"
+#include "io/vtk_file.h"
 #include "models/pillar/plan.h"
 
 #include <nlohmann/json.hpp>
 
 #include <chrono>
+#include <filesystem>
 #include <ostream>
 
 namespace po = boost::program_options;
@@ -29,6 +33,18 @@ SceneAnswer answer_of(Scene scene, const std::string& path, Streams& streams) {
   }
 }
 
+// For ParaView and to look at: the solution on the mesh that met the tolerance.
+void write_fields(const Scene& scene, const SceneAnswer& answer, const std::string& folder,
+                  bool overwrite) {
+  for (const SectionGrid& grid : solution_fields(scene, answer.discretisation)) {
+    const std::filesystem::path in = folder;
+    write_file(in / (grid.name + ".vtu"), vtu_from_grid(grid), overwrite);
+    for (const auto& [name, svg] : pictures_from_grid(grid)) {
+      write_file(in / (name + ".svg"), svg, overwrite);
+    }
+  }
+}
+
 CommandSyntax simulate_syntax() {
   CommandSyntax syntax{
       "viscard simulate SCENE.toml [OPTIONS]",
@@ -39,8 +55,9 @@ CommandSyntax simulate_syntax() {
       "viscard simulate data/scenes/pillar_modal.toml"};
   syntax.options.add_options()("tol", po::value<double>(),
                                "relative error allowed, instead of the scene's")(
-      "out", po::value<std::string>(), "folder for results.json and curves as CSV")(
-      "force", "overwrite existing files");
+      "out", po::value<std::string>(),
+      "folder for results.json, curves as CSV and pictures; static and modal scenes add fields "
+      "as .vtu for ParaView")("force", "overwrite existing files");
   syntax.positional = {"scene"};
   return syntax;
 }
@@ -71,6 +88,8 @@ int run_simulate(const std::vector<std::string>& words, Streams& streams) {
   if (values->count("out") > 0) {
     write_files(answer, object, (*values)["out"].as<std::string>(),
                 quoted_command_line("simulate", words), values->count("force") > 0);
+    write_fields(file.scene, answer, (*values)["out"].as<std::string>(),
+                 values->count("force") > 0);
   }
   if (values->count("json") > 0) {
     streams.out << object.dump(2) << "\n";

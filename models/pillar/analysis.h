@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/pillar/pillar_model.h"
+#include "models/pillar/pillar_modes.h"
 #include "models/pillar/scene.h"
 
 namespace viscard {
@@ -28,6 +29,16 @@ ModelOptions options_of(const Scene& scene, Motion motion);
 // On the answer's discretisation; the caller counts the unknowns of what it solves.
 PillarModel model_of(const Scene& scene, Motion motion, const SceneAnswer& answer);
 void count_unknowns(const PillarModel& model, SceneAnswer& answer);
+
+// The families of motion a modal analysis answers, and the modes of one on a model of it.
+struct ModeFamily {
+  const char* name;
+  Motion motion;
+  int harmonic;
+};
+std::vector<ModeFamily> mode_families(const Scene& scene);
+std::vector<PillarMode> family_modes(const Scene& scene, const ModeFamily& family,
+                                     const PillarModel& model, const SceneAnswer& on_mesh);
 
 // The rows of the table.
 void check_static(const Scene& scene);

@@ -6,15 +6,8 @@
 #include <string>
 
 namespace viscard {
-namespace {
 
-struct Family {
-  const char* name;
-  Motion motion;
-  int harmonic;
-};
-
-std::vector<Family> families_of(const Scene& scene) {
+std::vector<ModeFamily> mode_families(const Scene& scene) {
   if (scene.plane) {
     return {{"lateral", Motion::kPlaneAntisymmetric, 0},
             {"longitudinal", Motion::kPlaneSymmetric, 0}};
@@ -25,7 +18,14 @@ std::vector<Family> families_of(const Scene& scene) {
           {"ovalling", Motion::kOvalling, 2}};
 }
 
-}  // namespace
+std::vector<PillarMode> family_modes(const Scene& scene, const ModeFamily& family,
+                                     const PillarModel& model, const SceneAnswer& on_mesh) {
+  const bool pressed = scene.pressure_Pa != 0.0 && family.motion == Motion::kLateral;
+  const int wanted = std::min(scene.modes, model.system().size());
+  return pressed ? modes_under_pressure(model_of(scene, Motion::kLongitudinal, on_mesh), model,
+                                        scene.pressure_Pa, wanted)
+                 : lowest_modes(model, wanted);
+}
 
 void check_modal(const Scene& scene) {
   if (scene.modes < 1 || scene.modes > 40) {
@@ -35,16 +35,10 @@ void check_modal(const Scene& scene) {
 }
 
 void run_modal(const Scene& scene, SceneAnswer& answer) {
-  for (const Family& family : families_of(scene)) {
+  for (const ModeFamily& family : mode_families(scene)) {
     const PillarModel model = model_of(scene, family.motion, answer);
     count_unknowns(model, answer);
-    const bool pressed = scene.pressure_Pa != 0.0 && family.motion == Motion::kLateral;
-    const int wanted = std::min(scene.modes, model.system().size());
-    const std::vector<PillarMode> found =
-        pressed ? modes_under_pressure(model_of(scene, Motion::kLongitudinal, answer), model,
-                                       scene.pressure_Pa, wanted)
-                : lowest_modes(model, wanted);
-    for (const PillarMode& mode : found) {
+    for (const PillarMode& mode : family_modes(scene, family, model, answer)) {
       answer.modes.push_back({family.name, family.harmonic, mode.frequency_Hz, 0.0});
     }
   }
