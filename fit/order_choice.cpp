@@ -54,19 +54,22 @@ LeftOut left_out_error(const Eigen::MatrixXd& q, const Eigen::VectorXd& r) {
   LeftOut out;
   out.squared_residual = out.squared_error = r.squaredNorm();
   if (q.cols() == 0) return out;
+  const bool is_short = q.rows() <= q.cols();
+  const Eigen::MatrixXd leverage =
+      is_short ? Eigen::MatrixXd(q * q.transpose()) : Eigen::MatrixXd(q.transpose() * q);
   constexpr double kAlone = 0.9;
-  if (q.squaredNorm() < kAlone) {  // no eigenvalue can reach it
-    const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(q.cols(), q.cols()) - q.transpose() * q;
-    out.squared_error = (r + q * rest.llt().solve(q.transpose() * r)).squaredNorm();
+  if (leverage.trace() < kAlone) {  // no eigenvalue can reach it
+    const Eigen::LLT<Eigen::MatrixXd> rest(
+        Eigen::MatrixXd::Identity(leverage.rows(), leverage.cols()) - leverage);
+    out.squared_error = is_short ? rest.solve(r).squaredNorm()
+                                 : (r + q * rest.solve(q.transpose() * r)).squaredNorm();
     return out;
   }
-  const bool is_short = q.rows() <= q.cols();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> leverage(
-      is_short ? Eigen::MatrixXd(q * q.transpose()) : Eigen::MatrixXd(q.transpose() * q));
-  out.is_predictable = leverage.eigenvalues().maxCoeff() < kAlone;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(leverage);
+  out.is_predictable = solver.eigenvalues().maxCoeff() < kAlone;
   if (!out.is_predictable) return out;
-  const Eigen::VectorXd rest = (1.0 - leverage.eigenvalues().array()).inverse();
-  const Eigen::MatrixXd& w = leverage.eigenvectors();
+  const Eigen::VectorXd rest = (1.0 - solver.eigenvalues().array()).inverse();
+  const Eigen::MatrixXd& w = solver.eigenvectors();
   out.squared_error =
       is_short
           ? rest.cwiseProduct(w.transpose() * r).squaredNorm()
