@@ -131,24 +131,12 @@ std::vector<std::size_t> StepModel::row_begins() const {
 
 double StepModel::hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& /*nuisance*/,
                              const Eigen::VectorXd& coefficients) const {
-  const double sign = shape_ == StepShape::kCreep ? -1.0 : 1.0;
-  double sum = 0.0;
-  for (const LogBin& bin : bins_) {
-    if (bin.count == 1.0) continue;
-    // The model about its mean in the bin: slope * d + bend * (d^2 - m2).
-    double slope = shape_ == StepShape::kCreep && is_liquid_ ? coefficients[1] : 0.0;
-    double bend = 0.0;
-    for (Index i = 0; i < ln_tau.size(); ++i) {
-      const double u = std::exp(-ln_tau[i]);
-      const double e = sign * coefficients[n_common() + i] * std::exp(-bin.time_s * u);
-      slope -= e * u;
-      bend += 0.5 * e * u * u;
-    }
-    sum += bin.count *
-           (bin.value_m2 - 2.0 * (slope * bin.c1 + bend * bin.c2) + slope * slope * bin.m2 +
-            2.0 * slope * bend * bin.m3 + bend * bend * (bin.m4 - bin.m2 * bin.m2));
-  }
-  return sum;
+  double within = 0.0;
+  for (const LogBin& bin : bins_) within += bin.count * bin.value_m2;
+  const HiddenRows hidden = hidden_rows(ln_tau);
+  // What is in the shapes that hidden_rows() knows goes by its residual, the rest as it is.
+  return within - hidden.data.squaredNorm() +
+         (hidden.data - hidden.columns.values * coefficients).squaredNorm();
 }
 
 SpectralModel::HiddenRows StepModel::hidden_rows(const Eigen::VectorXd& ln_tau) const {
