@@ -72,7 +72,10 @@ Shown shown_of(const SectionGrid& grid, const SectionField& field) {
   const std::string name = field.unit == "1" ? field.name : grid.name + "_" + field.name;
   Shown shown{title_of(name, field.unit), !field.is_vector, {}, {}};
   double largest = 0.0;
-  for (const auto& u : field.value) largest = std::max(largest, std::hypot(u[0], u[1], u[2]));
+  for (std::size_t i = 0; i < field.value.size(); ++i) {
+    const auto u = displacement_at(grid, field, i, 0.0);
+    largest = std::max(largest, std::hypot(u[0], u[1], u[2]));
+  }
   const double factor = field.is_vector && largest > 0.0 ? largest_drawn_m(grid) / largest : 0.0;
   if (field.is_vector) {
     shown.note = field.unit == "1" ? "largest displacement is 1"

@@ -41,6 +41,17 @@ bool is_in(Range range, double value) {
   return true;
 }
 
+// A text in a file says its unit; a bare number between quotes may be in any.
+double si_with_unit(const std::string& text, const char* unit) {
+  const double value = si_from_text(text, unit);
+  const bool has_unit = text.find_first_not_of("0123456789+-.eE \t") != std::string::npos;
+  if (!has_unit && std::string(unit) != "1") {
+    throw std::invalid_argument("\"" + text + "\" has no unit; write it with one, as \"" + text +
+                                " " + unit + "\", or without the quotes if it is in " + unit);
+  }
+  return value;
+}
+
 class TomlReader final : public FieldVisitor {
  public:
   TomlReader(const toml::table& table, std::string file, std::string prefix)
@@ -60,7 +71,7 @@ class TomlReader final : public FieldVisitor {
         return;
       }
       try {
-        written = si_from_text(*text, field.unit);
+        written = si_with_unit(*text, field.unit);
       } catch (const std::invalid_argument& error) {
         fail(*node, field.key, error.what());
       }
@@ -208,7 +219,7 @@ class TomlReader final : public FieldVisitor {
     const auto text = node.value_exact<std::string>();
     if (!text) fail(node, key, std::string("expected a number or a text with a unit of ") + unit);
     try {
-      return si_from_text(*text, unit);
+      return si_with_unit(*text, unit);
     } catch (const std::invalid_argument& error) {
       fail(node, key, error.what());
     }

@@ -1,4 +1,5 @@
 #include "models/pillar/harmonic_response.h"
+#include "models/pillar/number_text.h"
 #include "models/pillar/pillar_loads.h"
 #include "models/pillar/scene_body.h"
 #include "models/pillar/scene_mistake.h"
@@ -6,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -31,12 +31,6 @@ double bar_speed_m_s(const Scene& scene) {
 double highest_Hz(const Scene& scene) {
   const double section_m2 = 0.5 * scene.geometry.diameter_m * scene.geometry.length_m;
   return bar_speed_m_s(scene) * std::sqrt(kMostCells / section_m2);
-}
-
-std::string number(double value, int digits = 4) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
 }
 
 // Complex amplitude of one output over frequency, and |y| + |omega dy/domega|: the tolerance refers
@@ -172,7 +166,7 @@ void note_poles(const Scene& scene, const Sweep& sweep, SceneAnswer& answer) {
   for (std::size_t i = 0; i < sweep.value.size(); ++i) {
     const double size = std::abs(sweep.value[i]);
     if (sweep.allowed[i] * scene.tolerance < 0.5 * size) continue;
-    if (++count <= 4) list += (count > 1 ? ", " : "") + number(scene.frequencies_Hz[i], 8);
+    if (++count <= 4) list += (count > 1 ? ", " : "") + number_text(scene.frequencies_Hz[i], 8);
   }
   if (count == 0) return;
   if (scene.frequencies_Hz.size() == 1) {
@@ -206,8 +200,8 @@ ReducedBody reduced_for(const Scene& scene, const SceneBody& body,
   if (reduced.sound_up_to_rad_s < range.highest_rad_s) {
     throw std::runtime_error(
         "a sweep of that many modes is sound up to about " +
-        number(reduced.sound_up_to_rad_s / kTwoPi) + " Hz only: end it there, or ask for at most " +
-        std::to_string(kMostDirect) +
+        number_text(reduced.sound_up_to_rad_s / kTwoPi, 4) +
+        " Hz only: end it there, or ask for at most " + std::to_string(kMostDirect) +
         " frequencies, which are solved one by one, or for a larger tolerance");
   }
   return reduced;
@@ -233,12 +227,13 @@ void check_harmonic(const Scene& scene) {
     const double wave_m = bar_speed_m_s(scene) / f.back();
     throw SceneMistake(
         "analysis.frequencies",
-        "at " + number(f.back()) + " Hz waves are " + number(1e6 * wave_m) + " um long, " +
-            number(scene.geometry.length_m / wave_m) + " to the length of the pillar and " +
-            number(scene.geometry.diameter_m / wave_m) +
+        "at " + number_text(f.back(), 4) + " Hz waves are " + number_text(1e6 * wave_m, 4) +
+            " um long, " + number_text(scene.geometry.length_m / wave_m, 4) +
+            " to the length of the pillar and " +
+            number_text(scene.geometry.diameter_m / wave_m, 4) +
             " to its diameter: too many for any mesh here. The highest frequency this pillar can "
             "be answered at is " +
-            number(highest_Hz(scene)) + " Hz; a smaller pillar reaches higher");
+            number_text(highest_Hz(scene), 4) + " Hz; a smaller pillar reaches higher");
   }
 }
 

@@ -1,3 +1,4 @@
+#include "models/pillar/number_text.h"
 #include "models/pillar/pillar_loads.h"
 #include "models/pillar/scene_body.h"
 #include "models/pillar/scene_mistake.h"
@@ -77,7 +78,7 @@ void run_creep_or_relaxation(const Scene& scene, SceneAnswer& answer) {
       reduced.system, is_creep ? Control::kForce : Control::kDisplacement, history, options);
   if (!run.converged) {
     throw std::runtime_error("the time steps do not settle to the tolerance of " +
-                             std::to_string(scene.tolerance) + "; ask for a larger one");
+                             number_text(scene.tolerance) + "; ask for a larger one");
   }
   answer.step_error = run.error_estimate + reduced.error;
   if (is_creep) {

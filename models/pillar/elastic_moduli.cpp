@@ -1,5 +1,7 @@
 #include "models/pillar/elastic_moduli.h"
 
+#include "models/pillar/number_text.h"
+
 #include <stdexcept>
 #include <string>
 
@@ -20,11 +22,11 @@ Matrix6d volumetric_form() {
 
 Matrix6d isotropic_moduli_Pa(double young_modulus_Pa, double poisson_ratio) {
   if (!(young_modulus_Pa > 0.0)) {
-    throw std::invalid_argument("Young's modulus is " + std::to_string(young_modulus_Pa) +
+    throw std::invalid_argument("Young's modulus is " + number_text(young_modulus_Pa) +
                                 " Pa; it must be positive");
   }
   if (!(poisson_ratio > -1.0 && poisson_ratio < 0.5)) {
-    throw std::invalid_argument("Poisson ratio is " + std::to_string(poisson_ratio) +
+    throw std::invalid_argument("Poisson ratio is " + number_text(poisson_ratio) +
                                 "; it must lie between -1 and 0.5 here");
   }
   return young_modulus_Pa / (2.0 * (1.0 + poisson_ratio)) * deviatoric_form() +

@@ -1,5 +1,7 @@
 #include "models/pillar/error_control.h"
 
+#include "models/pillar/number_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -136,7 +138,7 @@ SceneAnswer answer_within(const ErrorControl& control, const MeshAnswer& answer_
   }
   throw std::runtime_error(
       "the finest mesh (degree " + std::to_string(answer.discretisation.degree) +
-      ") leaves a relative error of about " + std::to_string(answer.largest_relative_error) +
+      ") leaves a relative error of about " + number_text(answer.largest_relative_error, 2) +
       " in the " + tracker.worst() + "; ask for a larger tolerance, or for less");
 }
 

@@ -1,5 +1,7 @@
 #include "models/pillar/pillar_mesh.h"
 
+#include "models/pillar/number_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -10,7 +12,7 @@ namespace {
 
 void require_length(double value_m, const char* what) {
   if (!(value_m > 0.0) || !std::isfinite(value_m)) {
-    throw std::invalid_argument(std::string(what) + " is " + std::to_string(value_m * 1e6) +
+    throw std::invalid_argument(std::string(what) + " is " + number_text(value_m * 1e6) +
                                 " um; it must be positive and finite");
   }
 }
@@ -87,9 +89,9 @@ void validate_flare(const Flare& flare, const char* what, double radius_m) {
   }
   if (flare.width_m != 0.0) require_length(flare.height_m, what);
   if (!(flare.width_m > -radius_m)) {
-    throw std::invalid_argument(std::string(what) + " takes " +
-                                std::to_string(-flare.width_m * 1e6) + " um off a radius of " +
-                                std::to_string(radius_m * 1e6) + " um: nothing is left");
+    throw std::invalid_argument(std::string(what) + " takes " + number_text(-flare.width_m * 1e6) +
+                                " um off a radius of " + number_text(radius_m * 1e6) +
+                                " um: nothing is left");
   }
 }
 
@@ -164,14 +166,14 @@ void validate(const PillarGeometry& g) {
   require_length(g.film->thickness_m, "the film's thickness");
   require_length(g.film->radius_m, "the film's radius");
   if (g.film->radius_m < bond_radius_m(g) * (1.0 - 1e-12)) {
-    throw std::invalid_argument("the film's radius of " + std::to_string(g.film->radius_m * 1e6) +
+    throw std::invalid_argument("the film's radius of " + number_text(g.film->radius_m * 1e6) +
                                 " um is smaller than the pillar's of " +
-                                std::to_string(bond_radius_m(g) * 1e6) + " um");
+                                number_text(bond_radius_m(g) * 1e6) + " um");
   }
   if (!(g.film->electrode_radius_m >= 0.0 &&
         g.film->electrode_radius_m <= g.film->radius_m * (1.0 + 1e-9))) {
     throw std::invalid_argument("the electrode's radius of " +
-                                std::to_string(g.film->electrode_radius_m * 1e6) +
+                                number_text(g.film->electrode_radius_m * 1e6) +
                                 " um does not lie on the film");
   }
 }

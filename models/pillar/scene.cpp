@@ -1,6 +1,7 @@
 #include "models/pillar/scene.h"
 
 #include "models/pillar/analysis.h"
+#include "models/pillar/number_text.h"
 #include "models/pillar/scene_mistake.h"
 
 #include <cmath>
@@ -30,10 +31,9 @@ void check_electrodes(const Scene& scene) {
   const double film_m = scene.geometry.film->radius_m;
   const double electrode_m = scene.electrodes->electrode_radius_m;
   if (electrode_m > film_m * (1.0 + 1e-9)) {
-    throw SceneMistake("geometry.electrode.radius", "the electrode's radius of " +
-                                                        std::to_string(electrode_m * 1e6) +
-                                                        " um is wider than the film's of " +
-                                                        std::to_string(film_m * 1e6) + " um");
+    throw SceneMistake("geometry.electrode.radius",
+                       "the electrode's radius of " + number_text(electrode_m * 1e6) +
+                           " um is wider than the film's of " + number_text(film_m * 1e6) + " um");
   }
 }
 
@@ -43,7 +43,7 @@ void validate(const Scene& scene) {
   at_key("geometry", [&] { validate(scene.geometry); });
   at_key("materials.pillar", [&] { validate(scene.pillar); });
   if (!(scene.tolerance >= 1e-9 && scene.tolerance < 1.0)) {
-    throw SceneMistake("tolerance", "the tolerance is " + std::to_string(scene.tolerance) +
+    throw SceneMistake("tolerance", "the tolerance is " + number_text(scene.tolerance) +
                                         "; it must lie between 1e-9 and 1");
   }
   if (scene.geometry.film.has_value() != scene.film.has_value()) {

@@ -61,10 +61,14 @@ SectionField displacement_of(const PillarModel& model, const Sampling& at, const
   return field;
 }
 
-void normalise(SectionField& field) {
+// Largest displacement 1 over all angles: of cos and sin parts only one is there at a time.
+void normalise(int harmonic, SectionField& field) {
   double largest = 0.0;
   for (const auto& u : field.value) {
-    largest = std::max(largest, std::hypot(u[0], u[1], u[2]));
+    const double in_plane = std::hypot(u[0], u[2]);
+    const double size =
+        harmonic == 0 ? std::hypot(in_plane, u[1]) : std::max(in_plane, std::abs(u[1]));
+    largest = std::max(largest, size);
   }
   if (largest == 0.0) return;
   for (auto& u : field.value) {
@@ -136,7 +140,7 @@ SectionGrid modal_grid(const Scene& scene, const ModeFamily& family, const Scene
     SectionField shape = displacement_of(
         model, at, std::string(family.name) + "_" + std::to_string(++number), mode.shape);
     shape.unit = "1";
-    normalise(shape);
+    normalise(at.grid.harmonic, shape);
     at.grid.fields.push_back(std::move(shape));
   }
   return at.grid;

@@ -1,11 +1,15 @@
 // Fields for ParaView, and pictures of them.
+#include "io/scene_file.h"
 #include "io/section_picture.h"
 #include "io/vtk_file.h"
 
 #include <catch2/catch.hpp>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -165,4 +169,28 @@ TEST_CASE("every field has a picture with its name, scale and unit", "[pillar][i
     CHECK(svg.find("nan") == std::string::npos);
     CHECK(svg.find("<polygon") != std::string::npos);
   }
+}
+
+TEST_CASE("a scene file's length between quotes needs a unit, and a tolerance is told as written",
+          "[pillar][io]") {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("viscard_scene_" + std::to_string(getpid()));
+  const auto refusal = [&](const std::string& diameter, const std::string& tolerance) {
+    std::ofstream(path) << "tolerance = " << tolerance << "\n[geometry]\ndiameter = " << diameter
+                        << "\nlength = \"120 um\"\n[materials]\npillar = { E = \"1.8 MPa\" }\n"
+                        << "[analysis]\nload = { pressure = \"10 kPa\", on = \"top\" }\n";
+    std::string message;
+    try {
+      read_scene(path);
+    } catch (const std::runtime_error& error) {
+      message = error.what();
+    }
+    std::filesystem::remove(path);
+    return message;
+  };
+  CHECK_THAT(refusal("\"40\"", "1e-3"),
+             Catch::Contains(":3: geometry.diameter") && Catch::Contains("has no unit"));
+  CHECK_THAT(refusal("\"40 um\"", "1e-14"), Catch::Contains("the tolerance is 1e-14"));
+  CHECK(refusal("\"40 um\"", "1e-3") == "");
+  CHECK(refusal("40e-6", "1e-3") == "");  // SI without quotes
 }

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+namespace viscard {
+
+// A number as a message shows it: no digits beyond those, and small ones as 1e-14, not 0.000000.
+inline std::string number_text(double value, int digits = 6) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+}  // namespace viscard
