@@ -1,13 +1,17 @@
 #include "io/scene_array.h"
 
 #include "io/atomic_file.h"
+#include "io/scene_drive.h"
 #include "io/scene_file.h"
 #include "io/scene_words.h"
+#include "models/array/array_plan.h"
+#include "models/pillar/effects.h"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 namespace viscard {
@@ -25,10 +29,13 @@ struct RawArray {
   std::string electrode_face = "bottom", electrode_kind = "sampled";
   ArrayElectrodes electrodes;
   RawMaterial pillar, film;
-  std::string analysis = "static", load_on;
+  std::string analysis = "static", load_on, direction = "axial";
   double pressure_Pa = 0.0, shear_Pa = 0.0;
   std::vector<double> pillars = {kAllPillars};
   std::int64_t modes = 3;
+  RawDrive times;
+  double surface_energy_J_m2 = 0.02;
+  std::map<std::string, std::string> effects;
   std::vector<std::string> quantities;
   ArraySweep sweep;
   std::vector<PrintedValue> printed;
@@ -67,14 +74,18 @@ void show_array(FieldVisitor& v, RawArray& s) {
   v.section("materials", [&](FieldVisitor& m) {
     m.section("pillar", [&](FieldVisitor& one) { show_material(one, s.pillar); });
     m.section(s.film_material.c_str(), [&](FieldVisitor& one) { show_material(one, s.film); });
+    m.quantity({.key = "surface_energy", .unit = "J/m2", .range = Range::kPositive},
+               s.surface_energy_J_m2);
   });
   v.section("analysis", [&](FieldVisitor& a) {
     a.text({"kind", "static"}, s.analysis);
     a.integer("modes", 1, 12, s.modes);
+    show_times(a, "Pa", s.times);
     a.section("load", [&](FieldVisitor& l) {
       l.quantity({.key = "pressure", .unit = "Pa"}, s.pressure_Pa);
       l.quantity({.key = "shear", .unit = "Pa"}, s.shear_Pa);
       l.text({"on", "top"}, s.load_on);
+      l.text({"direction", "axial"}, s.direction);
       l.quantities({.key = "pillars", .range = Range::kPositive}, s.pillars);
     });
   });
@@ -85,6 +96,9 @@ void show_array(FieldVisitor& v, RawArray& s) {
     w.quantity({.key = "length_over_diameter", .range = Range::kPositive},
                s.sweep.length_over_diameter);
     w.quantity({.key = "limit_percent", .range = Range::kPositive}, s.sweep.limit_percent);
+  });
+  v.section("effects", [&](FieldVisitor& e) {
+    for (const Effect& effect : effects()) e.text({effect.name, "auto"}, s.effects[effect.name]);
   });
   v.section("want", [&](FieldVisitor& w) {
     w.texts({"quantities", "centre_voltage"}, s.quantities);
@@ -111,7 +125,8 @@ Medium film_medium(const RawArray& raw, const std::filesystem::path& folder) {
 }
 
 void fill_load(const RawArray& raw, ArrayScene& scene) {
-  const bool has_load = raw.pressure_Pa != 0.0 || raw.shear_Pa != 0.0;
+  const bool has_load =
+      raw.pressure_Pa != 0.0 || raw.shear_Pa != 0.0 || scene.analysis == ArrayAnalysis::kTransient;
   if (has_load && raw.load_on.empty()) {
     throw SceneMistake("analysis.load", "the load has no place; say on = \"top\"");
   }
@@ -119,7 +134,19 @@ void fill_load(const RawArray& raw, ArrayScene& scene) {
   if (raw.pressure_Pa != 0.0 && raw.shear_Pa != 0.0) {
     throw SceneMistake("analysis.load", "has both a pressure and a shear; give one of them");
   }
-  scene.load = raw.shear_Pa != 0.0 ? ArrayLoad::kShear : ArrayLoad::kPressure;
+  const bool is_shear =
+      raw.shear_Pa != 0.0 ||
+      choice<bool>("analysis.load.direction", raw.direction, {{"axial", false}, {"lateral", true}});
+  if (raw.pressure_Pa != 0.0 && is_shear) {
+    throw SceneMistake("analysis.load.direction", "a pressure is axial; give a shear instead");
+  }
+  if (scene.analysis == ArrayAnalysis::kTransient &&
+      (raw.pressure_Pa != 0.0 || raw.shear_Pa != 0.0)) {
+    throw SceneMistake("analysis.load",
+                       "the pressure or shear of a transient analysis is its history or pulse; say "
+                       "only on and direction = \"axial\" or \"lateral\"");
+  }
+  scene.load = is_shear ? ArrayLoad::kShear : ArrayLoad::kPressure;
   scene.load_Pa = raw.shear_Pa != 0.0 ? raw.shear_Pa : raw.pressure_Pa;
   if (raw.pillars == std::vector<double>{kAllPillars}) return;
   if (raw.pillars.empty()) {
@@ -155,11 +182,21 @@ ArrayScene scene_from(const RawArray& raw, const std::filesystem::path& folder) 
                                                    {{"equipotential", true}, {"sampled", false}});
   scene.pillar = pillar_material(raw.pillar, folder);
   scene.film = film_medium(raw, folder);
-  scene.analysis =
-      choice<ArrayAnalysis>("analysis.kind", raw.analysis,
-                            {{"static", ArrayAnalysis::kStatic}, {"modal", ArrayAnalysis::kModal}});
+  scene.analysis = choice<ArrayAnalysis>("analysis.kind", raw.analysis,
+                                         {{"static", ArrayAnalysis::kStatic},
+                                          {"modal", ArrayAnalysis::kModal},
+                                          {"harmonic", ArrayAnalysis::kHarmonic},
+                                          {"transient", ArrayAnalysis::kTransient}});
   scene.modes = static_cast<int>(raw.modes);
   scene.wanted = raw.quantities;
+  scene.surface_energy_J_m2 = raw.surface_energy_J_m2;
+  scene.effects = choices_of(raw.effects);
+  Scene times;  // the pillar's reader makes lists of frequencies and histories
+  fill_times(raw.times, times);
+  scene.frequencies_Hz = times.frequencies_Hz;
+  scene.history = times.history;
+  scene.end_time_s = raw.times.end_time_s;
+  scene.outputs = static_cast<int>(raw.times.outputs);
   fill_load(raw, scene);
   return scene;
 }
@@ -213,7 +250,12 @@ ArraySceneFile read_array_scene(const std::filesystem::path& path) {
   ArraySceneFile file{{}, raw.sweep, raw.printed};
   try {
     file.scene = scene_from(raw, path.parent_path());
-    for (const SweepPoint& point : points_of(file)) validate(point.scene);
+    const std::vector<SweepPoint> points = points_of(file);
+    if (!file.sweep.is_empty() && (file.scene.analysis == ArrayAnalysis::kHarmonic ||
+                                   file.scene.analysis == ArrayAnalysis::kTransient)) {
+      throw SceneMistake("sweep", "sweeps are made of static and modal analyses");
+    }
+    for (const SweepPoint& point : points) plan_effects(point.scene);
     check_wanted(file.scene);
   } catch (const SceneMistake& mistake) {
     throw std::runtime_error(told_with_line(path, mistake));

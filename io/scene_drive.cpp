@@ -85,6 +85,10 @@ void show_drive(FieldVisitor& v, const std::string& analysis, RawDrive& d) {
     l.text({"on", "top"}, d.load_on);
     l.text({"direction", "axial"}, d.direction);
   });
+  show_times(v, d.load_on == "base" ? "m/s2" : analysis == "relaxation" ? "m" : "Pa", d);
+}
+
+void show_times(FieldVisitor& v, const char* unit, RawDrive& d) {
   v.section("frequencies", [&](FieldVisitor& f) {
     f.quantity({.key = "from", .unit = "Hz", .range = Range::kPositive}, d.from_Hz);
     f.quantity({.key = "to", .unit = "Hz", .range = Range::kPositive}, d.to_Hz);
@@ -93,7 +97,6 @@ void show_drive(FieldVisitor& v, const std::string& analysis, RawDrive& d) {
   });
   v.quantity({.key = "end_time", .unit = "s", .range = Range::kPositive}, d.end_time_s);
   v.integer("outputs", 10, 200000, d.outputs);
-  const char* unit = d.load_on == "base" ? "m/s2" : analysis == "relaxation" ? "m" : "Pa";
   v.section("pulse", [&](FieldVisitor& p) {
     p.quantity({.key = "height", .unit = unit}, d.pulse_height);
     p.quantity({.key = "duration", .unit = "s", .range = Range::kPositive}, d.pulse_duration_s);
@@ -141,9 +144,13 @@ void fill_drive(const RawDrive& raw, Scene& scene) {
   scene.drive_V = raw.voltage_V;
   scene.end_time_s = raw.end_time_s;
   scene.outputs = static_cast<int>(raw.outputs);
+  fill_times(raw, scene);
+  fill_readout(raw, scene);
+}
+
+void fill_times(const RawDrive& raw, Scene& scene) {
   fill_frequencies(raw, scene);
   fill_history(raw, scene);
-  fill_readout(raw, scene);
 }
 
 }  // namespace viscard

@@ -28,8 +28,13 @@ struct RawDrive {
 // frequencies = { from, to, count, spacing }, end_time, outputs, pulse = { height, duration } and
 // history. `analysis` is its kind, which decides the unit of the history.
 void show_drive(FieldVisitor& analysis_table, const std::string& analysis, RawDrive& drive);
+// Of these the ones in time and frequency; histories and pulses have `unit`.
+void show_times(FieldVisitor& analysis_table, const char* unit, RawDrive& drive);
 // [readout]: kind = "voltage" | "charge", resistance, capacitance, film_resistivity.
 void show_readout(FieldVisitor& readout_table, RawDrive& drive);
+
+// Fills the scene's frequencies and history alone. Throws SceneMistake.
+void fill_times(const RawDrive& raw, Scene& scene);
 
 // Fills the scene's loads, histories, frequencies and readout. Throws SceneMistake.
 void fill_drive(const RawDrive& drive, Scene& scene);

@@ -132,15 +132,6 @@ void fill_electrode(const RawScene& raw, Scene& scene) {
                        sampled ? 0.0 : raw.electrode_radius_m};
 }
 
-void fill_effects(const RawScene& raw, Scene& scene) {
-  for (const auto& [name, word] : raw.effects) {
-    if (word.empty()) continue;
-    scene.effects[name] = choice<EffectChoice>(
-        "effects." + name, word,
-        {{"auto", EffectChoice::kAuto}, {"on", EffectChoice::kOn}, {"off", EffectChoice::kOff}});
-  }
-}
-
 // A mesh that is asked for instead of left to the tolerance: "graded-p" shrinks toward the rim of
 // the bond; "h1" and "h2" are the linear and quadratic elements of ordinary programs, "p" equal
 // ones of any degree.
@@ -182,7 +173,7 @@ Scene scene_from(const RawScene& raw, const std::filesystem::path& folder) {
   scene.modes = static_cast<int>(raw.modes);
   scene.wanted = raw.quantities;
   fill_drive(raw.drive, scene);
-  fill_effects(raw, scene);
+  scene.effects = choices_of(raw.effects);
   validate(scene);
   check_wanted(scene.wanted, result_names(scene));
   return scene;

@@ -44,6 +44,17 @@ void check_wanted(const std::vector<std::string>& wanted, const std::vector<std:
   }
 }
 
+EffectChoices choices_of(const std::map<std::string, std::string>& effects) {
+  EffectChoices choices;
+  for (const auto& [name, word] : effects) {
+    if (word.empty()) continue;
+    choices[name] = choice<EffectChoice>(
+        "effects." + name, word,
+        {{"auto", EffectChoice::kAuto}, {"on", EffectChoice::kOn}, {"off", EffectChoice::kOff}});
+  }
+  return choices;
+}
+
 Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder) {
   if (!raw.file.empty()) return read_material(folder / raw.file).material;
   if (!(raw.E_Pa > 0.0)) {

@@ -5,6 +5,7 @@
 #include "io/piezo_file.h"
 #include "io/printed_value.h"
 #include "models/material.h"
+#include "models/pillar/effect_choice.h"
 #include "models/pillar/scene_mistake.h"
 
 #include <filesystem>
@@ -45,6 +46,9 @@ void show_printed(FieldVisitor& v, std::vector<PrintedValue>& printed);
 // Every wanted name must be one of the known ones. Throws SceneMistake with the nearest and all
 // that are known.
 void check_wanted(const std::vector<std::string>& wanted, const std::vector<std::string>& known);
+
+// [effects]: name to "auto", "on", "off" or nothing. Throws SceneMistake.
+EffectChoices choices_of(const std::map<std::string, std::string>& effects);
 
 // Files are looked for in `folder`. Throws SceneMistake for neither file nor modulus.
 Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder);

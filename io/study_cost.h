@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/array/array_scene.h"
 #include "models/pillar/scene.h"
 
 #include <functional>
@@ -14,11 +15,12 @@ namespace viscard {
 struct CostRow {
   std::string discretisation;  // "h1 5 um", "p4", "graded p5, 2 layers"
   std::string effects;         // "all on", "without film_compliance"
-  int unknowns = 0;            // of the largest system
-  double wall_s = 0.0;         // median of repeats
-  double memory_B = 0.0;       // rise of the resident set at its peak; 0: below one page or unknown
-  double error = 0.0;          // largest relative one of what is asked for
-  bool is_on_front = false;    // no other row is both faster and more accurate
+  Discretisation mesh;
+  int unknowns = 0;          // of the largest system
+  double wall_s = 0.0;       // median of repeats
+  double memory_B = 0.0;     // rise of the resident set at its peak; 0: below one page or unknown
+  double error = 0.0;        // largest relative one of what is asked for
+  bool is_on_front = false;  // no other row is both faster and more accurate
 };
 
 struct CostAdvice {
@@ -52,7 +54,8 @@ struct LinearFactor {
 // Empty where no row reaches the error or there are fewer than two h1 rows with falling errors.
 std::optional<LinearFactor> factor_over_linear(const CostStudy& study, double error);
 
-// Throws what simulate() throws for scenes that contradict themselves.
+// Throws what simulate() and simulate_array() throw for scenes that contradict themselves.
 CostStudy study_cost(const Scene& scene, const CostOptions& options);
+CostStudy study_cost(const ArrayScene& scene, const CostOptions& options);
 
 }  // namespace viscard

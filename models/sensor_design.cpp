@@ -110,7 +110,8 @@ void validate(const SensorGeometry& g, const SensorMaterial& m, const SensorRequ
   positive("the charge constant (C/N)", m.charge_constant_C_N);
   positive("the relative permittivity", m.relative_permittivity);
   positive("the pressure (Pa)", r.pressure_Pa);
-  positive("the end factor K", r.end_factor);
+  require(r.end_factor >= 0.5 && r.end_factor <= 2.0, "the end factor K", r.end_factor,
+          "from 0.5 (both ends held) to 2 (one end free)");
   positive("the film thickness (m)", r.film_thickness_m);
   positive("the smallest feature (m)", r.smallest_feature_m);
   positive("the largest aspect ratio", r.largest_aspect_ratio);

@@ -8,6 +8,7 @@
 #include "io/cli/progress.h"
 #include "io/scene_array.h"
 #include "io/sha256.h"
+#include "models/array/array_plan.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -84,7 +85,7 @@ int run_array_scene(const std::string& path, const Words& values,
   const auto start = std::chrono::steady_clock::now();
   SceneAnswer answer;
   if (file.sweep.is_empty()) {
-    answer = simulate_array(file.scene);
+    answer = simulate_array_planned(file.scene);
     if (file.scene.analysis != ArrayAnalysis::kModal) keep_wanted(file.scene.wanted, answer);
   } else {
     const std::string key =

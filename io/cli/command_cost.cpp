@@ -4,6 +4,7 @@
 #include "io/cli/command_line.h"
 #include "io/cli/progress.h"
 #include "io/plot.h"
+#include "io/scene_array.h"
 #include "io/scene_file.h"
 #include "io/study_cost.h"
 #include "io/units.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <ostream>
 
 namespace po = boost::program_options;
@@ -168,13 +170,16 @@ int run_cost(const std::vector<std::string>& words, Streams& streams) {
   }
   const auto path = (*values)["scene"].as<std::string>();
   CostOptions options{.budget_s = budget_s((*values)["budget"].as<std::string>())};
-  const Scene scene = read_scene(path).scene;
+  const bool is_array = scene_kind(path) == "array";
+  const std::optional<ArrayScene> row =
+      is_array ? std::optional(read_array_scene(path).scene) : std::nullopt;
+  const Scene scene = is_array ? Scene{} : read_scene(path).scene;
   CostStudy study;
   {
     Progress progress(streams, "cost");
-    options.progress = [&](double done, const std::string& row) { progress.show(done, row); };
+    options.progress = [&](double done, const std::string& name) { progress.show(done, name); };
     try {
-      study = study_cost(scene, options);
+      study = row ? study_cost(*row, options) : study_cost(scene, options);
     } catch (const SceneMistake& mistake) {
       throw std::runtime_error(told_with_line(path, mistake));
     }

@@ -3,11 +3,13 @@
 #include "io/cli/command_line.h"
 #include "io/scene_array.h"
 #include "io/scene_file.h"
+#include "models/array/array_plan.h"
 #include "models/pillar/plan.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <ostream>
 
 namespace po = boost::program_options;
@@ -24,9 +26,14 @@ const char* state_of(const SceneEffect& effect) {
   return effect.on ? "on" : "off";
 }
 
-void print_plan(const std::string& path, const Scene& scene, const ScenePlan& plan,
-                std::ostream& out) {
-  out << fmt::format("{}, tolerance {:g}\n  {:<20} {:<5} {:>9}  {:<38} {}\n", path, scene.tolerance,
+// What is printed of the plan of any scene.
+struct Plan {
+  std::vector<SceneEffect> effects;
+  double tolerance = 0.0, left_out = 0.0, mesh_tolerance = 0.0;
+};
+
+void print_plan(const std::string& path, const Plan& plan, std::ostream& out) {
+  out << fmt::format("{}, tolerance {:g}\n  {:<20} {:<5} {:>9}  {:<38} {}\n", path, plan.tolerance,
                      "effect", "", "if off", "what decides", "why");
   for (const SceneEffect& e : plan.effects) {
     const std::string number =
@@ -36,16 +43,22 @@ void print_plan(const std::string& path, const Scene& scene, const ScenePlan& pl
   }
   out << fmt::format(
       "  left out: {:.1e}; the mesh and the steps may take {:.1e}   (! forced by the scene)\n",
-      plan.left_out, plan.reduced.tolerance);
+      plan.left_out, plan.mesh_tolerance);
 }
 
-ScenePlan plan_of(const Scene& scene, const std::string& path) {
-  try {
-    refuse_beyond_buckling(scene);
-    return plan_effects(scene);
-  } catch (const SceneMistake& mistake) {
-    throw std::runtime_error(told_with_line(path, mistake));
+Plan plan_of(const std::string& path, std::optional<double> tolerance) {
+  const auto planned = [](const auto& scene, const auto& plan) {
+    return Plan{plan.effects, scene.tolerance, plan.left_out, plan.reduced.tolerance};
+  };
+  if (scene_kind(path) == "array") {
+    ArrayScene scene = read_array_scene(path).scene;
+    scene.tolerance = tolerance.value_or(scene.tolerance);
+    return planned(scene, plan_effects(scene));
   }
+  Scene scene = read_scene(path).scene;
+  scene.tolerance = tolerance.value_or(scene.tolerance);
+  refuse_beyond_buckling(scene);
+  return planned(scene, plan_effects(scene));
 }
 
 CommandSyntax plan_syntax() {
@@ -87,27 +100,27 @@ int run_plan(const std::vector<std::string>& words, Streams& streams) {
     throw UsageError(std::string("which scene? usage: ") + syntax.usage);
   }
   const auto path = (*values)["scene"].as<std::string>();
-  if (scene_kind(path) == "array") {
-    read_array_scene(path);
-    throw std::runtime_error(
-        path + ": plans are made for scenes of one pillar; 'viscard simulate' answers arrays");
-  }
-  Scene scene = read_scene(path).scene;
-  if (values->count("tol") > 0) scene.tolerance = (*values)["tol"].as<double>();
-  if (!(scene.tolerance >= 1e-9 && scene.tolerance < 1.0)) {
+  std::optional<double> tolerance;
+  if (values->count("tol") > 0) tolerance = (*values)["tol"].as<double>();
+  if (tolerance && !(*tolerance >= 1e-9 && *tolerance < 1.0)) {
     throw UsageError("--tol must lie between 1e-9 and 1");
   }
-  const ScenePlan plan = plan_of(scene, path);
+  Plan plan;
+  try {
+    plan = plan_of(path, tolerance);
+  } catch (const SceneMistake& mistake) {
+    throw std::runtime_error(told_with_line(path, mistake));
+  }
   if (values->count("json") == 0) {
-    print_plan(path, scene, plan, streams.out);
+    print_plan(path, plan, streams.out);
     return kDone;
   }
   nlohmann::json effects = nlohmann::json::array();
   for (const SceneEffect& effect : plan.effects) effects.push_back(json_from_effect(effect));
   const nlohmann::json object{{"effects", effects},
-                              {"tolerance", scene.tolerance},
+                              {"tolerance", plan.tolerance},
                               {"left_out", plan.left_out},
-                              {"mesh_tolerance", plan.reduced.tolerance}};
+                              {"mesh_tolerance", plan.mesh_tolerance}};
   streams.out << object.dump(2) << "\n";
   return kDone;
 }

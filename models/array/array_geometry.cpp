@@ -78,8 +78,8 @@ void validate(const ArrayGeometry& g, const ArrayElectrodes& e) {
   }
 }
 
-std::vector<double> breaks_between(const std::vector<Mark>& marks, double reach_m, double largest_m,
-                                   int layers, double ratio) {
+std::vector<double> breaks_between(const std::vector<MeshMark>& marks, double reach_m,
+                                   double largest_m, int layers, double ratio) {
   std::vector<double> breaks;
   for (std::size_t i = 0; i + 1 < marks.size(); ++i) {
     const double a = marks[i].x;
@@ -116,7 +116,7 @@ ArrayMesh array_mesh(const ArrayGeometry& g, const ArrayElectrodes& e, const Dis
     half_cell = half_width + more;
   }
   const bool ends_at_rim = half_cell <= std::max(R, half_width) * (1.0 + 1e-9);
-  std::vector<Mark> marks{{-half_cell, ends_at_rim}, {half_cell, ends_at_rim}};
+  std::vector<MeshMark> marks{{-half_cell, ends_at_rim}, {half_cell, ends_at_rim}};
   const auto add_pair = [&](double x, bool is_singular) {
     if (x >= half_cell * (1.0 - 1e-9)) return;
     marks.push_back({x, is_singular});
@@ -124,11 +124,14 @@ ArrayMesh array_mesh(const ArrayGeometry& g, const ArrayElectrodes& e, const Dis
   };
   add_pair(R, true);
   if (std::abs(beyond) > 1e-9 * R) add_pair(half_width, e.is_equipotential);
-  std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) { return a.x < b.x; });
+  std::sort(marks.begin(), marks.end(),
+            [](const MeshMark& a, const MeshMark& b) { return a.x < b.x; });
 
   const double reach = std::min(R, t);
-  const auto line = [&](const std::vector<Mark>& along) {
-    return breaks_between(along, reach, 2.0 * reach, d.layers, d.ratio);
+  const auto line = [&](std::vector<MeshMark> along) {
+    if (!(d.uniform_m > 0.0)) return breaks_between(along, reach, 2.0 * reach, d.layers, d.ratio);
+    for (MeshMark& mark : along) mark.is_singular = false;
+    return breaks_between(along, 0.0, d.uniform_m, 1, d.ratio);
   };
   ArrayMesh mesh;
   mesh.cell_x = line(marks);
@@ -143,8 +146,10 @@ ArrayMesh array_mesh(const ArrayGeometry& g, const ArrayElectrodes& e, const Dis
   const bool bottom_electrode = e.is_equipotential && e.grounded == FilmFace::kTop;
   const bool bottom_corner = g.ends == FilmEnds::kFree && edge < t;
   mesh.film_z = line({{-t, bottom_electrode || bottom_corner}, {0.0, true}});
-  mesh.pillar_z = breaks_between({{0.0, true}, {g.length_m, false}}, 2.0 * R,
-                                 4.0 * R / d.shaft_elements, d.layers, d.ratio);
+  const std::vector<MeshMark> shaft = {{0.0, true}, {g.length_m, false}};
+  mesh.pillar_z = d.uniform_m > 0.0 ? line(shaft)
+                                    : breaks_between(shaft, 2.0 * R, 4.0 * R / d.shaft_elements,
+                                                     d.layers, d.ratio);
   return mesh;
 }
 

@@ -40,14 +40,14 @@ double electrode_half_width_m(const ArrayGeometry& geometry, const ArrayElectrod
 double pillar_centre_m(const ArrayGeometry& geometry, int pillar);  // 0 is the middle of the row
 
 // Where elements must end, and whether stress or field is singular there, so that they shrink.
-struct Mark {
+struct MeshMark {
   double x = 0.0;
   bool is_singular = false;
 };
 // Breaks from the first mark to the last: `layers` elements shrink by `ratio` over `reach_m` toward
 // each singular mark, others are no longer than `largest_m`. Marks ascend.
-std::vector<double> breaks_between(const std::vector<Mark>& marks, double reach_m, double largest_m,
-                                   int layers, double ratio);
+std::vector<double> breaks_between(const std::vector<MeshMark>& marks, double reach_m,
+                                   double largest_m, int layers, double ratio);
 
 // The row as a chain of pieces that repeat: [edge] cell [gap cell]... [edge]. The cell stands
 // around its pillar with x = 0 in its middle; gap and edge start at x = 0, and the left edge is the

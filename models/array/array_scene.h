@@ -10,7 +10,7 @@
 
 namespace viscard {
 
-enum class ArrayAnalysis { kStatic, kModal };
+enum class ArrayAnalysis { kStatic, kModal, kHarmonic, kTransient };
 
 // A row of pillars, what is done to it, and how well the answer must be known.
 struct ArrayScene {
@@ -23,8 +23,18 @@ struct ArrayScene {
   ArrayAnalysis analysis = ArrayAnalysis::kStatic;
   ArrayLoad load = ArrayLoad::kPressure;
   double load_Pa = 0.0;
-  std::vector<int> loaded;  // numbers from 1; empty: all
-  int modes = 3;            // clusters of each family
+  std::vector<int> loaded;             // numbers from 1; empty: all
+  int modes = 3;                       // clusters of each family
+  std::vector<double> frequencies_Hz;  // harmonic, ascending; the load is load_Pa
+  std::vector<HistoryPoint> history;   // transient: load in Pa against time
+  double end_time_s = 0.0;
+  int outputs = 1000;  // transient: equal intervals
+
+  EffectChoices effects;              // what the plan may not decide itself
+  double surface_energy_J_m2 = 0.02;  // of the pillars, which may stick together; PDMS
+  // Set by the plan (array_plan.h): each pillar as if it stood alone; on a rigid base.
+  bool feels_neighbours = true;
+  bool feels_film = true;
   std::vector<std::string>
       wanted;  // results, with or without a pillar's number; empty: all cheap ones
   std::function<void(double)> progress;
@@ -49,11 +59,19 @@ std::vector<std::string> result_names(const ArrayScene& scene);
 //   other loaded pillars add to the centre (electrode) voltage deviation_percent_i       centre
 //   (electrode) voltage beside that of a lone pillar on a wide film;
 //                             only when wanted, for it is a second model
-// Throws std::runtime_error if the finest mesh does not meet the tolerance.
+// Harmonic and transient analyses give, for each pillar, curves of its top's displacement and of
+// its voltage (array_dynamics.h). Throws std::runtime_error if the finest mesh does not meet the
+// tolerance.
 SceneAnswer simulate_array(const ArrayScene& scene);
 
-// `points` combinations are answered on all cores; done(i, answer) is called one at a time, in the
-// order in which they end. The first exception is thrown once all running ones have ended.
+// The scene on one mesh, without mesh errors, and the meshes that simulate_array() goes through.
+SceneAnswer array_answer_on(const ArrayScene& scene, const Discretisation& mesh);
+std::vector<Discretisation> array_meshes(const ArrayScene& scene);
+ArrayMedia media_of(const ArrayScene& scene);
+
+// `points` are answered with the effects of their plans, on all cores; done(i, answer) is called
+// one at a time, in the order in which they end. The first exception is thrown once all running
+// ones have ended.
 void simulate_arrays(const std::vector<ArrayScene>& points,
                      const std::function<void(std::size_t, const SceneAnswer&)>& done);
 

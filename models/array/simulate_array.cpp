@@ -1,6 +1,8 @@
+#include "models/array/array_dynamics.h"
 #include "models/array/array_modes.h"
+#include "models/array/array_plan.h"
 #include "models/array/array_scene.h"
-#include "models/pillar/effects.h"
+#include "models/pillar/analysis.h"
 #include "models/pillar/error_control.h"
 
 #include <algorithm>
@@ -16,11 +18,6 @@ namespace {
 
 constexpr double kPercentScale = 10.0;  // at a tolerance of 1e-3 per cents are known to .01 points
 
-ArrayMedia media_of(const ArrayScene& scene) {
-  return {isotropic_medium(scene.pillar.E0_Pa, scene.pillar.nu, scene.pillar.rho_kg_m3), scene.film,
-          scene.plane};
-}
-
 // A lone pillar on a film so wide that no end of it is felt.
 ArrayGeometry lone(ArrayGeometry geometry) {
   geometry.count = 1;
@@ -29,14 +26,32 @@ ArrayGeometry lone(ArrayGeometry geometry) {
   return geometry;
 }
 
+// The response of one pillar for each of a row, and nothing between them.
+ArrayResponse each_alone(const ArrayResponse& one, int count) {
+  const auto repeated = [&](const Eigen::MatrixXd& value) {
+    return value.size() == 0
+               ? value
+               : Eigen::MatrixXd(value(0, 0) * Eigen::MatrixXd::Identity(count, count));
+  };
+  ArrayResponse row;
+  row.centre_V = repeated(one.centre_V);
+  row.mean_V = repeated(one.mean_V);
+  row.electrode_V = repeated(one.electrode_V);
+  row.top_m = repeated(one.top_m);
+  row.V_per_C = repeated(one.V_per_C);
+  return row;
+}
+
 // Static results on one mesh.
 class Statics {
  public:
   Statics(const ArrayScene& scene, const Discretisation& mesh) : scene_(scene) {
     answer_.discretisation = mesh;
-    const ArrayModel model(scene.geometry, scene.electrodes, media_of(scene), mesh);
+    const ArrayModel model(scene.feels_neighbours ? scene.geometry : lone(scene.geometry),
+                           scene.electrodes, media_of(scene), mesh);
     answer_.unknowns = model.unknowns();
     response_ = array_response(model, scene.load);
+    if (!scene.feels_neighbours) response_ = each_alone(response_, scene.geometry.count);
     load_Pa_ =
         Eigen::VectorXd::Constant(scene.geometry.count, scene.loaded.empty() ? scene.load_Pa : 0.0);
     for (const int pillar : scene.loaded) load_Pa_[pillar - 1] = scene.load_Pa;
@@ -56,7 +71,7 @@ class Statics {
               "C");
     }
     add_all("top_displacement", response_.top_m * load_Pa_, "m");
-    if (single_.size() > 0 && load_Pa_.any()) per_cents();
+    if (single_.size() > 0 && load_Pa_.any() && scene_.feels_neighbours) per_cents();
     return std::move(answer_);
   }
 
@@ -130,60 +145,91 @@ class Statics {
 
 SceneAnswer modes_on(const ArrayScene& scene, const Discretisation& mesh) {
   const ArrayMedia media = media_of(scene);
-  const ArrayModel model(scene.geometry, scene.electrodes, media, mesh,
-                         inertia_ports_for(scene.modes));
+  const ArrayModel model(scene.feels_neighbours ? scene.geometry : lone(scene.geometry),
+                         scene.electrodes, media, mesh, inertia_ports_for(scene.modes));
   SceneAnswer answer;
   answer.discretisation = mesh;
   answer.unknowns = model.unknowns();
   const std::vector<ArrayMode> modes = array_modes(model, scene.modes);
   answer.step_error = film_inertia_error(model, media, modes);
+  const int repeats = scene.feels_neighbours ? 1 : scene.geometry.count;
   for (const bool is_lateral : {true, false}) {
     for (const ArrayMode& mode : modes) {
       if (mode.is_lateral != is_lateral) continue;
-      answer.modes.push_back({is_lateral ? "lateral" : "longitudinal", 0, mode.frequency_Hz, 0.0});
+      answer.modes.insert(answer.modes.end(), static_cast<std::size_t>(repeats),
+                          {is_lateral ? "lateral" : "longitudinal", 0, mode.frequency_Hz, 0.0});
     }
   }
   return answer;
 }
 
-std::vector<SceneEffect> effects_of(const ArrayScene& scene) {
-  const bool is_electric = scene.film.permittivity_F_m(2, 2) > 0.0;
-  const bool is_modal = scene.analysis == ArrayAnalysis::kModal;
-  return {
-      {"inertia", is_modal, is_modal ? "modal analysis, of the pillars alone" : "static analysis"},
-      {"incompressibility", scene.pillar.nu >= kNearlyIncompressible,
-       "pressures are condensed from a Poisson ratio of 0.45 on, in plane strain"},
-      {"film_compliance", true, "the pillars share one film"},
-      {"piezo_coupling", is_electric, is_electric ? "both ways" : "the film has no permittivity"},
-      {"crosstalk", true, "all pillars, through film and field"},
-      {"three_dimensional", false, "rows of pillars are solved in the plane"}};
+// The same pillar on a rigid base as often as there are pillars: no film, no unknowns for it.
+SceneAnswer without_film(const ArrayScene& scene, const Discretisation& mesh) {
+  Scene one = single_pillar(scene);
+  one.kind = scene.analysis == ArrayAnalysis::kModal ? AnalysisKind::kModal : AnalysisKind::kStatic;
+  one.modes = scene.modes;
+  one.pressure_Pa = scene.load_Pa;
+  SceneAnswer single;
+  single.discretisation = mesh;
+  analysis_of(one.kind).run(one, single);
+  SceneAnswer answer;
+  answer.discretisation = mesh;
+  answer.unknowns = single.unknowns;
+  for (const SceneMode& mode : single.modes) {
+    answer.modes.insert(answer.modes.end(), static_cast<std::size_t>(scene.geometry.count), mode);
+  }
+  for (const SceneResult& result : single.results) {
+    if (result.name != "top_displacement") continue;
+    for (int i = 1; i <= scene.geometry.count; ++i) {
+      const bool is_loaded =
+          scene.loaded.empty() ||
+          std::find(scene.loaded.begin(), scene.loaded.end(), i) != scene.loaded.end();
+      answer.results.push_back({result.name + "_" + std::to_string(i),
+                                is_loaded ? result.value : 0.0, "m", 0.0, std::abs(result.value)});
+    }
+  }
+  return answer;
+}
+
+}  // namespace
+
+ArrayMedia media_of(const ArrayScene& scene) {
+  return {isotropic_medium(scene.pillar.E0_Pa, scene.pillar.nu, scene.pillar.rho_kg_m3), scene.film,
+          scene.plane};
 }
 
 // The field is singular as r^(1/2) at an electrode's edge, which takes more layers than the weaker
 // corners of the pillars do.
 // The shaft matters to modes only.
-std::vector<Discretisation> meshes(const ArrayScene& scene) {
+std::vector<Discretisation> array_meshes(const ArrayScene& scene) {
   std::vector<Discretisation> all;
   for (const auto& [degree, layers] :
        {std::pair{3, 2}, {4, 2}, {5, 2}, {6, 3}, {7, 3}, {8, 4}, {9, 5}}) {
     all.push_back({.degree = degree,
                    .layers = scene.electrodes.is_equipotential ? degree : layers,
-                   .shaft_elements = scene.analysis == ArrayAnalysis::kModal ? 2 : 1});
+                   .shaft_elements = scene.analysis == ArrayAnalysis::kStatic ? 1 : 2});
   }
   return all;
 }
 
-}  // namespace
+SceneAnswer array_answer_on(const ArrayScene& scene, const Discretisation& mesh) {
+  if (!scene.feels_film) return without_film(scene, mesh);
+  switch (scene.analysis) {
+    case ArrayAnalysis::kModal:
+      return modes_on(scene, mesh);
+    case ArrayAnalysis::kHarmonic:
+    case ArrayAnalysis::kTransient:
+      return array_dynamics_on(scene, mesh);
+    case ArrayAnalysis::kStatic:
+      break;
+  }
+  return Statics(scene, mesh).run();
+}
 
 SceneAnswer simulate_array(const ArrayScene& scene) {
   validate(scene);
-  const ErrorControl control{scene.tolerance, meshes(scene), scene.progress};
-  SceneAnswer answer = answer_within(control, [&](const Discretisation& mesh) {
-    return scene.analysis == ArrayAnalysis::kModal ? modes_on(scene, mesh)
-                                                   : Statics(scene, mesh).run();
-  });
-  answer.effects = effects_of(scene);
-  return answer;
+  return answer_within({scene.tolerance, array_meshes(scene), scene.progress},
+                       [&](const Discretisation& mesh) { return array_answer_on(scene, mesh); });
 }
 
 void simulate_arrays(const std::vector<ArrayScene>& points,
@@ -194,7 +240,7 @@ void simulate_arrays(const std::vector<ArrayScene>& points,
   const auto work = [&] {
     for (std::size_t i = next++; i < points.size(); i = next++) {
       try {
-        const SceneAnswer answer = simulate_array(points[i]);
+        const SceneAnswer answer = simulate_array_planned(points[i]);
         const std::lock_guard<std::mutex> lock(mutex);
         if (!failure) done(i, answer);
       } catch (...) {

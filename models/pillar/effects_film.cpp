@@ -166,8 +166,11 @@ EffectEstimate piezo_coupling_estimate(const Scene& scene) {
   } else if (scene.kind != AnalysisKind::kStatic || scene.drive_V != 0.0 ||
              asks_for(scene, "displacement_per_volt")) {
     estimate.role = EffectRole::kNeeded;
-    estimate.reason = scene.kind == AnalysisKind::kStatic ? "motion per volt is asked for"
-                                                          : "voltages in time need both ways";
+    estimate.reason = scene.kind != AnalysisKind::kStatic ? "voltages in time need both ways"
+                      : scene.drive_V != 0.0              ? "the film is driven by a voltage"
+                      : scene.wanted.empty()
+                          ? "without a [want] everything is asked for, the motion per volt too"
+                          : "the motion per volt is asked for";
   }
   return estimate;
 }
