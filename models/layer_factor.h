@@ -15,7 +15,7 @@ namespace viscard {
 double layer_factor(double radius_over_thickness, double poisson_ratio);
 
 // The same for a punch that sticks to the layer (no slip under it), over the force of a
-// frictionless punch on a half-space   (eq. 25). Pressure and radial shear come from Galerkin's
+// frictionless punch on a half-space   (eq. 29). Pressure and radial shear come from Galerkin's
 // method in Hankel space; on the half-space it is Mossakovskii's (1 - nu) ln(3 - 4 nu)/(1 - 2 nu),
 // Appl. Math. Mech. (PMM) 18 (1954) 187 and 27 (1963) 418; Spence, Proc. R. Soc. A 305 (1968) 55.
 // The same preconditions; relative error below 2e-6 for a/H up to 2, 2e-5 up to 10 (tests). About

@@ -10,8 +10,8 @@ enum class TipShape { kFlat, kSphere, kCone };
 //   F(t) = (2 a kappa(a/H, nu)/(1 - nu^2)) int E(t - s) d(depth)/ds ds   (eq. 8)
 // Source: Sneddon, Int. J. Eng. Sci. 3 (1965) 47 for the half-space; layer_factor.h for kappa.
 // Sphere of radius R and cone of half-angle alpha on a half-space, frictionless:
-//   F(t) = (4 sqrt(R)/(3 (1 - nu^2))) int E(t - s) d(depth^(3/2))/ds ds          (eq. 27)
-//   F(t) = (2 tan(alpha)/(pi (1 - nu^2))) int E(t - s) d(depth^2)/ds ds          (eq. 28)
+//   F(t) = (4 sqrt(R)/(3 (1 - nu^2))) int E(t - s) d(depth^(3/2))/ds ds          (eq. 31)
+//   F(t) = (2 tan(alpha)/(pi (1 - nu^2))) int E(t - s) d(depth^2)/ds ds          (eq. 32)
 // while the contact does not shrink: Lee & Radok, J. Appl. Mech. 27 (1960) 438; Ting, J. Appl.
 // Mech. 33 (1966) 845; elastic: Hertz; Sneddon (1965).
 struct PunchContact {

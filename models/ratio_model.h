@@ -11,7 +11,7 @@ namespace viscard {
 
 // How a material changes with its mixing ratio r (parts of base to one of curing agent). A
 // specimen s is described by theta = (ln E0, ln g_1 .. ln g_N, ln tau_1 .. ln tau_N) and
-//   theta_s = X(r_s) beta + u_s,   u_s ~ N(0, spread^2)                      (eq. 24)
+//   theta_s = X(r_s) beta + u_s,   u_s ~ N(0, spread^2)                      (eq. 28)
 // with each row of X a polynomial in a variable of the ratio, or one value for each measured ratio.
 enum class RatioVariable {
   kLogRatio,          // ln r: E0 is a power of the ratio

@@ -44,7 +44,7 @@ Eigen::VectorXd spherical_bessel(double z, Index count) {
 }
 
 // Surface compliance of the bonded layer in Hankel space times G xi, less its value on the
-// half-space, at x = xi H   (eq. 26). Divided through by exp(2x).
+// half-space, at x = xi H   (eq. 30). Divided through by exp(2x).
 struct Compliance {
   double normal = 0.0, shear = 0.0, coupling = 0.0;
 };

@@ -6,8 +6,8 @@ namespace viscard {
 
 // How temperature speeds relaxation up: at T every relaxation time is a_T times its value at T_ref
 // (a thermorheologically simple material). a_T < 1 when warmer.
-//   WLF:       log10 a_T = -C1 (T - T_ref)/(C2 + T - T_ref)        (eq. 22)
-//   Arrhenius: ln a_T = (E_a/R) (1/T - 1/T_ref), T in K            (eq. 23)
+//   WLF:       log10 a_T = -C1 (T - T_ref)/(C2 + T - T_ref)        (eq. 26)
+//   Arrhenius: ln a_T = (E_a/R) (1/T - 1/T_ref), T in K            (eq. 27)
 // Sources: Williams, Landel & Ferry, J. Am. Chem. Soc. 77 (1955) 3701; Ferry, Viscoelastic
 // Properties of Polymers (1980), ch. 11.
 enum class ShiftLaw { kWlf, kArrhenius };

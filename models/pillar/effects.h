@@ -67,7 +67,7 @@ EffectEstimate finite_strain_estimate(const Scene& scene);
 EffectEstimate contact_estimate(const Scene& scene);
 
 // Pressure at which a clamped-free pillar buckles, by Euler's formula with Engesser's correction
-// for shear, P = P_e/(1 + P_e/(kappa G A)) (eq. 32). Pa.
+// for shear, P = P_e/(1 + P_e/(kappa G A)) (eq. E6). Pa.
 double engesser_pressure_Pa(const Scene& scene);
 
 // Largest pressure the scene puts on the top, Pa (0 for a shortening).

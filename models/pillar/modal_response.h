@@ -12,7 +12,7 @@ namespace viscard {
 // f(t), solved exactly: in the Laplace domain q = f/D with
 //   D(s) = s^2 + omega^2 [1 - sum g_i/(1 + s tau_i)],
 // whose roots are one real rate beside each relaxation time and one pair. For a step of load the
-// memory d_i of eq. 17 and the inertia are thus both free of any step error (eq. 27).
+// memory d_i of eq. 17 and the inertia are thus both free of any step error (eq. 24b).
 // Source: Christensen, Theory of Viscoelasticity (1982), ch. 3 (partial fractions of the
 // transform).
 class RelaxingMode {

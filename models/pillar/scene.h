@@ -110,7 +110,7 @@ struct SceneAnswer {
 void validate(const Scene& scene);
 
 // Throws SceneMistake if the largest pressure would buckle the pillar: by its own buckling pressure
-// on a coarse mesh where Euler's formula comes near, for a strip by Engesser's formula (eq. 32). A
+// on a coarse mesh where Euler's formula comes near, for a strip by Engesser's formula (eq. E6). A
 // straight answer has no meaning there.
 void refuse_beyond_buckling(const Scene& scene);
 
