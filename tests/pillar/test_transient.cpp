@@ -1,4 +1,5 @@
 #include "models/pillar/inertial_stepper.h"
+#include "models/pillar/modal_response.h"
 #include "models/pillar/pillar_loads.h"
 #include "models/pillar/reduced_body.h"
 #include "models/pillar/viscoelastic_pillar.h"
@@ -121,4 +122,25 @@ TEST_CASE("energy never grows without work, whatever the step", "[pillar][stabil
     force = next;
   }
   CHECK(std::isfinite(energy));
+}
+
+TEST_CASE("exact modes and steps of rising fineness give one answer", "[pillar]") {
+  // Under a jump, a ramp and a jump back, with two relaxation times near the resonance.
+  const Body body(rod_material({{0.3, 0.3, 1e-6}, {0.2, 0.2, 2e-5}}));
+  TransientRequest request{.load = body.reduced.system.load, .end_s = 3e-5};
+  request.corner_time_s = {0.0, 4.3e-6, 1.21e-5, 1.21e-5, 1.0};
+  request.corner_value = {1.0, 1.0, 2.0, 0.5, 0.5};
+  request.outputs = 50;
+  request.first_step_s = 1e-7;
+  request.tolerance = 1e-5;
+  const Eigen::MatrixXd observer = body.reduced.system.load.transpose();
+  REQUIRE(relaxes_alike(body.reduced.system));
+  const TransientResult modes = run_transient(body.reduced.system, request, observer);
+  const TransientResult steps = run_by_steps(body.reduced.system, request, observer);
+  REQUIRE(steps.converged);
+  CHECK(modes.steps < steps.steps / 100);
+  const double size = steps.values.cwiseAbs().maxCoeff();
+  CHECK((modes.values - steps.values).cwiseAbs().maxCoeff() <= 2e-5 * size);  // of the steps
+  const Body apart(rod_material({{0.3, 0.1, 1e-6}}));
+  CHECK_FALSE(relaxes_alike(apart.reduced.system));
 }
