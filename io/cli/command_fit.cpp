@@ -42,6 +42,7 @@ CommandSyntax fit_syntax() {
       "white: no inflation for autocorrelation, sigma^2 = rss/(n - p)")(
       "full-data", "every sample for itself instead of averages in log time")(
       "profiles", "intervals of E_inf and times from profile likelihoods (asymmetric)")(
+      "diagnose", "compare with a power law between two plateaus (fractional Zener) by BIC")(
       "bootstrap", po::value<int>(), "intervals from this many resamples of blocks of residuals")(
       "column", po::value<Words>()->composing(),
       "NAME=HEADER or NAME=2: where a column is, also -HEADER and 1e9*HEADER")(

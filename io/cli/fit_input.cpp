@@ -181,6 +181,14 @@ FittedFile fit_file(const std::string& path, const FitWords& words) {
   try {
     FittedFile fitted = is_capture ? fit_capture(path, words) : fit_table(path, words);
     fitted.path = path;
+    if (words.diagnose) {
+      fitted.fractional = diagnose_fractional(fitted.result);
+      if (!fitted.fractional) {
+        throw std::runtime_error(
+            "--diagnose compares relaxation after a step (modulus_Pa or stress_Pa over time_s) "
+            "with a power law; this is none");
+      }
+    }
     return fitted;
   } catch (const std::exception& error) {
     const std::string text = error.what();

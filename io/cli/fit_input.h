@@ -3,6 +3,7 @@
 #include "fit/fit_data.h"
 #include "fit/fit_master_curve.h"
 #include "fit/fit_result.h"
+#include "fit/fractional_diagnosis.h"
 #include "io/column_map.h"
 #include "models/specimen.h"
 
@@ -20,6 +21,7 @@ struct FitWords {
   std::vector<std::string> segments;  // rows of these only; empty: all
   double time_zero_s = 0.0;           // t = 0
   std::optional<Specimen> specimen;   // geometry, in place of the capture's own
+  bool diagnose = false;              // compare with a fractional model
   bool needs_modulus = false;         // a stiffness will not do: a material is to be written
   double frame_stiffness_N_m = 0.0;   // for tables whose depth is the stage's
   std::optional<double> T_ref_C;      // of a master curve
@@ -33,6 +35,7 @@ struct FittedFile {
   std::string fitted_unit;  // of the fitted column: "N", "Pa", "1/Pa"
   // A table of several temperatures: `result` is the master curve at the reference.
   std::optional<MasterCurve> master;
+  std::optional<FractionalDiagnosis> fractional;  // with FitWords::diagnose
 };
 
 // Reads a capture or a table and fits it. Throws std::runtime_error naming the file.

@@ -139,6 +139,7 @@ FitWords words_from(const po::variables_map& values) {
   FitWords words;
   if (values.count("kind") > 0) words.kind = kind_from_word(values["kind"].as<std::string>());
   words.options = options_from(values);
+  words.diagnose = values.count("diagnose") > 0;
   words.time_zero_s = quantity(values, "time-zero", "s");
   if (values.count("column") > 0) {
     try {

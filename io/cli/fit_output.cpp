@@ -150,6 +150,27 @@ Json json_of(const MasterCurve& curve) {
   return json;
 }
 
+Json json_of(const FractionalDiagnosis& fractional) {
+  return {{"E_inf_Pa", number(fractional.model.equilibrium_Pa)},
+          {"E_1_Pa", number(fractional.model.branch_Pa)},
+          {"tau_s", number(fractional.model.tau_s)},
+          {"alpha", number(fractional.model.alpha)},
+          {"chi_square", number(fractional.chi_square)},
+          {"series_chi_square", number(fractional.series_chi_square)},
+          {"bic_difference", number(fractional.bic_difference)}};
+}
+
+void print_fractional(const FractionalDiagnosis& fractional, std::ostream& out) {
+  constexpr double kStrong = 6.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
+  const double difference = fractional.bic_difference;
+  out << fmt::format(
+      "  fractional Zener: alpha {:.4g}, tau {:.4g} s, BIC {:+.1f} beside the series: {}\n",
+      fractional.model.alpha, fractional.model.tau_s, difference,
+      difference < -kStrong  ? "a power law tells this better, the terms only sample it"
+      : difference > kStrong ? "the terms tell this better than a power law"
+                             : "the data do not decide between the two");
+}
+
 void print_master(const MasterCurve& curve, std::ostream& out) {
   out << fmt::format("  master curve at {:.4g} C from {} temperatures\n", curve.T_ref_C,
                      curve.factors.size());
@@ -208,6 +229,7 @@ Json json_from_fit(const FittedFile& fitted) {
   if (fit.n_bootstrap > 0) json["n_bootstrap"] = fit.n_bootstrap;
   if (!fit.profiles.empty()) json["profiles"] = profiles_of(fit);
   if (fitted.master) json["shift"] = json_of(*fitted.master);
+  if (fitted.fractional) json["fractional_zener"] = json_of(*fitted.fractional);
   json["n_spikes"] = fit.n_spikes;
   json["n_left_out"] = fit.n_left_out;
   return json;
@@ -244,6 +266,7 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   out << fmt::format("  noise {:.3g} {}, variance x {:.3g} for its memory\n", fit.noise.sigma,
                      sigma_unit, fit.noise.inflation);
   if (fitted.master) print_master(*fitted.master, out);
+  if (fitted.fractional) print_fractional(*fitted.fractional, out);
   print_orders(fit, fitted.fitted_unit, out);
   if (!fit.flags.empty()) out << "\n";
   for (const MaterialFlag& flag : fit.flags) {
