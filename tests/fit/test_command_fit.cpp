@@ -294,3 +294,18 @@ TEST_CASE("what is called a capture and is none is not taken for a table", "[cli
   CHECK(ran.status == kFailed);
   CHECK_THAT(ran.err, Contains(file) && Contains("not a capture") && !Contains("column"));
 }
+
+TEST_CASE("a series is compared with a power law where asked, and only where it can be", "[cli]") {
+  const Folder folder;
+  const std::string file = folder.write("E.csv", relaxation_table());
+  const Ran ran = run({"fit", file, "--diagnose", "--json"});
+  REQUIRE(ran.status == kDone);
+  const auto fractional = nlohmann::json::parse(ran.out).at("fractional_zener");
+  CHECK(fractional.at("alpha").get<double>() == Approx(1.0).margin(0.01));  // one term
+  CHECK(fractional.at("tau_s").get<double>() == Approx(3.0).epsilon(0.02));
+  const std::string creep =
+      folder.write("J.csv", "time_s,compliance_1_Pa\n0.1,1e-6\n1,1.1e-6\n10,1.2e-6\n100,1.21e-6\n");
+  const Ran refused = run({"fit", creep, "--diagnose"});
+  CHECK(refused.status == kFailed);
+  CHECK_THAT(refused.err, Contains("--diagnose compares relaxation"));
+}
