@@ -15,6 +15,7 @@ namespace viscard {
 namespace {
 
 constexpr double kExactEnough = 1e-6;  // of E(t): seven digits typed by hand
+constexpr double kHandTyped = 2e-3;    // of a single number: digits a hand may leave out
 
 bool has_mistake(const std::vector<CardFinding>& findings) {
   return std::any_of(findings.begin(), findings.end(),
@@ -58,6 +59,80 @@ double rounding_of_columns(const Material& reference, const ReadCard& read) {
   }
 }
 
+// E(t) of a nearly incompressible polymer hardly depends on its bulk modulus; what the solver makes
+// of a pillar or a layer does.
+std::optional<CardFinding> bulk_finding(const ReadCard& read, const Material& reference) {
+  const auto bulk_Pa = [](const Material& material) {
+    return material.E0_Pa / (3.0 * (1.0 - 2.0 * material.nu));  // infinite at 0.5
+  };
+  const Material& found = read.material;
+  if (!(found.E0_Pa > 0.0) || found.nu == reference.nu) return std::nullopt;
+  const double found_Pa = bulk_Pa(found), expected_Pa = bulk_Pa(reference);
+  if (std::abs(found_Pa / expected_Pa - 1.0) <= kHandTyped) return std::nullopt;
+  return CardFinding{
+      "poisson-ratio",
+      fmt::format(
+          "nu is {:g} and the material's {:g}: the bulk modulus is {:.3g} Pa where it should "
+          "be {:.3g} Pa",
+          found.nu, reference.nu, found_Pa, expected_Pa),
+      true};
+}
+
+std::optional<CardFinding> density_finding(const ReadCard& read, const Material& reference) {
+  const double found = read.material.rho_kg_m3, expected = reference.rho_kg_m3;
+  const bool has_place = read.understood.name != "mfront";
+  if (!(expected > 0.0) || !has_place || !(read.material.E0_Pa > 0.0)) return std::nullopt;
+  if (!(found > 0.0)) {
+    return CardFinding{"density-missing",
+                       fmt::format("the card gives no density; the material's is {:g} kg/m3, which "
+                                   "dynamic steps and weight need",
+                                   expected),
+                       false};
+  }
+  if (std::abs(found / expected - 1.0) <= kHandTyped) return std::nullopt;
+  return CardFinding{
+      "density", fmt::format("the density is {:g} kg/m3 and the material's {:g}", found, expected),
+      true};
+}
+
+std::optional<CardFinding> shift_finding(const ReadCard& read, const Material& reference) {
+  const bool is_wanted = reference.shift && reference.shift->law == ShiftLaw::kWlf;
+  if (!is_wanted || !read.understood.takes_wlf) return std::nullopt;
+  const TemperatureShift& expected = *reference.shift;
+  if (!read.material.shift) {
+    return CardFinding{"shift-missing",
+                       fmt::format("the material has a WLF shift ({:g}, {:g} K at {:g} C) and the "
+                                   "card none: it holds at {:g} C only",
+                                   expected.C1, expected.C2_K, expected.T_ref_C, expected.T_ref_C),
+                       true};
+  }
+  const TemperatureShift& found = *read.material.shift;
+  const auto is_close = [](double a, double b) {
+    return std::abs(a - b) <= kHandTyped * std::max(1.0, std::abs(b));
+  };
+  const bool is_C_right = is_close(found.C1, expected.C1) && is_close(found.C2_K, expected.C2_K);
+  if (is_C_right && is_close(found.T_ref_C, expected.T_ref_C)) return std::nullopt;
+  if (is_C_right && is_close(found.T_ref_C + kAbsoluteZero_C, expected.T_ref_C)) {
+    return CardFinding{"reference-temperature-in-kelvin",
+                       "the reference temperature is in K; these cards count in C", true};
+  }
+  constexpr double kLn10 = 2.302585092994046;
+  if (is_close(found.C1, kLn10 * expected.C1) && is_close(found.C2_K, expected.C2_K)) {
+    return CardFinding{"natural-logarithm-C1",
+                       "C1 is that of ln a_T; this field wants that of log10 a_T", true};
+  }
+  return CardFinding{
+      "shift-differs",
+      fmt::format(
+          "the WLF shift is {:g}, {:g} K at {:g} C and the material's {:g}, {:g} K at {:g} C",
+          found.C1, found.C2_K, found.T_ref_C, expected.C1, expected.C2_K, expected.T_ref_C),
+      true};
+}
+
+void add(const std::optional<CardFinding>& finding, CardCheck& check) {
+  if (finding) check.findings.push_back(*finding);
+}
+
 void compare(const Material& reference, CardCheck& check) {
   const bool is_solid = !check.read.material.terms.empty() || check.read.numbers.branches.empty();
   const std::vector<double> times_s = comparison_times_s(reference);
@@ -67,13 +142,21 @@ void compare(const Material& reference, CardCheck& check) {
     check.E_difference = largest_E_difference(check.read.material, ruled, times_s);
     check.E_difference_with_bulk = largest_E_difference(check.read.material, reference, times_s);
   }
-  const double density = check.read.material.rho_kg_m3;
-  const bool is_density_off = density > 0.0 && reference.rho_kg_m3 > 0.0 &&
-                              std::abs(density / reference.rho_kg_m3 - 1.0) > 1e-2;
+  add(shift_finding(check.read, reference), check);
+  const std::optional<CardFinding> bulk = bulk_finding(check.read, reference);
+  const std::optional<CardFinding> density = density_finding(check.read, reference);
   const bool is_far = !check.E_difference || !(*check.E_difference <= check.tolerance);
-  if (!is_far && !is_density_off) return;
+  const bool is_density_off = density && density->is_mistake;
+  if (!is_far && !bulk && !is_density_off) {
+    add(density, check);
+    return;
+  }
+  // A cause that explains every number at once comes before what each number says alone.
   const std::vector<CardFinding> causes = explain_difference(check.read, reference);
   check.findings.insert(check.findings.end(), causes.begin(), causes.end());
+  if (has_mistake(causes)) return;
+  add(bulk, check);
+  add(density, check);
   if (causes.empty() && is_far && !has_mistake(check.findings)) {
     check.findings.push_back(
         {"differs", "the card is of another material, or wrong in a way not known here", true});

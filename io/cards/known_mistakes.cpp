@@ -1,5 +1,7 @@
 #include "io/cards/known_mistakes.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <utility>
 
@@ -63,6 +65,11 @@ void add_elastic_mistakes(const CardContext& context, std::vector<CardMistake>& 
       {"plane-strain-modulus",
        "the modulus is E/(1 - nu^2), the plane-strain modulus an indenter sees, not E",
        [nu, target](CardNumbers& n) { scale_moduli(n, target, 1.0 / (1.0 - nu * nu)); }});
+  if (target.name == "febio-uncoupled") {
+    list.push_back({"G-for-c1",
+                    "c1 is the shear modulus; c1 of a Mooney-Rivlin child is half of it",
+                    [](CardNumbers& n) { n.shear *= 2.0; }});
+  }
   list.push_back({"G-for-E", "the shear modulus stands where Young's modulus belongs",
                   [](CardNumbers& n) { n.young = n.shear; }});
   list.push_back({"E-for-G", "Young's modulus stands where the shear modulus belongs",
@@ -119,6 +126,15 @@ void add_branch_mistakes(const CardContext& context, std::vector<CardMistake>& l
                              " where this field wants " + wanted + " (" + to_word(own) + ")";
     list.push_back({std::string(other.letter) + "-for-" + wanted, text,
                     [numbers](CardNumbers& n) { copy_shear(n, numbers); }});
+    // COMSOL's expressions carry units: 0.008[MPa] where g was meant.
+    for (const double unit : {1e3, 1e6, 1e9}) {
+      if (context.target.name != "comsol" || other.branch != BranchNumber::kRelative) continue;
+      list.push_back(
+          {std::string(other.letter) + "-for-" + wanted, text, [numbers, unit](CardNumbers& n) {
+             copy_shear(n, numbers);
+             for (CardBranch& b : n.branches) b.shear *= unit;
+           }});
+    }
     if (context.target.states_equilibrium) {
       list.push_back({std::string(other.letter) + "-for-" + wanted,
                       text + ", the equilibrium one too", [numbers](CardNumbers& n) {
@@ -182,6 +198,13 @@ void add_time_mistakes(const CardContext& context, std::vector<CardMistake>& lis
       {card_is_in_ms ? "time-in-s" : "time-in-ms", text, [in_ms, card_is_in_ms](CardNumbers& n) {
          scale_times(n, card_is_in_ms ? 1.0 / in_ms : in_ms);
        }});
+  for (const double factor : {1e-3, 1e3}) {
+    list.push_back(
+        {"time-unit",
+         fmt::format("the times are {} by a factor of 1000",
+                     (factor < 1.0) == (own == TimeNumber::kTau) ? "too short" : "too long"),
+         [factor](CardNumbers& n) { scale_times(n, factor); }});
+  }
   if (own == TimeNumber::kNortonA) {
     list.push_back({"A-without-3", "A is 1/(G tau); the von Mises stress wants 1/(3 G tau)",
                     [](CardNumbers& n) { scale_times(n, 3.0); }});

@@ -58,8 +58,20 @@ void read_febio_child(const std::string& text, ReadCard& card) {
 
 }  // namespace
 
+// The first viscoelastic material, as a text of its own; all of the text when there is none, so
+// that the reader says what it found instead. Newlines before it are kept.
+std::string viscoelastic_material(const std::string& text) {
+  const std::regex one("<material\\s[^>]*type\\s*=\\s*\"(uncoupled )?viscoelastic\"");
+  std::smatch match;
+  if (!std::regex_search(text, match, one)) return text;
+  const auto begin = static_cast<std::size_t>(match.position(0));
+  const std::size_t end = text.find("</material>", begin);
+  const std::string before(static_cast<std::size_t>(line_of(text, begin).number - 1), '\n');
+  return before + text.substr(begin, end == std::string::npos ? end : end - begin);
+}
+
 void read_febio(const std::string& commented, ReadCard& card) {
-  const std::string text = without_xml_comments(commented);
+  const std::string text = viscoelastic_material(without_xml_comments(commented));
   std::smatch match;
   if (!std::regex_search(text, match, std::regex("<material\\s[^>]*type\\s*=\\s*\"([^\"]*)\""))) {
     throw std::runtime_error("the card has no <material type=\"...\">");
@@ -104,7 +116,7 @@ namespace {
 
 std::vector<double> numbers_in(const std::string& list, const CardLine& line) {
   std::vector<double> out;
-  const std::regex word("[^\\s,{}']+");
+  const std::regex word("[^\\s,{}'\"]+");
   for (std::sregex_iterator it(list.begin(), list.end(), word), end; it != end; ++it) {
     out.push_back(card_number(it->str(), line, "number"));
   }
@@ -192,10 +204,10 @@ void read_mfront(const std::string& commented, ReadCard& card) {
 
 void read_moose(const std::string& commented, ReadCard& card) {
   const std::string text = without_line_comments(commented, "#");
-  const Named named =
-      named_lists(text,
-                  "(young_modulus|youngs_modulus|poisson_ratio|poissons_ratio|creep_modulus|"
-                  "creep_viscosity|creep_ratio|prop_values)\\s*=\\s*('[^']*'|[^\\s\\[]+)");
+  const Named named = named_lists(
+      text,
+      "(young_modulus|youngs_modulus|poisson_ratio|poissons_ratio|creep_modulus|"
+      "creep_viscosity|creep_ratio|prop_values)\\s*=\\s*('[^']*'|\"[^\"]*\"|[^\\s\\[]+)");
   std::smatch match;
   if (std::regex_search(text, match,
                         std::regex("\\[(?:\\./)?(\\w+)\\]\\s*type\\s*=\\s*(Gen|ComputeIso)"))) {
@@ -204,7 +216,7 @@ void read_moose(const std::string& commented, ReadCard& card) {
   const bool is_elastic = named.count("young_modulus") == 0;
   card.numbers.young = one_of(named, is_elastic ? "youngs_modulus" : "young_modulus");
   card.numbers.poisson = one_of(named, is_elastic ? "poissons_ratio" : "poisson_ratio");
-  if (std::regex_search(text, std::regex("prop_names\\s*=\\s*'?density"))) {
+  if (std::regex_search(text, std::regex("prop_names\\s*=\\s*['\"]?density"))) {
     card.numbers.density = one_of(named, "prop_values");
   }
   const std::size_t count =

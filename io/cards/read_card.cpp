@@ -26,6 +26,19 @@ void drop_empty_branches(CardNumbers& numbers) {
                 [](const CardBranch& b) { return b.shear == 0.0 && b.bulk == 0.0; });
 }
 
+bool has_negative_branch(ReadCard& card) {
+  for (std::size_t i = 0; i < card.numbers.branches.size(); ++i) {
+    const CardBranch& branch = card.numbers.branches[i];
+    if (branch.shear >= 0.0 && branch.bulk >= 0.0) continue;
+    card.findings.push_back({"negative-branch",
+                             "branch " + std::to_string(i + 1) +
+                                 " is negative: it would gain energy, and solvers refuse it",
+                             true});
+    return true;
+  }
+  return false;
+}
+
 void read_dialect(const std::string& text, ReadCard& card) {
   const std::string& name = card.understood.name;
   if (name == "abaqus") return read_abaqus(text, card);
@@ -53,10 +66,12 @@ ReadCard read_card(const std::string& text, const std::string& target, const std
   card.units = unit_system(!units.empty() ? units : !stated.empty() ? stated : "SI");
   read_dialect(text, card);
   drop_empty_branches(card.numbers);
-  try {
-    card.material = material_from_numbers(card.numbers, card.understood, card.units);
-  } catch (const std::invalid_argument& error) {
-    card.findings.push_back({"no-solid", error.what(), true});
+  if (!has_negative_branch(card)) {
+    try {
+      card.material = material_from_numbers(card.numbers, card.understood, card.units);
+    } catch (const std::invalid_argument& error) {
+      card.findings.push_back({"no-solid", error.what(), true});
+    }
   }
   card.material.name = card.name;
   return card;

@@ -22,26 +22,37 @@ struct KeywordBlock {
   }
 };
 
+void add_words(const std::string& text, KeywordBlock& block) {
+  for (std::string word : cells(text, ',')) {
+    word = upper(word);
+    if (block.keyword.empty()) {
+      block.keyword = word;
+    } else if (std::erase(word, ' '); !word.empty()) {
+      block.parameters.push_back(word);
+    }
+  }
+}
+
 std::vector<KeywordBlock> keyword_blocks(const std::vector<CardLine>& lines, char mark) {
   std::vector<KeywordBlock> blocks;
   for (const CardLine& line : lines) {
     const std::string text = trimmed(line.text);
     if (text.empty()) continue;
-    if (text[0] != mark) {
+    // A keyword line that ends with a comma goes on in the next one.
+    const bool continues = !blocks.empty() && blocks.back().data.empty() &&
+                           trimmed(blocks.back().line.text).ends_with(',');
+    if (text[0] != mark && !continues) {
       if (!blocks.empty()) blocks.back().data.push_back(line);
       continue;
     }
-    KeywordBlock block{line, "", {}, {}};
-    for (std::string word : cells(text, ',')) {
-      word = upper(word);
-      if (block.keyword.empty()) {
-        block.keyword = word;
-      } else {
-        std::erase(word, ' ');
-        block.parameters.push_back(word);
-      }
+    if (continues) {
+      blocks.back().line.text = trimmed(blocks.back().line.text) + text;
+      add_words(text, blocks.back());
+    } else {
+      KeywordBlock block{line, "", {}, {}};
+      add_words(text, block);
+      blocks.push_back(block);
     }
-    blocks.push_back(block);
   }
   return blocks;
 }
@@ -65,11 +76,17 @@ const CardLine& first_data(const KeywordBlock& block) {
   return block.data.front();
 }
 
-void read_elastic(const KeywordBlock& block, CardNumbers& numbers) {
+void read_elastic(const KeywordBlock& block, ReadCard& card, CardNumbers& numbers) {
   const CardLine& line = first_data(block);
   const auto row = cells(line.text, ',');
   numbers.young = cell_number(row, 0, line, "E");
   numbers.poisson = cell_number(row, 1, line, "nu");
+  if (block.data.size() < 2) return;
+  card.findings.push_back({"more-elastic-rows",
+                           "line " + std::to_string(block.data[1].number) +
+                               ": only the first row of " + block.keyword +
+                               " is read; the others hold at other temperatures",
+                           false});
 }
 
 void require(bool is_there, const std::string& what) {
@@ -113,7 +130,7 @@ void read_abaqus(const std::string& text, ReadCard& card) {
       card.numbers.density = cell_number(cells(line.text, ','), 0, line, "density");
     } else if (block.keyword == "*ELASTIC") {
       has_elastic = true;
-      read_elastic(block, card.numbers);
+      read_elastic(block, card, card.numbers);
       card.understood.at =
           block.has("MODULI=INSTANTANEOUS") ? ModulusAt::kInstantaneous : ModulusAt::kLongTerm;
     } else if (block.keyword == "*TRS") {
@@ -153,7 +170,7 @@ void read_calculix(const std::string& text, ReadCard& card) {
       card.numbers.density += cell_number(cells(line.text, ','), 0, line, "density");
     } else if (block.keyword == "*ELASTIC") {
       CardNumbers share;
-      read_elastic(block, share);
+      read_elastic(block, card, share);
       parts.back().young = share.young;
       if (parts.size() > 1 && share.poisson != card.numbers.poisson) {
         card.findings.push_back({"poisson-differs",
@@ -204,7 +221,7 @@ void read_frontistr(const std::string& text, ReadCard& card) {
       card.name = name_of(block);
     } else if (block.keyword == "!ELASTIC") {
       has_elastic = true;
-      read_elastic(block, card.numbers);
+      read_elastic(block, card, card.numbers);
     } else if (block.keyword == "!DENSITY") {
       const CardLine& line = first_data(block);
       card.numbers.density = cell_number(cells(line.text, ','), 0, line, "density");
@@ -293,6 +310,17 @@ void add_tables(const std::vector<PronyTable>& tables, ReadCard& card) {
   }
 }
 
+// Without comments; "$" puts several commands on one line.
+std::vector<CardLine> ansys_commands(const std::string& text) {
+  std::vector<CardLine> commands;
+  for (const CardLine& line : card_lines(text, "!")) {
+    for (const std::string& command : cells(line.text.substr(0, line.text.find('!')), '$')) {
+      commands.push_back({line.number, command});
+    }
+  }
+  return commands;
+}
+
 void read_ansys_property(const std::vector<std::string>& row, const CardLine& line, ReadCard& card,
                          bool& has_young) {
   const std::string property = upper(row.size() > 1 ? row[1] : "");
@@ -312,8 +340,7 @@ void read_ansys_property(const std::vector<std::string>& row, const CardLine& li
 void read_ansys(const std::string& text, ReadCard& card) {
   std::vector<PronyTable> tables;
   bool in_elastic = false, in_shift = false, has_young = false;
-  for (CardLine line : card_lines(text, "!")) {
-    line.text = line.text.substr(0, line.text.find('!'));
+  for (const CardLine& line : ansys_commands(text)) {
     const std::vector<std::string> row = cells(line.text, ',');
     const std::string command = upper(row[0]);
     if (command == "MP") {

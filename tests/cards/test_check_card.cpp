@@ -194,6 +194,68 @@ TEST_CASE("rounding to the columns of a card is no mistake in any unit system", 
   }
 }
 
+TEST_CASE("a card is held against Poisson ratio, density and shift too, not against E(t) alone",
+          "[cards]") {
+  Material material = reference_material();
+  const std::string abaqus = card_text("abaqus");
+  CHECK(mistakes(replaced(abaqus, "1.88, 0.495", "1.88, 0.3"), "abaqus") == "poisson-ratio");
+  CHECK(mistakes(replaced(abaqus, "9.65e-10", "1e-9"), "abaqus") == "density");
+  CHECK(mistakes(replaced(card_text("febio"), "<v>0.495</v>", "<v>0.45</v>"), "febio") ==
+        "poisson-ratio");
+  const CardCheck without =
+      check_card(replaced(abaqus, "*DENSITY\n9.65e-10,\n", ""), {.target = "abaqus"}, &material);
+  CHECK(without.agrees);
+  REQUIRE(without.findings.size() == 1);
+  CHECK(without.findings[0].name == "density-missing");
+
+  material.T_ref_C = 23.0;
+  material.shift = TemperatureShift{.T_ref_C = 23.0, .C1 = 8.86, .C2_K = 101.6};
+  const std::string shifted =
+      write_card(material, {.target = "abaqus", .units = "mm-t-s", .is_reproducible = true}).text;
+  const auto found = [&](const std::string& line) {
+    return mistakes(replaced(shifted, "23, 8.86, 101.6", line), "abaqus", material);
+  };
+  CHECK(found("23, 8.86, 101.6").empty());
+  CHECK(found("23, 17.44, 51.6") == "shift-differs");
+  CHECK(found("296.15, 8.86, 101.6") == "reference-temperature-in-kelvin");
+  CHECK(found("23, 20.4009039, 101.6") == "natural-logarithm-C1");
+  CHECK(mistakes(abaqus, "abaqus", material) == "shift-missing");
+}
+
+TEST_CASE("times a thousand off, negative shares and a doubled c1 are named", "[cards]") {
+  const Material material = reference_material();
+  const std::string abaqus = card_text("abaqus");
+  CHECK(mistakes(replaced(replaced(abaqus, "0.1945", "0.0001945"), "2.403", "0.002403"),
+                 "abaqus") == "time-unit");
+  CHECK(mistakes(replaced(abaqus, "0.008206, 0.008206", "-0.008206, 0.008206"), "abaqus") ==
+        "negative-branch");
+  const std::string comsol = card_text("comsol", "mm-t-s");
+  CHECK(mistakes(std::regex_replace(comsol, std::regex("(tau\\d+\\s+\\S+)\\[s\\]"), "$1[ms]"),
+                 "comsol") == "time-unit");
+}
+
+TEST_CASE("other ways to write the same card are read", "[cards]") {
+  const Material material = reference_material();
+  const auto agrees = [&](const std::string& text, const char* target) {
+    const CardCheck check = check_card(text, {.target = target, .units = "mm-t-s"}, &material);
+    CAPTURE(target, text);
+    CHECK(check.agrees);
+  };
+  agrees(replaced(card_text("abaqus"), "*ELASTIC, MODULI=INSTANTANEOUS",
+                  "*ELASTIC,\n MODULI=INSTANTANEOUS"),
+         "abaqus");
+  agrees(
+      "MP,EX,1,1.88 $ MP,PRXY,1,.495 $ MP,DENS,1,9.65E-10\n"
+      "TB,PRON,1,1,2,SHEAR\nTBDATA,1,.008206,.1945,.01386,2.403\n"
+      "TB,PRON,1,1,2,BULK\nTBDATA,1,.008206,.1945,.01386,2.403\n",
+      "ansys");
+  agrees(std::regex_replace(card_text("moose"), std::regex("'"), "\""), "moose");
+  agrees(replaced(card_text("febio"), "<material ",
+                  "<material id=\"9\" name=\"steel\" type=\"isotropic elastic\"><density>7.8e-9"
+                  "</density><E>2e5</E><v>0.3</v></material>\n<material "),
+         "febio");
+}
+
 TEST_CASE("numbers typed with fewer digits are called rounded, not mistaken", "[cards]") {
   const Material material = reference_material();
   const std::string text = replaced(card_text("abaqus"), "1.88, 0.495", "1.8803, 0.495");
