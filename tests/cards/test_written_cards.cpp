@@ -145,6 +145,20 @@ TEST_CASE("reproducible cards are byte-identical, others carry date and command"
   CHECK(write_card(reference_material(), options).text == one);
 }
 
+TEST_CASE("a material named like a word of the solver gets another name in its card", "[cards]") {
+  Material material = reference_material();
+  for (const char* name : {"creep", "double", "tau", "E0", "Density"}) {
+    material.name = name;
+    CAPTURE(name);
+    const std::string moose = write_card(material, {.target = "moose"}).text;
+    CHECK(moose.find("[" + std::string(name) + "_material]") != std::string::npos);
+    const std::string mfront = write_card(material, {.target = "mfront"}).text;
+    CHECK(mfront.find("@Behaviour " + std::string(name) + "_material;") != std::string::npos);
+  }
+  material.name = "PDMS 1:10";
+  CHECK(write_card(material, {.target = "moose"}).text.find("[PDMS_1_10]") != std::string::npos);
+}
+
 TEST_CASE("headers never break the comment syntax of the target", "[cards]") {
   Material material = reference_material();
   material.name = "PDMS -- 1:10 -->\n*STATIC\xc3\xa9";
