@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kStatusTimeout_wall_s = 0.25;
 constexpr double kForgetQuestion_wall_s = 1.0;  // an answer later than that is none
+constexpr double kTimesPrompt = 4.0;            // the mean answer is that far below the timeout
 constexpr int kMostMisses = 20;                 // times 250 ms without any report: it is not there
 constexpr double kPollMoving_s = 0.1;  // rig time; the firmware asks for at most 5 to 10 Hz
 constexpr double kPollResting_s = 0.2;
@@ -47,6 +48,7 @@ std::optional<double> GrblStage::question_answered(double time_s) {
   asked_s_.pop_front();
   n_missed_ = 0;
   is_last_missed_ = false;
+  is_answered_since_ = !asked_s_.empty();
   return asked_s;
 }
 
@@ -146,16 +148,26 @@ void GrblStage::hand_out(const ActiveMove& ended, double end_m) {
 bool GrblStage::awaits_report(double now_s) {
   if (asked_s_.empty()) return false;
   if (now_s - asked_s_.back() <= clock_.from_wall_s(kStatusTimeout_wall_s)) return true;
+  // As many answers as questions are missing from a line that answers promptly: the answer credited
+  // to an older question was this one's. From here on the two count in step again.
+  const bool is_prompt = latency_.n > 0 && kTimesPrompt * latency_.mean_s < kStatusTimeout_wall_s;
+  if (is_answered_since_ && is_prompt) {
+    latency_.n_lost += static_cast<int>(asked_s_.size());
+    forget_questions();
+    return false;
+  }
   if (!is_last_missed_) {
     is_last_missed_ = true;
-    ++latency_.n_lost;
     if (++n_missed_ >= kMostMisses) {
       throw RigError("the stage has stopped answering on '" + transport_.name() +
                      "'. Check its cable and supply; it may still be moving");
     }
   }
   const double oldest_s = now_s - clock_.from_wall_s(kForgetQuestion_wall_s);
-  while (!asked_s_.empty() && asked_s_.front() < oldest_s) asked_s_.pop_front();
+  while (!asked_s_.empty() && asked_s_.front() < oldest_s) {
+    asked_s_.pop_front();
+    ++latency_.n_lost;
+  }
   return false;
 }
 
@@ -166,6 +178,7 @@ void GrblStage::poll_status() {
   if (is_waiting || now_s < next_poll_s_) return;
   send_realtime(grbl::kStatus);
   asked_s_.push_back(now_s);
+  is_answered_since_ = false;
   is_last_missed_ = false;
   next_poll_s_ = now_s + (active_ ? kPollMoving_s : kPollResting_s);
   // Just after the expected end, so that standstill is noticed without delay.

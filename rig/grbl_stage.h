@@ -23,7 +23,8 @@ namespace viscard {
 // - "ok" to a jog means queued: it has ended when a report that was asked for after the ok says
 //   Idle, at the target;
 // - reports may be lost, late, or come unasked: one '?' outstanding, 250 ms, then another, and an
-//   answer belongs to the oldest question that it can belong to;
+//   answer belongs to the oldest question that it can belong to; where answers have been prompt and
+//   one stays out for another 250 ms, the oldest was lost;
 // - a line that stays unanswered at Idle may be held back by a hold nobody asked for: '~' frees it;
 // - after an alarm it may say nothing at all until 0x18.
 class GrblStage final : public Stage {
@@ -129,6 +130,7 @@ class GrblStage final : public Stage {
   bool polls_ = false;
   std::deque<double> asked_s_;  // times of the '?' not yet answered, oldest first
   bool is_last_missed_ = false;
+  bool is_answered_since_ = false;  // an older question, after the newest was asked
   int n_missed_ = 0;
   ReportLatency latency_;
   double next_poll_s_ = 0.0;

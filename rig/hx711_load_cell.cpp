@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace viscard {
@@ -16,6 +17,7 @@ constexpr double kFirstReading_wall_s = 15.0;  // banner and tare chatter last u
 constexpr std::size_t kLinesToLearn = 6;
 constexpr double kLateness_wall_s = 0.3;  // of a line, by stalls of either side
 constexpr double kGapInPeriods = 1.5;
+constexpr double kLargest_V = 100.0;
 
 Hx711Format declared_format(const LoadCellConfig& config) {
   const auto format = hx711_format_from_word(config.line_format);
@@ -26,9 +28,21 @@ Hx711Format declared_format(const LoadCellConfig& config) {
   return *format;
 }
 
+// Counts printed as floating-point numbers, such as a mean "20386.0": no amplifier of a load cell
+// gives 100 V, and noise never makes whole volts.
+bool are_counts(const std::vector<double>& values) {
+  const auto is_large = [](double value) { return std::abs(value) > kLargest_V; };
+  const auto is_whole = [](double value) { return value == std::floor(value); };
+  const bool is_constant =
+      std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
+  return std::any_of(values.begin(), values.end(), is_large) ||
+         (!is_constant && std::all_of(values.begin(), values.end(), is_whole));
+}
+
 // The shape that all of these lines have, by how the first number grows; nothing if they have none.
 std::optional<Hx711Format> learnt_format(const std::vector<ReceivedLine>& lines, double rate_Hz) {
   std::vector<double> ticks;
+  std::vector<double> values;
   bool is_integer = true;
   bool is_plain = true;
   for (const ReceivedLine& line : lines) {
@@ -37,6 +51,7 @@ std::optional<Hx711Format> learnt_format(const std::vector<ReceivedLine>& lines,
     const auto plain = parse_hx711_line(line.text, false);
     is_plain = is_plain && plain.has_value();
     is_integer = is_integer && plain && plain->is_integer;
+    if (plain && plain->value) values.push_back(*plain->value);
   }
   if (ticks.size() == lines.size()) {
     const double step = (ticks.back() - ticks.front()) / static_cast<double>(ticks.size() - 1);
@@ -47,7 +62,7 @@ std::optional<Hx711Format> learnt_format(const std::vector<ReceivedLine>& lines,
     if (is_about(1e3 / rate_Hz)) return Hx711Format::kMillisCounts;
   }
   if (!is_plain) return std::nullopt;
-  return is_integer ? Hx711Format::kCounts : Hx711Format::kVolts;
+  return is_integer || are_counts(values) ? Hx711Format::kCounts : Hx711Format::kVolts;
 }
 
 }  // namespace
@@ -141,17 +156,27 @@ void Hx711LoadCell::take_text(const ReceivedLine& line) {
   ++counts_.unreadable;
   const auto n_letters = std::count_if(line.text.begin(), line.text.end(),
                                        [](unsigned char c) { return std::isalpha(c) != 0; });
-  if (n_letters >= 4 && line.time_s - last_arrival_s_ > clock_.from_wall_s(0.3) + 10 * period_s_) {
-    throw DeviceRestarted("the load cell's amplifier restarted in the middle of the run ('" +
-                          line.text.substr(0, 40) +
-                          "'); its tare is gone. Check its supply, then "
-                          "start the run again");
+  if (n_letters >= 4) {
+    banner_ = line.text.substr(0, 40);
+    throw_if_restarted(line.time_s);
   }
   sink_(RunEvent{line.time_s, "load_cell_unreadable", line.text.substr(0, 80),
                  "A line from the load cell is no reading"});
 }
 
+// A banner within a pause: the pause may come before it (it was switched off) or behind it (it
+// starts its converter and takes its tare).
+void Hx711LoadCell::throw_if_restarted(double time_s) const {
+  const double pause_s = clock_.from_wall_s(0.3) + 10 * period_s_;
+  if (banner_.empty() || time_s - last_arrival_s_ <= pause_s) return;
+  throw DeviceRestarted("the load cell's amplifier restarted in the middle of the run ('" +
+                        banner_ +
+                        "'); its tare is gone. Check its supply, then start the run again");
+}
+
 void Hx711LoadCell::take_reading(const Hx711Line& reading, double time_s) {
+  throw_if_restarted(time_s);
+  banner_.clear();
   if (counts_.received > 0 && reading.unit != unit_) {
     throw RigError("the load cell changed its unit from '" + unit_ + "' to '" + reading.unit +
                    "' in the middle of the run. Set it back, then start the run again");

@@ -37,6 +37,7 @@ class Hx711LoadCell final : public LoadCell {
   void learn(const ReceivedLine& line);
   void take_reading(const Hx711Line& reading, double time_s);
   void take_text(const ReceivedLine& line);
+  void throw_if_restarted(double time_s) const;
   bool take_clock(double ticks, double time_s);
   void doubt_last(double time_s);
   void note_gap(double step_s, double time_s);
@@ -59,6 +60,7 @@ class Hx711LoadCell final : public LoadCell {
   std::optional<DeviceClock> device_clock_;
   std::optional<double> previous_counts_;
   std::string unit_;
+  std::string banner_;  // a sentence since the last reading
   StreamCounts counts_;
   std::int64_t last_missing_ = 0;  // by the gap before the newest reading
   double last_arrival_s_ = 0.0;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 namespace viscard {
@@ -85,19 +86,37 @@ void check_speeds(const std::vector<TestPhase>& phases, const StageDynamics& dyn
   }
 }
 
+// The largest speed whose overshoot, which grows with it, is within the room. Bisection.
+double fastest_m_s(const std::function<double(double)>& overshoot_N, double too_fast_m_s,
+                   double room_N) {
+  double low_m_s = 0.0;
+  double high_m_s = too_fast_m_s;
+  for (int i = 0; i < 60; ++i) {
+    const double middle_m_s = 0.5 * (low_m_s + high_m_s);
+    (overshoot_N(middle_m_s) > room_N ? high_m_s : low_m_s) = middle_m_s;
+  }
+  return low_m_s;
+}
+
 void check_motion(const RigConfig& rig, const TestPlan& plan, const std::vector<TestPhase>& phases,
                   const StageDynamics& dynamics, Preflight& result) {
-  const double v = plan.approach_speed_m_s;
-  const double seen_after_s = 1.5 / rig.load_cell.expected_rate_Hz + kLinkDelay_s;
-  result.approach_overshoot_N =
-      result.total_stiffness_N_m * (v * seen_after_s + stop_distance_m(v, dynamics));
+  const double k_N_m = result.total_stiffness_N_m;
+  const auto overshoot_N = [&](double speed_m_s) {
+    const double seen_after_s = 1.5 / rig.load_cell.expected_rate_Hz + kLinkDelay_s;
+    return k_N_m * (speed_m_s * seen_after_s + stop_distance_m(speed_m_s, dynamics));
+  };
+  result.approach_overshoot_N = overshoot_N(plan.approach_speed_m_s);
   const double room_N = result.limit_N - plan.contact_force_N;
   if (result.approach_overshoot_N > room_N) {
+    const double fastest_mm_s =
+        std::floor(1e6 * fastest_m_s(overshoot_N, plan.approach_speed_m_s, room_N)) * 1e-3;
     result.problems.push_back(
         "the approach would overshoot contact by " + in_N(result.approach_overshoot_N) +
-        ", more than " + in_N(room_N) + ". Lower speed under [approach] of the test file to " +
-        text_from_number(0.5 * v * room_N / result.approach_overshoot_N * 1e3, 3) +
-        " mm/s or use finer steps");
+        ", more than " + in_N(room_N) + ". " +
+        (fastest_mm_s > 0.0 ? "Lower speed under [approach] of the test file to " +
+                                  text_from_number(fastest_mm_s, 3) + " mm/s or less"
+                            : std::string("Use finer steps: no speed under [approach] of the test "
+                                          "file is slow enough")));
   }
   check_speeds(phases, dynamics, result);
   const double step_m = 1.0 / dynamics.steps_per_m;

@@ -2,6 +2,7 @@
 
 #include "models/test_phases.h"
 #include "rig/force_control.h"
+#include "rig/run_conclusion.h"
 #include "rig/run_session.h"
 #include "rig/text_number.h"
 
@@ -15,8 +16,11 @@ namespace {
 
 constexpr double kSettle_s = 0.25;      // force after a stop, long against the readings' period
 constexpr double kContactSigmas = 6.0;  // of one reading's noise
-constexpr double kFlatForce = 0.2;      // of the expected peak: less is no specimen of that kind
-constexpr double kJog_m = 25e-6;        // longest way a dead host lets the stage go near contact
+constexpr double kStillThere = 0.25;    // of the threshold: less was a stray reading
+constexpr double kFarTooSlow = 0.5;     // of the expected rate of readings
+constexpr double kSlower = 0.8;
+constexpr double kFlatForce = 0.2;  // of the expected peak: less is no specimen of that kind
+constexpr double kJog_m = 25e-6;    // longest way a dead host lets the stage go near contact
 constexpr int kMostBackOffs = 10;
 constexpr double kDepthAfter_s = 0.5;  // of a hold's beginning: the depth reached is told then
 // Force control.
@@ -45,15 +49,28 @@ class IndentationRun {
 
   void connect();
   void measure();
+  // Both devices are there and nothing speaks against the test.
+  bool is_begun() const { return is_begun_; }
   // Where the punch is surely free, as far as is known.
   double safe_position_m() const;
+  // What presses before anything was moved presses where the stage stands.
+  bool presses_at_start() const {
+    return presses_at_start_ || (is_begun_ && !session_.has_moved() &&
+                                 std::abs(session_.force_N()) > kLoadedAtStart * limit_N());
+  }
+  // Takes the depth reached when the run ends in contact.
+  void note_depth_at_end() {
+    if (is_in_contact_) note_depth();
+  }
 
   RunOutcome outcome;
 
  private:
   void carry_out(const TestPhase& phase);
   void tare(const TestPhase& phase);
+  void check_rate(const ForceMean& zero, double duration_s);
   void approach();
+  void check_sign(double touched_N) const;
   void back_off(double contact_m);
   void wait(const TestPhase& phase);
   void go_to_depth(const TestPhase& phase);
@@ -63,6 +80,7 @@ class IndentationRun {
   double approach_s() const { return 0.5 * plan_.approach_limit_m / plan_.approach_speed_m_s; }
   double mean_s() const;
   double live_depth_m() const;
+  double limit_N() const { return rig_.safety.soft_fraction * rig_.calibration.capacity_N; }
 
   RunSession& session_;
   const RigConfig& rig_;
@@ -74,19 +92,22 @@ class IndentationRun {
   double depth_asked_m_ = 0.0;  // by the last move to a depth
   double measured_N_m_ = 0.0;   // stiffness seen while loading to a force
   bool is_in_contact_ = false;
+  bool is_begun_ = false;
+  bool presses_at_start_ = false;
 };
 
 void IndentationRun::connect() {
   session_.begin_phase("connect", planned_s(phases_, 0, approach_s()), "Waiting for both devices");
   session_.connect();
+  start_m_ = session_.stage().position_m();
   outcome.expected = preflight(rig_, plan_, specimen_, session_.stage().dynamics());
   if (!outcome.expected.problems.empty()) throw RigError(outcome.expected.problems.front());
   for (const std::string& text : outcome.expected.warnings) session_.event("advice", "test", text);
   for (const std::string& text : session_.stage().advice()) session_.event("advice", "stage", text);
-  start_m_ = session_.stage().position_m();
 }
 
 void IndentationRun::measure() {
+  is_begun_ = true;
   for (std::size_t i = 0; i < phases_.size(); ++i) {
     session_.begin_phase(phases_[i].name, planned_s(phases_, i, approach_s()), phases_[i].text);
     carry_out(phases_[i]);
@@ -117,11 +138,34 @@ void IndentationRun::carry_out(const TestPhase& phase) {
 void IndentationRun::tare(const TestPhase& phase) {
   const ForceMean zero = session_.tare(phase.duration_s);
   outcome.noise_N = zero.sd_N;
-  if (std::abs(zero.force_N) > kLoadedAtStart * outcome.expected.limit_N) {
+  if (std::abs(zero.force_N) > kLoadedAtStart * limit_N()) {
+    presses_at_start_ = true;
     throw RigError("the load cell reads " + text_from_number(zero.force_N, 3) +
                    " N before anything was touched. Take away what presses on it, or correct "
                    "zero_volts of the calibration");
   }
+  check_rate(zero, phase.duration_s);
+}
+
+// How far an approach overshoots depends on how often the force is seen: what the rig file promises
+// must be true. Measured twice before it is refused, since a machine may stall.
+void IndentationRun::check_rate(const ForceMean& zero, double duration_s) {
+  const double expected_Hz = rig_.load_cell.expected_rate_Hz;
+  double rate_Hz = zero.rate_Hz;
+  if (rate_Hz < kSlower * expected_Hz) {
+    rate_Hz = std::max(rate_Hz, session_.mean_force(duration_s).rate_Hz);
+  }
+  if (rate_Hz >= kSlower * expected_Hz) return;
+  RigConfig measured = rig_;
+  measured.load_cell.expected_rate_Hz = rate_Hz;
+  const Preflight found = preflight(measured, plan_, specimen_, session_.stage().dynamics());
+  if (found.problems.empty() && rate_Hz >= kFarTooSlow * expected_Hz) return;
+  throw RigError(
+      "the load cell gives " + text_from_number(rate_Hz, 1) +
+      " readings/s and the rig file says expected_rate = " + text_from_number(expected_Hz, 1) +
+      " Hz, so that the approach would not stop in time: " +
+      remedy_for_slow_readings(rig_.load_cell) +
+      ", or correct expected_rate under [load_cell] of the rig file");
 }
 
 void IndentationRun::approach() {
@@ -132,6 +176,7 @@ void IndentationRun::approach() {
                        " N on, because of the noise, instead of contact_force");
   }
   const double limit_m = start_m_ + plan_.approach_limit_m;
+  ForceMean touched;
   const double jog_m = std::max(kJog_m, 1.01 / session_.stage().dynamics().steps_per_m);
   while (true) {
     const double next_m = session_.stage().position_m() + jog_m;
@@ -141,11 +186,24 @@ void IndentationRun::approach() {
                      " mm. Bring the punch nearer to the specimen, or raise limit under "
                      "[approach] of the test file");
     }
-    if (session_.move(next_m, plan_.approach_speed_m_s, "approach", threshold_N)) break;
+    if (!session_.move(next_m, plan_.approach_speed_m_s, "approach", threshold_N)) continue;
+    touched = session_.mean_force(kSettle_s);
+    if (std::abs(touched.force_N) > kStillThere * threshold_N) break;
   }
-  const ForceMean touched = session_.mean_force(kSettle_s);
+  check_sign(touched.force_N);
   const double here_m = session_.stage().position_m();
   back_off(here_m - touched.force_N / outcome.expected.total_stiffness_N_m);
+}
+
+// A punch that presses makes a positive force, or the cell is wired the other way round.
+void IndentationRun::check_sign(double touched_N) const {
+  if (touched_N > 0.0) return;
+  const bool is_positive = rig_.load_cell.compression_is_positive;
+  throw RigError("the force fell to " + text_from_number(touched_N, 4) +
+                 " N when the punch touched: the load cell reads compression with the other sign. "
+                 "Set compression_is_positive = " +
+                 (is_positive ? "false" : "true") + " under [load_cell] of the rig file (it is " +
+                 (is_positive ? "true" : "false") + ")");
 }
 
 // To gap_m above contact; further where the force says that the guess of the modulus was too high.
@@ -259,34 +317,8 @@ void IndentationRun::hold_force(const TestPhase& phase) {
 }
 
 double IndentationRun::safe_position_m() const {
-  return outcome.contact_position_m ? contact_m_ - plan_.retract_m : start_m_;
-}
-
-// A stage that lost its steps reports the depth it was told; only the force shows that it is not
-// there.
-void doubt_flat_force(RunSession& session, RunOutcome& outcome) {
-  const double expected_N = outcome.expected.peak_force_N;
-  if (outcome.status != "finished" || outcome.peak_force_N > kFlatForce * expected_N) return;
-  outcome.doubts.push_back("the force reached only " + text_from_number(outcome.peak_force_N, 4) +
-                           " N of the " + text_from_number(expected_N, 4) +
-                           " N expected. Did the stage lose steps, or is modulus_guess of the "
-                           "specimen far too high?");
-  session.event("doubt", "force_flat", outcome.doubts.back());
-}
-
-// Says how it ended, without hiding the reason when even that cannot be written any more.
-void conclude(RunSession& session, RunOutcome& outcome) {
-  outcome.peak_force_N = session.peak_force_N();
-  outcome.stream = session.load_cell().counts();
-  outcome.stream.implausible += session.n_implausible();
-  try {
-    doubt_flat_force(session, outcome);
-    session.event(outcome.status, outcome.reason.empty() ? "" : "reason",
-                  outcome.reason.empty() ? "The run is complete" : outcome.reason);
-  } catch (const std::exception& error) {
-    if (outcome.reason.empty()) throw;
-    outcome.reason += std::string("; besides: ") + error.what();
-  }
+  if (outcome.contact_position_m) return contact_m_ - plan_.retract_m;
+  return presses_at_start() ? start_m_ - plan_.retract_m : start_m_;
 }
 
 }  // namespace
@@ -297,23 +329,28 @@ RunOutcome run_indentation(Stage& stage, LoadCell& load_cell, const RigConfig& r
   const RecordSink safe_sink = failing_once(sink);
   RunSession session(stage, load_cell, rig, safe_sink, control);
   IndentationRun run(session, rig, plan, specimen);
-  run.connect();
   RunOutcome& outcome = run.outcome;
   const auto end = [&](const char* status, const std::exception& error) {
     outcome.status = status;
     outcome.reason = error.what();
+    run.note_depth_at_end();
+    const bool tells_lift = outcome.status == "stopped" || run.presses_at_start();
     const std::string trouble = session.make_safe(run.safe_position_m(), plan.retract_speed_m_s);
+    if (tells_lift) outcome.reason += what_was_done(session.lifted_m());
     if (!trouble.empty()) outcome.reason += ". And: " + trouble;
   };
   try {
+    run.connect();
     run.measure();
     outcome.status = "finished";
   } catch (const LimitReached& error) {
+    if (!session.is_stage_connected()) throw;
     end("stopped", error);
   } catch (const std::exception& error) {
+    if (!run.is_begun()) throw;
     end("interrupted", error);
   }
-  conclude(session, outcome);
+  conclude(session, outcome, *control.clock);
   return outcome;
 }
 

@@ -18,10 +18,6 @@ constexpr double kSilence_wall_s = 0.1;
 constexpr double kTimeNoise =
     0.02;  // of a period: what the device's clock may jitter unmarked / 10
 
-std::string in_N(double force_N) {
-  return text_from_number(force_N, 3) + " N";
-}
-
 }  // namespace
 
 RunSession::RunSession(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
@@ -47,6 +43,7 @@ void RunSession::connect() {
   load_cell_.connect(pump);
   is_cell_connected_ = true;
   stage_.connect(pump);
+  is_stage_connected_ = true;
 }
 
 void RunSession::pump() {
@@ -62,7 +59,7 @@ void RunSession::pump() {
       throw RunInterrupted("the run was interrupted; what was recorded is kept");
     }
     check_stream();
-    act_on(guard_.silent_until(clock_.now_s()), force_N_);
+    if (guards_force()) act_on(guard_.silent_until(clock_.now_s()), force_N_);
   }
   report_progress();
 }
@@ -76,6 +73,8 @@ void RunSession::serve_cell() {
   } catch (const LimitReached&) {  // the stage has been told already
     throw;
   } catch (const RigError& error) {
+    is_cell_restarted_ =
+        is_cell_restarted_ || dynamic_cast<const DeviceRestarted*>(&error) != nullptr;
     is_cell_lost_ = dynamic_cast<const PortHungUp*>(&error) != nullptr;
     if (!is_armed_) return;
     if (stage_.is_moving()) {
@@ -113,19 +112,22 @@ void RunSession::take_sample(const LoadSample& sample) {
   const std::optional<double> reading_N = force_N_from_sample(sample, rig_);
   const double absolute_N = reading_N.value_or(tare_N_);
   const double force_N = absolute_N - tare_N_;
-  const bool is_doubtful = sample.is_glitch || sample.is_saturated || !reading_N;
+  const bool is_doubtful =
+      sample.is_glitch || sample.is_saturated || !reading_N || !std::isfinite(*reading_N);
   if (!is_doubtful) {
     force_N_ = force_N;
+    ++n_forces_;
     peak_force_N_ = std::max(peak_force_N_, force_N);
-    if (stop_above_N_ && force_N > *stop_above_N_) has_exceeded_ = true;
+    if (stop_above_N_ && std::abs(force_N) > *stop_above_N_) has_exceeded_ = true;
     const double made_at_s = load_cell_.made_at_s(sample);
     if (collect_from_s_ && made_at_s >= *collect_from_s_) {
+      if (collected_N_.empty()) collected_first_s_ = made_at_s;
       collected_N_.push_back(absolute_N);
       collected_until_s_ = made_at_s;
     }
   }
   watch_spikes(sample, is_doubtful);
-  if (!is_armed_ && !is_stopping_) return;
+  if (!guards_force() && !is_stopping_) return;
   const GuardAction action =
       guard_.take(force_N, is_doubtful, sample.host_time_s, load_cell_.period_s());
   if (is_armed_) return act_on(action, force_N);
@@ -133,7 +135,8 @@ void RunSession::take_sample(const LoadSample& sample) {
   is_stopping_ = false;  // the gentle stop was too slow
   needs_recovery_ = true;
   stage_.stop_hard();
-  event("limit", "hard", "The force still rose to " + in_N(force_N) + ": the stage was reset");
+  event("limit", "hard",
+        "The force still rose to " + text_from_number(force_N, 3) + " N: the stage was reset");
 }
 
 void RunSession::watch_spikes(const LoadSample& sample, bool is_doubtful) {
@@ -159,55 +162,12 @@ void RunSession::mark(std::int64_t index, const std::string& why) {
         "Reading " + std::to_string(index) + " of the load cell " + why);
 }
 
-void RunSession::act_on(GuardAction action, double force_N) {
-  switch (action) {
-    case GuardAction::kNone:
-      return;
-    case GuardAction::kWarn:
-      event("limit", "warn", "The force of " + in_N(force_N) + " nears the cell's limit");
-      return;
-    case GuardAction::kSoftStop:
-      if (stage_.is_moving()) stage_.stop_soft();
-      event("limit", "soft",
-            "The force of " + in_N(force_N) + " is above the limit of " +
-                in_N(guard_.soft_limit_N()) + ": the stage is stopped");
-      break;
-    case GuardAction::kHardStop:
-      needs_recovery_ = true;
-      stage_.stop_hard();
-      event("limit", "hard",
-            "The force of " + in_N(force_N) + " is too high or cannot be read: the stage is reset");
-      break;
-  }
-  const bool is_hard = action == GuardAction::kHardStop;
-  throw LimitReached(
-      "the force reached " + in_N(force_N) + ", above the " +
-      (is_hard ? "hard limit of " + in_N(guard_.hard_limit_N())
-               : "limit of " + in_N(guard_.soft_limit_N())) +
-      "; the stage was stopped and lifted. Lower depth under [ramp] of the test file, or check "
-      "modulus_guess of the specimen");
-}
-
-void RunSession::check_stream() {
-  if (!is_cell_connected_ || !stage_.is_moving()) return;
-  const double period_s = load_cell_.period_s() / clock_.speed();
-  if (!silence_.is_silent(period_s)) return;
-  needs_recovery_ = true;
-  stage_.stop_hard();
-  event("limit", "silent",
-        "No reading of the load cell for " + text_from_number(silence_.silent_s(), 3) +
-            " s while the stage moved, which may be " +
-            text_from_number(silence_.limit_s(period_s), 3) + " s: it was reset");
-  throw RigError(
-      "the load cell fell silent while the stage was moving; the stage was stopped. Check "
-      "the amplifier and its cable, then start the run again");
-}
-
 bool RunSession::move(double to_m, double speed_m_s, const std::string& purpose,
                       std::optional<double> stop_above_N) {
   stop_above_N_ = stop_above_N;
   has_exceeded_ = false;
   stage_.begin_move(to_m, speed_m_s, purpose);
+  has_moved_ = true;
   bool is_stopping = false;
   while (stage_.is_moving()) {
     pump();
@@ -240,7 +200,7 @@ ForceMean RunSession::mean_force(double duration_s) {
   ForceMean result;
   result.n = static_cast<int>(collected_N_.size());
   if (result.n < 5) {
-    throw RigError("only " + std::to_string(result.n) + " readings came in " +
+    throw RigError("only " + std::to_string(result.n) + " readings that make a force came in " +
                    text_from_number(duration_s, 1) +
                    " s. Check the load cell's rate with: viscard rig check");
   }
@@ -251,12 +211,14 @@ ForceMean RunSession::mean_force(double duration_s) {
   for (const double force_N : collected_N_) squares_N2 += (force_N - mean_N) * (force_N - mean_N);
   result.force_N = mean_N - tare_N_;
   result.sd_N = std::sqrt(squares_N2 / (result.n - 1));
+  result.rate_Hz = (result.n - 1) / std::max(1e-9, collected_until_s_ - collected_first_s_);
   return result;
 }
 
 ForceMean RunSession::tare(double duration_s) {
   const ForceMean mean = mean_force(duration_s);
   tare_N_ += mean.force_N;
+  force_N_ -= mean.force_N;
   peak_force_N_ = 0.0;
   event("tare", text_from_number(tare_N_, 6),
         "Zero is at " + text_from_number(tare_N_, 4) + " N of the calibration; noise " +

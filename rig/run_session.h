@@ -30,6 +30,7 @@ class LimitReached : public RigError {
 struct ForceMean {
   double force_N = 0.0;  // mean from the tare
   double sd_N = 0.0;     // standard deviation of one reading
+  double rate_Hz = 0.0;  // of the readings that make a force
   int n = 0;
 };
 
@@ -54,7 +55,8 @@ class RunSession {
   void pump_until(double time_s);
 
   // Moves and waits for standstill. Returns early, after a gentle stop, when the force exceeds
-  // stop_above_N (from the tare); true if it did.
+  // stop_above_N (from the tare) in either direction: a cell wired the other way round falls while
+  // the punch presses. True if it did.
   bool move(double to_m, double speed_m_s, const std::string& purpose,
             std::optional<double> stop_above_N = std::nullopt);
   // Mean force over readings that were made from now on.
@@ -70,6 +72,11 @@ class RunSession {
   // Stops and lifts the punch as far as the devices still answer, whatever has happened; returns
   // what could not be done, or "".
   std::string make_safe(double retract_to_m, double speed_m_s);
+  // How far make_safe() has lifted the punch.
+  double lifted_m() const { return lifted_m_; }
+  // The stage has been told its settings and place: it can be moved.
+  bool is_stage_connected() const { return is_stage_connected_; }
+  bool has_moved() const { return has_moved_; }
 
   double force_N() const { return force_N_; }
   double peak_force_N() const { return peak_force_N_; }
@@ -83,10 +90,15 @@ class RunSession {
   void watch_spikes(const LoadSample& sample, bool is_doubtful);
   void mark(std::int64_t index, const std::string& why);
   void act_on(GuardAction action, double force_N);
+  [[noreturn]] void throw_limit(GuardAction action, double force_N) const;
   void listen();
+  // Before the stage is connected nothing can be stopped or lifted, and nothing moves but its
+  // homing.
+  bool guards_force() const { return is_armed_ && (is_stage_connected_ || rig_.stage.home); }
   void check_stream();
   void report_progress();
   std::string lift(double retract_to_m, double speed_m_s);
+  std::string force_after_lift(double before_N);
 
   Stage& stage_;
   LoadCell& load_cell_;
@@ -99,6 +111,10 @@ class RunSession {
   bool is_armed_ = false;  // limits, stream and stop flag end the run
   bool is_cell_connected_ = false;
   bool is_cell_lost_ = false;
+  bool is_cell_restarted_ = false;  // its tare may be another one now
+  bool is_stage_connected_ = false;
+  bool has_moved_ = false;
+  double lifted_m_ = 0.0;
   bool is_stopping_ = false;     // while a gentle stop is under way: does it suffice?
   bool needs_recovery_ = false;  // the stage was reset or locked itself
   bool is_place_lost_ = false;   // the stage started anew: its positions mean nothing any more
@@ -110,13 +126,14 @@ class RunSession {
   double heard_s_ = 0.0;  // arrival of the last reading that silence_ knows of
   double tare_N_ = 0.0;
   double force_N_ = 0.0;
+  std::int64_t n_forces_ = 0;  // readings that make a force
   double peak_force_N_ = 0.0;
 
   std::optional<double> stop_above_N_;
   bool has_exceeded_ = false;
   std::optional<double> collect_from_s_;
   std::vector<double> collected_N_;
-  double collected_until_s_ = 0.0;
+  double collected_first_s_ = 0.0, collected_until_s_ = 0.0;
 
   std::string phase_ = "connect";
   double phase_start_s_ = 0.0;

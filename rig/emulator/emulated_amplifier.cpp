@@ -56,6 +56,8 @@ std::string EmulatedAmplifier::line(double counts, double time_s) const {
       return "HX711 reading: " + number + options_.line_end;
     case AmplifierFormat::kVolts:
       return text_from_number(counts * volts_per_count_, 7) + options_.line_end;
+    case AmplifierFormat::kMeanText:
+      return "one reading:\t" + number + ".0\t| average:\t" + number + ".0" + options_.line_end;
     case AmplifierFormat::kCounts:
       break;
   }

@@ -10,7 +10,14 @@
 namespace viscard {
 
 // Words an amplifier may send per reading.
-enum class AmplifierFormat { kMicrosCounts, kMillisCounts, kCounts, kReadingText, kVolts };
+enum class AmplifierFormat {
+  kMicrosCounts,
+  kMillisCounts,
+  kCounts,
+  kReadingText,
+  kVolts,
+  kMeanText
+};
 
 struct AmplifierOptions {
   AmplifierFormat format = AmplifierFormat::kMicrosCounts;

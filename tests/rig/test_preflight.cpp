@@ -62,6 +62,16 @@ TEST_CASE("An approach that would overshoot the limit is refused", "[rig]") {
       preflight(demo_rig(), plan, demo_specimen(10.0), StageDynamics{250e3, 0.01, 10e-3});
   REQUIRE_FALSE(result.problems.empty());
   CHECK(result.problems[0].find("speed under [approach]") != std::string::npos);
+  // The speed it names is accepted, and a little more is not.
+  const std::size_t at = result.problems[0].rfind(" to ");
+  const double named_m_s = std::stod(result.problems[0].substr(at + 4)) * 1e-3;
+  const auto problems_at = [&](double speed_m_s) {
+    plan.approach_speed_m_s = speed_m_s;
+    return preflight(demo_rig(), plan, demo_specimen(10.0), StageDynamics{250e3, 0.01, 10e-3})
+        .problems.size();
+  };
+  CHECK(problems_at(named_m_s) == 0);
+  CHECK(problems_at(named_m_s + 2e-6) == 1);
 }
 
 TEST_CASE("A converter at 10 readings/s is refused", "[rig]") {

@@ -149,6 +149,9 @@ TEST_CASE("A limit is answered gently first; a reset follows only where the forc
   CHECK(outcome.status == "stopped");
   CHECK(rig.has_event("limit", "soft"));
   CHECK(rig.has_event("limit", "hard") == rig.has_event("stage_alarm", "3"));
+  // Stopped on the way, some of the depth was reached.
+  CHECK(outcome.achieved_depth_m > 0.02e-3);
+  CHECK_THAT(outcome.reason, Contains("stopped and lifted by"));
   CHECK(is_at_rest_and_lifted(rig));
 }
 

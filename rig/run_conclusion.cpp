@@ -1,0 +1,62 @@
+#include "rig/run_conclusion.h"
+
+#include "rig/text_number.h"
+
+#include <algorithm>
+#include <exception>
+
+namespace viscard {
+namespace {
+
+constexpr double kFlatForce = 0.2;  // of the expected peak: less is no specimen of that kind
+constexpr double kLongGap_s = 1.0;  // wall, in a stream of readings
+constexpr double kLongGapPeriods = 20.0;
+
+// A stage that lost its steps reports the depth it was told; only the force shows that it is not
+// there.
+void doubt_flat_force(RunSession& session, RunOutcome& outcome) {
+  const double expected_N = outcome.expected.peak_force_N;
+  if (outcome.status != "finished" || outcome.peak_force_N > kFlatForce * expected_N) return;
+  outcome.doubts.push_back("the force reached only " + text_from_number(outcome.peak_force_N, 4) +
+                           " N of the " + text_from_number(expected_N, 4) +
+                           " N expected. Did the stage lose steps, or is modulus_guess of the "
+                           "specimen far too high?");
+  session.event("doubt", "force_flat", outcome.doubts.back());
+}
+
+// Bare counts do not tell whether the amplifier has lost its tare in a long pause.
+void doubt_gap(RunSession& session, RunOutcome& outcome, double most_s) {
+  if (outcome.status != "finished" || outcome.stream.longest_gap_s < most_s) return;
+  outcome.doubts.push_back("no reading came for " +
+                           text_from_number(outcome.stream.longest_gap_s, 2) + " s, at " +
+                           text_from_number(outcome.stream.longest_gap_at_s, 1) +
+                           " s. Did the amplifier restart, and is its zero the same?");
+  session.event("doubt", "gap", outcome.doubts.back());
+}
+
+}  // namespace
+
+void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock) {
+  outcome.peak_force_N = session.peak_force_N();
+  outcome.stream = session.load_cell().counts();
+  outcome.stream.implausible += session.n_implausible();
+  try {
+    doubt_flat_force(session, outcome);
+    doubt_gap(
+        session, outcome,
+        std::max(kLongGapPeriods * session.load_cell().period_s(), clock.from_wall_s(kLongGap_s)));
+    session.event(outcome.status, outcome.reason.empty() ? "" : "reason",
+                  outcome.reason.empty() ? "The run is complete" : outcome.reason);
+  } catch (const std::exception& error) {
+    if (outcome.reason.empty()) throw;
+    outcome.reason += std::string("; besides: ") + error.what();
+  }
+}
+
+std::string what_was_done(double lifted_m) {
+  return lifted_m > 0.0 ? ". The stage was stopped and lifted by " +
+                              text_from_number(lifted_m * 1e3, 3) + " mm"
+                        : ". The stage was stopped; it was not lifted";
+}
+
+}  // namespace viscard

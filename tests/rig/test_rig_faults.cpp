@@ -1,0 +1,128 @@
+// What a rig that is set up wrongly does to a run, and what the run says about it.
+#include "tests/rig/rig_fixture.h"
+
+#include <catch2/catch.hpp>
+
+namespace viscard {
+namespace {
+
+using Catch::Matchers::Contains;
+
+void when_phase(RigFixture& rig, const std::string& phase, std::function<void()> action) {
+  rig.sink = [&rig, phase, action](const RunRecord& record) {
+    rig.records.push_back(record);
+    const auto* event = std::get_if<RunEvent>(&record);
+    if (event != nullptr && event->name == "phase" && event->value == phase) action();
+  };
+}
+
+}  // namespace
+
+TEST_CASE("A cell of the wrong sign stops the approach at the touch and names the key",
+          "[rig][pty]") {
+  RigFixture rig(RigFixture::options(20.0));
+  rig.config.load_cell.compression_is_positive = false;
+  const RunOutcome outcome = rig.run(short_plan());
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("compression_is_positive = true"));
+  const EmulatedOutcome bench = rig.emulated.outcome();
+  // Contact force .015 N, a jog of 25 um and 8.8 N/mm: far from the limit of 1.96 N.
+  CHECK(bench.peak_force_N > 0.005);
+  CHECK(bench.peak_force_N < 0.4);
+  CHECK_FALSE(bench.is_moving);
+  CHECK(bench.final_position_m < demo_truth(10.0, 7).surface_position_m);
+}
+
+TEST_CASE("Readings far slower than the rig file says end the run before the approach",
+          "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.sample_rate_Hz = 10.0;
+  options.config.load_cell.expected_rate_Hz = 80.0;
+  RigFixture rig(options);
+  TestPlan plan = short_plan();
+  plan.baseline_s = 2.0;
+  const RunOutcome outcome = rig.run(plan);
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("10.0 readings/s") && Contains("expected_rate = 80.0 Hz"));
+  CHECK(rig.has_event("phase", "tare"));
+  CHECK_FALSE(rig.has_event("phase", "approach"));
+  CHECK(rig.emulated.outcome().final_position_m == 0.0);
+}
+
+TEST_CASE("A punch that presses too hard before the run is lifted, and the advice is not the ramp",
+          "[rig][pty]") {
+  const bool is_beyond_limit = GENERATE(true, false);
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.surface_position_m = is_beyond_limit ? -0.48e-3 : -0.2e-3;
+  options.truth.overload_N = 100.0;
+  RigFixture rig(options);
+  const RunOutcome outcome = rig.run(short_plan());
+  INFO(outcome.reason);
+  CHECK(outcome.status == (is_beyond_limit ? "stopped" : "interrupted"));
+  CHECK_THAT(outcome.reason,
+             Contains(is_beyond_limit ? "already pressing" : "before anything was touched"));
+  CHECK_THAT(outcome.reason, Contains("lifted by 0.5"));
+  CHECK_THAT(outcome.reason, !Contains("[ramp]") && !Contains("FALL"));
+  CHECK(rig.emulated.outcome().final_position_m < -0.4e-3);
+  CHECK(rig.all<LoadSample>().size() > 0);
+}
+
+TEST_CASE("A force that cannot be read after the lift is not said to stay", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(5.0);
+  RigFixture rig(options);
+  when_phase(rig, "hold", [&rig] {
+    rig.emulated.silence_load_cell();
+    rig.stop = true;
+  });
+  const RunOutcome outcome = rig.run(short_plan());
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("cannot be seen") && !Contains("FALL"));
+}
+
+TEST_CASE("An amplifier without a clock that restarts in the hold ends the run", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(5.0);
+  options.config.load_cell.line_format = "auto";
+  options.amplifier.format = AmplifierFormat::kCounts;
+  options.amplifier.boot_s = 4.0;  // .8 s on the wall, behind its banner
+  RigFixture rig(options);
+  when_phase(rig, "hold", [&rig] { rig.emulated.restart_load_cell(); });
+  TestPlan plan = short_plan();
+  plan.hold_s = 8.0;
+  const RunOutcome outcome = rig.run(plan);
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("restarted") && Contains("HX711 ready"));
+}
+
+TEST_CASE("Counts printed with a decimal point are taken for counts", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.config.load_cell.line_format = "auto";
+  options.amplifier.format = AmplifierFormat::kMeanText;
+  RigFixture rig(options);
+  rig.load_cell.connect(rig.pump());
+  CHECK(rig.load_cell.format() == Hx711Format::kCounts);
+}
+
+TEST_CASE("A lost answer leaves questions and answers in step", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(5.0);
+  options.grbl.lose_status_every = 12;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  // An answer that may be an older question's has no latency: out of step, n would stay below 12.
+  const double deadline_s = monotonic_s() + 20.0;
+  while (rig.stage.report_latency().n < 30 && monotonic_s() < deadline_s) rig.pump()();
+  CHECK(rig.stage.report_latency().n == 30);
+  CHECK(rig.stage.report_latency().n_lost == 2);
+}
+
+TEST_CASE("Answers that come late are not counted as lost", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(5.0);
+  options.grbl.status_delay_s = 0.35 * options.config.clock_speed;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  const double deadline_s = monotonic_s() + 1.5;
+  while (monotonic_s() < deadline_s) rig.pump()();
+  CHECK(rig.all<StageReport>().size() > 2);
+  CHECK(rig.stage.report_latency().n_lost == 0);
+}
+
+}  // namespace viscard
