@@ -15,6 +15,7 @@ namespace {
 constexpr Range kPositive = Range::kPositive;
 constexpr Range kNotNegative = Range::kNotNegative;
 constexpr Range kFraction = Range::kFraction;
+constexpr double kVoltsPerCount = 20.0 / 16777216.0;  // 24 bits from -10 V to +10 V
 
 void show_stage(FieldVisitor& fields, StageConfig& stage) {
   fields.text({"driver", "grbl"}, stage.driver);
@@ -237,7 +238,9 @@ void check_truth(EmulatedTruth& truth) {
 }  // namespace
 
 RigConfig rig_from_toml(const std::string& text, const std::string& name) {
-  return config_from_toml<RigConfig>(text, name, {}, show_rig, check_rig);
+  RigConfig unset;
+  unset.load_cell.volts_per_count = kVoltsPerCount;
+  return config_from_toml<RigConfig>(text, name, unset, show_rig, check_rig);
 }
 
 TestPlan test_from_toml(const std::string& text, const std::string& name) {
@@ -254,13 +257,32 @@ EmulatedTruth truth_from_toml(const std::string& text, const std::string& name) 
   return config_from_toml<EmulatedTruth>(text, name, unset, show_truth, check_truth);
 }
 
+// What a rig about to be used must say; a record of an old run is read without.
+void check_before_use(const RigConfig& rig, const std::string& name) {
+  const LoadCellConfig& cell = rig.load_cell;
+  const bool may_count = cell.driver == "hx711" && cell.unit.empty() && cell.line_format != "volts";
+  if (may_count && cell.volts_per_count == 0.0) {
+    throw std::runtime_error(
+        name +
+        ": load_cell.volts_per_count is 0, so that counts make no force; give the volts of one "
+        "count, or leave it out for 20 V / 2^24");
+  }
+  try {
+    validate_dates(rig.calibration);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(name + ": " + error.what());
+  }
+}
+
 RigConfig read_rig(const std::filesystem::path& path) {
   RigConfig rig = rig_from_toml(read_file(path), path.string());
+  check_before_use(rig, path.string());
   const std::filesystem::path folder = path.parent_path();
   // What a record says replaces all of the section, so that it cannot be mixed with older numbers;
   // only the cell's rating may stand in the rig file alone.
   if (!rig.calibration.file.empty()) {
     const double capacity_N = rig.calibration.capacity_N;
+    const std::string file = rig.calibration.file;
     const CalibrationRecord record = read_calibration(folder / rig.calibration.file);
     if (!record.calibration) {
       throw std::runtime_error((folder / rig.calibration.file).string() +
@@ -269,6 +291,7 @@ RigConfig read_rig(const std::filesystem::path& path) {
     rig.calibration = *record.calibration;
     if (rig.calibration.capacity_N == 0.0) rig.calibration.capacity_N = capacity_N;
     validate(rig.calibration);
+    check_before_use(rig, (folder / file).string());
   }
   if (!rig.frame.file.empty()) {
     const CalibrationRecord record = read_calibration(folder / rig.frame.file);

@@ -2,6 +2,7 @@
 
 #include "models/text_of_number.h"
 
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
@@ -16,6 +17,35 @@ void validate(const LoadCellCalibration& calibration) {
     throw std::invalid_argument("load cell capacity is " + text_of(calibration.capacity_N) +
                                 " N; it must be positive");
   }
+}
+
+namespace {
+
+bool is_iso_day(const std::string& text) {
+  const std::string day = text.substr(0, 10);
+  if (day.size() < 10 || day[4] != '-' || day[7] != '-') return false;
+  for (const std::size_t i : {0, 1, 2, 3, 5, 6, 8, 9}) {
+    if (day[i] < '0' || day[i] > '9') return false;
+  }
+  if (text.size() > 10 && text[10] != 'T' && text[10] != ' ') return false;
+  return std::chrono::year_month_day(
+             std::chrono::year(std::stoi(day.substr(0, 4))),
+             std::chrono::month(static_cast<unsigned>(std::stoi(day.substr(5, 2)))),
+             std::chrono::day(static_cast<unsigned>(std::stoi(day.substr(8, 2)))))
+      .ok();
+}
+
+void validate_date(const char* key, const std::string& text) {
+  if (text.empty() || is_iso_day(text)) return;
+  throw std::invalid_argument("calibration." + std::string(key) + " '" + text +
+                              "' is no day such as 2026-11-21");
+}
+
+}  // namespace
+
+void validate_dates(const LoadCellCalibration& calibration) {
+  validate_date("date", calibration.date);
+  validate_date("valid_until", calibration.valid_until);
 }
 
 std::string last_valid_day(const LoadCellCalibration& calibration) {
@@ -37,6 +67,11 @@ std::string calibration_trouble(const LoadCellCalibration& calibration, const st
            "calibrate; or set date under [calibration] of the rig file";
   }
   // ISO dates compare as text.
+  if (calibration.date.substr(0, 10) > today.substr(0, 10)) {
+    return "the load cell's calibration" + name + " is dated " + calibration.date +
+           ", which is later than today, " + today.substr(0, 10) +
+           ". Correct date under [calibration], or this computer's clock";
+  }
   if (today.substr(0, 10) <= last.substr(0, 10)) return {};
   return "the load cell's calibration" + name + " expired on " + last +
          ". Make a new one with: viscard calibrate";

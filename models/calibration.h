@@ -35,8 +35,12 @@ struct UncertaintyRow {
 // "2027-01-15": the last day on which the calibration counts; empty if it has no date.
 std::string last_valid_day(const LoadCellCalibration& calibration);
 
-// Why a calibration should not be used on that day (ISO 8601), or "" if it may be: expired, or
-// undated so that nobody can tell.
+// Throws std::invalid_argument on a date or valid_until that is given and is no day of the calendar
+// such as 2026-11-21 (a time may follow).
+void validate_dates(const LoadCellCalibration& calibration);
+
+// Why a calibration should not be used on that day (ISO 8601), or "" if it may be: expired, dated
+// later than that day, or undated so that nobody can tell.
 std::string calibration_trouble(const LoadCellCalibration& calibration, const std::string& today);
 
 // Throws std::invalid_argument unless the gain is finite and not zero and the capacity positive.

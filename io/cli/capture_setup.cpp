@@ -36,7 +36,8 @@ void check_words(const CaptureWords& words) {
     throw UsageError("--resume keeps what is there and --force replaces it: give one of them");
   }
   if (!(words.speed > 0.0) || words.speed > kFastest) {
-    throw UsageError(fmt::format("--speed {} is outside 0 to {}", words.speed, kFastest));
+    throw UsageError(
+        fmt::format("--speed is {}; it must be above 0 and at most {}", words.speed, kFastest));
   }
   if (words.is_emulated) return;
   if (words.truth_file || words.seed || words.speed != 1.0) {

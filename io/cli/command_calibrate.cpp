@@ -132,7 +132,9 @@ void check_words(const CalibrateWords& words) {
   if (!words.is_emulated && (words.truth_file || words.speed != 1.0)) {
     throw UsageError("--truth and --speed are for an emulated rig: add --emulate");
   }
-  if (!(words.speed > 0.0) || words.speed > 500.0) throw UsageError("--speed is outside 0 to 500");
+  if (!(words.speed > 0.0) || words.speed > 500.0) {
+    throw UsageError(fmt::format("--speed is {}; it must be above 0 and at most 500", words.speed));
+  }
   const std::string& day = words.valid_until;
   const bool is_day = day.size() == 10 && day[4] == '-' && day[7] == '-' &&
                       day.find_first_not_of("0123456789-") == std::string::npos;

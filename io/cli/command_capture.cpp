@@ -114,7 +114,9 @@ void print_text(const CaptureOutcome& capture, std::ostream& out) {
   out << fmt::format("{}: {}\n", capture.file, outcome.status)
       << fmt::format("  peak force      {:.4f} N (expected at most {:.4f}, limit {:.4f})\n",
                      outcome.peak_force_N, outcome.expected.peak_force_N, outcome.expected.limit_N)
-      << fmt::format("  depth reached   {:.4f} mm\n", outcome.achieved_depth_m * 1e3)
+      << (outcome.contact_position_m
+              ? fmt::format("  depth reached   {:.4f} mm\n", outcome.achieved_depth_m * 1e3)
+              : std::string("  depth reached   none: no contact was found\n"))
       << fmt::format("  noise           {:.3f} mN per reading\n", outcome.noise_N * 1e3)
       << fmt::format(
              "  readings        expected {}, received {}, missing {}, duplicate {}, glitch {}, "

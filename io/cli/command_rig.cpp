@@ -1,5 +1,6 @@
 #include "io/cli/command_rig.h"
 
+#include "io/cli/calibrate_words.h"
 #include "io/cli/command_line.h"
 #include "io/cli/overshoot_study.h"
 #include "io/cli/progress.h"
@@ -56,6 +57,14 @@ RigCheck check(RigConfig rig, bool is_emulated, double seconds) {
   RigDevices devices = open_ports(rig, clock);
   add_drivers(devices, rig, clock, nowhere);
   return check_rig(*devices.stage, *devices.load_cell, rig, clock, seconds);
+}
+
+// A capture refuses an expired calibration, and one of tomorrow; an undated one it only mentions.
+void add_calibration(const RigConfig& rig, RigCheck& found) {
+  const std::string trouble = calibration_trouble(rig.calibration, today());
+  if (trouble.empty()) return;
+  found.advice.push_back(trouble);
+  if (!last_valid_day(rig.calibration).empty()) found.is_usable = false;
 }
 
 void print_text(const RigCheck& found, std::ostream& out) {
@@ -166,7 +175,8 @@ int run_rig(const std::vector<std::string>& words, Streams& streams) {
   }
   const RigConfig rig =
       values->count("rig") > 0 ? read_rig((*values)["rig"].as<std::string>()) : demo_rig();
-  const RigCheck found = check(rig, is_emulated, seconds);
+  RigCheck found = check(rig, is_emulated, seconds);
+  if (values->count("rig") > 0) add_calibration(rig, found);
   if (as_json) {
     print_json(found, streams.out);
   } else {

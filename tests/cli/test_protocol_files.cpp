@@ -48,6 +48,41 @@ TEST_CASE("Every example of a protocol runs, and its capture carries the phases"
   CHECK(nlohmann::json::parse(run.out)["readings"]["missing"] == 0);
 }
 
+TEST_CASE("A rig file whose counts make no force, or whose dates are none, is refused by its key",
+          "[cli]") {
+  const ScratchFolder folder;
+  const auto checked = [&](const std::string& cell, const std::string& calibration) {
+    std::ofstream(folder / "rig.toml")
+        << "[stage]\nport = \"/dev/null\"\n[load_cell]\nport = \"/dev/null\"\n"
+        << cell << "[calibration]\nvolts_per_newton = 0.7\ncapacity = 2.45\n"
+        << calibration << "[frame]\nstiffness = \"rigid\"\n";
+    return run_command({"rig", "check", "--rig", (folder / "rig.toml").string()}).err;
+  };
+  CHECK_THAT(checked("volts_per_count = 0\n", ""), Contains("load_cell.volts_per_count is 0"));
+  CHECK_THAT(checked("", "date = \"yesterday\"\n"), Contains("calibration.date 'yesterday'"));
+  CHECK_THAT(checked("", ""), Contains("/dev/null") && !Contains("volts_per_count"));
+}
+
+TEST_CASE("rig check says what a capture would say of the calibration", "[cli][pty]") {
+  const ScratchFolder folder;
+  const auto checked = [&](const std::string& date) {
+    std::ofstream(folder / "rig.toml")
+        << "[calibration]\nvolts_per_newton = 0.7255\ncapacity = 2.4517\n"
+        << date << "[frame]\nstiffness = \"rigid\"\n";
+    return run_command(
+        {"rig", "check", "--emulate", "--seconds", "1", "--rig", (folder / "rig.toml").string()});
+  };
+  const auto expired = checked("date = 2020-01-15\n");
+  CHECK(expired.status == kFailed);
+  CHECK_THAT(expired.out, Contains("expired on 2021-01-15") && Contains("not fit for a test"));
+  const auto undated = checked("");
+  CHECK(undated.status == kDone);
+  CHECK_THAT(undated.out, Contains("has no date"));
+  const auto future = checked("date = 9999-01-15\n");
+  CHECK(future.status == kFailed);
+  CHECK_THAT(future.out, Contains("later than today"));
+}
+
 TEST_CASE("An expired calibration is refused before any port is opened, unless told otherwise",
           "[cli]") {
   const ScratchFolder folder;

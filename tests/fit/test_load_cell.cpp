@@ -125,6 +125,20 @@ TEST_CASE("A calibration counts for a year, or as long as it says", "[fit]") {
   CHECK(last_valid_day(calibration) == "2025-02-28");
   calibration.valid_until = "2099-12-31";
   CHECK(calibration_trouble(calibration, "2098-01-01").empty());
+  CHECK_THAT(calibration_trouble(calibration, "2024-02-28"), Contains("later than today"));
+}
+
+TEST_CASE("A date of a calibration is a day of the calendar", "[fit]") {
+  LoadCellCalibration calibration;
+  CHECK_NOTHROW(validate_dates(calibration));  // none at all: said when it is used
+  calibration.date = GENERATE("2026-11-21", "2024-02-29", "2026-11-21T10:00:00Z");
+  CHECK_NOTHROW(validate_dates(calibration));
+  calibration.date =
+      GENERATE("yesterday", "2026-13-01", "2023-02-29", "21.11.2026", "2026-1-2", "2026-11-213");
+  CHECK_THROWS_WITH(validate_dates(calibration), Contains("calibration.date"));
+  calibration.date.clear();
+  calibration.valid_until = "for ever";
+  CHECK_THROWS_WITH(validate_dates(calibration), Contains("calibration.valid_until"));
 }
 
 }  // namespace viscard
