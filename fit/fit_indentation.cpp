@@ -5,6 +5,7 @@
 #include "fit/fit_stage_indentation.h"
 #include "fit/flags.h"
 #include "fit/history_model.h"
+#include "fit/noise_model.h"
 #include "fit/spikes.h"
 #include "fit/two_point_modulus.h"
 
@@ -84,6 +85,19 @@ Contact find_contact(const Column& force_N, const Column& depth_m, std::size_t l
                       !(power == 1.0 && rises_like_contact(force_N, depth_m, contact.first, slope));
   if (!contact.is_fitted) contact = {};
   return contact;
+}
+
+// The table of a capture holds the touch that found the surface, too: an indentation of its own,
+// which the model of the one ramp does not know. First row after it; 0 where there is none.
+std::size_t end_of_earlier_touch(const Column& depth_m, std::size_t loaded, double contact_m) {
+  constexpr double kDeep = 0.05;  // of the depth: less is noise about the contact
+  const double deep_m = contact_m + kDeep * (depth_m[loaded] - contact_m);
+  std::size_t i = loaded;
+  while (i > 0 && depth_m[i - 1] > contact_m) --i;  // the ramp itself
+  while (i > 0 && depth_m[i - 1] <= deep_m) --i;
+  if (i == 0) return 0;
+  while (depth_m[i] > contact_m) ++i;
+  return i;
 }
 
 void check_force(const Column& force_N) {
@@ -197,6 +211,15 @@ void fill_curves(const HistoryModel& model, const HistoryInput& input, const Spe
   result.curves.unit = "N";
 }
 
+void flag_table_misfit(const HistoryInput& input, const Contact& contact, FitResult& result) {
+  if (!contact.is_fitted) return;
+  const auto first = static_cast<std::ptrdiff_t>(contact.first);
+  const Column quiet_N(input.output.begin(), input.output.begin() + first);
+  const auto [low, high] = std::minmax_element(input.output.begin(), input.output.end());
+  flag_misfit(result.noise.sigma, sigma_from_differences(quiet_N), quiet_N.size(), *high - *low,
+              result);
+}
+
 FitResult fit_measured_depth(const IndentationData& data, const FitOptions& options) {
   CleanColumns clean = clean_columns({data.time_s, data.force_N, data.depth_m}, kLeastRows);
   check_force(clean.columns[1]);
@@ -210,9 +233,18 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
       clean.columns[2][i] -= clean.columns[1][i] / data.frame_stiffness_N_m;
     }
   }
-  const std::size_t loaded = end_of_loading(clean.columns[2]);
+  std::size_t loaded = end_of_loading(clean.columns[2]);
   const DepthLaw law = data.contact ? depth_law(*data.contact) : DepthLaw{1.0, 1.0};
-  const Contact contact = find_contact(clean.columns[1], clean.columns[2], loaded, law.power);
+  Contact contact = find_contact(clean.columns[1], clean.columns[2], loaded, law.power);
+  const std::size_t touched =
+      contact.is_fitted ? end_of_earlier_touch(clean.columns[2], loaded, contact.depth_m) : 0;
+  if (touched > 0) {
+    for (Column& column : clean.columns) {
+      column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(touched));
+    }
+    loaded = end_of_loading(clean.columns[2]);
+    contact = find_contact(clean.columns[1], clean.columns[2], loaded, law.power);
+  }
   const HistoryInput input = history_input(clean, contact, law);
   if (input.time_s.size() < kLeastRows) {
     throw std::runtime_error("only " + std::to_string(input.time_s.size()) +
@@ -238,6 +270,7 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
                              input.time_s.back() - zero_s},
                             result);
   flag_saturation(input.output, result);
+  flag_table_misfit(input, contact, result);
   flag_gap(input.time_s, contact.first, end, result);
   if (law.power != 1.0 && input.time_s.size() < clean.columns[0].size()) {
     result.flags.push_back({"unloading-left-out", 0,

@@ -2,6 +2,7 @@
 
 #include "fit/assemble_result.h"
 #include "fit/clean_data.h"
+#include "fit/contact_onset.h"
 #include "fit/flags.h"
 #include "fit/stage_model.h"
 #include "fit/two_point_modulus.h"
@@ -13,6 +14,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -129,20 +131,24 @@ void flag_gap_in_ramp(const IndentationData& data, const SpectralState& state, F
   }
 }
 
-// The punch must stay in contact through the holds: the fitted force must not fall below zero.
-void flag_lost_contact(const IndentationData& data, const SpectralState& state, double offset_N,
-                       const Eigen::VectorXd& residual_N, double sigma_N, FitResult& result) {
-  const StageMove& ramp = data.moves.front();
-  const double ramp_end_s = ramp.start_time_s + state.nuisance[0] + duration_s(ramp);
+// The move in or after which the fitted force falls below zero: a punch cannot pull, so it hung
+// free.
+std::optional<std::size_t> move_losing_contact(const IndentationData& data,
+                                               const SpectralState& state, double offset_N,
+                                               const Eigen::VectorXd& residual_N, double sigma_N) {
+  const auto begin_s = [&](std::size_t m) {
+    return data.moves[m].start_time_s + state.nuisance[static_cast<Index>(m)];
+  };
+  const double ramp_end_s = begin_s(0) + duration_s(data.moves.front());
   for (std::size_t i = 0; i < data.time_s.size(); ++i) {
     if (data.time_s[i] < ramp_end_s || data.time_s[i] > data.contact_to_s) continue;
     const double fitted_N = data.force_N[i] - residual_N[static_cast<Index>(i)] - offset_N;
     if (fitted_N > -3.0 * sigma_N) continue;
-    add_defect(
-        result, "contact-lost",
-        "the unloading lifts the punch off the specimen: unload to a larger share of the depth");
-    return;
+    std::size_t move = 0;
+    while (move + 1 < data.moves.size() && begin_s(move + 1) <= data.time_s[i]) ++move;
+    return move;
   }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -163,11 +169,24 @@ PronySeries specimen_series(const PronySeries& stage_series_N_m, double frame_st
 
 namespace {
 
+// A fit of a run that stays in contact, and where it did not.
+struct ContactFit {
+  FitResult result;
+  std::optional<std::size_t> lost_by_move;
+};
+
+void flag_stage_misfit(const IndentationData& data, FitResult& result) {
+  const QuietForce quiet = quiet_force(data);
+  const double peak_N =
+      *std::max_element(data.force_N.begin(), data.force_N.end()) - quiet.before_N;
+  flag_misfit(result.noise.sigma, quiet.sigma_N, quiet.n, peak_N, result);
+}
+
 // Window, flags and the two-point modulus.
 void report_stage_fit(const StageModel& model, const IndentationData& data, const SpectralFit& fit,
-                      const Eigen::VectorXd& residual_N, FitResult& result) {
+                      const Eigen::VectorXd& residual_N, ContactFit& out) {
+  FitResult& result = out.result;
   const StageMove& ramp = data.moves.front();
-  const double sigma_N = result.noise.sigma;
   result.fit_from_s = ramp.start_time_s + fit.state.nuisance[0];
   result.fit_to_s = data.contact_to_s;
   result.fastest_s = duration_s(ramp);
@@ -181,19 +200,14 @@ void report_stage_fit(const StageModel& model, const IndentationData& data, cons
   for (Index j = 0; j < model.n_common(); ++j) {
     if (model.common()[static_cast<std::size_t>(j)].name != "offset_N") continue;
     const double offset_N = fit.state.coefficients[j];
-    flag_lost_contact(data, fit.state, offset_N, residual_N, sigma_N, result);
-    result.two_point = two_points(data, fit.state, offset_N, sigma_N);
+    out.lost_by_move =
+        move_losing_contact(data, fit.state, offset_N, residual_N, result.noise.sigma);
+    result.two_point = two_points(data, fit.state, offset_N, result.noise.sigma);
   }
+  flag_stage_misfit(data, result);
 }
 
-}  // namespace
-
-FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& options) {
-  if (!options.constraints.empty()) {
-    throw std::runtime_error(
-        "parameters of a captured run cannot be constrained: specimen and frame are fitted "
-        "together; export the run and fit its table");
-  }
+ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options) {
   const double factor_m = data.contact ? force_per_modulus_and_depth_m(*data.contact) : 1.0;
   Eigen::VectorXd start = nuisance_start(data);
   TwoSigmas sigmas;
@@ -212,7 +226,8 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
   const SpectralFit fit =
       fit_spectrum(model, log_time_blocks(data.time_s, data.contact_from_s, 4), options);
 
-  FitResult result;
+  ContactFit out;
+  FitResult& result = out.result;
   result.kind = FitKind::kIndentation;
   result.is_stiffness = !data.contact;
   const auto series_from_state = [&](const SpectralState& state) {
@@ -231,9 +246,40 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
   const Eigen::VectorXd residual =
       model.residual_series(fit.state.ln_tau, fit.state.nuisance, fit.state.coefficients);
   const Eigen::VectorXd residual_N = residual.cwiseProduct(model.sigma_N());
-  report_stage_fit(model, data, fit, residual_N, result);
+  report_stage_fit(model, data, fit, residual_N, out);
   if (options.with_curves) fill_curves(model, data, fit.state, residual_N, result);
-  return result;
+  return out;
+}
+
+}  // namespace
+
+FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& options) {
+  if (!options.constraints.empty()) {
+    throw std::runtime_error(
+        "parameters of a captured run cannot be constrained: specimen and frame are fitted "
+        "together; export the run and fit its table");
+  }
+  IndentationData kept = data;
+  std::optional<std::size_t> lifting = first_lifting_move(kept);
+  ContactFit fit;
+  // Seldom more than one round: what the force itself does not show, the fit may.
+  while (true) {
+    if (lifting) kept = before_move(std::move(kept), *lifting);
+    fit = fit_in_contact(kept, options);
+    if (fit.lost_by_move.value_or(0) == 0) break;
+    lifting = fit.lost_by_move;
+  }
+  if (fit.lost_by_move) {
+    add_defect(fit.result, "contact-lost", "the punch loses contact during the first hold");
+  }
+  if (kept.moves.size() < data.moves.size()) {
+    fit.result.flags.push_back(
+        {"unloading-left-out", 0,
+         "move " + std::to_string(kept.moves.size() + 1) +
+             " of the test lifted the punch off the specimen; it and what follows were left out. "
+             "Unload to a larger share of the depth, and check modulus_guess of the specimen"});
+  }
+  return fit.result;
 }
 
 }  // namespace viscard

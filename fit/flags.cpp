@@ -1,7 +1,6 @@
 #include "fit/flags.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -46,12 +45,6 @@ double correlation(const Eigen::MatrixXd& covariance, Index i, Index j) {
 
 }  // namespace
 
-bool is_defect(const std::string& name) {
-  constexpr std::array kDefects{"not-converged", "saturated",  "gap-in-ramp",
-                                "contact-lost",  "E0-unknown", kContradictsData};
-  return std::find(kDefects.begin(), kDefects.end(), name) != kDefects.end();
-}
-
 void judge(FitResult& result) {
   if (!(result.E0_interval_95.low > 0.0) || !std::isfinite(result.E0_interval_95.high)) {
     add_defect(result, "E0-unknown",
@@ -67,6 +60,19 @@ void judge(FitResult& result) {
 void add_defect(FitResult& result, const std::string& name, const std::string& text) {
   result.flags.push_back({name, 0, text});
   result.is_trustworthy = false;
+}
+
+void flag_misfit(double sigma, double quiet_sigma, std::size_t n_quiet, double peak,
+                 FitResult& result) {
+  constexpr double kTimes = 10.0;        // noise of the cell under load is never that much larger
+  constexpr double kShareOfPeak = 1e-3;  // steps and backlash of a good stage leave less than that
+  constexpr std::size_t kFewest = 10;
+  if (n_quiet < kFewest || sigma <= kTimes * quiet_sigma || sigma <= kShareOfPeak * peak) return;
+  add_defect(result, "misfit",
+             "the fit leaves " + number(sigma) + " N at each sample, the noise out of contact is " +
+                 number(quiet_sigma) +
+                 " N: something happened that the model does not know (lost steps, slip, a wrong "
+                 "depth). Look at the curve, then repeat the run");
 }
 
 void add_spikes(FitResult& result, std::size_t count) {

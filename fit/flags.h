@@ -2,6 +2,7 @@
 
 #include "fit/fit_result.h"
 #include "fit/separable.h"
+#include "models/fit_defects.h"
 
 #include <string>
 
@@ -28,11 +29,16 @@ void judge(FitResult& result);
 // Says how many samples were left out as spikes, if any.
 void add_spikes(FitResult& result, std::size_t count);
 
-// Names of flags that make the whole result untrustworthy.
+// One of the flags that make the whole result untrustworthy (models/fit_defects.h).
 inline constexpr const char* kContradictsData = "contradicts-data";
-bool is_defect(const std::string& name);
 
 // A flag of that kind.
 void add_defect(FitResult& result, const std::string& name, const std::string& text);
+
+// The model does not describe the record: what it leaves is many times the noise seen out of
+// contact, and no longer small beside the force (misfit, a defect). sigma: of what is left, of one
+// sample; quiet_sigma: out of contact, from n_quiet samples; peak: largest force. In one unit.
+void flag_misfit(double sigma, double quiet_sigma, std::size_t n_quiet, double peak,
+                 FitResult& result);
 
 }  // namespace viscard

@@ -1,5 +1,6 @@
 #include "fit/stage_model.h"
 
+#include "fit/contact_onset.h"
 #include "fit/stage_response.h"
 
 #include <algorithm>
@@ -54,59 +55,16 @@ double crossing_s(const IndentationData& data, double from_s, double level_N, bo
       "the moves in the capture");
 }
 
-struct Line {
-  double slope = 0.0;
-  double zero = 0.0;  // where it meets zero
-};
-
-// Straight line through the samples of the ramp between two force levels above the zero force.
-Line loading_line(const IndentationData& data, double zero_N, double low_N, double high_N,
-                  double from_s, double to_s) {
-  double n = 0, st = 0, sf = 0, stt = 0, stf = 0;
-  for (std::size_t i = 0; i < data.time_s.size(); ++i) {
-    const double t = data.time_s[i] - from_s;
-    const double force_N = data.force_N[i] - zero_N;
-    if (t < 0.0 || data.time_s[i] > to_s || force_N < low_N || force_N > high_N) continue;
-    n += 1.0;
-    st += t;
-    sf += force_N;
-    stt += t * t;
-    stf += t * force_N;
-  }
-  const double determinant = n * stt - st * st;
-  if (n < 3.0 || !(determinant > 0.0)) {
-    throw std::runtime_error(
-        "fewer than three force samples lie on the ramp between 20 % and 80 % of "
-        "the peak (a gap in the record?). Repeat the run, or lengthen the ramp");
-  }
-  Line line;
-  line.slope = (n * stf - st * sf) / determinant;
-  line.zero = from_s + (st * line.slope - sf) / (n * line.slope);
-  return line;
-}
-
 }  // namespace
 
 Eigen::VectorXd nuisance_start(const IndentationData& data) {
   const auto n_moves = static_cast<Index>(data.moves.size());
   Eigen::VectorXd start = Eigen::VectorXd::Zero(n_moves + 1);
   const StageMove& ramp = data.moves.front();
-  const double zero_N = median_force_N(data, -1e300, data.contact_from_s, 0.0);
-  const double ramp_end_s = ramp.start_time_s + duration_s(ramp) + data.start_late_s;
   const double after_s = std::max(5.0 * sampling_interval_s(data.time_s), 0.02 * duration_s(ramp));
-  const double peak_N = median_force_N(data, ramp_end_s, ramp_end_s + after_s, 0.0) - zero_N;
-  if (!(peak_N > 0.0)) {
-    throw std::runtime_error("no force rises with the ramp (peak " + std::to_string(peak_N) +
-                             " N). Check the sign of the load cell and that the punch touched");
-  }
-  const double from_s = ramp.start_time_s - data.start_early_s;
-  const Line line = loading_line(data, zero_N, 0.2 * peak_N, 0.8 * peak_N, from_s, ramp_end_s);
-  const double speed_m_s =
-      std::min(ramp.speed_m_s, std::abs(ramp.to_m - ramp.from_m) / (0.5 * duration_s(ramp)));
-  const double way_m = std::abs(ramp.to_m - ramp.from_m);
-  const double gap_m = std::clamp(way_m - peak_N / (line.slope / speed_m_s), 0.0, 0.95 * way_m);
-  start[n_moves] = ramp.from_m + (ramp.to_m > ramp.from_m ? gap_m : -gap_m);
-  start[0] = line.zero - time_at_position_s(ramp, start[n_moves]);
+  const ContactOnset onset = contact_onset(data);
+  start[n_moves] = onset.contact_m;
+  start[0] = onset.shift_s;
   for (Index m = 1; m < n_moves; ++m) {
     const StageMove& move = data.moves[static_cast<std::size_t>(m)];
     const double begin_s = move.start_time_s - data.start_early_s;
@@ -158,15 +116,14 @@ StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start
     nuisances_.push_back({"start_" + std::to_string(m + 1) + "_s", start[m], start[m] - 10.0 * dt_s,
                           start[m] + 10.0 * dt_s, dt_s});
   }
-  const double way_m = moves_.front().to_m - moves_.front().from_m;
-  const double step_m = std::min(std::abs(way_m), moves_.front().speed_m_s * dt_s);
-  const double z_c = start[n_moves];
-  // Never before the ramp begins nor beyond its end.
-  const double low =
-      std::max(z_c - 10.0 * step_m, std::min(moves_.front().from_m, moves_.front().to_m));
-  const double high =
-      std::min(z_c + 10.0 * step_m, std::max(moves_.front().from_m, moves_.front().to_m));
-  nuisances_.push_back({"contact_m", z_c, low, high, step_m});
+  const StageMove& ramp = moves_.front();
+  const double way_m = ramp.to_m - ramp.from_m;
+  const double step_m = std::min(std::abs(way_m), ramp.speed_m_s * dt_s);
+  // Anywhere on the ramp's way, whatever the rig took for the surface; at its very end there would
+  // be no ramp.
+  const double last_m = ramp.to_m - 1e-3 * way_m;
+  nuisances_.push_back({"contact_m", start[n_moves], std::min(ramp.from_m, last_m),
+                        std::max(ramp.from_m, last_m), step_m});
 
   ln_tau_min_ = std::log(dt_s / 3.0);
   ln_tau_max_ = std::log(3.0 * (data.contact_to_s - data.contact_from_s));

@@ -45,8 +45,8 @@ class StageModel final : public SpectralModel {
   bool with_equilibrium_ = true;
 };
 
-// Start values of StageModel's nuisances from the force curve alone: when the ramp and the
-// unloading pass half their force, and where the ramp's line meets zero.
+// Start values of StageModel's nuisances from the force curve alone: where contact_onset() sees the
+// ramp begin and touch, and when each later move passes half its change of force.
 Eigen::VectorXd nuisance_start(const IndentationData& data);
 
 }  // namespace viscard

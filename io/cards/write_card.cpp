@@ -2,6 +2,7 @@
 #include "io/cards/card_body.h"
 #include "io/cards/card_header.h"
 #include "io/cards/read_card.h"
+#include "models/fit_defects.h"
 
 #include <fmt/format.h>
 
@@ -25,6 +26,12 @@ void check_flags(const Material& material, const CardOptions& options) {
                       "the same, or fit "
                       "again with fewer terms",
                       flag.term, flag.name, flag.text));
+    }
+    if (is_defect(flag.name)) {
+      throw std::invalid_argument(
+          fmt::format("the fit is not to be trusted ({}: {}); pass --accept-flags to write it all "
+                      "the same, or repeat the measurement",
+                      flag.name, flag.text));
     }
   }
 }

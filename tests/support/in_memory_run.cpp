@@ -48,12 +48,16 @@ struct Plan {
   double end_s = 0.0;
 };
 
-Plan true_moves(const EmulatedTruth& truth, const TestPlan& plan, std::mt19937_64& random) {
+Plan true_moves(const EmulatedTruth& truth, const TestPlan& plan, const RunConditions& conditions,
+                std::mt19937_64& random) {
   const double factor_m = force_per_modulus_and_depth_m(truth.contact);
-  const double share = 1.0 + factor_m * truth.material.E0_Pa / truth.frame_stiffness_N_m;
+  const double k_N_m = factor_m * truth.material.E0_Pa;
+  const double guess_N_m = conditions.guess_over_truth * k_N_m;
+  const double share = 1.0 + guess_N_m / truth.frame_stiffness_N_m;
   std::uniform_real_distribution<double> within(-0.5, 0.5);
   // The rig believes the surface to lie where the contact search ended: a few micrometres off.
-  const double believed_m = truth.surface_position_m + 4e-6 * within(random);
+  const double guess_error_m = conditions.touched_N * (1.0 / k_N_m - 1.0 / guess_N_m);
+  const double believed_m = truth.surface_position_m + guess_error_m + 4e-6 * within(random);
   const double from_m = quantised_m(believed_m - plan.gap_m, truth.steps_per_m);
   const double full_m = quantised_m(believed_m + plan.depth_m * share, truth.steps_per_m);
   const double partial_m =
@@ -116,7 +120,7 @@ CapturedRun in_memory_run(const EmulatedTruth& truth, const TestPlan& plan,
   std::normal_distribution<double> normal;
   std::exponential_distribution<double> delay(1.0 / conditions.message_delay_s);
   std::uniform_real_distribution<double> unit;
-  const Plan moves = true_moves(truth, plan, random);
+  const Plan moves = true_moves(truth, plan, conditions, random);
   std::vector<double> times_s;
   const double phase = unit(random);
   for (double k = phase; k / truth.sample_rate_Hz < moves.end_s; k += 1.0) {
@@ -127,7 +131,7 @@ CapturedRun in_memory_run(const EmulatedTruth& truth, const TestPlan& plan,
   CapturedRun run;
   run.plan = plan;
   run.specimen.contact = truth.contact;
-  run.specimen.modulus_guess_Pa = truth.material.E0_Pa;
+  run.specimen.modulus_guess_Pa = conditions.guess_over_truth * truth.material.E0_Pa;
   run.rig.calibration = {kVoltsPerNewton, 0.0, 0.0, kCapacity_N, "demo", ""};
   run.rig.load_cell.volts_per_count = kVoltsPerCount;
   run.rig.frame = {truth.frame_stiffness_N_m, 0.02};

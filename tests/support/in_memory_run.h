@@ -15,6 +15,11 @@ struct RunConditions {
   double message_delay_s = 2e-3;              // mean of an exponential delay, every message
   double start_latency_s = 20e-3;             // moves begin up to this after they were commanded
   double lost_from_s = 0.0, lost_to_s = 0.0;  // readings lost, counted from the ramp's start
+  // The rig's guess of the modulus over the truth: the surface is taken to lie where a straight
+  // line of the guessed stiffness through `touched_N` ends, and the frame's share of the way is
+  // wrong.
+  double guess_over_truth = 1.0;
+  double touched_N = 0.1;
 };
 CapturedRun in_memory_run(const EmulatedTruth& truth, const TestPlan& plan,
                           const RunConditions& conditions = {});
