@@ -39,6 +39,7 @@ class Hx711LoadCell final : public LoadCell {
   void take_text(const ReceivedLine& line);
   void throw_if_restarted(double time_s) const;
   bool take_clock(double ticks, double time_s);
+  void take_arrival(double time_s);
   void doubt_last(double time_s);
   void note_gap(double step_s, double time_s);
   void hand_out(const Hx711Line& reading, double time_s);
@@ -62,7 +63,8 @@ class Hx711LoadCell final : public LoadCell {
   std::string unit_;
   std::string banner_;  // a sentence since the last reading
   StreamCounts counts_;
-  std::int64_t last_missing_ = 0;  // by the gap before the newest reading
+  std::int64_t last_missing_ = 0;         // by the gap before the newest reading
+  std::int64_t n_owed_ = 0, n_late_ = 0;  // of the newest gap: not yet come, and come in its burst
   double last_arrival_s_ = 0.0;
 };
 

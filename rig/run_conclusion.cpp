@@ -27,6 +27,10 @@ void doubt_flat_force(RunSession& session, RunOutcome& outcome) {
 // Bare counts do not tell whether the amplifier has lost its tare in a long pause.
 void doubt_gap(RunSession& session, RunOutcome& outcome, double most_s) {
   if (outcome.status != "finished" || outcome.stream.longest_gap_s < most_s) return;
+  // What was only held up has come since.
+  if (static_cast<double>(outcome.stream.missing) * session.load_cell().period_s() < 0.5 * most_s) {
+    return;
+  }
   outcome.doubts.push_back("no reading came for " +
                            text_from_number(outcome.stream.longest_gap_s, 2) + " s, at " +
                            text_from_number(outcome.stream.longest_gap_at_s, 1) +

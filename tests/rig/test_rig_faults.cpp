@@ -93,6 +93,28 @@ TEST_CASE("An amplifier without a clock that restarts in the hold ends the run",
   CHECK_THAT(outcome.reason, Contains("restarted") && Contains("HX711 ready"));
 }
 
+TEST_CASE("Readings that a stall holds up are not counted as missing, without a clock either",
+          "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(1.0);
+  options.config.load_cell.line_format = "counts";
+  options.amplifier.format = AmplifierFormat::kCounts;
+  RigFixture rig(options);
+  rig.load_cell.connect(rig.pump());
+  const double deadline_s = monotonic_s() + 20.0;
+  const auto until = [&](std::int64_t n) {
+    const std::int64_t target = rig.load_cell.counts().received + n;
+    while (rig.load_cell.counts().received < target && monotonic_s() < deadline_s) {
+      wait_readable({&rig.cell_line}, 0.002);
+      rig.load_cell.service();
+    }
+  };
+  until(20);
+  rig.emulated.stall(0.6);
+  until(90);
+  CHECK(rig.load_cell.counts().longest_gap_s > 0.5);
+  CHECK(rig.load_cell.counts().missing <= 2);  // of 47 in the gap: its ends are ragged
+}
+
 TEST_CASE("Counts printed with a decimal point are taken for counts", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.config.load_cell.line_format = "auto";
