@@ -2,7 +2,6 @@
 
 #include "models/text_of_number.h"
 
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
@@ -21,6 +20,12 @@ void validate(const LoadCellCalibration& calibration) {
 
 namespace {
 
+// Gregorian.
+int days_of(int month, int year) {
+  if (month == 2) return (year % 4 == 0 && year % 100 != 0) || year % 400 == 0 ? 29 : 28;
+  return month == 4 || month == 6 || month == 9 || month == 11 ? 30 : 31;
+}
+
 bool is_iso_day(const std::string& text) {
   const std::string day = text.substr(0, 10);
   if (day.size() < 10 || day[4] != '-' || day[7] != '-') return false;
@@ -28,11 +33,10 @@ bool is_iso_day(const std::string& text) {
     if (day[i] < '0' || day[i] > '9') return false;
   }
   if (text.size() > 10 && text[10] != 'T' && text[10] != ' ') return false;
-  return std::chrono::year_month_day(
-             std::chrono::year(std::stoi(day.substr(0, 4))),
-             std::chrono::month(static_cast<unsigned>(std::stoi(day.substr(5, 2)))),
-             std::chrono::day(static_cast<unsigned>(std::stoi(day.substr(8, 2)))))
-      .ok();
+  const int year = std::stoi(day.substr(0, 4));
+  const int month = std::stoi(day.substr(5, 2));
+  const int in_month = std::stoi(day.substr(8, 2));
+  return month >= 1 && month <= 12 && in_month >= 1 && in_month <= days_of(month, year);
 }
 
 void validate_date(const char* key, const std::string& text) {

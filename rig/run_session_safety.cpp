@@ -105,14 +105,17 @@ std::string RunSession::lift(double retract_to_m, double speed_m_s) {
 
 // "", or what is wrong with the force after a lift.
 std::string RunSession::force_after_lift(double before_N) {
-  const std::string unseen =
-      "whether the force has fallen cannot be seen, because the load cell gives no force any "
-      "more: look at the punch";
-  if (!is_cell_connected_ || is_cell_lost_ || is_cell_restarted_) return unseen;
+  const auto unseen = [](const char* why) {
+    return std::string("whether the force has fallen cannot be seen, because the load cell ") +
+           why + ": look at the punch";
+  };
+  if (is_cell_restarted_) return unseen("has restarted");
+  if (!is_cell_connected_ || is_cell_lost_) return unseen("is gone");
   const std::int64_t n_before = n_forces_;
   const double wait_s = clock_.now_s() + 10.0 * load_cell_.period_s() + clock_.from_wall_s(0.1);
   while (clock_.now_s() < wait_s) pump();
-  if (n_forces_ == n_before || is_cell_restarted_) return unseen;
+  if (is_cell_restarted_) return unseen("has restarted");
+  if (n_forces_ == n_before) return unseen("gives no force any more");
   if (std::abs(force_N_) <= 0.9 * before_N) return "";
   return "THE FORCE DOES NOT FALL after lifting the punch: lift it by hand";
 }
