@@ -60,7 +60,7 @@ void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock) {
 std::string what_was_done(double lifted_m) {
   return lifted_m > 0.0 ? ". The stage was stopped and lifted by " +
                               text_from_number(lifted_m * 1e3, 3) + " mm"
-                        : ". The stage was stopped; it was not lifted";
+                        : ". The stage was told to stop; it was not lifted";
 }
 
 }  // namespace viscard
