@@ -206,6 +206,11 @@ TEST_CASE("what a target cannot take is refused with one line that says what to 
   material.flags = {{"tau-below-sampling", 1, "faster than the samples"}};
   refused(material, {.target = "abaqus"}, "--accept-flags");
   CHECK_NOTHROW(write_card(material, {.target = "abaqus", .accepts_flags = true}));
+  material.flags = {{"misfit", 0, "the fit leaves more than the noise"}};
+  refused(material, {.target = "abaqus"}, "not to be trusted");
+  CHECK_NOTHROW(write_card(material, {.target = "abaqus", .accepts_flags = true}));
+  material.flags = {{"order-uncertain", 0, "other orders do as well"}};  // widens intervals only
+  CHECK_NOTHROW(write_card(material, {.target = "abaqus"}));
   material = reference_material();
   for (MaterialTerm& term : material.terms) term.k = 0.0;
   refused(material, {.target = "febio"},
