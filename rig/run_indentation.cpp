@@ -1,6 +1,7 @@
 #include "rig/run_indentation.h"
 
 #include "models/test_phases.h"
+#include "rig/contact_estimate.h"
 #include "rig/force_control.h"
 #include "rig/run_conclusion.h"
 #include "rig/run_session.h"
@@ -71,6 +72,7 @@ class IndentationRun {
   void check_rate(const ForceMean& zero, double duration_s);
   void approach();
   void check_sign(double touched_N) const;
+  void check_stiffness(double least_N_m) const;
   void back_off(double contact_m);
   void wait(const TestPhase& phase);
   void go_to_depth(const TestPhase& phase);
@@ -177,6 +179,7 @@ void IndentationRun::approach() {
   }
   const double limit_m = start_m_ + plan_.approach_limit_m;
   ForceMean touched;
+  JogEnd before;
   const double jog_m = std::max(kJog_m, 1.01 / session_.stage().dynamics().steps_per_m);
   while (true) {
     const double next_m = session_.stage().position_m() + jog_m;
@@ -186,13 +189,36 @@ void IndentationRun::approach() {
                      " mm. Bring the punch nearer to the specimen, or raise limit under "
                      "[approach] of the test file");
     }
+    before = {session_.stage().position_m(), session_.force_N()};
     if (!session_.move(next_m, plan_.approach_speed_m_s, "approach", threshold_N)) continue;
     touched = session_.mean_force(kSettle_s);
     if (std::abs(touched.force_N) > kStillThere * threshold_N) break;
   }
   check_sign(touched.force_N);
-  const double here_m = session_.stage().position_m();
-  back_off(here_m - touched.force_N / outcome.expected.total_stiffness_N_m);
+  const ContactEstimate contact = contact_from_stops(
+      before, {session_.stage().position_m(), touched.force_N}, outcome.noise_N,
+      1.0 / session_.stage().dynamics().steps_per_m, outcome.expected.total_stiffness_N_m);
+  check_stiffness(contact.least_stiffness_N_m);
+  back_off(contact.position_m);
+}
+
+// With the stiffness felt at the touch, whatever was guessed, a ramp that meets the limit must be
+// stopped before the cell's capacity.
+void IndentationRun::check_stiffness(double least_N_m) const {
+  const Preflight& expected = outcome.expected;
+  const double least_peak_N = least_N_m * expected.stage_travel_of(deepest_m(phases_));
+  const double speed_m_s = expected.ramp_speed_m_s;
+  const double late_m = speed_m_s * session_.load_cell().period_s() +
+                        stop_distance_m(speed_m_s, session_.stage().dynamics());
+  const double stopped_N = limit_N() + least_N_m * late_m;
+  if (least_peak_N <= limit_N() || stopped_N <= rig_.calibration.capacity_N) return;
+  throw RigError(
+      "the specimen is stiffer than modulus_guess says: at full depth the force would "
+      "reach at least " +
+      text_from_number(least_peak_N, 2) + " N, and the ramp would stand only at " +
+      text_from_number(stopped_N, 2) + " N, beyond the cell's " +
+      text_from_number(rig_.calibration.capacity_N, 2) +
+      " N. Correct modulus_guess of the specimen, or press less deep");
 }
 
 // A punch that presses makes a positive force, or the cell is wired the other way round.
