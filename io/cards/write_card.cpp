@@ -110,7 +110,7 @@ void settle_shift(const Material& material, const CardTarget& target,
     fidelity.push_back({"temperature", Mapping::kExact, law + "; temperatures in C"});
   } else {
     fidelity.push_back({"temperature", Mapping::kDropped,
-                        law + (is_wlf ? "; this card has no place for a shift"
+                        law + (is_wlf ? "; no shift is written for this target"
                                       : "; only WLF is written, so the card holds at its "
                                         "reference temperature")});
   }

@@ -152,11 +152,12 @@ int run_fit(const Words& words, Streams& streams) {
   if (is_joint) return run_joint(*values, files, quoted_command_line("fit", words), streams);
   FitWords fit_words = words_from(*values);
   fit_words.needs_modulus = has_out;
+  const FittedMaterialWords about =
+      material_words(*values, quoted_command_line("fit", words));  // before the work
   const std::vector<FittedFile> fitted = fit_files(files, fit_words, streams);
   print(fitted, values->count("json") > 0, streams.out);
   if (has_out) {
-    Material material = material_from_fitted(
-        fitted.front(), material_words(*values, quoted_command_line("fit", words)));
+    Material material = material_from_fitted(fitted.front(), about);
     if (values->count("ratio") > 0) {
       material.mixing_ratio = (*values)["ratio"].as<std::vector<double>>().front();
     }

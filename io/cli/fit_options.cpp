@@ -165,7 +165,16 @@ FitWords words_from(const po::variables_map& values) {
 FittedMaterialWords material_words(const po::variables_map& values, const std::string& command) {
   FittedMaterialWords words{.command = command, .created_at = now_iso8601()};
   if (values.count("poisson-ratio") > 0) words.nu = values["poisson-ratio"].as<double>();
-  if (values.count("density") > 0) words.rho_kg_m3 = quantity(values, "density", "kg/m3");
+  if (values.count("density") > 0) {
+    words.rho_kg_m3 = quantity(values, "density", "kg/m3");
+    if (!(words.rho_kg_m3 > 0.0)) throw UsageError("--density must be positive");
+  }
+  if (values.count("ratio") > 0) {
+    for (const double ratio : values["ratio"].as<std::vector<double>>()) {
+      if (!(ratio > 0.0))
+        throw UsageError("--ratio must be positive: parts of base to one of hardener");
+    }
+  }
   return words;
 }
 

@@ -309,3 +309,19 @@ TEST_CASE("a series is compared with a power law where asked, and only where it 
   CHECK(refused.status == kFailed);
   CHECK_THAT(refused.err, Contains("--diagnose compares relaxation"));
 }
+
+TEST_CASE("a density or ratio that cannot be is refused before the fit", "[cli]") {
+  const Folder folder;
+  const std::string file = folder.write("E.csv", relaxation_table());
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--density", "-5 kg/m3"}, {"--ratio", "0"}, {"--ratio", "-10"}}) {
+    std::vector<std::string> line{"fit", file, "--out", folder.file("m.json")};
+    line.insert(line.end(), words.begin(), words.end());
+    const Ran ran = run(line);
+    CAPTURE(words, ran.err);
+    CHECK(ran.status == kBadWords);
+    CHECK_THAT(ran.err, Contains(words[0] + " must be positive"));
+    CHECK(ran.out.empty());
+    CHECK_FALSE(std::filesystem::exists(folder.file("m.json")));
+  }
+}
