@@ -160,8 +160,14 @@ void take_ratio(const CardWords& words, PreparedMaterial& prepared) {
                    : "interpolated by the law in the ratio",
       model.n_specimens, ratios.size(), ratios.front(), ratios.back()));
   prepared.notes.push_back("form: " + form_in_words(model.form));
-  prepared.notes.push_back(
-      "the intervals are those of a new specimen: error of the law and scatter between specimens");
+  const auto& flags = prepared.material.flags;
+  const bool is_spread_known = std::none_of(
+      flags.begin(), flags.end(), [](const MaterialFlag& f) { return f.name == "spread-unknown"; });
+  if (is_spread_known) {
+    prepared.notes.push_back(
+        "the intervals are those of a new specimen: error of the law and scatter between "
+        "specimens");
+  }
 }
 
 }  // namespace
