@@ -62,15 +62,15 @@ class Statics {
   }
 
   SceneAnswer run() {
-    add_all("centre_voltage", response_.centre_V * load_Pa_, "V");
-    add_all("mean_voltage", response_.mean_V * load_Pa_, "V");
-    add_all("electrode_voltage", response_.electrode_V * load_Pa_, "V");
-    add_all("midway_voltage", response_.midway_V * load_Pa_, "V");
+    add_all("centre_voltage", under_load(response_.centre_V), "V");
+    add_all("mean_voltage", under_load(response_.mean_V), "V");
+    add_all("electrode_voltage", under_load(response_.electrode_V), "V");
+    add_all("midway_voltage", under_load(response_.midway_V), "V");
     if (response_.V_per_C.size() > 0) {  // V = V_open + V_per_C Q = 0
-      add_all("electrode_charge", -response_.V_per_C.lu().solve(response_.electrode_V * load_Pa_),
+      add_all("electrode_charge", -response_.V_per_C.lu().solve(under_load(response_.electrode_V)),
               "C");
     }
-    add_all("top_displacement", response_.top_m * load_Pa_, "m");
+    add_all("top_displacement", under_load(response_.top_m), "m");
     if (single_.size() > 0 && load_Pa_.any() && scene_.feels_neighbours) per_cents();
     return std::move(answer_);
   }
@@ -92,13 +92,18 @@ class Statics {
       add(name, static_cast<int>(i) + 1, values[i], unit, scale);
     }
   }
+  // What the electrodes do not have stays empty.
+  Eigen::VectorXd under_load(const Eigen::MatrixXd& per_Pa) const {
+    if (per_Pa.size() == 0) return {};
+    return per_Pa * load_Pa_;
+  }
   bool is_loaded(Eigen::Index pillar) const { return load_Pa_[pillar] != 0.0; }
 
   void per_cents() {
     const Eigen::Index n = load_Pa_.size();
-    const Eigen::VectorXd V = single_ * load_Pa_;
-    const Eigen::VectorXd mean_V = mean_ * load_Pa_;
-    const Eigen::VectorXd midway_V = response_.midway_V * load_Pa_;
+    const Eigen::VectorXd V = under_load(single_);
+    const Eigen::VectorXd mean_V = under_load(mean_);
+    const Eigen::VectorXd midway_V = under_load(response_.midway_V);
     const auto largest = [&](const Eigen::VectorXd& of) { return of[index_of_largest(of)]; };
     for (Eigen::Index i = 0; i < n; ++i) {
       const int number = static_cast<int>(i) + 1;
