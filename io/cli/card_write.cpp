@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <ostream>
@@ -27,45 +28,39 @@ std::string now_iso8601() {
   return text;
 }
 
-// All branch moduli and the equilibrium modulus at the same end of their intervals.
+// E0 and E_inf at the same end of their own intervals, what lies between them shared among the
+// terms as fitted. Every modulus at its own end would be further out than any interval says, for
+// the moduli of one fit are correlated.
 void take_bound(const CardWords& words, PreparedMaterial& prepared) {
   Material& material = prepared.material;
   const bool is_lower = words.bound == "lower";
-  if (!material.uncertainty || material.uncertainty->terms.size() != material.terms.size()) {
+  if (!material.uncertainty || !(material.uncertainty->E0_Pa_95.high > 0.0)) {
     throw std::runtime_error(words.material +
                              " states no intervals, so it has no bounds; fit it from data first");
   }
   const MaterialUncertainty& found = *material.uncertainty;
-  const auto end = [&](const Interval& interval) {
-    return is_lower ? interval.low : interval.high;
+  const auto end_Pa = [&](const Interval& interval) {
+    const double scale = 1.0 + (is_lower ? -1.0 : 1.0) * found.systematic_relative;
+    return (is_lower ? interval.low : interval.high) * scale;
   };
-  const double scale = 1.0 + (is_lower ? -1.0 : 1.0) * found.systematic_relative;
-  const double E_inf_Pa = end(found.E_inf_Pa_95) * scale;
-  double E0_Pa = E_inf_Pa;
-  std::vector<double> moduli_Pa;
-  for (const TermUncertainty& term : found.terms) {
-    moduli_Pa.push_back(std::max(0.0, end(term.modulus_Pa_95)) * scale);
-    E0_Pa += moduli_Pa.back();
+  const double E0_Pa = end_Pa(found.E0_Pa_95), E_inf_Pa = end_Pa(found.E_inf_Pa_95);
+  if (!(E0_Pa > 0.0) || !std::isfinite(E0_Pa)) {
+    throw std::runtime_error("the " + words.bound + " bound of E0 is no modulus (" +
+                             fmt::format("{:g}", E0_Pa) + " Pa); the data do not tell it");
   }
-  if (!(E_inf_Pa > 0.0))
-    throw std::runtime_error("the " + words.bound + " bound of E_inf is not positive");
+  const double sum_g = derived_moduli(material).sum_g;
+  const double relaxing = 1.0 - E_inf_Pa / E0_Pa;  // share of E0
+  const bool is_between = E_inf_Pa > 0.0 && relaxing > 0.0 && sum_g > 0.0;
+  for (MaterialTerm& term : material.terms) {
+    if (!is_between) break;  // the ends cross: the shares stay as fitted
+    term.g *= relaxing / sum_g;
+    term.k *= relaxing / sum_g;
+  }
   material.E0_Pa = E0_Pa;
-  for (std::size_t i = 0; i < moduli_Pa.size(); ++i) {
-    MaterialTerm& term = material.terms[i];
-    const double k_of_g = term.g > 0.0 ? term.k / term.g : 1.0;
-    term.g = moduli_Pa[i] / E0_Pa;
-    term.k = k_of_g * term.g;
-  }
-  prepared.notes.push_back("bound: " + words.bound +
-                           " ends of the 95 % intervals of E_inf and every branch modulus" +
-                           (found.systematic_relative > 0.0 ? ", systematic part included" : ""));
-  // The moduli of one fit are correlated, so that all at their ends is further out than any one.
-  const double beside = is_lower ? found.E0_Pa_95.low : found.E0_Pa_95.high;
-  if (beside > 0.0) {
-    prepared.notes.push_back(
-        fmt::format("bound: E0 is then {:.4g} Pa; the {} end of its own 95 % interval is {:.4g} Pa",
-                    E0_Pa, words.bound, beside * scale));
-  }
+  prepared.notes.push_back(fmt::format(
+      "bound: E0 {}at the {} end of the 95 % interval{}{}", is_between ? "and E_inf " : "",
+      words.bound, found.systematic_relative > 0.0 ? ", systematic part included" : "",
+      is_between ? "" : "; the shares g are as fitted"));
   material.uncertainty.reset();
 }
 

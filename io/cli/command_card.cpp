@@ -60,7 +60,7 @@ void add_options(CommandSyntax& syntax, CardWords& words, std::string& terms, do
       "extrapolate", po::bool_switch(&words.may_extrapolate),
       "with --ratio: also outside the measured range; the header says so")(
       "bound", po::value(&words.bound)->value_name("END"),
-      "lower or upper: the card at that end of the 95 % intervals of the moduli")(
+      "lower or upper: the card at that end of the 95 % intervals of E0 and E_inf")(
       "elastic-only", po::value(&words.elastic_only)->value_name("WHEN"),
       "instantaneous or long-term: leave relaxation out")(
       "clamp-nu", po::value(&nu)->value_name("NU"),

@@ -1,6 +1,7 @@
 #include "fit/reduce_terms.h"
 #include "io/atomic_file.h"
 #include "io/cards/conventions.h"
+#include "io/cards/read_card.h"
 #include "io/cli/command_card.h"
 #include "io/material_file.h"
 #include "tests/cards/card_materials.h"
@@ -11,6 +12,7 @@
 
 #include <filesystem>
 #include <sstream>
+#include <utility>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -173,13 +175,32 @@ TEST_CASE("viscard card --bound writes both ends of the intervals", "[cards][cli
   uncertainty.terms = {{1e3, 0.1, {1e4, 2e4}, {0.005, 0.01}, {0.1, 0.3}},
                        {1e3, 0.1, {2e4, 3e4}, {0.01, 0.02}, {2.0, 3.0}}};
   material.uncertainty = uncertainty;
-  const std::string path = card.save(material);
-  const auto E0 = [&](const char* bound) {
-    REQUIRE(card.run({path, "--for", "abaqus", "--bound", bound, "--json"}) == kDone);
-    return nlohmann::json::parse(card.out).at("E0_Pa").get<double>();
+  const auto moduli = [&](const char* bound) {
+    REQUIRE(card.run({card.save(material), "--for", "abaqus", "--bound", bound, "--json"}) ==
+            kDone);
+    const auto json = nlohmann::json::parse(card.out);
+    return std::pair(json.at("E0_Pa").get<double>(), json.at("E_inf_Pa").get<double>());
   };
-  CHECK(E0("lower") == Approx(1.75e6 + 1e4 + 2e4).epsilon(1e-12));  // all at one end
-  CHECK(E0("upper") == Approx(1.9e6 + 2e4 + 3e4).epsilon(1e-12));
+  // Both ends to rounding: the card is written with all digits.
+  const auto [E0_low, E_inf_low] = moduli("lower");
+  CHECK(E0_low == Approx(1.8e6).epsilon(1e-12));
+  CHECK(E_inf_low == Approx(1.75e6).epsilon(1e-12));
+  const auto [E0_high, E_inf_high] = moduli("upper");
+  CHECK(E0_high == Approx(1.96e6).epsilon(1e-12));
+  CHECK(E_inf_high == Approx(1.9e6).epsilon(1e-12));
+  // Terms keep their part of what relaxes.
+  const std::string text = nlohmann::json::parse(card.out).at("card").get<std::string>();
+  const double part = material.terms[0].g / (material.terms[0].g + material.terms[1].g);
+  const ReadCard read = read_card(text, "abaqus", "");
+  const double g_1 = read.material.terms[0].g, g_2 = read.material.terms[1].g;
+  CHECK(g_1 / (g_1 + g_2) == Approx(part).epsilon(1e-12));
+
+  // Ends that cross leave the shares as fitted; the systematic part widens both.
+  material.uncertainty->E_inf_Pa_95 = {1.85e6, 1.87e6};
+  material.uncertainty->systematic_relative = 0.1;
+  const auto [E0, E_inf] = moduli("lower");
+  CHECK(E0 == Approx(0.9 * 1.8e6).epsilon(1e-12));
+  CHECK(E_inf == Approx(E0 * (1.0 - material.terms[0].g - material.terms[1].g)).epsilon(1e-12));
 }
 
 TEST_CASE("viscard card --deck writes a model that holds the card and the expected curve",
