@@ -1,9 +1,11 @@
 #include "models/ratio_model.h"
 
+#include "models/text_of_number.h"
+
+#include <boost/math/distributions/students_t.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -13,29 +15,6 @@ namespace viscard {
 namespace {
 
 using Index = Eigen::Index;
-
-double variable_of(RatioVariable variable, double ratio) {
-  switch (variable) {
-    case RatioVariable::kLogRatio:
-      return std::log(ratio);
-    case RatioVariable::kRatio:
-      return ratio;
-    case RatioVariable::kCrosslinkerShare:
-      return 1.0 / (1.0 + ratio);
-  }
-  return 0.0;
-}
-
-// The variable counted from the middle of the measured range in halves of it: well-conditioned.
-struct Scaled {
-  double middle = 0.0;
-  double half = 1.0;
-};
-Scaled scale_of(const RatioModel& model) {
-  const double a = variable_of(model.form.variable, model.ratios.front());
-  const double b = variable_of(model.form.variable, model.ratios.back());
-  return {0.5 * (a + b), a == b ? 1.0 : 0.5 * (b - a)};
-}
 
 int degree_of(const RatioModel& model, int parameter) {
   if (parameter == 0) return model.form.E0_degree;
@@ -52,30 +31,6 @@ Index position_of(const RatioModel& model, double ratio) {
     return std::abs(measured - ratio) <= 1e-9 * std::abs(ratio);
   });
   return found == model.ratios.end() ? -1 : found - model.ratios.begin();
-}
-
-std::string text_of(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
-const char* variable_name(RatioVariable variable) {
-  switch (variable) {
-    case RatioVariable::kLogRatio:
-      return "ln(ratio)";
-    case RatioVariable::kRatio:
-      return "the ratio";
-    case RatioVariable::kCrosslinkerShare:
-      return "the cross-linker share 1/(1 + ratio)";
-  }
-  return "";
-}
-
-std::string degree_in_words(const std::string& what, int degree, const char* variable) {
-  if (degree == kPerRatio) return what + " free at each ratio";
-  if (degree == 0) return what + " the same at all ratios";
-  return what + (degree == 1 ? " linear in " : " quadratic in ") + variable;
 }
 
 // theta and its covariance for a new specimen.
@@ -170,6 +125,24 @@ void check_range(const RatioFit& fit, double ratio, bool may_extrapolate) {
 
 }  // namespace
 
+double variable_of(RatioVariable variable, double ratio) {
+  switch (variable) {
+    case RatioVariable::kLogRatio:
+      return std::log(ratio);
+    case RatioVariable::kRatio:
+      return ratio;
+    case RatioVariable::kCrosslinkerShare:
+      return 1.0 / (1.0 + ratio);
+  }
+  return 0.0;
+}
+
+ScaledVariable scale_of(const RatioModel& model) {
+  const double a = variable_of(model.form.variable, model.ratios.front());
+  const double b = variable_of(model.form.variable, model.ratios.back());
+  return {0.5 * (a + b), a == b ? 1.0 : 0.5 * (b - a)};
+}
+
 bool operator==(const RatioForm& a, const RatioForm& b) {
   const bool same_degrees =
       a.E0_degree == b.E0_degree && a.g_degree == b.g_degree && a.tau_degree == b.tau_degree;
@@ -179,25 +152,6 @@ bool operator==(const RatioForm& a, const RatioForm& b) {
 
 bool is_law(const RatioForm& form) {
   return form.E0_degree >= 0 && form.g_degree >= 0 && form.tau_degree >= 0;
-}
-
-std::string form_name(const RatioForm& form) {
-  if (is_law(form)) return "law";
-  if (form.E0_degree == kPerRatio && form.g_degree == kPerRatio) {
-    if (form.tau_degree == kPerRatio) return "independent";
-    if (form.tau_degree == 0) return "shared-times";
-  }
-  if (form.E0_degree == kPerRatio && form.g_degree == 0 && form.tau_degree == 0) {
-    return "shared-spectrum";
-  }
-  return "mixed";
-}
-
-std::string form_in_words(const RatioForm& form) {
-  const char* variable = variable_name(form.variable);
-  return degree_in_words("ln E0", form.E0_degree, variable) + "; " +
-         degree_in_words("ln g", form.g_degree, variable) + "; " +
-         degree_in_words("ln tau", form.tau_degree, variable);
 }
 
 int n_columns(const RatioModel& model, int parameter) {
@@ -210,7 +164,7 @@ Eigen::MatrixXd design_at(const RatioModel& model, double ratio) {
   int columns = 0;
   for (int k = 0; k < size; ++k) columns += n_columns(model, k);
   Eigen::MatrixXd design = Eigen::MatrixXd::Zero(size, columns);
-  const Scaled scaled = scale_of(model);
+  const ScaledVariable scaled = scale_of(model);
   const double x = (variable_of(model.form.variable, ratio) - scaled.middle) / scaled.half;
   Index column = 0;
   for (int k = 0; k < size; ++k) {
@@ -303,54 +257,11 @@ RatioBand ratio_band(const RatioFit& fit, int count) {
   return band;
 }
 
-std::string law_in_words(const RatioFit& fit) {
-  const RatioModel& law = fit.law;
-  const Scaled scaled = scale_of(law);
-  std::string text;
-  if (law.form.E0_degree == 1) {
-    const double slope = law.coefficients[1] / scaled.half;
-    const double slope_se = std::sqrt(law.covariance(1, 1)) / std::abs(scaled.half);
-    const double at_zero = law.coefficients[0] - slope * scaled.middle;
-    if (law.form.variable == RatioVariable::kLogRatio) {
-      text = "E0 = " + text_of(std::exp(at_zero) * 1e-6) + " MPa x ratio^" + text_of(slope) +
-             " (exponent +- " + text_of(slope_se) + ")";
-    } else {
-      const bool is_share = law.form.variable == RatioVariable::kCrosslinkerShare;
-      text = "E0 = " + text_of(std::exp(at_zero) * 1e-6) + " MPa x exp(" + text_of(slope) +
-             (is_share ? "/(1 + ratio))" : " ratio)") + " (coefficient +- " + text_of(slope_se) +
-             ")";
-    }
-  } else {
-    text = form_in_words(law.form);
-  }
-  text += has_known_spread(law, 0)
-              ? "; between specimens E0 scatters by " + text_of(100.0 * law.spread_ln_E0) + " %"
-              : "; scatter of E0 between specimens unknown";
-  return text + " (" + std::to_string(law.n_specimens) + " specimens, " +
-         std::to_string(law.ratios.size()) + " ratios)";
-}
-
 double student_t_975(int degrees_of_freedom) {
-  const int n = degrees_of_freedom;
-  if (n < 1) throw std::invalid_argument("Student's t needs at least one degree of freedom");
-  // Probability of |t| below sqrt(n) tan(angle): sums of powers of the cosine.
-  const auto inside = [n](double angle) {
-    const double square = std::pow(std::cos(angle), 2);
-    double term = n % 2 == 0 ? 1.0 : std::cos(angle);
-    double sum = n == 1 ? 0.0 : term;
-    for (int k = n % 2 == 0 ? 2 : 3; k <= n - 2; k += 2) {
-      term *= square * (k - 1) / k;
-      sum += term;
-    }
-    if (n % 2 == 0) return std::sin(angle) * sum;
-    return 2.0 / std::numbers::pi * (angle + std::sin(angle) * sum);
-  };
-  double low = 0.0, high = 0.5 * std::numbers::pi;
-  for (int step = 0; step < 60; ++step) {
-    const double middle = 0.5 * (low + high);
-    (inside(middle) < 0.95 ? low : high) = middle;
+  if (degrees_of_freedom < 1) {
+    throw std::invalid_argument("Student's t needs at least one degree of freedom");
   }
-  return std::sqrt(static_cast<double>(n)) * std::tan(low);
+  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
 }
 
 }  // namespace viscard

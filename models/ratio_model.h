@@ -29,6 +29,9 @@ struct RatioForm {
 };
 bool operator==(const RatioForm& a, const RatioForm& b);
 
+// Its value at a ratio: ln r, r or 1/(1 + r).
+double variable_of(RatioVariable variable, double ratio);
+
 // True when the form says something of ratios that were not measured.
 bool is_law(const RatioForm& form);
 // "independent", "shared-times", "shared-spectrum", "law", or "mixed" for what has no name.
@@ -50,6 +53,14 @@ struct RatioModel {
   double bic = 0.0;
   int n_parameters = 0;  // beta and three spreads
 };
+
+// The variable as the polynomials take it, counted from the middle of the measured range in halves
+// of it: well-conditioned.
+struct ScaledVariable {
+  double middle = 0.0;
+  double half = 1.0;
+};
+ScaledVariable scale_of(const RatioModel& model);
 
 // How many of beta belong to row `parameter` of theta.
 int n_columns(const RatioModel& model, int parameter);
@@ -97,8 +108,7 @@ RatioBand ratio_band(const RatioFit& fit, int count = 60);
 // "E0 = 18.8 MPa x ratio^-0.99 ..., between-specimen spread 8 %".
 std::string law_in_words(const RatioFit& fit);
 
-// 97.5 % quantile of Student's t, from its distribution in closed form: Abramowitz & Stegun (1964),
-// 26.7.3 and 26.7.4. Throws std::invalid_argument below one degree of freedom.
+// 97.5 % quantile of Student's t. Throws std::invalid_argument below one degree of freedom.
 double student_t_975(int degrees_of_freedom);
 
 }  // namespace viscard

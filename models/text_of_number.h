@@ -8,9 +8,9 @@ namespace viscard {
 
 // A number as a person reads it in a message: "1e-14", "0.495", "nan". std::to_string would print
 // the first as 0.000000.
-inline std::string text_of(double value) {
+inline std::string text_of(double value, int significant_digits = 6) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
+  std::snprintf(text.data(), text.size(), "%.*g", significant_digits, value);
   return text.data();
 }
 
