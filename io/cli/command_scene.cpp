@@ -47,11 +47,10 @@ int run_scene(const std::vector<std::string>& words, Streams& streams) {
   }
   const auto path = (*values)["scene"].as<std::string>();
   const std::string kind = scene_kind(path);
+  const std::string name = std::filesystem::path(path).filename().string();
+  std::string drawing;
   if (kind == "array") {
-    if (values->count("svg") > 0) {
-      throw UsageError("--svg draws scenes of one pillar; this one is an array");
-    }
-    read_array_scene(path);
+    drawing = svg_from_scene(read_array_scene(path).scene, name);
   } else {
     const Scene scene = read_scene(path).scene;
     try {
@@ -59,11 +58,10 @@ int run_scene(const std::vector<std::string>& words, Streams& streams) {
     } catch (const SceneMistake& mistake) {
       throw std::runtime_error(told_with_line(path, mistake));
     }
-    if (values->count("svg") > 0) {
-      write_file((*values)["svg"].as<std::string>(),
-                 svg_from_scene(scene, std::filesystem::path(path).filename().string()),
-                 values->count("force") > 0);
-    }
+    drawing = svg_from_scene(scene, name);
+  }
+  if (values->count("svg") > 0) {
+    write_file((*values)["svg"].as<std::string>(), drawing, values->count("force") > 0);
   }
   if (values->count("json") > 0) {
     streams.out << nlohmann::json({{"scene", path}, {"kind", kind}, {"ok", true}}).dump(2) << "\n";
