@@ -216,7 +216,7 @@ void check_harmonic(const Scene& scene) {
   for (std::size_t i = 0; i < f.size(); ++i) {
     if (!(f[i] > 0.0) || !std::isfinite(f[i]) || (i > 0 && !(f[i] > f[i - 1]))) {
       throw std::invalid_argument("frequencies must be positive and ascend strictly; number " +
-                                  std::to_string(i + 1) + " is " + std::to_string(f[i]) + " Hz");
+                                  std::to_string(i + 1) + " is " + number_text(f[i]) + " Hz");
     }
   }
   if (scene.load_place == LoadPlace::kTop ? scene.pressure_Pa == 0.0

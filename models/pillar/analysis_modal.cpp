@@ -35,6 +35,11 @@ void check_modal(const Scene& scene) {
 }
 
 void run_modal(const Scene& scene, SceneAnswer& answer) {
+  // The n-th mode of a clamped bar has n - 1/2 half waves; an element for each lets the lowest
+  // degrees see them all, so that no mesh is refined for want of one.
+  if (!scene.discretisation) {
+    answer.discretisation.longest_m = scene.geometry.length_m / (scene.modes - 0.5);
+  }
   for (const ModeFamily& family : mode_families(scene)) {
     const PillarModel model = model_of(scene, family.motion, answer);
     count_unknowns(model, answer);

@@ -1,5 +1,6 @@
 #include "models/pillar/harmonic_response.h"
 
+#include "models/pillar/number_text.h"
 #include "models/pillar/relative_modulus.h"
 
 #include <Eigen/LU>
@@ -16,7 +17,7 @@ using Complex = std::complex<double>;
 
 void require_frequency(double omega_rad_s) {
   if (!(omega_rad_s >= 0.0) || !std::isfinite(omega_rad_s)) {
-    throw std::invalid_argument("an angular frequency of " + std::to_string(omega_rad_s) +
+    throw std::invalid_argument("an angular frequency of " + number_text(omega_rad_s) +
                                 " rad/s; it must be finite and not negative");
   }
 }
@@ -43,7 +44,7 @@ Eigen::VectorXcd solve_harmonic(const ViscoelasticSystem& body, const Eigen::Vec
   const Eigen::SparseMatrix<Complex> whole = lower + upper;
   Eigen::SparseLU<Eigen::SparseMatrix<Complex>> lu(whole);
   if (lu.info() != Eigen::Success) {
-    throw std::runtime_error("at " + std::to_string(omega_rad_s / (2.0 * M_PI)) +
+    throw std::runtime_error("at " + number_text(omega_rad_s / (2.0 * M_PI)) +
                              " Hz the body resonates without damping: no steady answer exists");
   }
   return lu.solve(load.cast<Complex>());

@@ -27,7 +27,7 @@ bool is_settled(const EigenPairs& now, const EigenPairs& before) {
 // Grows a B-orthonormal basis and keeps what has been applied to it.
 class KrylovSpace {
  public:
-  KrylovSpace(const LinearMap& op, const LinearMap& B, int size, int capacity)
+  KrylovSpace(const PencilMap& op, const LinearMap& B, int size, int capacity)
       : op_(op),
         B_(B),
         basis_(size, capacity),
@@ -40,16 +40,19 @@ class KrylovSpace {
   // Adds the part of v that is new; false if there is none.
   bool add(Eigen::VectorXd v) {
     if (count_ == basis_.cols()) return false;
-    const double before = std::sqrt(std::abs(v.dot(B_(v))));
+    double removed = 0.0;                   // square of the B norm of what is not new
     for (int pass = 0; pass < 2; ++pass) {  // twice is enough (Kahan; Parlett 1980, 6.9)
-      if (count_ > 0) v -= basis_.leftCols(count_) * (B_basis_.leftCols(count_).transpose() * v);
+      if (count_ == 0) break;
+      const Eigen::VectorXd known = B_basis_.leftCols(count_).transpose() * v;
+      v -= basis_.leftCols(count_) * known;
+      removed += known.squaredNorm();
     }
     Eigen::VectorXd Bv = B_(v);
     const double norm = std::sqrt(std::max(v.dot(Bv), 0.0));
-    if (!(norm > 1e-12 * before) || !std::isfinite(norm)) return false;
+    if (!(norm > 1e-12 * std::sqrt(removed)) || !std::isfinite(norm)) return false;
     basis_.col(count_) = v / norm;
     B_basis_.col(count_) = Bv / norm;
-    image_.col(count_) = op_(basis_.col(count_));
+    image_.col(count_) = op_(basis_.col(count_), B_basis_.col(count_));
     ++count_;
     const Eigen::VectorXd column = B_basis_.leftCols(count_).transpose() * image_.col(count_ - 1);
     projected_.col(count_ - 1).head(count_) = column;
@@ -80,7 +83,7 @@ class KrylovSpace {
   }
 
  private:
-  const LinearMap& op_;
+  const PencilMap& op_;
   const LinearMap& B_;
   Eigen::MatrixXd basis_;
   Eigen::MatrixXd B_basis_;
@@ -93,6 +96,14 @@ class KrylovSpace {
 
 EigenPairs largest_eigenpairs(const LinearMap& op, const LinearMap& B, int size, int count,
                               const KrylovOptions& options) {
+  const PencilMap of_both = [&op](const Eigen::VectorXd& x, const Eigen::VectorXd&) {
+    return op(x);
+  };
+  return largest_eigenpairs(of_both, B, size, count, options);
+}
+
+EigenPairs largest_eigenpairs(const PencilMap& op, const LinearMap& B, int size, int count,
+                              const KrylovOptions& options) {
   if (count < 1 || count > size) {
     throw std::invalid_argument(std::to_string(count) + " modes asked of a system of " +
                                 std::to_string(size) + " unknowns");
@@ -103,7 +114,8 @@ EigenPairs largest_eigenpairs(const LinearMap& op, const LinearMap& B, int size,
   const auto add_random = [&] {
     Eigen::VectorXd start(size);
     for (double& x : start) x = normal(random);
-    return space.add(op(start));  // op first: the start then has no part outside its range
+    return space.add(
+        op(start, B(start)));  // op first: the start then has no part outside its range
   };
   for (int i = 0; i < options.block; ++i) add_random();
   int next = 0;  // first column whose image is not yet in the space

@@ -18,6 +18,9 @@ struct EigenPairs {
 };
 
 using LinearMap = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
+// op given Bx beside x: an op = A^-1 B then needs no product of its own.
+using PencilMap =
+    std::function<Eigen::VectorXd(const Eigen::VectorXd& x, const Eigen::VectorXd& Bx)>;
 
 struct KrylovOptions {
   int block = 2;
@@ -26,6 +29,8 @@ struct KrylovOptions {
 };
 
 // Throws std::invalid_argument for count < 1 or > size.
+EigenPairs largest_eigenpairs(const PencilMap& op, const LinearMap& B, int size, int count,
+                              const KrylovOptions& options = {});
 EigenPairs largest_eigenpairs(const LinearMap& op, const LinearMap& B, int size, int count,
                               const KrylovOptions& options = {});
 

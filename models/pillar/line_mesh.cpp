@@ -1,6 +1,7 @@
 #include "models/pillar/line_mesh.h"
 
 #include "models/gauss_legendre.h"
+#include "models/pillar/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,8 +98,8 @@ LineMesh::LineMesh(std::vector<double> breaks, int degree)
   for (std::size_t i = 1; i < breaks_.size(); ++i) {
     if (!(breaks_[i] > breaks_[i - 1])) {
       throw std::invalid_argument("element " + std::to_string(i) + " from " +
-                                  std::to_string(breaks_[i - 1]) + " to " +
-                                  std::to_string(breaks_[i]) + " m has no positive length");
+                                  number_text(breaks_[i - 1]) + " to " + number_text(breaks_[i]) +
+                                  " m has no positive length");
     }
   }
   // p + 1 points integrate r N N exactly; three more serve the 1/r of off-axis elements.

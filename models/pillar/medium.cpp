@@ -1,5 +1,7 @@
 #include "models/pillar/medium.h"
 
+#include "models/pillar/number_text.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
@@ -14,7 +16,7 @@ namespace {
 
 void require_density(double rho_kg_m3) {
   if (!(rho_kg_m3 >= 0.0) || !std::isfinite(rho_kg_m3)) {
-    throw std::invalid_argument("density is " + std::to_string(rho_kg_m3) +
+    throw std::invalid_argument("density is " + number_text(rho_kg_m3) +
                                 " kg/m3; it must not be negative");
   }
 }

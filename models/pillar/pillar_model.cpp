@@ -1,5 +1,7 @@
 #include "models/pillar/pillar_model.h"
 
+#include "models/pillar/number_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -182,8 +184,8 @@ const SectionElement& PillarModel::element_at(double x, double z, int region) co
       }
     }
   }
-  throw std::invalid_argument("the point x = " + std::to_string(x * 1e6) + " um, z = " +
-                              std::to_string(z * 1e6) + " um does not lie in the body asked for");
+  throw std::invalid_argument("the point x = " + number_text(x * 1e6) + " um, z = " +
+                              number_text(z * 1e6) + " um does not lie in the body asked for");
 }
 
 Eigen::VectorXd PillarModel::stress_at(const PillarState& state, const SectionElement& element,

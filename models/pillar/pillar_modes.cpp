@@ -1,13 +1,13 @@
 #include "models/pillar/pillar_modes.h"
 
 #include "models/pillar/krylov_modes.h"
+#include "models/pillar/number_text.h"
 #include "models/pillar/pillar_loads.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <string>
 
 namespace viscard {
 namespace {
@@ -47,7 +47,9 @@ std::vector<PillarMode> modes_of(const PillarModel& model, const SymmetricSparse
   StiffnessFactor factor;
   model.factor(shifted, factor);
   const LinearMap B = [&](const Eigen::VectorXd& x) { return times(mass, x); };
-  const LinearMap op = [&](const Eigen::VectorXd& x) { return factor.solve(times(mass, x)); };
+  const PencilMap op = [&](const Eigen::VectorXd&, const Eigen::VectorXd& Mx) {
+    return factor.solve(Mx);
+  };
   // The frequencies' own error is the square of the residual: far below that of any mesh.
   const EigenPairs pairs = largest_eigenpairs(
       op, B, model.system().size(), count, {.tolerance = 1e-6, .largest_space = 60 + 10 * count});
@@ -94,8 +96,8 @@ Buckling buckling_above(const BucklingPencil& pencil, double shift_Pa, int count
   StiffnessFactor factor;
   pencil.lateral.factor(shifted, factor);
   const LinearMap B = [&](const Eigen::VectorXd& x) { return times(pencil.stiffness, x); };
-  const LinearMap op = [&](const Eigen::VectorXd& x) {
-    return factor.solve(times(pencil.stiffness, x));
+  const PencilMap op = [&](const Eigen::VectorXd&, const Eigen::VectorXd& Kx) {
+    return factor.solve(Kx);
   };
   Buckling result;
   const EigenPairs pairs =
@@ -161,9 +163,9 @@ std::vector<PillarMode> modes_under_pressure(const PillarModel& axial, const Pil
                                              double pressure_Pa, int count) {
   const double critical_Pa = search_buckling(axial, lateral, 1).pressure_Pa;
   if (critical_Pa > 0.0 && pressure_Pa >= critical_Pa) {
-    throw std::runtime_error("a pressure of " + std::to_string(pressure_Pa) +
+    throw std::runtime_error("a pressure of " + number_text(pressure_Pa, 5) +
                              " Pa on the top is beyond the buckling pressure of " +
-                             std::to_string(critical_Pa) +
+                             number_text(critical_Pa, 5) +
                              " Pa: the straight pillar has no stable state to vibrate about");
   }
   SymmetricSparse stiffness = lateral.stiffness();

@@ -1,6 +1,7 @@
 #include "models/pillar/readout.h"
 
 #include "models/hereditary.h"
+#include "models/pillar/number_text.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -11,8 +12,8 @@ namespace {
 
 void require_positive(double value, const char* what, bool zero_too) {
   if (value > 0.0 || (zero_too && value == 0.0)) return;
-  throw std::invalid_argument(std::string("the readout's ") + what + " is " +
-                              std::to_string(value) + "; it must be positive");
+  throw std::invalid_argument(std::string("the readout's ") + what + " is " + number_text(value) +
+                              "; it must be positive");
 }
 
 }  // namespace

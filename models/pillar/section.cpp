@@ -1,5 +1,7 @@
 #include "models/pillar/section.h"
 
+#include "models/pillar/number_text.h"
+
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -55,7 +57,7 @@ void Section::stretch(int region, std::function<Stretch(double)> of_height) {
       const double scale = of_height(node_z_[node]).scale;
       if (!(scale > 0.0) || !std::isfinite(scale)) {
         throw std::invalid_argument(
-            "the outline shrinks to nothing at z = " + std::to_string(node_z_[node] * 1e6) +
+            "the outline shrinks to nothing at z = " + number_text(node_z_[node] * 1e6) +
             " um: elements would be turned inside out there");
       }
       if (!is_done[node]) node_x_[node] *= scale;

@@ -1,5 +1,6 @@
 #include "models/pillar/viscoelastic_system.h"
 
+#include "models/pillar/number_text.h"
 #include "models/pillar/step_weights.h"
 
 #include <algorithm>
@@ -64,7 +65,7 @@ void ViscoelasticStepper::prepare(double dt_s) {
 
 void ViscoelasticStepper::advance(double dt_s, Control control, double value) {
   if (!(dt_s >= 0.0) || !std::isfinite(dt_s)) {
-    throw std::invalid_argument("time step of " + std::to_string(dt_s) +
+    throw std::invalid_argument("time step of " + number_text(dt_s) +
                                 " s; steps must be finite and not negative");
   }
   prepare(dt_s);
