@@ -33,7 +33,7 @@ constexpr int kMostModes = 8;
 
 std::vector<PillarMode> modes_of(const PillarModel& model, const SymmetricSparse& stiffness,
                                  int count) {
-  const SymmetricSparse mass = model.mass();
+  SymmetricSparse mass = model.mass();
   // A free pillar's stiffness is singular; a shift far below its first elastic mode mends that.
   double shift = 0.0;
   if (!model.options().fixed_bottom) {
@@ -46,6 +46,7 @@ std::vector<PillarMode> modes_of(const PillarModel& model, const SymmetricSparse
   shifted.coeffs() += shift * mass.coeffs();
   StiffnessFactor factor;
   model.factor(shifted, factor);
+  mass.prune(0.0);  // it keeps the stiffness' pattern, where most fields do not meet in it
   const LinearMap B = [&](const Eigen::VectorXd& x) { return times(mass, x); };
   const PencilMap op = [&](const Eigen::VectorXd&, const Eigen::VectorXd& Mx) {
     return factor.solve(Mx);
