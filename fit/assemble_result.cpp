@@ -6,6 +6,7 @@
 #include "fit/noise_model.h"
 #include "fit/order_doubt.h"
 #include "fit/profile_likelihood.h"
+#include "fit/quick_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -115,7 +116,9 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
     fit.scores.rows[fit.scores.chosen].is_chosen = true;
     note_fewer_terms(fit);
   }
-  fit.state = polish(model, refine(model, fit.path[fit.scores.chosen]));
+  // Near the optimum by the quicker search, so that little is left to do for the slower ones.
+  const SpectralState near = quick_search(model, fit.path[fit.scores.chosen], {.tolerance = 1e-10});
+  fit.state = polish(model, refine(model, near));
   fit.rss = full_rss(model, fit.state);
   fit.variance = variance_of(model, fit.state);
   if (!options.white_noise) fit.noise = noise_of(model, fit.state);

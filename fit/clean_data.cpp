@@ -1,10 +1,10 @@
 #include "fit/clean_data.h"
 
+#include "fit/sample_passes.h"
 #include "fit/spikes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -13,18 +13,8 @@ namespace viscard {
 namespace {
 
 bool is_ready(const std::vector<std::span<const double>>& columns) {
-  for (const std::span<const double> column : columns) {
-    // A sum of finite numbers times 0 is 0; anything else makes it NaN. No branch in the loop.
-    // Four sums, so that one addition need not wait for the last.
-    double sums[4] = {0.0, 0.0, 0.0, 0.0};
-    std::size_t i = 0;
-    for (; i + 4 <= column.size(); i += 4) {
-      for (std::size_t k = 0; k < 4; ++k) sums[k] += 0.0 * column[i + k];
-    }
-    for (; i < column.size(); ++i) sums[0] += 0.0 * column[i];
-    if (sums[0] + sums[1] + sums[2] + sums[3] != 0.0) return false;
-  }
-  return std::is_sorted(columns[0].begin(), columns[0].end());
+  return std::all_of(columns.begin(), columns.end(), all_finite) &&
+         step_range(columns[0]).shortest >= 0.0;
 }
 
 // Numbers of the rows that can be used, in order of time.
@@ -98,12 +88,14 @@ CleanColumns clean_columns(const std::vector<std::span<const double>>& columns, 
 }
 
 double shortest_step_s(std::span<const double> time_s) {
-  double shortest = std::numeric_limits<double>::infinity();
+  const StepRange range = step_range(time_s);
+  if (range.shortest > 0.0 || !(range.longest > 0.0)) return range.shortest;
+  double shortest = range.longest;  // some times are repeated
   for (std::size_t i = 1; i < time_s.size(); ++i) {
     const double step = time_s[i] - time_s[i - 1];
     shortest = step > 0.0 && step < shortest ? step : shortest;
   }
-  return std::isfinite(shortest) ? shortest : 0.0;
+  return shortest;
 }
 
 }  // namespace viscard

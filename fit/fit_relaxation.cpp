@@ -4,13 +4,13 @@
 #include "fit/clean_data.h"
 #include "fit/flags.h"
 #include "fit/history_model.h"
+#include "fit/sample_passes.h"
 #include "fit/spikes.h"
 #include "fit/step_curves.h"
 #include "fit/step_model.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -75,7 +75,7 @@ void check_values(std::span<const double> time_s, std::span<const double> value,
   if (!(time_s.back() > time_s.front())) {
     throw std::runtime_error("all rows have the same time; nothing can be said of relaxation");
   }
-  if (is_step && !(std::accumulate(value.begin(), value.end(), 0.0) > 0.0)) {
+  if (is_step && !(sum_of(value) > 0.0)) {
     throw std::runtime_error(
         "the fitted column is negative or zero on the whole: a relaxation modulus is positive. If "
         "the sign of the instrument is the other way, map the column with a minus: "

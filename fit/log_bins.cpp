@@ -1,5 +1,8 @@
 #include "fit/log_bins.h"
 
+#include "fit/sample_passes.h"
+
+#include <algorithm>
 #include <cmath>
 
 namespace viscard {
@@ -16,29 +19,27 @@ LogBin make_bin(std::span<const double> time_s, std::span<const double> value, s
     bin.value = value[begin];
     return bin;
   }
-  // Differences from the first sample, so that no digit is lost on a long record.
-  double time = 0.0;
-  double mean = 0.0;
-  for (std::size_t i = begin; i < end; ++i) {
-    time += time_s[i] - time_s[begin];
-    mean += value[i] - value[begin];
-  }
-  bin.time_s = time_s[begin] + time / bin.count;
-  bin.value = value[begin] + mean / bin.count;
-  for (std::size_t i = begin; i < end; ++i) {
-    const double t = time_s[i] - bin.time_s;
-    const double y = value[i] - bin.value;
-    const double tt = t * t;
-    bin.m2 += tt;
-    bin.m3 += tt * t;
-    bin.m4 += tt * tt;
-    bin.c1 += y * t;
-    bin.c2 += y * tt;
-    bin.value_m2 += y * y;
-  }
-  for (double* moment : {&bin.m2, &bin.m3, &bin.m4, &bin.c1, &bin.c2, &bin.value_m2}) {
-    *moment /= bin.count;
-  }
+  // Sums about the middle of the bin and its first value, so that no digit is lost on a long
+  // record, then moved to the means.
+  const double centre = 0.5 * (time_s[begin] + time_s[end - 1]);
+  const double level = value[begin];
+  const double n = bin.count;
+  const PowerSums s = power_sums(time_s.subspan(begin, end - begin),
+                                 value.subspan(begin, end - begin), centre, level);
+  const double u = s.d1 / n, uu = u * u, v = s.y / n;
+  const double d2 = s.d2 / n, d3 = s.d3 / n, d4 = s.d4 / n, d5 = s.d5 / n;
+  bin.time_s = centre + u;
+  bin.value = level + v;
+  bin.m2 = d2 - uu;
+  bin.m3 = d3 - 3.0 * u * d2 + 2.0 * u * uu;
+  bin.m4 = d4 - 4.0 * u * d3 + 6.0 * uu * d2 - 3.0 * uu * uu;
+  bin.m5 = d5 - 5.0 * u * d4 + 10.0 * uu * d3 - 10.0 * u * uu * d2 + 4.0 * u * uu * uu;
+  bin.m6 = s.d6 / n - 6.0 * u * d5 + 15.0 * uu * d4 - 20.0 * u * uu * d3 + 15.0 * uu * uu * d2 -
+           5.0 * uu * uu * uu;
+  bin.c1 = s.yd1 / n - v * u;
+  bin.c2 = (s.yd2 - 2.0 * u * s.yd1) / n + 2.0 * uu * v - v * d2;
+  bin.c3 = (s.yd3 - 3.0 * u * s.yd2 + 3.0 * uu * s.yd1) / n - v * (d3 - 3.0 * u * (d2 - uu));
+  bin.value_m2 = s.yy / n - v * v;
   return bin;
 }
 
@@ -64,11 +65,32 @@ LogBin put_together(std::span<const LogBin> parts) {
     sum.m2 += share * (part.m2 + d * d);
     sum.m3 += share * (part.m3 + 3.0 * d * part.m2 + d * d * d);
     sum.m4 += share * (part.m4 + 4.0 * d * part.m3 + 6.0 * d * d * part.m2 + d * d * d * d);
+    sum.m5 += share *
+              (part.m5 + d * (5.0 * part.m4 + d * (10.0 * part.m3 + d * (10.0 * part.m2 + d * d))));
+    sum.m6 +=
+        share * (part.m6 +
+                 d * (6.0 * part.m5 +
+                      d * (15.0 * part.m4 + d * (20.0 * part.m3 + d * (15.0 * part.m2 + d * d)))));
     sum.c1 += share * (part.c1 + y * d);
     sum.c2 += share * (part.c2 + 2.0 * d * part.c1 + y * (part.m2 + d * d));
+    sum.c3 += share * (part.c3 + 3.0 * d * part.c2 + 3.0 * d * d * part.c1 +
+                       y * (part.m3 + 3.0 * d * part.m2 + d * d * d));
     sum.value_m2 += share * (part.value_m2 + y * y);
   }
   return sum;
+}
+
+// First sample from `begin` on at or after a time; steps that double, then halve.
+std::size_t first_not_below(std::span<const double> time_s, std::size_t begin, double limit) {
+  std::size_t step = 1, end = begin;
+  while (end < time_s.size() && time_s[end] < limit) {
+    begin = end;
+    end += step;
+    step *= 2;
+  }
+  const auto first = time_s.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto last = time_s.begin() + static_cast<std::ptrdiff_t>(std::min(end, time_s.size()));
+  return static_cast<std::size_t>(std::lower_bound(first, last, limit) - time_s.begin());
 }
 
 }  // namespace
@@ -81,7 +103,7 @@ std::vector<LogBin> log_bins(std::span<const double> time_s, std::span<const dou
     std::size_t end = begin + 1;
     if (per_decade > 0.0 && time_s[begin] > 0.0) {
       const double limit = time_s[begin] * ratio;
-      while (end < time_s.size() && time_s[end] < limit) ++end;
+      end = first_not_below(time_s, end, limit);
     }
     bins.push_back(make_bin(time_s, value, begin, end));
     begin = end;
@@ -102,19 +124,6 @@ std::vector<LogBin> merged_bins(const std::vector<LogBin>& bins, double per_deca
     begin = end;
   }
   return merged;
-}
-
-BinExponential average_exponential(const LogBin& bin, double tau_s) {
-  const double u = 1.0 / tau_s;
-  const double x = bin.time_s * u;
-  const double at_mean = std::exp(-x);
-  if (at_mean == 0.0) return {};
-  if (bin.count == 1.0) return {at_mean, x * at_mean};
-  const double a = bin.m2 * u * u;
-  const double b = bin.m3 * u * u * u;
-  const double c = bin.m4 * u * u * u * u;
-  const double series = 1.0 + a / 2.0 - b / 6.0 + c / 24.0;
-  return {at_mean * series, at_mean * (x * series - (a - b / 2.0 + c / 6.0))};
 }
 
 }  // namespace viscard

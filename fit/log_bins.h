@@ -13,11 +13,11 @@ namespace viscard {
 struct LogBin {
   std::size_t begin = 0, end = 0;  // samples
   double count = 0.0;
-  double time_s = 0.0;                  // mean
-  double m2 = 0.0, m3 = 0.0, m4 = 0.0;  // mean powers of t - mean
-  double value = 0.0;                   // mean
-  double c1 = 0.0, c2 = 0.0;            // mean of (value - mean)(t - mean)^k
-  double value_m2 = 0.0;                // mean of (value - mean)^2
+  double time_s = 0.0;                                      // mean
+  double m2 = 0.0, m3 = 0.0, m4 = 0.0, m5 = 0.0, m6 = 0.0;  // mean powers of t - mean
+  double value = 0.0;                                       // mean
+  double c1 = 0.0, c2 = 0.0, c3 = 0.0;                      // mean of (value - mean)(t - mean)^k
+  double value_m2 = 0.0;                                    // mean of (value - mean)^2
 };
 
 // Bins of sorted times; per_decade <= 0: every sample for itself. Times up to 0 stay alone.
@@ -26,12 +26,5 @@ std::vector<LogBin> log_bins(std::span<const double> time_s, std::span<const dou
 
 // Neighbouring bins put together until they are so wide; their moments stay exact.
 std::vector<LogBin> merged_bins(const std::vector<LogBin>& bins, double per_decade);
-
-// Average of exp(-t/tau) over a bin, and its derivative by ln tau.
-struct BinExponential {
-  double value = 0.0;
-  double slope = 0.0;
-};
-BinExponential average_exponential(const LogBin& bin, double tau_s);
 
 }  // namespace viscard

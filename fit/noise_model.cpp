@@ -1,5 +1,7 @@
 #include "fit/noise_model.h"
 
+#include "fit/sample_passes.h"
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -13,9 +15,9 @@ std::vector<double> autocovariances(const Eigen::VectorXd& series, int max_lag) 
   const Eigen::VectorXd centred = series.array() - series.mean();
   std::vector<double> covariances;
   for (int lag = 0; lag <= max_lag; ++lag) {
-    const Eigen::Index count = series.size() - lag;
-    covariances.push_back(centred.head(count).dot(centred.tail(count)) /
-                          static_cast<double>(series.size()));
+    const auto count = static_cast<std::size_t>(series.size() - lag);
+    const double sum = dot_of({centred.data(), count}, {centred.data() + lag, count});
+    covariances.push_back(sum / static_cast<double>(series.size()));
   }
   return covariances;
 }

@@ -36,9 +36,15 @@ bool is_worse(const std::vector<LeftOut>& a, const std::vector<LeftOut>& best,
   return mean > standard_errors * std::sqrt(square / (count * (count - 1.0)));
 }
 
-// Of the space of these columns (of unit length); pivoted only where one hardly leaves the others.
+// Of the space of these columns (of unit length): by their Gram matrix where none hides among the
+// others, else by QR, pivoted where one hardly leaves them.
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
-  constexpr double kNearlyDependent = 1e-9;
+  constexpr double kHidden = 1e-5, kNearlyDependent = 1e-9;
+  const Eigen::LLT<Eigen::MatrixXd> gram(columns.transpose() * columns);
+  if (gram.info() == Eigen::Success && columns.cols() > 0 &&
+      gram.matrixLLT().diagonal().minCoeff() > kHidden) {
+    return gram.matrixU().solve<Eigen::OnTheRight>(columns);
+  }
   const Eigen::HouseholderQR<Eigen::MatrixXd> quick(columns);
   if (columns.rows() >= columns.cols() &&
       quick.matrixQR().diagonal().cwiseAbs().minCoeff() > kNearlyDependent) {
@@ -48,33 +54,52 @@ Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
 }
 
+// Of few rows or columns the smaller matrix lives on the stack.
+constexpr Index kSmall = 12;
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kSmall, kSmall>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kSmall, 1>;
+
 // Error of predicting the rows r from all others, whose part of an orthonormal basis of the model
 // is q: (1 - q q^T)^-1 r, by the smaller of q q^T and q^T q.
-LeftOut left_out_error(const Eigen::MatrixXd& q, const Eigen::VectorXd& r) {
+template <typename Matrix, typename Vector>
+LeftOut left_out_error(const Eigen::Ref<const Eigen::MatrixXd>& q,
+                       const Eigen::Ref<const Eigen::VectorXd>& r) {
   LeftOut out;
   out.squared_residual = out.squared_error = r.squaredNorm();
   if (q.cols() == 0) return out;
   const bool is_short = q.rows() <= q.cols();
-  const Eigen::MatrixXd leverage =
-      is_short ? Eigen::MatrixXd(q * q.transpose()) : Eigen::MatrixXd(q.transpose() * q);
+  const Matrix leverage =
+      is_short ? Matrix(q.lazyProduct(q.transpose())) : Matrix(q.transpose().lazyProduct(q));
   constexpr double kAlone = 0.9;
-  if (leverage.trace() < kAlone) {  // no eigenvalue can reach it
-    const Eigen::LLT<Eigen::MatrixXd> rest(
-        Eigen::MatrixXd::Identity(leverage.rows(), leverage.cols()) - leverage);
-    out.squared_error = is_short ? rest.solve(r).squaredNorm()
-                                 : (r + q * rest.solve(q.transpose() * r)).squaredNorm();
+  if (q.squaredNorm() < kAlone) {  // the trace: no eigenvalue can reach it
+    const Eigen::LLT<Matrix> rest(Matrix::Identity(leverage.rows(), leverage.cols()) - leverage);
+    if (is_short) {
+      out.squared_error = Vector(rest.solve(r)).squaredNorm();
+    } else {
+      const Vector shares = q.transpose() * r;
+      out.squared_error = (r + q * Vector(rest.solve(shares))).squaredNorm();
+    }
     return out;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(leverage);
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(leverage);
   out.is_predictable = solver.eigenvalues().maxCoeff() < kAlone;
   if (!out.is_predictable) return out;
-  const Eigen::VectorXd rest = (1.0 - solver.eigenvalues().array()).inverse();
-  const Eigen::MatrixXd& w = solver.eigenvectors();
-  out.squared_error =
-      is_short
-          ? rest.cwiseProduct(w.transpose() * r).squaredNorm()
-          : (r + q * (w * rest.cwiseProduct(w.transpose() * (q.transpose() * r)))).squaredNorm();
+  const Vector rest = (1.0 - solver.eigenvalues().array()).inverse();
+  const Matrix& w = solver.eigenvectors();
+  if (is_short) {
+    out.squared_error = rest.cwiseProduct(w.transpose() * r).squaredNorm();
+  } else {
+    const Vector shares = rest.cwiseProduct(w.transpose() * (q.transpose() * r));
+    out.squared_error = (r + q * (w * shares)).squaredNorm();
+  }
   return out;
+}
+
+LeftOut left_out_error(const Eigen::Ref<const Eigen::MatrixXd>& q,
+                       const Eigen::Ref<const Eigen::VectorXd>& r) {
+  return std::min(q.rows(), q.cols()) <= kSmall
+             ? left_out_error<SmallMatrix, SmallVector>(q, r)
+             : left_out_error<Eigen::MatrixXd, Eigen::VectorXd>(q, r);
 }
 
 }  // namespace
@@ -101,9 +126,14 @@ std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralS
   std::vector<LeftOut> errors;
   for (const std::vector<Index>& block : rows) {
     if (block.empty()) continue;
-    const Eigen::MatrixXd q = basis(block, Eigen::all);
-    const Eigen::VectorXd r = residual(block);
-    errors.push_back(left_out_error(q, r));
+    const auto count = static_cast<Index>(block.size());
+    if (block.back() - block.front() + 1 == count) {  // in one piece: no copy
+      errors.push_back(left_out_error(basis.middleRows(block.front(), count),
+                                      residual.segment(block.front(), count)));
+    } else {
+      errors.push_back(left_out_error(Eigen::MatrixXd(basis(block, Eigen::all)),
+                                      Eigen::VectorXd(residual(block))));
+    }
   }
   return errors;
 }

@@ -1,11 +1,15 @@
 #include "fit/projection.h"
 
 #include "fit/nnls.h"
+#include "fit/sample_passes.h"
 #include "fit/separable.h"
 
 #include <Eigen/Cholesky>
 
 #include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -23,12 +27,37 @@ std::vector<Index> used_columns(const Eigen::VectorXd& x, const std::vector<bool
   return used;
 }
 
+// A^T B. Of few columns one by one, without a big product's preparations.
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  constexpr Index kFew = 16;
+  if (a.cols() > kFew || b.cols() > kFew) return a.transpose() * b;
+  Eigen::MatrixXd product(a.cols(), b.cols());
+  const auto rows = static_cast<std::size_t>(a.rows());
+  for (Index j = 0; j < b.cols(); ++j) {
+    for (Index i = 0; i < a.cols(); ++i) {
+      product(i, j) = dot_of({a.col(i).data(), rows}, {b.col(j).data(), rows});
+    }
+  }
+  return product;
+}
+
 // A^T A, each product formed once.
 Eigen::MatrixXd gram_of(const Eigen::MatrixXd& columns) {
+  constexpr Index kFew = 16;
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
   if (gram.size() == 0) return gram;
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
-  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+  if (columns.cols() > kFew) {
+    gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+    gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+    return gram;
+  }
+  const auto rows = static_cast<std::size_t>(columns.rows());
+  for (Index i = 0; i < columns.cols(); ++i) {
+    for (Index j = 0; j <= i; ++j) {
+      gram(i, j) = gram(j, i) =
+          dot_of({columns.col(i).data(), rows}, {columns.col(j).data(), rows});
+    }
+  }
   return gram;
 }
 
@@ -125,6 +154,38 @@ Eigen::MatrixXd nonlinear_slopes(const SpectralModel& model, const ModelColumns&
   return slopes;
 }
 
+namespace {
+
+// By normal equations with one step of refinement; none where they cannot be trusted.
+std::optional<NormalSolution> normal_solution(const SpectralModel& model,
+                                              const Eigen::MatrixXd& values,
+                                              const std::vector<bool>& is_free) {
+  const Eigen::MatrixXd gram = gram_of(values);
+  const Eigen::VectorXd right = transposed_product(values, model.data());
+  std::vector<Index> used(static_cast<std::size_t>(values.cols()));
+  std::iota(used.begin(), used.end(), Index{0});
+  NormalSolution solution(values, gram, right, used);
+  if (solution.is_good() && has_wrong_sign(solution.x(), is_free)) {
+    const Eigen::VectorXd guess = nonnegative_from_normal_equations(gram, right, is_free);
+    solution = NormalSolution(values, gram, right, used_columns(guess, is_free));
+  }
+  if (!solution.is_good()) return std::nullopt;
+  solution.refine(transposed_product(values, model.data() - values * solution.x()));
+  if (has_wrong_sign(solution.x(), is_free)) return std::nullopt;
+  return solution;
+}
+
+}  // namespace
+
+Coefficients best_coefficients(const SpectralModel& model, const Eigen::MatrixXd& values,
+                               const std::vector<bool>& is_free) {
+  Coefficients best;
+  const auto solution = values.allFinite() ? normal_solution(model, values, is_free) : std::nullopt;
+  best.x = solution ? solution->x() : least_squares_with_signs(values, model.data(), is_free);
+  best.rss = (values * best.x - model.data()).squaredNorm();
+  return best;
+}
+
 Projection project(const SpectralModel& model, const Eigen::VectorXd& p) {
   const Index n_terms = p.size() - model.n_nuisances();
   const ModelColumns columns =
@@ -134,24 +195,14 @@ Projection project(const SpectralModel& model, const Eigen::VectorXd& p) {
   at.rss = std::numeric_limits<double>::infinity();
   if (!values.allFinite()) return at;
   const std::vector<bool> is_free = free_columns(model, n_terms);
-  const Eigen::MatrixXd gram = gram_of(values);
-  const Eigen::VectorXd right = values.transpose() * model.data();
-  std::vector<Index> used(static_cast<std::size_t>(values.cols()));
-  for (std::size_t j = 0; j < used.size(); ++j) used[j] = static_cast<Index>(j);
-  NormalSolution solution(values, gram, right, used);
-  if (solution.is_good() && has_wrong_sign(solution.x(), is_free)) {
-    const Eigen::VectorXd guess = nonnegative_from_normal_equations(gram, right, is_free);
-    solution = NormalSolution(values, gram, right, used_columns(guess, is_free));
-  }
-  if (!solution.is_good()) return by_qr(model, columns, is_free);
-  solution.refine(values.transpose() * (model.data() - values * solution.x()));
-  if (has_wrong_sign(solution.x(), is_free)) return by_qr(model, columns, is_free);
-  at.coefficients = solution.x();
+  const auto solution = normal_solution(model, values, is_free);
+  if (!solution) return by_qr(model, columns, is_free);
+  at.coefficients = solution->x();
   const Eigen::VectorXd residual = values * at.coefficients - model.data();
   at.rss = residual.squaredNorm();
   const Eigen::MatrixXd slopes = nonlinear_slopes(model, columns, at.coefficients);
-  at.normal = gram_of(slopes) - solution.shared(values.transpose() * slopes);
-  at.gradient = slopes.transpose() * residual;
+  at.normal = gram_of(slopes) - solution->shared(transposed_product(values, slopes));
+  at.gradient = transposed_product(slopes, residual);
   return at;
 }
 

@@ -31,6 +31,14 @@ Eigen::MatrixXd nonlinear_slopes(const SpectralModel& model, const ModelColumns&
 // formed from the residual itself and does not lose digits either way.
 Projection project(const SpectralModel& model, const Eigen::VectorXd& p);
 
+// The coefficients alone, with their sum of squares; by normal equations or QR alike.
+struct Coefficients {
+  Eigen::VectorXd x;
+  double rss = 0.0;
+};
+Coefficients best_coefficients(const SpectralModel& model, const Eigen::MatrixXd& values,
+                               const std::vector<bool>& is_free);
+
 // Bounds of p.
 struct Box {
   Eigen::VectorXd low, high;

@@ -3,6 +3,7 @@
 #include "fit/nnls.h"
 #include "fit/projection.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <ceres/ceres.h>
 
@@ -102,9 +103,10 @@ SpectralState solve_coefficients(const SpectralModel& model, const Eigen::Vector
                                  const Eigen::VectorXd& nuisance) {
   SpectralState state{ln_tau, nuisance, {}, 0.0, true};
   const ModelColumns columns = model.columns(ln_tau, nuisance, /*with_slopes=*/false);
-  state.coefficients =
-      least_squares_with_signs(columns.values, model.data(), free_columns(model, ln_tau.size()));
-  state.rss = (columns.values * state.coefficients - model.data()).squaredNorm();
+  const Coefficients best =
+      best_coefficients(model, columns.values, free_columns(model, ln_tau.size()));
+  state.coefficients = best.x;
+  state.rss = best.rss;
   return state;
 }
 
@@ -180,6 +182,19 @@ FullSystem full_system(const SpectralModel& model, const SpectralState& state) {
   return all;
 }
 
+// By normal equations where no column hides among the others: the step, not its target, is all that
+// they make less exact. Else by QR.
+Eigen::VectorXd gauss_newton_step(const FullSystem& at) {
+  constexpr double kHidden = 1e-3;
+  const Eigen::VectorXd scale = at.jacobian.colwise().norm().transpose().cwiseMax(1e-300);
+  const Eigen::MatrixXd columns = at.jacobian * scale.cwiseInverse().asDiagonal();
+  const Eigen::LLT<Eigen::MatrixXd> gram(columns.transpose() * columns);
+  if (gram.info() == Eigen::Success && gram.matrixLLT().diagonal().minCoeff() > kHidden) {
+    return gram.solve(columns.transpose() * at.residual).cwiseQuotient(scale);
+  }
+  return columns.colPivHouseholderQr().solve(at.residual).cwiseQuotient(scale);
+}
+
 bool is_allowed(const SpectralModel& model, const SpectralState& state) {
   const std::vector<bool> is_free = free_columns(model, state.n_terms());
   for (Index j = 0; j < state.coefficients.size(); ++j) {
@@ -201,11 +216,7 @@ SpectralState polish(const SpectralModel& model, const SpectralState& start) {
   SpectralState state = start;
   FullSystem now = full_system(model, state);
   for (int step = 0; step < kMaxSteps; ++step) {
-    const Eigen::VectorXd scale = now.jacobian.colwise().norm().transpose().cwiseMax(1e-300);
-    const Eigen::VectorXd change = (now.jacobian * scale.cwiseInverse().asDiagonal())
-                                       .colPivHouseholderQr()
-                                       .solve(now.residual)
-                                       .cwiseQuotient(scale);
+    const Eigen::VectorXd change = gauss_newton_step(now);
     if (!change.allFinite()) return state;
     SpectralState next = state;
     next.coefficients += change.head(linear);

@@ -1,10 +1,10 @@
 #include "fit/spikes.h"
 
 #include "fit/noise_model.h"
+#include "fit/sample_passes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace viscard {
 namespace {
@@ -12,19 +12,13 @@ namespace {
 constexpr std::size_t kLeastRecord = 200;
 
 bool is_even(std::span<const double> time_s) {
-  double shortest = std::numeric_limits<double>::infinity();
-  double longest = 0.0;
-  for (std::size_t i = 1; i < time_s.size(); ++i) {
-    const double step = time_s[i] - time_s[i - 1];
-    shortest = std::min(shortest, step);
-    longest = std::max(longest, step);
-  }
-  return shortest > 0.0 && longest < 10.0 * shortest;
+  const StepRange steps = step_range(time_s);
+  return steps.shortest > 0.0 && steps.longest < 10.0 * steps.shortest;
 }
 
 // Of stretches across the record; a few thousand differences tell a median well enough.
 double noise_of(std::span<const double> values) {
-  constexpr std::size_t kStretches = 32;
+  constexpr std::size_t kStretches = 16;
   constexpr std::size_t kLength = 128;
   if (values.size() <= kStretches * kLength) {
     return sigma_from_differences({values.begin(), values.end()});
@@ -48,10 +42,9 @@ std::vector<std::size_t> isolated_spikes(std::span<const double> time_s,
   const double sigma = noise_of(values);
   if (!(sigma > 0.0)) return spikes;
   const double far = 8.0 * std::sqrt(1.5) * sigma;  // variance of e is 1.5 sigma^2
-  for (std::size_t i = 1; i + 1 < values.size(); ++i) {
+  for (const std::size_t i : far_from_neighbours(values, far)) {
     const double e = std::abs(values[i] - 0.5 * (values[i - 1] + values[i + 1]));
-    if (!(e > far) || e < 2.0 * std::abs(values[i + 1] - values[i - 1])) continue;
-    spikes.push_back(i);
+    if (e >= 2.0 * std::abs(values[i + 1] - values[i - 1])) spikes.push_back(i);
   }
   return spikes;
 }

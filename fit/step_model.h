@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fit/bin_arrays.h"
 #include "fit/fit_data.h"
 #include "fit/log_bins.h"
 #include "fit/spectral_model.h"
@@ -39,14 +40,15 @@ class StepModel final : public SpectralModel {
   double sampling_s() const { return sampling_s_; }  // shortest step between samples
 
  private:
-  void keep_arrays();
+  StepModel(const StepModel& fine, double bins_per_decade);
+  void set_rows();
 
   std::span<const double> time_s_, value_;
   double sampling_s_ = 0.0;
   StepShape shape_;
   std::vector<LogBin> bins_;
-  // Of the bins, for whole columns at once: mean time, its moments, sqrt(count).
-  Eigen::ArrayXd bin_time_s_, m2_, m3_, m4_, weight_;
+  BinArrays arrays_;
+  BinShapes shapes_;
   double sample_variance_ = 0.0;
   bool has_averages_ = false;
   bool is_liquid_ = false;

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace viscard {
+
+// What is asked of whole records, each in one pass at the speed of memory.
+
+bool all_finite(std::span<const double> values);
+double sum_of(std::span<const double> values);
+double dot_of(std::span<const double> a, std::span<const double> b);  // of equal length
+
+// Smallest and largest difference of neighbours; 0 and 0 with fewer than two. Times are sorted
+// where the smallest is not below zero.
+struct StepRange {
+  double shortest = 0.0, longest = 0.0;
+};
+StepRange step_range(std::span<const double> times);
+
+// Numbers of the samples (neither first nor last) further than `far` from the mean of their
+// neighbours.
+std::vector<std::size_t> far_from_neighbours(std::span<const double> values, double far);
+
+// Sums over a stretch of samples of d^k, y d^k and y^2, with d = t - centre, y = value - level.
+struct PowerSums {
+  double d1 = 0.0, d2 = 0.0, d3 = 0.0, d4 = 0.0, d5 = 0.0, d6 = 0.0;
+  double y = 0.0, yd1 = 0.0, yd2 = 0.0, yd3 = 0.0, yy = 0.0;
+};
+PowerSums power_sums(std::span<const double> times, std::span<const double> values, double centre,
+                     double level);
+
+}  // namespace viscard
