@@ -50,7 +50,7 @@ std::vector<Point> points_of(const WeightReadings& data, double largest_N) {
   for (std::size_t i = 0; i < data.force_N.size(); ++i) {
     if (is_over) {
       ++series;
-      is_over = has_load = false;
+      has_load = false;
     }
     Point point;
     while (!is_same(loads[static_cast<std::size_t>(point.load)], data.force_N[i])) ++point.load;
