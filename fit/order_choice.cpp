@@ -1,5 +1,7 @@
 #include "fit/order_choice.h"
 
+#include "fit/column_products.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -40,7 +42,7 @@ bool is_worse(const std::vector<LeftOut>& a, const std::vector<LeftOut>& best,
 // others, else by QR, pivoted where one hardly leaves them.
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
   constexpr double kHidden = 1e-5, kNearlyDependent = 1e-9;
-  const Eigen::LLT<Eigen::MatrixXd> gram(columns.transpose() * columns);
+  const Eigen::LLT<Eigen::MatrixXd> gram(gram_of(columns));
   if (gram.info() == Eigen::Success && columns.cols() > 0 &&
       gram.matrixLLT().diagonal().minCoeff() > kHidden) {
     return gram.matrixU().solve<Eigen::OnTheRight>(columns);

@@ -1,10 +1,9 @@
 #include "fit/order_path.h"
 
+#include "fit/column_products.h"
 #include "fit/nnls.h"
 #include "fit/quick_search.h"
-
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include "fit/term_moves.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,13 +19,6 @@ Eigen::VectorXd grid_of_times(const SpectralModel& model, double per_decade) {
   const double decades = (model.ln_tau_max() - model.ln_tau_min()) / std::log(10.0);
   const Index count = std::max<Index>(4, static_cast<Index>(std::ceil(decades * per_decade)) + 1);
   return Eigen::VectorXd::LinSpaced(count, model.ln_tau_min(), model.ln_tau_max());
-}
-
-Eigen::VectorXd without(const Eigen::VectorXd& values, Index leave_out) {
-  Eigen::VectorXd rest(values.size() - 1);
-  rest.head(leave_out) = values.head(leave_out);
-  rest.tail(values.size() - 1 - leave_out) = values.tail(values.size() - 1 - leave_out);
-  return rest;
 }
 
 Eigen::VectorXd with(const Eigen::VectorXd& values, double added) {
@@ -55,7 +47,7 @@ Eigen::VectorXd spectrum_peaks(const SpectralModel& model, const Eigen::VectorXd
   const Eigen::VectorXd grid = grid_of_times(model, per_decade);
   const ModelColumns columns = model.columns(grid, nuisance, /*with_slopes=*/false);
   const Eigen::VectorXd x = nonnegative_from_normal_equations(
-      columns.values.transpose() * columns.values, columns.values.transpose() * model.data(),
+      gram_of(columns.values), transposed_product(columns.values, model.data()),
       free_columns(model, grid.size()));
   std::vector<double> peaks;
   double weight = 0.0;
@@ -72,86 +64,6 @@ Eigen::VectorXd spectrum_peaks(const SpectralModel& model, const Eigen::VectorXd
     }
   }
   return Eigen::Map<Eigen::VectorXd>(peaks.data(), static_cast<Index>(peaks.size()));
-}
-
-// The pair (i, i + 1) merged at its mean time by modulus.
-double merged_ln_tau(const SpectralModel& model, const SpectralState& state, Index i) {
-  const double a = std::abs(state.coefficients[model.n_common() + i]);
-  const double b = std::abs(state.coefficients[model.n_common() + i + 1]);
-  if (!(a + b > 0.0)) return state.ln_tau[i];
-  return (a * state.ln_tau[i] + b * state.ln_tau[i + 1]) / (a + b);
-}
-
-// What the sum of squares grows by when terms go or are replaced, the others following freely: for
-// A = (V^T V)^-1 and coefficients x, dropping the columns R costs x_R^T (A_RR)^-1 x_R; a new column
-// m then takes back (m^T r)^2/|m outside the rest|^2.
-class ReductionCosts {
- public:
-  ReductionCosts(const SpectralModel& model, const SpectralState& state)
-      : first_(model.n_common()), x_(state.coefficients) {
-    const Index n = state.n_terms();
-    Eigen::VectorXd times(2 * n - 1);
-    times.head(n) = state.ln_tau;
-    for (Index i = 0; i + 1 < n; ++i) times[n + i] = merged_ln_tau(model, state, i);
-    const Eigen::MatrixXd all = model.columns(times, state.nuisance, /*with_slopes=*/false).values;
-    const Eigen::MatrixXd values = all.leftCols(first_ + n);
-    const Eigen::MatrixXd offered = all.rightCols(n - 1);
-    const Eigen::VectorXd scale = values.colwise().norm().transpose().cwiseMax(1e-300);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(values * scale.cwiseInverse().asDiagonal());
-    const auto upper = qr.matrixQR().topRows(values.cols()).triangularView<Eigen::Upper>();
-    const Eigen::MatrixXd inverse =
-        scale.cwiseInverse().asDiagonal() *
-        Eigen::MatrixXd(upper.solve(Eigen::MatrixXd::Identity(values.cols(), values.cols())));
-    inverse_gram_ = inverse * inverse.transpose();
-    const Eigen::MatrixXd rotated = qr.householderQ().adjoint() * offered;
-    shares_ = inverse * rotated.topRows(values.cols());
-    outside_ = rotated.bottomRows(rotated.rows() - values.cols()).colwise().squaredNorm();
-    left_ = offered.transpose() * (model.data() - values * x_);
-  }
-
-  double of_dropping(Index i) const {
-    const double x = x_[first_ + i];
-    return x * x / inverse_gram_(first_ + i, first_ + i);
-  }
-
-  double of_merging(Index i) const {
-    const Eigen::Matrix2d block = inverse_gram_.block<2, 2>(first_ + i, first_ + i).inverse();
-    const Eigen::Vector2d x = x_.segment<2>(first_ + i);
-    const Eigen::Vector2d c = shares_.block<2, 1>(first_ + i, i);
-    const double product = left_[i] + c.dot(block * x);
-    const double square = outside_[i] + c.dot(block * c);
-    const double taken_back = square > 0.0 ? product * product / square : 0.0;
-    return std::max(0.0, x.dot(block * x) - taken_back);
-  }
-
- private:
-  Index first_;
-  Eigen::VectorXd x_;
-  Eigen::MatrixXd inverse_gram_;
-  Eigen::MatrixXd shares_;   // coefficients of each merged column in those present
-  Eigen::VectorXd outside_;  // squared length of what is outside them
-  Eigen::VectorXd left_;     // its product with the residual
-};
-
-// Times of all ways to have one term fewer, dropping one or merging two neighbours, cheapest first.
-std::vector<Eigen::VectorXd> reductions(const SpectralModel& model, const SpectralState& state) {
-  const ReductionCosts costs(model, state);
-  std::vector<std::pair<double, Eigen::VectorXd>> ways;
-  for (Index i = 0; i < state.n_terms(); ++i) {
-    ways.emplace_back(costs.of_dropping(i), without(state.ln_tau, i));
-    if (i + 1 == state.n_terms()) break;
-    Eigen::VectorXd merged = without(state.ln_tau, i + 1);
-    merged[i] = merged_ln_tau(model, state, i);
-    ways.emplace_back(costs.of_merging(i), merged);
-  }
-  for (auto& way : ways) {  // what rounding made of a nearly dependent pair comes last
-    if (!std::isfinite(way.first)) way.first = std::numeric_limits<double>::max();
-  }
-  std::stable_sort(ways.begin(), ways.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<Eigen::VectorXd> times;
-  for (auto& way : ways) times.push_back(std::move(way.second));
-  return times;
 }
 
 // One term fewer: the cheapest way, refined. With few terms, where each leads to another valley and
@@ -246,21 +158,17 @@ SpectralState with_one_more_term(const SpectralModel& model, const SpectralState
                                  const OrderPathOptions& options) {
   const Eigen::VectorXd grid = grid_of_times(model, 0.5 * options.grid_per_decade);
   const ModelColumns present = model.columns(state.ln_tau, state.nuisance, /*with_slopes=*/false);
-  const ModelColumns offered = model.columns(grid, state.nuisance, /*with_slopes=*/false);
-  const SignedLeastSquares fit(present.values, model.data(), free_columns(model, state.n_terms()));
-  // What each new column would take off the sum of squares, the others following freely.
-  const Eigen::MatrixXd columns = fit.outside(offered.values.rightCols(grid.size()));
-  const Eigen::VectorXd residual = fit.outside(model.data() - present.values * fit.x());
+  const Eigen::MatrixXd offered =
+      model.columns(grid, state.nuisance, /*with_slopes=*/false).values.rightCols(grid.size());
+  const Offers offers =
+      offers_of(model, present.values, offered, free_columns(model, state.n_terms()));
   Index best = -1;
   double best_gain = 0.0;
   for (Index i = 0; i < grid.size(); ++i) {
-    const double length = columns.col(i).squaredNorm();
-    const double product = columns.col(i).dot(residual);
-    const double full = offered.values.col(model.n_common() + i).squaredNorm();
     constexpr double kNothingNew = 1e-14;  // the column lies among those in use
-    if (!(length > kNothingNew * full)) continue;
-    if (product <= 0.0 && !model.may_be_negative()) continue;
-    const double gain = product * product / length;
+    if (!(offers.length[i] > kNothingNew * offered.col(i).squaredNorm())) continue;
+    if (offers.product[i] <= 0.0 && !model.may_be_negative()) continue;
+    const double gain = offers.product[i] * offers.product[i] / offers.length[i];
     if (gain > best_gain) {
       best_gain = gain;
       best = i;

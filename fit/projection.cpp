@@ -1,7 +1,7 @@
 #include "fit/projection.h"
 
+#include "fit/column_products.h"
 #include "fit/nnls.h"
-#include "fit/sample_passes.h"
 #include "fit/separable.h"
 
 #include <Eigen/Cholesky>
@@ -25,40 +25,6 @@ std::vector<Index> used_columns(const Eigen::VectorXd& x, const std::vector<bool
     if (is_free[static_cast<std::size_t>(j)] || x[j] > 0.0) used.push_back(j);
   }
   return used;
-}
-
-// A^T B. Of few columns one by one, without a big product's preparations.
-Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  constexpr Index kFew = 16;
-  if (a.cols() > kFew || b.cols() > kFew) return a.transpose() * b;
-  Eigen::MatrixXd product(a.cols(), b.cols());
-  const auto rows = static_cast<std::size_t>(a.rows());
-  for (Index j = 0; j < b.cols(); ++j) {
-    for (Index i = 0; i < a.cols(); ++i) {
-      product(i, j) = dot_of({a.col(i).data(), rows}, {b.col(j).data(), rows});
-    }
-  }
-  return product;
-}
-
-// A^T A, each product formed once.
-Eigen::MatrixXd gram_of(const Eigen::MatrixXd& columns) {
-  constexpr Index kFew = 16;
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
-  if (gram.size() == 0) return gram;
-  if (columns.cols() > kFew) {
-    gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
-    gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
-    return gram;
-  }
-  const auto rows = static_cast<std::size_t>(columns.rows());
-  for (Index i = 0; i < columns.cols(); ++i) {
-    for (Index j = 0; j <= i; ++j) {
-      gram(i, j) = gram(j, i) =
-          dot_of({columns.col(i).data(), rows}, {columns.col(j).data(), rows});
-    }
-  }
-  return gram;
 }
 
 bool has_wrong_sign(const Eigen::VectorXd& x, const std::vector<bool>& is_free) {

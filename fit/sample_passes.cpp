@@ -48,6 +48,30 @@ VISCARD_WIDE_LOOP double dot_of_samples(const double* a, const double* b, std::s
   return sum;
 }
 
+// Four columns by two at a time, so that each number read enters several products.
+VISCARD_WIDE_LOOP void products_of_4_by_2(const double* a, const double* b, std::size_t rows,
+                                          std::size_t n_a, double* out) {
+  Lanes sums[8] = {};
+  std::size_t i = 0;
+  for (; i + kLanes <= rows; i += kLanes) {
+    const Lanes b0 = *lanes_at(b + i), b1 = *lanes_at(b + rows + i);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Lanes ak = *lanes_at(a + k * rows + i);
+      sums[k] += ak * b0;
+      sums[4 + k] += ak * b1;
+    }
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    double first = total(sums[k]), second = total(sums[4 + k]);
+    for (std::size_t r = i; r < rows; ++r) {
+      first += a[k * rows + r] * b[r];
+      second += a[k * rows + r] * b[rows + r];
+    }
+    out[k] = first;
+    out[n_a + k] = second;
+  }
+}
+
 VISCARD_WIDE_LOOP bool all_samples_finite(const double* values, std::size_t count) {
   // A finite number times 0 is 0; anything else makes the sum NaN.
   Lanes sums[4] = {};
@@ -139,6 +163,28 @@ double sum_of(std::span<const double> values) {
 
 double dot_of(std::span<const double> a, std::span<const double> b) {
   return dot_of_samples(a.data(), b.data(), a.size());
+}
+
+void column_products(const double* a, std::size_t n_a, const double* b, std::size_t n_b,
+                     std::size_t rows, double* out) {
+  const bool is_gram = b == nullptr;
+  if (is_gram) {
+    b = a;
+    n_b = n_a;
+  }
+  for (std::size_t j = 0; j < n_b; j += 2) {
+    std::size_t i = is_gram ? j : 0;
+    if (j + 1 < n_b) {
+      for (; i + 4 <= n_a; i += 4) {
+        products_of_4_by_2(a + i * rows, b + j * rows, rows, n_a, out + i + j * n_a);
+      }
+    }
+    for (; i < n_a; ++i) {
+      for (std::size_t k = j; k < std::min(j + 2, n_b); ++k) {
+        out[i + k * n_a] = dot_of_samples(a + i * rows, b + k * rows, rows);
+      }
+    }
+  }
 }
 
 StepRange step_range(std::span<const double> times) {

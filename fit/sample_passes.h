@@ -12,6 +12,11 @@ bool all_finite(std::span<const double> values);
 double sum_of(std::span<const double> values);
 double dot_of(std::span<const double> a, std::span<const double> b);  // of equal length
 
+// The products a_i . b_j of columns of `rows` numbers, one column after the other, into
+// out[i + j n_a]. With b == nullptr those of a with itself, i >= j only.
+void column_products(const double* a, std::size_t n_a, const double* b, std::size_t n_b,
+                     std::size_t rows, double* out);
+
 // Smallest and largest difference of neighbours; 0 and 0 with fewer than two. Times are sorted
 // where the smallest is not below zero.
 struct StepRange {

@@ -1,5 +1,6 @@
 #include "fit/separable.h"
 
+#include "fit/column_products.h"
 #include "fit/nnls.h"
 #include "fit/projection.h"
 
@@ -188,9 +189,9 @@ Eigen::VectorXd gauss_newton_step(const FullSystem& at) {
   constexpr double kHidden = 1e-3;
   const Eigen::VectorXd scale = at.jacobian.colwise().norm().transpose().cwiseMax(1e-300);
   const Eigen::MatrixXd columns = at.jacobian * scale.cwiseInverse().asDiagonal();
-  const Eigen::LLT<Eigen::MatrixXd> gram(columns.transpose() * columns);
+  const Eigen::LLT<Eigen::MatrixXd> gram(gram_of(columns));
   if (gram.info() == Eigen::Success && gram.matrixLLT().diagonal().minCoeff() > kHidden) {
-    return gram.solve(columns.transpose() * at.residual).cwiseQuotient(scale);
+    return gram.solve(transposed_product(columns, at.residual)).cwiseQuotient(scale);
   }
   return columns.colPivHouseholderQr().solve(at.residual).cwiseQuotient(scale);
 }
