@@ -170,11 +170,12 @@ std::vector<std::string> GrblStage::advice() const {
                      ": the motor lets go after a move and the hold is lost; set $1=255");
   }
   if (found.steps_per_m < 1600e3) {
-    advice.push_back("$" + std::to_string(100 + axis_) + "=" +
-                     text_from_number(found.steps_per_m * 1e-3, 0) +
-                     " steps/mm: a decelerating stop needs 7.5 steps, " +
-                     text_from_number(7.5e6 / found.steps_per_m, 1) +
-                     " um; use microstepping for at least 1600");
+    advice.push_back(
+        "$" + std::to_string(100 + axis_) + "=" + text_from_number(found.steps_per_m * 1e-3, 0) +
+        " steps/mm: a decelerating stop needs 7.5 steps, " +
+        text_from_number(7.5e6 / found.steps_per_m, 1) + " um, and it moves no slower than " +
+        text_from_number(found.min_speed_m_s * 1e3, 3) +
+        " mm/s; use microstepping for at least 1600");
   }
   if (found.acceleration_m_s2 < 0.1) {
     advice.push_back("$" + std::to_string(120 + axis_) + "=" +

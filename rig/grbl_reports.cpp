@@ -122,7 +122,8 @@ void GrblStage::rest_elsewhere(double asked_s) {
   exact_m_.reset();
   throw RigError("the stage stands at " + text_from_number(reported_m_ * 1e3, 3) +
                  " mm and did not reach " + text_from_number(target_m * 1e3, 3) +
-                 " mm. Look for an obstacle or a limit, then start the run again");
+                 " mm. Look for an obstacle or a limit; a hold button pressed in a move ends it "
+                 "likewise. Then start the run again");
 }
 
 void GrblStage::end_move(double end_m) {

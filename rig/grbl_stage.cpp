@@ -43,9 +43,27 @@ double GrblStage::setting(int number, double otherwise) const {
   return found == settings_.end() ? otherwise : found->second;
 }
 
+// gnea/grbl moves no slower than 1 mm/min (config.h, MINIMUM_FEED_RATE), and no slower than one
+// step in 8 periods of a 16-bit timer at 16 MHz (stepper.c: cycles_per_tick at AMASS level 3).
+// grblHAL runs on other processors.
+double GrblStage::least_speed_m_s() const {
+  if (is_hal_) return 0.0;
+  constexpr double kLeastFeed_m_s = 1e-3 / 60.0;
+  constexpr double kLeastSteps_s = 16e6 / (8.0 * 65535.0);
+  return std::max(kLeastFeed_m_s, kLeastSteps_s / (setting(100 + axis_, 0.0) * 1e3));
+}
+
 StageDynamics GrblStage::dynamics() const {
-  return {setting(100 + axis_, 0.0) * 1e3, setting(120 + axis_, 0.0) * 1e-3,
-          setting(110 + axis_, 0.0) / 60e3};
+  StageDynamics found{setting(100 + axis_, 0.0) * 1e3, setting(120 + axis_, 0.0) * 1e-3,
+                      setting(110 + axis_, 0.0) / 60e3, least_speed_m_s()};
+  // With $20=1 a target outside of 0 to -$130 is refused (system.c, system_check_travel_limits).
+  // grblHAL can count from the other end.
+  if (setting(20, 0.0) != 0.0 && !is_hal_) {
+    const double far_m = -toward_ * setting(130 + axis_, 0.0) * 1e-3;
+    found.lowest_m = std::min(0.0, far_m);
+    found.highest_m = std::max(0.0, far_m);
+  }
+  return found;
 }
 
 // Reports carry three decimals of a mm ($13=1: four of an inch), and the motor stands within half a
@@ -132,6 +150,7 @@ void GrblStage::take_alarm(int code, double time_s) {
 }
 
 void GrblStage::take_welcome(const GrblWelcome& welcome, double time_s) {
+  is_hal_ = welcome.is_hal;
   version_ = (welcome.is_hal ? "grblHAL " : "Grbl ") + welcome.version;
   ++n_welcomes_;
   pending_.clear();
@@ -153,12 +172,13 @@ void GrblStage::begin_move(double to_m, double speed_m_s, const std::string& pur
   if (active_) throw RigError("a move was asked for while the stage was still moving");
   const StageDynamics limits = dynamics();
   const double from_m = position_m();
-  to_m = quantised_m(to_m, limits.steps_per_m);
+  to_m = within_travel_m(from_m, quantised_m(to_m, limits.steps_per_m), limits);
   if (start_m_) check_travel(to_m, *start_m_, config_.travel_m);
   expected_end_s_ = clock_.now_s();
   if (std::abs(to_m - from_m) < 0.5 / limits.steps_per_m) return;
-  const double feed_mm_min =
-      std::max(std::round(std::min(speed_m_s, limits.max_speed_m_s) * 60e6) * 1e-3, 0.001);
+  // No slower than it can: what is recorded must be what is done.
+  const double held_m_s = std::max(std::min(speed_m_s, limits.max_speed_m_s), limits.min_speed_m_s);
+  const double feed_mm_min = std::max(std::round(held_m_s * 60e6) * 1e-3, 0.001);
   const double written_s = clock_.now_s();
   const StageMove move{written_s, from_m, to_m, feed_mm_min / 60e3, limits.acceleration_m_s2};
   validate(move);

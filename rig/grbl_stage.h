@@ -98,6 +98,7 @@ class GrblStage final : public Stage {
   void unlock(const Pump& pump);
   double setting(int number, double otherwise) const;
   double resolution_m() const;
+  double least_speed_m_s() const;
   void forget_questions();
   void note(double time_s, const std::string& name, const std::string& value,
             const std::string& text) const;
@@ -115,6 +116,7 @@ class GrblStage final : public Stage {
   bool awaits_welcome_ = true;
   bool is_recovering_ = false;  // alarms are expected
   std::string version_;
+  bool is_hal_ = false;
   std::map<int, double> settings_;
   std::deque<Pending> pending_;
   std::optional<int> awaited_error_;

@@ -98,6 +98,27 @@ double fastest_m_s(const std::function<double(double)>& overshoot_N, double too_
   return low_m_s;
 }
 
+// Where the test asks for less than the controller can do, it does what it can.
+void check_slowness(const TestPlan& plan, const std::vector<TestPhase>& phases,
+                    const StageDynamics& dynamics, Preflight& result) {
+  const auto warn = [&](const std::string& what, double asked_m_s) {
+    result.warnings.push_back("the stage moves no slower than " + in_mm(dynamics.min_speed_m_s) +
+                              "/s: " + what + " goes at that, not at " + in_mm(asked_m_s) +
+                              "/s. Use microstepping");
+  };
+  if (plan.approach_speed_m_s < dynamics.min_speed_m_s)
+    warn("the approach", plan.approach_speed_m_s);
+  double before_m = 0.0;
+  for (const TestPhase& phase : phases) {
+    if (phase.kind != TestPhase::Kind::kMove) continue;
+    const double way_m = std::abs(result.stage_travel_of(phase.depth_m - before_m));
+    before_m = phase.depth_m;
+    if (!(phase.move_s > 0.0) || !(way_m > 0.0)) continue;
+    if (way_m >= dynamics.min_speed_m_s * phase.move_s) continue;
+    return warn("the move '" + phase.name + "'", way_m / phase.move_s);
+  }
+}
+
 void check_motion(const RigConfig& rig, const TestPlan& plan, const std::vector<TestPhase>& phases,
                   const StageDynamics& dynamics, Preflight& result) {
   const double k_N_m = result.total_stiffness_N_m;
@@ -105,20 +126,24 @@ void check_motion(const RigConfig& rig, const TestPlan& plan, const std::vector<
     const double seen_after_s = 1.5 / rig.load_cell.expected_rate_Hz + kLinkDelay_s;
     return k_N_m * (speed_m_s * seen_after_s + stop_distance_m(speed_m_s, dynamics));
   };
-  result.approach_overshoot_N = overshoot_N(plan.approach_speed_m_s);
+  const double approach_m_s = std::max(plan.approach_speed_m_s, dynamics.min_speed_m_s);
+  result.ramp_speed_m_s = std::max(result.ramp_speed_m_s, dynamics.min_speed_m_s);
+  result.approach_overshoot_N = overshoot_N(approach_m_s);
   const double room_N = result.limit_N - plan.contact_force_N;
   if (result.approach_overshoot_N > room_N) {
     const double fastest_mm_s =
-        std::floor(1e6 * fastest_m_s(overshoot_N, plan.approach_speed_m_s, room_N)) * 1e-3;
+        std::floor(1e6 * fastest_m_s(overshoot_N, approach_m_s, room_N)) * 1e-3;
     result.problems.push_back(
         "the approach would overshoot contact by " + in_N(result.approach_overshoot_N) +
         ", more than " + in_N(room_N) + ". " +
-        (fastest_mm_s > 0.0 ? "Lower speed under [approach] of the test file to " +
-                                  text_from_number(fastest_mm_s, 3) + " mm/s or less"
-                            : std::string("Use finer steps: no speed under [approach] of the test "
-                                          "file is slow enough")));
+        (fastest_mm_s > dynamics.min_speed_m_s * 1e3
+             ? "Lower speed under [approach] of the test file to " +
+                   text_from_number(fastest_mm_s, 3) + " mm/s or less"
+             : std::string("Use finer steps: no speed under [approach] of the test "
+                           "file is slow enough")));
   }
   check_speeds(phases, dynamics, result);
+  check_slowness(plan, phases, dynamics, result);
   const double step_m = 1.0 / dynamics.steps_per_m;
   const double depth_m = deepest_m(phases);
   if (depth_m > 0.0 && 0.5 * step_m > 0.005 * depth_m) {

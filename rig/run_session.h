@@ -97,7 +97,7 @@ class RunSession {
   bool guards_force() const { return is_armed_ && (is_stage_connected_ || rig_.stage.home); }
   void check_stream();
   void report_progress();
-  std::string lift(double retract_to_m, double speed_m_s);
+  std::string lift(double retract_to_m, double speed_m_s, double share);
   std::string force_after_lift(double before_N);
 
   Stage& stage_;

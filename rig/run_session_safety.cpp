@@ -12,6 +12,7 @@ namespace {
 constexpr double kStop_wall_s = 10.0;   // longest wait for standstill
 constexpr double kUnloadStep_m = 2e-3;  // a lift is one move; this bounds it, contact known or not
 constexpr int kAttempts = 4;
+constexpr double kPressing = 0.1;  // of the soft limit
 
 std::string in_N(double force_N) {
   return text_from_number(force_N, 3) + " N";
@@ -86,21 +87,28 @@ void RunSession::check_stream() {
       "the amplifier and its cable, then start the run again");
 }
 
-// Away from the specimen, slowly. Says so if the force does not fall, which no second try mends.
-std::string RunSession::lift(double retract_to_m, double speed_m_s) {
+// Away from the specimen, slowly, by a share of the way. Says so if the force does not fall, which
+// no second try mends.
+std::string RunSession::lift(double retract_to_m, double speed_m_s, double share) {
   const double before_N = std::abs(force_N_);
   const double from_m = stage_.position_m();
-  const double lifted_m = from_m - kUnloadStep_m;
+  const double lifted_m = from_m - share * kUnloadStep_m;
   const double to_m =
-      is_place_lost_ ? lifted_m : std::min(from_m, std::max(retract_to_m, lifted_m));
+      is_place_lost_
+          ? lifted_m
+          : std::min(from_m, std::max(from_m - share * (from_m - retract_to_m), lifted_m));
   if (to_m < from_m) {
     stage_.begin_move(to_m, speed_m_s, "retract");
     const double deadline_s = monotonic_s() + kStop_wall_s + (from_m - to_m) / speed_m_s;
     while (stage_.is_moving() && monotonic_s() < deadline_s) pump();
     lifted_m_ = from_m - stage_.position_m();
   }
-  if (lifted_m_ <= 0.0) return "";
-  return before_N > 0.1 * guard_.soft_limit_N() ? force_after_lift(before_N) : "";
+  const bool was_pressing = before_N > kPressing * guard_.soft_limit_N();
+  if (to_m < from_m && !(lifted_m_ > 0.0) && was_pressing) {
+    return "THE PUNCH WAS NOT LIFTED: the controller's own travel ends where it stands ($20, "
+           "$130-132). Lift it by hand";
+  }
+  return lifted_m_ > 0.0 && was_pressing ? force_after_lift(before_N) : "";
 }
 
 // "", or what is wrong with the force after a lift.
@@ -136,7 +144,8 @@ std::string RunSession::make_safe(double retract_to_m, double speed_m_s) {
       is_stopping_ = false;
       if (attempt > 0 || needs_recovery_) stage_.recover(pump);
       needs_recovery_ = false;
-      return lift(retract_to_m, speed_m_s);
+      // A stage that refuses to go so far (its own limits) may go part of it.
+      return lift(retract_to_m, speed_m_s, std::pow(0.5, attempt));
     } catch (const PortHungUp& error) {
       return std::string(error.what()) +
              ". THE STAGE CANNOT BE STOPPED FROM HERE: use its emergency stop and lift the punch "

@@ -4,6 +4,7 @@
 #include "rig/rig_error.h"
 #include "rig/transport.h"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ struct StageDynamics {
   double steps_per_m = 0.0;
   double acceleration_m_s2 = 0.0;
   double max_speed_m_s = 0.0;
+  double min_speed_m_s = 0.0;  // what is asked to go slower goes at this speed
+  // Positions beyond which the controller refuses to go, where it watches over its travel itself.
+  double lowest_m = -std::numeric_limits<double>::infinity();
+  double highest_m = std::numeric_limits<double>::infinity();
 };
 
 // Time from a question for the position to its answer, wall seconds.
@@ -59,7 +64,8 @@ class Stage {
   // Where it is: the exact end of the last move at rest, the last report while moving.
   virtual double position_m() const = 0;
 
-  // Begins a move; to_m is rounded to whole steps. purpose names it in its CommandedMove record,
+  // Begins a move; to_m is rounded to whole steps, and one away from the specimen ends where the
+  // controller's travel does. purpose names it in its CommandedMove record,
   // which is handed out when the move has ended (its start is known best then). Precondition: at
   // rest.
   virtual void begin_move(double to_m, double speed_m_s, const std::string& purpose) = 0;

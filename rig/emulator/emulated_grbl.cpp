@@ -32,7 +32,7 @@ EmulatedGrbl::EmulatedGrbl(const EmulatedTruth& truth, char axis, int toward_spe
                {11, .01},
                {12, .002},
                {13, habits.reports_inches ? 1.0 : 0.0},
-               {20, 0},
+               {20, habits.soft_limit_mm > 0.0 ? 1.0 : 0.0},
                {21, 0},
                {22, habits.is_homing_enabled ? 1.0 : 0.0},
                {23, 0},
@@ -47,7 +47,7 @@ EmulatedGrbl::EmulatedGrbl(const EmulatedTruth& truth, char axis, int toward_spe
     settings_[100 + i] = truth.steps_per_m * 1e-3;
     settings_[110 + i] = truth.max_rate_m_s * 60e3;
     settings_[120 + i] = truth.acceleration_m_s2 * 1e3;
-    settings_[130 + i] = 200.0;
+    settings_[130 + i] = habits.soft_limit_mm > 0.0 ? habits.soft_limit_mm : 200.0;
   }
   load_axis_settings();
 }
@@ -71,7 +71,6 @@ double EmulatedGrbl::bench_m(double machine_mm) const {
 void EmulatedGrbl::reset(double time_s) {
   motion_.stop_at_once(time_s);
   machine_origin_m_ = motion_.position_m(time_s);  // a power-up counts from where it stands
-  is_homed_ = false;
   answers_.clear();
   late_reports_.clear();
   output_.clear();
@@ -219,7 +218,6 @@ void EmulatedGrbl::tick(double time_s) {
     if (state_ == "Home") {
       // The switch is machine zero; the axis stands pulled off from it by $27.
       machine_origin_m_ = motion_.end_position_m() - toward_ * -settings_[27] * 1e-3;
-      is_homed_ = true;
       state_ = "Idle";
       ok(time_s);
       break;

@@ -23,18 +23,19 @@ struct GrblHabits {
   bool answers_twice = false;          // every ok comes twice
   bool reports_work_position = false;  // $10=0
   bool reports_inches = false;         // $13=1
-  double status_delay_s = 0.0;         // until the answer to '?' is sent
-  bool reports_twice = false;          // every '?' is answered by two lines
-  bool has_startup_block = false;      // a block run at start: ">G54G21:ok" behind the welcome
-  int lose_ok_number = 0;              // the n-th ok is never sent
-  int refuse_jog_number = 0;           // the n-th jog is answered by error:15
-  int misread_jog_number = 0;          // the n-th jog goes 1 mm further than it says
-  int ends_short_number = 0;           // the n-th jog stops half way and says Idle
-  bool alarms_again = false;           // the move off a limit switch opens it, and that alarms too
-  bool holds_after_cancel = false;     // a jog cancel leaves it held at Idle until '~'
-  bool never_rests = false;            // says Jog long after a move has ended
-  bool refuses_unlock = false;         // $X is answered by error:13 (the safety door is open)
-  double true_speed = 1.0;             // speed of a move over what was asked for
+  double soft_limit_mm = 0.0;       // $20=1 and $130-132: refuses what goes beyond 0 to minus this
+  double status_delay_s = 0.0;      // until the answer to '?' is sent
+  bool reports_twice = false;       // every '?' is answered by two lines
+  bool has_startup_block = false;   // a block run at start: ">G54G21:ok" behind the welcome
+  int lose_ok_number = 0;           // the n-th ok is never sent
+  int refuse_jog_number = 0;        // the n-th jog is answered by error:15
+  int misread_jog_number = 0;       // the n-th jog goes 1 mm further than it says
+  int ends_short_number = 0;        // the n-th jog stops half way and says Idle
+  bool alarms_again = false;        // the move off a limit switch opens it, and that alarms too
+  bool holds_after_cancel = false;  // a jog cancel leaves it held at Idle until '~'
+  bool never_rests = false;         // says Jog long after a move has ended
+  bool refuses_unlock = false;      // $X is answered by error:13 (the safety door is open)
+  double true_speed = 1.0;          // speed of a move over what was asked for
 };
 
 // The controller of the stage as seen on its wire: a character machine with the states, answers,
@@ -82,6 +83,7 @@ class EmulatedGrbl final : public EmulatedController {
   void welcome();
   void load_axis_settings();
 
+  double least_speed_m_s() const;
   double machine_mm(double bench_m) const;
   double bench_m(double machine_mm) const;
 
@@ -96,7 +98,6 @@ class EmulatedGrbl final : public EmulatedController {
   std::string state_ = "Idle";
   bool is_silent_ = false;      // after a critical alarm, until the reset
   bool is_cancelling_ = false;  // a jog that is being stopped
-  bool is_homed_ = false;
   bool is_eeprom_dumped_ = false;
   std::optional<double> held_target_m_;
   double move_speed_m_s_ = 0.0;

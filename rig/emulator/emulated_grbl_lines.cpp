@@ -105,6 +105,12 @@ std::string EmulatedGrbl::settings_text() const {
   return text;
 }
 
+// 1 mm/min, and the longest time between steps that an AVR's timer makes (gnea/grbl config.h and
+// stepper.c, as rig/README.md tells).
+double EmulatedGrbl::least_speed_m_s() const {
+  return habits_.is_hal ? 0.0 : std::max(1e-3 / 60.0, 16e6 / (8.0 * 65535.0) / steps_per_m_);
+}
+
 void EmulatedGrbl::jog(std::string_view words, double time_s) {
   if (state_ == "Alarm") return error(time_s, 9);
   if (state_ != "Idle" && state_ != "Jog") return error(time_s, 8);
@@ -116,11 +122,13 @@ void EmulatedGrbl::jog(std::string_view words, double time_s) {
     const double base_mm = asked.is_relative ? machine_mm(last_m) : 0.0;
     const bool is_misread = n_jogs_ == habits_.misread_jog_number;
     const double to_mm = base_mm + *asked.target * asked.scale_mm + (is_misread ? toward_ : 0.0);
-    if (settings_[20] != 0.0 && is_homed_ && (to_mm > 0.0 || to_mm < -settings_[130])) {
+    // Homed or not (gnea/grbl jog.c).
+    if (settings_[20] != 0.0 && (to_mm > 0.0 || to_mm < -settings_[130])) {
       return error(time_s, 15);
     }
     const double share = n_jogs_ == habits_.ends_short_number ? 0.5 : 1.0;
-    const double speed_m_s = std::min(*asked.feed * asked.scale_mm / 60e3, max_rate_m_s_);
+    const double asked_m_s = std::min(*asked.feed * asked.scale_mm / 60e3, max_rate_m_s_);
+    const double speed_m_s = std::max(asked_m_s, least_speed_m_s());
     queue_.push_back({last_m + share * (bench_m(to_mm) - last_m), speed_m_s});
     state_ = "Jog";
     tick(time_s);

@@ -49,6 +49,54 @@ TEST_CASE("Reports in inches give the same metres", "[rig][pty]") {
   CHECK(rig.emulated.outcome().final_position_m == Approx(0.3e-3).margin(0.5 / 3200e3));
 }
 
+TEST_CASE("A speed below what the firmware can do is recorded as what it does", "[rig][pty]") {
+  // 30.5 steps/s at 250 steps/mm is .1221 mm/s (gnea/grbl stepper.c), whatever is asked.
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.steps_per_m = 250e3;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  CHECK(rig.stage.dynamics().min_speed_m_s == Approx(30.518 / 250e3).epsilon(1e-4));
+  move_and_wait(rig, 0.2e-3, 0.05e-3);
+  REQUIRE(rig.all<CommandedMove>().size() == 1);
+  CHECK(rig.all<CommandedMove>()[0].move.speed_m_s == Approx(30.518 / 250e3).epsilon(1e-3));
+  CHECK_FALSE(rig.has_event("move_doubtful", "test"));
+  CHECK(stands_where_it_says(rig));
+}
+
+TEST_CASE("grblHAL and fine steps are held to 1 mm/min at most", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.grbl.is_hal = GENERATE(false, true);
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  const double expected_m_s = options.grbl.is_hal ? 0.0 : 1e-3 / 60.0;
+  CHECK(rig.stage.dynamics().min_speed_m_s == Approx(expected_m_s).margin(1e-12));
+}
+
+TEST_CASE("With soft limits a lift ends where the controller's travel does", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.grbl.soft_limit_mm = 3.0;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  move_and_wait(rig, 0.2e-3, 1e-3);
+  move_and_wait(rig, -0.5e-3, 1e-3);  // refused as it is: error 15
+  CHECK(rig.stage.position_m() == Approx(0.0).margin(1e-9));
+  CHECK(stands_where_it_says(rig));
+  CHECK_THROWS_WITH(move_and_wait(rig, 3.1e-3, 1e-3), Contains("$130"));
+  move_and_wait(rig, 0.1e-3, 1e-3);
+  CHECK(stands_where_it_says(rig));
+}
+
+TEST_CASE("A run with soft limits retracts as far as it may and finishes", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.surface_position_m = 0.1e-3;
+  options.grbl.soft_limit_mm = 3.0;
+  RigFixture rig(options);
+  const RunOutcome outcome = rig.run(short_plan());
+  INFO(outcome.reason);
+  CHECK(outcome.status == "finished");
+  CHECK(rig.emulated.outcome().final_position_m == Approx(0.0).margin(1e-6));
+}
+
 TEST_CASE("A question answered by two lines, or later than the next question, ends no move early",
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(5.0);

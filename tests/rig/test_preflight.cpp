@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -13,6 +14,27 @@ namespace {
 const StageDynamics kFine{3200e3, 0.2, 10e-3};
 
 }  // namespace
+
+TEST_CASE("What the stage cannot do slowly enough is said, with the speed it goes at instead",
+          "[rig]") {
+  StageDynamics coarse{3200e3, 0.2, 10e-3, 0.122e-3};
+  TestPlan plan;
+  plan.approach_speed_m_s = 0.05e-3;
+  plan.depth_m = 0.05e-3;
+  plan.ramp_s = 10.0;
+  const Preflight slow = preflight(demo_rig(), plan, demo_specimen(10.0), coarse);
+  const auto says = [&](const std::string& words) {
+    return std::count_if(slow.warnings.begin(), slow.warnings.end(), [&](const std::string& text) {
+      return text.find(words) != std::string::npos;
+    });
+  };
+  CHECK(says("no slower than 0.1220 mm/s: the approach") == 1);
+  CHECK(says("the move 'ramp' goes at that") == 1);
+  coarse.min_speed_m_s = 0.0;
+  const Preflight free = preflight(demo_rig(), plan, demo_specimen(10.0), coarse);
+  // The overshoot is that of the speed it really approaches with.
+  CHECK(slow.approach_overshoot_N > 1.5 * free.approach_overshoot_N);
+}
 
 TEST_CASE("A depth of .25 mm is refused for all three mixing ratios, and a safe one named",
           "[rig]") {
