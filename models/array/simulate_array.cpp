@@ -209,7 +209,7 @@ ArrayMedia media_of(const ArrayScene& scene) {
 std::vector<Discretisation> array_meshes(const ArrayScene& scene) {
   std::vector<Discretisation> all;
   for (const auto& [degree, layers] :
-       {std::pair{3, 2}, {4, 2}, {5, 2}, {6, 3}, {7, 3}, {8, 4}, {9, 5}}) {
+       {std::pair{3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}, {8, 4}, {9, 5}}) {
     all.push_back({.degree = degree,
                    .layers = scene.electrodes.is_equipotential ? degree : layers,
                    .shaft_elements = scene.analysis == ArrayAnalysis::kStatic ? 1 : 2});
