@@ -2,7 +2,7 @@
 #include "models/pillar/number_text.h"
 #include "models/pillar/pillar_loads.h"
 #include "models/pillar/scene_body.h"
-#include "models/pillar/scene_mistake.h"
+#include "models/pillar/wave_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,21 +17,8 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-// A mesh has elements of about the length of a bar's wave both ways; more of them than this, at the
-// highest degree, would be too many unknowns.
-constexpr double kMostCells = 150.0;
 // Up to this many frequencies are solved one by one on the whole body.
 constexpr std::size_t kMostDirect = 16;
-
-double bar_speed_m_s(const Scene& scene) {
-  return std::sqrt(scene.pillar.E0_Pa / scene.pillar.rho_kg_m3);
-}
-
-// Frequency whose waves make that many cells.
-double highest_Hz(const Scene& scene) {
-  const double section_m2 = 0.5 * scene.geometry.diameter_m * scene.geometry.length_m;
-  return bar_speed_m_s(scene) * std::sqrt(kMostCells / section_m2);
-}
 
 // Complex amplitude of one output over frequency, and |y| + |omega dy/domega|: the tolerance refers
 // to it, so that a curve counts as right if it is so within the tolerance in amplitude or
@@ -224,26 +211,17 @@ void check_harmonic(const Scene& scene) {
     throw std::invalid_argument(
         "a harmonic analysis needs a pressure on the top or an acceleration of the base");
   }
-  if (f.back() > highest_Hz(scene)) {
-    const double wave_m = bar_speed_m_s(scene) / f.back();
-    throw SceneMistake(
-        "analysis.frequencies",
-        "at " + number_text(f.back(), 4) + " Hz waves are " + number_text(1e6 * wave_m, 4) +
-            " um long, " + number_text(scene.geometry.length_m / wave_m, 4) +
-            " to the length of the pillar and " +
-            number_text(scene.geometry.diameter_m / wave_m, 4) +
-            " to its diameter: too many for any mesh here. The highest frequency this pillar can "
-            "be answered at is " +
-            number_text(highest_Hz(scene), 4) + " Hz; a smaller pillar reaches higher");
-  }
+  wave_mesh(scene);  // refuses what no mesh can resolve
 }
 
 void run_harmonic(const Scene& scene, SceneAnswer& answer) {
   const bool is_axial = scene.direction == LoadDirection::kAxial;
   const Motion lateral = scene.plane ? Motion::kPlaneAntisymmetric : Motion::kLateral;
-  // Elements as long as the waves, so that a rising degree resolves them.
   if (!scene.discretisation) {
-    answer.discretisation.longest_m = bar_speed_m_s(scene) / scene.frequencies_Hz.back();
+    const WaveMesh mesh = wave_mesh(scene);
+    answer.discretisation.longest_m = mesh.longest_m;
+    answer.discretisation.skin_m = mesh.skin_m;
+    answer.discretisation.skin_at_foot = scene.load_place == LoadPlace::kBase;
   }
   const SceneBody body =
       body_of(scene, is_axial ? axial_motion(scene) : lateral, {.with_mass = true}, answer);

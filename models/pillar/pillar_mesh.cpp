@@ -44,22 +44,46 @@ std::vector<double> cut(const std::vector<double>& breaks, double size) {
   return fine;
 }
 
-// The same between two breaks only.
-std::vector<double> cut_between(const std::vector<double>& breaks, double from, double to,
-                                double size) {
-  std::vector<double> before, inside, after;
-  const double near = 1e-9 * (to - from);
-  for (const double b : breaks) {
-    if (b >= from - near && b <= to + near) {
-      inside.push_back(b);
-    } else {
-      (b < from ? before : after).push_back(b);
+// The same between two breaks only, with sizes that may grow away from one end: see skin_m.
+class WaveBreaks {
+ public:
+  WaveBreaks(const Discretisation& d, double end_m)
+      : size_m_(d.longest_m), skin_m_(d.skin_m), end_m_(end_m) {}
+
+  std::vector<double> cut_between(const std::vector<double>& breaks, double from, double to) const {
+    std::vector<double> all;
+    const double near = 1e-9 * (to - from);
+    for (const double b : breaks) {
+      if (!all.empty() && b > from + near && b <= to + near) cut(all.back(), b, all);
+      append(all, {b});
+    }
+    return all;
+  }
+
+ private:
+  // Number of elements from the end to a distance from it, int ds/size(s).
+  double count_to(double distance_m) const {
+    if (skin_m_ == 0.0 || distance_m <= skin_m_) return distance_m / size_m_;
+    return skin_m_ / size_m_ + std::log1p((distance_m - skin_m_) / size_m_);
+  }
+  double distance_of(double count) const {
+    const double in_skin = skin_m_ / size_m_;
+    if (skin_m_ == 0.0 || count <= in_skin) return count * size_m_;
+    return skin_m_ + size_m_ * std::expm1(count - in_skin);
+  }
+  // Breaks within (from, to): equal shares of the elements between them.
+  void cut(double from, double to, std::vector<double>& all) const {
+    const double a = count_to(std::abs(from - end_m_));
+    const double b = count_to(std::abs(to - end_m_));
+    const int pieces = static_cast<int>(std::ceil(std::abs(b - a) * (1.0 - 1e-9)));
+    for (int i = 1; i < pieces; ++i) {
+      const double distance_m = distance_of(a + (b - a) * i / pieces);
+      append(all, {to > end_m_ || from > end_m_ ? end_m_ + distance_m : end_m_ - distance_m});
     }
   }
-  append(before, cut(inside, size));
-  append(before, after);
-  return before;
-}
+
+  double size_m_, skin_m_, end_m_;
+};
 
 std::vector<double> film_radii(const FilmGeometry& film, double radius_m, const Discretisation& d) {
   std::vector<double> breaks;
@@ -189,8 +213,9 @@ PillarMesh pillar_mesh(const PillarGeometry& g, const Discretisation& d) {
   if (is_uniform) {
     breaks = {cut(breaks.x, d.uniform_m), cut(breaks.z, d.uniform_m)};
   } else if (d.longest_m > 0.0) {
-    breaks = {cut_between(breaks.x, 0.0, radius_m, d.longest_m),
-              cut_between(breaks.z, 0.0, g.length_m, d.longest_m)};
+    const double end_m = d.skin_at_foot ? 0.0 : g.length_m;
+    breaks = {WaveBreaks(d, radius_m).cut_between(breaks.x, 0.0, radius_m),
+              WaveBreaks(d, end_m).cut_between(breaks.z, 0.0, g.length_m)};
   }
   const auto below = [](const std::vector<double>& all, double at) {
     return static_cast<int>(

@@ -43,6 +43,10 @@ struct Discretisation {
   int film_elements = 1;   // across the film outside the graded part
   // No element of the pillar longer than this either way, for waves of about that length; 0: none.
   double longest_m = 0.0;
+  // For waves that die out: longest_m holds only this far from the pillar's side and its top (or
+  // its foot), and deeper in elements may be longer by what lies between. 0: everywhere.
+  double skin_m = 0.0;
+  bool skin_at_foot = false;
   // Uniform instead, as ordinary meshes are: elements of about this size in both directions.
   double uniform_m = 0.0;
 };
