@@ -1,8 +1,19 @@
 #include "fit/fit_result.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace viscard {
+
+Interval combined_95(const Interval& interval, double value, double relative_u) {
+  constexpr double kNormal95 = 1.959963984540054;
+  const double part = kNormal95 * relative_u * std::abs(value);
+  const Interval wide{value - std::hypot(std::max(0.0, value - interval.low), part),
+                      value + std::hypot(std::max(0.0, interval.high - value), part)};
+  // What could not be negative before cannot be now.
+  return interval.low >= 0.0 ? Interval{std::max(0.0, wide.low), wide.high} : wide;
+}
 
 Material material_from_fit(const FitResult& fit, double nu, double rho_kg_m3) {
   if (fit.is_stiffness) {

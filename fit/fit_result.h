@@ -87,6 +87,9 @@ struct FitResult {
   std::vector<std::string> covariance_parameters;  // e.g. "E_inf_Pa", "E_1_Pa", ..., "ln_tau_1"
   Eigen::MatrixXd covariance;
   double systematic_relative = 0.0;  // of all moduli together: geometry, calibration, frame
+  // Standard uncertainty of all moduli together from the load cell's gain, as it may have drifted
+  // before contact by the record's own evidence; the errors and intervals above hold it already.
+  double gain_drift_relative = 0.0;
   double fit_from_s = 0.0, fit_to_s = 0.0;
   double fastest_s =
       0.0;  // duration of the quickest loading; the modulus before it is extrapolated
@@ -101,6 +104,9 @@ struct FitResult {
   int n_bootstrap = 0;                 // resamples behind the intervals; 0: from the covariance
   FitCurves curves;
 };
+
+// An interval about a value with a relative standard uncertainty added to both sides in quadrature.
+Interval combined_95(const Interval& interval, double value, double relative_u);
 
 // The material a fit describes, without provenance. Throws std::invalid_argument if the fit is of
 // stiffnesses (no geometry was given).

@@ -4,6 +4,7 @@
 #include "fit/clean_data.h"
 #include "fit/contact_onset.h"
 #include "fit/flags.h"
+#include "fit/gain_drift.h"
 #include "fit/stage_model.h"
 #include "fit/two_point_modulus.h"
 #include "models/retardation_spectrum.h"
@@ -241,6 +242,11 @@ ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options
     return series;
   };
   fill_result(model, fit, series_from_state, result);
+  const double share = data.frame_stiffness_N_m > 0.0
+                           ? factor_m * result.E0_Pa / data.frame_stiffness_N_m
+                           : 0.0;  // what an error of the force costs beyond itself
+  result.gain_drift_relative = (1.0 + share) * gain_drift_relative_u(model, fit, data);
+  add_common_uncertainty(result.gain_drift_relative, result);
   result.noise.sigma = sigmas.resting_N;
   result.contact_position_m = fit.state.nuisance[model.n_nuisances() - 1];
   const Eigen::VectorXd residual =

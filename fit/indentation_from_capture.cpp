@@ -102,6 +102,7 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   data.start_early_s = 0.02 * std::max(1.0, run.rig.clock_speed);
   const CommandedMove* retract = first_move(run, "retract");
   data.contact_from_s = ramp->move.start_time_s;
+  data.first_reading_s = clock.at(readings.clock_s.front());
   data.contact_to_s = clock.at(readings.clock_s.back());
   double free_again_s = 1e300;
   if (retract != nullptr) {

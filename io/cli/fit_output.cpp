@@ -217,6 +217,12 @@ Json json_from_fit(const FittedFile& fitted) {
   json["flags"] = flags_of(fit);
   json["noise"] = {{"sigma", number(fit.noise.sigma)}, {"inflation", number(fit.noise.inflation)}};
   json["systematic_relative"] = number(fit.systematic_relative);
+  json["gain_drift_relative"] = number(fit.gain_drift_relative);
+  // With the systematic part too, in quadrature.
+  json[letter + "0_combined_interval_95"] =
+      interval(combined_95(fit.E0_interval_95, fit.E0_Pa, fit.systematic_relative));
+  json[letter + "_inf_combined_interval_95"] =
+      interval(combined_95(fit.E_inf_interval_95, fit.E_inf_Pa, fit.systematic_relative));
   json["fit_from_s"] = number(fit.fit_from_s);
   json["fit_to_s"] = number(fit.fit_to_s);
   if (fit.contact_position_m) json["contact_position_m"] = number(*fit.contact_position_m);
@@ -254,8 +260,11 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   }
   if (fit.systematic_relative > 0.0) {
     out << fmt::format(
-        "  systematic, all moduli together: {:.2g} % (geometry, calibration, frame)\n",
-        100.0 * fit.systematic_relative);
+        "  systematic, all moduli together: {:.2g} % (geometry, calibration, frame); with it E0 is "
+        "{} {}\n",
+        100.0 * fit.systematic_relative,
+        range(combined_95(fit.E0_interval_95, fit.E0_Pa, fit.systematic_relative), shown.factor, 4),
+        shown.unit);
   }
   if (fit.two_point) {
     out << fmt::format("  two points on the ramp: {:.5g} {} (half-space: {:.5g}); {}\n",

@@ -140,3 +140,34 @@ TEST_CASE("one quick message in the middle does not tilt the clock line", "[fit]
   CHECK(line.at(0.0) == Approx(0.0).margin(0.02));
   CHECK(line.at(100.0) == Approx(100.0).margin(0.02));
 }
+
+TEST_CASE("a gain that drifts before contact is in the intervals of the moduli", "[fit]") {
+  // The cell gains 2e-6 of the force each second for 100 s before contact: .02 %, and (1 + share of
+  // the frame) times as much of the modulus, several random errors of E_inf.
+  EmulatedTruth truth = demo_truth(20, 5);
+  truth.drift_relative_per_s = 2e-6;
+  TestPlan plan;
+  plan.hold_s = 60.0;
+  IndentationData data = indentation_from_capture(in_memory_run(truth, plan));
+  const double before_s = 100.0;
+  data.first_reading_s = data.contact_from_s - before_s;
+  const double gain = 1.0 + truth.drift_relative_per_s * (before_s - data.contact_from_s);
+  for (double& force : data.force_N) force *= gain;
+  const FitResult fit = fit_indentation(data);
+  const double share = force_per_modulus_and_depth_m(truth.contact) * truth.material.E0_Pa /
+                       truth.frame_stiffness_N_m;
+  CHECK(fit.gain_drift_relative == Approx(2e-4 * (1.0 + share)).epsilon(0.3));
+  double E_inf = truth.material.E0_Pa;
+  for (const MaterialTerm& term : truth.material.terms) E_inf -= term.g * truth.material.E0_Pa;
+  const auto holds = [](const Interval& interval, double value) {
+    return value >= interval.low && value <= interval.high;
+  };
+  CHECK(holds(fit.E_inf_interval_95, E_inf));
+  // Without it the truth lies outside.
+  data.first_reading_s = data.contact_from_s;
+  const FitResult blind = fit_indentation(data);
+  CHECK(blind.gain_drift_relative == 0.0);
+  CHECK_FALSE(holds(blind.E_inf_interval_95, E_inf));
+  CHECK(blind.terms.size() == fit.terms.size());
+  CHECK(blind.terms[0].ln_tau_se == fit.terms[0].ln_tau_se);
+}
