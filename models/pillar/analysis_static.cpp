@@ -72,6 +72,7 @@ void run_elastic(const Scene& scene, SceneAnswer& answer) {
 PillarGeometry with_electrode_edge(const Scene& scene) {
   PillarGeometry geometry = scene.geometry;
   geometry.film->electrode_radius_m = scene.electrodes->electrode_radius_m;
+  geometry.film->electrode_is_below = scene.electrodes->grounded == FilmFace::kTop;
   return geometry;
 }
 

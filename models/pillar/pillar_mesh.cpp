@@ -1,5 +1,6 @@
 #include "models/pillar/pillar_mesh.h"
 
+#include "models/pillar/electrode_edge.h"
 #include "models/pillar/number_text.h"
 
 #include <algorithm>
@@ -207,7 +208,13 @@ PillarMesh pillar_mesh(const PillarGeometry& g, const Discretisation& d) {
   const double radius_m = bond_radius_m(g);
   const bool is_uniform = d.uniform_m > 0.0;
   Breaks breaks = is_uniform ? necessary_breaks(g) : graded_mesh_breaks(g, d);
-  if (g.film && g.film->electrode_radius_m > 0.0) insert(breaks.x, g.film->electrode_radius_m);
+  if (g.film && g.film->electrode_radius_m > 0.0) {
+    if (is_uniform) {
+      insert(breaks.x, g.film->electrode_radius_m);
+    } else {
+      grade_toward_electrode(*g.film, d, breaks.x, breaks.z);
+    }
+  }
   if (g.foot.width_m != 0.0) insert(breaks.z, g.foot.height_m);
   if (g.tip.width_m != 0.0) insert(breaks.z, g.length_m - g.tip.height_m);
   if (is_uniform) {

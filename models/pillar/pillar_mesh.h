@@ -11,7 +11,8 @@ namespace viscard {
 struct FilmGeometry {
   double thickness_m = 0.0;
   double radius_m = 0.0;            // outer edge, free; at least the pillar's radius
-  double electrode_radius_m = 0.0;  // an extra break of the mesh; 0: none
+  double electrode_radius_m = 0.0;  // the mesh shrinks toward its edge; 0: none
+  bool electrode_is_below = false;  // on the bottom of the film
 };
 
 // One end of a pillar that widens: over `height` toward the end the radius grows by `width`, as a

@@ -23,6 +23,7 @@ bool is_plane(Motion motion) {
 PillarGeometry with_electrode(PillarGeometry geometry, const ModelOptions& options) {
   if (options.electrodes && geometry.film) {
     geometry.film->electrode_radius_m = options.electrodes->electrode_radius_m;
+    geometry.film->electrode_is_below = options.electrodes->grounded == FilmFace::kTop;
   }
   return geometry;
 }
