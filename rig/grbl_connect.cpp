@@ -11,8 +11,8 @@ namespace {
 constexpr double kBoot_wall_s = 3.0;     // bootloader of an AVR board and the firmware's start
 constexpr double kSettle_wall_s = 0.05;  // messages that follow a welcome
 constexpr double kReset_wall_s = 1.5;    // from a soft reset to the welcome
-constexpr int kResets = 2;
-constexpr int kMostReadings = 4;  // of the settings, until two agree
+constexpr int kResets = 3;               // one is lost when an alarm is just being told
+constexpr int kMostReadings = 4;         // of the settings, until two agree
 
 }  // namespace
 

@@ -119,7 +119,10 @@ void Hx711LoadCell::take_line(const ReceivedLine& line) {
                    "'. Check the wires between it and its HX711");
   }
   if (!is_connected_) return learn(line);
-  if (const auto reading = parse_hx711_line(line.text, has_clock())) {
+  const auto reading = parse_hx711_line(line.text, has_clock());
+  // A new unit has a shape of its own, and is told apart below; so has "ovf".
+  const bool is_judged = reading && reading->value && reading->unit == unit_;
+  if (reading && (!is_judged || shape_.fits(line.text))) {
     take_reading(*reading, line.time_s);
   } else {
     take_text(line);

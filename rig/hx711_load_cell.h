@@ -3,6 +3,7 @@
 #include "models/rig_config.h"
 #include "rig/device_clock.h"
 #include "rig/hx711_protocol.h"
+#include "rig/line_shape.h"
 #include "rig/line_splitter.h"
 #include "rig/load_cell.h"
 #include "rig/rig_clock.h"
@@ -61,6 +62,7 @@ class Hx711LoadCell final : public LoadCell {
   std::optional<DeviceClock> device_clock_;
   std::optional<double> previous_counts_;
   std::string unit_;
+  LineShape shape_;
   std::string banner_;  // a sentence since the last reading
   StreamCounts counts_;
   std::int64_t last_missing_ = 0;         // by the gap before the newest reading

@@ -3,6 +3,7 @@
 #include "rig/text_number.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 
 namespace viscard {
@@ -38,13 +39,35 @@ void doubt_gap(RunSession& session, RunOutcome& outcome, double most_s) {
   session.event("doubt", "gap", outcome.doubts.back());
 }
 
+// Text carries no check sum. Lines that are no reading show that the line is disturbed, and then
+// some that are one are wrong as well: of the 80 ways to flip one bit of a digit 30 make another
+// digit, so that for every line that could not be read .6 could; and of the digits of a count the
+// lower ones, about half, change it by less than stands out.
+void doubt_line(RunSession& session, RunOutcome& outcome) {
+  constexpr double kReadableToNot = 30.0 / 50.0;
+  const StreamCounts& stream = outcome.stream;
+  if (stream.unreadable + stream.implausible == 0) return;
+  const double n_hidden = std::ceil(kReadableToNot * static_cast<double>(stream.unreadable) +
+                                    static_cast<double>(stream.implausible));
+  outcome.doubts.push_back(
+      std::to_string(stream.unreadable) + " lines of the load cell could not be read and " +
+      std::to_string(stream.implausible) +
+      " readings stood out of their neighbours (these are left out of a fit): about " +
+      text_from_number(n_hidden, 0) +
+      " more readings may be wrong by less than can be told, some 8 times the noise. Check its "
+      "cable and its ground");
+  session.event("doubt", "line_noise", outcome.doubts.back());
+}
+
 }  // namespace
 
 void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock) {
   outcome.peak_force_N = session.peak_force_N();
   outcome.stream = session.load_cell().counts();
-  outcome.stream.implausible += session.n_implausible();
   try {
+    session.finish_watching();
+    outcome.stream.implausible += session.n_implausible();
+    doubt_line(session, outcome);
     doubt_flat_force(session, outcome);
     doubt_gap(
         session, outcome,

@@ -359,6 +359,7 @@ RunOutcome run_indentation(Stage& stage, LoadCell& load_cell, const RigConfig& r
   const auto end = [&](const char* status, const std::exception& error) {
     outcome.status = status;
     outcome.reason = error.what();
+    outcome.has_begun = session.has_moved();
     run.note_depth_at_end();
     const bool tells_lift = outcome.status == "stopped" || run.presses_at_start();
     const std::string trouble = session.make_safe(run.safe_position_m(), plan.retract_speed_m_s);
@@ -369,6 +370,7 @@ RunOutcome run_indentation(Stage& stage, LoadCell& load_cell, const RigConfig& r
     run.connect();
     run.measure();
     outcome.status = "finished";
+    outcome.has_begun = true;
   } catch (const LimitReached& error) {
     if (!session.is_stage_connected()) throw;
     end("stopped", error);

@@ -21,7 +21,8 @@ struct RunOutcome {
       status;  // "finished" | "interrupted" (asked to, or a device was lost) | "stopped" (a limit)
   std::string reason;  // why it did not finish, and what next; empty if it did
   Preflight expected;
-  double noise_N = 0.0;                      // of one reading, out of contact
+  double noise_N = 0.0;    // of one reading, out of contact
+  bool has_begun = false;  // anything was moved: else the record says nothing of the specimen
   std::optional<double> contact_position_m;  // live estimate; the fit finds it better
   double peak_force_N = 0.0;
   double achieved_depth_m = 0.0;  // the deepest, by that estimate

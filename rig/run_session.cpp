@@ -15,8 +15,7 @@ constexpr double kNap_wall_s = 0.005;
 // An emulated clock in a hurry makes seconds of every stall of the machine.
 constexpr double kSilenceEmulated_wall_s = 1.0;
 constexpr double kSilence_wall_s = 0.1;
-constexpr double kTimeNoise =
-    0.02;  // of a period: what the device's clock may jitter unmarked / 10
+constexpr double kTimeNoise = 0.002;  // of a period: what the device's clock jitters at least
 
 }  // namespace
 
@@ -140,24 +139,37 @@ void RunSession::take_sample(const LoadSample& sample) {
 }
 
 void RunSession::watch_spikes(const LoadSample& sample, bool is_doubtful) {
+  if (first_period_s_ == 0.0) first_period_s_ = load_cell_.period_s();
+  const auto number = static_cast<double>(sample.index);
+  std::vector<std::int64_t> values, times;
   if (sample.device_time_s) {
-    if (!time_spikes_) time_spikes_.emplace(kTimeNoise * load_cell_.period_s());
-    if (const auto spike = time_spikes_->take(sample.index, *sample.device_time_s)) {
-      mark(*spike, "came at a time that its neighbours contradict: a garbled digit of its clock");
-    }
+    if (!time_spikes_) time_spikes_.emplace(kTimeNoise * first_period_s_);
+    times = time_spikes_->take(sample.index, number, *sample.device_time_s);
   }
-  if (is_doubtful) return spikes_.interrupt();
-  const double value = sample.counts ? *sample.counts : *force_N_from_sample(sample, rig_);
-  if (const auto spike = spikes_.take(sample.index, value)) {
-    mark(*spike, "stands out of its neighbours: a garbled digit, or a knock");
+  if (!is_doubtful) {
+    const double value = sample.counts ? *sample.counts : *force_N_from_sample(sample, rig_);
+    values = spikes_.take(sample.index, number, value);
+  }
+  mark_all(values, times);
+}
+
+void RunSession::finish_watching() {
+  mark_all(spikes_.finish(), time_spikes_ ? time_spikes_->finish() : std::vector<std::int64_t>());
+}
+
+void RunSession::mark_all(const std::vector<std::int64_t>& values,
+                          const std::vector<std::int64_t>& times) {
+  for (const std::int64_t index : times) {
+    mark(index, "came at a time that its neighbours contradict: a garbled digit of its clock");
+  }
+  for (const std::int64_t index : values) {
+    mark(index, "stands out of its neighbours: a garbled digit, or a knock");
   }
 }
 
 // Marked, not dropped: what was received stays in the record as it came.
 void RunSession::mark(std::int64_t index, const std::string& why) {
-  if (last_implausible_ == index) return;
-  last_implausible_ = index;
-  ++n_implausible_;
+  if (!implausible_.insert(index).second) return;
   event("implausible", std::to_string(index),
         "Reading " + std::to_string(index) + " of the load cell " + why);
 }

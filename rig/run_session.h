@@ -10,6 +10,7 @@
 #include "rig/stage.h"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -81,13 +82,16 @@ class RunSession {
   double force_N() const { return force_N_; }
   double peak_force_N() const { return peak_force_N_; }
   // Readings marked by an event "implausible" because they stand out of their neighbours.
-  int n_implausible() const { return n_implausible_; }
+  int n_implausible() const { return static_cast<int>(implausible_.size()); }
+  // The last readings have no neighbours behind them any more: judges them as they are.
+  void finish_watching();
 
  private:
   void serve_cell();
   void serve_stage();
   void take_sample(const LoadSample& sample);
   void watch_spikes(const LoadSample& sample, bool is_doubtful);
+  void mark_all(const std::vector<std::int64_t>& values, const std::vector<std::int64_t>& times);
   void mark(std::int64_t index, const std::string& why);
   void act_on(GuardAction action, double force_N);
   [[noreturn]] void throw_limit(GuardAction action, double force_N) const;
@@ -121,9 +125,9 @@ class RunSession {
   SilenceWatch silence_;
   SpikeWatch spikes_;
   std::optional<SpikeWatch> time_spikes_;  // of the device's own clock
-  std::optional<std::int64_t> last_implausible_;
-  int n_implausible_ = 0;
-  double heard_s_ = 0.0;  // arrival of the last reading that silence_ knows of
+  double first_period_s_ = 0.0;            // places along device time are counted in it
+  std::set<std::int64_t> implausible_;     // indices
+  double heard_s_ = 0.0;                   // arrival of the last reading that silence_ knows of
   double tare_N_ = 0.0;
   double force_N_ = 0.0;
   std::int64_t n_forces_ = 0;  // readings that make a force

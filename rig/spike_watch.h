@@ -3,41 +3,61 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <deque>
+#include <vector>
 
 namespace viscard {
 
-// Finds single readings that stand out of their neighbours: a digit garbled on the wire that still
-// makes a number, which nothing else in a stream of bare counts can show. A straight line is laid
-// through the two readings before and the two behind (least squares). A reading is a spike if it is
-// further from that line than 10 times its usual distance (the noise, followed slowly; not less
-// than the converter's smallest step) and than 5 times what the four are from it. True forces stay
-// below 3 times that: a corner or a peak makes 3, a step 2.5, a ramp 0. Told two readings later.
-// What is smaller stays hidden, the first ten readings are learnt from, and two spoilt readings
-// within three hide one another.
+// Finds readings that their neighbours contradict: a digit garbled on the wire that still makes a
+// number, which nothing else in a stream of bare counts can show.
+//
+// A straight line is laid through the five readings before and another through the five behind
+// (median of slopes: Theil 1950, Sen, J. Am. Stat. Assoc. 63 (1968) 1379), so that one spoilt
+// reading on either side does not move it; a reading is a spike if it lies outside of what the two
+// lines foretell for it. A corner, a step and every reading on the way of a quick move lie between
+// the two. Where the lines agree, the mean of all ten is foretold, and 6.3 robust standard
+// deviations are allowed, 8 at the beginning; where they do not, a line's own uncertainty, half of
+// their difference in slope (a corner may be rounded), and a quarter of the slope itself (a reading
+// may have been made that much early or late), besides. The noise is the median distance of the
+// last 256 readings. Judged five readings later; the first 32 together.
 class SpikeWatch {
  public:
-  // least: what noise counts as at least; without it the smallest step between two readings.
+  // least: what noise counts as at least; without it half of the smallest step between readings.
   explicit SpikeWatch(double least = 0.0) : least_(least) {}
 
-  // Takes a reading in any unit; returns the index of an earlier one that was a spike.
-  std::optional<std::int64_t> take(std::int64_t index, double value);
-  // A reading that is known to be none: neighbours across it are not compared.
-  void interrupt() { n_ = 0; }
+  // Takes a reading in any unit at a place (its number, or its time in periods) that only grows;
+  // returns the indices of earlier ones that were spikes.
+  std::vector<std::int64_t> take(std::int64_t index, double place, double value);
+  // No reading follows: judges what is left, by fewer neighbours.
+  std::vector<std::int64_t> finish();
 
  private:
   struct Reading {
     std::int64_t index = 0;
+    double place = 0.0;
     double value = 0.0;
+    bool is_spike = false;
   };
-  void learn(double distance, double noise);
+  struct Line {
+    double value = 0.0, slope = 0.0;
+    bool is_known = false;
+  };
+  Line foretold(std::size_t at, int direction) const;
+  double mean_around(std::size_t at, double middle, double slope) const;
+  bool judge(std::size_t at);
+  std::vector<std::int64_t> judge_until(std::size_t end);
+  void learn(double distance);
+  void learn_first();
+  double noise() const;
 
   double least_;
-  std::array<Reading, 5> last_;  // oldest first
-  std::size_t n_ = 0;            // of them that count
-  double usual_ = 0.0;           // distance, a running median
-  double least_step_ = 0.0;      // smallest between two readings that is not 0
-  int n_learnt_ = 0;
+  double least_step_ = 0.0;          // smallest between two readings that is not 0
+  std::deque<Reading> readings_;     // oldest first
+  std::size_t next_ = 0;             // of them: not yet judged
+  std::vector<double> distances_{};  // the last of them, as a ring
+  std::size_t ring_at_ = 0;
+  std::size_t n_learnt_ = 0;
+  double usual_ = 0.0;  // standard deviation of a distance, robust
 };
 
 }  // namespace viscard

@@ -1,7 +1,11 @@
 #pragma once
 
+#include "rig/emulator/emulated_motion.h"
+
+#include <deque>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace viscard {
 
@@ -9,7 +13,10 @@ namespace viscard {
 // positions in m on the axis that grows toward the specimen, 0 at power-up.
 class EmulatedController {
  public:
+  explicit EmulatedController(double steps_per_m) : motion_(steps_per_m, 0.0) {}
   virtual ~EmulatedController() = default;
+  EmulatedController(const EmulatedController&) = delete;
+  EmulatedController& operator=(const EmulatedController&) = delete;
 
   // Power-up or opening of the port of a board that resets then.
   virtual void reset(double time_s) = 0;
@@ -18,13 +25,30 @@ class EmulatedController {
   // Lets queued moves and delayed answers happen up to time_s. Call before the position is asked
   // for any time up to time_s.
   virtual void tick(double time_s) = 0;
-  virtual std::string take_output() = 0;
-
-  virtual double bench_position_m(double time_s) const = 0;
-  virtual double next_knot_s(double time_s) const = 0;
-  virtual bool is_moving(double time_s) const = 0;
   // A limit switch closes now, or the motor stalls where there is none.
   virtual void hit_limit(double time_s) = 0;
+
+  std::string take_output() { return std::exchange(output_, {}); }
+  double bench_position_m(double time_s) const { return motion_.position_m(time_s); }
+  double next_knot_s(double time_s) const { return motion_.next_knot_s(time_s); }
+  bool is_moving(double time_s) const { return motion_.is_moving(time_s); }
+
+ protected:
+  struct Answer {
+    double due_s;
+    std::string text;
+  };
+  // Says what is due, in order.
+  void say_due(std::deque<Answer>& answers, double time_s) {
+    while (!answers.empty() && answers.front().due_s <= time_s) {
+      output_ += answers.front().text;
+      answers.pop_front();
+    }
+  }
+
+  EmulatedMotion motion_;
+  std::string output_;
+  std::deque<Answer> answers_;
 };
 
 }  // namespace viscard

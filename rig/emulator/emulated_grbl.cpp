@@ -12,15 +12,16 @@ namespace viscard {
 namespace {
 
 constexpr std::size_t kLineLength = 79;  // gnea/grbl LINE_BUFFER_SIZE 80 with the NUL
+constexpr double kAlarmDelay_s = 0.5;
 
 }  // namespace
 
 EmulatedGrbl::EmulatedGrbl(const EmulatedTruth& truth, char axis, int toward_specimen,
                            const GrblHabits& habits)
-    : habits_(habits),
+    : EmulatedController(truth.steps_per_m),
+      habits_(habits),
       axis_(axis == 'X' ? 0 : (axis == 'Y' ? 1 : 2)),
-      toward_(toward_specimen < 0 ? -1.0 : 1.0),
-      motion_(truth.steps_per_m, 0.0) {
+      toward_(toward_specimen < 0 ? -1.0 : 1.0) {
   settings_ = {{0, 10},
                {1, 255},
                {2, 0},
@@ -80,6 +81,7 @@ void EmulatedGrbl::reset(double time_s) {
   }
   state_ = habits_.is_homing_enabled ? "Alarm" : "Idle";
   is_silent_ = false;
+  deaf_until_s_.reset();
   welcome();
 }
 
@@ -102,15 +104,29 @@ void EmulatedGrbl::soft_reset(double time_s) {
   const bool was_moving = motion_.is_moving(time_s);
   answers_.clear();
   motion_.stop_at_once(time_s);
-  if (was_moving) output_ += "ALARM:3\r\n";
   // An alarm outlives the reset; at rest the state was kept, or is locked where homing is required.
-  if (was_moving || state_ == "Alarm") {
-    state_ = "Alarm";
-  } else {
-    state_ = "Idle";
-  }
+  state_ = was_moving || state_ == "Alarm" ? "Alarm" : "Idle";
   is_silent_ = false;
-  welcome();
+  if (!was_moving) return welcome();
+  output_ += "ALARM:3\r\n";
+  begin_alarm(time_s);
+}
+
+// Having told an alarm the firmware waits half a second, and what arrives meanwhile is lost, be it
+// a reset (gnea/grbl report.c, report_alarm_message; protocol.c clears EXEC_RESET behind it).
+void EmulatedGrbl::begin_alarm(double time_s) {
+  queue_.clear();
+  begun_line_.clear();
+  deaf_until_s_ = time_s + kAlarmDelay_s;
+}
+
+void EmulatedGrbl::end_alarm() {
+  deaf_until_s_.reset();
+  if (is_silent_) {
+    output_ += "[MSG:Reset to continue]\r\n";
+  } else {
+    welcome();
+  }
 }
 
 void EmulatedGrbl::hit_limit(double time_s) {
@@ -120,10 +136,13 @@ void EmulatedGrbl::hit_limit(double time_s) {
   state_ = "Alarm";
   is_silent_ = true;
   is_on_switch_ = !is_on_switch_;
-  output_ += "ALARM:1\r\n[MSG:Reset to continue]\r\n";
+  output_ += "ALARM:1\r\n";
+  begin_alarm(time_s);
 }
 
 void EmulatedGrbl::receive(std::string_view bytes, double time_s) {
+  tick(time_s);
+  if (deaf_until_s_) return;
   for (const char c : bytes) {
     const bool is_realtime = c == grbl::kStatus || c == grbl::kHold || c == grbl::kResume ||
                              c == grbl::kSoftReset || static_cast<unsigned char>(c) >= 0x80;
@@ -214,6 +233,7 @@ void EmulatedGrbl::line(std::string text, double time_s) {
 }
 
 void EmulatedGrbl::tick(double time_s) {
+  if (deaf_until_s_ && time_s >= *deaf_until_s_) end_alarm();
   while (!motion_.is_moving(time_s)) {
     if (state_ == "Home") {
       // The switch is machine zero; the axis stands pulled off from it by $27.
@@ -236,18 +256,8 @@ void EmulatedGrbl::tick(double time_s) {
     // The switch is left at once, and its pin changes on the way back too.
     if (is_on_switch_ && habits_.alarms_again) return hit_limit(time_s);
   }
-  while (!answers_.empty() && answers_.front().due_s <= time_s) {
-    output_ += answers_.front().text;
-    answers_.pop_front();
-  }
-  while (!late_reports_.empty() && late_reports_.front().due_s <= time_s) {
-    output_ += late_reports_.front().text;
-    late_reports_.pop_front();
-  }
-}
-
-std::string EmulatedGrbl::take_output() {
-  return std::exchange(output_, {});
+  say_due(answers_, time_s);
+  say_due(late_reports_, time_s);
 }
 
 }  // namespace viscard

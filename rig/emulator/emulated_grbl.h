@@ -2,7 +2,6 @@
 
 #include "models/emulated_specimen.h"
 #include "rig/emulator/emulated_controller.h"
-#include "rig/emulator/emulated_motion.h"
 
 #include <array>
 #include <deque>
@@ -51,20 +50,11 @@ class EmulatedGrbl final : public EmulatedController {
   void reset(double time_s) override;
   void receive(std::string_view bytes, double time_s) override;
   void tick(double time_s) override;
-  std::string take_output() override;
-
-  double bench_position_m(double time_s) const override { return motion_.position_m(time_s); }
-  double next_knot_s(double time_s) const override { return motion_.next_knot_s(time_s); }
-  bool is_moving(double time_s) const override { return motion_.is_moving(time_s); }
   void hit_limit(double time_s) override;
 
  private:
   struct QueuedMove {
     double to_m, speed_m_s;
-  };
-  struct Answer {
-    double due_s;
-    std::string text;
   };
   void realtime(char c, double time_s);
   void line(std::string text, double time_s);
@@ -73,6 +63,8 @@ class EmulatedGrbl final : public EmulatedController {
   void home(double time_s);
   void set(std::string_view words, double time_s);
   void soft_reset(double time_s);
+  void begin_alarm(double time_s);
+  void end_alarm();
   void take(std::string text, double time_s);
   void report(double time_s);
   void answer(double time_s, const std::string& text);
@@ -93,20 +85,19 @@ class EmulatedGrbl final : public EmulatedController {
   double machine_origin_m_ = 0.0;  // bench position of machine zero
   std::map<int, double> settings_;
   double steps_per_m_ = 0.0, acceleration_m_s2_ = 0.0, max_rate_m_s_ = 0.0;
-  EmulatedMotion motion_;
   std::deque<QueuedMove> queue_;
   std::string state_ = "Idle";
-  bool is_silent_ = false;      // after a critical alarm, until the reset
-  bool is_cancelling_ = false;  // a jog that is being stopped
+  bool is_silent_ = false;              // after a critical alarm, until the reset
+  std::optional<double> deaf_until_s_;  // an alarm is being told
+  bool is_cancelling_ = false;          // a jog that is being stopped
   bool is_eeprom_dumped_ = false;
   std::optional<double> held_target_m_;
   double move_speed_m_s_ = 0.0;
   std::string begun_line_;
-  std::deque<Answer> answers_, late_reports_;
+  std::deque<Answer> late_reports_;
   std::deque<std::string> held_lines_;
   bool is_held_ = false;       // takes no line although it says Idle
   bool is_on_switch_ = false;  // a limit switch was hit and has not been left
-  std::string output_;
   int n_status_ = 0, n_oks_ = 0, n_jogs_ = 0;
 };
 

@@ -29,11 +29,11 @@ std::vector<std::string> words_of(std::string_view text) {
 
 EmulatedZaber::EmulatedZaber(const EmulatedTruth& truth, int toward_specimen, int device,
                              const ZaberHabits& habits)
-    : habits_(habits),
+    : EmulatedController(truth.steps_per_m),
+      habits_(habits),
       microstep_m_(1.0 / truth.steps_per_m),
       toward_(toward_specimen < 0 ? -1.0 : 1.0),
       device_(device),
-      motion_(truth.steps_per_m, 0.0),
       max_speed_data_(
           static_cast<double>(zaber_speed_data(truth.max_rate_m_s * truth.steps_per_m))),
       acceleration_data_(std::round(truth.acceleration_m_s2 * truth.steps_per_m * 1.6384e-4)),
@@ -183,14 +183,7 @@ void EmulatedZaber::tick(double time_s) {
     say("!" + two_digits(device_) + " 1 IDLE " + flag(), time_s);
   }
   was_moving_ = is_moving_now;
-  while (!answers_.empty() && answers_.front().due_s <= time_s) {
-    output_ += answers_.front().text;
-    answers_.pop_front();
-  }
-}
-
-std::string EmulatedZaber::take_output() {
-  return std::exchange(output_, "");
+  say_due(answers_, time_s);
 }
 
 }  // namespace viscard

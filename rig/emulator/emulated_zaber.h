@@ -2,7 +2,6 @@
 
 #include "models/emulated_specimen.h"
 #include "rig/emulator/emulated_controller.h"
-#include "rig/emulator/emulated_motion.h"
 
 #include <deque>
 #include <optional>
@@ -34,17 +33,9 @@ class EmulatedZaber final : public EmulatedController {
   void reset(double time_s) override;
   void receive(std::string_view bytes, double time_s) override;
   void tick(double time_s) override;
-  std::string take_output() override;
-  double bench_position_m(double time_s) const override { return motion_.position_m(time_s); }
-  double next_knot_s(double time_s) const override { return motion_.next_knot_s(time_s); }
-  bool is_moving(double time_s) const override { return motion_.is_moving(time_s); }
   void hit_limit(double time_s) override;
 
  private:
-  struct Answer {
-    double due_s;
-    std::string text;
-  };
   void line(std::string_view text, double time_s);
   // Data of an OK reply; nothing and a reason in rejection_ otherwise.
   std::optional<std::string> obey(const std::vector<std::string>& words, double time_s);
@@ -62,14 +53,12 @@ class EmulatedZaber final : public EmulatedController {
   double microstep_m_;
   double toward_;
   int device_;
-  EmulatedMotion motion_;
   double max_speed_data_, acceleration_data_;
   bool has_reference_;
   bool is_stalled_ = false;
   bool is_interrupted_ = false;
   bool was_moving_ = false;
-  std::string begun_, rejection_, output_;
-  std::deque<Answer> answers_;
+  std::string begun_, rejection_;
   int n_replies_ = 0;
 };
 

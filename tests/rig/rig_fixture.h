@@ -103,6 +103,27 @@ struct RigFixture {
   std::function<void(const RunProgress&)> on_progress;
 };
 
+inline void move_and_wait(RigFixture& rig, double to_m, double speed_m_s) {
+  rig.stage.begin_move(to_m, speed_m_s, "test");
+  const Pump pump = rig.pump();
+  while (rig.stage.is_moving()) pump();
+}
+
+inline void pump_for(RigFixture& rig, double wall_s) {
+  const double until_s = monotonic_s() + wall_s;
+  const Pump pump = rig.pump();
+  while (monotonic_s() < until_s) pump();
+}
+
+// Sets something off when a phase begins.
+inline void when_phase(RigFixture& rig, const std::string& phase, std::function<void()> action) {
+  rig.sink = [&rig, phase, action](const RunRecord& record) {
+    rig.records.push_back(record);
+    const auto* event = std::get_if<RunEvent>(&record);
+    if (event != nullptr && event->name == "phase" && event->value == phase) action();
+  };
+}
+
 // A test of a few emulated seconds.
 inline TestPlan short_plan() {
   TestPlan plan;

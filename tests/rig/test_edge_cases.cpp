@@ -69,15 +69,6 @@ struct ScriptedAmplifier {
   Hx711LoadCell cell;
 };
 
-// Sets something off when a phase begins.
-void when_phase(RigFixture& rig, const std::string& phase, std::function<void()> action) {
-  rig.sink = [&rig, phase, action](const RunRecord& record) {
-    rig.records.push_back(record);
-    const auto* event = std::get_if<RunEvent>(&record);
-    if (event != nullptr && event->name == "phase" && event->value == phase) action();
-  };
-}
-
 }  // namespace
 
 TEST_CASE("Readings cut into single bytes, or many in one read, are the same readings",

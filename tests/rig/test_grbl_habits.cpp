@@ -8,18 +8,6 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-void move_and_wait(RigFixture& rig, double to_m, double speed_m_s) {
-  rig.stage.begin_move(to_m, speed_m_s, "test");
-  const Pump pump = rig.pump();
-  while (rig.stage.is_moving()) pump();
-}
-
-void pump_for(RigFixture& rig, double wall_s) {
-  const double until_s = monotonic_s() + wall_s;
-  const Pump pump = rig.pump();
-  while (monotonic_s() < until_s) pump();
-}
-
 bool stands_where_it_says(const RigFixture& rig) {
   const EmulatedOutcome bench = rig.emulated.outcome();
   return !bench.is_moving && std::abs(bench.final_position_m - rig.stage.position_m()) < 0.6e-6;

@@ -9,12 +9,6 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-void move_and_wait(RigFixture& rig, double to_m, double speed_m_s) {
-  rig.stage.begin_move(to_m, speed_m_s, "test");
-  const Pump pump = rig.pump();
-  while (rig.stage.is_moving()) pump();
-}
-
 }  // namespace
 
 TEST_CASE("A stage is identified, its settings read back, and its moves end exactly",

@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kSpeed = 20.0;
 constexpr double kSurface_m = 0.1e-3;
+constexpr double kNoticed = 12.0;        // times the noise
+constexpr double kNoticedSteps = 2.5;    // times the largest step between true readings nearby
 constexpr double kNoise_counts = 300.0;  // .49 mN at .7255 V/N and 20 V/2^24
 
 FaultRates rates_from(std::mt19937_64& random) {
@@ -76,68 +78,61 @@ std::map<long long, double> truth_of(const RigFixture& rig) {
   return truth;
 }
 
-// How far true readings around one are from a straight line: what hides a spike.
+// The largest step between true readings near a time: an error below that cannot be told from a
+// reading made early or late, or from the corner of a move.
 double unevenness(const std::map<long long, double>& truth, long long micros) {
   auto at = truth.lower_bound(micros);
   std::vector<double> around;
-  for (int i = 0; i < 3 && at != truth.begin(); ++i) --at;
-  for (int i = 0; i < 7 && at != truth.end(); ++i, ++at) around.push_back(at->second);
+  for (int i = 0; i < 6 && at != truth.begin(); ++i) --at;
+  for (int i = 0; i < 13 && at != truth.end(); ++i, ++at) around.push_back(at->second);
   double largest = 0.0;
-  for (std::size_t i = 1; i + 1 < around.size(); ++i) {
-    largest = std::max(largest, std::abs(around[i] - 0.5 * (around[i - 1] + around[i + 1])));
+  for (std::size_t i = 1; i < around.size(); ++i) {
+    largest = std::max(largest, std::abs(around[i] - around[i - 1]));
   }
   return largest;
 }
 
 struct Tally {
   int finished = 0, ended = 0, refused = 0, hung_up = 0;
-  long long readings = 0, marked = 0, below_notice = 0, faults = 0;
+  long long readings = 0, marked = 0, below_notice = 0, faults = 0, unsaid = 0;
+  double worst = 0.0;  // of the wrong ones that were not marked, in times of what is noticed
 };
 
-// Every reading handed out is a true one, is marked, or differs by less than can be noticed.
-void check_readings(const RigFixture& rig, Tally& tally) {
+// Every reading handed out is a true one, is marked, or differs by less than can be noticed; and
+// where one differs, the run says that some may.
+void check_readings(const RigFixture& rig, bool has_doubt, Tally& tally) {
   const auto truth = truth_of(rig);
   std::set<long long> marked;
   for (const RunEvent& event : rig.all<RunEvent>()) {
     if (event.name == "implausible") marked.insert(*integer_from_text(event.value));
   }
   const auto samples = rig.all<LoadSample>();
-  std::vector<bool> is_wrong(samples.size());
-  std::vector<double> off(samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const LoadSample& sample = samples[i];
+  tally.readings += static_cast<long long>(samples.size());
+  int n_unmarked = 0;
+  for (const LoadSample& sample : samples) {
     if (sample.is_glitch || sample.is_saturated || !sample.counts) continue;
     const long long micros = std::llround(*sample.device_time_s * 1e6);
     const auto found = truth.find(micros);
-    is_wrong[i] = found == truth.end() || found->second != *sample.counts;
-    const auto near = truth.lower_bound(micros - 6250);
-    off[i] = near == truth.end() ? 0.0 : std::abs(near->second - *sample.counts);
-  }
-  tally.readings += static_cast<long long>(samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (!is_wrong[i]) continue;
-    if (marked.count(samples[i].index) > 0) {
+    if (found != truth.end() && found->second == *sample.counts) continue;
+    if (marked.count(sample.index) > 0) {
       ++tally.marked;
       continue;
     }
-    ++tally.below_notice;
-    const long long micros = std::llround(*samples[i].device_time_s * 1e6);
-    const double notice = std::max(15.0 * kNoise_counts, 6.0 * unevenness(truth, micros));
-    // Two spoilt readings close together hide one another, the ends have too few neighbours, and
-    // the first readings are learnt from.
-    bool is_alone = i >= 10 && i + 2 < samples.size();
-    for (std::size_t k = i >= 2 ? i - 2 : 0; k < std::min(i + 3, samples.size()); ++k) {
-      is_alone = is_alone && (k == i || (!is_wrong[k] && !samples[k].is_glitch));
-      // A lost neighbour bends the line through the others.
-      if (k > 0) {
-        const double step_s = *samples[k].device_time_s - *samples[k - 1].device_time_s;
-        is_alone = is_alone && step_s < 1.5 * rig.load_cell.period_s();
-      }
-    }
-    INFO("reading " << samples[i].index << " at " << micros << " us: " << *samples[i].counts
-                    << " is off by " << off[i] << ", noticed from " << notice);
-    CHECK((off[i] <= notice || !is_alone));
+    ++n_unmarked;
+    const auto near = truth.lower_bound(micros - 6250);
+    const double off = near == truth.end() ? 0.0 : std::abs(near->second - *sample.counts);
+    const double notice =
+        std::max(kNoticed * kNoise_counts, kNoticedSteps * unevenness(truth, micros));
+    tally.worst = std::max(tally.worst, off / notice);
+    INFO("reading " << sample.index << " of " << samples.size() << " at " << micros << " us: "
+                    << *sample.counts << " is off by " << off << ", noticed from " << notice);
+    CHECK(off <= notice);
   }
+  tally.below_notice += n_unmarked;
+  // A single lower digit, in a run whose line showed no other sign, nothing can tell.
+  if (n_unmarked > 0 && !has_doubt) ++tally.unsaid;
+  INFO(n_unmarked << " wrong readings without a doubt");
+  CHECK((has_doubt || n_unmarked <= 2));
 }
 
 void check_bench(const RigFixture& rig, const std::string& status, const std::string& reason) {
@@ -157,19 +152,22 @@ void run_one(std::uint64_t seed, Tally& tally) {
   RigFixture rig(rig_options(seed), faults_of(seed));
   const double began_s = monotonic_s();
   std::string status, reason;
+  bool has_doubt = false;
   try {
     const RunOutcome outcome = rig.run(shortest_plan());
     status = outcome.status;
     reason = outcome.reason;
+    has_doubt = rig.has_event("doubt", "line_noise");
     ++(status == "finished" ? tally.finished : tally.ended);
   } catch (const RigError& error) {  // before anything moved
     status = "refused";
+    has_doubt = true;  // no record
     reason = error.what();
     ++tally.refused;
   }
   CHECK(monotonic_s() - began_s < 120.0);  // a hang, not a speed
   check_bench(rig, status, reason);
-  check_readings(rig, tally);
+  check_readings(rig, has_doubt, tally);
   const FaultCounts stage = rig.stage_proxy->counts(), cell = rig.cell_proxy->counts();
   tally.faults += stage.faults + cell.faults;
   tally.hung_up += stage.has_hung_up || cell.has_hung_up ? 1 : 0;
@@ -185,7 +183,9 @@ void run_seeds(std::uint64_t first, std::uint64_t last) {
             << " faults: " << tally.finished << " finished, " << tally.ended
             << " ended with a reason, " << tally.refused << " refused to start (" << tally.hung_up
             << " lines hung up); of " << tally.readings << " readings " << tally.marked
-            << " wrong ones were marked, " << tally.below_notice << " wrong ones below notice\n";
+            << " wrong ones were marked, " << tally.below_notice
+            << " wrong ones below notice (the worst " << tally.worst << " of it); " << tally.unsaid
+            << " runs have such a one and no doubt says so\n";
   CHECK(tally.faults > static_cast<long long>(last - first));
 }
 

@@ -8,14 +8,6 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-void when_phase(RigFixture& rig, const std::string& phase, std::function<void()> action) {
-  rig.sink = [&rig, phase, action](const RunRecord& record) {
-    rig.records.push_back(record);
-    const auto* event = std::get_if<RunEvent>(&record);
-    if (event != nullptr && event->name == "phase" && event->value == phase) action();
-  };
-}
-
 }  // namespace
 
 TEST_CASE("A cell of the wrong sign stops the approach at the touch and names the key",

@@ -18,15 +18,6 @@ bool is_at_rest_and_lifted(const RigFixture& rig) {
   return !bench.is_moving && bench.final_position_m < demo_truth(10.0, 7).surface_position_m;
 }
 
-// Sets something off when a phase begins.
-void when_phase(RigFixture& rig, const std::string& phase, std::function<void()> action) {
-  rig.sink = [&rig, phase, action](const RunRecord& record) {
-    rig.records.push_back(record);
-    const auto* event = std::get_if<RunEvent>(&record);
-    if (event != nullptr && event->name == "phase" && event->value == phase) action();
-  };
-}
-
 }  // namespace
 
 TEST_CASE("A whole run reaches its depth, records every reading and leaves the specimen",

@@ -1,4 +1,5 @@
 #include "rig/device_clock.h"
+#include "rig/line_shape.h"
 #include "rig/silence_watch.h"
 #include "rig/spike_watch.h"
 
@@ -37,11 +38,13 @@ std::vector<double> noisy(const std::vector<double>& clean, double sigma) {
 std::vector<std::int64_t> spikes_in(const std::vector<double>& values) {
   SpikeWatch watch;
   std::vector<std::int64_t> found;
+  const auto add = [&](const std::vector<std::int64_t>& more) {
+    found.insert(found.end(), more.begin(), more.end());
+  };
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (const auto spike = watch.take(static_cast<std::int64_t>(i), values[i])) {
-      found.push_back(*spike);
-    }
+    add(watch.take(static_cast<std::int64_t>(i), static_cast<double>(i), values[i]));
   }
+  add(watch.finish());
   return found;
 }
 
@@ -98,6 +101,62 @@ TEST_CASE("A garbled digit that stands out is found, wherever it is", "[rig]") {
   // 20 times the noise; the one at 250 lies in a ramp of 10 times the noise per reading.
   for (const std::size_t at : {100u, 250u, 450u, 800u}) values[at] += 6000.0;
   CHECK(spikes_in(values) == std::vector<std::int64_t>{100, 250, 450, 800});
+}
+
+TEST_CASE("Garbled digits are found at the beginning, at the end, and side by side", "[rig]") {
+  std::vector<double> values = noisy(std::vector<double>(300, 84213.0), 300.0);
+  // 20 times the noise, in either direction; 30 where there are neighbours on one side only.
+  for (const std::size_t at : {0u, 298u, 299u}) values[at] += 9000.0;
+  for (const std::size_t at : {4u, 9u, 150u}) values[at] += 6000.0;
+  values[151] -= 6000.0;
+  values[200] += 6000.0;
+  values[201] += 6000.0;
+  CHECK(spikes_in(values) == std::vector<std::int64_t>{0, 4, 9, 150, 151, 200, 201, 298, 299});
+}
+
+TEST_CASE("At rest a reading is noticed from 8 times the noise on, and noise is not", "[rig]") {
+  std::vector<double> values = noisy(std::vector<double>(200000, 84213.0), 300.0);
+  CHECK(spikes_in(values).empty());  // 1 in 2 million is expected at most
+  std::size_t n_off = 0;
+  for (std::size_t at = 1000; at < values.size(); at += 100) {
+    values[at] += (at % 200 == 0 ? 8.0 : -8.0) * 300.0;
+    ++n_off;
+  }
+  // 8 - 6.6 standard deviations of the noise in hand: 92 %; half of that could not pass.
+  CHECK(4 * spikes_in(values).size() > 3 * n_off);
+  CHECK(spikes_in(values).size() <= n_off + 1);
+}
+
+TEST_CASE("Readings made a little early or late on a ramp are no spikes", "[rig]") {
+  // 40 times the noise per reading, and a fifth of the period of unevenness in time.
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> early(-0.2, 0.2);
+  std::vector<double> values;
+  for (int i = 0; i < 200; ++i) values.push_back(0.0);
+  for (int i = 0; i < 200; ++i) values.push_back(12000.0 * (i + early(random)));
+  CHECK(spikes_in(noisy(values, 300.0)).empty());
+}
+
+TEST_CASE("A line is known by the shape of all before it", "[rig]") {
+  CHECK(shape_of_line("Load_cell output val: -12.30") ==
+        shape_of_line("Load_cell output val: 7.99"));
+  CHECK(shape_of_line("12.30") != shape_of_line("12.3"));
+  CHECK(shape_of_line("1000,84213") == shape_of_line("99,-3"));
+  CHECK(shape_of_line("1000,84.13") != shape_of_line("1000,84213"));
+  LineShape shape;
+  for (int i = 0; i < 64; ++i) REQUIRE(shape.fits("val: " + std::to_string(i) + ".25"));
+  CHECK(shape.fits("val: -123.99"));
+  CHECK_FALSE(shape.fits("val: 12.3"));
+  CHECK_FALSE(shape.fits("vbl: 12.30"));
+  CHECK(shape.fits("val: 12.30"));
+}
+
+TEST_CASE("A stream whose lines differ by nature is not judged by their shape", "[rig]") {
+  LineShape shape;
+  for (int i = 0; i < 63; ++i) REQUIRE(shape.fits("1.25"));
+  REQUIRE(shape.fits("1.2"));  // prints no zeros at the end
+  for (int i = 0; i < 100; ++i) REQUIRE(shape.fits("1.25"));
+  CHECK(shape.fits("1.5"));
 }
 
 TEST_CASE("Single steps of a quiet converter are no spikes", "[rig]") {
