@@ -89,6 +89,10 @@ EffectEstimate crosstalk_estimate(const ArrayScene& scene) {
     estimate.error = film_share(scene) * elastic;
     estimate.reason = "neighbours move the film, and the film the pillar";
   }
+  if (scene.load == ArrayLoad::kShear && asks_for_voltages(scene)) {
+    estimate.role = EffectRole::kNeeded;
+    estimate.reason = "a pillar sheared alone gives no voltage in its middle or mean";
+  }
   if (is_in_time(scene)) {
     estimate.role = EffectRole::kNeeded;
     estimate.reason = "pillars of one frequency exchange their motion, however weakly tied";
