@@ -3,6 +3,7 @@
 #include "fit/assemble_result.h"
 #include "fit/clean_data.h"
 #include "fit/flags.h"
+#include "fit/spikes.h"
 #include "fit/step_curves.h"
 #include "fit/step_model.h"
 #include "models/retardation_spectrum.h"
@@ -34,7 +35,11 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
     throw std::runtime_error(
         "moduli and times of creep follow from its retardation spectrum and cannot be constrained");
   }
-  const CleanColumns clean = clean_columns({data.time_s, data.compliance_1_Pa}, kLeastRows);
+  CleanColumns clean = clean_columns({data.time_s, data.compliance_1_Pa}, kLeastRows);
+  const std::vector<std::size_t> spikes = isolated_spikes(clean.columns[0], clean.columns[1]);
+  if (!spikes.empty()) {
+    for (std::vector<double>& column : clean.columns) column = without_rows(column, spikes);
+  }
   const std::vector<double>& time_s = clean.columns[0];
   if (time_s.front() < 0.0) {
     throw std::runtime_error("the first time is " + std::to_string(time_s.front()) +
@@ -66,6 +71,7 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
       },
       result);
   result.n_left_out = clean.n_left_out;
+  add_spikes(result, spikes.size());
   result.fit_from_s = time_s.front();
   result.fit_to_s = time_s.back();
   add_identifiability_flags(model, fit.state, fit.covariance,

@@ -2,6 +2,7 @@
 
 #include "fit/assemble_result.h"
 #include "fit/clean_data.h"
+#include "fit/decay.h"
 #include "fit/flags.h"
 #include "fit/history_model.h"
 #include "fit/sample_passes.h"
@@ -66,6 +67,41 @@ FitResult fit_step(std::span<const double> time_s, std::span<const double> value
   return result;
 }
 
+// What the fit of a step leaves of each sample.
+std::vector<double> residual_of(const FitResult& fit, std::span<const double> time_s,
+                                std::span<const double> value) {
+  std::vector<double> residual = copy_of(value);
+  for (double& left : residual) left -= fit.E_inf_Pa;
+  for (const FittedTerm& term : fit.terms) {
+    subtract_decay(time_s.data(), time_s.size(), 1.0 / term.tau_s, term.modulus_Pa,
+                   residual.data());
+  }
+  return residual;
+}
+
+// Fits, and once more without what the first fit shows to be spikes: where neighbours have shown
+// some already, or could not show any.
+FitResult fit_robustly(CleanViews& clean, const FitOptions& options) {
+  const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
+  clean.drop(spikes);
+  FitResult result = fit_step(clean.column(0), clean.column(1), options);
+  std::size_t n_spikes = spikes.size();
+  if (n_spikes > 0 || !is_evenly_sampled(clean.column(0))) {
+    const auto value = clean.column(1);
+    const double largest = std::abs(*std::max_element(
+        value.begin(), value.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+    const std::vector<std::size_t> outliers =
+        outlying_samples(residual_of(result, clean.column(0), value), largest);
+    if (!outliers.empty()) {
+      clean.drop(outliers);
+      n_spikes += outliers.size();
+      result = fit_step(clean.column(0), clean.column(1), options);
+    }
+  }
+  add_spikes(result, n_spikes);
+  return result;
+}
+
 void check_values(std::span<const double> time_s, std::span<const double> value, bool is_step) {
   if (time_s.size() < kLeastRows) {
     throw std::runtime_error("only " + std::to_string(time_s.size()) +
@@ -98,12 +134,16 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
     clean.drop_first(n_early);
   }
   check_values(clean.column(0), clean.column(1), is_step);
-  const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
-  clean.drop(spikes);
-  FitResult result = is_step ? fit_step(clean.column(0), clean.column(1), options)
-                             : fit_strain_history(clean, options);
+  FitResult result;
+  if (is_step) {
+    result = fit_robustly(clean, options);
+  } else {
+    const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
+    clean.drop(spikes);
+    result = fit_strain_history(clean, options);
+    add_spikes(result, spikes.size());
+  }
   result.n_left_out = clean.n_left_out();
-  add_spikes(result, spikes.size());
   if (n_early > 0) {
     result.flags.push_back({"samples-before-zero", 0,
                             std::to_string(n_early) + " samples before t = 0 were left out"});

@@ -1,3 +1,4 @@
+#include "fit/fit_creep.h"
 #include "fit/fit_indentation.h"
 #include "fit/fit_relaxation.h"
 #include "fit/spikes.h"
@@ -45,6 +46,76 @@ TEST_CASE("one sample in a hundred twenty standard deviations off does not move 
   CHECK(std::abs(fit.terms[0].modulus_Pa - clean.terms[0].modulus_Pa) <
         0.5 * clean.terms[0].modulus_se_Pa);
   CHECK(fit.noise.sigma == Approx(0.018).epsilon(0.05));
+}
+
+TEST_CASE("one-sided spikes anywhere, also side by side, leave every interval holding the truth",
+          "[fit]") {
+  // One sample in a hundred, at random, is 20 standard deviations too high; in the second record
+  // the stamps are uneven, so that neighbours tell nothing.
+  const bool is_even = GENERATE(true, false);
+  CAPTURE(is_even);
+  RelaxationData data = relaxation_of(s2(), 20000, 1000.0, 0.01, 41);
+  std::mt19937_64 random(6);
+  if (!is_even) {
+    std::vector<bool> stays(data.time_s.size());
+    for (std::size_t i = 0; i < stays.size(); ++i) stays[i] = (i / 50) % 2 == 0;
+    RelaxationData part;
+    for (std::size_t i = 0; i < stays.size(); ++i) {
+      if (!stays[i]) continue;
+      part.time_s.push_back(data.time_s[i]);
+      part.value.push_back(data.value[i]);
+    }
+    data = part;
+  }
+  const FitResult clean = fit_relaxation(data);
+  CHECK(clean.n_spikes == 0);
+  std::size_t count = 0;
+  for (double& value : data.value) {
+    if (random() % 100 != 0) continue;
+    value += 20.0 * 0.018;
+    ++count;
+  }
+  const FitResult fit = fit_relaxation(data);
+  CHECK(fit.n_spikes >= count - 3);  // the very first or last sample, or a group of four, may stay
+  CHECK(fit.n_spikes <= count + 4);  // a good one between two spikes goes too
+  REQUIRE(fit.terms.size() == 2);
+  CHECK(holds(fit.E_inf_interval_95, 1.6));
+  CHECK(holds(fit.terms[0].modulus_Pa_95, 0.12));
+  CHECK(holds(fit.terms[0].tau_s_95, 0.8));
+  CHECK(holds(fit.terms[1].modulus_Pa_95, 0.08));
+  CHECK(holds(fit.terms[1].tau_s_95, 40.0));
+  CHECK(fit.noise.sigma == Approx(0.018).epsilon(0.03));
+  CHECK(std::abs(fit.E_inf_Pa - clean.E_inf_Pa) < 0.5 * clean.E_inf_se_Pa);
+}
+
+TEST_CASE("a fast term at the start of a record is no group of spikes", "[fit]") {
+  // Five samples of something quick, then 500 of a slower term on uneven stamps.
+  RelaxationData data;
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 500; ++i) {
+    data.time_s.push_back(0.01 * std::pow(1.02, i));
+    data.value.push_back(1.0 + 0.5 * std::exp(-data.time_s.back() / 0.011) +
+                         0.2 * std::exp(-data.time_s.back() / 20.0) + 1e-3 * normal(random));
+  }
+  const FitResult fit = fit_relaxation(data, {.n_terms = 1});
+  CHECK(fit.n_spikes == 0);
+}
+
+TEST_CASE("spikes of a creep record do not move its fit", "[fit]") {
+  CreepData data;
+  std::mt19937_64 random(8);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 3000; ++i) {
+    data.time_s.push_back(0.1 * i);
+    data.compliance_1_Pa.push_back(1e-6 *
+                                   (1.5 - 0.3 * std::exp(-0.1 * i / 8.0) + 0.003 * normal(random)));
+  }
+  const FitResult clean = fit_creep(data);
+  for (std::size_t i = 7; i < 3000; i += 100) data.compliance_1_Pa[i] += 6e-8;
+  const FitResult fit = fit_creep(data);
+  CHECK(fit.n_spikes == 30);
+  CHECK(std::abs(fit.E_inf_Pa - clean.E_inf_Pa) < 0.5 * clean.E_inf_se_Pa);
 }
 
 TEST_CASE("steep, noiseless or logarithmic records hold no spikes", "[fit][stability]") {
