@@ -5,29 +5,13 @@
 #include "models/pillar/error_control.h"
 #include "models/pillar/plan.h"
 #include "models/pillar/relaxed_modes.h"
+#include "tests/support/random_draw.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace viscard::test {
 namespace {
-
-class Draw {
- public:
-  explicit Draw(std::mt19937_64& random) : random_(random) {}
-  // Own formulas, not <random>'s distributions, which differ between libraries.
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
-  }
-  double log_uniform(double low, double high) {
-    return std::exp(uniform(std::log(low), std::log(high)));
-  }
-  bool chance(double p) { return uniform(0.0, 1.0) < p; }
-  int below(int n) { return static_cast<int>(uniform(0.0, n)); }
-
- private:
-  std::mt19937_64& random_;
-};
 
 void draw_film(Draw& draw, const Ranges& ranges, Scene& scene) {
   const double R = 0.5 * scene.geometry.diameter_m;
