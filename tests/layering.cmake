@@ -15,7 +15,8 @@ function(forbid folder pattern except)
   endforeach()
 endfunction()
 
-forbid(models "fit/|rig/|io/|tests/|fmt/|nlohmann/|sqlite3|toml\\+\\+|boost/|ceres/|libserial/|chrono|iostream|fstream" "")
+# Of Boost the physics may use its mathematics only.
+forbid(models "fit/|rig/|io/|tests/|fmt/|nlohmann/|sqlite3|toml\\+\\+|boost/[^m]|ceres/|libserial/|chrono|iostream|fstream" "")
 forbid(fit "rig/|io/|tests/|sqlite3|toml\\+\\+|boost/program|libserial/" "")
 forbid(rig "fit/|io/|tests/|sqlite3|toml\\+\\+|boost/|ceres/" "")
 forbid(rig/emulator "rig/(serial|run|.*_stage|.*_load_cell)" "")
