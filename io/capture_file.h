@@ -76,8 +76,8 @@ CapturedRun read_capture(const std::filesystem::path& path);
 void read_raw_bytes(const std::filesystem::path& path,
                     const std::function<void(const RawBytes&)>& take);
 
-// True when the file begins like an SQLite database, so that a command can tell captures from
-// tables.
+// True when the file is called *.viscap or begins like an SQLite database, so that a command can
+// tell captures from tables, a damaged one too.
 bool looks_like_capture(const std::filesystem::path& path);
 
 }  // namespace viscard

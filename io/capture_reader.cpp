@@ -259,6 +259,7 @@ void read_raw_bytes(const std::filesystem::path& path,
 bool looks_like_capture(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  if (path.extension() == ".viscap") return true;
   Header header{};
   return has_magic(header, read_header(path, header));
 }

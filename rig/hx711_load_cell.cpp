@@ -298,6 +298,12 @@ void Hx711LoadCell::hand_out(const Hx711Line& reading, double time_s) {
   if (listener_) listener_(sample);
 }
 
+std::string Hx711LoadCell::reads_as() const {
+  const std::string& unit = unit_.empty() ? declared_unit_ : unit_;
+  if (!unit.empty()) return unit;
+  return format_ == Hx711Format::kVolts ? "volts" : "counts";
+}
+
 double Hx711LoadCell::made_at_s(const LoadSample& sample) const {
   if (!sample.device_time_s || !device_clock_) return sample.host_time_s;
   return *sample.device_time_s + device_clock_->host_minus_device_s();

@@ -27,6 +27,7 @@ class Hx711LoadCell final : public LoadCell {
   void connect(const Pump& pump) override;
   void service() override;
   const StreamCounts& counts() const override { return counts_; }
+  std::string reads_as() const override;
   double period_s() const override { return period_s_; }
   double last_arrival_s() const override { return last_arrival_s_; }
   double made_at_s(const LoadSample& sample) const override;

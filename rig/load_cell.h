@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 
 namespace viscard {
 
@@ -44,6 +45,9 @@ class LoadCell {
   }
 
   virtual const StreamCounts& counts() const = 0;
+  // What its numbers are taken for: "counts", "volts", "N", "g" ...; empty where the instrument
+  // leaves no doubt.
+  virtual std::string reads_as() const { return {}; }
   // Time between readings as measured, s.
   virtual double period_s() const = 0;
   // Host time of the newest reading's arrival.

@@ -43,6 +43,12 @@ void advise(const RigConfig& rig, RigCheck& check) {
     add(false, std::to_string(check.stream.missing) + " readings missing and " +
                    std::to_string(check.stream.unreadable) + " lines unreadable: check the cable");
   }
+  if (check.reads_as == "volts" && rig.load_cell.line_format == "auto") {
+    add(false,
+        "numbers with a decimal point and without a unit are taken for volts: set line_format = "
+        "\"volts\" of the load cell in the rig file if they are, or unit = \"g\" if they are "
+        "weights");
+  }
   if (check.noise_N > 0.005 * capacity_N) {
     add(false, "noise of " + text_from_number(check.noise_N * 1e3, 2) +
                    " mN is above .5 % of capacity: shield the cell's wires");
@@ -85,6 +91,7 @@ RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, cons
                  .position_m = stage.position_m(),
                  .latency = stage.report_latency(),
                  .stream = load_cell.counts(),
+                 .reads_as = load_cell.reads_as(),
                  .advice = stage.advice(),
                  .is_usable = true};
   const auto n = static_cast<double>(readings.force_N.size());

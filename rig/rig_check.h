@@ -17,6 +17,7 @@ struct RigCheck {
   double position_m = 0.0;
   ReportLatency latency;
   StreamCounts stream;
+  std::string reads_as;             // of its numbers: "counts", "volts", "g" ...
   double rate_Hz = 0.0;             // of the readings, by the device's clock if it has one
   double jitter_s = 0.0;            // wall: largest delay of a reading over the smallest
   double force_N = 0.0;             // mean by the calibration, before any tare

@@ -1,4 +1,5 @@
 #include "io/atomic_file.h"
+#include "io/capture_file.h"
 #include "io/cli/calibrate_words.h"
 #include "io/cli/stop_on_signal.h"
 #include "io/column_map.h"
@@ -44,6 +45,13 @@ double weights_relative_u(const CalibrateWords& words) {
 
 // A table has mass_kg or force_N, and volts_V, in the order in which the readings were taken.
 WeightReadings readings_from_table(const CalibrateWords& words) {
+  if (looks_like_capture(*words.data_file)) {
+    throw std::runtime_error(
+        *words.data_file +
+        " is a capture of a test, not a table of weights. Give a CSV file with "
+        "mass_kg (or force_N) and volts_V; a capture of a rigid block goes with "
+        "--compliance");
+  }
   const CsvTable table = read_csv(*words.data_file);
   WeightReadings readings;
   readings.reading = column_SI(table, "volts_V");

@@ -43,8 +43,9 @@ LiveViewOptions view_options(const CaptureWords& words, const CaptureSetup& setu
   return options;
 }
 
-// What --force replaces stays beside the new capture until the run has begun, and comes back if it
-// never does: a cable that is not plugged in must not cost yesterday's record.
+// What --force replaces stays beside the new capture until the run has moved anything, and comes
+// back if it never does: a cable that is not plugged in, or a punch that presses already, must not
+// cost yesterday's record.
 class PreviousCapture {
  public:
   PreviousCapture(std::filesystem::path path, bool is_replaced) : path_(std::move(path)) {
@@ -72,6 +73,7 @@ class PreviousCapture {
   PreviousCapture(const PreviousCapture&) = delete;
   PreviousCapture& operator=(const PreviousCapture&) = delete;
 
+  bool is_aside() const { return is_aside_; }
   void drop() {
     if (!is_aside_) return;
     for (const char* suffix : kParts) std::filesystem::remove(aside(suffix));
@@ -141,7 +143,11 @@ CaptureOutcome capture_with(const RigConfig& rig, const CaptureWords& words,
   outcome.file = words.out_file;
   outcome.run = run_indentation(*devices.stage, *devices.load_cell, rig, setup.plan, setup.specimen,
                                 sink, control);
-  previous.drop();
+  if (outcome.run.has_begun) {
+    previous.drop();
+  } else if (previous.is_aside()) {
+    outcome.run.reason += ". Nothing was moved: the record that --force was to replace is kept";
+  }
   outcome.force_N = view.history().force_N();
   close_file(writer, outcome.run);
   return outcome;

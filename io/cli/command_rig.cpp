@@ -10,6 +10,7 @@
 #include "rig/open_devices.h"
 #include "rig/port_probe.h"
 #include "rig/rig_check.h"
+#include "rig/text_number.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -69,17 +70,19 @@ void add_calibration(const RigConfig& rig, RigCheck& found) {
 
 void print_text(const RigCheck& found, std::ostream& out) {
   out << fmt::format(
-             "stage      {}, {:.0f} steps/mm, {:.0f} mm/s2, at most {:.1f} mm/s, at {:.3f} mm\n",
+             "stage      {}, {:.0f} steps/mm, {:.0f} mm/s2, {:.3f} to {:.1f} mm/s, at {:.3f} mm\n",
              found.stage_identity, found.dynamics.steps_per_m * 1e-3,
-             found.dynamics.acceleration_m_s2 * 1e3, found.dynamics.max_speed_m_s * 1e3,
-             found.position_m * 1e3)
+             found.dynamics.acceleration_m_s2 * 1e3, found.dynamics.min_speed_m_s * 1e3,
+             found.dynamics.max_speed_m_s * 1e3, found.position_m * 1e3)
       << fmt::format("           answers in {:.1f} ms (longest {:.1f}), {} of {} lost\n",
                      found.latency.mean_s * 1e3, found.latency.longest_s * 1e3,
                      found.latency.n_lost, found.latency.n + found.latency.n_lost)
       << fmt::format(
              "load cell  {:.2f} readings/s, up to {:.1f} ms late, {} missing, {} unreadable\n",
              found.rate_Hz, found.jitter_s * 1e3, found.stream.missing, found.stream.unreadable)
-      << fmt::format("           reads {:.4f} N, noise {:.3f} mN per reading\n", found.force_N,
+      << fmt::format("           reads {} N{}, noise {:.3f} mN per reading\n",
+                     text_from_number(found.force_N, 4),
+                     found.reads_as.empty() ? std::string() : " from " + found.reads_as,
                      found.noise_N * 1e3);
   for (const std::string& text : found.advice) out << "advice     " << text << "\n";
   out << (found.is_usable ? "ready\n" : "not fit for a test yet\n");
@@ -91,6 +94,7 @@ void print_json(const RigCheck& found, std::ostream& out) {
                               {{"identity", found.stage_identity},
                                {"steps_per_m", found.dynamics.steps_per_m},
                                {"acceleration_m_s2", found.dynamics.acceleration_m_s2},
+                               {"min_speed_m_s", found.dynamics.min_speed_m_s},
                                {"max_speed_m_s", found.dynamics.max_speed_m_s},
                                {"position_m", found.position_m},
                                {"latency_mean_s", found.latency.mean_s},
@@ -102,6 +106,7 @@ void print_json(const RigCheck& found, std::ostream& out) {
                                {"jitter_s", found.jitter_s},
                                {"missing", found.stream.missing},
                                {"unreadable", found.stream.unreadable},
+                               {"reads_as", found.reads_as},
                                {"force_N", found.force_N},
                                {"noise_N", found.noise_N}}},
                              {"advice", found.advice}};

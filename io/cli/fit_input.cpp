@@ -169,14 +169,20 @@ FittedFile fit_capture(const std::string& path, const FitWords& words) {
     fitted.result.flags.push_back(
         {"run-" + run.status, 0, "the run was not finished; what was recorded is used"});
   }
+  // What the run itself had against its record.
+  for (const RunEvent& event : run.events) {
+    if (event.name != "doubt") continue;
+    std::string name = event.value;
+    std::replace(name.begin(), name.end(), '_', '-');
+    fitted.result.flags.push_back({name, 0, event.text});
+  }
   return fitted;
 }
 
 }  // namespace
 
 FittedFile fit_file(const std::string& path, const FitWords& words) {
-  // What is called a capture is read as one, so that a damaged one is not taken for a table.
-  const bool is_capture = path.ends_with(".viscap") || looks_like_capture(path);
+  const bool is_capture = looks_like_capture(path);
   // Readers name the file themselves; the fit does not know it.
   try {
     FittedFile fitted = is_capture ? fit_capture(path, words) : fit_table(path, words);

@@ -2,6 +2,8 @@
 #include "io/atomic_file.h"
 #include "io/capture_file.h"
 #include "io/cli/live_picture.h"
+#include "rig/emulator/demo_rig.h"
+#include "rig/emulator/emulated_rig.h"
 #include "rig/emulator/pty_port.h"
 #include "tests/support/error_text.h"
 #include "tests/support/run_command.h"
@@ -191,6 +193,56 @@ TEST_CASE("a run that never begins leaves the capture that --force would have re
   CHECK(read_file(capture) == before);
   CHECK(read_capture(capture).specimen.id == "left behind");
   CHECK_FALSE(std::filesystem::exists(capture.string() + ".previous"));
+}
+
+TEST_CASE("a run refused because the punch presses leaves the capture that --force would replace",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const std::filesystem::path capture = folder / "run.viscap";
+  leave_interrupted(capture);
+  const std::string before = read_file(capture);
+  EmulatedRigOptions options;
+  options.truth = demo_truth(10.0, 7);
+  options.truth.surface_position_m = -0.3e-3;
+  options.truth.overload_N = 100.0;
+  options.config = demo_rig();
+  const EmulatedRig emulated(options);
+  std::string rig = read_file(demo("01_rig.toml"));
+  const auto put = [&rig](const std::string& from, const std::string& to) {
+    rig.replace(rig.find(from), from.size(), to);
+  };
+  put("/dev/serial/by-id/stage", emulated.config().stage.port);
+  put("/dev/serial/by-id/load_cell", emulated.config().load_cell.port);
+  write_file(folder / "rig.toml", rig, false);
+  const auto outcome =
+      run_command({"capture", "--rig", folder / "rig.toml", "--test", demo("02_test.toml"),
+                   "--specimen", demo("03_pdms_1to10.toml"), "--out", capture, "--force"});
+  CAPTURE(outcome.err);
+  CHECK(outcome.status == kFailed);
+  CHECK(contains(outcome.err, "the record that --force was to replace is kept"));
+  CHECK(contains(outcome.err, "lifted"));
+  CHECK(read_file(capture) == before);
+  CHECK_FALSE(std::filesystem::exists(capture.string() + ".previous"));
+}
+
+TEST_CASE("a damaged capture is never taken for a table", "[cli][capture]") {
+  const ScratchFolder folder;
+  const std::string file = folder / "run.viscap";
+  write_file(file, "garbled, and no longer what it was\n", false);
+  const auto weights = run_command(
+      {"calibrate", "--data", file, "--rig", demo("01_rig.toml"), "--out", folder / "c.toml"});
+  CHECK(weights.status == kFailed);
+  CHECK(contains(weights.err, "not a table of weights"));
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"fit", file},
+        {"report", file, "--out", folder / "r.html"},
+        {"calibrate", "--compliance", "--data", file, "--out", folder / "f.toml"}}) {
+    const auto outcome = run_command(words);
+    CAPTURE(words[0], outcome.err);
+    CHECK(outcome.status == kFailed);
+    CHECK(contains(outcome.err, "run.viscap"));
+    CHECK(contains(outcome.err, "capture"));
+  }
 }
 
 TEST_CASE("options of rig check are refused where they mean nothing", "[cli][rig]") {

@@ -6,6 +6,8 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
+#include <algorithm>
+
 namespace viscard {
 
 TEST_CASE("A check measures rate and noise, reads settings back and moves nothing", "[rig][pty]") {
@@ -35,6 +37,25 @@ TEST_CASE("A converter at 10 readings/s makes a rig unusable", "[rig][pty]") {
   options.config.load_cell.expected_rate_Hz = 10.0;
   RigFixture rig(options);
   CHECK_FALSE(check_rig(rig.stage, rig.load_cell, rig.config, rig.clock, 10.0).is_usable);
+}
+
+TEST_CASE("Numbers with a decimal point and no unit are taken for volts, and that is said",
+          "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.config.load_cell.line_format = "auto";
+  options.amplifier.format = AmplifierFormat::kVolts;
+  const auto advised = [](const RigCheck& check) {
+    return std::any_of(check.advice.begin(), check.advice.end(), [](const std::string& text) {
+      return text.find("taken for volts") != std::string::npos;
+    });
+  };
+  RigFixture rig(options);
+  const RigCheck check = check_rig(rig.stage, rig.load_cell, rig.config, rig.clock, 5.0);
+  CHECK(check.reads_as == "volts");
+  CHECK(advised(check));
+  options.config.load_cell.line_format = "volts";
+  RigFixture told(options);
+  CHECK_FALSE(advised(check_rig(told.stage, told.load_cell, told.config, told.clock, 5.0)));
 }
 
 TEST_CASE("The state of a port is told without opening it", "[rig][pty]") {
