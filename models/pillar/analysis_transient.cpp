@@ -1,6 +1,8 @@
 #include "models/pillar/inertial_stepper.h"
+#include "models/pillar/number_text.h"
 #include "models/pillar/pillar_loads.h"
 #include "models/pillar/scene_body.h"
+#include "models/pillar/scene_mistake.h"
 
 #include <Eigen/Cholesky>
 
@@ -60,10 +62,12 @@ double tail_beyond(double omega_rad_s, double first_rad_s, const Roughness& load
 
 // The frequency beyond which that is a share of the tolerance, for an answer that is twice the
 // static one.
+constexpr double kFarthest = 60.0;  // first resonances; meshes and bases end there
+constexpr int kLargestBasis = 450;
 double reach_rad_s(const Scene& scene, double first_rad_s) {
   const Roughness load = roughness_of(scene.history);
   double omega = 5.0 * first_rad_s;
-  while (omega < 60.0 * first_rad_s &&
+  while (omega < kFarthest * first_rad_s &&
          tail_beyond(omega, first_rad_s, load) > 0.4 * scene.tolerance) {
     omega *= 1.1;
   }
@@ -107,6 +111,24 @@ double static_over_peak(const ReducedBody& reduced, const TransientRequest& requ
   return at_rest / std::max(found.cwiseAbs().maxCoeff(), 1e-300);
 }
 
+// A jump excites waves of every length, with amplitudes that fall no faster than their lengths:
+// what lies beyond the reach of any mesh here is then part of the answer, and only a load that
+// takes its time leaves it small.
+void refuse_jump(const Scene& scene, double first_rad_s, double reach, double tail,
+                 double static_share) {
+  const Roughness load = roughness_of(scene.history);
+  if (load.jumps == 0.0 || tail <= 0.5 * scene.tolerance) return;  // the mesh takes its share too
+  const double rise_s = load.jumps * first_rad_s * static_share / (scene.tolerance * reach * reach);
+  const double wave_m =
+      2.0 * std::numbers::pi * std::sqrt(scene.pillar.E0_Pa / scene.pillar.rho_kg_m3) / reach;
+  throw SceneMistake(scene.history.size() > 2 ? "analysis.history" : "analysis",
+                     "the load jumps, which excites waves of all lengths; those shorter than " +
+                         number_text(1e6 * wave_m, 2) +
+                         " um, too short for the meshes here, carry " + number_text(tail, 2) +
+                         " of the answer, too much for the tolerance. Let each jump take " +
+                         number_text(rise_s, 2) + " s or longer, or ask for a larger tolerance");
+}
+
 }  // namespace
 
 void check_transient(const Scene& scene) {
@@ -143,7 +165,8 @@ void run_transient_scene(const Scene& scene, SceneAnswer& answer) {
   const DynamicRange range{.lowest_rad_s = 2.0 * std::numbers::pi / scene.end_time_s,
                            .highest_rad_s = reach,
                            .tolerance = 0.2 * scene.tolerance,
-                           .corner_rad_s = first_rad_s};
+                           .corner_rad_s = first_rad_s,
+                           .largest_basis = kLargestBasis};
   const ReducedBody reduced = reduce_dynamic(body.system, {load}, range);
   TransientRequest request{.load = reduced.load(load), .end_s = scene.end_time_s};
   request.outputs = scene.outputs;
@@ -158,9 +181,10 @@ void run_transient_scene(const Scene& scene, SceneAnswer& answer) {
     observers.row(static_cast<Eigen::Index>(i)) = reduced.output(body.outputs[i].of).transpose();
   }
   const TransientResult run = run_transient(reduced.system, request, observers);
-  const double tail =
-      tail_beyond(reach, first_rad_s, roughness_of(scene.history)) *
+  const double static_share =
       static_over_peak(reduced, request, observers.row(0).transpose(), run.values.row(0));
+  const double tail = static_share * tail_beyond(reach, first_rad_s, roughness_of(scene.history));
+  refuse_jump(scene, first_rad_s, reach, tail, static_share);
   answer.step_error = run.converged ? run.error_estimate + reduced.error + tail
                                     : std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < body.outputs.size(); ++i) {

@@ -57,6 +57,9 @@ double remaining(double change, double before) {
   return change * (ratio < 10.0 / 11.0 ? ratio / (1.0 - ratio) : 10.0);
 }
 
+// From this degree on the error of steps and bases is no matter of the mesh any more.
+constexpr int kNoLongerCoarse = 5;
+
 // Estimates of all numbers from the changes since the mesh before; name of the worst.
 class ChangeTracker {
  public:
@@ -135,6 +138,13 @@ SceneAnswer answer_within(const ErrorControl& control, const MeshAnswer& answer_
     if (tracker.compared_twice() && answer.largest_relative_error <= control.tolerance) {
       return answer;
     }
+    if (mesh.degree >= kNoLongerCoarse && answer.step_error > control.tolerance) break;
+  }
+  if (answer.step_error > control.tolerance) {
+    throw std::runtime_error(
+        "steps in time and the basis of the small body leave a relative error of about " +
+        number_text(answer.step_error, 2) +
+        " whatever the mesh; ask for a larger tolerance, or for less");
   }
   throw std::runtime_error(
       "the finest mesh (degree " + std::to_string(answer.discretisation.degree) +
