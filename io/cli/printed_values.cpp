@@ -50,19 +50,25 @@ std::vector<PrintedComparison> compare_printed(const std::vector<PrintedValue>& 
     // Voltages and displacements are printed without their sign.
     const double percent = 100.0 * (std::abs(value) / std::abs(ours->value) - 1.0);
     rows.push_back({p.name, value, ours->value, ours->unit, percent, p.note});
+    if (ours->unit == "%") rows.back().difference_points = value - ours->value;
   }
   return rows;
 }
 
 void print_comparison(const std::vector<PrintedComparison>& rows, std::ostream& out) {
   if (rows.empty()) return;
-  out << fmt::format("\n  {:<24} {:>12} {:>14} {:<5} {:>11}\n", "", "printed", "ours", "",
+  std::size_t width = 24;
+  for (const PrintedComparison& row : rows) width = std::max(width, row.name.size());
+  out << fmt::format("\n  {:<{}} {:>12} {:>14} {:<5} {:>11}\n", "", width, "printed", "ours", "",
                      "difference");
   for (const PrintedComparison& row : rows) {
-    out << fmt::format("  {:<24} {:>12.6g} {:>14.7g} {:<5} {:>+9.3f} %{}{}\n", row.name,
-                       row.printed, row.ours, row.unit, row.difference_percent,
-                       row.note.empty() ? "" : "  ", row.note);
+    const std::string difference = row.difference_points
+                                       ? fmt::format("{:+9.4f} points", *row.difference_points)
+                                       : fmt::format("{:+9.3f} %", row.difference_percent);
+    out << fmt::format("  {:<{}} {:>12.6g} {:>14.7g} {:<5} {}{}{}\n", row.name, width, row.printed,
+                       row.ours, row.unit, difference, row.note.empty() ? "" : "  ", row.note);
   }
+  out << "  (what a source prints without its sign is compared by size)\n";
 }
 
 nlohmann::json json_from_comparison(const std::vector<PrintedComparison>& rows) {
@@ -74,6 +80,7 @@ nlohmann::json json_from_comparison(const std::vector<PrintedComparison>& rows) 
                     {"unit", row.unit},
                     {"difference_percent", row.difference_percent},
                     {"note", row.note}});
+    if (row.difference_points) list.back()["difference_points"] = *row.difference_points;
   }
   return list;
 }

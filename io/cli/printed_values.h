@@ -5,6 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct PrintedComparison {
   std::string unit;                 // SI
   double difference_percent = 0.0;  // of the printed size against ours; signs are conventions
   std::string note;                 // why they differ
+  std::optional<double> difference_points;  // of per cents: printed less ours
 };
 
 // The scene's [[printed]] entries against its answer. A name is that of a result, or a family and a

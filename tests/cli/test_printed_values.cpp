@@ -44,6 +44,18 @@ TEST_CASE("a printed value that the answer does not have is refused with the nea
   CHECK_THROWS(compare_printed({{"lateral 1", "4 mV", ""}}, answer()));  // not a frequency
 }
 
+TEST_CASE("per cents are compared in points, with their sign", "[cli]") {
+  SceneAnswer row;
+  row.results = {{"coupling_percent_1", -0.0587, "%", 1e-3}};
+  const auto rows = compare_printed({{"coupling_percent_1", "-0.06 %", ""}}, row);
+  CHECK(*rows.at(0).difference_points == Approx(-0.0013).epsilon(1e-9));
+  std::ostringstream text;
+  print_comparison(rows, text);
+  CHECK_THAT(text.str(), Catch::Contains("-0.0013 points"));
+  CHECK(json_from_comparison(rows)[0]["difference_points"] == *rows[0].difference_points);
+  CHECK_FALSE(compare_printed({{"lateral 1", "1 Hz", ""}}, answer()).at(0).difference_points);
+}
+
 TEST_CASE("a scene without printed values prints no table", "[cli]") {
   std::ostringstream text;
   print_comparison(compare_printed({}, answer()), text);
