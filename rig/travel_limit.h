@@ -10,7 +10,7 @@ void check_travel(double to_m, double start_m, double travel_m);
 
 // The end of a move within what the controller itself allows (StageDynamics::lowest_m, highest_m),
 // on a whole step. A move away from the specimen is shortened, since a shorter lift is better than
-// none; one toward it throws RigError.
+// none; one toward it throws RigError, and so does any move from outside of the travel.
 double within_travel_m(double from_m, double to_m, const StageDynamics& dynamics);
 
 }  // namespace viscard

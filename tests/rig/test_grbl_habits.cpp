@@ -1,4 +1,5 @@
 // What real controllers do besides what is documented: each habit of the emulator on its own.
+#include "rig/travel_limit.h"
 #include "tests/rig/rig_fixture.h"
 
 #include <catch2/catch.hpp>
@@ -72,6 +73,16 @@ TEST_CASE("With soft limits a lift ends where the controller's travel does", "[r
   CHECK_THROWS_WITH(move_and_wait(rig, 3.1e-3, 1e-3), Contains("$130"));
   move_and_wait(rig, 0.1e-3, 1e-3);
   CHECK(stands_where_it_says(rig));
+}
+
+TEST_CASE("A stage outside of its own travel is told to be homed", "[rig]") {
+  const StageDynamics dynamics{1600e3, 0.2, 5e-3, 0.0, 0.0, 3e-3};
+  CHECK_THROWS_WITH(within_travel_m(-0.3e-3, 0.1e-3, dynamics), Contains("home = true"));
+  CHECK_THROWS_WITH(within_travel_m(3.1e-3, 3.0e-3, dynamics), Contains("home = true"));
+  CHECK(within_travel_m(0.0, 0.1e-3, dynamics) == 0.1e-3);
+  // A limit between two steps: the lift ends on the step inside.
+  const StageDynamics odd{1600e3, 0.2, 5e-3, 0.0, 0.3 / 1600e3, 3e-3};
+  CHECK(within_travel_m(1e-3, -1e-3, odd) == Approx(1.0 / 1600e3).epsilon(1e-9));
 }
 
 TEST_CASE("A run with soft limits retracts as far as it may and finishes", "[rig][pty]") {
