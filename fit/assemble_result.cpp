@@ -75,25 +75,27 @@ Autoregression noise_of(const SpectralModel& model, const SpectralState& state) 
   return autoregression(model.residual_series(state.ln_tau, state.nuisance, state.coefficients));
 }
 
-// Profiles belong to the parameters of the state; where a material parameter is something else
-// (creep, a frame in series), the covariance stands.
+// Where the times of the state are the material's own, profiles replace their intervals; with a
+// frame in series only that of E_inf, which is a function of the stage's alone. In creep the
+// covariance stands.
 void add_profiles(const SpectralModel& model, const SpectralFit& fit,
                   const SeriesFromState& series_from_state, FitResult& result) {
   const PronySeries series = series_from_state(fit.state);
+  const bool is_creep = model.n_common() > 0 && model.common()[0].name == "J_g";
+  if (is_creep || static_cast<Eigen::Index>(series.terms.size()) != fit.state.n_terms()) return;
   const Eigen::MatrixXd white = parameter_covariance(model, fit.state, fit.variance);
-  result.profiles = profile_likelihoods(model, fit.state, fit.variance, fit.covariance, white);
-  const bool is_same =
-      static_cast<Eigen::Index>(series.terms.size()) == fit.state.n_terms() &&
-      (model.n_common() == 0 || series.equilibrium_modulus_Pa == fit.state.coefficients[0]);
-  if (!is_same) result.profiles.clear();
+  result.profiles =
+      profile_likelihoods(model, fit.state, fit.variance, fit.covariance, white, series_from_state);
+  const bool are_own_times =
+      model.n_common() == 0 || series.equilibrium_modulus_Pa == fit.state.coefficients[0];
   for (const ProfileCurve& curve : result.profiles) {
     if (curve.parameter == "E_inf") {
       result.E_inf_interval_95 = curve.interval_95;
-      continue;
+    } else if (are_own_times) {
+      const std::size_t term = std::stoul(curve.parameter.substr(7)) - 1;
+      result.terms[term].tau_s_95 = {std::exp(curve.interval_95.low),
+                                     std::exp(curve.interval_95.high)};
     }
-    const std::size_t term = std::stoul(curve.parameter.substr(7)) - 1;
-    result.terms[term].tau_s_95 = {std::exp(curve.interval_95.low),
-                                   std::exp(curve.interval_95.high)};
   }
 }
 

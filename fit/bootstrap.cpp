@@ -76,7 +76,7 @@ void bootstrap_intervals(const SpectralModel& model, const SpectralState& state,
         data[begin + k] += residual[(from + k) % rows];
       }
     }
-    const SpectralState refitted = quick_search(ModelVariant(model, std::move(data), false), state,
+    const SpectralState refitted = quick_search(ModelVariant(model, std::move(data)), state,
                                                 {.max_iterations = 60, .tolerance = 1e-8});
     const PronySeries series = series_from_state(refitted);
     if (series.terms.size() == result.terms.size()) drawn.add(series);

@@ -35,13 +35,11 @@ double lowest_equilibrium(const SpectralModel& fine, const SpectralFit& fit, dou
   SpectralState slower = fit.state;
   slower.ln_tau.conservativeResize(slower.n_terms() + 1);
   slower.ln_tau[slower.ln_tau.size() - 1] = model.ln_tau_max();
-  const Eigen::VectorXd column =
-      model.columns(slower.ln_tau, slower.nuisance, /*with_slopes=*/false).values.col(0);
   const double best = fit.state.coefficients[0];
   double last = best, last_root = 0.0;
   for (double distance = step; distance > 0.0; distance *= 2.0) {
     const double value = std::max(0.0, best - distance);
-    const ModelVariant lowered(model, model.data() - value * column, /*without_first=*/true);
+    const PinnedEquilibrium lowered(model, value, 1e4 * std::sqrt(fit.variance) / step);
     slower.nuisance = fit.state.nuisance;
     const SpectralState refitted = quick_search(
         lowered, slower, {.max_iterations = 30, .tolerance = 1e-6, .unseen_variances = 1e-2});

@@ -38,6 +38,7 @@ Page page_from_report(const ReportInput& input) {
     add_specimen(page, input.specimens[i], estimates[i]);
   }
   add_cards(page, input, estimates);
+  add_methods(page, input);
   add_provenance(page, input, estimates);
   return page;
 }

@@ -1,5 +1,6 @@
 #include "io/report_figures.h"
 
+#include "io/report_campaign.h"
 #include "io/report_numbers.h"
 
 #include <fmt/format.h>
@@ -111,8 +112,8 @@ void add_law(PlotPanel& panel, const MixingLaw& law, double factor) {
       line(law.ratio, scaled(law.E0_Pa, factor), Ink::kGrey, "joint fit, 95 % band"));
 }
 
-PlotSeries spectrum_of(const SpecimenEstimates& specimen, Ink ink) {
-  PlotSeries series = error_bars(ink, specimen.label);
+PlotSeries spectrum_of(const SpecimenEstimates& specimen, const SpecimenStyle& style) {
+  PlotSeries series = error_bars(style.ink, style.label);
   for (const TermEstimate& term : specimen.terms) {
     add_point(series, term.tau_s.value, term.g.value, term.g.interval_95);
     const Interval& tau = term.tau_s.interval_95;
@@ -150,11 +151,12 @@ std::optional<Plot> relaxation_plot(const ReportInput& input,
   plot.panels[0].y.label = fmt::format("{} ({})", symbol, unit.text);
   plot.panels[1].y.label = estimates.front().is_stiffness ? "R(t)/R(0)" : "E(t)/E₀";
   for (PlotPanel& panel : plot.panels) panel.x = {.label = "time t (s)", .is_log = true};
+  const std::vector<SpecimenStyle> styles = styles_of(estimates);
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     for (std::size_t p = 0; p < 2; ++p) {
       const bool is_relative = p == 1;
       add_relaxation(plot.panels[p], relaxation_band(estimates[i], time_s, is_relative),
-                     is_relative ? 1.0 : unit.per_si, ink_of_series(i), estimates[i].label);
+                     is_relative ? 1.0 : unit.per_si, styles[i].ink, styles[i].label);
     }
   }
   const char* truth_label = "truth";  // once in the legend, after the specimens
@@ -217,13 +219,14 @@ std::optional<Plot> spectrum_plot(const ReportInput& input,
   panel.x = {.label = "relaxation time τ (s)", .is_log = true};
   panel.y.label = "relative modulus g";
   double smallest = INFINITY, largest = 0.0;
+  const std::vector<SpecimenStyle> styles = styles_of(estimates);
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     for (const TermEstimate& term : estimates[i].terms) {
       smallest = std::min(smallest, term.g.value);
       largest = std::max(largest, term.g.value);
     }
     if (!estimates[i].terms.empty()) {
-      panel.series.push_back(spectrum_of(estimates[i], ink_of_series(i)));
+      panel.series.push_back(spectrum_of(estimates[i], styles[i]));
     }
   }
   const char* truth_label = "truth";

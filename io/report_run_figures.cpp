@@ -1,3 +1,4 @@
+#include "io/report_campaign.h"
 #include "io/report_figures.h"
 #include "io/report_numbers.h"
 
@@ -279,14 +280,15 @@ std::optional<Plot> pillar_plot(const ReportInput& input,
     plot.panels[p].y.is_log = p >= 2;
   }
   double limit = 0.0;
+  const std::vector<SpecimenStyle> styles = styles_of(estimates);
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     if (!input.specimens[i].pillar) continue;
     limit = input.specimens[i].pillar->limit;
     const PillarCurve* curves[] = {&input.specimens[i].pillar->relaxation,
                                    &input.specimens[i].pillar->creep};
     for (std::size_t p = 0; p < 2; ++p) {
-      add_pillar_curve(plot.panels[p], *curves[p], ink_of_series(i), estimates[i].label);
-      add_error(plot.panels[p + 2], *curves[p], ink_of_series(i));
+      add_pillar_curve(plot.panels[p], *curves[p], styles[i].ink, styles[i].label);
+      add_error(plot.panels[p + 2], *curves[p], styles[i].ink);
     }
   }
   for (std::size_t p = 2; p < 4; ++p) add_limit(plot.panels[p], limit);

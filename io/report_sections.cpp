@@ -2,6 +2,7 @@
 
 #include "io/plot_axis.h"
 #include "io/plot_svg.h"
+#include "io/report_campaign.h"
 #include "io/report_figures.h"
 #include "io/report_numbers.h"
 #include "io/report_tables.h"
@@ -42,7 +43,7 @@ std::string summary_caption(const std::vector<SpecimenEstimates>& estimates) {
                          : "Young's modulus at once (<i>E</i><sub>0</sub>) and in the end "
                            "(<i>E</i><sub>∞</sub>).";
   text +=
-      " In brackets 95 % intervals from the scatter of the data alone; the systematic part "
+      " In brackets 95 % intervals from the record alone; the systematic part "
       "(geometry, calibration, frame), also at 95 %, scales all moduli of a specimen together "
       "and leaves every <i>g</i> and <i>τ</i> as it is.";
   const auto with = std::find_if(estimates.begin(), estimates.end(), [](const auto& specimen) {
@@ -79,6 +80,12 @@ std::string fit_caption(const FitResult& fit) {
   return text;
 }
 
+// An error is known to two digits at best.
+std::string rough_html(double value) {
+  const Interval two_digits{0.9 * value, 1.1 * value};
+  return number_html(value, 1.0, value > 0.0 ? &two_digits : nullptr);
+}
+
 std::string run_caption(const CapturedRun& run, const RunSeries& series) {
   std::string text =
       fmt::format("The run as recorded, times since it began: {} readings", series.time_s.size());
@@ -106,7 +113,7 @@ void add_summary(Page& page, const ReportInput& input,
     page.add_figure(
         *plot, "relaxation",
         "Relaxation of all specimens, left in absolute terms, right relative to the first "
-        "value; bands are 95 % intervals from the scatter of the data." +
+        "value; bands are 95 % intervals from the records alone." +
             dashes);
   }
   page.begin_row_of_figures();
@@ -121,6 +128,14 @@ void add_summary(Page& page, const ReportInput& input,
                     "intervals of both.");
   }
   page.end_row_of_figures();
+  const HtmlTable spread = spread_table(estimates);
+  if (!spread.is_empty()) {
+    page.add_table(
+        spread,
+        "Repeated specimens of a mixing ratio: standard deviation between specimens, "
+        "relative to the mean, beside the standard error of a single fit (median). Where "
+        "the first is larger, specimens differ by more than the fit can err.");
+  }
   const HtmlTable terms = terms_table(estimates);
   if (!terms.is_empty()) {
     const char* form = estimates.front().is_stiffness ? "R" : "E";
@@ -167,8 +182,8 @@ void add_pillar(Page& page, const ReportInput& input,
     if (!pillar) continue;
     if (setup.empty()) setup = pillar->setup;
     table.add_row({escaped_markup(estimates[i].label),
-                   number_html(pillar->relaxation.largest_relative_error, 1.0),
-                   number_html(pillar->creep.largest_relative_error, 1.0)});
+                   rough_html(pillar->relaxation.largest_relative_error),
+                   rough_html(pillar->creep.largest_relative_error)});
   }
   if (!setup.empty()) page.add_paragraph(escaped_markup(setup));
   page.add_figure(
@@ -198,6 +213,17 @@ void add_specimen(Page& page, const SpecimenReport& specimen, const SpecimenEsti
   }
   if (recorded) page.add_figure(*recorded, "run", run_caption(*specimen.run, series));
   if (fitted) page.add_figure(*fitted, "fit", fit_caption(*specimen.fit));
+  if (const auto profiles = specimen.fit ? profile_plot(*specimen.fit) : std::nullopt) {
+    page.add_figure(
+        *profiles, "profiles",
+        "Profile likelihoods: rise of the residual sum of squares, over the variance of "
+        "the noise, as one parameter is held and all others are fitted again. The "
+        "dashed line, 3.84, ends the 95 % interval; a curve that is no parabola tells "
+        "of an interval that is not symmetric." +
+            std::string(specimen.run ? " The times held are those of specimen and frame "
+                                       "in series."
+                                     : ""));
+  }
   if (has_orders) {
     page.add_table(
         orders_table(*specimen.fit),

@@ -19,6 +19,8 @@ void add_pillar(Page& page, const ReportInput& input,
 void add_specimen(Page& page, const SpecimenReport& specimen, const SpecimenEstimates& estimates);
 void add_cards(Page& page, const ReportInput& input,
                const std::vector<SpecimenEstimates>& estimates);
+// How the numbers were found, in a few sentences with their sources; only what this page needs.
+void add_methods(Page& page, const ReportInput& input);
 void add_provenance(Page& page, const ReportInput& input,
                     const std::vector<SpecimenEstimates>& estimates);
 

@@ -5,15 +5,27 @@
 
 #include <cmath>
 #include <set>
+#include <string>
+#include <utility>
 
 namespace viscard {
 namespace {
 
+// Signs as they are printed.
+std::string typeset(std::string text) {
+  for (const auto& [plain, sign] : {std::pair{"+- ", "± "}, {" x ", " × "}}) {
+    for (auto at = text.find(plain); at != std::string::npos; at = text.find(plain)) {
+      text.replace(at, std::string(plain).size(), sign);
+    }
+  }
+  return text;
+}
+
 MixingLaw law_from(const RatioFit& fit) {
   const RatioBand band = ratio_band(fit);
-  return {
-      "Joint fit over specimens: " + law_in_words(fit) + ". The band holds 95 % of new specimens.",
-      band.ratio, band.E0_Pa, band.E0_low_Pa, band.E0_high_Pa};
+  return {"Joint fit over specimens: " + typeset(law_in_words(fit)) +
+              ". The band holds 95 % of new specimens.",
+          band.ratio, band.E0_Pa, band.E0_low_Pa, band.E0_high_Pa};
 }
 
 // The modulus alone: specimens may differ in their number of terms.

@@ -83,10 +83,21 @@ void put_on_one_clock(CapturedRun& run) {
   for (LoadSample& sample : run.load_samples) sample.host_time_s = line.at(*sample.device_time_s);
 }
 
+// Profile likelihoods of few terms, as `viscard fit FILE --profiles` gives them; of many they take
+// long and nobody reads them.
+FittedFile fit_for_page(const std::string& path) {
+  constexpr std::size_t kFewTerms = 6;
+  const FittedFile fitted = fit_file(path, {});
+  if (fitted.result.terms.size() > kFewTerms) return fitted;
+  FitWords words;
+  words.options.with_profiles = true;
+  return fit_file(path, words);
+}
+
 // A capture or a table, fitted as `viscard fit FILE` does.
 SpecimenReport specimen_from_fit(const ReportWords& words, const std::string& path) {
   SpecimenReport report;
-  const FittedFile fitted = fit_file(path, {});
+  const FittedFile fitted = fit_for_page(path);
   report.fit = fitted.result;
   report.specimen = fitted.specimen;
   if (report.specimen.id.empty()) report.specimen.id = fs::path(path).stem().string();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 using namespace viscard;
@@ -170,4 +171,29 @@ TEST_CASE("a gain that drifts before contact is in the intervals of the moduli",
   CHECK_FALSE(holds(blind.E_inf_interval_95, E_inf));
   CHECK(blind.terms.size() == fit.terms.size());
   CHECK(blind.terms[0].ln_tau_se == fit.terms[0].ln_tau_se);
+}
+
+TEST_CASE("profiles of a captured run are the parabolas that its covariance says", "[fit]") {
+  // Two well-seen terms: E_inf is held while starts and contact follow; over its own standard error
+  // the curve passes 1 and 4.
+  FitOptions options;
+  options.with_profiles = true;
+  IndentationData data = indentation_from_capture(in_memory_run(demo_truth(20, 7), {}));
+  data.first_reading_s = data.contact_from_s;  // the gain's drift is no part of a profile
+  const FitResult fit = fit_indentation(data, options);
+  REQUIRE(fit.profiles.size() == fit.terms.size() + 1);
+  for (const ProfileCurve& curve : fit.profiles) {
+    CAPTURE(curve.parameter);
+    const bool is_time = curve.parameter != "E_inf";
+    const std::size_t term = is_time ? std::stoul(curve.parameter.substr(7)) - 1 : 0;
+    const double se = is_time ? fit.terms[term].ln_tau_se : fit.E_inf_se_Pa;
+    const double best = is_time ? std::log(fit.terms[term].tau_s) : fit.E_inf_Pa;
+    const double width = curve.interval_95.high - curve.interval_95.low;
+    // The stage's time is held, not the specimen's, and a fast term is not quite linear.
+    CHECK(width == Approx(2.0 * 1.96 * se).epsilon(is_time ? 0.25 : 0.03));
+    for (std::size_t i = 0; i < curve.value.size() && !is_time; ++i) {
+      const double z = (curve.value[i] - best) / se;
+      CHECK(curve.rise[i] == Approx(z * z).epsilon(0.05).margin(0.02));
+    }
+  }
 }
