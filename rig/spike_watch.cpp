@@ -21,6 +21,7 @@ constexpr double kRounded = 0.5;
 constexpr double kEarlyOrLate = 0.25;
 constexpr double kLikely = 3.0;      // times the noise: neighbours further off are left out
 constexpr double kNoisySlope = 1.0;  // per reading, in units of one reading's noise
+constexpr double kStaircase = 2.0;   // times the scatter of the neighbours about their line
 constexpr double kAtTheEnd = 1.5;    // where only one side is known
 constexpr double kTurned = 2.5;      // of the slope there: a corner may lie between
 
@@ -93,12 +94,22 @@ SpikeWatch::Line SpikeWatch::foretold(std::size_t at, int direction) const {
     numbers.push_back(reading.value + line.slope * (readings_[at].place - reading.place));
   }
   line.value = median(numbers);
+  for (double& number : numbers) number = std::abs(number - line.value);
+  // The largest but one: one spoilt reading must not count.
+  std::nth_element(numbers.begin(), numbers.end() - 2, numbers.end());
+  line.scatter = *(numbers.end() - 2);
   line.is_known = true;
   return line;
 }
 
 double SpikeWatch::noise() const {
   return std::max(usual_, least_ > 0.0 ? least_ : 0.5 * least_step_);
+}
+
+bool SpikeWatch::lies_between(std::size_t at, double slack) const {
+  const double before = readings_[at - 1].value, behind = readings_[at + 1].value;
+  const double value = readings_[at].value;
+  return value > std::min(before, behind) - slack && value < std::max(before, behind) + slack;
 }
 
 bool SpikeWatch::judge(std::size_t at) {
@@ -118,7 +129,12 @@ bool SpikeWatch::judge(std::size_t at) {
   const double corner =
       std::max(0.0, std::abs(before.slope - behind.slope) - kNoisySlope * noise());
   const double ramp = std::max(0.0, slope - kNoisySlope * noise());
-  const double slack = kRounded * corner + kEarlyOrLate * ramp;
+  // The single steps of a coarse stage make a staircase of a ramp.
+  const double scatter =
+      std::max(0.0, std::max(before.scatter, behind.scatter) - kLikely * noise());
+  const double slack = kRounded * corner + kEarlyOrLate * ramp + kStaircase * scatter;
+  // On the way a reading between those beside it is none: a staircase never turns back.
+  if (slope > kLikely * noise() && lies_between(at, kLikely * noise())) return false;
   const double apart = std::abs(before.value - behind.value);
   const double middle = 0.5 * (before.value + behind.value);
   // Two lines of pure noise are seldom further apart than this.

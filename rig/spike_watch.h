@@ -18,7 +18,9 @@ namespace viscard {
 // the two. Where the lines agree, the mean of all ten is foretold, and 6.3 robust standard
 // deviations are allowed, 8 at the beginning; where they do not, a line's own uncertainty, half of
 // their difference in slope (a corner may be rounded), and a quarter of the slope itself (a reading
-// may have been made that much early or late), besides. The noise is the median distance of the
+// may have been made that much early or late), besides, and twice what neighbours lie off their
+// line beyond noise: a coarse stage makes a staircase of a ramp, on which a reading between the two
+// beside it is never a spike. The noise is the median distance of the
 // last 256 readings. Judged five readings later; the first 32 together.
 class SpikeWatch {
  public:
@@ -39,11 +41,12 @@ class SpikeWatch {
     bool is_spike = false;
   };
   struct Line {
-    double value = 0.0, slope = 0.0;
+    double value = 0.0, slope = 0.0, scatter = 0.0;
     bool is_known = false;
   };
   Line foretold(std::size_t at, int direction) const;
   double mean_around(std::size_t at, double middle, double slope) const;
+  bool lies_between(std::size_t at, double slack) const;
   bool judge(std::size_t at);
   std::vector<std::int64_t> judge_until(std::size_t end);
   void learn(double distance);

@@ -137,6 +137,20 @@ TEST_CASE("Readings made a little early or late on a ramp are no spikes", "[rig]
   CHECK(spikes_in(noisy(values, 300.0)).empty());
 }
 
+TEST_CASE("The staircase that single steps of a coarse stage make is no row of spikes", "[rig]") {
+  // One step of 4 um at 4.7 N/mm is 38 times a noise of .5 mN.
+  for (const double steps_per_reading : {0.02, 0.1, 0.2, 0.38, 0.66, 0.9, 1.3, 2.2}) {
+    CAPTURE(steps_per_reading);
+    std::vector<double> values(100, 0.0);
+    for (int i = 0; i < 200; ++i) {
+      values.push_back(38.0 * 300.0 * std::floor(steps_per_reading * i));
+    }
+    CHECK(spikes_in(noisy(values, 300.0)).empty());
+    values[200] += 60.0 * 38.0 * 300.0;
+    CHECK(spikes_in(noisy(values, 300.0)) == std::vector<std::int64_t>{200});
+  }
+}
+
 TEST_CASE("A line is known by the shape of all before it", "[rig]") {
   CHECK(shape_of_line("Load_cell output val: -12.30") ==
         shape_of_line("Load_cell output val: 7.99"));
