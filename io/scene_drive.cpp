@@ -75,11 +75,30 @@ void fill_readout(const RawDrive& raw, Scene& scene) {
   scene.readout = readout;
 }
 
+// A pressure, a shear (which says the direction), or a force over the top's area.
+void fill_traction(const RawDrive& raw, Scene& scene) {
+  const int given = (raw.pressure_Pa != 0.0) + (raw.shear_Pa != 0.0) + (raw.force_N != 0.0);
+  if (given > 1) {
+    throw SceneMistake("analysis.load", "give one of pressure, shear and force");
+  }
+  if ((raw.shear_Pa != 0.0 || raw.force_N != 0.0) && scene.load_place == LoadPlace::kBase) {
+    throw SceneMistake("analysis.load", "the base takes an acceleration");
+  }
+  if (raw.shear_Pa != 0.0 && scene.direction == LoadDirection::kAxial) {
+    throw SceneMistake("analysis.load.shear", "a shear is sideways; say direction = \"lateral\"");
+  }
+  const double d_m = scene.geometry.diameter_m;
+  const double area_m2 = scene.plane ? d_m : 0.25 * std::numbers::pi * d_m * d_m;
+  scene.pressure_Pa = raw.pressure_Pa + raw.shear_Pa + raw.force_N / area_m2;
+}
+
 }  // namespace
 
 void show_drive(FieldVisitor& v, const std::string& analysis, RawDrive& d) {
   v.section("load", [&](FieldVisitor& l) {
     l.quantity({.key = "pressure", .unit = "Pa"}, d.pressure_Pa);
+    l.quantity({.key = "shear", .unit = "Pa"}, d.shear_Pa);
+    l.quantity({.key = "force", .unit = "N"}, d.force_N);
     l.quantity({.key = "acceleration", .unit = "m/s2"}, d.acceleration_m_s2);
     l.quantity({.key = "voltage", .unit = "V"}, d.voltage_V);
     l.text({"on", "top"}, d.load_on);
@@ -113,7 +132,8 @@ void show_readout(FieldVisitor& v, RawDrive& d) {
 }
 
 void fill_drive(const RawDrive& raw, Scene& scene) {
-  if (raw.pressure_Pa != 0.0 && raw.load_on.empty()) {
+  if ((raw.pressure_Pa != 0.0 || raw.shear_Pa != 0.0 || raw.force_N != 0.0) &&
+      raw.load_on.empty()) {
     throw SceneMistake("analysis.load", "the load has no place; say on = \"top\"");
   }
   if (!raw.load_on.empty()) {
@@ -135,11 +155,12 @@ void fill_drive(const RawDrive& raw, Scene& scene) {
   scene.direction = choice<LoadDirection>(
       "analysis.load.direction", raw.direction,
       {{"axial", LoadDirection::kAxial}, {"lateral", LoadDirection::kLateral}});
-  if (scene.direction == LoadDirection::kLateral && !moves) {
+  const bool may_push_sideways = moves || scene.kind == AnalysisKind::kStatic;
+  if (scene.direction == LoadDirection::kLateral && !may_push_sideways) {
     throw SceneMistake("analysis.load.direction",
-                       "only harmonic and transient analyses push sideways; say \"axial\"");
+                       "only static, harmonic and transient analyses push sideways; say \"axial\"");
   }
-  scene.pressure_Pa = raw.pressure_Pa;
+  fill_traction(raw, scene);
   scene.base_acceleration_m_s2 = raw.acceleration_m_s2;
   scene.drive_V = raw.voltage_V;
   scene.end_time_s = raw.end_time_s;

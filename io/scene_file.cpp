@@ -25,6 +25,7 @@ struct RawScene {
   std::string film_material, film_bottom = "fixed";
   std::string electrode_face, electrode_kind = "equipotential", poling = "+z";
   double electrode_radius_m = 0.0;
+  bool quadrants = false;
   RawMaterial pillar, film;
   std::string analysis = "static";
   std::int64_t modes = 4;
@@ -62,6 +63,7 @@ void show_geometry(FieldVisitor& v, RawScene& s) {
     e.text({"face", "bottom"}, s.electrode_face);
     e.text({"kind", "equipotential"}, s.electrode_kind);
     e.quantity({.key = "radius", .unit = "m", .range = Range::kPositive}, s.electrode_radius_m);
+    e.boolean("quadrants", s.quadrants);
   });
   v.text({"poling", "+z"}, s.poling);
   show_flare(v, "foot", s.foot);
@@ -129,7 +131,7 @@ void fill_electrode(const RawScene& raw, Scene& scene) {
   }
   scene.electrodes =
       ElectrodeOptions{electrode_on == FilmFace::kBottom ? FilmFace::kTop : FilmFace::kBottom,
-                       sampled ? 0.0 : raw.electrode_radius_m};
+                       sampled ? 0.0 : raw.electrode_radius_m, raw.quadrants};
 }
 
 // A mesh that is asked for instead of left to the tolerance: "graded-p" shrinks toward the rim of

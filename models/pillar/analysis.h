@@ -43,6 +43,12 @@ std::vector<PillarMode> family_modes(const Scene& scene, const ModeFamily& famil
 // The rows of the table.
 void check_static(const Scene& scene);
 void run_static(const Scene& scene, SceneAnswer& answer);
+// Under a shear on the top (LoadDirection::kLateral).
+bool is_sideways(const Scene& scene);
+PillarModel sideways_model(const Scene& scene, const SceneAnswer& on_mesh);
+PillarState sideways_state(const Scene& scene, const PillarModel& model);
+void check_sideways(const Scene& scene);
+void run_sideways(const Scene& scene, SceneAnswer& answer);
 void check_modal(const Scene& scene);
 void run_modal(const Scene& scene, SceneAnswer& answer);
 void check_buckling(const Scene& scene);

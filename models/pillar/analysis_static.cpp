@@ -151,9 +151,11 @@ void check_static(const Scene& scene) {
   if (!std::isfinite(scene.drive_V)) {
     throw SceneMistake("analysis.load.voltage", "the voltage is not finite");
   }
+  if (is_sideways(scene)) check_sideways(scene);
 }
 
 void run_static(const Scene& scene, SceneAnswer& answer) {
+  if (is_sideways(scene)) return run_sideways(scene, answer);
   scene.electrodes ? run_piezoelectric(scene, answer) : run_elastic(scene, answer);
 }
 

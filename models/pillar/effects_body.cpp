@@ -1,3 +1,4 @@
+#include "models/pillar/analysis.h"
 #include "models/pillar/effects.h"
 
 #include <algorithm>
@@ -108,6 +109,9 @@ EffectEstimate adhesion_estimate(const Scene&) {
 
 EffectEstimate finite_strain_estimate(const Scene& scene) {
   double strain = largest_pressure_Pa(scene) / scene.pillar.E0_Pa;
+  if (is_sideways(scene)) {  // bending at the foot: 4 tau L/R, of a strip 3 tau L/R
+    strain *= (scene.plane ? 6.0 : 8.0) * scene.geometry.length_m / scene.geometry.diameter_m;
+  }
   if (scene.kind == AnalysisKind::kBuckling) {
     strain = engesser_pressure_Pa(scene) / scene.pillar.E0_Pa;
   }

@@ -1,3 +1,4 @@
+#include "models/pillar/analysis.h"
 #include "models/pillar/effects.h"
 
 #include <Eigen/Cholesky>
@@ -97,6 +98,7 @@ bool asks_for_electric(const Scene& scene) {
   return asks_for(scene, "electrode_voltage") || asks_for(scene, "electrode_charge") ||
          asks_for(scene, "electrode_capacitance") || asks_for(scene, "displacement_per_volt") ||
          asks_for(scene, "potential_at_centre") || asks_for(scene, "potential_mean") ||
+         asks_for(scene, "quadrant_charge") || asks_for(scene, "quadrant_voltage") ||
          scene.readout || scene.drive_V != 0.0;
 }
 
@@ -138,6 +140,12 @@ EffectEstimate film_compliance_estimate(const Scene& scene) {
       asks_for(scene, "film_bottom_stress_mean")) {
     return {EffectRole::kNeeded, 1.0, "E A/(k L)", shares.axial, "its own stress is asked for"};
   }
+  if (is_sideways(
+          scene)) {  // a force at the end turns the foot by F L c: 3 E I c/L of F L^3/(3 E I)
+    const double share = 3.0 * shares.bending + shares.shear;
+    return {EffectRole::kOptional, kUnevenTraction * share, "3 E I/(k L)", 3.0 * shares.bending,
+            "the base turns and slides under the bent pillar"};
+  }
   double error = kUnevenTraction * shares.axial;
   if (scene.kind == AnalysisKind::kStatic && asks_for(scene, "base_stress_at_half_radius")) {
     const double R = 0.5 * scene.geometry.diameter_m;
@@ -163,6 +171,9 @@ EffectEstimate piezo_coupling_estimate(const Scene& scene) {
   if (!asks_for_electric(scene)) {
     estimate.error *= kUnevenTraction * shares_of(scene).axial;
     estimate.reason = "only the film's share of the deflection feels it";
+  } else if (is_sideways(scene)) {
+    estimate.role = EffectRole::kNeeded;
+    estimate.reason = "quadrants are answered both ways";
   } else if (scene.kind != AnalysisKind::kStatic || scene.drive_V != 0.0 ||
              asks_for(scene, "displacement_per_volt")) {
     estimate.role = EffectRole::kNeeded;

@@ -25,6 +25,7 @@ enum class FilmFace { kBottom, kTop };
 struct ElectrodeOptions {
   FilmFace grounded = FilmFace::kTop;
   double electrode_radius_m = 0.0;  // 0: charge-free face
+  bool quadrants = false;           // cut along x and y: tells sideways loads (piezo_quadrants.h)
 };
 
 struct ModelOptions {

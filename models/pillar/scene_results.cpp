@@ -1,5 +1,7 @@
 #include "models/pillar/scene_results.h"
 
+#include "models/pillar/analysis.h"
+
 #include <cmath>
 
 namespace viscard {
@@ -13,6 +15,14 @@ void add(Names& names, const std::string& stem, const Names& endings) {
 }
 
 Names static_names(const Scene& scene) {
+  if (is_sideways(scene)) {
+    if (!scene.electrodes) return {"top_displacement"};
+    if (scene.electrodes->electrode_radius_m == 0.0)
+      return {"top_displacement", "quadrant_voltage"};
+    Names names = {"top_displacement", "displacement_per_volt"};
+    if (scene.drive_V == 0.0) names.emplace_back("quadrant_charge");
+    return names;
+  }
   if (!scene.electrodes) {
     Names names = {"top_displacement", "base_stress_at_half_radius", "base_stress_rim_mean"};
     if (scene.film) names.emplace_back("film_bottom_stress_mean");

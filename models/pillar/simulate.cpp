@@ -41,7 +41,7 @@ void mark_wanted(const Scene& scene, SceneAnswer& answer) {
 }  // namespace
 
 void refuse_beyond_buckling(const Scene& scene) {
-  if (scene.kind == AnalysisKind::kBuckling) return;
+  if (scene.kind == AnalysisKind::kBuckling || is_sideways(scene)) return;
   const double largest_Pa = largest_push_Pa(scene);
   const double slenderness = scene.geometry.diameter_m / scene.geometry.length_m;
   const double pi = std::numbers::pi;

@@ -130,6 +130,17 @@ SectionGrid static_grid(const Scene& scene, const SceneAnswer& on_mesh) {
   return at.grid;
 }
 
+SectionGrid sideways_grid(const Scene& scene, const SceneAnswer& on_mesh) {
+  const PillarModel model = sideways_model(scene, on_mesh);
+  const PillarState state = sideways_state(scene, model);
+  Sampling at = sampling_of(model);
+  at.grid.name = "static";
+  at.grid.harmonic = 1;
+  at.grid.fields.push_back(displacement_of(model, at, "displacement_m", state.unknowns));
+  if (scene.electrodes) at.grid.fields.push_back(potential_of(model, at, state));
+  return at.grid;
+}
+
 SectionGrid modal_grid(const Scene& scene, const ModeFamily& family, const SceneAnswer& on_mesh) {
   const PillarModel model = model_of(scene, family.motion, on_mesh);
   Sampling at = sampling_of(model);
@@ -167,6 +178,7 @@ std::vector<SectionGrid> solution_fields(const Scene& scene, const Discretisatio
   const Scene planned = plan_effects(scene).reduced;
   SceneAnswer on_mesh;
   on_mesh.discretisation = mesh;
+  if (is_sideways(planned)) return {sideways_grid(planned, on_mesh)};
   if (planned.kind == AnalysisKind::kStatic) return {static_grid(planned, on_mesh)};
   std::vector<SectionGrid> grids;
   if (planned.kind != AnalysisKind::kModal) return grids;
