@@ -179,6 +179,29 @@ ordered_json json_from(const LoadCellFit& fit, const CalibrationRecord& record,
           {"budget", budget}};
 }
 
+// Load cells are straight within parts in a thousand. What is ten times worse is a weight that was
+// mixed up, or something that touches the pan: such a record must not become anybody's forces.
+void check_line(const LoadCellFit& fit, const WeightReadings& readings) {
+  constexpr double kWorst = 0.05;
+  const double worst = std::max({fit.nonlinearity, fit.hysteresis, fit.repeatability});
+  if (worst <= kWorst) return;
+  std::size_t furthest = 0;
+  double largest_N = 0.0;
+  for (std::size_t i = 0; i < readings.force_N.size(); ++i) {
+    const double off_N =
+        std::abs((readings.reading[i] - fit.zero) / fit.gain - readings.force_N[i]);
+    if (off_N <= largest_N) continue;
+    largest_N = off_N;
+    furthest = i;
+  }
+  throw std::runtime_error(fmt::format(
+      "the readings do not lie on a line: they depart by {:.0f} % of the largest force, and most "
+      "at "
+      "reading {} of {} ({:.4f} N), by {:.4f} N. Was a weight mixed up, or did something touch the "
+      "load cell? Nothing was written; weigh again",
+      100.0 * worst, furthest + 1, readings.force_N.size(), readings.force_N[furthest], largest_N));
+}
+
 }  // namespace
 
 int calibrate_load_cell(const CalibrateWords& words, Streams& streams) {
@@ -213,6 +236,7 @@ int calibrate_load_cell(const CalibrateWords& words, Streams& streams) {
     throw UsageError("calibrate needs --capacity, the rated load of the cell, such as \"250 gf\"");
   }
   const LoadCellFit fit = fit_load_cell(readings);
+  check_line(fit, readings);
   const CalibrationRecord record = record_from(fit, words, capacity_N);
   write_file(words.out_file, toml_from_calibration(record), words.overwrite);
   if (words.as_json) {

@@ -132,6 +132,24 @@ TEST_CASE("A table of weights and readings is calibrated as well", "[cli]") {
   CHECK_THROWS_WITH(calibrate(words), Contains("exists already"));
 }
 
+TEST_CASE("Weights mixed up make no record, and the reading is named", "[cli]") {
+  const ScratchFolder folder;
+  const std::vector<double> asked_g{0.0, 20.0, 50.0, 100.0, 200.0, 100.0, 50.0, 20.0, 0.0};
+  std::vector<double> put_g = asked_g;
+  put_g[6] = 20.0;  // the seventh reading
+  std::string table = "mass_kg,volts_V\n";
+  for (std::size_t i = 0; i < asked_g.size(); ++i) {
+    table += std::to_string(asked_g[i] * 1e-3) + "," +
+             std::to_string(0.1 + 0.7255 * 9.80665e-3 * put_g[i]) + "\n";
+  }
+  write(folder / "weights.csv", table);
+  const std::string out = (folder / "cell.toml").string();
+  const std::vector<std::string> words{
+      "--data", (folder / "weights.csv").string(), "--capacity", "250 gf", "--out", out};
+  CHECK_THROWS_WITH(calibrate(words), Contains("reading 7 of 9") && Contains("mixed up"));
+  CHECK_FALSE(std::filesystem::exists(out));
+}
+
 TEST_CASE("Bad words of a calibration are named", "[cli]") {
   CHECK_THROWS_AS(calibrate({"--out", "x.toml"}), UsageError);
   CHECK_THROWS_WITH(calibrate({"--emulate"}), Contains("--out"));
