@@ -1,5 +1,7 @@
 #include "fit/fit_mixing_ratio.h"
 
+#include "fit/ratio_estimates.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -15,88 +17,6 @@ namespace {
 
 using Index = Eigen::Index;
 
-// One specimen as the joint fit sees it.
-struct Estimate {
-  double ratio = 0.0;
-  Eigen::VectorXd theta;
-  Eigen::MatrixXd covariance;
-};
-
-std::string name_of(const Material& material, std::size_t number) {
-  return material.name.empty()
-             ? "specimen " + std::to_string(number)
-             : "'" + material.name + "' (specimen " + std::to_string(number) + ")";
-}
-
-void check_specimen(const Material& material, std::size_t number) {
-  const std::string name = name_of(material, number);
-  if (!(material.mixing_ratio > 0.0)) {
-    throw std::invalid_argument(name +
-                                " has no mixing ratio; give it with --ratio, or mixing_ratio in "
-                                "its specimen or material file");
-  }
-  const auto size = static_cast<Index>(1 + 2 * material.terms.size());
-  const bool has_covariance = material.uncertainty &&
-                              material.uncertainty->covariance.rows() == size &&
-                              material.uncertainty->covariance.allFinite();
-  if (!has_covariance) {
-    throw std::invalid_argument(name +
-                                " states no covariance of its parameters, so its weight is not "
-                                "known; fit it from data with viscard fit");
-  }
-}
-
-// (ln E0, ln g_i, ln tau_i) and its covariance from that of (E_inf, E_i, ln tau_i).
-Estimate estimate_of(const Material& material) {
-  const auto n = static_cast<Index>(material.terms.size());
-  const Index size = 1 + 2 * n;
-  Estimate out{material.mixing_ratio, Eigen::VectorXd(size), {}};
-  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(size, size);
-  out.theta[0] = std::log(material.E0_Pa);
-  slopes.row(0).head(1 + n).setConstant(1.0 / material.E0_Pa);
-  for (Index i = 1; i <= n; ++i) {
-    const MaterialTerm& term = material.terms[static_cast<std::size_t>(i - 1)];
-    out.theta[i] = std::log(term.g);
-    out.theta[n + i] = std::log(term.tau_s);
-    slopes.row(i) = -slopes.row(0);
-    slopes(i, i) += 1.0 / (term.g * material.E0_Pa);
-    slopes(n + i, n + i) = 1.0;
-  }
-  out.covariance = slopes * material.uncertainty->covariance * slopes.transpose();
-  // Noise-free data would leave it singular.
-  out.covariance.diagonal().array() += 1e-16 + 1e-12 * out.covariance.diagonal().array();
-  return out;
-}
-
-std::vector<Estimate> estimates_of(const std::vector<Material>& specimens) {
-  std::vector<Estimate> out;
-  for (std::size_t s = 0; s < specimens.size(); ++s) {
-    check_specimen(specimens[s], s + 1);
-    const std::size_t n = specimens[s].terms.size();
-    if (n != specimens.front().terms.size()) {
-      throw std::invalid_argument(
-          name_of(specimens[s], s + 1) + " has " + std::to_string(n) + " terms and " +
-          name_of(specimens.front(), 1) + " " + std::to_string(specimens.front().terms.size()) +
-          ": terms are compared one by one. Fit all with the same --terms N");
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      if (specimens[s].terms[i].g > 0.0) continue;
-      throw std::invalid_argument(name_of(specimens[s], s + 1) + ": g of term " +
-                                  std::to_string(i + 1) + " is zero; fit with fewer terms");
-    }
-    out.push_back(estimate_of(specimens[s]));
-  }
-  return out;
-}
-
-std::vector<double> distinct_ratios(const std::vector<Estimate>& estimates) {
-  std::vector<double> ratios;
-  for (const Estimate& one : estimates) ratios.push_back(one.ratio);
-  std::sort(ratios.begin(), ratios.end());
-  ratios.erase(std::unique(ratios.begin(), ratios.end()), ratios.end());
-  return ratios;
-}
-
 using Spreads = std::array<double, 3>;  // of ln E0, ln g, ln tau
 
 // Generalised least squares at given spreads, and the log likelihood there.
@@ -108,9 +28,9 @@ struct Solution {
 
 class Likelihood {
  public:
-  Likelihood(const RatioModel& shape, const std::vector<Estimate>& estimates, bool restricted)
+  Likelihood(const RatioModel& shape, const std::vector<RatioEstimate>& estimates, bool restricted)
       : estimates_(estimates), n_terms_(shape.n_terms), restricted_(restricted) {
-    for (const Estimate& one : estimates) designs_.push_back(design_at(shape, one.ratio));
+    for (const RatioEstimate& one : estimates) designs_.push_back(design_at(shape, one.ratio));
   }
 
   Solution at(const Spreads& spreads) const {
@@ -147,7 +67,7 @@ class Likelihood {
 
  private:
   static constexpr double kTwoPi = 2.0 * std::numbers::pi;
-  const std::vector<Estimate>& estimates_;
+  const std::vector<RatioEstimate>& estimates_;
   std::vector<Eigen::MatrixXd> designs_;
   Index n_terms_;
   bool restricted_;
@@ -192,7 +112,7 @@ double best_spread(const Likelihood& likelihood, Spreads spreads, std::size_t ki
   return std::exp(0.5 * (low + high));
 }
 
-RatioModel fitted_form(const std::vector<Estimate>& estimates, const RatioForm& form,
+RatioModel fitted_form(const std::vector<RatioEstimate>& estimates, const RatioForm& form,
                        bool restricted) {
   RatioModel model;
   model.form = form;
@@ -233,6 +153,18 @@ RatioModel fitted_form(const std::vector<Estimate>& estimates, const RatioForm& 
   return model;
 }
 
+void check_shared(const std::vector<std::string>& names, int n_terms) {
+  for (const std::string& name : names) {
+    bool is_known = false;
+    for (int i = 1; i <= n_terms; ++i) {
+      is_known |= name == "g_" + std::to_string(i) || name == "tau_" + std::to_string(i);
+    }
+    if (is_known) continue;
+    throw std::invalid_argument("'" + name + "' cannot be shared: there are E0, g, tau, and g_i " +
+                                "and tau_i of " + std::to_string(n_terms) + " terms");
+  }
+}
+
 // All forms that these data can tell apart; named ones first, so that they win ties.
 std::vector<RatioForm> forms_to_try(std::size_t n_ratios, int n_terms,
                                     const MixingOptions& options) {
@@ -255,7 +187,8 @@ std::vector<RatioForm> forms_to_try(std::size_t n_ratios, int n_terms,
            (options.share_times && form.tau_degree != 0);
   });
   std::vector<RatioForm> once;
-  for (const RatioForm& form : forms) {
+  for (RatioForm& form : forms) {
+    form.same = options.shared;
     if (n_terms == 0 && form.g_degree == kPerRatio) continue;
     if (std::find(once.begin(), once.end(), form) == once.end()) once.push_back(form);
   }
@@ -294,7 +227,7 @@ Material common_of(const std::vector<Material>& specimens) {
   return common;
 }
 
-void add_flags(const std::vector<Estimate>& estimates, RatioFit& fit) {
+void add_flags(const std::vector<RatioEstimate>& estimates, RatioFit& fit) {
   if (estimates.size() == fit.law.ratios.size()) {
     fit.flags.push_back({"one-specimen-per-ratio", 0,
                          "every ratio was measured once: scatter between specimens cannot be told "
@@ -314,7 +247,7 @@ void add_flags(const std::vector<Estimate>& estimates, RatioFit& fit) {
 
 RatioModel fit_ratio_form(const std::vector<Material>& specimens, const RatioForm& form,
                           bool restricted) {
-  return fitted_form(estimates_of(specimens), form, restricted);
+  return fitted_form(ratio_estimates_of(specimens), form, restricted);
 }
 
 RatioFit fit_mixing_ratio(const std::vector<Material>& specimens, const MixingOptions& options) {
@@ -323,7 +256,7 @@ RatioFit fit_mixing_ratio(const std::vector<Material>& specimens, const MixingOp
                                 std::string(specimens.size() == 1 ? "is " : "are ") +
                                 std::to_string(specimens.size()));
   }
-  const std::vector<Estimate> estimates = estimates_of(specimens);
+  const std::vector<RatioEstimate> estimates = ratio_estimates_of(specimens);
   const std::size_t n_ratios = distinct_ratios(estimates).size();
   if (n_ratios < 2) {
     throw std::invalid_argument(
@@ -335,6 +268,7 @@ RatioFit fit_mixing_ratio(const std::vector<Material>& specimens, const MixingOp
                              std::sqrt(estimates[s].covariance(0, 0))});
   }
   const int n_terms = static_cast<int>(specimens.front().terms.size());
+  check_shared(options.shared, n_terms);
   for (const RatioForm& form : forms_to_try(n_ratios, n_terms, options)) {
     const RatioModel model = fitted_form(estimates, form, /*restricted=*/false);
     fit.forms.push_back({form, model.n_parameters, model.log_likelihood, model.bic});

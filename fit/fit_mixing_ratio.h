@@ -2,6 +2,7 @@
 
 #include "models/ratio_model.h"
 
+#include <string>
 #include <vector>
 
 namespace viscard {
@@ -13,6 +14,7 @@ struct MixingOptions {
                                        RatioVariable::kCrosslinkerShare};
   // What must be the same at all ratios, whatever the data say.
   bool share_E0 = false, share_g = false, share_times = false;
+  std::vector<std::string> shared;  // single ones: "g_1", "tau_2" ...
 };
 
 // Law of a material in its mixing ratio from fitted specimens, each with its covariance and ratio
@@ -22,7 +24,7 @@ struct MixingOptions {
 // meta-regression: van Houwelingen, Arends & Stijnen, Statistics in Medicine 21 (2002) 589.
 //
 // Throws std::invalid_argument: fewer than two ratios or three specimens, numbers of terms that
-// differ, a specimen without ratio or covariance.
+// differ, a specimen without ratio or covariance, a shared parameter of no term.
 RatioFit fit_mixing_ratio(const std::vector<Material>& specimens,
                           const MixingOptions& options = {});
 

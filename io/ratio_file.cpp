@@ -32,6 +32,7 @@ Json json_from(const RatioForm& form) {
   out["E0_degree"] = degree_json(form.E0_degree);
   out["g_degree"] = degree_json(form.g_degree);
   out["tau_degree"] = degree_json(form.tau_degree);
+  if (!form.same.empty()) out["same"] = form.same;
   out["text"] = form_in_words(form);
   return out;
 }
@@ -86,6 +87,7 @@ RatioForm form_from(const Json& json) {
   form.E0_degree = degree_from(json.at("E0_degree"));
   form.g_degree = degree_from(json.at("g_degree"));
   form.tau_degree = degree_from(json.at("tau_degree"));
+  if (json.contains("same")) form.same = json.at("same").get<std::vector<std::string>>();
   return form;
 }
 

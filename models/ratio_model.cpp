@@ -18,6 +18,11 @@ using Index = Eigen::Index;
 
 int degree_of(const RatioModel& model, int parameter) {
   if (parameter == 0) return model.form.E0_degree;
+  const std::string name = parameter <= model.n_terms
+                               ? "g_" + std::to_string(parameter)
+                               : "tau_" + std::to_string(parameter - model.n_terms);
+  const auto& same = model.form.same;
+  if (std::find(same.begin(), same.end(), name) != same.end()) return 0;
   return parameter <= model.n_terms ? model.form.g_degree : model.form.tau_degree;
 }
 
@@ -144,8 +149,8 @@ ScaledVariable scale_of(const RatioModel& model) {
 }
 
 bool operator==(const RatioForm& a, const RatioForm& b) {
-  const bool same_degrees =
-      a.E0_degree == b.E0_degree && a.g_degree == b.g_degree && a.tau_degree == b.tau_degree;
+  const bool same_degrees = a.E0_degree == b.E0_degree && a.g_degree == b.g_degree &&
+                            a.tau_degree == b.tau_degree && a.same == b.same;
   const bool uses_variable = a.E0_degree > 0 || a.g_degree > 0 || a.tau_degree > 0;
   return same_degrees && (a.variable == b.variable || !uses_variable);
 }

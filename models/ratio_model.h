@@ -23,9 +23,10 @@ constexpr int kPerRatio = -1;  // a value of its own at each measured ratio
 
 struct RatioForm {
   RatioVariable variable = RatioVariable::kLogRatio;
-  int E0_degree = 1;   // of ln E0 in the variable, or kPerRatio
-  int g_degree = 0;    // of every ln g_i
-  int tau_degree = 0;  // of every ln tau_i
+  int E0_degree = 1;              // of ln E0 in the variable, or kPerRatio
+  int g_degree = 0;               // of every ln g_i
+  int tau_degree = 0;             // of every ln tau_i
+  std::vector<std::string> same;  // "g_1", "tau_2": these at one value, whatever the degree
 };
 bool operator==(const RatioForm& a, const RatioForm& b);
 

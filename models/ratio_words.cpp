@@ -46,9 +46,11 @@ std::string form_name(const RatioForm& form) {
 
 std::string form_in_words(const RatioForm& form) {
   const char* variable = variable_name(form.variable);
+  std::string same;
+  for (const std::string& name : form.same) same += "; " + name + " the same at all ratios";
   return degree_in_words("ln E0", form.E0_degree, variable) + "; " +
          degree_in_words("ln g", form.g_degree, variable) + "; " +
-         degree_in_words("ln tau", form.tau_degree, variable);
+         degree_in_words("ln tau", form.tau_degree, variable) + same;
 }
 
 std::string law_in_words(const RatioFit& fit) {

@@ -72,7 +72,7 @@ CommandSyntax fit_syntax() {
                                      "g_2=0:0.1: this parameter within bounds")(
       "constraints", po::value<std::string>(), "file with one --fix or --bound text a line")(
       "share", po::value<Words>()->composing(),
-      "with --joint: E0, g or tau the same at all ratios (repeatable)");
+      "with --joint: E0, g or tau, or one of them (tau_1), the same at all ratios (repeatable)");
   syntax.positional = {"file"};
   syntax.last_is_repeatable = true;
   return syntax;

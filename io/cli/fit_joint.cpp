@@ -126,8 +126,11 @@ int run_joint_fit(const JointWords& words, Streams& streams) {
       options.share_g = true;
     } else if (name == "tau") {
       options.share_times = true;
+    } else if (name.rfind("g_", 0) == 0 || name.rfind("tau_", 0) == 0) {
+      options.shared.push_back(name);
     } else {
-      throw UsageError("--share " + name + " is not known; there are E0, g and tau");
+      throw UsageError("--share " + name +
+                       " is not known; there are E0, g, tau, and g_i and tau_i of single terms");
     }
   }
   const RatioFit fit = fit_mixing_ratio(specimens_of(words, streams), options);

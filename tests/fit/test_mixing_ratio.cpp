@@ -156,6 +156,20 @@ TEST_CASE("what is declared shared stays shared, whatever the data say", "[fit][
   CHECK(material_at_ratio(fit, 5.0).terms[0].g == material_at_ratio(fit, 20.0).terms[0].g);
 }
 
+TEST_CASE("one parameter by name can be declared shared, and only that one is", "[fit][joint]") {
+  std::mt19937_64 dice(5);
+  const Campaign moving{.ratios = {5.0, 10.0, 20.0}, .specimens_per_ratio = 5, .g_slope = 0.8};
+  const std::vector<Material> specimens = measured(moving, dice);
+  REQUIRE(specimens.front().terms.size() >= 2);
+  const RatioFit free = fit_mixing_ratio(specimens);
+  const RatioFit fit = fit_mixing_ratio(specimens, {.shared = {"g_2"}});
+  const Material soft = material_at_ratio(fit, 20.0), stiff = material_at_ratio(fit, 5.0);
+  CHECK(stiff.terms[1].g == Approx(soft.terms[1].g).epsilon(1e-12));
+  CHECK(std::abs(stiff.terms[0].g / soft.terms[0].g - 1.0) > 0.3);
+  CHECK(fit.best.n_parameters < free.best.n_parameters);
+  CHECK_THROWS_AS(fit_mixing_ratio(specimens, {.shared = {"tau_9"}}), std::invalid_argument);
+}
+
 TEST_CASE("a non-monotone modulus is not forced into a law, and the misfit is flagged",
           "[fit][joint]") {
   std::mt19937_64 dice(3);
