@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <exception>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
@@ -196,6 +198,18 @@ SceneAnswer without_film(const ArrayScene& scene, const Discretisation& mesh) {
   return answer;
 }
 
+// No mesh mends what the film's own inertia, which modes of a row leave out, may change.
+void refuse_film_modes(double film_error, double tolerance) {
+  if (film_error <= tolerance) return;
+  char text[260];
+  std::snprintf(text, sizeof text,
+                "the film's own inertia, which the modes of a row leave out, may change the "
+                "frequencies by %.2g of them, more than the tolerance of %.2g; ask for a larger "
+                "tolerance or fewer modes, or for one pillar on its film (kind = \"pillar\")",
+                film_error, tolerance);
+  throw std::runtime_error(text);
+}
+
 }  // namespace
 
 ArrayMedia media_of(const ArrayScene& scene) {
@@ -234,7 +248,13 @@ SceneAnswer array_answer_on(const ArrayScene& scene, const Discretisation& mesh)
 SceneAnswer simulate_array(const ArrayScene& scene) {
   validate(scene);
   return answer_within({scene.tolerance, array_meshes(scene), scene.progress},
-                       [&](const Discretisation& mesh) { return array_answer_on(scene, mesh); });
+                       [&](const Discretisation& mesh) {
+                         SceneAnswer answer = array_answer_on(scene, mesh);
+                         if (scene.analysis == ArrayAnalysis::kModal) {
+                           refuse_film_modes(answer.step_error, scene.tolerance);
+                         }
+                         return answer;
+                       });
 }
 
 void simulate_arrays(const std::vector<ArrayScene>& points,

@@ -75,12 +75,19 @@ Verdict verdict_on(const ArrayScene& scene, int fine_degree) {
 
 void study(int count, unsigned long seed, int fine_degree = 8) {
   std::mt19937_64 random(seed);
-  int below = 0, honest = 0;
+  int answered = 0, below = 0, honest = 0;
   double worst = 0.0;
   std::ostringstream doubtful;
   for (int i = 0; i < count; ++i) {
     const ArrayScene scene = random_row(random);
-    const Verdict v = verdict_on(scene, fine_degree);
+    Verdict v;
+    try {
+      v = verdict_on(scene, fine_degree);
+    } catch (const std::runtime_error& refusal) {  // no wrong answer; they are counted
+      doubtful << "\n  scene " << i << " refused: " << refusal.what();
+      continue;
+    }
+    ++answered;
     below += v.over <= 1.0 ? 1 : 0;
     honest += v.is_honest ? 1 : 0;
     worst = std::max(worst, v.over);
@@ -91,11 +98,13 @@ void study(int count, unsigned long seed, int fine_degree = 8) {
              << " s/t " << g.spacing_m / g.film_thickness_m << " over " << v.over << " "
              << (scene.wanted.empty() ? "modes" : scene.wanted.front());
   }
-  WARN(below << " of " << count << " rows below their tolerance (worst " << worst << " of it), "
-             << honest << " honest" << doubtful.str());
-  CHECK(below >= std::lround(0.99 * count));
+  WARN(below << " of " << answered << " answered of " << count
+             << " rows below their tolerance (worst " << worst << " of it), " << honest << " honest"
+             << doubtful.str());
+  CHECK(answered >= std::lround(0.97 * count));
+  CHECK(below >= std::lround(0.99 * answered));
   CHECK(worst <= 2.0);
-  CHECK(honest >= std::lround(0.95 * count));
+  CHECK(honest >= std::lround(0.95 * answered));
 }
 
 }  // namespace
@@ -167,6 +176,19 @@ TEST_CASE("modes and deflections of a row need its film only at tight tolerances
   scene.effects = {{"finite_strain", EffectChoice::kOn}};
   scene.analysis = ArrayAnalysis::kStatic;
   CHECK_THROWS_AS(plan_effects(scene), SceneMistake);
+}
+
+TEST_CASE("modes of a row whose film would vibrate itself are refused with the reason",
+          "[array][plan]") {
+  ArrayScene scene = seed_scene();
+  scene.analysis = ArrayAnalysis::kModal;
+  scene.modes = 2;
+  scene.geometry.count = 2;
+  scene.geometry.film_thickness_m = 60e-6;
+  scene.film = isotropic_medium(10.0 * scene.pillar.E0_Pa, 0.3, 8000.0);
+  CHECK_THROWS_WITH(simulate_array_planned(scene), Catch::Contains("film's own inertia"));
+  scene.film.rho_kg_m3 = 1.0;
+  CHECK_NOTHROW(simulate_array_planned(scene));
 }
 
 TEST_CASE("pillars long enough to stick to their neighbours are told so", "[array][plan]") {
