@@ -2,6 +2,7 @@
 
 #include "models/pillar/electrode_edge.h"
 #include "models/pillar/number_text.h"
+#include "models/pillar/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,13 +109,13 @@ std::vector<double> pillar_heights(const PillarGeometry& g, double radius_m,
   return breaks;
 }
 
-void validate_flare(const Flare& flare, const char* what, double radius_m) {
+void validate_flare(const Flare& flare, const char* key, const char* what, double radius_m) {
   if (!std::isfinite(flare.width_m) || !(flare.height_m >= 0.0) || !std::isfinite(flare.height_m)) {
-    throw std::invalid_argument(std::string(what) + " needs a finite width and height");
+    throw SceneMistake(key, std::string(what) + " needs a finite width and height");
   }
   if (flare.width_m != 0.0) require_length(flare.height_m, what);
   if (!(flare.width_m > -radius_m)) {
-    throw std::invalid_argument(std::string(what) + " takes " + number_text(-flare.width_m * 1e6) +
+    throw SceneMistake(key, std::string(what) + " takes " + number_text(-flare.width_m * 1e6) +
                                 " um off a radius of " + number_text(radius_m * 1e6) +
                                 " um: nothing is left");
   }
@@ -182,24 +183,27 @@ double radius_at_m(const PillarGeometry& g, double z_m) {
 void validate(const PillarGeometry& g) {
   require_length(g.diameter_m, "the pillar's diameter");
   require_length(g.length_m, "the pillar's length");
-  validate_flare(g.foot, "the fillet at the foot", 0.5 * g.diameter_m);
-  validate_flare(g.tip, "the mushroom at the tip", 0.5 * g.diameter_m);
+  validate_flare(g.foot, "geometry.foot", "the fillet at the foot", 0.5 * g.diameter_m);
+  validate_flare(g.tip, "geometry.tip", "the mushroom at the tip", 0.5 * g.diameter_m);
   if (g.foot.height_m + g.tip.height_m > g.length_m * (1.0 + 1e-12)) {
-    throw std::invalid_argument("fillet and mushroom tip together are higher than the pillar");
+    throw SceneMistake("geometry.tip",
+                       "fillet and mushroom tip together are higher than the pillar");
   }
   if (!g.film) return;
   require_length(g.film->thickness_m, "the film's thickness");
   require_length(g.film->radius_m, "the film's radius");
   if (g.film->radius_m < bond_radius_m(g) * (1.0 - 1e-12)) {
-    throw std::invalid_argument("the film's radius of " + number_text(g.film->radius_m * 1e6) +
-                                " um is smaller than the pillar's of " +
-                                number_text(bond_radius_m(g) * 1e6) + " um");
+    throw SceneMistake("geometry.film.radius", "the film's radius of " +
+                                                   number_text(g.film->radius_m * 1e6) +
+                                                   " um is smaller than the pillar's of " +
+                                                   number_text(bond_radius_m(g) * 1e6) + " um");
   }
   if (!(g.film->electrode_radius_m >= 0.0 &&
         g.film->electrode_radius_m <= g.film->radius_m * (1.0 + 1e-9))) {
-    throw std::invalid_argument("the electrode's radius of " +
-                                number_text(g.film->electrode_radius_m * 1e6) +
-                                " um does not lie on the film");
+    throw SceneMistake("geometry.electrode.radius",
+                       "the electrode's radius of " +
+                           number_text(g.film->electrode_radius_m * 1e6) +
+                           " um does not lie on the film");
   }
 }
 

@@ -111,7 +111,7 @@ void validate(const Scene& scene);
 
 // Throws SceneMistake if the largest pressure would buckle the pillar: by its own buckling pressure
 // on a coarse mesh where Euler's formula comes near, for a strip by Engesser's formula (eq. E6). A
-// straight answer has no meaning there.
+// straight answer has no meaning there, unless the scene forces geometric_stiffness off.
 void refuse_beyond_buckling(const Scene& scene);
 
 // Answers the scene (analysis.h) on meshes of rising degree and grading until every result meets

@@ -1,14 +1,15 @@
 #include "models/pillar/analysis.h"
 #include "models/pillar/effects.h"
 #include "models/pillar/error_control.h"
+#include "models/pillar/number_text.h"
 #include "models/pillar/pillar_modes.h"
 #include "models/pillar/scene_mistake.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 
 namespace viscard {
 namespace {
@@ -33,6 +34,28 @@ double buckling_pressure_Pa(const Scene& scene) {
   }
 }
 
+// "" while the straight pillar can bear the load.
+std::string beyond_buckling(const Scene& scene) {
+  if (scene.kind == AnalysisKind::kBuckling || is_sideways(scene)) return "";
+  const double largest_Pa = largest_push_Pa(scene);
+  const double slenderness = scene.geometry.diameter_m / scene.geometry.length_m;
+  const double pi = std::numbers::pi;
+  const double euler_Pa = pi * pi / 64.0 * scene.pillar.E0_Pa * slenderness * slenderness;
+  if (largest_Pa < 0.5 * euler_Pa) return "";
+  const double critical_Pa =
+      scene.plane ? engesser_pressure_Pa(scene) : buckling_pressure_Pa(scene);
+  if (largest_Pa < critical_Pa) return "";
+  return "a pressure of " + number_text(largest_Pa, 5) +
+         " Pa is beyond the buckling pressure of about " + number_text(critical_Pa, 5) +
+         " Pa: the straight pillar gives way sideways";
+}
+
+// The scene itself says that its pillar is to stay straight.
+bool holds_straight(const Scene& scene) {
+  const auto forced = scene.effects.find("geometric_stiffness");
+  return forced != scene.effects.end() && forced->second == EffectChoice::kOff;
+}
+
 // Errors are watched only of what is asked for.
 void mark_wanted(const Scene& scene, SceneAnswer& answer) {
   for (SceneResult& r : answer.results) r.is_wanted = asks_for(scene, r.name);
@@ -41,23 +64,14 @@ void mark_wanted(const Scene& scene, SceneAnswer& answer) {
 }  // namespace
 
 void refuse_beyond_buckling(const Scene& scene) {
-  if (scene.kind == AnalysisKind::kBuckling || is_sideways(scene)) return;
-  const double largest_Pa = largest_push_Pa(scene);
-  const double slenderness = scene.geometry.diameter_m / scene.geometry.length_m;
-  const double pi = std::numbers::pi;
-  const double euler_Pa = pi * pi / 64.0 * scene.pillar.E0_Pa * slenderness * slenderness;
-  if (largest_Pa < 0.5 * euler_Pa) return;
-  const double critical_Pa =
-      scene.plane ? engesser_pressure_Pa(scene) : buckling_pressure_Pa(scene);
-  if (largest_Pa < critical_Pa) return;
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "a pressure of %.5g Pa is beyond the buckling pressure of about %.5g Pa: the "
-                "straight pillar gives way sideways. Reduce the load, or make the pillar shorter "
-                "or thicker",
-                largest_Pa, critical_Pa);
+  if (holds_straight(scene)) return;
+  const std::string why = beyond_buckling(scene);
+  if (why.empty()) return;
   throw SceneMistake(
-      scene.kind == AnalysisKind::kCreep ? "analysis.history" : "analysis.load.pressure", text);
+      scene.kind == AnalysisKind::kCreep ? "analysis.history" : "analysis.load.pressure",
+      why +
+          ". Reduce the load, make the pillar shorter or thicker, or say that it is held "
+          "straight (geometric_stiffness = \"off\" under [effects])");
 }
 
 SceneAnswer simulate(const Scene& scene) {
@@ -66,13 +80,19 @@ SceneAnswer simulate(const Scene& scene) {
   const Analysis& analysis = analysis_of(scene.kind);
   const std::vector<Discretisation> meshes =
       scene.discretisation ? refinements_to(*scene.discretisation) : mesh_sequence(scene.geometry);
-  return answer_within({scene.tolerance, meshes, scene.progress}, [&](const Discretisation& mesh) {
-    SceneAnswer on_mesh;
-    on_mesh.discretisation = mesh;
-    analysis.run(scene, on_mesh);
-    mark_wanted(scene, on_mesh);
-    return on_mesh;
-  });
+  SceneAnswer answer =
+      answer_within({scene.tolerance, meshes, scene.progress}, [&](const Discretisation& mesh) {
+        SceneAnswer on_mesh;
+        on_mesh.discretisation = mesh;
+        analysis.run(scene, on_mesh);
+        mark_wanted(scene, on_mesh);
+        return on_mesh;
+      });
+  const std::string why = holds_straight(scene) ? beyond_buckling(scene) : "";
+  if (!why.empty()) {
+    answer.notes.push_back(why + ", unless it is held straight, as the scene says it is");
+  }
+  return answer;
 }
 
 }  // namespace viscard

@@ -93,3 +93,20 @@ TEST_CASE("scenes that contradict themselves are refused by name", "[pillar]") {
     CHECK_THROWS_WITH(simulate(scene), Catch::Contains("density"));
   }
 }
+
+TEST_CASE("a load beyond buckling is refused unless the scene holds its pillar straight",
+          "[pillar]") {
+  Scene scene;
+  scene.pillar.E0_Pa = 1.8e6;
+  scene.pillar.nu = .33;
+  scene.kind = AnalysisKind::kStatic;
+  scene.pressure_Pa = 35e3;  // buckles at 29.37 kPa
+  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("beyond the buckling pressure") &&
+                                         Catch::Contains("geometric_stiffness"));
+  scene.effects["geometric_stiffness"] = EffectChoice::kOff;
+  const SceneAnswer answer = simulate(scene);
+  REQUIRE(answer.notes.size() == 1);
+  CHECK_THAT(answer.notes[0], Catch::Contains("held straight"));
+  // Linear: 659.69 nm at 10 kPa.
+  CHECK(answer.results[0].value == Approx(-3.5 * 659.692e-9).epsilon(1e-3));
+}
