@@ -15,7 +15,9 @@ constexpr double kNap_wall_s = 0.005;
 // An emulated clock in a hurry makes seconds of every stall of the machine.
 constexpr double kSilenceEmulated_wall_s = 1.0;
 constexpr double kSilence_wall_s = 0.1;
-constexpr double kTimeNoise = 0.002;  // of a period: what the device's clock jitters at least
+// Of a period: what the device's clock jitters at least. A loop that is now and then late by a
+// millisecond spoils no reading.
+constexpr double kTimeNoise = 0.02;
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 #include "io/atomic_file.h"
 #include "io/capture_file.h"
 #include "io/cli/live_picture.h"
+#include "io/sqlite_database.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/emulator/pty_port.h"
@@ -223,6 +224,28 @@ TEST_CASE("a run refused because the punch presses leaves the capture that --for
   CHECK(contains(outcome.err, "lifted"));
   CHECK(read_file(capture) == before);
   CHECK_FALSE(std::filesystem::exists(capture.string() + ".previous"));
+}
+
+TEST_CASE("what a run has against its record is a flag of the fit", "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const std::string file = folder / "run.viscap";
+  write_file(folder / "test.toml", kShortTest, false);
+  REQUIRE(run_command({"capture", "--emulate", "--speed", "100", "--test", folder / "test.toml",
+                       "--out", file})
+              .status == kDone);
+  const auto has_flag = [&] {
+    const auto fit = run_command({"fit", file, "--json"});
+    CAPTURE(fit.err);
+    REQUIRE(fit.status == kDone);
+    const auto flags = nlohmann::json::parse(fit.out)["flags"].dump();
+    return contains(flags, "line-noise") && contains(flags, "3 lines could not be read");
+  };
+  CHECK_FALSE(has_flag());
+  Database(file, Database::Access::kReadWrite)
+      .execute(
+          "INSERT INTO events (host_time_s, name, value, text) VALUES (1.0, 'doubt', "
+          "'line_noise', '3 lines could not be read')");
+  CHECK(has_flag());
 }
 
 TEST_CASE("a damaged capture is never taken for a table", "[cli][capture]") {

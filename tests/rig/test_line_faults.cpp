@@ -129,10 +129,8 @@ void check_readings(const RigFixture& rig, bool has_doubt, Tally& tally) {
     CHECK(off <= notice);
   }
   tally.below_notice += n_unmarked;
-  // A single lower digit, in a run whose line showed no other sign, nothing can tell.
+  // A lower digit or two, in a run whose line showed no other sign, nothing can tell.
   if (n_unmarked > 0 && !has_doubt) ++tally.unsaid;
-  INFO(n_unmarked << " wrong readings without a doubt");
-  CHECK((has_doubt || n_unmarked <= 2));
 }
 
 void check_bench(const RigFixture& rig, const std::string& status, const std::string& reason) {
@@ -187,6 +185,8 @@ void run_seeds(std::uint64_t first, std::uint64_t last) {
             << " wrong ones below notice (the worst " << tally.worst << " of it); " << tally.unsaid
             << " runs have such a one and no doubt says so\n";
   CHECK(tally.faults > static_cast<long long>(last - first));
+  const auto n_runs = static_cast<long long>(last - first + 1);
+  CHECK(tally.unsaid <= 1 + n_runs / 20);
 }
 
 }  // namespace
@@ -198,12 +198,27 @@ TEST_CASE("A capture over a clean proxy is like one without", "[rig][pty][faults
   REQUIRE(outcome.status == "finished");
   CHECK(outcome.stream.missing == 0);
   CHECK(outcome.stream.implausible == 0);
+  CHECK_FALSE(rig.has_event("doubt", "line_noise"));
   const auto truth = truth_of(rig);
   for (const LoadSample& sample : rig.all<LoadSample>()) {
     const auto found = truth.find(std::llround(*sample.device_time_s * 1e6));
     REQUIRE(found != truth.end());
     REQUIRE(found->second == *sample.counts);
   }
+}
+
+TEST_CASE("A run over a line that garbles says that some readings may be wrong",
+          "[rig][pty][faults]") {
+  LineFaults faults;
+  faults.cell.seed = 5;
+  faults.cell.to_host.insert = 0.01;
+  RigFixture rig(rig_options(2), faults);
+  const RunOutcome outcome = rig.run(shortest_plan());
+  INFO(outcome.reason);
+  CHECK(outcome.stream.unreadable > 0);
+  CHECK(rig.has_event("doubt", "line_noise"));
+  REQUIRE(outcome.doubts.size() > 0);
+  CHECK(outcome.doubts[0].find("may be wrong") != std::string::npos);
 }
 
 TEST_CASE("12 captures over disturbed lines end right or say why", "[rig][pty][faults]") {
