@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -196,4 +197,23 @@ TEST_CASE("profiles of a captured run are the parabolas that its covariance says
       CHECK(curve.rise[i] == Approx(z * z).epsilon(0.05).margin(0.02));
     }
   }
+}
+
+TEST_CASE("stamps that jitter by 20 ms are not blamed on the frame or the specimen", "[fit]") {
+  // Readings come every 12.5 ms; half of their stamps are off by up to 20 ms, so that some even
+  // change places. The ramp's kinks and the stiffness read from it must not suffer.
+  EmulatedTruth truth = demo_truth(GENERATE(10, 20), 4);
+  CapturedRun run = in_memory_run(truth, {});
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> within(-0.02, 0.02);
+  for (LoadSample& sample : run.load_samples) {
+    REQUIRE(sample.device_time_s);
+    if (random() % 2 == 0) *sample.device_time_s += within(random);
+  }
+  const FitResult fit = fit_indentation(indentation_from_capture(run));
+  CHECK(fit.is_trustworthy);
+  CHECK(fit.terms.size() == truth.material.terms.size());
+  CHECK(fit.E0_Pa == Approx(truth.material.E0_Pa).epsilon(0.003));
+  CHECK(fit.E0_interval_95.low <= truth.material.E0_Pa);
+  CHECK(fit.E0_interval_95.high >= truth.material.E0_Pa);
 }

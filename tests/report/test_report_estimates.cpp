@@ -1,3 +1,4 @@
+#include "io/report_campaign.h"
 #include "io/report_estimates.h"
 #include "io/report_numbers.h"
 #include "io/report_run.h"
@@ -7,6 +8,8 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 using namespace viscard;
 
@@ -164,4 +167,51 @@ TEST_CASE("without moves the depth comes from the stage's reports", "[io][report
   CHECK(by_reports.depth_m[4000] ==
         Approx(by_moves.depth_m[4000]).margin(0.05e-6));  // other readings count as clear: noise
   CHECK(series_from_run(run, std::nullopt).depth_m.empty());
+}
+
+TEST_CASE("repeated specimens of a ratio share a colour and one legend entry", "[io][report]") {
+  std::vector<SpecimenEstimates> estimates(4, one_term());
+  for (std::size_t i = 0; i < 4; ++i) estimates[i].mixing_ratio = i < 3 ? 10.0 : 20.0;
+  const std::vector<SpecimenStyle> styles = styles_of(estimates);
+  CHECK(styles[0].label == "10 : 1 (3 specimens)");
+  CHECK(styles[1].label.empty());
+  CHECK(styles[3].label == "20 : 1 (1 specimen)");
+  CHECK(styles[0].ink == styles[2].ink);
+  CHECK(styles[0].ink != styles[3].ink);
+  // Each ratio once: every specimen for itself.
+  for (std::size_t i = 0; i < 4; ++i) {
+    estimates[i].mixing_ratio = 10.0 + static_cast<double>(i);
+    estimates[i].label = "specimen " + std::to_string(i);
+  }
+  CHECK(styles_of(estimates)[2].label == "specimen 2");
+}
+
+TEST_CASE("the spread between specimens is their standard deviation", "[io][report]") {
+  std::vector<SpecimenEstimates> estimates(3, one_term());
+  for (std::size_t i = 0; i < 3; ++i) {
+    estimates[i].mixing_ratio = 10.0;
+    estimates[i].E0_Pa.value = 9.0 + static_cast<double>(i);  // 9, 10, 11: mean 10, deviation 1
+    estimates[i].sum_g = {0.4, {0.38, 0.42}};
+  }
+  const std::string html = spread_table(estimates).html("");
+  CHECK(html.find("10 %") != std::string::npos);
+  CHECK(html.find("5.1 %") != std::string::npos);  // half-width 1 over 1.96, of 10
+  for (std::size_t i = 0; i < 3; ++i) estimates[i].mixing_ratio = 10.0 + static_cast<double>(i);
+  CHECK(spread_table(estimates).is_empty());
+}
+
+TEST_CASE("every profile of a fit becomes a panel, in the parameter's own unit", "[io][report]") {
+  FitResult fit;
+  CHECK_FALSE(profile_plot(fit));
+  fit.E_inf_Pa = 2e6;
+  fit.profiles = {{"E_inf", {1.9e6, 2e6, 2.1e6}, {4.0, 0.0, 4.0}, {1.9e6, 2.1e6}},
+                  {"ln_tau_1", {0.0, 0.5, 1.0}, {4.0, 0.0, 40.0}, {0.0, 1.0}}};
+  const auto plot = profile_plot(fit);
+  REQUIRE(plot);
+  REQUIRE(plot->panels.size() == 2);
+  CHECK(plot->panels[0].x.label == "E∞ (MPa)");
+  CHECK(plot->panels[0].series[1].x[1] == Approx(2.0).epsilon(1e-12));
+  CHECK(plot->panels[1].x.label == "τ1 (s)");
+  CHECK(plot->panels[1].series[1].x.size() == 2);  // far above the picture: left out
+  CHECK(plot->panels[1].series[1].x[1] == Approx(std::exp(0.5)).epsilon(1e-12));
 }
