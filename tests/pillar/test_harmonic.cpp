@@ -4,6 +4,7 @@
 #include "models/pillar/relative_modulus.h"
 #include "models/pillar/scene.h"
 #include "models/pillar/viscoelastic_pillar.h"
+#include "tests/pillar/answer_of.h"
 
 #include <catch2/catch.hpp>
 
@@ -14,6 +15,7 @@
 #include <numbers>
 
 using namespace viscard;
+using namespace viscard::test;
 
 namespace {
 
@@ -51,20 +53,6 @@ Scene sweep_scene(const Material& material) {
   scene.pillar = material;
   scene.pressure_Pa = 1e3;
   return scene;
-}
-
-const SceneCurve& curve_of(const SceneAnswer& answer, const std::string& name) {
-  for (const SceneCurve& curve : answer.curves) {
-    if (curve.name == name) return curve;
-  }
-  throw std::runtime_error("no curve " + name);
-}
-
-double value_of(const SceneAnswer& answer, const std::string& name) {
-  for (const SceneResult& result : answer.results) {
-    if (result.name == name) return result.value;
-  }
-  throw std::runtime_error("no result " + name);
 }
 
 }  // namespace

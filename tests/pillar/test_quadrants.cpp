@@ -1,15 +1,16 @@
 #include "models/pillar/piezo_quadrants.h"
 #include "models/pillar/pillar_loads.h"
 #include "models/pillar/scene.h"
+#include "tests/pillar/answer_of.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
 using namespace viscard;
+using namespace viscard::test;
 
 namespace {
 
@@ -49,13 +50,6 @@ Scene sideways_scene() {
   scene.pressure_Pa = 1e3;
   scene.tolerance = 1e-3;
   return scene;
-}
-
-double value_of(const SceneAnswer& answer, const std::string& name) {
-  for (const SceneResult& result : answer.results) {
-    if (result.name == name) return result.value;
-  }
-  throw std::runtime_error("no result " + name);
 }
 
 }  // namespace

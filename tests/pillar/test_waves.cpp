@@ -2,6 +2,7 @@
 // material.
 #include "models/pillar/modal_response.h"
 #include "models/pillar/scene.h"
+#include "tests/pillar/answer_of.h"
 
 #include <catch2/catch.hpp>
 
@@ -10,9 +11,9 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <stdexcept>
 
 using namespace viscard;
+using namespace viscard::test;
 
 namespace {
 
@@ -31,20 +32,6 @@ Scene rod_scene(double nu, double end_s) {
   scene.end_time_s = end_s;
   scene.outputs = 400;
   return scene;
-}
-
-const SceneCurve& curve_of(const SceneAnswer& answer, const std::string& name) {
-  for (const SceneCurve& curve : answer.curves) {
-    if (curve.name == name) return curve;
-  }
-  throw std::runtime_error("no curve " + name);
-}
-
-double value_of(const SceneAnswer& answer, const std::string& name) {
-  for (const SceneResult& result : answer.results) {
-    if (result.name == name) return result.value;
-  }
-  throw std::runtime_error("no result " + name);
 }
 
 double largest(const std::vector<double>& values) {
