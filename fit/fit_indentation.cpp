@@ -7,6 +7,7 @@
 #include "fit/history_model.h"
 #include "fit/noise_model.h"
 #include "fit/spikes.h"
+#include "fit/table_contact.h"
 #include "fit/two_point_modulus.h"
 
 #include <algorithm>
@@ -22,83 +23,6 @@ namespace {
 using Index = Eigen::Index;
 using Column = std::vector<double>;
 constexpr std::size_t kLeastRows = 6;
-
-struct Contact {
-  bool is_fitted = false;
-  double depth_m = 0.0;   // where contact begins, in the table's own count
-  std::size_t first = 0;  // first sample beyond it
-};
-
-// Whether the force rises over the first samples as it does in contact: then the record has no
-// stretch out of contact, and what lies before the line's zero is the bend of a relaxing material.
-bool rises_like_contact(const Column& force_N, const Column& depth_m, std::size_t count,
-                        double slope) {
-  const auto n = static_cast<double>(count);
-  double sd = 0, sf = 0, sdd = 0, sdf = 0, sff = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double d = depth_m[i] - depth_m[0], f = force_N[i] - force_N[0];
-    sd += d;
-    sf += f;
-    sdd += d * d;
-    sdf += d * f;
-    sff += f * f;
-  }
-  const double spread = sdd - sd * sd / n, product = sdf - sd * sf / n;
-  if (!(spread > 0.0)) return false;
-  const double rise = product / spread;
-  const double left = std::max(0.0, sff - sf * sf / n - rise * product);
-  const double error = std::sqrt(left / (n - 2.0) / spread);
-  return rise - 2.0 * error > 0.5 * slope;
-}
-
-// Where the line through the loading curve (force^(1/power) over depth) between a fifth and four
-// fifths of the force meets zero force. With samples before that the contact is fitted; without,
-// the table's own zero of depth holds (or its first sample, when the record begins under load).
-Contact find_contact(const Column& force_N, const Column& depth_m, std::size_t loaded,
-                     double power) {
-  Contact contact;
-  // Force at no load: the lowest tenth of what comes before the end of loading.
-  Column before(force_N.begin(), force_N.begin() + static_cast<std::ptrdiff_t>(loaded) + 1);
-  std::sort(before.begin(), before.end());
-  const double zero_N = before[before.size() / 10];
-  const double peak_N = before.back() - zero_N;
-  double n = 0, sd = 0, sf = 0, sdd = 0, sdf = 0;
-  for (std::size_t i = 0; i <= loaded; ++i) {
-    double force = force_N[i] - zero_N;
-    if (force < 0.2 * peak_N || force > 0.8 * peak_N) continue;
-    if (power != 1.0) force = std::pow(force, 1.0 / power);
-    const double d = depth_m[i] - depth_m[loaded];
-    n += 1.0;
-    sd += d;
-    sf += force;
-    sdd += d * d;
-    sdf += d * force;
-  }
-  const double determinant = n * sdd - sd * sd;
-  if (n < 3.0 || !(determinant > 0.0)) return contact;
-  const double slope = (n * sdf - sd * sf) / determinant;
-  if (!(slope > 0.0)) return contact;
-  contact.depth_m = depth_m[loaded] + (sd * slope - sf) / (n * slope);
-  while (contact.first < loaded && depth_m[contact.first] <= contact.depth_m) ++contact.first;
-  constexpr std::size_t kFewSamples = 5;
-  contact.is_fitted = contact.first >= kFewSamples &&
-                      !(power == 1.0 && rises_like_contact(force_N, depth_m, contact.first, slope));
-  if (!contact.is_fitted) contact = {};
-  return contact;
-}
-
-// The table of a capture holds the touch that found the surface, too: an indentation of its own,
-// which the model of the one ramp does not know. First row after it; 0 where there is none.
-std::size_t end_of_earlier_touch(const Column& depth_m, std::size_t loaded, double contact_m) {
-  constexpr double kDeep = 0.05;  // of the depth: less is noise about the contact
-  const double deep_m = contact_m + kDeep * (depth_m[loaded] - contact_m);
-  std::size_t i = loaded;
-  while (i > 0 && depth_m[i - 1] > contact_m) --i;  // the ramp itself
-  while (i > 0 && depth_m[i - 1] <= deep_m) --i;
-  if (i == 0) return 0;
-  while (depth_m[i] > contact_m) ++i;
-  return i;
-}
 
 void check_force(const Column& force_N) {
   const auto [low, high] = std::minmax_element(force_N.begin(), force_N.end());
@@ -165,7 +89,8 @@ void flag_gap(const Column& time_s, std::size_t contact, std::size_t loaded, Fit
   }
 }
 
-HistoryInput history_input(const CleanColumns& clean, const Contact& contact, const DepthLaw& law) {
+HistoryInput history_input(const CleanColumns& clean, const TableContact& contact,
+                           const DepthLaw& law) {
   HistoryInput input;
   input.time_s = clean.columns[0];
   input.output = clean.columns[1];
@@ -211,7 +136,7 @@ void fill_curves(const HistoryModel& model, const HistoryInput& input, const Spe
   result.curves.unit = "N";
 }
 
-void flag_table_misfit(const HistoryInput& input, const Contact& contact, FitResult& result) {
+void flag_table_misfit(const HistoryInput& input, const TableContact& contact, FitResult& result) {
   if (!contact.is_fitted) return;
   const auto first = static_cast<std::ptrdiff_t>(contact.first);
   const Column quiet_N(input.output.begin(), input.output.begin() + first);
@@ -235,7 +160,7 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
   }
   std::size_t loaded = end_of_loading(clean.columns[2]);
   const DepthLaw law = data.contact ? depth_law(*data.contact) : DepthLaw{1.0, 1.0};
-  Contact contact = find_contact(clean.columns[1], clean.columns[2], loaded, law.power);
+  TableContact contact = find_contact(clean.columns[1], clean.columns[2], loaded, law.power);
   const std::size_t touched =
       contact.is_fitted ? end_of_earlier_touch(clean.columns[2], loaded, contact.depth_m) : 0;
   if (touched > 0) {
