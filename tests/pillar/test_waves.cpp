@@ -196,3 +196,15 @@ TEST_CASE("one relaxing mode: closed form, Runge-Kutta and extremes", "[pillar][
     CHECK(mode.displacement() == Approx(1e-6 / 0.1).epsilon(1e-6));  // E_inf = .1
   }
 }
+
+TEST_CASE("a jump too sharp for the tolerance is refused with the rise that would do", "[pillar]") {
+  Scene scene = rod_scene(0.33, 1e-4);
+  scene.history = {{0.0, kPressure_Pa}, {1e-4, kPressure_Pa}};
+  scene.tolerance = 2e-3;
+  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("the load jumps") &&
+                                         Catch::Contains("Let each jump take") &&
+                                         Catch::Contains("e-07 s"));
+  // What lies beyond the reach of the meshes is then small beside the tolerance.
+  scene.tolerance = 3e-2;
+  CHECK(simulate(scene).largest_relative_error <= scene.tolerance);
+}
