@@ -188,12 +188,15 @@ FullSystem full_system(const SpectralModel& model, const SpectralState& state) {
 Eigen::VectorXd gauss_newton_step(const FullSystem& at) {
   constexpr double kHidden = 1e-3;
   const Eigen::VectorXd scale = at.jacobian.colwise().norm().transpose().cwiseMax(1e-300);
-  const Eigen::MatrixXd columns = at.jacobian * scale.cwiseInverse().asDiagonal();
-  const Eigen::LLT<Eigen::MatrixXd> gram(gram_of(columns));
+  const Eigen::VectorXd unit = scale.cwiseInverse();
+  const Eigen::LLT<Eigen::MatrixXd> gram(unit.asDiagonal() * gram_of(at.jacobian) *
+                                         unit.asDiagonal());
   if (gram.info() == Eigen::Success && gram.matrixLLT().diagonal().minCoeff() > kHidden) {
-    return gram.solve(transposed_product(columns, at.residual)).cwiseQuotient(scale);
+    const Eigen::VectorXd right = transposed_product(at.jacobian, at.residual);
+    return gram.solve(right.cwiseProduct(unit)).cwiseProduct(unit);
   }
-  return columns.colPivHouseholderQr().solve(at.residual).cwiseQuotient(scale);
+  const Eigen::MatrixXd columns = at.jacobian * unit.asDiagonal();
+  return columns.colPivHouseholderQr().solve(at.residual).cwiseProduct(unit);
 }
 
 bool is_allowed(const SpectralModel& model, const SpectralState& state) {
