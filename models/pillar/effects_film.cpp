@@ -136,15 +136,15 @@ EffectEstimate film_compliance_estimate(const Scene& scene) {
     default:
       break;
   }
-  if (!scene.electrodes && scene.kind == AnalysisKind::kStatic &&
-      asks_for(scene, "film_bottom_stress_mean")) {
-    return {EffectRole::kNeeded, 1.0, "E A/(k L)", shares.axial, "its own stress is asked for"};
-  }
-  if (is_sideways(
-          scene)) {  // a force at the end turns the foot by F L c: 3 E I c/L of F L^3/(3 E I)
+  // A force at the end turns the foot by F L c: 3 E I c/L of the beam's F L^3/(3 E I).
+  if (is_sideways(scene)) {
     const double share = 3.0 * shares.bending + shares.shear;
     return {EffectRole::kOptional, kUnevenTraction * share, "3 E I/(k L)", 3.0 * shares.bending,
             "the base turns and slides under the bent pillar"};
+  }
+  if (!scene.electrodes && scene.kind == AnalysisKind::kStatic &&
+      asks_for(scene, "film_bottom_stress_mean")) {
+    return {EffectRole::kNeeded, 1.0, "E A/(k L)", shares.axial, "its own stress is asked for"};
   }
   double error = kUnevenTraction * shares.axial;
   if (scene.kind == AnalysisKind::kStatic && asks_for(scene, "base_stress_at_half_radius")) {

@@ -1,5 +1,6 @@
 #include "models/pillar/piezo_quadrants.h"
 #include "models/pillar/pillar_loads.h"
+#include "models/pillar/plan.h"
 #include "models/pillar/scene.h"
 #include "tests/pillar/answer_of.h"
 
@@ -126,4 +127,17 @@ TEST_CASE("what quadrants cannot read is refused", "[pillar]") {
   scene = sideways_scene();
   scene.plane = PlaneState::kStress;
   CHECK_THROWS_WITH(simulate(scene), Catch::Contains("sampled"));
+}
+
+TEST_CASE("a film left out under a sideways push is within the error told", "[pillar]") {
+  Scene scene = sideways_scene();
+  scene.electrodes.reset();
+  scene.geometry.length_m = 60e-6;
+  scene.film = isotropic_medium(40e6, .4, 965.0);  // soft enough to matter: 1.8 %
+  const double with_film_m = value_of(simulate_planned(scene), "top_displacement");
+  scene.effects["film_compliance"] = EffectChoice::kOff;
+  const SceneAnswer without = simulate_planned(scene);
+  const double missed_m = std::abs(value_of(without, "top_displacement") - with_film_m);
+  CHECK(missed_m > 0.01 * with_film_m);
+  CHECK(missed_m <= without.results[0].error_estimate);
 }
