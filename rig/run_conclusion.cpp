@@ -59,6 +59,17 @@ void doubt_line(RunSession& session, RunOutcome& outcome) {
   session.event("doubt", "line_noise", outcome.doubts.back());
 }
 
+// Every record says how far its readings have been looked at, also where nothing spoke against it.
+void say_what_can_hide(RunSession& session, RunOutcome& outcome) {
+  if (outcome.noise_N <= 0.0) return;  // ended before the noise was measured
+  outcome.hidden_error_N = SpikeWatch::kSurelyFound * outcome.noise_N;
+  session.event("checked", text_from_number(outcome.hidden_error_N, 6),
+                "The line carries no check sum: readings were held against their neighbours, "
+                "which shows errors above " +
+                    text_from_number(outcome.hidden_error_N * 1e3, 3) +
+                    " mN at rest, and above twice the step between readings on a ramp");
+}
+
 }  // namespace
 
 void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock) {
@@ -67,6 +78,7 @@ void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock) {
   try {
     session.finish_watching();
     outcome.stream.implausible += session.n_implausible();
+    say_what_can_hide(session, outcome);
     doubt_line(session, outcome);
     doubt_flat_force(session, outcome);
     doubt_gap(

@@ -24,6 +24,10 @@ namespace viscard {
 // last 256 readings. Judged five readings later; the first 32 together.
 class SpikeWatch {
  public:
+  // An error of a reading this many times the noise is surely found at rest; at 10 times, 99 of
+  // 100.
+  static constexpr double kSurelyFound = 12.0;
+
   // least: what noise counts as at least; without it half of the smallest step between readings.
   explicit SpikeWatch(double least = 0.0) : least_(least) {}
 

@@ -125,6 +125,11 @@ void print_text(const CaptureOutcome& capture, std::ostream& out) {
              stream.unreadable, stream.implausible)
       << fmt::format("  longest gap     {:.4f} s, at {:.1f} s\n", stream.longest_gap_s,
                      stream.longest_gap_at_s);
+  if (outcome.hidden_error_N > 0.0) {
+    out << fmt::format(
+        "  checked         against neighbours: errors above {:.3f} mN would show at rest\n",
+        outcome.hidden_error_N * 1e3);
+  }
   for (const std::string& doubt : outcome.doubts) out << "  doubt           " << doubt << "\n";
   if (!capture.force_N.empty()) {
     out << "  force           " << sparkline(capture.force_N, kPictureWidth) << "\n";
@@ -146,6 +151,7 @@ ordered_json json_from_outcome(const CaptureOutcome& capture) {
                                    ? ordered_json(*outcome.contact_position_m)
                                    : ordered_json(nullptr);
   json["noise_N"] = outcome.noise_N;
+  json["hidden_error_N"] = outcome.hidden_error_N;
   json["doubts"] = outcome.doubts;
   json["readings"] = {{"expected", stream.expected()},
                       {"received", stream.received},

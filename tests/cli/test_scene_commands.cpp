@@ -87,7 +87,7 @@ TEST_CASE("a scene is drawn with its sizes", "[cli][scene]") {
   std::stringstream text;
   text << std::ifstream(svg).rdbuf();
   for (const char* part : {"<svg", "d 40 um", "l 120 um", "t 25 um", "film radius 60 um",
-                           "electrode, radius 20 um", "1e+04 Pa", "</svg>"}) {
+                           "electrode, radius 20 um", "10 kPa", "</svg>"}) {
     CAPTURE(part);
     CHECK(text.str().find(part) != std::string::npos);
   }

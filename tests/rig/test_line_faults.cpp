@@ -129,7 +129,8 @@ void check_readings(const RigFixture& rig, bool has_doubt, Tally& tally) {
     CHECK(off <= notice);
   }
   tally.below_notice += n_unmarked;
-  // A lower digit or two, in a run whose line showed no other sign, nothing can tell.
+  // A lower digit or two, in a run whose line showed no other sign, nothing can tell; what the
+  // record says of every reading ("checked") has to cover it.
   if (n_unmarked > 0 && !has_doubt) ++tally.unsaid;
 }
 
@@ -146,6 +147,12 @@ void check_bench(const RigFixture& rig, const std::string& status, const std::st
   if (status != "finished") CHECK(reason.size() > 20);
 }
 
+bool is_checked(const RigFixture& rig) {
+  const auto events = rig.all<RunEvent>();
+  return std::any_of(events.begin(), events.end(),
+                     [](const RunEvent& event) { return event.name == "checked"; });
+}
+
 void run_one(std::uint64_t seed, Tally& tally) {
   RigFixture rig(rig_options(seed), faults_of(seed));
   const double began_s = monotonic_s();
@@ -156,6 +163,9 @@ void run_one(std::uint64_t seed, Tally& tally) {
     status = outcome.status;
     reason = outcome.reason;
     has_doubt = rig.has_event("doubt", "line_noise");
+    // Every record whose noise is known says what its readings are vouched for.
+    CHECK(outcome.hidden_error_N == Approx(kNoticed * outcome.noise_N).epsilon(1e-12));
+    CHECK(is_checked(rig) == (outcome.noise_N > 0.0));
     ++(status == "finished" ? tally.finished : tally.ended);
   } catch (const RigError& error) {  // before anything moved
     status = "refused";
