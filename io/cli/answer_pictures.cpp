@@ -1,6 +1,7 @@
 #include "io/cli/answer_pictures.h"
 
 #include "io/plot.h"
+#include "io/report_numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +11,15 @@ namespace viscard {
 namespace {
 
 // "electrode_voltage_magnitude" -> "electrode voltage magnitude (V)"
-std::string label_of(const SceneCurve& curve) {
+std::string label_of(const SceneCurve& curve, const std::string& unit) {
   std::string text = curve.name;
   std::replace(text.begin(), text.end(), '_', ' ');
-  return curve.unit == "1" ? text : text + " (" + curve.unit + ")";
+  return curve.unit == "1" ? text : text + " (" + unit + ")";
+}
+
+std::vector<double> times(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
 }
 
 bool spans_decades(const std::vector<double>& values) {
@@ -29,21 +35,27 @@ bool spans_decades(const std::vector<double>& values) {
 PlotPanel panel_of(const SceneCurve& curve) {
   const bool in_time = curve.x_name == "time_s";
   const bool is_size = curve.name.ends_with("_magnitude") || curve.name.ends_with("_spectrum");
+  const bool is_log = is_size && spans_decades(curve.value);
+  // Logarithmic axes carry powers of ten as they are; the others want numbers one can read.
+  const ShownUnit x_unit = in_time ? shown_unit("s", curve.x) : ShownUnit{1.0, "Hz"};
+  const ShownUnit y_unit =
+      is_log ? ShownUnit{1.0, curve.unit} : shown_unit(curve.unit, curve.value);
   PlotPanel panel;
-  panel.x = {.label = in_time ? "time (s)" : "frequency (Hz)",
+  panel.x = {.label = in_time ? "time (" + x_unit.text + ")" : "frequency (Hz)",
              .is_log = !in_time && spans_decades(curve.x)};
-  panel.y = {.label = label_of(curve), .is_log = is_size && spans_decades(curve.value)};
+  panel.y = {.label = label_of(curve, y_unit.text), .is_log = is_log};
   PlotSeries line;
-  line.x = curve.x;
-  line.y = curve.value;
-  if (curve.error.size() == curve.value.size()) {
-    PlotSeries band{.mark = Mark::kBand, .label = "estimated error", .x = curve.x};
+  line.x = times(curve.x, x_unit.per_si);
+  line.y = times(curve.value, y_unit.per_si);
+  if (curve.error.size() == curve.value.size() && !is_log) {
+    PlotSeries band{.mark = Mark::kBand, .label = "estimated error", .x = line.x};
     for (std::size_t i = 0; i < curve.value.size(); ++i) {
-      band.y_low.push_back(curve.value[i] - curve.error[i]);
-      band.y_high.push_back(curve.value[i] + curve.error[i]);
+      const double half = curve.error[i] * y_unit.per_si;
+      band.y_low.push_back(line.y[i] - half);
+      band.y_high.push_back(line.y[i] + half);
     }
     band.ink = Ink::kSky;
-    if (!panel.y.is_log) panel.series.push_back(std::move(band));
+    panel.series.push_back(std::move(band));
   }
   panel.series.push_back(std::move(line));
   return panel;
@@ -65,8 +77,8 @@ std::vector<std::pair<std::string, std::string>> pictures_of(const SceneAnswer& 
                          curve.name.ends_with("_phase");
     if (is_part || curve.x.size() < 2) continue;
     Plot plot;
-    plot.title = label_of(curve);
-    plot.description = label_of(curve) + " against " + curve.x_name;
+    plot.title = label_of(curve, curve.unit);
+    plot.description = plot.title + " against " + curve.x_name;
     plot.panels.push_back(panel_of(curve));
     const std::string stem = curve.name.substr(0, curve.name.rfind('_'));
     const SceneCurve* phase = find(answer, stem + "_phase");
