@@ -55,7 +55,7 @@ TEST_CASE("Dead weights on the emulated rig recover gain and hysteresis within t
   const ScratchFolder folder;
   const std::string out = (folder / "cell.toml").string();
   const Calibrated run =
-      calibrate({"--emulate", "--truth", truth_file(folder), "--speed", "100", "--series", "2",
+      calibrate({"--emulate", "--truth", truth_file(folder), "--speed", "50", "--series", "2",
                  "--gravity", "9.80665 m/s2", "--out", out, "--json"});
   REQUIRE(run.status == kDone);
   const json found = json::parse(run.out);

@@ -37,7 +37,7 @@ TEST_CASE("Every example of a protocol runs, and its capture carries the phases"
   const ScratchFolder folder;
   const std::string out = (folder / "run.viscap").string();
   // Creep needs several exchanges with the stage in each emulated second.
-  const std::string speed = std::string(row.file) == "creep" ? "50" : "150";
+  const std::string speed = std::string(row.file) == "creep" ? "50" : "100";
   const auto run = run_command({"capture", "--emulate", "--test", kProtocols + row.file + ".toml",
                                 "--speed", speed, "--out", out, "--json"});
   INFO(row.file << ": " << run.err);
