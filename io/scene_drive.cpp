@@ -75,19 +75,39 @@ void fill_readout(const RawDrive& raw, Scene& scene) {
   scene.readout = readout;
 }
 
+bool is_moved(const RawDrive& raw) {
+  return !std::isnan(raw.displacement_m);
+}
+
+void fill_displacement(const RawDrive& raw, Scene& scene) {
+  if (!is_moved(raw)) return;
+  if (scene.kind == AnalysisKind::kRelaxation) {
+    throw SceneMistake("analysis.load.displacement",
+                       "a relaxation has its shortening in time in a history, such as [[\"0 s\", "
+                       "\"1 um\"], [\"10 s\", \"1 um\"]]");
+  }
+  if (scene.kind != AnalysisKind::kStatic) {
+    throw SceneMistake("analysis.load.displacement",
+                       "only static analyses move the top by a given displacement");
+  }
+  scene.displacement_m = raw.displacement_m;
+}
+
 // A pressure, a shear (which says the direction), or a force over the top's area.
 void fill_traction(const RawDrive& raw, Scene& scene) {
-  const int given = (raw.pressure_Pa != 0.0) + (raw.shear_Pa != 0.0) + (raw.force_N != 0.0);
+  const int given =
+      (raw.pressure_Pa != 0.0) + (raw.shear_Pa != 0.0) + (raw.force_N != 0.0) + is_moved(raw);
   if (given > 1) {
-    throw SceneMistake("analysis.load", "give one of pressure, shear and force");
+    throw SceneMistake("analysis.load", "give one of pressure, shear, force and displacement");
   }
+  fill_displacement(raw, scene);
   if ((raw.shear_Pa != 0.0 || raw.force_N != 0.0) && scene.load_place == LoadPlace::kBase) {
     throw SceneMistake("analysis.load", "the base takes an acceleration");
   }
   if (raw.shear_Pa != 0.0 && scene.direction == LoadDirection::kAxial) {
     throw SceneMistake("analysis.load.shear", "a shear is sideways; say direction = \"lateral\"");
   }
-  const double d_m = scene.geometry.diameter_m;
+  const double d_m = 2.0 * radius_at_m(scene.geometry, scene.geometry.length_m);  // of the top
   const double area_m2 = scene.plane ? d_m : 0.25 * std::numbers::pi * d_m * d_m;
   scene.pressure_Pa = raw.pressure_Pa + raw.shear_Pa + raw.force_N / area_m2;
 }
@@ -99,6 +119,7 @@ void show_drive(FieldVisitor& v, const std::string& analysis, RawDrive& d) {
     l.quantity({.key = "pressure", .unit = "Pa"}, d.pressure_Pa);
     l.quantity({.key = "shear", .unit = "Pa"}, d.shear_Pa);
     l.quantity({.key = "force", .unit = "N"}, d.force_N);
+    l.quantity({.key = "displacement", .unit = "m"}, d.displacement_m);
     l.quantity({.key = "acceleration", .unit = "m/s2"}, d.acceleration_m_s2);
     l.quantity({.key = "voltage", .unit = "V"}, d.voltage_V);
     l.text({"on", "top"}, d.load_on);
@@ -132,8 +153,9 @@ void show_readout(FieldVisitor& v, RawDrive& d) {
 }
 
 void fill_drive(const RawDrive& raw, Scene& scene) {
-  if ((raw.pressure_Pa != 0.0 || raw.shear_Pa != 0.0 || raw.force_N != 0.0) &&
-      raw.load_on.empty()) {
+  const bool is_loaded =
+      raw.pressure_Pa != 0.0 || raw.shear_Pa != 0.0 || raw.force_N != 0.0 || is_moved(raw);
+  if (is_loaded && raw.load_on.empty()) {
     throw SceneMistake("analysis.load", "the load has no place; say on = \"top\"");
   }
   if (!raw.load_on.empty()) {

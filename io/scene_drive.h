@@ -3,6 +3,7 @@
 #include "io/config_fields.h"
 #include "models/pillar/scene.h"
 
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@ namespace viscard {
 struct RawDrive {
   std::string load_on, direction = "axial";
   double pressure_Pa = 0.0, shear_Pa = 0.0, force_N = 0.0, acceleration_m_s2 = 0.0, voltage_V = 0.0;
+  double displacement_m = std::numeric_limits<double>::quiet_NaN();  // NaN: not given
   double from_Hz = 0.0, to_Hz = 0.0;
   std::string spacing = "log";
   std::int64_t count = 0;
@@ -24,9 +26,10 @@ struct RawDrive {
   double resistance_Ohm = 0.0, capacitance_F = 0.0, film_resistivity_Ohm_m = 0.0;
 };
 
-// Keys of [analysis]: load = { pressure | shear | force | acceleration | voltage, on = "top" |
-// "base", direction }, frequencies = { from, to, count, spacing }, end_time, outputs, pulse = {
-// height, duration } and history. `analysis` is its kind, which decides the unit of the history.
+// Keys of [analysis]: load = { pressure | shear | force | displacement | acceleration | voltage,
+// on = "top" | "base", direction }, frequencies = { from, to, count, spacing }, end_time, outputs,
+// pulse = { height, duration } and history. `analysis` is its kind, which decides the unit of the
+// history.
 void show_drive(FieldVisitor& analysis_table, const std::string& analysis, RawDrive& drive);
 // Of these the ones in time and frequency; histories and pulses have `unit`.
 void show_times(FieldVisitor& analysis_table, const char* unit, RawDrive& drive);

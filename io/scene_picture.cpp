@@ -50,7 +50,8 @@ void draw_electrodes(SceneDrawing& d, const Scene& scene) {
 void draw_load(SceneDrawing& d, const Scene& scene, double low_m) {
   const PillarGeometry& g = scene.geometry;
   const bool is_sideways = scene.direction == LoadDirection::kLateral;
-  const bool is_driven = scene.pressure_Pa != 0.0 || !scene.history.empty();
+  const bool is_driven = scene.pressure_Pa != 0.0 || scene.displacement_m.value_or(0.0) != 0.0 ||
+                         !scene.history.empty();
   const double words_px = d.y(g.length_m) - 38.0;
   if (scene.load_place == LoadPlace::kBase) {
     d.base_arrow(0.0, low_m, is_sideways);
@@ -61,7 +62,9 @@ void draw_load(SceneDrawing& d, const Scene& scene, double low_m) {
   } else if (is_driven) {
     d.load_arrows(0.0, radius_at_m(g, g.length_m), g.length_m, is_sideways);
     d.text(d.x(0.0), words_px,
-           scene.pressure_Pa != 0.0 ? pascals(scene.pressure_Pa) : std::string("a history in time"),
+           scene.displacement_m       ? "moved by " + micrometres(*scene.displacement_m)
+           : scene.pressure_Pa != 0.0 ? pascals(scene.pressure_Pa)
+                                      : std::string("a history in time"),
            "middle");
   } else if (scene.drive_V != 0.0) {
     d.text(d.x(0.0), words_px, fmt::format("{:.4g} V on the electrode", scene.drive_V), "middle");

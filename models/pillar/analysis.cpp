@@ -1,5 +1,7 @@
 #include "models/pillar/analysis.h"
 
+#include "models/pillar/top_load.h"
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -38,6 +40,7 @@ Motion axial_motion(const Scene& scene) {
 ModelOptions options_of(const Scene& scene, Motion motion) {
   return {.motion = motion,
           .plane = scene.plane.value_or(PlaneState::kStrain),
+          .rigid_top = moves_top(scene) && motion == axial_motion(scene),
           .condense_pressures_from = scene.condense_pressures_from};
 }
 

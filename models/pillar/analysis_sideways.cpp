@@ -2,6 +2,7 @@
 #include "models/pillar/piezo_quadrants.h"
 #include "models/pillar/pillar_loads.h"
 #include "models/pillar/scene_mistake.h"
+#include "models/pillar/top_load.h"
 
 namespace viscard {
 
@@ -17,10 +18,47 @@ PillarModel sideways_model(const Scene& scene, const SceneAnswer& on_mesh) {
   return PillarModel(scene.geometry, on_mesh.discretisation, media_of(scene), options);
 }
 
+namespace {
+
+// Force along x: the shear's, or what moves the top as far as it is given to.
+double side_force_N(const Scene& scene, const PillarModel& model, double displacement_per_N_m,
+                    double moved_by_voltage_m = 0.0) {
+  const double area_m2 = top_area_m2(model);
+  return area_m2 * top_pressure_Pa(scene, area_m2 * displacement_per_N_m, moved_by_voltage_m);
+}
+
+PillarState times(PillarState state, double factor) {
+  state.unknowns *= factor;
+  state.pressure_source *= factor;
+  return state;
+}
+
+void add_quadrants(const Scene& scene, const PillarModel& model, SceneAnswer& answer) {
+  const QuadrantAnswer unit = piezo_quadrants(model, 1.0);
+  const double by_voltage_m = unit.displacement_per_V_m * scene.drive_V;
+  const double force_N = side_force_N(scene, model, unit.top_displacement_m, by_voltage_m);
+  if (moves_top(scene)) {
+    add_top_force(scene, force_N, 1.0 / unit.top_displacement_m, answer);
+  } else {
+    const double moved_m = force_N * unit.top_displacement_m + by_voltage_m;
+    answer.results.push_back({"top_displacement", moved_m, "m"});
+  }
+  answer.results.push_back({"displacement_per_volt", unit.displacement_per_V_m, "m/V"});
+  // Under a drive the charge of touching quadrants has no bound.
+  if (scene.drive_V != 0.0) return;
+  answer.results.push_back({"quadrant_charge", force_N * unit.charge_C, "C"});
+}
+
+}  // namespace
+
 PillarState sideways_state(const Scene& scene, const PillarModel& model) {
-  const double force_N = scene.pressure_Pa * top_area_m2(model);
-  if (model.electrode_dof() >= 0) return piezo_quadrants(model, force_N).shorted;
-  return model.solve(force_N * unit_top_force(model));
+  if (model.electrode_dof() >= 0) {
+    const QuadrantAnswer unit = piezo_quadrants(model, 1.0);
+    return times(unit.shorted, side_force_N(scene, model, unit.top_displacement_m));
+  }
+  const Eigen::VectorXd push = unit_top_force(model);
+  const PillarState unit = model.solve(push);
+  return times(unit, side_force_N(scene, model, push.dot(unit.unknowns)));
 }
 
 void check_sideways(const Scene& scene) {
@@ -41,25 +79,21 @@ void check_sideways(const Scene& scene) {
 void run_sideways(const Scene& scene, SceneAnswer& answer) {
   const PillarModel model = sideways_model(scene, answer);
   count_unknowns(model, answer);
-  const double force_N = scene.pressure_Pa * top_area_m2(model);
-  if (model.electrode_dof() >= 0) {
-    const QuadrantAnswer quadrants = piezo_quadrants(model, force_N);
-    const double moved_m = quadrants.displacement_per_V_m * scene.drive_V;
-    answer.results = {{"top_displacement", quadrants.top_displacement_m + moved_m, "m"},
-                      {"displacement_per_volt", quadrants.displacement_per_V_m, "m/V"}};
-    // Under a drive the charge of touching quadrants has no bound.
-    if (scene.drive_V == 0.0) {
-      answer.results.push_back({"quadrant_charge", quadrants.charge_C, "C"});
-    }
-    return;
+  if (model.electrode_dof() >= 0) return add_quadrants(scene, model, answer);
+  const Eigen::VectorXd push = unit_top_force(model);
+  const PillarState unit = model.solve(push);
+  const double moved_m = push.dot(unit.unknowns);
+  const double force_N = side_force_N(scene, model, moved_m);
+  if (moves_top(scene)) {
+    add_top_force(scene, force_N, 1.0 / moved_m, answer);
+  } else {
+    answer.results.push_back({"top_displacement", force_N * moved_m, "m"});
   }
-  const PillarState state = model.solve(force_N * unit_top_force(model));
-  answer.results.push_back({"top_displacement", unit_top_force(model).dot(state.unknowns), "m"});
   if (!scene.electrodes) return;
   const bool top = scene.electrodes->grounded == FilmFace::kBottom;
   const double z_m = top ? 0.0 : -scene.geometry.film->thickness_m;
   answer.results.push_back(
-      {"quadrant_voltage", quadrant_mean_V(model, state, z_m, model.radius_m()), "V"});
+      {"quadrant_voltage", force_N * quadrant_mean_V(model, unit, z_m, model.radius_m()), "V"});
 }
 
 }  // namespace viscard

@@ -1,8 +1,10 @@
 #include "models/gauss_legendre.h"
 #include "models/pillar/analysis.h"
+#include "models/pillar/number_text.h"
 #include "models/pillar/piezo_one_way.h"
 #include "models/pillar/pillar_loads.h"
 #include "models/pillar/scene_mistake.h"
+#include "models/pillar/top_load.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,9 +61,16 @@ void run_elastic(const Scene& scene, SceneAnswer& answer) {
   const PillarModel axial = model_of(scene, axial_motion(scene), answer);
   count_unknowns(axial, answer);
   const Eigen::VectorXd traction = axial.top_traction();
-  const PillarState state = axial.solve(-scene.pressure_Pa * traction);
-  answer.results.push_back(
-      {"top_displacement", traction.dot(state.unknowns) / traction.sum(), "m"});
+  PillarState state = axial.solve(-traction);  // 1 Pa
+  const double moved_m = traction.dot(state.unknowns) / traction.sum();
+  const double pressure_Pa = top_pressure_Pa(scene, moved_m);
+  state.unknowns *= pressure_Pa;
+  state.pressure_source *= pressure_Pa;
+  if (moves_top(scene)) {
+    add_top_force(scene, -pressure_Pa * traction.sum(), -traction.sum() / moved_m, answer);
+  } else {
+    answer.results.push_back({"top_displacement", moved_m * pressure_Pa, "m"});
+  }
   add_stresses(axial, state, answer);
   if (names(scene, "base_stress_rim_mean")) {  // converges slowly: only for who asks for it
     answer.results.push_back({"base_stress_rim_mean", rim_mean_Pa(axial, state), "Pa"});
@@ -84,7 +93,7 @@ void add_driven(const Scene& scene, const PillarModel& model, SceneAnswer& answe
   const PiezoAnswer unit = piezo_static(model, 1.0);  // 1 Pa
   const double p_Pa = scene.pressure_Pa;
   const double V = scene.drive_V;
-  const double short_m_Pa = unit.top_displacement_m - unit.displacement_per_V_m * unit.voltage_V;
+  const double short_m_Pa = shorted_displacement_m(unit);
   const double force_N_Pa = top_area_m2(model);
   const PiezoMatrix& d = scene.film_charge_C_N;
   answer.results = {{"electrode_voltage", V, "V"},
@@ -98,6 +107,22 @@ void add_driven(const Scene& scene, const PillarModel& model, SceneAnswer& answe
                      (d(2, 0) + d(2, 1) - d(2, 2)) * V / scene.geometry.film->thickness_m, "1"}};
 }
 
+// The potential of a charge-free face, from the state under 1 Pa.
+void add_sampled(const Scene& scene, const PillarModel& coupled, const PillarState& per_Pa,
+                 SceneAnswer& answer) {
+  const Eigen::VectorXd traction = coupled.top_traction();
+  const double moved_m = traction.dot(per_Pa.unknowns) / traction.sum();
+  const double pressure_Pa = top_pressure_Pa(scene, moved_m);
+  const bool top = scene.electrodes->grounded == FilmFace::kBottom;
+  const double z_m = top ? 0.0 : -scene.geometry.film->thickness_m;
+  const double R_m = coupled.radius_m();
+  answer.results = {
+      {"potential_at_centre", pressure_Pa * potential_at_V(coupled, per_Pa, 0.0, z_m), "V"},
+      {"potential_mean", pressure_Pa * mean_potential_V(coupled, per_Pa, z_m, R_m), "V"}};
+  if (!moves_top(scene)) return;
+  add_top_force(scene, -pressure_Pa * traction.sum(), -traction.sum() / moved_m, answer);
+}
+
 void run_piezoelectric(const Scene& scene, SceneAnswer& answer) {
   ModelOptions options = options_of(scene, axial_motion(scene));
   options.electrodes = scene.electrodes;
@@ -109,15 +134,14 @@ void run_piezoelectric(const Scene& scene, SceneAnswer& answer) {
   }
   count_unknowns(elastic ? *elastic : coupled, answer);
   if (coupled.electrode_dof() < 0) {  // charge-free face, read at its centre
-    const PillarState state = elastic ? piezo_one_way_sampled(*elastic, coupled, scene.pressure_Pa)
-                                      : piezo_sampled(coupled, scene.pressure_Pa);
-    const bool top = scene.electrodes->grounded == FilmFace::kBottom;
-    const double z_m = top ? 0.0 : -scene.geometry.film->thickness_m;
-    answer.results.push_back(
-        {"potential_at_centre", potential_at_V(coupled, state, 0.0, z_m), "V"});
-    answer.results.push_back(
-        {"potential_mean", mean_potential_V(coupled, state, z_m, coupled.radius_m()), "V"});
-    return;
+    const PillarState state =
+        elastic ? piezo_one_way_sampled(*elastic, coupled, 1.0) : piezo_sampled(coupled, 1.0);
+    return add_sampled(scene, coupled, state, answer);
+  }
+  if (moves_top(scene)) {
+    const PiezoAnswer unit =
+        elastic ? piezo_one_way(*elastic, coupled, 1.0) : piezo_static(coupled, 1.0);
+    return add_moved_piezoelectric(scene, coupled, unit, answer);
   }
   if (scene.drive_V != 0.0) return add_driven(scene, coupled, answer);
   const PiezoAnswer piezo = elastic ? piezo_one_way(*elastic, coupled, scene.pressure_Pa)
@@ -137,13 +161,30 @@ void run_piezoelectric(const Scene& scene, SceneAnswer& answer) {
   }
 }
 
+void check_displacement(const Scene& scene) {
+  if (!scene.displacement_m) return;
+  if (scene.pressure_Pa != 0.0) {
+    throw SceneMistake("analysis.load", "give the top a pressure or a displacement, not both");
+  }
+  const double size_m = std::abs(*scene.displacement_m);
+  if (!(size_m < scene.geometry.length_m)) {
+    throw SceneMistake("analysis.load.displacement",
+                       "a displacement of " + number_text(size_m * 1e6) +
+                           " um is no smaller than the pillar's length of " +
+                           number_text(scene.geometry.length_m * 1e6) + " um");
+  }
+}
+
 }  // namespace
 
 void check_static(const Scene& scene) {
-  if (scene.pressure_Pa == 0.0 && scene.drive_V == 0.0) {
+  const bool is_held = scene.displacement_m == 0.0;
+  if (scene.drive_V == 0.0 && scene.pressure_Pa == 0.0 && (!scene.displacement_m || is_held)) {
     throw SceneMistake("analysis.load",
-                       "a static analysis needs a pressure on the top or a voltage");
+                       "a static analysis needs a pressure on the top, a displacement of it or a "
+                       "voltage");
   }
+  check_displacement(scene);
   if (scene.drive_V != 0.0 &&
       (!scene.electrodes || !(scene.electrodes->electrode_radius_m > 0.0))) {
     throw SceneMistake("analysis.load.voltage", "needs an electrode with a radius to drive");

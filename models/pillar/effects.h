@@ -66,11 +66,13 @@ EffectEstimate adhesion_estimate(const Scene& scene);
 EffectEstimate finite_strain_estimate(const Scene& scene);
 EffectEstimate contact_estimate(const Scene& scene);
 
-// Pressure at which a clamped-free pillar buckles, by Euler's formula with Engesser's correction
-// for shear, P = P_e/(1 + P_e/(kappa G A)) (eq. E6). Pa.
+// Pressure at which the pillar buckles, clamped at its foot, its top free (or, moved by a plate,
+// kept upright but free to slide: four times as much), by Euler's formula with Engesser's
+// correction for shear, P = P_e/(1 + P_e/(kappa G A)) (eq. E6). Pa.
 double engesser_pressure_Pa(const Scene& scene);
 
-// Largest pressure the scene puts on the top, Pa (0 for a shortening).
+// Largest pressure the scene puts on the top, Pa (0 for a history of shortening; a moved top counts
+// E u/L).
 double largest_pressure_Pa(const Scene& scene);
 
 }  // namespace viscard

@@ -1,5 +1,6 @@
 #include "models/pillar/analysis.h"
 #include "models/pillar/effects.h"
+#include "models/pillar/top_load.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,9 @@ double shear_modulus_Pa(const Material& pillar) {
 double engesser_pressure_Pa(const Scene& scene) {
   const double radius_of_gyration_m =
       scene.plane ? scene.geometry.diameter_m / std::sqrt(12.0) : 0.25 * scene.geometry.diameter_m;
-  const double slenderness = 2.0 * scene.geometry.length_m / radius_of_gyration_m;
+  // Half waves of four lengths with a free top, of two with one that a plate keeps upright.
+  const double half_wave_m = (moves_top(scene) ? 1.0 : 2.0) * scene.geometry.length_m;
+  const double slenderness = half_wave_m / radius_of_gyration_m;
   const double euler_Pa =
       std::numbers::pi * std::numbers::pi * scene.pillar.E0_Pa / (slenderness * slenderness);
   const double nu = scene.pillar.nu;
@@ -27,6 +30,9 @@ double engesser_pressure_Pa(const Scene& scene) {
 
 double largest_pressure_Pa(const Scene& scene) {
   double largest = std::abs(scene.pressure_Pa);
+  if (moves_top(scene) && !is_sideways(scene)) {
+    largest = std::abs(*scene.displacement_m) / scene.geometry.length_m * scene.pillar.E0_Pa;
+  }
   if (scene.kind == AnalysisKind::kCreep) {
     for (const HistoryPoint& p : scene.history) largest = std::max(largest, std::abs(p.value));
   }
@@ -109,7 +115,10 @@ EffectEstimate adhesion_estimate(const Scene&) {
 
 EffectEstimate finite_strain_estimate(const Scene& scene) {
   double strain = largest_pressure_Pa(scene) / scene.pillar.E0_Pa;
-  if (is_sideways(scene)) {  // bending at the foot: 4 tau L/R, of a strip 3 tau L/R
+  if (is_sideways(scene) && moves_top(scene)) {  // 3 u R/L^2 at the foot of a beam
+    const double L_m = scene.geometry.length_m;
+    strain = 1.5 * std::abs(*scene.displacement_m) * scene.geometry.diameter_m / (L_m * L_m);
+  } else if (is_sideways(scene)) {  // bending at the foot: 4 tau L/R, of a strip 3 tau L/R
     strain *= (scene.plane ? 6.0 : 8.0) * scene.geometry.length_m / scene.geometry.diameter_m;
   }
   if (scene.kind == AnalysisKind::kBuckling) {

@@ -1,5 +1,6 @@
 #include "models/pillar/analysis.h"
 #include "models/pillar/effects.h"
+#include "models/pillar/top_load.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -150,8 +151,10 @@ EffectEstimate film_compliance_estimate(const Scene& scene) {
   if (scene.kind == AnalysisKind::kStatic && asks_for(scene, "base_stress_at_half_radius")) {
     const double R = 0.5 * scene.geometry.diameter_m;
     const double thin = std::min(1.0, scene.geometry.film->thickness_m / R);
-    error = std::max(
-        error, kStressShare * thin * scene.pillar.E0_Pa / elasticity_of(*scene.film).young_Pa);
+    const double stress_error =
+        kStressShare * thin * scene.pillar.E0_Pa / elasticity_of(*scene.film).young_Pa;
+    // Of a top that is moved the force changes too.
+    error = moves_top(scene) ? error + stress_error : std::max(error, stress_error);
   }
   return {EffectRole::kOptional, error, "E A/(k L)", shares.axial,
           "the film's deflection over the pillar's"};

@@ -1,6 +1,7 @@
 #include "models/pillar/scene_results.h"
 
 #include "models/pillar/analysis.h"
+#include "models/pillar/top_load.h"
 
 #include <cmath>
 
@@ -14,21 +15,45 @@ void add(Names& names, const std::string& stem, const Names& endings) {
   for (const std::string& ending : endings) names.push_back(stem + ending);
 }
 
-Names static_names(const Scene& scene) {
-  if (is_sideways(scene)) {
-    if (!scene.electrodes) return {"top_displacement"};
-    if (scene.electrodes->electrode_radius_m == 0.0)
-      return {"top_displacement", "quadrant_voltage"};
-    Names names = {"top_displacement", "displacement_per_volt"};
-    if (scene.drive_V == 0.0) names.emplace_back("quadrant_charge");
+void append(Names& names, const Names& more) {
+  names.insert(names.end(), more.begin(), more.end());
+}
+
+Names sideways_names(const Scene& scene, Names names) {
+  if (!scene.electrodes) return names;
+  if (scene.electrodes->electrode_radius_m == 0.0) {
+    names.emplace_back("quadrant_voltage");
     return names;
   }
+  names.emplace_back("displacement_per_volt");
+  if (scene.drive_V == 0.0) names.emplace_back("quadrant_charge");
+  return names;
+}
+
+// The top's motion is told, or, where that is given, what it takes.
+Names static_names(const Scene& scene) {
+  const bool is_moved = moves_top(scene);
+  const Names top = is_moved ? Names{"top_force", "top_stiffness"} : Names{"top_displacement"};
+  if (is_sideways(scene)) return sideways_names(scene, top);
   if (!scene.electrodes) {
-    Names names = {"top_displacement", "base_stress_at_half_radius", "base_stress_rim_mean"};
+    Names names = top;
+    append(names, {"base_stress_at_half_radius", "base_stress_rim_mean"});
     if (scene.film) names.emplace_back("film_bottom_stress_mean");
     return names;
   }
-  if (scene.electrodes->electrode_radius_m == 0.0) return {"potential_at_centre", "potential_mean"};
+  if (scene.electrodes->electrode_radius_m == 0.0) {
+    Names names = {"potential_at_centre", "potential_mean"};
+    if (is_moved) append(names, top);
+    return names;
+  }
+  if (is_moved) {
+    Names names = {"electrode_voltage", "electrode_charge", "electrode_capacitance"};
+    append(names, top);
+    if (scene.readout && scene.drive_V == 0.0) {
+      append(names, {"reading_at_once", "readout_time_constant"});
+    }
+    return names;
+  }
   Names names = {"electrode_voltage", "electrode_charge", "electrode_capacitance",
                  "top_displacement", "displacement_per_volt"};
   if (scene.drive_V != 0.0) {

@@ -4,6 +4,7 @@
 #include "models/pillar/number_text.h"
 #include "models/pillar/pillar_modes.h"
 #include "models/pillar/scene_mistake.h"
+#include "models/pillar/top_load.h"
 
 #include <algorithm>
 #include <limits>
@@ -34,9 +35,19 @@ double buckling_pressure_Pa(const Scene& scene) {
   }
 }
 
+// A plate holds the top upright, so that the pillar buckles between the two (engesser_pressure_Pa).
+std::string beyond_buckling_under_plate(const Scene& scene) {
+  const double most_m = engesser_pressure_Pa(scene) / scene.pillar.E0_Pa * scene.geometry.length_m;
+  if (-*scene.displacement_m < most_m) return "";
+  return "a displacement of " + number_text(*scene.displacement_m * 1e6, 5) +
+         " um is beyond about " + number_text(-most_m * 1e6, 3) +
+         " um, where the pillar buckles between its foot and the plate on its top";
+}
+
 // "" while the straight pillar can bear the load.
 std::string beyond_buckling(const Scene& scene) {
   if (scene.kind == AnalysisKind::kBuckling || is_sideways(scene)) return "";
+  if (moves_top(scene)) return beyond_buckling_under_plate(scene);
   const double largest_Pa = largest_push_Pa(scene);
   const double slenderness = scene.geometry.diameter_m / scene.geometry.length_m;
   const double pi = std::numbers::pi;
@@ -68,7 +79,9 @@ void refuse_beyond_buckling(const Scene& scene) {
   const std::string why = beyond_buckling(scene);
   if (why.empty()) return;
   throw SceneMistake(
-      scene.kind == AnalysisKind::kCreep ? "analysis.history" : "analysis.load.pressure",
+      scene.kind == AnalysisKind::kCreep ? "analysis.history"
+      : moves_top(scene)                 ? "analysis.load.displacement"
+                                         : "analysis.load.pressure",
       why +
           ". Reduce the load, make the pillar shorter or thicker, or say that it is held "
           "straight (geometric_stiffness = \"off\" under [effects])");

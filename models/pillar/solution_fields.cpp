@@ -4,6 +4,7 @@
 #include "models/pillar/pillar_loads.h"
 #include "models/pillar/pillar_modes.h"
 #include "models/pillar/plan.h"
+#include "models/pillar/top_load.h"
 
 #include <algorithm>
 #include <cmath>
@@ -100,19 +101,24 @@ SectionField potential_of(const PillarModel& model, const Sampling& at, const Pi
 }
 
 PillarState static_state(const Scene& scene, const PillarModel& model) {
+  const Eigen::VectorXd traction = model.top_traction();
+  PiezoAnswer unit;  // 1 Pa
   if (model.electrode_dof() < 0) {
-    return model.solve(-scene.pressure_Pa * model.top_traction());
+    unit.open = model.solve(-traction);
+    unit.top_displacement_m = traction.dot(unit.open.unknowns) / traction.sum();
+  } else {
+    unit = piezo_static(model, 1.0);
   }
-  const PiezoAnswer unit = piezo_static(model, 1.0);
+  const double pressure_Pa = top_pressure_Pa(scene, unit);
   if (scene.drive_V == 0.0) {
     PillarState state = unit.open;
-    state.unknowns *= scene.pressure_Pa;
-    state.pressure_source *= scene.pressure_Pa;
+    state.unknowns *= pressure_Pa;
+    state.pressure_source *= pressure_Pa;
     return state;
   }
   // Charge on the electrode until it has the voltage, beside what the pressure gives.
-  Eigen::VectorXd forces = -scene.pressure_Pa * model.top_traction();
-  const double charge_C = unit.charge_C * scene.pressure_Pa + unit.capacitance_F * scene.drive_V;
+  Eigen::VectorXd forces = -pressure_Pa * traction;
+  const double charge_C = unit.charge_C * pressure_Pa + unit.capacitance_F * scene.drive_V;
   forces[model.electrode_dof()] -= charge_C * model.potential_scale_V();
   return model.solve(forces);
 }

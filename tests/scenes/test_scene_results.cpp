@@ -55,6 +55,24 @@ TEST_CASE("every static result can be asked for", "[pillar][plan]") {
   SECTION("charge-free face") {
     scene.electrodes->electrode_radius_m = 0.0;
   }
+  SECTION("moved top") {
+    scene.pressure_Pa = 0.0;
+    scene.displacement_m = -1e-7;
+    SECTION("electrode") {}
+    SECTION("wired electrode") {
+      scene.readout = Readout{.resistance_Ohm = 1e9};
+    }
+    SECTION("driven electrode") {
+      scene.drive_V = 1.0;
+    }
+    SECTION("charge-free face") {
+      scene.electrodes->electrode_radius_m = 0.0;
+    }
+    SECTION("no electrode, sideways") {
+      scene.electrodes.reset();
+      scene.direction = LoadDirection::kLateral;
+    }
+  }
   SECTION("no electrode") {
     scene.electrodes.reset();
   }
