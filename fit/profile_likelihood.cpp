@@ -105,7 +105,7 @@ std::vector<ProfileCurve> profile_likelihoods(const SpectralModel& model,
                                         : std::numeric_limits<double>::quiet_NaN();
     };
     curves.push_back(profile("ln_tau_" + std::to_string(i + 1), axis, shown(state, i), [&, i, j] {
-      return [&, i, j, start = state, at = i](double value) mutable {
+      return [&, j, start = state, at = i](double value) mutable {
         start.ln_tau[at] = value;
         RefineOptions held = options;
         held.held = at;
