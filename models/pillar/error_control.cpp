@@ -44,10 +44,10 @@ std::vector<Number> numbers_of(SceneAnswer& answer) {
   return numbers;
 }
 
-// Share of the last change that is taken to remain where the layers at the singular rim stayed the
-// same: a layer more leaves ratio^(2 lambda) = .07 (.15 at an electrode's edge) of that part of the
-// error, and over random scenes twice as much was seen (tests/scenes).
-constexpr double kLeftWithoutLayers = 0.25;
+// How much more of the last change is taken to remain where the layers at the singular rim stayed
+// the same: a layer more leaves ratio^(2 lambda) = .07 (.15 at an electrode's edge) of that part of
+// the error, and over random scenes twice as much was seen (tests/scenes).
+constexpr double kWithoutLayers = 2.5;
 
 // What a geometric sequence of changes still has to go, where it falls by less than half per mesh;
 // at most ten times the last change.
@@ -63,13 +63,16 @@ constexpr int kNoLongerCoarse = 5;
 // Estimates of all numbers from the changes since the mesh before; name of the worst.
 class ChangeTracker {
  public:
+  explicit ChangeTracker(double share_left) : share_left_(share_left) {}
+
   // Sets the errors of `answer` and its largest relative one.
   void compare(SceneAnswer& answer) {
     const std::vector<Number> numbers = numbers_of(answer);
     const bool comparable = last_.size() == numbers.size();
     std::vector<double> change(numbers.size(), 0.0);
     // A rise of the degree alone does not see what only further layers mend.
-    const double left = answer.discretisation.layers > last_layers_ ? 0.1 : kLeftWithoutLayers;
+    const double left =
+        share_left_ * (answer.discretisation.layers > last_layers_ ? 1.0 : kWithoutLayers);
     last_layers_ = answer.discretisation.layers;
     answer.largest_relative_error = comparable ? 0.0 : std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -96,6 +99,7 @@ class ChangeTracker {
   const std::string& worst() const { return worst_; }
 
  private:
+  double share_left_;
   std::vector<double> last_, last_change_;
   std::string worst_;
   int last_layers_ = 0;
@@ -128,7 +132,7 @@ std::vector<Discretisation> mesh_sequence(const PillarGeometry& geometry) {
 }
 
 SceneAnswer answer_within(const ErrorControl& control, const MeshAnswer& answer_on) {
-  ChangeTracker tracker;
+  ChangeTracker tracker(control.share_left);
   SceneAnswer answer;
   double done = 0.0;
   for (const Discretisation& mesh : control.meshes) {

@@ -93,14 +93,17 @@ SceneAnswer simulate(const Scene& scene) {
   const Analysis& analysis = analysis_of(scene.kind);
   const std::vector<Discretisation> meshes =
       scene.discretisation ? refinements_to(*scene.discretisation) : mesh_sequence(scene.geometry);
-  SceneAnswer answer =
-      answer_within({scene.tolerance, meshes, scene.progress}, [&](const Discretisation& mesh) {
-        SceneAnswer on_mesh;
-        on_mesh.discretisation = mesh;
-        analysis.run(scene, on_mesh);
-        mark_wanted(scene, on_mesh);
-        return on_mesh;
-      });
+  const double share_left = scene.kind == AnalysisKind::kBuckling
+                                ? ErrorControl::kShareLeftInBuckling
+                                : ErrorControl::kShareLeft;
+  SceneAnswer answer = answer_within({scene.tolerance, meshes, scene.progress, share_left},
+                                     [&](const Discretisation& mesh) {
+                                       SceneAnswer on_mesh;
+                                       on_mesh.discretisation = mesh;
+                                       analysis.run(scene, on_mesh);
+                                       mark_wanted(scene, on_mesh);
+                                       return on_mesh;
+                                     });
   const std::string why = holds_straight(scene) ? beyond_buckling(scene) : "";
   if (!why.empty()) {
     answer.notes.push_back(why + ", unless it is held straight, as the scene says it is");
