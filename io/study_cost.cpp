@@ -176,7 +176,9 @@ std::optional<LinearFactor> factor_over_linear(const CostStudy& study, double er
   const CostRow &coarser = *linear[fine - 1], &finer = *linear[fine];
   const double fall = std::log(coarser.error / finer.error);
   const double rise = std::log(finer.wall_s / coarser.wall_s);
-  if (!(fall > 0.0 && rise > 0.0)) return std::nullopt;
+  // Errors that hardly fall with the mesh come from something else, and no line leads to zero.
+  constexpr double kSteepest = 5.0;  // time goes with the error to the -3 at the most
+  if (!(fall > 0.0 && rise > 0.0 && rise < kSteepest * fall)) return std::nullopt;
   const double log_time = std::log(finer.wall_s) + std::log(finer.error / error) * rise / fall;
   return LinearFactor{.error = error,
                       .factor = std::exp(log_time) / quickest->wall_s,

@@ -17,7 +17,8 @@ using Complex = std::complex<double>;
 // mesh contains what the left-out ones would add. For a sweep: about twice those of the rod and of
 // the shear beam below its end.
 int modes_for(const ArrayScene& scene, const Discretisation& mesh) {
-  int count = 8 + 5 * (mesh.degree - 3);
+  constexpr int kLeast = 3;  // linear elements have few that are right
+  const int count = std::max(kLeast, 8 + 5 * (mesh.degree - 3));
   if (scene.frequencies_Hz.empty()) return count;
   const double shear_m_s =
       std::sqrt(scene.pillar.E0_Pa / (2.0 * (1.0 + scene.pillar.nu)) / scene.pillar.rho_kg_m3);

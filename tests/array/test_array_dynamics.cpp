@@ -172,3 +172,22 @@ TEST_CASE("only one pillar of a row is tapped and its neighbours answer", "[arra
   CHECK(peak("centre_voltage_1_peak") == Approx(peak("centre_voltage_3_peak")).epsilon(1e-4));
   CHECK(curve_of(answer, "top_displacement_2_spectrum").x.size() > 50);
 }
+
+TEST_CASE("linear elements answer a tap too, with the few modes they have right", "[array]") {
+  ArrayScene scene = row_in_time(ArrayAnalysis::kTransient);
+  scene.history = {{0.0, 0.0}, {5e-6, 1e3}, {1e-5, 0.0}};
+  scene.end_time_s = 5e-5;
+  scene.outputs = 200;
+  const auto peak_on = [&](const Discretisation& mesh) {
+    const SceneAnswer answer = array_answer_on(scene, mesh);
+    const auto found =
+        std::find_if(answer.results.begin(), answer.results.end(),
+                     [](const SceneResult& r) { return r.name == "top_displacement_2_peak"; });
+    REQUIRE(found != answer.results.end());
+    return std::abs(found->value);
+  };
+  // Linear elements of 5 um are a few per cent too stiff.
+  const double linear =
+      peak_on({.degree = 1, .layers = 1, .shaft_elements = 16, .longest_m = 5e-6});
+  CHECK(linear == Approx(peak_on({.degree = 6, .layers = 3})).epsilon(0.1));
+}
