@@ -63,11 +63,13 @@ void doubt_line(RunSession& session, RunOutcome& outcome) {
 void say_what_can_hide(RunSession& session, RunOutcome& outcome) {
   if (outcome.noise_N <= 0.0) return;  // ended before the noise was measured
   outcome.hidden_error_N = SpikeWatch::kSurelyFound * outcome.noise_N;
-  session.event("checked", text_from_number(outcome.hidden_error_N, 6),
-                "The line carries no check sum: readings were held against their neighbours, "
-                "which shows errors above " +
-                    text_from_number(outcome.hidden_error_N * 1e3, 3) +
-                    " mN at rest, and above twice the step between readings on a ramp");
+  session.event(
+      "checked", text_from_number(outcome.hidden_error_N, 6),
+      "The line carries no check sum: readings were held against their neighbours, "
+      "which shows errors above " +
+          text_from_number(outcome.hidden_error_N * 1e3, 3) +
+          " mN at rest, and above twice the step between readings on a ramp; of the first "
+          "five and the last two readings above twice that");
 }
 
 }  // namespace
