@@ -104,7 +104,35 @@ std::string csv_of(const SceneCurve& curve, const std::string& command) {
   return text;
 }
 
+std::string csv_of_results(const std::vector<SceneResult>& results, const std::string& command) {
+  std::string text =
+      fmt::format("# {} (viscard {})\nresult,value,unit,error\n", command, VISCARD_VERSION);
+  for (const SceneResult& r : results) {
+    const bool is_quoted = r.name.find(',') != std::string::npos;  // of a sweep: "at d, s"
+    text += fmt::format("{0}{1}{0},{2:.9g},{3},{4:.3g}\n", is_quoted ? "\"" : "", r.name, r.value,
+                        r.unit, r.error_estimate);
+  }
+  return text;
+}
+
+std::string csv_of_modes(const std::vector<SceneMode>& modes, const std::string& command) {
+  std::string text = fmt::format("# {} (viscard {})\nfamily,harmonic,frequency_Hz,error_Hz\n",
+                                 command, VISCARD_VERSION);
+  for (const SceneMode& m : modes) {
+    text += fmt::format("{},{},{:.9g},{:.3g}\n", m.family, m.harmonic, m.frequency_Hz,
+                        m.error_estimate);
+  }
+  return text;
+}
+
 }  // namespace
+
+void write_pictures(const std::vector<std::pair<std::string, std::string>>& pictures,
+                    const std::string& folder, bool overwrite) {
+  for (const auto& [name, svg] : pictures) {
+    write_file(std::filesystem::path(folder) / (name + ".svg"), svg, overwrite);
+  }
+}
 
 void write_files(const SceneAnswer& answer, const nlohmann::json& object, const std::string& folder,
                  const std::string& command, bool overwrite) {
@@ -114,13 +142,19 @@ void write_files(const SceneAnswer& answer, const nlohmann::json& object, const 
   with_command["created_by"] = "viscard " VISCARD_VERSION;
   write_file(std::filesystem::path(folder) / "results.json", with_command.dump(2) + "\n",
              overwrite);
+  if (!answer.results.empty()) {
+    write_file(std::filesystem::path(folder) / "results.csv",
+               csv_of_results(answer.results, command), overwrite);
+  }
+  if (!answer.modes.empty()) {
+    write_file(std::filesystem::path(folder) / "modes.csv", csv_of_modes(answer.modes, command),
+               overwrite);
+  }
   for (const SceneCurve& curve : answer.curves) {
     write_file(std::filesystem::path(folder) / (curve.name + ".csv"), csv_of(curve, command),
                overwrite);
   }
-  for (const auto& [name, svg] : pictures_of(answer)) {
-    write_file(std::filesystem::path(folder) / (name + ".svg"), svg, overwrite);
-  }
+  write_pictures(pictures_of(answer), folder, overwrite);
 }
 
 }  // namespace viscard

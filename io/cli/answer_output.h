@@ -6,6 +6,7 @@
 
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace viscard {
@@ -19,8 +20,12 @@ void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out);
 // the same with a pillar's number behind it, and the name of a curve for what is read off it.
 void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer);
 
-// results.json and a CSV table of every curve. Throws std::runtime_error if a file exists and may
-// not be overwritten.
+// Name and SVG each.
+void write_pictures(const std::vector<std::pair<std::string, std::string>>& pictures,
+                    const std::string& folder, bool overwrite);
+
+// results.json, results.csv and modes.csv, a CSV table and a picture of every curve. Throws
+// std::runtime_error if a file exists and may not be overwritten.
 void write_files(const SceneAnswer& answer, const nlohmann::json& object, const std::string& folder,
                  const std::string& command, bool overwrite);
 

@@ -8,6 +8,17 @@
 #include <stdexcept>
 
 namespace viscard {
+
+bool spans_decades(const std::vector<double>& values) {
+  double low = HUGE_VAL;
+  double high = 0.0;
+  for (const double value : values) {
+    if (value != 0.0) low = std::min(low, std::abs(value));
+    high = std::max(high, std::abs(value));
+  }
+  return high > 30.0 * low;
+}
+
 namespace {
 
 // "electrode_voltage_magnitude" -> "electrode voltage magnitude (V)"
@@ -20,16 +31,6 @@ std::string label_of(const SceneCurve& curve, const std::string& unit) {
 std::vector<double> times(std::vector<double> values, double factor) {
   for (double& value : values) value *= factor;
   return values;
-}
-
-bool spans_decades(const std::vector<double>& values) {
-  double low = HUGE_VAL;
-  double high = 0.0;
-  for (const double value : values) {
-    if (value > 0.0) low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  return high > 30.0 * low;
 }
 
 PlotPanel panel_of(const SceneCurve& curve) {

@@ -13,4 +13,7 @@ namespace viscard {
 // numbers are in the CSV files all the same.
 std::vector<std::pair<std::string, std::string>> pictures_of(const SceneAnswer& answer);
 
+// True when the largest size is over 30 times the smallest that is not zero: a logarithmic axis.
+bool spans_decades(const std::vector<double>& values);
+
 }  // namespace viscard

@@ -6,6 +6,7 @@
 #include "io/cli/command_line.h"
 #include "io/cli/printed_values.h"
 #include "io/cli/progress.h"
+#include "io/cli/row_pictures.h"
 #include "io/scene_array.h"
 #include "io/sha256.h"
 #include "models/array/array_plan.h"
@@ -66,6 +67,7 @@ SceneAnswer run_sweep(const ArraySceneFile& file, const std::string& key, const 
   progress.clear();
   if (!folder.empty()) {
     write_file(table, csv_from_sweep(points, store.done(), command), overwrite);
+    write_pictures(pictures_over_sweep(file, points, store.done()), folder, overwrite);
     store.remove();
   }
   sum.results = joined(file, points, store.done()).results;
@@ -98,8 +100,10 @@ int run_array_scene(const std::string& path, const Words& values,
   nlohmann::json object = json_from_answer(answer, wall_s);
   if (!printed.empty()) object["printed"] = json_from_comparison(printed);
   if (values.count("out") > 0) {
-    write_files(answer, object, values["out"].as<std::string>(), command,
-                values.count("force") > 0);
+    const auto folder = values["out"].as<std::string>();
+    const bool overwrite = values.count("force") > 0;
+    write_files(answer, object, folder, command, overwrite);
+    if (file.sweep.is_empty()) write_pictures(pictures_over_pillars(answer), folder, overwrite);
   }
   if (values.count("json") > 0) {
     streams.out << object.dump(2) << "\n";

@@ -56,7 +56,8 @@ CommandSyntax simulate_syntax() {
   syntax.options.add_options()("tol", po::value<double>(),
                                "relative error allowed, instead of the scene's")(
       "out", po::value<std::string>(),
-      "folder for results.json, curves as CSV and pictures; static and modal scenes add fields "
+      "folder for results as JSON and CSV, curves as CSV and pictures; static and modal scenes add "
+      "fields "
       "as .vtu for ParaView")("force", "overwrite existing files");
   syntax.positional = {"scene"};
   return syntax;
