@@ -1,10 +1,10 @@
 #include "models/pillar/effect_budget.h"
 
+#include "models/pillar/number_text.h"
 #include "models/pillar/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace viscard {
 namespace {
@@ -24,9 +24,8 @@ void refuse_unknown(const std::vector<NamedEstimate>& estimates, const EffectCho
 }
 
 std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100.0 * share);
-  return text;
+  const bool is_large = std::abs(share) >= 0.995 && std::abs(share) < 1e4;  // "100 %", not 1e+02
+  return number_text(is_large ? std::round(100.0 * share) : 100.0 * share, is_large ? 7 : 2) + " %";
 }
 
 // Fills everything but what the budget decides.
