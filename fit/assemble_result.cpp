@@ -7,6 +7,7 @@
 #include "fit/order_doubt.h"
 #include "fit/profile_likelihood.h"
 #include "fit/quick_search.h"
+#include "models/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +19,18 @@
 namespace viscard {
 namespace {
 
+// The most terms whose parameters leave a row over: with as many parameters as rows the fit goes
+// through every one, and nothing is left to say what the noise is.
+int most_terms(const SpectralModel& model) {
+  const Eigen::Index spare = model.n_rows() - 1 - model.n_common() - model.n_nuisances();
+  return static_cast<int>(std::max<Eigen::Index>(0, spare / 2));
+}
+
 // All orders: one that was wished for is no worse than the same in a free choice.
 std::vector<SpectralState> wished_path(const SpectralModel& model, const FitOptions& options) {
   OrderPathOptions path_options;
-  path_options.max_terms = std::max(options.n_terms.value_or(0), options.max_terms);
+  path_options.max_terms =
+      std::min(std::max(options.n_terms.value_or(0), options.max_terms), most_terms(model));
   const std::unique_ptr<SpectralModel> coarse = model.coarse();
   std::vector<SpectralState> path = order_path(coarse ? *coarse : model, path_options);
   if (coarse) {
@@ -52,13 +61,19 @@ std::size_t position_of(const std::vector<SpectralState>& path, int n_terms) {
   return position;
 }
 
-void note_fewer_terms(SpectralFit& fit) {
-  const auto found = fit.path[fit.scores.chosen].n_terms();
+void note_fewer_terms(const SpectralModel& model, SpectralFit& fit) {
+  const auto found = static_cast<int>(fit.path[fit.scores.chosen].n_terms());
   const int wanted = fit.options.n_terms.value_or(0);
   if (found == wanted || !fit.options.constraints.empty()) return;
+  const int most = most_terms(model);
+  const std::string why =
+      found == most
+          ? counted(static_cast<std::size_t>(model.n_rows()), "value") + " cannot tell more than " +
+                std::to_string(most)
+          : "no fit with more than " + std::to_string(found) + " describes these data any better";
   fit.notes.push_back({"fewer-terms", 0,
-                       std::to_string(wanted) + " terms were asked for; no fit with more than " +
-                           std::to_string(found) + " describes these data any better"});
+                       counted(static_cast<std::size_t>(wanted), "term") +
+                           (wanted == 1 ? " was" : " were") + " asked for; " + why});
 }
 
 double full_rss(const SpectralModel& model, const SpectralState& state) {
@@ -116,7 +131,7 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
     for (OrderRow& row : fit.scores.rows) row.is_chosen = false;
     fit.scores.chosen = position_of(fit.path, *options.n_terms);
     fit.scores.rows[fit.scores.chosen].is_chosen = true;
-    note_fewer_terms(fit);
+    note_fewer_terms(model, fit);
   }
   // Near the optimum by the quicker search, so that little is left to do for the slower ones.
   const SpectralState near = quick_search(model, fit.path[fit.scores.chosen], {.tolerance = 1e-10});

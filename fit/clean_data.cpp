@@ -87,6 +87,15 @@ CleanColumns clean_columns(const std::vector<std::span<const double>>& columns, 
   return clean;
 }
 
+void check_sign(std::span<const double> values, const std::string& what,
+                const std::string& column) {
+  if (sum_of(values) > 0.0) return;
+  throw std::runtime_error("the fitted column is negative or zero on the whole: " + what +
+                           " is positive. If the sign of the instrument is the other way, map the "
+                           "column with a minus: --column " +
+                           column + "=-NAME");
+}
+
 double shortest_step_s(std::span<const double> time_s) {
   const StepRange range = step_range(time_s);
   if (range.shortest > 0.0 || !(range.longest > 0.0)) return range.shortest;

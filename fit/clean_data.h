@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace viscard {
@@ -35,6 +36,10 @@ class CleanViews {
 // Both throw std::invalid_argument if the columns differ in length, std::runtime_error if fewer
 // than `least` usable rows are left.
 CleanColumns clean_columns(const std::vector<std::span<const double>>& columns, std::size_t least);
+
+// Throws std::runtime_error, saying how to turn the column round, unless its values are positive on
+// the whole. `what` must be positive ("a relaxation modulus"), `column` is its name in a table.
+void check_sign(std::span<const double> values, const std::string& what, const std::string& column);
 
 // Shortest positive difference of sorted times; 0 if there is none.
 double shortest_step_s(std::span<const double> time_s);

@@ -48,6 +48,7 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
   if (!(time_s.back() > time_s.front())) {
     throw std::runtime_error("all rows have the same time; nothing can be said of creep");
   }
+  check_sign(clean.columns[1], "a creep compliance", "compliance_1_Pa");
   if (options.allow_negative) {
     throw std::invalid_argument(
         "creep terms cannot be negative: the compliance of a solid only grows");

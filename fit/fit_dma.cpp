@@ -61,6 +61,17 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
     throw std::runtime_error("a frequency of " + std::to_string(frequency_Hz.front()) +
                              " Hz cannot be fitted; frequencies must be positive");
   }
+  for (std::size_t i = 0; i < frequency_Hz.size(); ++i) {
+    if (clean.columns[1][i] != 0.0 || clean.columns[2][i] != 0.0) continue;
+    char text[120];
+    std::snprintf(
+        text, sizeof text,
+        "storage and loss modulus are both zero at %.6g Hz: no measurement. Leave the row "
+        "out",
+        frequency_Hz[i]);
+    throw std::runtime_error(text);
+  }
+  check_sign(clean.columns[1], "a storage modulus", "storage_modulus_Pa");
   const DmaModel model(frequency_Hz, clean.columns[1], clean.columns[2], options);
   // Blocks are runs of neighbouring frequencies; E' and E'' of one frequency go together.
   std::vector<int> blocks = log_time_blocks(frequency_Hz, 0.0, 1);

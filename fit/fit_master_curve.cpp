@@ -1,6 +1,7 @@
 #include "fit/fit_master_curve.h"
 
 #include "fit/assemble_result.h"
+#include "fit/clean_data.h"
 #include "fit/flags.h"
 #include "fit/master_model.h"
 
@@ -96,11 +97,13 @@ void add_crossings(const MasterSegment& from, const MasterSegment& to, double si
       const double before = from.value[i - 1] - to.value[j];
       const double after = from.value[i] - to.value[j];
       if (before * after > 0.0 || before == after) continue;
+      // Noise about zero has no logarithm to compare.
+      if (!(from.value[i - 1] > 0.0 && from.value[i] > 0.0)) continue;
       const double ln_before = std::log(from.argument[i - 1]);
       const double step = std::log(from.argument[i]) - ln_before;
       if (!(step > 0.0)) continue;
       const double at = ln_before + step * before / (before - after);
-      const double steepness = std::log(std::abs(from.value[i] / from.value[i - 1])) / step;
+      const double steepness = std::log(from.value[i] / from.value[i - 1]) / step;
       offset.sum += sign * (std::log(to.argument[j]) - at) * steepness * steepness;
       offset.weight += steepness * steepness;
     }
@@ -211,6 +214,11 @@ bool has_several_temperatures(const std::vector<double>& temperature_C) {
 MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) {
   std::size_t n_left_out = 0;
   const std::vector<MasterSegment> segments = segments_of(data, n_left_out);
+  for (const MasterSegment& segment : segments) {
+    const bool is_dma = !segment.loss.empty();
+    check_sign(segment.value, is_dma ? "a storage modulus" : "a relaxation modulus",
+               is_dma ? "storage_modulus_Pa" : "modulus_Pa");
+  }
   const std::size_t reference = reference_of(segments, data.T_ref_C);
   const MasterModel model(segments, reference, start_shifts(segments, reference), options);
   const SpectralFit fit = fit_spectrum(model, blocks_of(segments), options);

@@ -5,7 +5,6 @@
 #include "fit/decay.h"
 #include "fit/flags.h"
 #include "fit/history_model.h"
-#include "fit/sample_passes.h"
 #include "fit/spikes.h"
 #include "fit/step_curves.h"
 #include "fit/step_model.h"
@@ -33,6 +32,9 @@ FitResult fit_strain_history(const CleanViews& clean, const FitOptions& options)
   input.input = copy_of(clean.column(2));
   while (input.contact + 1 < input.input.size() && input.input[input.contact + 1] == 0.0) {
     ++input.contact;  // strain begins to differ from zero after this sample
+  }
+  if (input.contact + 1 == input.input.size() && input.input.front() == 0.0) {
+    throw std::runtime_error("the strain is zero in every row: nothing was strained");
   }
   const HistoryModel model(input, options);
   const SpectralFit fit = fit_spectrum(
@@ -111,12 +113,7 @@ void check_values(std::span<const double> time_s, std::span<const double> value,
   if (!(time_s.back() > time_s.front())) {
     throw std::runtime_error("all rows have the same time; nothing can be said of relaxation");
   }
-  if (is_step && !(sum_of(value) > 0.0)) {
-    throw std::runtime_error(
-        "the fitted column is negative or zero on the whole: a relaxation modulus is positive. If "
-        "the sign of the instrument is the other way, map the column with a minus: "
-        "--column modulus_Pa=-NAME");
-  }
+  if (is_step) check_sign(value, "a relaxation modulus", "modulus_Pa");
 }
 
 }  // namespace

@@ -163,12 +163,12 @@ struct Candidates {
 };
 
 OrderRow scored(const SpectralModel& model, const SpectralState& state, double rss,
-                double n_samples, double n_effective) {
+                double least_rss, double n_samples, double n_effective) {
   OrderRow row;
   row.n_terms = static_cast<int>(state.n_terms());
   row.rss = rss;
   const double p = n_parameters(model, state);
-  const double misfit = n_effective * std::log(std::max(rss, 1e-300) / n_samples);
+  const double misfit = n_effective * std::log(std::max(rss, least_rss) / n_samples);
   const double spare = n_effective - p - 1.0;
   row.aicc = spare > 0.0 ? misfit + 2.0 * p + 2.0 * p * (p + 1.0) / spare
                          : std::numeric_limits<double>::infinity();
@@ -189,10 +189,13 @@ Candidates candidates_of(const SpectralModel& model, const std::vector<SpectralS
   if (std::find(all.is_eligible.begin(), all.is_eligible.end(), true) == all.is_eligible.end()) {
     all.is_eligible.assign(path.size(), true);
   }
-  const double noise = std::max(input.rss.back(), 1e-300);
+  // What rounding of the data makes of a sum of squares: below it no order is better than another.
+  constexpr double kRounding = 2.2e-16;
+  const double least_rss = std::max(kRounding * kRounding * model.data().squaredNorm(), 1e-300);
+  const double noise = std::max(input.rss.back(), least_rss);
   std::optional<std::size_t> best_bic, best_cv;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    OrderRow row = scored(model, path[i], input.rss[i], input.n_samples, n_effective);
+    OrderRow row = scored(model, path[i], input.rss[i], least_rss, input.n_samples, n_effective);
     all.errors.push_back(left_out_errors(model, path[i], input.blocks));
     row.cv = row.rss - path[i].rss;  // what averages hide
     for (const LeftOut& block : all.errors.back()) row.cv += block.squared_error;

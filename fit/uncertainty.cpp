@@ -81,8 +81,13 @@ Eigen::MatrixXd correlated(const Eigen::MatrixXd& x, const std::vector<std::size
   return out;
 }
 
+// Of two nearly equal terms the covariance has huge entries whose sums should cancel: what rounding
+// leaves of them is an error too, and never none.
 double error_of(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& gradient) {
-  return std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));
+  constexpr double kRounding = 1e-15;
+  const Eigen::VectorXd size = gradient.cwiseAbs();
+  const double lost = kRounding * size.dot(covariance.cwiseAbs() * size);
+  return std::sqrt(std::max(lost, gradient.dot(covariance * gradient)));
 }
 
 Interval symmetric(double value, double error) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdio>
 #include <string>
 
@@ -12,6 +13,11 @@ inline std::string text_of(double value, int significant_digits = 6) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.*g", significant_digits, value);
   return text.data();
+}
+
+// "1 term", "2 terms".
+inline std::string counted(std::size_t count, const std::string& one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
 }
 
 }  // namespace viscard

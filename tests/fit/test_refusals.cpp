@@ -1,3 +1,5 @@
+#include "fit/fit_creep.h"
+#include "fit/fit_dma.h"
 #include "fit/fit_indentation.h"
 #include "fit/fit_relaxation.h"
 #include "fit/indentation_from_capture.h"
@@ -8,6 +10,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -39,6 +42,46 @@ TEST_CASE("data that cannot be fitted are refused with the reason", "[fit]") {
     for (double& t : data.time_s) t -= 1000.0;
     CHECK_THROWS_WITH(fit_relaxation(data), Contains("--time-zero"));
   }
+}
+
+TEST_CASE("creep, oscillation and strain histories of no sense are refused with the reason",
+          "[fit]") {
+  const std::vector<double> arguments{0.1, 0.3, 1.0, 3.0, 10.0, 30.0};
+  SECTION("negative compliance") {
+    CHECK_THROWS_WITH(fit_creep({arguments, {-1.0, -1.1, -1.2, -1.3, -1.4, -1.5}}),
+                      Contains("--column compliance_1_Pa=-NAME"));
+  }
+  SECTION("negative storage") {
+    CHECK_THROWS_WITH(
+        fit_dma({arguments, {-1.0, -1.1, -1.2, -1.3, -1.4, -1.5}, {.1, .1, .1, .1, .1, .1}}),
+        Contains("--column storage_modulus_Pa=-NAME"));
+  }
+  SECTION("a row of zeros among moduli") {
+    CHECK_THROWS_WITH(
+        fit_dma({arguments, {1.0, 1.1, 0.0, 1.3, 1.4, 1.5}, {.1, .1, 0.0, .1, .1, .1}}),
+        Contains("both zero at 1 Hz"));
+  }
+  SECTION("no strain") {
+    CHECK_THROWS_WITH(
+        fit_relaxation({arguments, {1.0, .9, .8, .7, .6, .5}, std::vector<double>(6, 0.0)}),
+        Contains("strain is zero"));
+  }
+}
+
+TEST_CASE("as many parameters as samples are not fitted: nothing would tell the noise", "[fit]") {
+  // Five noisy samples once gave two terms with intervals of no width at all.
+  FitOptions options;
+  options.n_terms = 4;
+  RelaxationData data;
+  for (const double t : {0.1, 0.6, 4.0, 25.0, 160.0}) {
+    data.time_s.push_back(t);
+    data.value.push_back(1e6 + 5e5 * std::exp(-t / 3.0) + 2e4 * std::sin(40.0 * t));
+  }
+  const FitResult fit = fit_relaxation(data, options);
+  CHECK(fit.terms.size() == 1);
+  CHECK(fit.E0_se_Pa > 1e3);
+  REQUIRE_FALSE(fit.flags.empty());
+  CHECK_THAT(fit.flags.front().text, Contains("5 values cannot tell more than 1"));
 }
 
 TEST_CASE("rows that are not numbers are left out and counted", "[fit]") {
