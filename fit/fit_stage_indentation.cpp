@@ -22,27 +22,6 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Standard deviations of the residual while the stage rests and while it moves (its steps shake
-// it).
-struct TwoSigmas {
-  double resting_N = 1.0;
-  double moving_N = 1.0;
-};
-
-TwoSigmas scatter(const StageModel& model, const Eigen::VectorXd& weighted_residual) {
-  double sums[2] = {0.0, 0.0};
-  double counts[2] = {0.0, 0.0};
-  for (Index i = 0; i < weighted_residual.size(); ++i) {
-    const std::size_t kind = model.is_moving()[static_cast<std::size_t>(i)] ? 1 : 0;
-    sums[kind] += std::pow(weighted_residual[i] * model.sigma_N()[i], 2);
-    counts[kind] += 1.0;
-  }
-  const double resting_N = std::sqrt(sums[0] / std::max(1.0, counts[0]));
-  // Too few samples in motion say nothing of their own.
-  const double moving_N = counts[1] > 10.0 ? std::sqrt(sums[1] / counts[1]) : resting_N;
-  return {resting_N, std::max(moving_N, resting_N)};
-}
-
 // Averages of measured and fitted force for plots, in log time from the start of each motion; rows
 // of contact only.
 void fill_curves(const StageModel& model, const IndentationData& data, const SpectralState& state,
@@ -208,22 +187,35 @@ void report_stage_fit(const StageModel& model, const IndentationData& data, cons
   flag_stage_misfit(data, result);
 }
 
+// Start values, and what the noise is like, from passes with a few terms: the first with equal
+// weights, a second where stamps scatter, whose errors spoil the first.
+struct Preparation {
+  Eigen::VectorXd start;
+  StageNoise noise;
+};
+
+Preparation prepared(const IndentationData& data, const FitOptions& options) {
+  Preparation now{nuisance_start(data), {}};
+  OrderPathOptions path_options;
+  path_options.max_terms = 4;
+  for (int pass = 0; pass < 2; ++pass) {
+    const StageModel model(data, now.start, now.noise, options);
+    const SpectralState state = order_path(model, path_options).back();
+    now.start = state.nuisance;
+    StageResidual left{data.time_s, model.is_moving(), model.is_out_of_contact(), {}, {}};
+    left.fitted_N = (model.columns(state.ln_tau, state.nuisance, false).values * state.coefficients)
+                        .cwiseProduct(model.sigma_N());
+    left.residual_N = model.data().cwiseProduct(model.sigma_N()) - left.fitted_N;
+    now.noise = stage_noise(left);
+    if (now.noise.stamp_s == 0.0) break;
+  }
+  return now;
+}
+
 ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options) {
   const double factor_m = data.contact ? force_per_modulus_and_depth_m(*data.contact) : 1.0;
-  Eigen::VectorXd start = nuisance_start(data);
-  TwoSigmas sigmas;
-  {
-    // First pass, equal weights: what the noise is like.
-    const StageModel model(data, start, 1.0, 1.0, options);
-    OrderPathOptions path_options;
-    path_options.max_terms = 4;
-    const SpectralState state = order_path(model, path_options).back();
-    start = state.nuisance;
-    sigmas =
-        scatter(model, model.data() - model.columns(state.ln_tau, state.nuisance, false).values *
-                                          state.coefficients);
-  }
-  const StageModel model(data, start, sigmas.resting_N, sigmas.moving_N, options);
+  const Preparation prepared_for = prepared(data, options);
+  const StageModel model(data, prepared_for.start, prepared_for.noise, options);
   const SpectralFit fit =
       fit_spectrum(model, log_time_blocks(data.time_s, data.contact_from_s, 4), options);
 
@@ -247,7 +239,7 @@ ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options
                            : 0.0;  // what an error of the force costs beyond itself
   result.gain_drift_relative = (1.0 + share) * gain_drift_relative_u(model, fit, data);
   add_common_uncertainty(result.gain_drift_relative, result);
-  result.noise.sigma = sigmas.resting_N;
+  result.noise.sigma = prepared_for.noise.resting_N;
   result.contact_position_m = fit.state.nuisance[model.n_nuisances() - 1];
   const Eigen::VectorXd residual =
       model.residual_series(fit.state.ln_tau, fit.state.nuisance, fit.state.coefficients);

@@ -27,27 +27,59 @@ double force_of(const LoadSample& sample, const RigConfig& rig) {
   return *force_N;
 }
 
+struct Reading {
+  double clock_s = 0.0, host_s = 0.0, force_N = 0.0;
+};
+
+// In the order of their stamps. Stamps that scatter may change places; one that lies further back
+// than a few readings is of a clock that began again, and an equal one of a reading sent twice.
+std::vector<Reading> in_order(const std::vector<Reading>& received) {
+  constexpr double kFewReadings = 5.0;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < received.size(); ++i) {
+    steps.push_back(std::abs(received[i].clock_s - received[i - 1].clock_s));
+  }
+  if (steps.empty()) return received;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  std::vector<Reading> kept;
+  double newest_s = received.front().clock_s;
+  for (const Reading& reading : received) {
+    if (reading.clock_s < newest_s - kFewReadings * *middle) continue;
+    newest_s = std::max(newest_s, reading.clock_s);
+    kept.push_back(reading);
+  }
+  std::stable_sort(kept.begin(), kept.end(),
+                   [](const Reading& a, const Reading& b) { return a.clock_s < b.clock_s; });
+  const auto is_repeated = [](const Reading& a, const Reading& b) {
+    return a.clock_s == b.clock_s;
+  };
+  kept.erase(std::unique(kept.begin(), kept.end(), is_repeated), kept.end());
+  return kept;
+}
+
 struct Readings {
   std::vector<double> clock_s, host_s, force_N;
 };
 
 Readings good_readings(const CapturedRun& run, IndentationData& data) {
-  Readings readings;
+  std::vector<Reading> received;
   const bool has_clock =
       std::all_of(run.load_samples.begin(), run.load_samples.end(),
                   [](const LoadSample& s) { return s.device_time_s.has_value(); });
-  double last_clock = -1e300;
   for (const LoadSample& sample : run.load_samples) {
     if (sample.is_saturated) ++data.n_saturated;
     if (sample.is_glitch) ++data.n_glitch;
     if (sample.is_saturated || sample.is_glitch) continue;
     if (!sample.volts && !sample.counts && !sample.force_N) continue;
     const double clock = has_clock ? *sample.device_time_s : static_cast<double>(sample.index);
-    if (!(clock > last_clock)) continue;  // a repeated reading
-    last_clock = clock;
-    readings.clock_s.push_back(clock);
-    readings.host_s.push_back(sample.host_time_s);
-    readings.force_N.push_back(force_of(sample, run.rig));
+    received.push_back({clock, sample.host_time_s, force_of(sample, run.rig)});
+  }
+  Readings readings;
+  for (const Reading& reading : in_order(received)) {
+    readings.clock_s.push_back(reading.clock_s);
+    readings.host_s.push_back(reading.host_s);
+    readings.force_N.push_back(reading.force_N);
   }
   return readings;
 }

@@ -78,7 +78,7 @@ Eigen::VectorXd nuisance_start(const IndentationData& data) {
 }
 
 StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start,
-                       double sigma_resting_N, double sigma_moving_N, const FitOptions& options)
+                       const StageNoise& noise, const FitOptions& options)
     : time_s_(data.time_s), moves_(data.moves) {
   const std::size_t count = time_s_.size();
   const auto n_moves = static_cast<Index>(moves_.size());
@@ -100,7 +100,10 @@ StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start
   sigma_N_.resize(static_cast<Index>(count));
   for (std::size_t i = 0; i < count; ++i) {
     const auto row = static_cast<Index>(i);
-    sigma_N_[row] = is_moving_[i] ? sigma_moving_N : sigma_resting_N;
+    sigma_N_[row] = is_moving_[i] ? noise.moving_N : noise.resting_N;
+    if (noise.of_stamps_N.size() > 0) {
+      sigma_N_[row] = std::hypot(sigma_N_[row], noise.of_stamps_N[row]);
+    }
     data_[row] = data.force_N[i] / sigma_N_[row];
   }
 

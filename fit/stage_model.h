@@ -2,6 +2,7 @@
 
 #include "fit/fit_data.h"
 #include "fit/spectral_model.h"
+#include "fit/stamp_noise.h"
 
 #include <Eigen/Core>
 
@@ -21,17 +22,17 @@ namespace viscard {
 // position; all are sharply seen in the kinks of the force. Out of contact the force is zero.
 class StageModel final : public SpectralModel {
  public:
-  // sigma_N: standard deviation of each sample. start: of the nuisances, shifts first, in s and m;
-  // half-widths of their bounds from the data.
+  // start: of the nuisances, shifts first, in s and m; half-widths of their bounds from the data.
   StageModel(const IndentationData& data, const Eigen::VectorXd& nuisance_start,
-             double sigma_resting_N, double sigma_moving_N, const FitOptions& options);
+             const StageNoise& noise, const FitOptions& options);
 
   ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                        bool with_slopes) const override;
 
   // True for samples while the stage moves (by the start values).
   const std::vector<bool>& is_moving() const { return is_moving_; }
-  const Eigen::VectorXd& sigma_N() const { return sigma_N_; }
+  const std::vector<bool>& is_out_of_contact() const { return is_out_of_contact_; }
+  const Eigen::VectorXd& sigma_N() const { return sigma_N_; }  // of each sample
   Eigen::VectorXd row_sigma() const override { return sigma_N_; }
 
  private:

@@ -113,7 +113,7 @@ TEST_CASE("slopes of the stage model equal finite differences in times, starts a
           "[fit][gradient]") {
   const CapturedRun run = in_memory_run(demo_truth(10, 1), {});
   const IndentationData data = indentation_from_capture(run);
-  const StageModel model(data, nuisance_start(data), 5e-4, 7e-4, {});
+  const StageModel model(data, nuisance_start(data), {.resting_N = 5e-4, .moving_N = 7e-4}, {});
   // A sample that lies within a step of a kink is not differentiable there; none does here.
   CHECK(worst_gradient_error(model, state_of(model, {0.02, 0.2, 2.4, 80.0})) < 1e-5);
 }
