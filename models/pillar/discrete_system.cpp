@@ -77,8 +77,13 @@ void add_kronecker(const Eigen::MatrixXd& z, const Eigen::MatrixXd& x,
                    Eigen::Ref<Eigen::MatrixXd> block) {
   const Eigen::Index n = x.rows();
   for (Eigen::Index jz = 0; jz < n; ++jz) {
-    for (Eigen::Index iz = 0; iz < n; ++iz) {
-      block.block(iz * n, jz * n, n, n) += z(iz, jz) * x;
+    for (Eigen::Index jx = 0; jx < n; ++jx) {
+      double* column = block.col(jz * n + jx).data();
+      const double* of_x = x.col(jx).data();
+      for (Eigen::Index iz = 0; iz < n; ++iz) {
+        const double factor = z(iz, jz);
+        for (Eigen::Index ix = 0; ix < n; ++ix) column[iz * n + ix] += factor * of_x[ix];
+      }
     }
   }
 }
@@ -88,6 +93,7 @@ void add_kronecker(const Eigen::MatrixXd& z, const Eigen::MatrixXd& x,
 DiscreteSystem::DiscreteSystem(const Section& section, Kinematics kinematics, DofMap dofs)
     : section_(&section), kinematics_(std::move(kinematics)), dofs_(std::move(dofs)) {
   if (dofs_.count() == 0) throw std::invalid_argument("every unknown is held; nothing can move");
+  order_elements();
   build_pattern();
 }
 
@@ -100,61 +106,82 @@ std::vector<int> DiscreteSystem::element_dofs(const SectionElement& element) con
   return dofs;
 }
 
-void DiscreteSystem::build_pattern() {
-  const auto n = static_cast<std::size_t>(size());
-  std::vector<std::vector<int>> elements_of(n);  // elements that hold each unknown
-  for (std::size_t e = 0; e < section_->elements().size(); ++e) {
-    LocalOrder local{element_dofs(section_->elements()[e]), {}};
-    for (std::size_t i = 0; i < local.dofs.size(); ++i) {
-      if (local.dofs[i] >= 0) local.order.push_back(static_cast<int>(i));
+void DiscreteSystem::order_elements() {
+  std::vector<std::pair<int, int>> found;  // unknown, local number
+  for (const SectionElement& element : section_->elements()) {
+    found.clear();
+    for (const int dof : element_dofs(element)) {
+      found.emplace_back(dof, static_cast<int>(found.size()));
     }
-    std::sort(local.order.begin(), local.order.end(), [&](int a, int b) {
-      return local.dofs[static_cast<std::size_t>(a)] < local.dofs[static_cast<std::size_t>(b)];
-    });
+    std::sort(found.begin(), found.end());
+    LocalOrder order;
+    for (const auto& [dof, local] : found) {
+      if (dof < 0) continue;
+      order.dofs.push_back(dof);
+      order.local.push_back(local);
+    }
+    local_.push_back(std::move(order));
+  }
+}
+
+void DiscreteSystem::build_pattern() {
+  std::vector<std::vector<int>> elements_of(static_cast<std::size_t>(size()));
+  std::size_t most = 0;  // entries of all elements, those of several counted several times
+  for (std::size_t e = 0; e < local_.size(); ++e) {
+    most += local_[e].dofs.size() * (local_[e].dofs.size() + 1) / 2;
     int last = -1;
-    for (const int i : local.order) {
-      const int dof = local.dofs[static_cast<std::size_t>(i)];
+    for (const int dof : local_[e].dofs) {
       if (dof != last) elements_of[static_cast<std::size_t>(dof)].push_back(static_cast<int>(e));
       last = dof;
     }
-    local_.push_back(std::move(local));
   }
-  std::vector<int> seen(n, -1);
-  std::vector<int> outer{0};
-  std::vector<int> inner;
+  column_start_.assign(1, 0);
+  row_.reserve(most);
+  std::vector<int> seen(elements_of.size(), -1);
+  std::vector<int> rows;
   for (int column = 0; column < size(); ++column) {
-    const std::size_t start = inner.size();
-    for (const int e : elements_of[static_cast<std::size_t>(column)]) {
-      const LocalOrder& local = local_[static_cast<std::size_t>(e)];
-      for (const int i : local.order) {
-        const int row = local.dofs[static_cast<std::size_t>(i)];
-        if (row < column || seen[static_cast<std::size_t>(row)] == column) continue;
-        seen[static_cast<std::size_t>(row)] = column;
-        inner.push_back(row);
+    // Neighbours in number are mostly in the same elements (fields of a node, nodes of an edge):
+    // their columns differ in where they begin.
+    const auto own = elements_of.begin() + column;
+    if (column == 0 || *own != *(own - 1)) {
+      rows.clear();
+      for (const int e : *own) {
+        for (const int row : local_[static_cast<std::size_t>(e)].dofs) {
+          if (row < column || seen[static_cast<std::size_t>(row)] == column) continue;
+          seen[static_cast<std::size_t>(row)] = column;
+          rows.push_back(row);
+        }
       }
+      std::sort(rows.begin(), rows.end());
     }
-    std::sort(inner.begin() + static_cast<std::ptrdiff_t>(start), inner.end());
-    outer.push_back(static_cast<int>(inner.size()));
+    const auto first = std::lower_bound(rows.begin(), rows.end(), column);
+    row_.insert(row_.end(), first, rows.end());
+    column_start_.push_back(static_cast<int>(row_.size()));
   }
-  const std::vector<double> zeros(inner.size(), 0.0);
-  pattern_ = Eigen::Map<const SymmetricSparse>(size(), size(), static_cast<int>(inner.size()),
-                                               outer.data(), inner.data(), zeros.data());
+}
+
+SymmetricSparse DiscreteSystem::zero() const {
+  SymmetricSparse matrix(size(), size());
+  matrix.resizeNonZeros(static_cast<Eigen::Index>(row_.size()));
+  std::copy(column_start_.begin(), column_start_.end(), matrix.outerIndexPtr());
+  std::copy(row_.begin(), row_.end(), matrix.innerIndexPtr());
+  matrix.coeffs().setZero();
+  return matrix;
 }
 
 void DiscreteSystem::scatter(std::size_t element, const Eigen::MatrixXd& block,
                              SymmetricSparse& matrix) const {
-  const LocalOrder& local = local_[element];
+  const auto& [dofs, local] = local_[element];
   const int* outer = matrix.outerIndexPtr();
   const int* inner = matrix.innerIndexPtr();
   double* values = matrix.valuePtr();
-  for (const int j : local.order) {
-    const int column = local.dofs[static_cast<std::size_t>(j)];
-    int at = outer[column];
-    for (const int i : local.order) {  // rows ascend, so one walk down the column meets them all
-      const int row = local.dofs[static_cast<std::size_t>(i)];
-      if (row < column) continue;
-      while (inner[at] < row) ++at;
-      values[at] += block(i, j);
+  std::size_t first = 0;  // of the unknowns tied to the column's
+  for (std::size_t j = 0; j < dofs.size(); ++j) {
+    if (dofs[j] != dofs[first]) first = j;
+    int at = outer[dofs[j]];
+    for (std::size_t i = first; i < dofs.size(); ++i) {
+      while (inner[at] < dofs[i]) ++at;  // rows ascend: one walk down the column meets them all
+      values[at] += block(std::max(local[i], local[j]), std::min(local[i], local[j]));
     }
   }
 }
@@ -171,7 +198,7 @@ SymmetricSparse DiscreteSystem::form(const std::vector<OperatorRow>& rows,
     pairs.push_back(D.size() == 0 ? std::vector<FieldPair>{}
                                   : field_pairs(rows, kinematics_.measure * D, fields));
   }
-  SymmetricSparse matrix = pattern_;
+  SymmetricSparse matrix = zero();
   Eigen::MatrixXd block(fields * nn, fields * nn);
   Eigen::MatrixXd x(n1, n1);
   for (std::size_t e = 0; e < section_->elements().size(); ++e) {
@@ -185,7 +212,7 @@ SymmetricSparse DiscreteSystem::form(const std::vector<OperatorRow>& rows,
     }
     block.setZero();
     for (int f = 0; f < fields; ++f) {
-      for (int g = 0; g < fields; ++g) {
+      for (int g = 0; g <= f; ++g) {  // the lower triangle
         const FieldPair& pair = of_region[static_cast<std::size_t>(f * fields + g)];
         for (int dz = 0; dz < 4; ++dz) {
           const auto& terms = pair.by_dz[static_cast<std::size_t>(dz)];
@@ -210,7 +237,7 @@ SymmetricSparse DiscreteSystem::volume_form(const std::vector<double>& per_regio
     for (const double factor : per_region) D.push_back(Eigen::MatrixXd::Constant(1, 1, factor));
     return form({kinematics_.divergence}, D);
   }
-  SymmetricSparse matrix = pattern_;
+  SymmetricSparse matrix = zero();
   for (std::size_t e = 0; e < section_->elements().size(); ++e) {
     const SectionElement& element = section_->elements()[e];
     const double factor =

@@ -60,12 +60,13 @@ class DiscreteSystem {
 
   // Unknowns of one element, field slowest: field_count * (p + 1)^2, -1 where held.
   std::vector<int> element_dofs(const SectionElement& element) const;
-  // Adds an element matrix (full square) to the values of a matrix of this system.
-  void scatter(std::size_t element, const Eigen::MatrixXd& local, SymmetricSparse& matrix) const;
-  SymmetricSparse zero() const { return pattern_; }
+  SymmetricSparse zero() const;
 
  private:
+  void order_elements();
   void build_pattern();
+  // Adds an element matrix, of which the lower triangle is read, to a matrix of this system.
+  void scatter(std::size_t element, const Eigen::MatrixXd& local, SymmetricSparse& matrix) const;
   // int L (div N) and int L L of one element, L the Legendre products of Q_(p-2).
   struct Projection {
     int degree = 0;
@@ -81,12 +82,13 @@ class DiscreteSystem {
   const Section* section_;
   Kinematics kinematics_;
   DofMap dofs_;
-  SymmetricSparse pattern_;
-  // Per element: its distinct unknowns in ascending order, and for each local unknown its place
-  // there.
+  std::vector<int> column_start_;  // the pattern of all matrices, as they store it
+  std::vector<int> row_;
+  // Unknowns of an element that are not held, ascending (tied ones several times), and the local
+  // number of each: its place among element_dofs().
   struct LocalOrder {
-    std::vector<int> dofs;   // local unknown -> global or -1
-    std::vector<int> order;  // local unknowns that are not held, by ascending global number
+    std::vector<int> dofs;
+    std::vector<int> local;
   };
   std::vector<LocalOrder> local_;
 };

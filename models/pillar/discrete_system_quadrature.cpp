@@ -72,7 +72,7 @@ Eigen::MatrixXd DiscreteSystem::quadrature_form(
 SymmetricSparse DiscreteSystem::varying_form(
     const std::vector<OperatorRow>& rows,
     const std::function<Eigen::MatrixXd(const SectionElement&, double, double)>& D) const {
-  SymmetricSparse matrix = pattern_;
+  SymmetricSparse matrix = zero();
   for (std::size_t e = 0; e < section_->elements().size(); ++e) {
     const SectionElement& element = section_->elements()[e];
     const auto here = [&](double x, double z) { return D(element, x, z); };

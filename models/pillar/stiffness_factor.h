@@ -42,9 +42,7 @@ class StiffnessFactor {
 };
 
 // y = A x for the stored lower triangle.
-inline Eigen::VectorXd times(const SymmetricSparse& matrix, const Eigen::VectorXd& x) {
-  return matrix.selfadjointView<Eigen::Lower>() * x;
-}
+Eigen::VectorXd times(const SymmetricSparse& matrix, const Eigen::VectorXd& x);
 
 // The whole matrix of a stored lower triangle.
 inline Eigen::MatrixXd dense(const SymmetricSparse& lower) {

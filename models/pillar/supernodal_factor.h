@@ -34,20 +34,21 @@ class SupernodalFactor {
     int parent = -1;             // block
     std::vector<int> to_parent;  // place of each row in the parent's front
     Eigen::MatrixXd L;           // (count + rows) x count; unit diagonal not stored
+    int height() const { return count + static_cast<int>(rows.size()); }  // of its front
   };
   struct Entry {
-    int value;        // which stored value of the matrix
-    int row, column;  // its place in the front
+    int value;  // which stored value of the matrix
+    int place;  // in the front, column by column
   };
 
   void find_parents();
-  static int place_in_front(const Block& block, int row);
   void place_entries(const Eigen::SparseMatrix<double>& lower);
 
   std::vector<int> position_;             // unknown -> place in the order of elimination
   std::vector<Block> blocks_;             // children before parents
-  std::vector<Entry> entries_;            // block by block
-  std::vector<std::size_t> first_entry_;  // of each block, and one past the last
+  std::vector<Entry> entries_;            // column by column in the order of elimination
+  std::vector<std::size_t> first_entry_;  // of each column, and one past the last
+  Eigen::Index largest_front_ = 0;        // rows
   Eigen::VectorXd pivots_;
 };
 
