@@ -81,9 +81,9 @@ void SceneDrawing::held(double from_m, double to_m, double z_m) {
   }
 }
 
-void SceneDrawing::film(double from_m, double to_m, double thickness_m) {
+void SceneDrawing::film(double from_m, double to_m, double thickness_m, bool is_held) {
   box(from_m, to_m, -thickness_m, 0.0, R"(fill="#e6c88a" stroke="#7a5c1e")");
-  held(from_m, to_m, -thickness_m);
+  if (is_held) held(from_m, to_m, -thickness_m);
   text(x(to_m) + 8.0, y(-0.5 * thickness_m) + 4.0, "t " + micrometres(thickness_m));
 }
 

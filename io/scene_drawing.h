@@ -28,7 +28,7 @@ class SceneDrawing {
   // Both ends marked; the words above it.
   void length_mark(double from_m, double to_m, double y_px, const std::string& words);
 
-  void film(double from_m, double to_m, double thickness_m);
+  void film(double from_m, double to_m, double thickness_m, bool is_held = true);
   void held(double from_m, double to_m, double z_m);
   // Over what stands on it: a band within the film along one of its faces.
   void electrode(double from_m, double to_m, double thickness_m, FilmFace face);

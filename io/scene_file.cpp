@@ -22,7 +22,7 @@ struct RawScene {
   std::string kind = "pillar", model = "axisymmetric";
   double diameter_m = 0.0, length_m = 0.0;
   double film_thickness_m = 0.0, film_radius_m = 0.0;
-  std::string film_material, film_bottom = "fixed";
+  std::string film_material, film_bottom, bottom;  // bottoms: none said is fixed
   std::string electrode_face, electrode_kind = "equipotential", poling = "+z";
   double electrode_radius_m = 0.0;
   bool quadrants = false;
@@ -49,6 +49,7 @@ void show_flare(FieldVisitor& v, const char* key, Flare& flare) {
 void show_geometry(FieldVisitor& v, RawScene& s) {
   v.text({"kind", "pillar"}, s.kind);
   v.text({"model", "axisymmetric"}, s.model);
+  v.text({"bottom", "fixed"}, s.bottom);
   v.quantity({.key = "diameter", .unit = "m", .range = Range::kPositive, .is_required = true},
              s.diameter_m);
   v.quantity({.key = "length", .unit = "m", .range = Range::kPositive, .is_required = true},
@@ -104,9 +105,6 @@ void fill_film(const RawScene& raw, const std::filesystem::path& folder, Scene& 
   if (!(raw.film_thickness_m > 0.0) || !(raw.film_radius_m > 0.0)) {
     throw SceneMistake("geometry.film", "needs thickness and radius");
   }
-  if (raw.film_bottom != "fixed") {
-    throw SceneMistake("geometry.film.bottom", "must be \"fixed\"");
-  }
   scene.geometry.film = FilmGeometry{raw.film_thickness_m, raw.film_radius_m};
   if (!raw.film.file.empty()) {
     const MediumFile file = read_medium(folder / raw.film.file);
@@ -118,6 +116,19 @@ void fill_film(const RawScene& raw, const std::filesystem::path& folder, Scene& 
   if (choice<bool>("geometry.poling", raw.poling, {{"+z", false}, {"-z", true}})) {
     scene.film = with_reversed_poling(*scene.film);
   }
+}
+
+// Of the film, or of the pillar if there is none.
+void fill_bottom(const RawScene& raw, Scene& scene) {
+  if (scene.film && !raw.bottom.empty()) {
+    throw SceneMistake("geometry.bottom",
+                       "the pillar stands on a film; say bottom = \"fixed\" or \"free\" inside the "
+                       "film's braces");
+  }
+  const std::string& word = scene.film ? raw.film_bottom : raw.bottom;
+  if (word.empty()) return;
+  scene.fixed_bottom = choice<bool>(scene.film ? "geometry.film.bottom" : "geometry.bottom", word,
+                                    {{"fixed", true}, {"free", false}});
 }
 
 void fill_electrode(const RawScene& raw, Scene& scene) {
@@ -168,6 +179,7 @@ Scene scene_from(const RawScene& raw, const std::filesystem::path& folder) {
   fill_mesh(raw, scene);
   scene.pillar = pillar_material(raw.pillar, folder);
   if (!raw.film_material.empty() || raw.film_thickness_m > 0.0) fill_film(raw, folder, scene);
+  fill_bottom(raw, scene);
   if (!raw.electrode_face.empty()) fill_electrode(raw, scene);
   std::map<std::string, AnalysisKind> kinds;
   for (const Analysis& analysis : analyses()) kinds[analysis.name] = analysis.kind;

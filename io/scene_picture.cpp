@@ -79,10 +79,11 @@ std::string svg_from_scene(const Scene& scene, const std::string& title) {
   const double low_m = g.film ? -g.film->thickness_m : 0.0;
   SceneDrawing d(-half_m, half_m, low_m, g.length_m, kWidth_px);
   if (g.film) {
-    d.film(-g.film->radius_m, g.film->radius_m, g.film->thickness_m);
-  } else {
+    d.film(-g.film->radius_m, g.film->radius_m, g.film->thickness_m, scene.fixed_bottom);
+  } else if (scene.fixed_bottom) {
     d.held(-g.diameter_m, g.diameter_m, 0.0);
   }
+  if (!scene.fixed_bottom) d.text(d.x(0.0), d.y(low_m) + 16.0, "free", "middle");
   d.outline(pillar_outline(g), kPillarStyle);
   d.line(d.x(0.0), d.y(g.length_m), d.x(0.0), d.y(0.0),
          R"(stroke="#2b5d7d" stroke-dasharray="8 3 2 3")");

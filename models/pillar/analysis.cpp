@@ -40,6 +40,8 @@ Motion axial_motion(const Scene& scene) {
 ModelOptions options_of(const Scene& scene, Motion motion) {
   return {.motion = motion,
           .plane = scene.plane.value_or(PlaneState::kStrain),
+          .fixed_bottom = scene.fixed_bottom,
+          .pin_bottom = !scene.fixed_bottom && scene.kind == AnalysisKind::kStatic,
           .rigid_top = moves_top(scene) && motion == axial_motion(scene),
           .condense_pressures_from = scene.condense_pressures_from};
 }

@@ -1,5 +1,6 @@
 #include "models/pillar/analysis.h"
 #include "models/pillar/pillar_modes.h"
+#include "models/pillar/rigid_motion.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -21,7 +22,8 @@ std::vector<ModeFamily> mode_families(const Scene& scene) {
 std::vector<PillarMode> family_modes(const Scene& scene, const ModeFamily& family,
                                      const PillarModel& model, const SceneAnswer& on_mesh) {
   const bool pressed = scene.pressure_Pa != 0.0 && family.motion == Motion::kLateral;
-  const int wanted = std::min(scene.modes, model.system().size());
+  const int rigid = scene.fixed_bottom ? 0 : rigid_motion_count(family.motion);
+  const int wanted = std::min(scene.modes, model.system().size() - rigid);
   return pressed ? modes_under_pressure(model_of(scene, Motion::kLongitudinal, on_mesh), model,
                                         scene.pressure_Pa, wanted)
                  : lowest_modes(model, wanted);
@@ -33,6 +35,25 @@ void check_modal(const Scene& scene) {
                                 " per family; it must lie between 1 and 40");
   }
 }
+
+namespace {
+
+// A free body moves as a whole at no frequency at all.
+void note_rigid_motions(const Scene& scene, SceneAnswer& answer) {
+  if (scene.fixed_bottom) return;
+  std::string list;
+  int all = 0;
+  for (const ModeFamily& family : mode_families(scene)) {
+    const int count = rigid_motion_count(family.motion);
+    if (count > 0) list += (all > 0 ? ", " : "") + std::to_string(count) + " " + family.name;
+    all += count;
+  }
+  answer.notes.push_back("the bottom is free: " + std::to_string(all) +
+                         " motions of the body as a whole (" + list +
+                         ") have no frequency and are left out");
+}
+
+}  // namespace
 
 void run_modal(const Scene& scene, SceneAnswer& answer) {
   // The n-th mode of a clamped bar has n - 1/2 half waves; an element for each lets the lowest
@@ -47,6 +68,7 @@ void run_modal(const Scene& scene, SceneAnswer& answer) {
       answer.modes.push_back({family.name, family.harmonic, mode.frequency_Hz, 0.0});
     }
   }
+  note_rigid_motions(scene, answer);
 }
 
 }  // namespace viscard

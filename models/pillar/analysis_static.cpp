@@ -90,7 +90,7 @@ PillarGeometry with_electrode_edge(const Scene& scene) {
 // changes it by changing length and cross-section of the film under it,
 //   dk/k = (d31 + d32 - d33) V/t   (eq. 25, from k = E A/L).
 void add_driven(const Scene& scene, const PillarModel& model, SceneAnswer& answer) {
-  const PiezoAnswer unit = piezo_static(model, 1.0);  // 1 Pa
+  const PiezoAnswer unit = piezo_static(model, 1.0);  // 1 Pa; of a free body only the drive counts
   const double p_Pa = scene.pressure_Pa;
   const double V = scene.drive_V;
   const double short_m_Pa = shorted_displacement_m(unit);
@@ -105,6 +105,10 @@ void add_driven(const Scene& scene, const PillarModel& model, SceneAnswer& answe
                     {"stiffness_open", -force_N_Pa / unit.top_displacement_m, "N/m"},
                     {"film_stiffness_change_by_drive",
                      (d(2, 0) + d(2, 1) - d(2, 2)) * V / scene.geometry.film->thickness_m, "1"}};
+  // Nothing holds a free body against a force whose share of the deflection would be its stiffness.
+  if (scene.fixed_bottom) return;
+  std::erase_if(answer.results,
+                [](const SceneResult& result) { return result.name.starts_with("stiffness"); });
 }
 
 // The potential of a charge-free face, from the state under 1 Pa.

@@ -118,12 +118,15 @@ double coupling_of(const Medium& film) {
 }  // namespace
 
 EffectEstimate film_compliance_estimate(const Scene& scene) {
-  if (!scene.film) return {.reason = "the base is rigid"};
+  if (!scene.film) return {.reason = scene.fixed_bottom ? "the base is rigid" : "there is no film"};
   const FilmShares shares = shares_of(scene);
   const auto forced = scene.effects.find("piezo_coupling");
   if (asks_for_electric(scene) ||
       (scene.electrodes && forced != scene.effects.end() && forced->second == EffectChoice::kOn)) {
     return {EffectRole::kNeeded, 1.0, "E A/(k L)", shares.axial, "its potential is asked for"};
+  }
+  if (!scene.fixed_bottom) {
+    return {EffectRole::kNeeded, 1.0, "E A/(k L)", shares.axial, "it is free and moves itself"};
   }
   switch (scene.kind) {
     case AnalysisKind::kModal:

@@ -1,6 +1,7 @@
 #include "models/pillar/pillar_model.h"
 
 #include "models/pillar/number_text.h"
+#include "models/pillar/rigid_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -89,6 +90,11 @@ DofMap PillarModel::make_dofs(const Kinematics& kinematics) {
       for (int field = 0; field < kinematics.field_count; ++field) {
         if (field != phi) dofs.fix(field, node);
       }
+    }
+  } else if (options_.pin_bottom) {
+    const std::vector<int> bottom = nodes_on_break(section, 0, 0, columns);
+    for (const RigidPin& pin : rigid_pins(options_.motion)) {
+      dofs.fix(pin.field, pin.at_rim ? bottom.back() : bottom.front());
     }
   }
   dofs.number();

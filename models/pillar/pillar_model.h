@@ -32,6 +32,9 @@ struct ModelOptions {
   Motion motion = Motion::kLongitudinal;
   PlaneState plane = PlaneState::kStrain;
   bool fixed_bottom = true;
+  // A free bottom in statics, under loads that balance themselves: motion is seen from the middle
+  // of the bottom (sideways: and from its rim, which stays level), see rigid_motion.h.
+  bool pin_bottom = false;
   bool rigid_top = false;                      // ties the top's axial displacement
   std::optional<ElectrodeOptions> electrodes;  // present: the film's potential is unknown too
   double condense_pressures_from = kNearlyIncompressible;  // Poisson ratio; 0.5 always does

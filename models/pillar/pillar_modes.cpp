@@ -3,9 +3,13 @@
 #include "models/pillar/krylov_modes.h"
 #include "models/pillar/number_text.h"
 #include "models/pillar/pillar_loads.h"
+#include "models/pillar/rigid_motion.h"
+
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -26,6 +30,46 @@ SymmetricSparse stress_stiffness_per_Pa(const PillarModel& axial, const PillarMo
   return lateral.system().varying_form(lateral.system().kinematics().gradient, form);
 }
 
+// What is left of a motion without its rigid part: x - R (R'MR)^-1 R'M x. A free body's elastic
+// modes are those of its stiffness among the motions that are left.
+class WithoutRigidMotion {
+ public:
+  WithoutRigidMotion(const PillarModel& model, const SymmetricSparse& mass) {
+    if (model.options().fixed_bottom) return;
+    rigid_ = rigid_motions(model);
+    mass_rigid_ = mass.selfadjointView<Eigen::Lower>() * rigid_;
+    masses_.compute(rigid_.transpose() * mass_rigid_);
+  }
+  Eigen::VectorXd of(Eigen::VectorXd x) const {
+    if (rigid_.cols() > 0) x -= rigid_ * masses_.solve(mass_rigid_.transpose() * x);
+    return x;
+  }
+
+ private:
+  Eigen::MatrixXd rigid_, mass_rigid_;
+  Eigen::LLT<Eigen::MatrixXd> masses_;
+};
+
+// A free body's stiffness is singular; adding this much of its mass mends that. Far below the
+// square of its first elastic frequency, of the order of the slowest medium's wave across the
+// largest extent, and far above rounding, which is that of the fastest medium.
+double free_shift_1_s2(const PillarModel& model) {
+  double slowest = std::numeric_limits<double>::infinity();  // squares of wave speeds
+  double fastest = 0.0;
+  for (int region = 0; region < (model.geometry().film ? 2 : 1); ++region) {
+    const Medium& medium = model.medium(region);
+    const double shear_Pa =
+        medium.is_isotropic ? medium.shear_Pa : medium.stiffness_Pa.diagonal().tail(3).minCoeff();
+    slowest = std::min(slowest, shear_Pa / medium.rho_kg_m3);
+    fastest = std::max(fastest, shear_Pa / medium.rho_kg_m3);
+  }
+  const PillarGeometry& g = model.geometry();
+  const double height_m = g.length_m + (g.film ? g.film->thickness_m : 0.0);
+  const double across_m = g.film ? 2.0 * g.film->radius_m : g.diameter_m;
+  const double extent_m = std::max(height_m, across_m);
+  return std::max(1e-4 * slowest, 1e-11 * fastest) / (extent_m * extent_m);
+}
+
 // Where the rim of the bond makes the stress singular, modes that live at the rim alone come down
 // without bound as meshes are refined: they belong to the idealised corner, not to the pillar. So
 // many modes above a shift are looked through for the one that bends the pillar as a whole.
@@ -34,22 +78,20 @@ constexpr int kMostModes = 8;
 std::vector<PillarMode> modes_of(const PillarModel& model, const SymmetricSparse& stiffness,
                                  int count) {
   SymmetricSparse mass = model.mass();
-  // A free pillar's stiffness is singular; a shift far below its first elastic mode mends that.
-  double shift = 0.0;
-  if (!model.options().fixed_bottom) {
-    const Medium& medium = model.medium(kPillarRegion);
-    const double bar_rad_s =
-        std::sqrt(medium.shear_Pa / medium.rho_kg_m3) / model.geometry().length_m;
-    shift = 1e-4 * bar_rad_s * bar_rad_s;
-  }
-  SymmetricSparse shifted = stiffness;
-  shifted.coeffs() += shift * mass.coeffs();
+  const double shift = model.options().fixed_bottom ? 0.0 : free_shift_1_s2(model);
   StiffnessFactor factor;
-  model.factor(shifted, factor);
+  if (shift == 0.0) {
+    model.factor(stiffness, factor);
+  } else {
+    SymmetricSparse shifted = stiffness;
+    shifted.coeffs() += shift * mass.coeffs();
+    model.factor(shifted, factor);
+  }
   mass.prune(0.0);  // it keeps the stiffness' pattern, where most fields do not meet in it
+  const WithoutRigidMotion elastic(model, mass);
   const LinearMap B = [&](const Eigen::VectorXd& x) { return times(mass, x); };
   const PencilMap op = [&](const Eigen::VectorXd&, const Eigen::VectorXd& Mx) {
-    return factor.solve(Mx);
+    return elastic.of(factor.solve(Mx));
   };
   // The frequencies' own error is the square of the residual: far below that of any mesh.
   const EigenPairs pairs = largest_eigenpairs(

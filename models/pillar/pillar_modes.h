@@ -11,9 +11,10 @@ struct PillarMode {
   Eigen::VectorXd shape;  // unknowns of the model, unit mass norm
 };
 
-// The lowest undamped modes of one family of motion, ascending. Without a fixed bottom the
-// rigid-body modes come first, with frequencies near zero. Each mode of a harmonic m >= 1 stands
-// for two. Throws std::runtime_error if the iteration does not converge.
+// The lowest undamped modes of one family of motion, ascending. Of a body whose
+// bottom is free the rigid motions are left out: these are its elastic modes, orthogonal to them.
+// Each mode of a harmonic m >= 1 stands for two. Throws std::runtime_error if the iteration does
+// not converge.
 std::vector<PillarMode> lowest_modes(const PillarModel& model, int count);
 
 // Load, as a multiple of `unit_pressure_Pa` on the top, at which the straight pillar buckles

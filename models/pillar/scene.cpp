@@ -37,6 +37,29 @@ void check_electrodes(const Scene& scene) {
   }
 }
 
+// What a body that nothing holds has an answer to: vibration, and loads that balance themselves, as
+// the field of an electrode does.
+void check_bottom(const Scene& scene) {
+  if (scene.fixed_bottom) return;
+  const char* const key = scene.geometry.film ? "geometry.film.bottom" : "geometry.bottom";
+  const std::string instead =
+      ". A free bottom has modes (kind = \"modal\") and the motion by a voltage (kind = "
+      "\"static\"); for anything else say bottom = \"fixed\"";
+  if (scene.kind != AnalysisKind::kModal && scene.kind != AnalysisKind::kStatic) {
+    throw SceneMistake(key, std::string("nothing holds a pillar with a free bottom: a ") +
+                                analysis_of(scene.kind).name +
+                                " analysis would move it away as a whole" + instead);
+  }
+  if (scene.pressure_Pa != 0.0 || scene.displacement_m) {
+    throw SceneMistake(
+        key, "nothing holds a pillar with a free bottom against the load on its top" + instead);
+  }
+  if (scene.kind == AnalysisKind::kStatic && scene.drive_V == 0.0) {
+    throw SceneMistake(
+        key, "a static analysis with a free bottom needs a voltage on an electrode" + instead);
+  }
+}
+
 }  // namespace
 
 void validate(const Scene& scene) {
@@ -50,6 +73,7 @@ void validate(const Scene& scene) {
     throw SceneMistake("geometry.film", "a film needs its material, and a material its film");
   }
   check_electrodes(scene);
+  check_bottom(scene);
   if (!std::isfinite(scene.pressure_Pa)) {
     throw SceneMistake("analysis.load.pressure", "the pressure is not finite");
   }

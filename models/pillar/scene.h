@@ -28,6 +28,9 @@ struct Scene {
   std::optional<ElectrodeOptions> electrodes;
   PiezoMatrix film_charge_C_N = PiezoMatrix::Zero();
   std::optional<PlaneState> plane;  // a strip 1 m thick instead of a cylinder
+  // Of the film, or of the pillar where it has none. Of a free body modes are told, without its
+  // rigid motions, and how a voltage moves the top, seen from the middle of the bottom.
+  bool fixed_bottom = true;
 
   AnalysisKind kind = AnalysisKind::kStatic;
   double pressure_Pa = 0.0;              // static; also the prestress of a modal analysis

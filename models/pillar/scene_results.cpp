@@ -57,9 +57,8 @@ Names static_names(const Scene& scene) {
   Names names = {"electrode_voltage", "electrode_charge", "electrode_capacitance",
                  "top_displacement", "displacement_per_volt"};
   if (scene.drive_V != 0.0) {
-    for (const char* name :
-         {"stiffness_driven", "stiffness_open", "film_stiffness_change_by_drive"})
-      names.emplace_back(name);
+    if (scene.fixed_bottom) append(names, {"stiffness_driven", "stiffness_open"});
+    names.emplace_back("film_stiffness_change_by_drive");
   } else if (scene.readout) {
     names.emplace_back("reading_at_once");
     names.emplace_back("readout_time_constant");

@@ -160,13 +160,3 @@ TEST_CASE("a pressed pillar softens as the root of one minus its share of the bu
   CHECK_THROWS_WITH(modes_under_pressure(axial, lateral, 1.01 * critical_Pa, 1),
                     Catch::Contains("buckling"));
 }
-
-TEST_CASE("a free pillar has its rigid motions at zero frequency", "[pillar]") {
-  const Discretisation mesh{.degree = 6, .layers = 1, .shaft_elements = 2};
-  const PillarModel model({}, mesh, media(.33, false),
-                          {.motion = Motion::kTorsion, .fixed_bottom = false});
-  const std::vector<double> found = frequencies_Hz(model, 2);
-  const double bar_Hz = std::sqrt(1.8e6 / 2.66 / 965.0) / (2.0 * 120e-6);
-  CHECK(found[0] < 1e-3 * bar_Hz);
-  CHECK(found[1] == Approx(bar_Hz).epsilon(1e-7));
-}

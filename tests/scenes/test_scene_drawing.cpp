@@ -84,3 +84,17 @@ TEST_CASE("scene check draws pillars and rows into a file, and overwrites none",
   CHECK(std::filesystem::file_size(svg) > 1000);
   CHECK(run_command(words).status == 1);
 }
+
+TEST_CASE("a drawing hatches what is held and says what is free", "[io][scene]") {
+  Scene scene;
+  if (GENERATE(false, true)) {
+    scene.geometry.film = FilmGeometry{25e-6, 60e-6};
+    scene.film = isotropic_medium(2e9, 0.29, 1780.0);
+  }
+  const char* const hatch = "stroke=\"#444\" stroke-width=\"2\"";
+  CHECK(count_of(svg_from_scene(scene, ""), hatch) == 1);
+  CHECK(count_of(svg_from_scene(scene, ""), ">free</text>") == 0);
+  scene.fixed_bottom = false;
+  CHECK(count_of(svg_from_scene(scene, ""), hatch) == 0);
+  CHECK(count_of(svg_from_scene(scene, ""), ">free</text>") == 1);
+}

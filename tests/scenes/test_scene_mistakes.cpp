@@ -95,6 +95,9 @@ TEST_CASE("a contradictory scene of one pillar is refused by every command with 
           Mistake{"length =", "lenght =", 4, "did you mean 'length'"},
           Mistake{"thickness = \"25 um\"", "thickness = \"0 um\"", 5, "thickness"},
           Mistake{"radius = \"20 um\"", "radius = \"90 um\"", 6, "electrode"},
+          Mistake{"\"pvdf\" }", "\"pvdf\", bottom = \"free\" }", 5, "nothing holds"},
+          Mistake{"\"pvdf\" }", "\"pvdf\", bottom = \"loose\" }", 5, "fixed, free"},
+          Mistake{"\"120 um\"\n", "\"120 um\"\nbottom = \"free\"\n", 5, "the film's braces"},
           Mistake{"face = \"top\"", "face = \"side\"", 6, "bottom, top"},
           Mistake{"nu = 0.33", "nu = 0.51", 8, "Poisson"},
           Mistake{"\"965 kg/m3\"", "\"-1 kg/m3\"", 8, "rho"},
@@ -123,6 +126,7 @@ TEST_CASE("a history that cannot be is refused with the line of its point", "[cl
   check_refused(
       kCreep,
       GENERATE(
+          Mistake{"\"120 um\"\n", "\"120 um\"\nbottom = \"free\"\n", 5, "nothing holds"},
           Mistake{"[\"10 s\",", "[\"0.5 s\",", 12, "goes back in time, from 1 s"},
           Mistake{"[\"0 s\",", "[\"-1 s\",", 10, "goes back in time"},
           Mistake{"[\"0 s\", \"0 Pa\"],", "[\"0.5 s\", \"0 Pa\"],", 9, "starts at 0 s"},
