@@ -118,7 +118,11 @@ void refuse_jump(const Scene& scene, double first_rad_s, double reach, double ta
                  double static_share) {
   const Roughness load = roughness_of(scene.history);
   if (load.jumps == 0.0 || tail <= 0.5 * scene.tolerance) return;  // the mesh takes its share too
-  const double rise_s = load.jumps * first_rad_s * static_share / (scene.tolerance * reach * reach);
+  // The ramp's tail is then a good third of the tolerance, and this tail of the larger one, which
+  // leaves meshes and bases their shares.
+  const double rise_s =
+      1.1 * load.jumps * first_rad_s * static_share / (scene.tolerance * reach * reach);
+  const double enough = 2.8 * tail;
   const double wave_m =
       2.0 * std::numbers::pi * std::sqrt(scene.pillar.E0_Pa / scene.pillar.rho_kg_m3) / reach;
   throw SceneMistake(scene.history.size() > 2 ? "analysis.history" : "analysis",
@@ -126,7 +130,8 @@ void refuse_jump(const Scene& scene, double first_rad_s, double reach, double ta
                          number_text(1e6 * wave_m, 2) +
                          " um, too short for the meshes here, carry " + number_text(tail, 2) +
                          " of the answer, too much for the tolerance. Let each jump take " +
-                         number_text(rise_s, 2) + " s or longer, or ask for a larger tolerance");
+                         number_text(rise_s, 2) + " s or longer, or ask for a tolerance of " +
+                         number_text(enough, 2) + " or larger");
 }
 
 }  // namespace
@@ -162,11 +167,14 @@ void run_transient_scene(const Scene& scene, SceneAnswer& answer) {
       is_base
           ? Eigen::VectorXd(-unit_acceleration_force(*body.model))
           : Eigen::VectorXd((is_axial ? -1.0 : 1.0) * top_area_m2(*body.model) * body.system.load);
-  const DynamicRange range{.lowest_rad_s = 2.0 * std::numbers::pi / scene.end_time_s,
-                           .highest_rad_s = reach,
-                           .tolerance = 0.2 * scene.tolerance,
-                           .corner_rad_s = first_rad_s,
-                           .largest_basis = kLargestBasis};
+  const Roughness roughness = roughness_of(scene.history);
+  const DynamicRange range{
+      .lowest_rad_s = 2.0 * std::numbers::pi / scene.end_time_s,
+      .highest_rad_s = reach,
+      .tolerance = 0.2 * scene.tolerance,
+      .corner_rad_s = first_rad_s,
+      .second_corner_rad_s = roughness.jumps == 0.0 ? roughness.kinks_1_s : 0.0,
+      .largest_basis = kLargestBasis};
   const ReducedBody reduced = reduce_dynamic(body.system, {load}, range);
   TransientRequest request{.load = reduced.load(load), .end_s = scene.end_time_s};
   request.outputs = scene.outputs;

@@ -40,7 +40,8 @@ struct DynamicRange {
   double lowest_rad_s = 0.0;
   double highest_rad_s = 0.0;
   double tolerance = 1e-4;
-  double corner_rad_s = 0.0;  // above it (if > 0) the tolerance grows as omega^2
+  double corner_rad_s = 0.0;         // above it (if > 0) the tolerance grows as omega^2
+  double second_corner_rad_s = 0.0;  // and above this one (if > 0) as omega^3
   int largest_basis = 120;
 };
 ReducedBody reduce_dynamic(const ViscoelasticSystem& system,

@@ -86,13 +86,21 @@ struct Verdict {
   double sound_up_to_rad_s = 0.0;  // below this every test frequency is met
 };
 
+// By how much the tolerance is larger there than at rest.
+double allowance(const DynamicRange& range, double omega_rad_s) {
+  const auto beyond = [omega_rad_s](double corner_rad_s) {
+    return corner_rad_s > 0.0 ? std::max(1.0, omega_rad_s / corner_rad_s) : 1.0;
+  };
+  const double first = beyond(range.corner_rad_s);
+  return first * first * beyond(range.second_corner_rad_s);
+}
+
 Verdict test_basis(const ReducedSpan& span, const ViscoelasticSystem& system,
                    const std::vector<Eigen::VectorXd>& loads, const DynamicRange& range) {
   Verdict verdict;
   verdict.sound_up_to_rad_s = range.highest_rad_s;
   for (const double omega : test_frequencies(range)) {
-    const double beyond = range.corner_rad_s > 0.0 ? omega / range.corner_rad_s : 1.0;
-    const double error = error_at(span, system, loads, omega) / std::max(1.0, beyond * beyond);
+    const double error = error_at(span, system, loads, omega) / allowance(range, omega);
     if (!(error <= range.tolerance)) {
       verdict.sound_up_to_rad_s = std::min(verdict.sound_up_to_rad_s, 0.99 * omega);
     }
@@ -165,7 +173,8 @@ ReducedBody reduce_dynamic(const ViscoelasticSystem& system,
   Eigen::Index next_check = 4;
   while (grows && span.count() < range.largest_basis) {
     grows = grow(chains, span.instantaneous(), system, span);
-    if (grows && span.count() < next_check) continue;
+    const bool is_last = !grows || span.count() >= range.largest_basis;
+    if (!is_last && span.count() < next_check) continue;
     verdict = test_basis(span, system, loads, range);
     if (verdict.error <= range.tolerance) break;
     // Chains do not know how shapes relax: where they stall, the whole body's answer helps.

@@ -1,3 +1,4 @@
+#include "models/pillar/harmonic_response.h"
 #include "models/pillar/load_history.h"
 #include "models/pillar/pillar_loads.h"
 #include "models/pillar/readout.h"
@@ -63,6 +64,34 @@ TEST_CASE("with constant Poisson ratio and no film one vector is exact", "[pilla
   const ReducedBody reduced = reduce_quasi_static(pillar.system(), 1e-8);
   CHECK(reduced.basis.cols() == 1);
   CHECK(reduced.error <= 1e-8);
+}
+
+TEST_CASE("a dynamic basis that its limit stops says so, and how wrong it is", "[pillar]") {
+  const PillarModel model({}, {.degree = 4, .layers = 1},
+                          {isotropic_medium(1.8e6, 0.33, 965.0), {}}, {.motion = Motion::kLateral});
+  const ViscoelasticSystem system = viscoelastic_system(model, soft(true), true);
+  const Eigen::VectorXd load = unit_top_force(model);
+  const double highest_rad_s = 2.0 * M_PI * 3e5;  // beyond four resonances
+  double last_error = std::numeric_limits<double>::infinity();
+  for (const int limit : {12, 24, 36}) {
+    const ReducedBody small = reduce_dynamic(system, {load},
+                                             {.lowest_rad_s = 1e3,
+                                              .highest_rad_s = highest_rad_s,
+                                              .tolerance = 1e-13,
+                                              .largest_basis = limit});
+    CAPTURE(limit, small.basis.cols(), small.error);
+    CHECK(small.basis.cols() >= limit);
+    CHECK(small.basis.cols() <= limit + 2);  // an answer of the whole body adds two at once
+    CHECK(small.error > 1e-13);
+    CHECK(small.error < last_error);
+    last_error = small.error;
+    for (const double share : {0.1, 0.53}) {
+      const Eigen::VectorXcd whole = solve_harmonic(system, load, share * highest_rad_s);
+      const Eigen::VectorXcd found =
+          small.basis * solve_harmonic(small.system, small.load(load), share * highest_rad_s);
+      CHECK((found - whole).norm() <= 3.0 * small.error * whole.norm());  // of another norm
+    }
+  }
 }
 
 TEST_CASE("the body's mass as a whole is what an acceleration acts on", "[pillar]") {
