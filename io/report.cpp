@@ -5,6 +5,7 @@
 #include "io/report_estimates.h"
 #include "io/report_html.h"
 #include "io/report_sections.h"
+#include "models/text_of_number.h"
 
 #include <fmt/format.h>
 
@@ -44,8 +45,7 @@ Page page_from_report(const ReportInput& input) {
 }
 
 std::string byline(const ReportInput& input) {
-  std::string text =
-      fmt::format("{} specimen{}", input.specimens.size(), input.specimens.size() == 1 ? "" : "s");
+  std::string text = counted(input.specimens.size(), "specimen");
   if (!input.created_by.empty()) text += " · " + escaped_markup(input.created_by);
   if (!input.created_at.empty()) text += " · " + escaped_markup(input.created_at);
   return text;

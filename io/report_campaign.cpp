@@ -2,6 +2,7 @@
 
 #include "io/plot_svg.h"
 #include "io/report_numbers.h"
+#include "models/text_of_number.h"
 
 #include <fmt/format.h>
 
@@ -70,8 +71,8 @@ std::vector<SpecimenStyle> styles_of(const std::vector<SpecimenEstimates>& estim
   std::size_t number = 0;
   for (const auto& [ratio, members] : by_ratio) {
     for (const std::size_t i : members) styles[i].ink = ink_of_series(number);
-    styles[members.front()].label = fmt::format("{:g} : 1 ({} specimen{})", ratio, members.size(),
-                                                members.size() == 1 ? "" : "s");
+    styles[members.front()].label =
+        fmt::format("{:g} : 1 ({})", ratio, counted(members.size(), "specimen"));
     ++number;
   }
   return styles;

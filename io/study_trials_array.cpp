@@ -1,5 +1,6 @@
 #include "io/study_trials.h"
 #include "models/array/array_plan.h"
+#include "models/text_of_number.h"
 
 #include <fmt/format.h>
 
@@ -24,7 +25,8 @@ CostTrial trial(std::string mesh_name, std::string effects, const ArrayScene& sc
 }
 
 std::string graded_name(const Discretisation& mesh) {
-  return fmt::format("graded p{}, {} layers", mesh.degree, mesh.layers);
+  return fmt::format("graded p{}, {}", mesh.degree,
+                     counted(static_cast<std::size_t>(mesh.layers), "layer"));
 }
 
 ArrayScene with_all_on(const ArrayScene& scene) {

@@ -4,6 +4,7 @@
 #include "models/pillar/error_control.h"
 #include "models/pillar/plan.h"
 #include "models/pillar/relaxed_modes.h"
+#include "models/text_of_number.h"
 
 #include <fmt/format.h>
 
@@ -36,12 +37,17 @@ Discretisation graded(const Scene& scene, int degree, int layers) {
   return mesh;
 }
 
+std::string graded_name(const Discretisation& mesh) {
+  return fmt::format("graded p{}, {}", mesh.degree,
+                     counted(static_cast<std::size_t>(mesh.layers), "layer"));
+}
+
 // Cheap meshes first, so that a short budget still shows something of each kind.
 std::vector<Trial> mesh_trials(const Scene& scene) {
   std::vector<Trial> trials;
   for (const auto& [degree, layers] : {std::pair{2, 1}, {3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}}) {
-    trials.push_back({fmt::format("graded p{}, {} layers", degree, layers), "all on", scene,
-                      graded(scene, degree, layers)});
+    const Discretisation mesh = graded(scene, degree, layers);
+    trials.push_back({graded_name(mesh), "all on", scene, mesh});
   }
   for (int degree = 2; degree <= 8; ++degree) {
     Discretisation mesh = graded(scene, degree, 1);
@@ -66,7 +72,7 @@ Scene with_all_on(const Scene& scene) {
 
 std::vector<Trial> effect_trials(const Scene& scene, const Discretisation& mesh) {
   std::vector<Trial> trials;
-  const std::string name = fmt::format("graded p{}, {} layers", mesh.degree, mesh.layers);
+  const std::string name = graded_name(mesh);
   for (const Effect& effect : effects()) {
     if (effect.leave_out == nullptr) continue;
     const EffectEstimate estimate = effect.estimate(scene);
@@ -83,7 +89,7 @@ std::vector<Trial> effect_trials(const Scene& scene, const Discretisation& mesh)
 std::vector<Trial> time_trials(const Scene& scene, const Discretisation& mesh) {
   std::vector<Trial> trials;
   if (scene.history.empty()) return trials;
-  const std::string name = fmt::format("graded p{}, {} layers", mesh.degree, mesh.layers);
+  const std::string name = graded_name(mesh);
   std::vector<MaterialTerm> strongest = scene.pillar.terms;
   std::sort(strongest.begin(), strongest.end(),
             [](const MaterialTerm& a, const MaterialTerm& b) { return a.g > b.g; });

@@ -106,7 +106,8 @@ struct RatioFit {
 // "extrapolated-ratio".
 Material material_at_ratio(const RatioFit& fit, double ratio, bool may_extrapolate = false);
 RatioBand ratio_band(const RatioFit& fit, int count = 60);
-// "E0 = 18.8 MPa x ratio^-0.99 ..., between-specimen spread 8 %".
+// "E0 = 18.8 MPa x ratio^-0.99 (exponent +- 0.04); between specimens E0 scatters by 8 % ...", each
+// number with the digits that its standard error allows.
 std::string law_in_words(const RatioFit& fit);
 
 // 97.5 % quantile of Student's t. Throws std::invalid_argument below one degree of freedom.

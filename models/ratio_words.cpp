@@ -1,15 +1,33 @@
 #include "models/ratio_model.h"
 #include "models/text_of_number.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 
 namespace viscard {
 namespace {
 
-// Four digits: what a law of a few specimens is worth.
-std::string short_text(double value) {
-  return text_of(value, 4);
+// A standard error, or a scatter of a few specimens, is known to two digits at best.
+std::string rough_text(double value) {
+  return text_of(value, 2);
+}
+
+// ln E0 = at_zero + slope v, v the variable of the form.
+struct StraightLaw {
+  double at_zero = 0.0, at_zero_se = 0.0;
+  double slope = 0.0, slope_se = 0.0;
+};
+
+StraightLaw straight_law(const RatioModel& law) {
+  const ScaledVariable scaled = scale_of(law);
+  const double back = -scaled.middle / scaled.half;
+  const double variance =
+      law.covariance(0, 0) + 2.0 * back * law.covariance(0, 1) + back * back * law.covariance(1, 1);
+  return {law.coefficients[0] + back * law.coefficients[1], std::sqrt(std::max(0.0, variance)),
+          law.coefficients[1] / scaled.half,
+          std::sqrt(law.covariance(1, 1)) / std::abs(scaled.half)};
 }
 
 const char* variable_name(RatioVariable variable) {
@@ -55,29 +73,32 @@ std::string form_in_words(const RatioForm& form) {
 
 std::string law_in_words(const RatioFit& fit) {
   const RatioModel& law = fit.law;
-  const ScaledVariable scaled = scale_of(law);
   std::string text;
   if (law.form.E0_degree == 1) {
-    const double slope = law.coefficients[1] / scaled.half;
-    const double slope_se = std::sqrt(law.covariance(1, 1)) / std::abs(scaled.half);
-    const double at_zero = law.coefficients[0] - slope * scaled.middle;
-    if (law.form.variable == RatioVariable::kLogRatio) {
-      text = "E0 = " + short_text(std::exp(at_zero) * 1e-6) + " MPa x ratio^" + short_text(slope) +
-             " (exponent +- " + short_text(slope_se) + ")";
-    } else {
-      const bool is_share = law.form.variable == RatioVariable::kCrosslinkerShare;
-      text = "E0 = " + short_text(std::exp(at_zero) * 1e-6) + " MPa x exp(" + short_text(slope) +
-             (is_share ? "/(1 + ratio))" : " ratio)") + " (coefficient +- " + short_text(slope_se) +
-             ")";
+    const StraightLaw line = straight_law(law);
+    const double factor_MPa = std::exp(line.at_zero) * 1e-6;
+    const std::string slope = text_with_error(line.slope, line.slope_se);
+    text = "E0 = " + text_with_error(factor_MPa, factor_MPa * line.at_zero_se) + " MPa x ";
+    switch (law.form.variable) {
+      case RatioVariable::kLogRatio:
+        text += "ratio^" + slope + " (exponent +- ";
+        break;
+      case RatioVariable::kRatio:
+        text += "exp(" + slope + " ratio) (coefficient +- ";
+        break;
+      case RatioVariable::kCrosslinkerShare:
+        text += "exp(" + slope + "/(1 + ratio)) (coefficient +- ";
+        break;
     }
+    text += rough_text(line.slope_se) + ")";
   } else {
     text = form_in_words(law.form);
   }
   text += has_known_spread(law, 0)
-              ? "; between specimens E0 scatters by " + short_text(100.0 * law.spread_ln_E0) + " %"
+              ? "; between specimens E0 scatters by " + rough_text(100.0 * law.spread_ln_E0) + " %"
               : "; scatter of E0 between specimens unknown";
-  return text + " (" + std::to_string(law.n_specimens) + " specimens, " +
-         std::to_string(law.ratios.size()) + " ratios)";
+  return text + " (" + counted(static_cast<std::size_t>(law.n_specimens), "specimen") + ", " +
+         counted(law.ratios.size(), "ratio") + ")";
 }
 
 }  // namespace viscard

@@ -1,5 +1,7 @@
 #include "models/sensor_design.h"
 
+#include "models/text_of_number.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,7 +20,7 @@ double plane_modulus_Pa(const SensorMaterial& m) {
 
 void require(bool is_good, const char* what, double value, const char* expected) {
   if (is_good && std::isfinite(value)) return;
-  throw std::invalid_argument(std::string(what) + " is " + std::to_string(value) + "; it must be " +
+  throw std::invalid_argument(std::string(what) + " is " + text_of(value) + "; it must be " +
                               expected);
 }
 

@@ -2,6 +2,7 @@
 // shear are found together.
 #include "models/gauss_legendre.h"
 #include "models/layer_factor.h"
+#include "models/text_of_number.h"
 
 #include <Eigen/Dense>
 
@@ -110,11 +111,11 @@ double galerkin_factor(double r, double nu, Index pairs) {
 double sticking_layer_factor(double radius_over_thickness, double poisson_ratio) {
   if (!(radius_over_thickness >= 0.0 && radius_over_thickness <= 10.0)) {
     throw std::invalid_argument("punch radius over layer thickness is " +
-                                std::to_string(radius_over_thickness) +
+                                text_of(radius_over_thickness) +
                                 "; the correction for a sticking punch holds from 0 to 10");
   }
   if (!(poisson_ratio >= 0.0 && poisson_ratio <= 0.5)) {
-    throw std::invalid_argument("Poisson ratio is " + std::to_string(poisson_ratio) +
+    throw std::invalid_argument("Poisson ratio is " + text_of(poisson_ratio) +
                                 "; the correction for a sticking punch holds from 0 to 0.5");
   }
   // The stress oscillates at the edge unless nu = .5, so the error falls as pairs^-2: extrapolated.

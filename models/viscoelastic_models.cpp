@@ -1,6 +1,7 @@
 #include "models/viscoelastic_models.h"
 
 #include "models/mittag_leffler.h"
+#include "models/text_of_number.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -21,7 +22,7 @@ void require(bool holds, const std::string& what) {
 
 void check(const char* name, double value, bool may_be_zero) {
   require(std::isfinite(value) && (value > 0.0 || (may_be_zero && value == 0.0)),
-          std::string(name) + " is " + std::to_string(value) + "; it must be finite and " +
+          std::string(name) + " is " + text_of(value) + "; it must be finite and " +
               (may_be_zero ? "not negative" : "positive"));
 }
 
@@ -93,9 +94,8 @@ void validate(const ViscoelasticModel& model) {
                           check("equilibrium modulus", m.equilibrium_Pa, true);
                           check("branch modulus", m.branch_Pa, false);
                           check("time", m.tau_s, false);
-                          require(
-                              m.alpha > 0.0 && m.alpha <= 1.0,
-                              "alpha is " + std::to_string(m.alpha) + "; it must lie in (0, 1]");
+                          require(m.alpha > 0.0 && m.alpha <= 1.0,
+                                  "alpha is " + text_of(m.alpha) + "; it must lie in (0, 1]");
                         }},
              model);
 }

@@ -1,5 +1,6 @@
 #include "rig/gauge_load_cell.h"
 
+#include "models/text_of_number.h"
 #include "rig/rig_error.h"
 #include "rig/scpi_protocol.h"
 #include "rig/text_number.h"
@@ -174,8 +175,9 @@ void GaugeLoadCell::hand_out(const GaugeAnswer& answer, double time_s) {
     if (step_s > kGapInPeriods * period_s_ + clock_.from_wall_s(0.1)) {
       const auto n_missing = static_cast<std::int64_t>(std::llround(step_s / period_s_)) - 1;
       counts_.missing += n_missing;
-      sink_(RunEvent{time_s, "gap", text_from_number(step_s, 6),
-                     std::to_string(n_missing) + " readings of the load cell are missing"});
+      sink_(RunEvent{
+          time_s, "gap", text_from_number(step_s, 6),
+          counted(static_cast<std::size_t>(n_missing), "reading") + " of the load cell missing"});
     } else {
       period_s_ += 0.05 * (step_s - period_s_);
     }

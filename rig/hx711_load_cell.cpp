@@ -1,5 +1,6 @@
 #include "rig/hx711_load_cell.h"
 
+#include "models/text_of_number.h"
 #include "rig/force_unit.h"
 #include "rig/rig_error.h"
 #include "rig/text_number.h"
@@ -267,8 +268,9 @@ void Hx711LoadCell::note_gap(double step_s, double time_s) {
   const auto n_missing = static_cast<std::int64_t>(std::llround(step_s / period_s_)) - 1;
   counts_.missing += n_missing;
   last_missing_ = n_missing;
-  sink_(RunEvent{time_s, "gap", text_from_number(step_s, 6),
-                 std::to_string(n_missing) + " readings of the load cell are missing"});
+  sink_(RunEvent{
+      time_s, "gap", text_from_number(step_s, 6),
+      counted(static_cast<std::size_t>(n_missing), "reading") + " of the load cell missing"});
 }
 
 void Hx711LoadCell::hand_out(const Hx711Line& reading, double time_s) {

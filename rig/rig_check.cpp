@@ -1,6 +1,7 @@
 #include "rig/rig_check.h"
 
 #include "models/sample_force.h"
+#include "models/text_of_number.h"
 #include "rig/preflight.h"
 #include "rig/rig_error.h"
 #include "rig/text_number.h"
@@ -40,8 +41,10 @@ void advise(const RigConfig& rig, RigCheck& check) {
                    " ms late: with an FTDI adapter set its latency_timer to 1");
   }
   if (check.stream.missing > 0 || check.stream.unreadable > 0) {
-    add(false, std::to_string(check.stream.missing) + " readings missing and " +
-                   std::to_string(check.stream.unreadable) + " lines unreadable: check the cable");
+    add(false, counted(static_cast<std::size_t>(check.stream.missing), "reading") +
+                   " missing and " +
+                   counted(static_cast<std::size_t>(check.stream.unreadable), "line") +
+                   " unreadable: check the cable");
   }
   if (check.reads_as == "volts" && rig.load_cell.line_format == "auto") {
     add(false,

@@ -1,5 +1,7 @@
 #include "rig/rig_clock.h"
 
+#include "models/text_of_number.h"
+
 #include <time.h>
 
 #include <cmath>
@@ -16,7 +18,7 @@ double monotonic_s() {
 
 RigClock::RigClock(double speed) : speed_(speed), origin_s_(monotonic_s()) {
   if (!(speed > 0.0) || !std::isfinite(speed)) {
-    throw std::invalid_argument("clock speed is " + std::to_string(speed) +
+    throw std::invalid_argument("clock speed is " + text_of(speed) +
                                 "; it must be positive (1 on a real rig)");
   }
 }

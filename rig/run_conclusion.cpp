@@ -1,5 +1,6 @@
 #include "rig/run_conclusion.h"
 
+#include "models/text_of_number.h"
 #include "rig/text_number.h"
 
 #include <algorithm>
@@ -50,9 +51,10 @@ void doubt_line(RunSession& session, RunOutcome& outcome) {
   const double n_hidden = std::ceil(kReadableToNot * static_cast<double>(stream.unreadable) +
                                     static_cast<double>(stream.implausible));
   outcome.doubts.push_back(
-      std::to_string(stream.unreadable) + " lines of the load cell could not be read and " +
-      std::to_string(stream.implausible) +
-      " readings stood out of their neighbours (these are left out of a fit): about " +
+      counted(static_cast<std::size_t>(stream.unreadable), "line") +
+      " of the load cell could not be read and " +
+      counted(static_cast<std::size_t>(stream.implausible), "reading") +
+      " stood out of the neighbours (these are left out of a fit): about " +
       text_from_number(n_hidden, 0) +
       " more readings may be wrong by less than can be told, some 8 times the noise. Check its "
       "cable and its ground");

@@ -3,6 +3,7 @@
 #include "io/cards/card_header.h"
 #include "io/cards/read_card.h"
 #include "models/fit_defects.h"
+#include "models/text_of_number.h"
 
 #include <fmt/format.h>
 
@@ -56,11 +57,10 @@ void settle_terms(Material& material, const CardTarget& target) {
     return term.g == 0.0 && (term.k == 0.0 || target.bulk != BulkRule::kOwnNumbers);
   });
   if (target.max_terms > 0 && static_cast<int>(material.terms.size()) > target.max_terms) {
-    throw std::invalid_argument(
-        fmt::format("the material has {} terms and {} takes at most {}; pass --approximate for the "
-                    "best series of "
-                    "{}, or choose another target",
-                    material.terms.size(), target.code, target.max_terms, target.max_terms));
+    throw std::invalid_argument(fmt::format(
+        "the material has {} and {} takes at most {}; pass --approximate for the best "
+        "series of {}, or choose another target",
+        counted(material.terms.size(), "term"), target.code, target.max_terms, target.max_terms));
   }
 }
 

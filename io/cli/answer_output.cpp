@@ -3,6 +3,7 @@
 #include "io/atomic_file.h"
 #include "io/cli/answer_pictures.h"
 #include "io/cli/command_plan.h"
+#include "models/text_of_number.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -56,9 +57,9 @@ void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out) {
     first = false;
   }
   out << (first ? "none" : "")
-      << fmt::format("\n  degree {}, {} layers at the rim, {} unknowns, {:.3g} s\n",
-                     answer.discretisation.degree, answer.discretisation.layers, answer.unknowns,
-                     wall_s);
+      << fmt::format("\n  degree {}, {} at the rim, {}, {:.3g} s\n", answer.discretisation.degree,
+                     counted(static_cast<std::size_t>(answer.discretisation.layers), "layer"),
+                     counted(static_cast<std::size_t>(answer.unknowns), "unknown"), wall_s);
 }
 
 namespace {

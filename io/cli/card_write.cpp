@@ -5,6 +5,7 @@
 #include "io/material_file.h"
 #include "io/ratio_file.h"
 #include "io/sha256.h"
+#include "models/text_of_number.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -85,8 +86,9 @@ void reduce_to_target(const CardWords& words, PreparedMaterial& prepared) {
   int wanted = words.terms.value_or(given);
   if (limit > 0) wanted = std::min(wanted, limit);
   if (words.terms && *words.terms > given) {
-    prepared.notes.push_back(fmt::format("--terms {} left the {} terms of the material as they are",
-                                         *words.terms, given));
+    prepared.notes.push_back(fmt::format("--terms {} left the material as it is, with {}",
+                                         *words.terms,
+                                         counted(static_cast<std::size_t>(given), "term")));
   }
   if (!words.may_approximate || wanted >= given) return;
   const ReducedMaterial reduced = reduce_material(prepared.material, wanted);
@@ -148,12 +150,13 @@ void take_ratio(const CardWords& words, PreparedMaterial& prepared) {
   const bool is_measured = std::find(ratios.begin(), ratios.end(), *words.ratio) != ratios.end();
   const bool is_outside = *words.ratio < ratios.front() || *words.ratio > ratios.back();
   const RatioModel& model = is_measured ? fit.best : fit.law;
-  prepared.notes.push_back(fmt::format(
-      "mixing ratio {:g}: {}, from {} specimens at {} ratios ({:g} to {:g})", *words.ratio,
-      is_measured  ? "measured"
-      : is_outside ? "EXTRAPOLATED by the law in the ratio"
-                   : "interpolated by the law in the ratio",
-      model.n_specimens, ratios.size(), ratios.front(), ratios.back()));
+  prepared.notes.push_back(
+      fmt::format("mixing ratio {:g}: {}, from {} at {} ({:g} to {:g})", *words.ratio,
+                  is_measured  ? "measured"
+                  : is_outside ? "EXTRAPOLATED by the law in the ratio"
+                               : "interpolated by the law in the ratio",
+                  counted(static_cast<std::size_t>(model.n_specimens), "specimen"),
+                  counted(ratios.size(), "ratio"), ratios.front(), ratios.back()));
   prepared.notes.push_back("form: " + form_in_words(model.form));
   const auto& flags = prepared.material.flags;
   const bool is_spread_known = std::none_of(
@@ -231,8 +234,8 @@ int write_card_file(const CardWords& words, Streams& streams) {
     for (const CompanionFile& companion : card.companions) {
       streams.out << " and " << companion_path(words.out, companion.suffix);
     }
-    streams.out << fmt::format(" ({} terms, read back; E(t) within {:.1e} of the material)\n",
-                               card.written.terms.size(), card.largest_difference);
+    streams.out << fmt::format(" ({}, read back; E(t) within {:.1e} of the material)\n",
+                               counted(card.written.terms.size(), "term"), card.largest_difference);
   }
   report_losses(card, streams);
   return kDone;

@@ -4,6 +4,7 @@
 #include "io/capture_export.h"
 #include "io/capture_file.h"
 #include "io/cli/command_line.h"
+#include "models/text_of_number.h"
 
 #include <nlohmann/json.hpp>
 
@@ -68,8 +69,8 @@ int run_export(const std::vector<std::string>& words, Streams& streams) {
     write_file(out, table, values->count("force") > 0);
     summary["out"] = out;
     if (!is_json) {
-      streams.err << out << ": " << run.load_samples.size() << " samples of " << capture << ", "
-                  << run.status << "\n";
+      streams.err << out << ": " << counted(run.load_samples.size(), "sample") << " of " << capture
+                  << ", " << run.status << "\n";
     }
   } else if (!is_json) {
     streams.out << table;

@@ -8,6 +8,7 @@
 #include "io/cli/progress.h"
 #include "io/cli/report_law.h"
 #include "io/cli/report_specimens.h"
+#include "models/text_of_number.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -179,9 +180,9 @@ int run_report(const std::vector<std::string>& words, Streams& streams) {
                        .dump(2)
                 << "\n";
   } else {
-    streams.out << fmt::format("{}: {} specimen{}, {} figures, {} kB\n", page.string(),
-                               input.specimens.size(), input.specimens.size() == 1 ? "" : "s",
-                               rendered.pictures.size(), rendered.html.size() / 1024);
+    streams.out << fmt::format(
+        "{}: {}, {}, {} kB\n", page.string(), counted(input.specimens.size(), "specimen"),
+        counted(rendered.pictures.size(), "figure"), rendered.html.size() / 1024);
   }
   for (const std::string& defect : defects) streams.err << "viscard: " << defect << "\n";
   return defects.empty() ? kDone : kFailed;

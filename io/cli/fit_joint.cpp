@@ -7,6 +7,7 @@
 #include "io/material_file.h"
 #include "io/ratio_file.h"
 #include "io/sha256.h"
+#include "models/text_of_number.h"
 
 #include <fmt/format.h>
 
@@ -39,8 +40,9 @@ void refit_others(std::vector<FittedFile>& fitted, int order, const JointWords& 
   forced.options.n_terms = order;
   for (FittedFile& one : fitted) {
     if (static_cast<int>(one.result.terms.size()) == order) continue;
-    streams.err << fmt::format("viscard: {}: fitted with {} terms like the others, not {}\n",
-                               one.path, order, one.result.terms.size());
+    streams.err << fmt::format("viscard: {}: fitted with {} like the others, not {}\n", one.path,
+                               counted(static_cast<std::size_t>(order), "term"),
+                               one.result.terms.size());
     one = fit_file(one.path, forced);
   }
 }
@@ -74,8 +76,8 @@ std::vector<Material> specimens_of(const JointWords& words, Streams& streams) {
 }
 
 void print(const RatioFit& fit, std::ostream& out) {
-  out << fmt::format("{} specimens at {} mixing ratios\n\n", fit.specimens.size(),
-                     fit.law.ratios.size());
+  out << fmt::format("{} at {}\n\n", counted(fit.specimens.size(), "specimen"),
+                     counted(fit.law.ratios.size(), "mixing ratio"));
   out << fmt::format("{:<24} {:>7} {:>12} {:>10}\n", "specimen", "ratio", "E0 (Pa)", "own error");
   for (const RatioSpecimen& one : fit.specimens) {
     out << fmt::format("{:<24} {:>7.4g} {:>12.6g} {:>8.2g} %\n", one.name, one.mixing_ratio,
@@ -115,8 +117,8 @@ void print(const RatioFit& fit, std::ostream& out) {
 
 int run_joint_fit(const JointWords& words, Streams& streams) {
   if (!words.ratios.empty() && words.ratios.size() != words.files.size()) {
-    throw UsageError(fmt::format("{} files and {} --ratio: give one for each file, in their order",
-                                 words.files.size(), words.ratios.size()));
+    throw UsageError(fmt::format("{} and {} --ratio: give one for each file, in their order",
+                                 counted(words.files.size(), "file"), words.ratios.size()));
   }
   MixingOptions options;
   for (const std::string& name : words.shared) {

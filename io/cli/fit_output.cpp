@@ -1,5 +1,7 @@
 #include "io/cli/fit_output.h"
 
+#include "models/text_of_number.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -245,7 +247,8 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   const FitResult& fit = fitted.result;
   const Shown shown = shown_modulus(fit);
   const char* letter = fit.is_stiffness ? "K" : "E";
-  out << fmt::format("{}: {}, {} samples\n", fitted.path, kind_name(fit.kind), fit.n_samples);
+  out << fmt::format("{}: {}, {}\n", fitted.path, kind_name(fit.kind),
+                     counted(fit.n_samples, "sample"));
   if (fit.is_stiffness) {
     out << "  stiffnesses in N/m: no punch geometry was given (--specimen, or --punch-diameter)\n";
   }

@@ -12,6 +12,7 @@
 #include "io/ratio_file.h"
 #include "io/sha256.h"
 #include "models/pillar/validate_material.h"
+#include "models/text_of_number.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -144,13 +145,12 @@ void join_or_append(std::vector<SpecimenReport>& specimens, SpecimenReport mater
     const bool is_same = specimen.fit->terms.size() == material.material->terms.size() &&
                          std::abs(filed_Pa / fitted_Pa - 1.0) < kSameFit;
     if (!is_same) {
-      specimen.notes.push_back(
-          fmt::format("The material file {} differs from the fit shown here ({} terms, E0 = {:.5g} "
-                      "Pa against {} "
-                      "terms, {:.5g} Pa): it was fitted with other options. Pillar and cards are "
-                      "those of the file.",
-                      material.files.front().path, material.material->terms.size(), filed_Pa,
-                      specimen.fit->terms.size(), fitted_Pa));
+      specimen.notes.push_back(fmt::format(
+          "The material file {} differs from the fit shown here ({}, E0 = {:.5g} Pa "
+          "against {}, {:.5g} Pa): it was fitted with other options. Pillar and cards are "
+          "those of the file.",
+          material.files.front().path, counted(material.material->terms.size(), "term"), filed_Pa,
+          counted(specimen.fit->terms.size(), "term"), fitted_Pa));
     }
     specimen.material = material.material;
     specimen.files.push_back(material.files.front());
@@ -236,10 +236,9 @@ std::vector<SpecimenReport> read_specimens(
     const ReportWords& words, const std::function<void(double, const std::string&)>& progress) {
   const InputFiles files = sorted_by_kind(words.files);
   if (!words.truth_files.empty() && words.truth_files.size() != files.measured.size()) {
-    throw UsageError(
-        fmt::format("there are {} truth files for {} captures; give one --truth for each, in the "
-                    "same order, or none",
-                    words.truth_files.size(), files.measured.size()));
+    throw UsageError(fmt::format("{} for {}: give one --truth for each, in the same order, or none",
+                                 counted(words.truth_files.size(), "truth file"),
+                                 counted(files.measured.size(), "capture")));
   }
   const std::size_t n_steps = 2 * files.measured.size() + files.materials.size();
   std::mutex mutex;

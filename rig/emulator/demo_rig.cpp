@@ -1,5 +1,7 @@
 #include "rig/emulator/demo_rig.h"
 
+#include "models/text_of_number.h"
+
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -28,7 +30,7 @@ const RatioRow& row_of(double mixing_ratio) {
   for (const RatioRow& row : ratio_rows()) {
     if (row.ratio == mixing_ratio) return row;
   }
-  throw std::invalid_argument("no emulated PDMS of mixing ratio " + std::to_string(mixing_ratio) +
+  throw std::invalid_argument("no emulated PDMS of mixing ratio " + text_of(mixing_ratio) +
                               ":1; there are 10, 13 and 20 (or give a truth file)");
 }
 

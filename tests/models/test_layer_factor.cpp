@@ -34,8 +34,8 @@ TEST_CASE("the layer factor agrees with an independent solution to its printed d
   const std::vector<double> nu = {0.30, 0.33, 0.40, 0.45, 0.49, 0.50};
   for (std::size_t i = 0; i < nu.size(); ++i) {
     CAPTURE(row.ratio, nu[i]);
-    // Five printed digits: half a unit in the last one.
-    CHECK(layer_factor(row.ratio, nu[i]) == Approx(row.kappa[i]).epsilon(6e-5));
+    const double last = row.kappa[i] < 10.0 ? 1e-4 : row.kappa[i] < 100.0 ? 1e-3 : 1e-2;
+    CHECK(layer_factor(row.ratio, nu[i]) == Approx(row.kappa[i]).epsilon(0.0).margin(0.5 * last));
   }
 }
 

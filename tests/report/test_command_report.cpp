@@ -172,7 +172,7 @@ TEST_CASE("wrong words to report get one clear line", "[cli][report]") {
   fails({material}, kBadWords, "--out report.html");
   fails({material, "--out", page, "--card", "abacus"}, kBadWords, "abaqus");
   fails({material, "--out", page, "--units", "furlong"}, kBadWords, "mm-t-s");
-  fails({material, "--out", page, "--truth", material}, kBadWords, "1 truth files for 0");
+  fails({material, "--out", page, "--truth", material}, kBadWords, "1 truth file for 0 captures");
   fails({material, "--out", page, "--titel", "x"}, kBadWords, "--title");
   fails({(folder / "absent.viscap").string(), "--out", page}, kFailed, "no such file");
   fails({(folder / ".").string(), "--out", page}, kFailed, "is a folder");
