@@ -257,7 +257,7 @@ void IndentationRun::back_off(double contact_m) {
 // Of the last move, or of now if that is later: a wait in contact is counted from the end of
 // motion.
 void IndentationRun::wait(const TestPhase& phase) {
-  if (!is_in_contact_) return session_.pump_until(session_.now_s() + phase.duration_s);
+  if (!is_in_contact_) return session_.hear_until(session_.now_s() + phase.duration_s);
   const double end_s = session_.stage().expected_end_s();
   session_.pump_until(end_s + std::min(kDepthAfter_s, phase.duration_s));
   note_depth();

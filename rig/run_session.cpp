@@ -1,6 +1,7 @@
 #include "rig/run_session.h"
 
 #include "models/sample_force.h"
+#include "models/text_of_number.h"
 #include "rig/text_number.h"
 
 #include <algorithm>
@@ -109,6 +110,13 @@ void RunSession::pump_until(double time_s) {
   while (clock_.now_s() < time_s) pump();
 }
 
+void RunSession::hear_until(double time_s) {
+  constexpr double kLongest_wall_s = 1.0;
+  pump_until(time_s);
+  const double deadline_s = monotonic_s() + kLongest_wall_s;
+  while (last_made_s_ < time_s - load_cell_.period_s() && monotonic_s() < deadline_s) pump();
+}
+
 void RunSession::take_sample(const LoadSample& sample) {
   const std::optional<double> reading_N = force_N_from_sample(sample, rig_);
   const double absolute_N = reading_N.value_or(tare_N_);
@@ -121,6 +129,7 @@ void RunSession::take_sample(const LoadSample& sample) {
     peak_force_N_ = std::max(peak_force_N_, force_N);
     if (stop_above_N_ && std::abs(force_N) > *stop_above_N_) has_exceeded_ = true;
     const double made_at_s = load_cell_.made_at_s(sample);
+    last_made_s_ = std::max(last_made_s_, made_at_s);
     if (collect_from_s_ && made_at_s >= *collect_from_s_) {
       if (collected_N_.empty()) collected_first_s_ = made_at_s;
       collected_N_.push_back(absolute_N);
@@ -214,8 +223,8 @@ ForceMean RunSession::mean_force(double duration_s) {
   ForceMean result;
   result.n = static_cast<int>(collected_N_.size());
   if (result.n < 5) {
-    throw RigError("only " + std::to_string(result.n) + " readings that make a force came in " +
-                   text_from_number(duration_s, 1) +
+    throw RigError("only " + counted(static_cast<std::size_t>(result.n), "reading") +
+                   " of a force came in " + text_from_number(duration_s, 1) +
                    " s. Check the load cell's rate with: viscard rig check");
   }
   double sum_N = 0.0;

@@ -54,6 +54,9 @@ class RunSession {
   void pump();
   // Serves the devices until then (rig time).
   void pump_until(double time_s);
+  // Likewise, and on until the readings made by then are in, one second of wall time at most: a
+  // machine that was busy hears them late.
+  void hear_until(double time_s);
 
   // Moves and waits for standstill. Returns early, after a gentle stop, when the force exceeds
   // stop_above_N (from the tare) in either direction: a cell wired the other way round falls while
@@ -137,6 +140,7 @@ class RunSession {
   bool has_exceeded_ = false;
   std::optional<double> collect_from_s_;
   std::vector<double> collected_N_;
+  double last_made_s_ = 0.0;  // newest reading, by its own clock
   double collected_first_s_ = 0.0, collected_until_s_ = 0.0;
 
   std::string phase_ = "connect";

@@ -4,6 +4,7 @@
 #include "rig/emulator/emulated_rig.h"
 #include "rig/open_devices.h"
 #include "rig/run_indentation.h"
+#include "tests/rig/records_of.h"
 
 #include <atomic>
 #include <string>
@@ -64,11 +65,7 @@ struct DeviceFixture {
 
   template <class Record>
   std::vector<Record> all() const {
-    std::vector<Record> found;
-    for (const RunRecord& record : records) {
-      if (const auto* one = std::get_if<Record>(&record)) found.push_back(*one);
-    }
-    return found;
+    return records_of<Record>(records);
   }
 
   EmulatedRig emulated;

@@ -8,6 +8,7 @@
 #include "rig/hx711_load_cell.h"
 #include "rig/run_indentation.h"
 #include "rig/serial_line.h"
+#include "tests/rig/records_of.h"
 
 #include <functional>
 #include <memory>
@@ -65,11 +66,7 @@ struct RigFixture {
 
   template <class Record>
   std::vector<Record> all() const {
-    std::vector<Record> found;
-    for (const RunRecord& record : records) {
-      if (const auto* one = std::get_if<Record>(&record)) found.push_back(*one);
-    }
-    return found;
+    return records_of<Record>(records);
   }
 
   bool has_event(const std::string& name, const std::string& value) const {

@@ -5,7 +5,9 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 namespace viscard {
 namespace {
@@ -231,6 +233,28 @@ TEST_CASE("Stalls of the emulated rig change no reading", "[rig][pty]") {
   CHECK_FALSE(rig.emulated.outcome().is_cell_broken);
   CHECK(rig.emulated.outcome().peak_force_N < 1.9614);  // the soft limit
   CHECK(outcome.achieved_depth_m == Approx(0.13e-3).margin(6e-6));
+}
+
+TEST_CASE("A host that is busy when the run ends still hears the readings made before",
+          "[rig][pty]") {
+  RigFixture rig(RigFixture::options(20.0));
+  bool has_slept = false;
+  rig.on_progress = [&](const RunProgress& progress) {
+    if (has_slept || progress.phase != "baseline_after") return;
+    has_slept = true;  // past the end of the phase; its lines fit into the port's buffer
+    std::this_thread::sleep_for(std::chrono::milliseconds(160));
+  };
+  TestPlan plan = short_plan();
+  plan.baseline_s = 3.0;  // 150 ms of wall time: progress is told every 100 ms
+  REQUIRE(rig.run(plan).status == "finished");
+  REQUIRE(has_slept);
+  double begun_s = 0.0;
+  for (const RunEvent& event : rig.all<RunEvent>()) {
+    if (event.name == "phase" && event.value == "baseline_after") begun_s = event.host_time_s;
+  }
+  const LoadSample last = rig.all<LoadSample>().back();
+  // Two readings, and what the smallest delay of a line may be.
+  CHECK(rig.load_cell.made_at_s(last) > begun_s + plan.baseline_s - 0.1);
 }
 
 TEST_CASE("Nothing to touch within the limit of the approach is an error, and the stage goes back",
