@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 
 namespace viscard {
 namespace {
@@ -59,11 +60,12 @@ void take_material(const Material& material, SpecimenEstimates& estimates) {
 
 // d E(t) / d parameter, or 0 for a nuisance.
 double slope(const SpecimenEstimates& estimates, const std::string& parameter, double time_s) {
-  if (parameter == "E_inf_Pa") return 1.0;
+  const char* unit = estimates.is_stiffness ? "_N_m" : "_Pa";
+  if (parameter == std::string("E_inf") + unit) return 1.0;
   for (std::size_t i = 0; i < estimates.terms.size(); ++i) {
     const double tau_s = estimates.terms[i].tau_s.value;
     const double decay = std::exp(-time_s / tau_s);
-    if (parameter == fmt::format("E_{}_Pa", i + 1)) return decay;
+    if (parameter == fmt::format("E_{}{}", i + 1, unit)) return decay;
     if (parameter == fmt::format("ln_tau_{}", i + 1)) {
       return estimates.terms[i].modulus_Pa.value * decay * time_s / tau_s;
     }

@@ -1,5 +1,6 @@
 #include "io/report_figures.h"
 
+#include "fit/fit_result.h"
 #include "io/report_campaign.h"
 #include "io/report_numbers.h"
 
@@ -20,7 +21,7 @@ std::vector<double> scaled(const std::vector<double>& values, double factor) {
   return out;
 }
 
-// From a tenth of the shortest relaxation time to ten times the longest, over all specimens.
+// From a twentieth of the shortest relaxation time to ten times the longest, over all specimens.
 std::vector<double> shared_times(const std::vector<SpecimenEstimates>& estimates) {
   double first_s = 0.0, last_s = 0.0;
   for (const SpecimenEstimates& specimen : estimates) {
@@ -77,17 +78,6 @@ PlotSeries truth_line(const Material& truth, const std::vector<double>& time_s, 
   dashed.is_dashed = true;
   dashed.size = 0.7;
   return dashed;
-}
-
-double half_width(const Interval& interval) {
-  return 0.5 * (interval.high - interval.low);
-}
-
-// The interval with the systematic part added in quadrature.
-Interval widened(const Estimate& estimate, double systematic_relative) {
-  const double half =
-      std::hypot(half_width(estimate.interval_95), 1.96 * systematic_relative * estimate.value);
-  return {estimate.value - half, estimate.value + half};
 }
 
 PlotSeries error_bars(Ink ink, const std::string& label) {
@@ -187,7 +177,8 @@ std::optional<Plot> ratio_plot(const ReportInput& input,
     const SpecimenEstimates& specimen = estimates[i];
     if (!(specimen.mixing_ratio > 0.0) || specimen.is_stiffness) continue;
     const double value = specimen.E0_Pa.value * unit.per_si;
-    const Interval all = widened(specimen.E0_Pa, specimen.systematic_relative);
+    const Interval all =
+        combined_95(specimen.E0_Pa.interval_95, specimen.E0_Pa.value, specimen.systematic_relative);
     const Interval& own = specimen.E0_Pa.interval_95;
     add_point(total, specimen.mixing_ratio, value, {all.low * unit.per_si, all.high * unit.per_si});
     add_point(random, specimen.mixing_ratio, value,

@@ -65,9 +65,11 @@ std::vector<double> depths(const CapturedRun& run, const RunSeries& series, doub
   const LoadCellCalibration& calibration = run.rig.calibration;
   const double zero_V = n_clear > 0 ? sum_V / static_cast<double>(n_clear) : calibration.zero_volts;
   const double stiffness_N_m = run.rig.frame.stiffness_N_m;
+  const double gain_V_N =
+      (run.rig.load_cell.compression_is_positive ? 1.0 : -1.0) * calibration.volts_per_newton;
   std::vector<double> depth_m;
   for (std::size_t i = 0; i < above_m.size(); ++i) {
-    const double force_N = (series.volts[i] - zero_V) / calibration.volts_per_newton;
+    const double force_N = (series.volts[i] - zero_V) / gain_V_N;
     const bool is_yielding = stiffness_N_m > 0.0 && std::isfinite(force_N);
     depth_m.push_back(above_m[i] - (is_yielding ? force_N / stiffness_N_m : 0.0));
   }
@@ -87,6 +89,7 @@ RunSeries series_from_run(const CapturedRun& run, std::optional<double> contact_
   for (const LoadSample& sample : run.load_samples) {
     const double volts = volts_of(sample, run.rig);
     if (!std::isfinite(volts)) continue;
+    series.is_force = series.is_force || sample.force_N.has_value();
     const bool is_flagged = sample.is_saturated || sample.is_glitch;
     (is_flagged ? series.flagged_s : series.time_s).push_back(sample.host_time_s);
     (is_flagged ? series.flagged_V : series.volts).push_back(volts);

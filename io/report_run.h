@@ -12,7 +12,7 @@ namespace viscard {
 // What a run recorded, as a page shows it: readings as received and the way of the stage, both on
 // the host's clock, s since the run began.
 struct RunSeries {
-  std::vector<double> time_s, volts;         // readings that count
+  std::vector<double> time_s, volts;         // readings that count; newtons of a force gauge
   std::vector<double> flagged_s, flagged_V;  // saturated or glitches
   std::vector<double> report_s, position_m;  // the stage's own reports
   // Depth of the punch below the point of contact, negative above the surface:
@@ -21,6 +21,7 @@ struct RunSeries {
   // reading taken while the stage stood clear of the contact position.
   std::vector<double> depth_m;
   std::vector<PlotNote> phases;
+  bool is_force = false;  // the instrument gives a force by itself
 };
 
 // motion_start_s: when moves truly began, as a fit found it (FitCurves); the record knows it only

@@ -88,11 +88,15 @@ void show_two_sigma(PlotPanel& panel) {
   }
   panel.y.max = 1.1 * largest;
   panel.y.min = -1.1 * largest;
+  // A logarithmic axis begins at the first time above zero.
+  const auto first = std::find_if(residual.x.begin(), residual.x.end(),
+                                  [](double time_s) { return time_s > 0.0; });
+  if (first == residual.x.end()) return;
   PlotSeries band{.mark = Mark::kBand, .ink = Ink::kGrey};
-  band.x = {residual.x.front(), residual.x.back()};
+  band.x = {*first, residual.x.back()};
   band.y_low = {-1.96, -1.96};
   band.y_high = {1.96, 1.96};
-  if (residual.x.front() > 0.0) panel.series.insert(panel.series.begin(), band);
+  panel.series.insert(panel.series.begin(), band);
 }
 
 const char* motion_name(std::size_t index, std::size_t n_motions) {
@@ -112,7 +116,7 @@ const char* value_name(const FitResult& fit) {
     case FitKind::kDma:
       break;
   }
-  return "storage and loss modulus";
+  return "storage modulus";  // the loss is not among the curves
 }
 
 void add_error(PlotPanel& panel, const PillarCurve& curve, Ink ink) {
@@ -183,16 +187,16 @@ PlotSeries flagged_dots(const RunSeries& series, double per_si) {
 
 std::optional<Plot> run_plot(const RunSeries& series) {
   if (series.time_s.empty()) return std::nullopt;
-  const ShownUnit volt = shown_unit("V", series.volts);
+  const ShownUnit volt = shown_unit(series.is_force ? "N" : "V", series.volts);
   PlotPanel volts;
-  volts.y.label = fmt::format("amplifier ({})", volt.text);
+  volts.y.label = fmt::format("{} ({})", series.is_force ? "force gauge" : "amplifier", volt.text);
   volts.x.label = "time since the run began (s)";
   volts.notes = series.phases;
   volts.height_share = 1.2;
   volts.series.push_back({.x = series.time_s, .y = scaled(series.volts, volt.per_si), .size = 0.7});
   if (!series.flagged_s.empty()) volts.series.push_back(flagged_dots(series, volt.per_si));
   Plot plot{.title = "Recorded run",
-            .description = "Amplifier output and way of the stage over time.",
+            .description = "Output of the load cell and way of the stage over time.",
             .height_px = 430};
   PlotPanel way;
   way.x.label = volts.x.label;

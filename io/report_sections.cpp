@@ -6,6 +6,7 @@
 #include "io/report_figures.h"
 #include "io/report_numbers.h"
 #include "io/report_tables.h"
+#include "models/text_of_number.h"
 
 #include <fmt/format.h>
 
@@ -63,8 +64,8 @@ std::string summary_caption(const std::vector<SpecimenEstimates>& estimates) {
 std::string fit_caption(const FitResult& fit) {
   const bool is_punch = fit.kind == FitKind::kIndentation;
   std::string text = fmt::format(
-      "Data (dots; averages of neighbours where samples crowd) and fit with {} term{}, {} samples",
-      fit.terms.size(), fit.terms.size() == 1 ? "" : "s", fit.n_samples);
+      "Data (dots; averages of neighbours where samples crowd) and fit with {}, {} samples",
+      counted(fit.terms.size(), "term"), fit.n_samples);
   if (fit.n_spikes > 0) text += fmt::format(", {} left out as spikes", fit.n_spikes);
   text += fit.curves.sigma.size() == fit.curves.time_s.size()
               ? "; below, the difference in units of its standard deviation."
@@ -92,7 +93,8 @@ std::string run_caption(const CapturedRun& run, const RunSeries& series) {
   if (!series.flagged_s.empty())
     text += fmt::format(" and {} flagged (drawn at the edge where they lie beyond)",
                         series.flagged_s.size());
-  text += fmt::format(" of the amplifier, {} reports of the stage", run.stage_reports.size());
+  text += fmt::format(" of the {}, {} of the stage", series.is_force ? "force gauge" : "amplifier",
+                      counted(run.stage_reports.size(), "report"));
   text += series.depth_m.empty()
               ? "; position on the stage's own axis."
               : "; depth of the punch below contact, that is, stage position less contact position "

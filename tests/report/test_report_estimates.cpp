@@ -48,6 +48,15 @@ TEST_CASE("the band of E(t) is the propagated covariance", "[io][report]") {
         Approx(1.959963984540054 * std::sqrt(variance)).epsilon(1e-12));
 }
 
+TEST_CASE("stiffnesses have the same band as moduli", "[io][report]") {
+  SpecimenEstimates estimates = one_term();
+  estimates.covariance.diagonal() << 0.04, 0.09, 0.01, 0.0;
+  const RelaxationBand moduli = relaxation_band(estimates, {3.0}, false);
+  estimates.is_stiffness = true;
+  estimates.covariance_parameters = {"E_inf_N_m", "E_1_N_m", "ln_tau_1", "contact_position_m"};
+  CHECK(relaxation_band(estimates, {3.0}, false).high[0] == moduli.high[0]);
+}
+
 TEST_CASE("a common factor of all moduli leaves the relative band without width", "[io][report]") {
   SpecimenEstimates estimates = one_term();
   Eigen::VectorXd scale(4);
@@ -140,6 +149,19 @@ TEST_CASE("depth is the stage's way below contact less the frame's deflection", 
   const double force_N = (series.volts[4000] - series.volts[100]) / 0.7255;
   CHECK(at(series.time_s[4000]) == Approx(0.31e-3 - force_N / 10e3).margin(0.3e-6));
   CHECK(at(1.0) == Approx(-20e-6).margin(0.3e-6));  // the gap before the ramp
+}
+
+TEST_CASE("a cell whose reading falls in compression gives the same depth", "[io][report]") {
+  CapturedRun run = *test::synthetic_report().specimens[0].run;
+  const std::vector<double> depth_m = series_from_run(run, 1e-3).depth_m;
+  for (LoadSample& sample : run.load_samples) {
+    if (sample.counts) sample.counts = -*sample.counts;
+    if (sample.volts) sample.volts = -*sample.volts;
+  }
+  run.rig.load_cell.compression_is_positive = false;
+  const std::vector<double> turned_m = series_from_run(run, 1e-3).depth_m;
+  REQUIRE(turned_m.size() == depth_m.size());
+  CHECK(turned_m[4000] == Approx(depth_m[4000]).epsilon(1e-12));
 }
 
 TEST_CASE("a move that began later than recorded is put where the fit found it", "[io][report]") {
