@@ -1,5 +1,6 @@
 #include "fit/clean_data.h"
 
+#include "fit/median.h"
 #include "fit/sample_passes.h"
 #include "fit/spikes.h"
 
@@ -7,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace viscard {
 
@@ -105,6 +107,12 @@ double shortest_step_s(std::span<const double> time_s) {
     shortest = step > 0.0 && step < shortest ? step : shortest;
   }
   return shortest;
+}
+
+double usual_step_s(std::span<const double> time_s) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
+  return median(std::move(steps));
 }
 
 }  // namespace viscard

@@ -41,7 +41,9 @@ CleanColumns clean_columns(const std::vector<std::span<const double>>& columns, 
 // the whole. `what` must be positive ("a relaxation modulus"), `column` is its name in a table.
 void check_sign(std::span<const double> values, const std::string& what, const std::string& column);
 
-// Shortest positive difference of sorted times; 0 if there is none.
+// Shortest positive difference of sorted times, and the usual one (their median, so that a gap does
+// not matter); 0 if there is none.
 double shortest_step_s(std::span<const double> time_s);
+double usual_step_s(std::span<const double> time_s);
 
 }  // namespace viscard

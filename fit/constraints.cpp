@@ -2,6 +2,7 @@
 
 #include "fit/flags.h"
 #include "fit/parametrisation.h"
+#include "models/text_of_number.h"
 
 #include <Eigen/Dense>
 
@@ -231,7 +232,7 @@ void validate(const std::vector<ParameterConstraint>& constraints, int n_terms,
     }
     if (name.term > n_terms) {
       throw std::invalid_argument(one.name + " is of a term that is not there; the fit has " +
-                                  std::to_string(n_terms) + " terms");
+                                  counted(static_cast<std::size_t>(n_terms), "term"));
     }
     if (!(one.low <= one.high) || (name.stem == Stem::kTime && !(one.low > 0.0))) {
       throw std::invalid_argument("the bounds of " + one.name +

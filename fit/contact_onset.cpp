@@ -1,5 +1,9 @@
 #include "fit/contact_onset.h"
 
+#include "fit/clean_data.h"
+#include "fit/median.h"
+#include "models/text_of_number.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,12 +13,6 @@
 
 namespace viscard {
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Times and forces of a part of the record.
 struct Stretch {
@@ -58,12 +56,6 @@ double smallest_step_N(const std::vector<double>& force_N) {
     if (difference_N > 0.0) step_N = std::min(step_N, difference_N);
   }
   return std::isfinite(step_N) ? step_N : 0.0;
-}
-
-double usual_step_s(const std::vector<double>& time_s) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
-  return steps.empty() ? 0.0 : median(std::move(steps));
 }
 
 // Samples near the first move, thinned out to a few hundred, forces from zero.
@@ -171,7 +163,7 @@ ContactOnset contact_onset(const IndentationData& data) {
   const Stretch peak = stretch(data, end_s, end_s + margin_s);
   const double peak_N = peak.size() > 0 ? median(peak.force_N) - quiet.before_N : 0.0;
   if (!(peak_N > 3.0 * quiet.sigma_N)) {
-    throw std::runtime_error("no force rises with the ramp (peak " + std::to_string(peak_N) +
+    throw std::runtime_error("no force rises with the ramp (peak " + text_of(peak_N) +
                              " N). Check the sign of the load cell and that the punch touched");
   }
   const double way_m = std::abs(ramp.to_m - ramp.from_m);

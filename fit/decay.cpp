@@ -38,6 +38,28 @@ inline double decay(double x) {
   return (even + r * odd) * std::bit_cast<double>(exponent);
 }
 
+// Into the loop that calls it, whose processor it is compiled for.
+template <bool kWithSlope>
+[[gnu::always_inline]] inline void average_decay(const DecayPlaces& at, double u,
+                                                 double* __restrict value,
+                                                 double* __restrict slope) {
+  const double uu = u * u;
+  const double* __restrict time_s = at.time_s;
+  const double* __restrict weight = at.weight;
+  const double* __restrict m2 = at.half_m2;
+  const double* __restrict m3 = at.sixth_m3;
+  const double* __restrict m4 = at.part_m4;
+  for (std::size_t i = 0; i < at.count; ++i) {
+    const double x = u * time_s[i];
+    const double e = weight[i] * decay(x);
+    const double series = 1.0 + uu * (m2[i] - u * (m3[i] - u * m4[i]));
+    value[i] = e * series;
+    if constexpr (kWithSlope) {
+      slope[i] = e * (x * series - uu * (2.0 * m2[i] - u * (3.0 * m3[i] - u * (4.0 * m4[i]))));
+    }
+  }
+}
+
 }  // namespace
 
 // The loops, each for one stretch of places where something is left of the decay.
@@ -49,33 +71,12 @@ VISCARD_WIDE_LOOP void decay_of_samples(const double* __restrict time_s,
 
 VISCARD_WIDE_LOOP void decay_of_bins(const DecayPlaces& at, double rate_1_s,
                                      double* __restrict value, double* __restrict slope) {
-  const double u = rate_1_s, uu = u * u;
-  const double* __restrict time_s = at.time_s;
-  const double* __restrict weight = at.weight;
-  const double* __restrict m2 = at.half_m2;
-  const double* __restrict m3 = at.sixth_m3;
-  const double* __restrict m4 = at.part_m4;
-  for (std::size_t i = 0; i < at.count; ++i) {
-    const double x = u * time_s[i];
-    const double e = weight[i] * decay(x);
-    const double series = 1.0 + uu * (m2[i] - u * (m3[i] - u * m4[i]));
-    value[i] = e * series;
-    slope[i] = e * (x * series - uu * (2.0 * m2[i] - u * (3.0 * m3[i] - u * (4.0 * m4[i]))));
-  }
+  average_decay<true>(at, rate_1_s, value, slope);
 }
 
 VISCARD_WIDE_LOOP void decay_of_bins(const DecayPlaces& at, double rate_1_s,
                                      double* __restrict value) {
-  const double u = rate_1_s, uu = u * u;
-  const double* __restrict time_s = at.time_s;
-  const double* __restrict weight = at.weight;
-  const double* __restrict m2 = at.half_m2;
-  const double* __restrict m3 = at.sixth_m3;
-  const double* __restrict m4 = at.part_m4;
-  for (std::size_t i = 0; i < at.count; ++i) {
-    const double series = 1.0 + uu * (m2[i] - u * (m3[i] - u * m4[i]));
-    value[i] = weight[i] * decay(u * time_s[i]) * series;
-  }
+  average_decay<false>(at, rate_1_s, value, nullptr);
 }
 
 VISCARD_WIDE_LOOP void subtract_samples(const double* __restrict time_s, std::size_t count,

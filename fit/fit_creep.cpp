@@ -7,6 +7,7 @@
 #include "fit/step_curves.h"
 #include "fit/step_model.h"
 #include "models/retardation_spectrum.h"
+#include "models/text_of_number.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -42,7 +43,7 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
   }
   const std::vector<double>& time_s = clean.columns[0];
   if (time_s.front() < 0.0) {
-    throw std::runtime_error("the first time is " + std::to_string(time_s.front()) +
+    throw std::runtime_error("the first time is " + text_of(time_s.front()) +
                              " s; t = 0 must be the step of stress (set it with --time-zero)");
   }
   if (!(time_s.back() > time_s.front())) {

@@ -5,6 +5,7 @@
 #include "fit/dma_model.h"
 #include "fit/flags.h"
 #include "fit/nnls.h"
+#include "models/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +59,7 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
       clean_columns({data.frequency_Hz, data.storage_Pa, data.loss_Pa}, kLeastRows);
   const std::vector<double>& frequency_Hz = clean.columns[0];
   if (!(frequency_Hz.front() > 0.0)) {
-    throw std::runtime_error("a frequency of " + std::to_string(frequency_Hz.front()) +
+    throw std::runtime_error("a frequency of " + text_of(frequency_Hz.front()) +
                              " Hz cannot be fitted; frequencies must be positive");
   }
   for (std::size_t i = 0; i < frequency_Hz.size(); ++i) {

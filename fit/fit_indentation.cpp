@@ -9,6 +9,7 @@
 #include "fit/spikes.h"
 #include "fit/table_contact.h"
 #include "fit/two_point_modulus.h"
+#include "models/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,7 @@ void check_force(const Column& force_N) {
   const auto [low, high] = std::minmax_element(force_N.begin(), force_N.end());
   if (*low == *high) {
     throw std::runtime_error(
-        "the force is constant (" + std::to_string(*low) +
+        "the force is constant (" + text_of(*low) +
         " N in all samples): nothing was pressed, or the column is not the force");
   }
   const double mean = std::accumulate(force_N.begin(), force_N.end(), 0.0);
@@ -65,25 +66,19 @@ void flag_saturation(const Column& force_N, FitResult& result) {
   if (longest >= kSuspicious) {
     add_defect(result, "saturated",
                std::to_string(longest) + " samples in a row stand exactly at the largest force (" +
-                   std::to_string(top) + " N): the load cell or its converter was at its end");
+                   text_of(top) + " N): the load cell or its converter was at its end");
   }
 }
 
 void flag_gap(const Column& time_s, std::size_t contact, std::size_t loaded, FitResult& result) {
-  Column steps;
-  for (std::size_t i = contact + 1; i < time_s.size(); ++i)
-    steps.push_back(time_s[i] - time_s[i - 1]);
-  if (steps.size() < kLeastRows || loaded <= contact) return;
-  Column sorted = steps;
-  std::sort(sorted.begin(), sorted.end());
-  const double usual_s = sorted[sorted.size() / 2];
+  if (time_s.size() < contact + 1 + kLeastRows || loaded <= contact) return;
+  const double usual_s = usual_step_s({time_s.data() + contact, time_s.size() - contact});
   const double ramp_s = time_s[loaded] - time_s[contact];
   for (std::size_t i = contact + 1; i <= loaded; ++i) {
-    const double step_s = steps[i - contact - 1];
+    const double step_s = time_s[i] - time_s[i - 1];
     if (step_s <= 3.5 * usual_s || step_s < 0.1 * ramp_s) continue;
     add_defect(result, "gap-in-ramp",
-               "no samples for " + std::to_string(step_s) +
-                   " s from t = " + std::to_string(time_s[i - 1]) +
+               "no samples for " + text_of(step_s) + " s from t = " + text_of(time_s[i - 1]) +
                    " s on, while the load rose: the depth there is a guess");
     return;
   }
@@ -250,9 +245,9 @@ FitResult fit_indentation(const IndentationData& data, const FitOptions& options
   result.kind = FitKind::kIndentation;
   result.systematic_relative = systematic_share(data, result);
   if (data.n_saturated > 0) {
-    add_defect(result, "saturated",
-               std::to_string(data.n_saturated) +
-                   " readings stood at the end of the converter's range and were left out");
+    add_defect(
+        result, "saturated",
+        counted(data.n_saturated, "reading") + " at the end of the converter's range left out");
   }
   return result;
 }

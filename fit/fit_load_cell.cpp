@@ -1,10 +1,13 @@
 #include "fit/fit_load_cell.h"
 
+#include "models/text_of_number.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace viscard {
@@ -40,8 +43,9 @@ std::vector<Point> points_of(const WeightReadings& data, double largest_N) {
   loads.erase(std::unique(loads.begin(), loads.end(), is_same), loads.end());
   if (loads.size() < 3 || !is_same(loads.front(), 0.0)) {
     throw std::invalid_argument(
-        "a calibration needs no load and at least two different weights, and there are " +
-        std::to_string(loads.size()) + " loads. Add weights, and begin with none");
+        std::string("a calibration needs no load and at least two different weights, and there ") +
+        (loads.size() == 1 ? "is " : "are ") + counted(loads.size(), "load") +
+        ". Add weights, and begin with none");
   }
   std::vector<Point> points;
   int series = 0;

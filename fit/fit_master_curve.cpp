@@ -4,6 +4,7 @@
 #include "fit/clean_data.h"
 #include "fit/flags.h"
 #include "fit/master_model.h"
+#include "models/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +74,7 @@ std::vector<MasterSegment> segments_of(const MasterData& data, std::size_t& n_le
     n_left_out -= rows.size();
     constexpr std::size_t kLeastRows = 3;
     if (rows.size() < kLeastRows) {
-      throw std::runtime_error("only " + std::to_string(rows.size()) + " rows at " +
+      throw std::runtime_error("only " + counted(rows.size(), "row") + " at " +
                                celsius(segment.temperature_C) + "; a segment takes at least three");
     }
     segments.push_back(std::move(segment));

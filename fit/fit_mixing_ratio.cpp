@@ -1,6 +1,7 @@
 #include "fit/fit_mixing_ratio.h"
 
 #include "fit/ratio_estimates.h"
+#include "models/text_of_number.h"
 
 #include <Eigen/Dense>
 
@@ -161,7 +162,8 @@ void check_shared(const std::vector<std::string>& names, int n_terms) {
     }
     if (is_known) continue;
     throw std::invalid_argument("'" + name + "' cannot be shared: there are E0, g, tau, and g_i " +
-                                "and tau_i of " + std::to_string(n_terms) + " terms");
+                                "and tau_i of " +
+                                counted(static_cast<std::size_t>(n_terms), "term"));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "fit/spikes.h"
 #include "fit/step_curves.h"
 #include "fit/step_model.h"
+#include "models/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -142,8 +143,8 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
   }
   result.n_left_out = clean.n_left_out();
   if (n_early > 0) {
-    result.flags.push_back({"samples-before-zero", 0,
-                            std::to_string(n_early) + " samples before t = 0 were left out"});
+    result.flags.push_back(
+        {"samples-before-zero", 0, counted(n_early, "sample") + " before t = 0 left out"});
   }
   return result;
 }

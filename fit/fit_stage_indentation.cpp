@@ -8,6 +8,7 @@
 #include "fit/stage_model.h"
 #include "fit/two_point_modulus.h"
 #include "models/retardation_spectrum.h"
+#include "models/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,18 +94,14 @@ void flag_gap_in_ramp(const IndentationData& data, const SpectralState& state, F
   const StageMove& ramp = data.moves.front();
   const double from_s = ramp.start_time_s + state.nuisance[0];
   const double to_s = from_s + duration_s(ramp);
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < data.time_s.size(); ++i)
-    steps.push_back(data.time_s[i] - data.time_s[i - 1]);
-  std::vector<double> sorted = steps;
-  std::sort(sorted.begin(), sorted.end());
-  const double usual_s = sorted[sorted.size() / 2];
+  const double usual_s = usual_step_s(data.time_s);
   for (std::size_t i = 1; i < data.time_s.size(); ++i) {
     const bool in_ramp = data.time_s[i] > from_s && data.time_s[i - 1] < to_s;
-    if (!in_ramp || steps[i - 1] < std::max(4.0 * usual_s, 0.05 * duration_s(ramp))) continue;
+    const double step_s = data.time_s[i] - data.time_s[i - 1];
+    if (!in_ramp || step_s < std::max(4.0 * usual_s, 0.05 * duration_s(ramp))) continue;
     char text[120];
     std::snprintf(text, sizeof text,
-                  "no readings for %.3g s during the ramp (%.3g s after it began)", steps[i - 1],
+                  "no readings for %.3g s during the ramp (%.3g s after it began)", step_s,
                   data.time_s[i - 1] - from_s);
     add_defect(result, "gap-in-ramp", text);
     return;
@@ -138,9 +135,9 @@ PronySeries specimen_series(const PronySeries& stage_series_N_m, double frame_st
   RetardationSpectrum compliance = retardation_from_relaxation(stage_series_N_m);
   compliance.instantaneous_compliance_1_Pa -= 1.0 / frame_stiffness_N_m;
   if (!(compliance.instantaneous_compliance_1_Pa > 0.0)) {
-    throw std::runtime_error("the frame stiffness of " + std::to_string(frame_stiffness_N_m) +
+    throw std::runtime_error("the frame stiffness of " + text_of(frame_stiffness_N_m) +
                              " N/m is below the stiffness seen (" +
-                             std::to_string(instantaneous_modulus_Pa(stage_series_N_m)) +
+                             text_of(instantaneous_modulus_Pa(stage_series_N_m)) +
                              " N/m): nothing is left for the specimen. Measure it again: viscard "
                              "calibrate --compliance");
   }
@@ -175,7 +172,7 @@ void report_stage_fit(const StageModel& model, const IndentationData& data, cons
   }
   add_identifiability_flags(
       model, fit.state, fit.covariance,
-      {shortest_step_s(data.time_s), 0.0, 0.0, result.fit_to_s - result.fit_from_s}, result);
+      {usual_step_s(data.time_s), 0.0, 0.0, result.fit_to_s - result.fit_from_s}, result);
   flag_gap_in_ramp(data, fit.state, result);
   for (Index j = 0; j < model.n_common(); ++j) {
     if (model.common()[static_cast<std::size_t>(j)].name != "offset_N") continue;
@@ -185,6 +182,12 @@ void report_stage_fit(const StageModel& model, const IndentationData& data, cons
     result.two_point = two_points(data, fit.state, offset_N, result.noise.sigma);
   }
   flag_stage_misfit(data, result);
+  if (!model.has_drift()) {
+    result.flags.push_back(
+        {"drift-unseen", 0,
+         "no readings out of contact after the test: drift of the load cell cannot be told from "
+         "slow relaxation; E_inf and the slowest term may carry it, and no interval holds it"});
+  }
 }
 
 // Start values, and what the noise is like, from passes with a few terms: the first with equal

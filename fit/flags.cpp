@@ -1,5 +1,7 @@
 #include "fit/flags.h"
 
+#include "models/text_of_number.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -78,9 +80,9 @@ void flag_misfit(double sigma, double quiet_sigma, std::size_t n_quiet, double p
 void add_spikes(FitResult& result, std::size_t count) {
   result.n_spikes = count;
   if (count == 0) return;
-  result.flags.push_back(
-      {"spikes-left-out", 0,
-       std::to_string(count) + " samples far from both neighbours were left out as spikes"});
+  result.flags.push_back({"spikes-left-out", 0,
+                          counted(count, "sample") + " far from both neighbours left out as " +
+                              (count == 1 ? "a spike" : "spikes")});
 }
 
 void add_identifiability_flags(const SpectralModel& model, const SpectralState& state,

@@ -1,11 +1,13 @@
 #include "fit/indentation_from_capture.h"
 
+#include "fit/median.h"
 #include "models/sample_force.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -40,12 +42,11 @@ std::vector<Reading> in_order(const std::vector<Reading>& received) {
     steps.push_back(std::abs(received[i].clock_s - received[i - 1].clock_s));
   }
   if (steps.empty()) return received;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
+  const double few_s = kFewReadings * median(std::move(steps));
   std::vector<Reading> kept;
   double newest_s = received.front().clock_s;
   for (const Reading& reading : received) {
-    if (reading.clock_s < newest_s - kFewReadings * *middle) continue;
+    if (reading.clock_s < newest_s - few_s) continue;
     newest_s = std::max(newest_s, reading.clock_s);
     kept.push_back(reading);
   }

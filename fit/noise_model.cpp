@@ -1,11 +1,13 @@
 #include "fit/noise_model.h"
 
+#include "fit/median.h"
 #include "fit/sample_passes.h"
 
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace viscard {
 
@@ -126,10 +128,8 @@ double sigma_from_differences(const std::vector<double>& values) {
     differences.push_back(
         std::abs(values[i] - 3.0 * values[i - 1] + 3.0 * values[i - 2] - values[i - 3]));
   }
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  // Variance of a third difference of white noise is 1 + 9 + 9 + 1; median |N(0,1)| is 0.6745.
-  return *middle / (0.6744897501960817 * std::sqrt(20.0));
+  // Variance of a third difference of white noise is 1 + 9 + 9 + 1.
+  return median(std::move(differences)) / (kMedianOfNormal * std::sqrt(20.0));
 }
 
 }  // namespace viscard

@@ -140,14 +140,13 @@ std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralS
   return errors;
 }
 
-namespace {
-
-// A time at the end of its range is not a time: the order asks for more than the record can show.
 bool is_within_range(const SpectralModel& model, const SpectralState& state) {
   constexpr double kTouch = 1e-6;
   return state.n_terms() == 0 || (state.ln_tau.minCoeff() > model.ln_tau_min() + kTouch &&
                                   state.ln_tau.maxCoeff() < model.ln_tau_max() - kTouch);
 }
+
+namespace {
 
 // The range of times ends at three records.
 bool outlasts_record(const SpectralModel& model, const SpectralState& state) {

@@ -33,6 +33,9 @@ struct ChoiceInput {
 OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralState>& path,
                          const ChoiceInput& input);
 
+// A time at the end of its range is not a time: the order asks for more than the record can show.
+bool is_within_range(const SpectralModel& model, const SpectralState& state);
+
 // How a block of rows is predicted by a fit to all others, by one linearised step from the full fit
 // (exact for a linear model): e_b = (1 - H_bb)^-1 r_b. A block that alone holds what is known of
 // some combination of parameters cannot be predicted by any fit; it counts with its plain residual.

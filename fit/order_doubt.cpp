@@ -56,12 +56,6 @@ double lowest_equilibrium(const SpectralModel& fine, const SpectralFit& fit, dou
   return best;
 }
 
-bool is_inside(const SpectralModel& model, const SpectralState& state) {
-  constexpr double kTouch = 1e-6;
-  return state.n_terms() == 0 || (state.ln_tau.minCoeff() > model.ln_tau_min() + kTouch &&
-                                  state.ln_tau.maxCoeff() < model.ln_tau_max() - kTouch);
-}
-
 }  // namespace
 
 void carry_order_doubt(const SpectralModel& model, const SpectralFit& fit,
@@ -71,21 +65,23 @@ void carry_order_doubt(const SpectralModel& model, const SpectralFit& fit,
   const Interval E0 = result.E0_interval_95;
   const Interval E_inf = result.E_inf_interval_95;
   std::string others;
+  std::size_t last = 0;
   for (std::size_t i = 0; i < fit.path.size(); ++i) {
     const bool is_near =
         std::abs(fit.scores.rows[i].bic - fit.scores.rows[fit.scores.chosen].bic) < kStrong;
-    if (i == fit.scores.chosen || !is_near || !is_inside(model, fit.path[i])) continue;
+    if (i == fit.scores.chosen || !is_near || !is_within_range(model, fit.path[i])) continue;
     const PronySeries series = series_from_state(fit.path[i]);
     widen(result.E0_interval_95, instantaneous_modulus_Pa(series), result.E0_se_Pa);
     widen(result.E_inf_interval_95, series.equilibrium_modulus_Pa, result.E_inf_se_Pa);
     others += (others.empty() ? "" : ", ") + std::to_string(fit.path[i].n_terms());
+    last = static_cast<std::size_t>(fit.path[i].n_terms());
   }
   if (width(result.E0_interval_95) > 1.5 * width(E0) ||
       width(result.E_inf_interval_95) > 1.5 * width(E_inf)) {
     result.flags.push_back({"order-uncertain", 0,
-                            "fits with " + others +
-                                " terms describe the data about as well; the intervals of E0 and "
-                                "E_inf hold theirs too"});
+                            "fits with " + others + (last == 1 ? " term" : " terms") +
+                                " describe the data about as well; the intervals of E0 and E_inf "
+                                "hold theirs too"});
   }
   // From a tenth of the record on (the range ends at three records).
   const double late = model.ln_tau_max() - std::log(30.0);

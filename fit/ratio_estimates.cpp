@@ -1,5 +1,7 @@
 #include "fit/ratio_estimates.h"
 
+#include "models/text_of_number.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -65,7 +67,7 @@ std::vector<RatioEstimate> ratio_estimates_of(const std::vector<Material>& speci
     const std::size_t n = specimens[s].terms.size();
     if (n != specimens.front().terms.size()) {
       throw std::invalid_argument(
-          name_of(specimens[s], s + 1) + " has " + std::to_string(n) + " terms and " +
+          name_of(specimens[s], s + 1) + " has " + counted(n, "term") + " and " +
           name_of(specimens.front(), 1) + " " + std::to_string(specimens.front().terms.size()) +
           ": terms are compared one by one. Fit all with the same --terms N");
     }

@@ -1,10 +1,12 @@
 #include "fit/spikes.h"
 
+#include "fit/median.h"
 #include "fit/noise_model.h"
 #include "fit/sample_passes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -24,8 +26,7 @@ double noise_of(std::span<const double> values) {
                                                                     (kStretches - 1));
     sigmas.push_back(sigma_from_differences({begin, begin + kLength}));
   }
-  std::sort(sigmas.begin(), sigmas.end());
-  return sigmas[kStretches / 2];
+  return median(std::move(sigmas));
 }
 
 }  // namespace
@@ -58,10 +59,8 @@ std::vector<std::size_t> outlying_samples(std::span<const double> residual, doub
   if (n < kFewest) return outliers;
   std::vector<double> sizes;
   for (std::size_t i = 0; i < n; i += 1 + n / kEnough) sizes.push_back(std::abs(residual[i]));
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  constexpr double kMedianOfNormal = 0.6744897501960817;
-  const double far = std::max(kFar * *middle / kMedianOfNormal, kLeastShare * largest_value);
+  const double far =
+      std::max(kFar * median(std::move(sizes)) / kMedianOfNormal, kLeastShare * largest_value);
   for (std::size_t i = 1; i + 1 < n; ++i) {
     if (!(std::abs(residual[i]) > far) || std::abs(residual[i - 1]) > far) continue;
     std::size_t end = i + 1;

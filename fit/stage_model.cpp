@@ -1,11 +1,14 @@
 #include "fit/stage_model.h"
 
+#include "fit/clean_data.h"
 #include "fit/contact_onset.h"
+#include "fit/median.h"
 #include "fit/stage_response.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -17,25 +20,12 @@ StageMove shifted(StageMove move, double shift_s) {
   return move;
 }
 
-// Sampling interval: the median of the differences, so that a gap does not matter.
-double sampling_interval_s(const std::vector<double>& time_s) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
-  if (steps.empty()) return 0.0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
-}
-
 double median_force_N(const IndentationData& data, double from_s, double to_s, double otherwise) {
   std::vector<double> values;
   for (std::size_t i = 0; i < data.time_s.size(); ++i) {
     if (data.time_s[i] >= from_s && data.time_s[i] <= to_s) values.push_back(data.force_N[i]);
   }
-  if (values.empty()) return otherwise;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? otherwise : median(std::move(values));
 }
 
 // First time after from_s at which the force passes a level, between samples by straight line.
@@ -61,7 +51,7 @@ Eigen::VectorXd nuisance_start(const IndentationData& data) {
   const auto n_moves = static_cast<Index>(data.moves.size());
   Eigen::VectorXd start = Eigen::VectorXd::Zero(n_moves + 1);
   const StageMove& ramp = data.moves.front();
-  const double after_s = std::max(5.0 * sampling_interval_s(data.time_s), 0.02 * duration_s(ramp));
+  const double after_s = std::max(5.0 * usual_step_s(data.time_s), 0.02 * duration_s(ramp));
   const ContactOnset onset = contact_onset(data);
   start[n_moves] = onset.contact_m;
   start[0] = onset.shift_s;
@@ -82,7 +72,7 @@ StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start
     : time_s_(data.time_s), moves_(data.moves) {
   const std::size_t count = time_s_.size();
   const auto n_moves = static_cast<Index>(moves_.size());
-  const double dt_s = sampling_interval_s(time_s_);
+  const double dt_s = usual_step_s(time_s_);
   with_equilibrium_ = !options.is_liquid;
   may_be_negative_ = options.allow_negative;
 

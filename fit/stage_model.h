@@ -31,6 +31,7 @@ class StageModel final : public SpectralModel {
 
   // True for samples while the stage moves (by the start values).
   const std::vector<bool>& is_moving() const { return is_moving_; }
+  bool has_drift() const { return with_drift_; }
   const std::vector<bool>& is_out_of_contact() const { return is_out_of_contact_; }
   const Eigen::VectorXd& sigma_N() const { return sigma_N_; }  // of each sample
   Eigen::VectorXd row_sigma() const override { return sigma_N_; }

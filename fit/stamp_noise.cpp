@@ -1,9 +1,12 @@
 #include "fit/stamp_noise.h"
 
+#include "fit/median.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -79,12 +82,11 @@ double quiet_N(const StageResidual& left, const Eigen::VectorXd& largest_squares
   return count > 10.0 ? std::sqrt(sum / count) : usual_N;
 }
 
-double median_size(const Eigen::VectorXd& residual) {
+// Standard deviation that a few far ones do not move.
+double usual_size(const Eigen::VectorXd& residual) {
   std::vector<double> sizes;
   for (const double one : residual) sizes.push_back(std::abs(one));
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle / 0.6744897501960817;  // of a normal one
+  return median(std::move(sizes)) / kMedianOfNormal;
 }
 
 // Logarithm of the likelihood but for a constant, at the best of some sizes of shaking.
@@ -114,7 +116,7 @@ double log_likelihood(const StageResidual& left, const Eigen::VectorXd& squares,
 StageNoise stage_noise(const StageResidual& left) {
   const StageNoise plain = plain_noise(left);
   const ForceCurve curve(left);
-  const double usual_N = median_size(left.residual_N);
+  const double usual_N = usual_size(left.residual_N);
   if (curve.empty() || !(usual_N > 0.0)) return plain;
   constexpr double kShortest_s = 1e-4, kRatio = 1.25, kEnough = 6.0;
   constexpr int kScatters = 29;  // up to 52 ms

@@ -1,5 +1,6 @@
 #include "fit/fit_indentation.h"
 #include "fit/indentation_from_capture.h"
+#include "tests/fit/fit_checks.h"
 #include "tests/support/in_memory_run.h"
 
 #include <catch2/catch.hpp>
@@ -40,7 +41,7 @@ Recovery recover(int seeds, const RunConditions& conditions = {}) {
           recovery.worst_half_width, 0.5 * (fit.sum_g_95.high - fit.sum_g_95.low) / fit.sum_g);
       recovery.intervals += 5;
       const auto count = [&](const Interval& interval, double value) {
-        recovery.holding += value >= interval.low && value <= interval.high ? 1 : 0;
+        recovery.holding += holds(interval, value) ? 1 : 0;
       };
       count(fit.E0_interval_95, E0);
       if (fit.terms.size() != 2) {
@@ -105,8 +106,7 @@ TEST_CASE("readings lost in the ramp make the result untrustworthy", "[fit]") {
   const FitResult fit =
       fit_indentation(indentation_from_capture(in_memory_run(demo_truth(13, 2), {}, conditions)));
   CHECK_FALSE(fit.is_trustworthy);
-  CHECK(std::any_of(fit.flags.begin(), fit.flags.end(),
-                    [](const MaterialFlag& flag) { return flag.name == "gap-in-ramp"; }));
+  CHECK(has_flag(fit, "gap-in-ramp"));
 }
 
 TEST_CASE("the systematic part holds the share of the frame", "[fit]") {
@@ -161,9 +161,6 @@ TEST_CASE("a gain that drifts before contact is in the intervals of the moduli",
   CHECK(fit.gain_drift_relative == Approx(2e-4 * (1.0 + share)).epsilon(0.3));
   double E_inf = truth.material.E0_Pa;
   for (const MaterialTerm& term : truth.material.terms) E_inf -= term.g * truth.material.E0_Pa;
-  const auto holds = [](const Interval& interval, double value) {
-    return value >= interval.low && value <= interval.high;
-  };
   CHECK(holds(fit.E_inf_interval_95, E_inf));
   // Without it the truth lies outside.
   data.first_reading_s = data.contact_from_s;

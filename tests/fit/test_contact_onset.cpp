@@ -2,6 +2,7 @@
 #include "fit/fit_indentation.h"
 #include "fit/flags.h"
 #include "fit/indentation_from_capture.h"
+#include "tests/fit/fit_checks.h"
 #include "tests/support/in_memory_run.h"
 
 #include <catch2/catch.hpp>
@@ -41,11 +42,6 @@ IndentationData record(const Bench& bench) {
                            bench.stiffness_N_m * std::max(0.0, z_m - bench.contact_m));
   }
   return data;
-}
-
-bool has_flag(const FitResult& fit, const std::string& name) {
-  return std::any_of(fit.flags.begin(), fit.flags.end(),
-                     [&](const MaterialFlag& flag) { return flag.name == name; });
 }
 
 }  // namespace

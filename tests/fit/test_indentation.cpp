@@ -2,6 +2,7 @@
 #include "fit/fit_relaxation.h"
 #include "fit/fit_stage_indentation.h"
 #include "models/retardation_spectrum.h"
+#include "tests/fit/fit_checks.h"
 #include "tests/fit/spectra.h"
 
 #include <catch2/catch.hpp>
@@ -11,13 +12,6 @@
 
 using namespace viscard;
 using namespace viscard::test;
-
-namespace {
-bool has_flag(const FitResult& fit, const std::string& name) {
-  return std::any_of(fit.flags.begin(), fit.flags.end(),
-                     [&](const MaterialFlag& flag) { return flag.name == name; });
-}
-}  // namespace
 
 TEST_CASE("a slow ramp biases a step fit, and not the fit of the history", "[fit]") {
   const double ramp_s = GENERATE(1.0, 5.0);

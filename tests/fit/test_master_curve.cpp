@@ -1,6 +1,7 @@
 #include "fit/fit_master_curve.h"
 #include "fit/master_model.h"
 #include "models/prony_series.h"
+#include "tests/fit/fit_checks.h"
 #include "tests/support/error_text.h"
 
 #include <catch2/catch.hpp>
@@ -10,6 +11,7 @@
 #include <random>
 
 using namespace viscard;
+using namespace viscard::test;
 using viscard::test::error_text;
 
 namespace {
@@ -36,10 +38,6 @@ MasterData relaxation_data(const TemperatureShift& shift, double noise, std::uin
   }
   data.T_ref_C = 20.0;
   return data;
-}
-
-bool holds(const Interval& interval, double value) {
-  return value >= interval.low && value <= interval.high;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "fit/log_bins.h"
 #include "fit/order_choice.h"
 #include "fit/step_model.h"
+#include "tests/fit/fit_checks.h"
 #include "tests/fit/spectra.h"
 
 #include <Eigen/QR>
@@ -14,13 +15,6 @@
 
 using namespace viscard;
 using namespace viscard::test;
-
-namespace {
-bool has_flag(const FitResult& fit, const std::string& name) {
-  return std::any_of(fit.flags.begin(), fit.flags.end(),
-                     [&](const MaterialFlag& flag) { return flag.name == name; });
-}
-}  // namespace
 
 TEST_CASE("S2 gives two terms that lie in their intervals", "[fit]") {
   const FitResult fit = fit_relaxation(relaxation_of(s2(), 10000, 1000.0, 0.01, 1));

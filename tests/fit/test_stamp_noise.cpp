@@ -1,6 +1,7 @@
 #include "fit/fit_indentation.h"
 #include "fit/indentation_from_capture.h"
 #include "fit/stamp_noise.h"
+#include "tests/fit/fit_checks.h"
 #include "tests/support/in_memory_run.h"
 
 #include <catch2/catch.hpp>
@@ -107,7 +108,7 @@ TEST_CASE("72 runs with stamps off by up to 20 ms: 90 to 99 % of 360 intervals h
           options);
       const auto count = [&](const Interval& interval, double value) {
         ++intervals;
-        holding += value >= interval.low && value <= interval.high ? 1 : 0;
+        holding += holds(interval, value) ? 1 : 0;
       };
       count(fit.E0_interval_95, truth.material.E0_Pa);
       CAPTURE(ratio, seed);

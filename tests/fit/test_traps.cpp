@@ -2,6 +2,7 @@
 #include "fit/fit_indentation.h"
 #include "fit/fit_relaxation.h"
 #include "fit/spikes.h"
+#include "tests/fit/fit_checks.h"
 #include "tests/fit/spectra.h"
 
 #include <catch2/catch.hpp>
@@ -14,19 +15,6 @@ using namespace viscard;
 using namespace viscard::test;
 
 // What misleads a fit: each case has a truth that the plain method misses.
-namespace {
-
-bool has_flag(const FitResult& fit, const std::string& name) {
-  return std::any_of(fit.flags.begin(), fit.flags.end(),
-                     [&](const MaterialFlag& flag) { return flag.name == name; });
-}
-
-bool holds(const Interval& interval, double value) {
-  return interval.low <= value && value <= interval.high;
-}
-
-}  // namespace
-
 TEST_CASE("one sample in a hundred twenty standard deviations off does not move the fit", "[fit]") {
   RelaxationData data = relaxation_of(s2(), 10000, 1000.0, 0.01, 31);
   const FitResult clean = fit_relaxation(data);

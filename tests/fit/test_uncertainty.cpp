@@ -1,5 +1,6 @@
 #include "fit/fit_dma.h"
 #include "fit/fit_relaxation.h"
+#include "tests/fit/fit_checks.h"
 #include "tests/fit/spectra.h"
 
 #include <catch2/catch.hpp>
@@ -12,11 +13,6 @@ using namespace viscard;
 using namespace viscard::test;
 
 namespace {
-
-bool has_flag(const FitResult& fit, const std::string& name) {
-  return std::any_of(fit.flags.begin(), fit.flags.end(),
-                     [&](const MaterialFlag& flag) { return flag.name == name; });
-}
 
 double width(const Interval& interval) {
   return interval.high - interval.low;
