@@ -120,10 +120,8 @@ class TomlReader final : public FieldVisitor {
 
   void texts(const TextField& field, std::vector<std::string>& values) override {
     const std::string what = std::string("a list of texts, such as [\"") + field.example + "\"]";
-    const toml::node* node = find(field.key, field.is_required, what);
-    if (node == nullptr) return;
-    const toml::array* entries = node->as_array();
-    if (entries == nullptr) fail(*node, field.key, "expected " + what);
+    const toml::array* entries = list_at(field.key, field.is_required, what);
+    if (entries == nullptr) return;
     values.clear();
     for (const toml::node& entry : *entries) {
       const auto text = entry.value_exact<std::string>();
@@ -136,10 +134,8 @@ class TomlReader final : public FieldVisitor {
                       std::vector<std::pair<double, double>>& values) override {
     const std::string what = std::string("a list of pairs, [[\"1 ") + first_unit + "\", \"2 " +
                              second_unit + "\"], ...]";
-    const toml::node* node = find(key, false, what);
-    if (node == nullptr) return;
-    const toml::array* entries = node->as_array();
-    if (entries == nullptr) fail(*node, key, "expected " + what);
+    const toml::array* entries = list_at(key, false, what);
+    if (entries == nullptr) return;
     values.clear();
     for (const toml::node& entry : *entries) {
       const toml::array* pair = entry.as_array();
@@ -151,10 +147,8 @@ class TomlReader final : public FieldVisitor {
 
   void quantities(const QuantityField& field, std::vector<double>& values) override {
     const std::string what = "a list, each entry " + expected(field);
-    const toml::node* node = find(field.key, field.is_required, what);
-    if (node == nullptr) return;
-    const toml::array* entries = node->as_array();
-    if (entries == nullptr) fail(*node, field.key, "expected " + what);
+    const toml::array* entries = list_at(field.key, field.is_required, what);
+    if (entries == nullptr) return;
     values.clear();
     for (const toml::node& entry : *entries) {
       const double written = quantity_of(entry, field.key, field.unit);
@@ -241,6 +235,14 @@ class TomlReader final : public FieldVisitor {
                  "' is missing; expected " + what;
     }
     return node;
+  }
+
+  // The list under a key; nullptr where there is none and need be none.
+  const toml::array* list_at(const char* key, bool is_required, const std::string& what) {
+    const toml::node* node = find(key, is_required, what);
+    if (node == nullptr) return nullptr;
+    if (node->as_array() == nullptr) fail(*node, key, "expected " + what);
+    return node->as_array();
   }
 
   std::string where(const toml::node& node) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/array/array_scene.h"
 #include "models/array/array_statics.h"
 
 namespace viscard::test {
@@ -22,6 +23,16 @@ constexpr double kSeedPressure_Pa = 1e3;
 const Discretisation kSeedMesh{.degree = 5, .layers = 2};
 const Discretisation kFineMesh{.degree = 6,
                                .layers = 3};  // voltages to 3e-6, see the test of 4.12 mV
+
+inline ArrayScene seed_scene() {
+  ArrayScene scene;
+  scene.pillar.E0_Pa = 1.8e6;
+  scene.pillar.nu = 0.33;
+  scene.pillar.rho_kg_m3 = 965.0;
+  scene.film = seed_pvdf();
+  scene.load_Pa = kSeedPressure_Pa;
+  return scene;
+}
 
 // One pillar of an endless row, all loaded.
 inline ArrayGeometry endless_row(double spacing_m, double thickness_m = 25e-6,

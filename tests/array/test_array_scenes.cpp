@@ -12,16 +12,6 @@ using namespace viscard::test;
 
 namespace {
 
-ArrayScene seed_scene() {
-  ArrayScene scene;
-  scene.pillar.E0_Pa = 1.8e6;
-  scene.pillar.nu = 0.33;
-  scene.pillar.rho_kg_m3 = 965.0;
-  scene.film = seed_pvdf();
-  scene.load_Pa = kSeedPressure_Pa;
-  return scene;
-}
-
 const SceneResult& result_of(const SceneAnswer& answer, const std::string& name) {
   const auto found = std::find_if(answer.results.begin(), answer.results.end(),
                                   [&](const SceneResult& r) { return r.name == name; });

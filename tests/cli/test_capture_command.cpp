@@ -40,6 +40,21 @@ hold = "3 s"
 hold = "2 s"
 )";
 
+// viscard capture --force with the demo's rig behind these ports.
+test::CommandOutcome replace_over_ports(const ScratchFolder& folder,
+                                        const std::filesystem::path& capture,
+                                        const std::string& stage, const std::string& load_cell) {
+  std::string rig = read_file(demo("01_rig.toml"));
+  const auto put = [&rig](const std::string& from, const std::string& to) {
+    rig.replace(rig.find(from), from.size(), to);
+  };
+  put("/dev/serial/by-id/stage", stage);
+  put("/dev/serial/by-id/load_cell", load_cell);
+  write_file(folder / "rig.toml", rig, false);
+  return run_command({"capture", "--rig", folder / "rig.toml", "--test", demo("02_test.toml"),
+                      "--specimen", demo("03_pdms_1to10.toml"), "--out", capture, "--force"});
+}
+
 std::vector<std::string> series_words(const ScratchFolder& folder) {
   const std::string test_file = folder / "test.toml";
   if (!std::filesystem::exists(test_file)) write_file(test_file, kShortTest, false);
@@ -178,16 +193,7 @@ TEST_CASE("a run that never begins leaves the capture that --force would have re
   leave_interrupted(capture);
   const std::string before = read_file(capture);
   const PtyPort stage, load_cell;  // plugged in, and silent
-  std::string rig = read_file(demo("01_rig.toml"));
-  const auto put = [&rig](const std::string& from, const std::string& to) {
-    rig.replace(rig.find(from), from.size(), to);
-  };
-  put("/dev/serial/by-id/stage", stage.path());
-  put("/dev/serial/by-id/load_cell", load_cell.path());
-  write_file(folder / "rig.toml", rig, false);
-  const auto outcome =
-      run_command({"capture", "--rig", folder / "rig.toml", "--test", demo("02_test.toml"),
-                   "--specimen", demo("03_pdms_1to10.toml"), "--out", capture, "--force"});
+  const auto outcome = replace_over_ports(folder, capture, stage.path(), load_cell.path());
   CAPTURE(outcome.err);
   CHECK(outcome.status == kFailed);
   CHECK(contains(outcome.err, "nothing came from the load cell"));
@@ -208,16 +214,8 @@ TEST_CASE("a run refused because the punch presses leaves the capture that --for
   options.truth.overload_N = 100.0;
   options.config = demo_rig();
   const EmulatedRig emulated(options);
-  std::string rig = read_file(demo("01_rig.toml"));
-  const auto put = [&rig](const std::string& from, const std::string& to) {
-    rig.replace(rig.find(from), from.size(), to);
-  };
-  put("/dev/serial/by-id/stage", emulated.config().stage.port);
-  put("/dev/serial/by-id/load_cell", emulated.config().load_cell.port);
-  write_file(folder / "rig.toml", rig, false);
-  const auto outcome =
-      run_command({"capture", "--rig", folder / "rig.toml", "--test", demo("02_test.toml"),
-                   "--specimen", demo("03_pdms_1to10.toml"), "--out", capture, "--force"});
+  const auto outcome = replace_over_ports(folder, capture, emulated.config().stage.port,
+                                          emulated.config().load_cell.port);
   CAPTURE(outcome.err);
   CHECK(outcome.status == kFailed);
   CHECK(contains(outcome.err, "the record that --force was to replace is kept"));
