@@ -48,6 +48,9 @@ bool is_sideways(const Scene& scene);
 PillarModel sideways_model(const Scene& scene, const SceneAnswer& on_mesh);
 PillarState sideways_state(const Scene& scene, const PillarModel& model);
 void check_sideways(const Scene& scene);
+// The same load in time or frequency: whether an electrode in quadrants reads it.
+bool reads_quadrants(const Scene& scene);
+void check_sideways_in_time(const Scene& scene);
 void run_sideways(const Scene& scene, SceneAnswer& answer);
 void check_modal(const Scene& scene);
 void run_modal(const Scene& scene, SceneAnswer& answer);

@@ -211,6 +211,7 @@ void check_harmonic(const Scene& scene) {
     throw std::invalid_argument(
         "a harmonic analysis needs a pressure on the top or an acceleration of the base");
   }
+  check_sideways_in_time(scene);
   wave_mesh(scene);  // refuses what no mesh can resolve
 }
 
@@ -238,7 +239,7 @@ void run_harmonic(const Scene& scene, SceneAnswer& answer) {
   if (!is_solved_one_by_one(scene, body)) add_peaks(scene, response, first, sweeps[0], answer);
   note_poles(scene, sweeps[0], answer);
   if (sweeps.size() < 2) return;
-  add_curves(scene, body.outputs[1].name, "V", sweeps[1], answer);
+  add_curves(scene, body.outputs[1].name, body.outputs[1].unit, sweeps[1], answer);
   if (!scene.readout) return;
   const ReadoutFilter filter = readout_of(scene, body, answer);
   Sweep reading = sweeps[1];

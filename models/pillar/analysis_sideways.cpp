@@ -34,7 +34,8 @@ PillarState times(PillarState state, double factor) {
 }
 
 void add_quadrants(const Scene& scene, const PillarModel& model, SceneAnswer& answer) {
-  const QuadrantAnswer unit = piezo_quadrants(model, 1.0);
+  // A force on the top has no answer without a held bottom.
+  const QuadrantAnswer unit = piezo_quadrants(model, scene.fixed_bottom ? 1.0 : 0.0);
   const double by_voltage_m = unit.displacement_per_V_m * scene.drive_V;
   const double force_N = side_force_N(scene, model, unit.top_displacement_m, by_voltage_m);
   if (moves_top(scene)) {
@@ -53,12 +54,41 @@ void add_quadrants(const Scene& scene, const PillarModel& model, SceneAnswer& an
 
 PillarState sideways_state(const Scene& scene, const PillarModel& model) {
   if (model.electrode_dof() >= 0) {
-    const QuadrantAnswer unit = piezo_quadrants(model, 1.0);
-    return times(unit.shorted, side_force_N(scene, model, unit.top_displacement_m));
+    const QuadrantAnswer unit = piezo_quadrants(model, scene.fixed_bottom ? 1.0 : 0.0);
+    const double by_voltage_m = unit.displacement_per_V_m * scene.drive_V;
+    PillarState state =
+        times(unit.shorted, side_force_N(scene, model, unit.top_displacement_m, by_voltage_m));
+    state.unknowns += scene.drive_V * unit.driven_per_V.unknowns;
+    state.pressure_source += scene.drive_V * unit.driven_per_V.pressure_source;
+    return state;
   }
   const Eigen::VectorXd push = unit_top_force(model);
   const PillarState unit = model.solve(push);
   return times(unit, side_force_N(scene, model, push.dot(unit.unknowns)));
+}
+
+namespace {
+
+void check_quadrants(const Scene& scene) {
+  if (scene.plane && scene.electrodes->electrode_radius_m > 0.0) {
+    throw SceneMistake("geometry.electrode.kind",
+                       "halves of a strip touch where their voltages jump; say \"sampled\"");
+  }
+  if (!scene.readout || scene.readout->kind == ReadoutKind::kCharge) return;
+  throw SceneMistake(
+      "readout.kind",
+      "quadrants have charges, not voltages of their own: where two that touch "
+      "differ in voltage the field between them has no bound, nor has their "
+      "capacitance, which only the width of a gap sets. Say \"charge\", an amplifier "
+      "that holds every quadrant at ground, or read a charge-free face (kind = "
+      "\"sampled\")");
+}
+
+}  // namespace
+
+bool reads_quadrants(const Scene& scene) {
+  return scene.direction == LoadDirection::kLateral && scene.electrodes &&
+         scene.electrodes->quadrants;
 }
 
 void check_sideways(const Scene& scene) {
@@ -67,13 +97,18 @@ void check_sideways(const Scene& scene) {
     throw SceneMistake("geometry.electrode",
                        "a round electrode reads nothing of a sideways load; add quadrants = true");
   }
-  if (scene.plane && scene.electrodes->electrode_radius_m > 0.0) {
-    throw SceneMistake("geometry.electrode.kind",
-                       "halves of a strip touch where their voltages jump; say \"sampled\"");
-  }
+  check_quadrants(scene);
   if (scene.readout) {
-    throw SceneMistake("readout", "reads round electrodes under axial loads only");
+    throw SceneMistake("readout", "reads sideways loads in harmonic and transient analyses only");
   }
+}
+
+void check_sideways_in_time(const Scene& scene) {
+  if (scene.direction != LoadDirection::kLateral || !scene.electrodes) return;
+  if (scene.electrodes->quadrants) return check_quadrants(scene);
+  if (!scene.readout) return;
+  throw SceneMistake("geometry.electrode",
+                     "a round electrode reads nothing of a sideways load; add quadrants = true");
 }
 
 void run_sideways(const Scene& scene, SceneAnswer& answer) {

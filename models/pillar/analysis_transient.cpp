@@ -148,6 +148,7 @@ void check_transient(const Scene& scene) {
                                 "; it must lie between 10 and 200000");
   }
   validate(scene.history);
+  check_sideways_in_time(scene);
 }
 
 void run_transient_scene(const Scene& scene, SceneAnswer& answer) {

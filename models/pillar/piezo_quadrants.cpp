@@ -31,9 +31,19 @@ QuadrantAnswer piezo_quadrants(const PillarModel& lateral, double force_N) {
   const double scale_V = lateral.potential_scale_V();
   answer.charge_C = -charge / scale_V / std::numbers::pi;
   answer.top_displacement_m = push.dot(state.unknowns);
-  answer.displacement_per_V_m =
-      4.0 / std::numbers::pi * push.dot(by_charge) / (by_charge[electrode] * scale_V);
+  const double per_V = 4.0 / std::numbers::pi / (by_charge[electrode] * scale_V);
+  answer.driven_per_V = {per_V * by_charge, per_V * source_by_charge};
+  answer.displacement_per_V_m = push.dot(answer.driven_per_V.unknowns);
   return answer;
+}
+
+Eigen::VectorXd quadrant_charge_row(const PillarModel& lateral, const SymmetricSparse& stiffness) {
+  const int electrode = lateral.electrode_dof();
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(stiffness.rows());
+  unit[electrode] = 1.0;
+  Eigen::VectorXd row = times(stiffness, unit);
+  row[electrode] = 0.0;
+  return -row / (lateral.potential_scale_V() * std::numbers::pi);
 }
 
 double quadrant_mean_V(const PillarModel& lateral, const PillarState& state, double z,

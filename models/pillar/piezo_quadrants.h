@@ -14,6 +14,7 @@ struct QuadrantAnswer {
       0.0;                          // top along +x, 1 V on the halves toward +x, -1 V on the others
   double top_displacement_m = 0.0;  // mean, all shorted
   PillarState shorted;
+  PillarState driven_per_V;  // without force, 1 and -1 V on the halves
 };
 
 // Under a force along x on the top, of a lateral model whose electrode has a radius. A potential of
@@ -21,6 +22,10 @@ struct QuadrantAnswer {
 // and under the force, all quadrants shorted, there are no others: gaps may be left out. Throws
 // std::invalid_argument for another model.
 QuadrantAnswer piezo_quadrants(const PillarModel& lateral, double force_N);
+
+// The same charge as a functional of a motion with all quadrants shorted: charge_C = row.dot(u)
+// with the entry of the electrode itself left out. `stiffness` is the model's.
+Eigen::VectorXd quadrant_charge_row(const PillarModel& lateral, const SymmetricSparse& stiffness);
 
 // Mean over one quadrant (in the plane: the half toward +x) of the potential of a charge-free face.
 double quadrant_mean_V(const PillarModel& lateral, const PillarState& state, double z,

@@ -19,7 +19,8 @@ struct BodyOutput {
 
 // One scene on one mesh as a viscoelastic body: matrices, the unit force on its top (1 N), and what
 // can be read from it. The first output is the displacement of the top; with electrodes comes the
-// open-circuit voltage, or the potential at the centre of a charge-free face.
+// open-circuit voltage, or the potential at the centre of a charge-free face; sideways the charge
+// of a shorted quadrant, or its mean voltage on a charge-free face.
 struct SceneBody {
   std::unique_ptr<PillarModel> model;
   ViscoelasticSystem system;
@@ -33,8 +34,8 @@ struct SceneBodyOptions {
 SceneBody body_of(const Scene& scene, Motion motion, const SceneBodyOptions& options,
                   SceneAnswer& answer);
 
-// Filter between the electrode's open-circuit voltage and the reading; adds time constant and
-// capacitance to the results. Only with an electrode and a readout.
+// Filter between the electrode's open-circuit voltage (a quadrant's charge) and the reading; adds
+// time constant and capacitance to the results. Only with an electrode and a readout.
 ReadoutFilter readout_of(const Scene& scene, const SceneBody& body, SceneAnswer& answer);
 
 }  // namespace viscard

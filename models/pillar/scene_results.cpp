@@ -79,6 +79,14 @@ Names moving_names(const Scene& scene, const std::string& first, const Names& en
   Names names;
   add(names, first, endings);
   const bool is_axial = scene.direction == LoadDirection::kAxial;
+  if (reads_quadrants(scene)) {
+    const bool is_sampled = scene.electrodes->electrode_radius_m == 0.0;
+    add(names, is_sampled ? "quadrant_voltage" : "quadrant_charge", endings);
+    if (scene.readout) {
+      add(names, "reading", endings);
+      names.emplace_back("readout_time_constant");
+    }
+  }
   if (!scene.electrodes || !is_axial) return names;
   const bool is_read = scene.electrodes->electrode_radius_m == 0.0;
   add(names, is_read ? "potential_at_centre" : "electrode_voltage", endings);

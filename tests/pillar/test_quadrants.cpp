@@ -141,3 +141,86 @@ TEST_CASE("a film left out under a sideways push is within the error told", "[pi
   CHECK(missed_m > 0.01 * with_film_m);
   CHECK(missed_m <= without.results[0].error_estimate);
 }
+
+namespace {
+
+// Long before the first resonance (16 kHz) all is in step with the load. One mesh for all analyses,
+// so that what differs is not the mesh.
+Scene slow_scene(bool is_sampled) {
+  Scene scene = sideways_scene();
+  scene.pillar.rho_kg_m3 = 965.0;
+  if (is_sampled) scene.electrodes->electrode_radius_m = 0.0;
+  scene.discretisation = Discretisation{.degree = 4, .layers = 2};
+  scene.tolerance = 0.1;
+  scene.kind = AnalysisKind::kHarmonic;
+  scene.frequencies_Hz = {1.0};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("quadrants read a slow sideways load as they read one at rest", "[pillar]") {
+  const bool is_sampled = GENERATE(false, true);
+  const std::string name = is_sampled ? "quadrant_voltage" : "quadrant_charge";
+  Scene scene = slow_scene(is_sampled);
+  const SceneAnswer slow = simulate(scene);
+  scene.kind = AnalysisKind::kStatic;
+  const double at_rest = value_of(simulate(scene), name);
+  // (1 Hz/16 kHz)^2 = 4e-9 apart.
+  CHECK(curve_of(slow, name + "_real").value[0] == Approx(at_rest).epsilon(1e-7));
+  CHECK(std::abs(curve_of(slow, name + "_imaginary").value[0]) < 1e-9 * std::abs(at_rest));
+  scene.kind = AnalysisKind::kTransient;
+  scene.end_time_s = 2e-3;
+  scene.history = {{0.0, 0.0}, {2e-3, scene.pressure_Pa}};
+  scene.pressure_Pa = 0.0;
+  // A ramp of t leaves ringing of 1/(pi f t) = 1 %.
+  CHECK(value_of(simulate(scene), name + "_end") == Approx(at_rest).epsilon(0.015));
+}
+
+// A shaken beam bends at its foot by rho A a L^2/2, as a force F at its end does by F L; what lies
+// beside that, from shear next to the foot, goes with the shear force, rho A a L or F.
+TEST_CASE("quadrants on a shaken base read the pillar's inertia", "[pillar]") {
+  const double a_m_s2 = 10.0;
+  const auto shaken_C = [&](double length_m) {
+    Scene scene = slow_scene(false);
+    scene.geometry.length_m = length_m;
+    scene.load_place = LoadPlace::kBase;
+    scene.base_acceleration_m_s2 = a_m_s2;
+    scene.pressure_Pa = 0.0;
+    return curve_of(simulate(scene), "quadrant_charge_real").value[0];
+  };
+  const auto pushed_C_N = [&](double length_m) {
+    Scene scene = slow_scene(false);
+    scene.kind = AnalysisKind::kStatic;
+    scene.geometry.length_m = length_m;
+    return value_of(simulate(scene), "quadrant_charge") / (scene.pressure_Pa * kPi * 4e-10);
+  };
+  const double L = 120e-6, longer = 240e-6;
+  const double by_moment = (pushed_C_N(longer) - pushed_C_N(L)) / (longer - L);  // C per N m
+  const double by_shear = pushed_C_N(L) - L * by_moment;                         // C per N
+  const double mass_1_m = 965.0 * kPi * 4e-10;
+  const auto expected_C = [&](double l) {  // the base to the right pushes the pillar to the left
+    return -mass_1_m * a_m_s2 * (0.5 * l * l * by_moment + l * by_shear);
+  };
+  // The film's own inertia, 4e-2 of the pillar's moment, does not depend on the pillar's length.
+  CHECK(shaken_C(longer) - shaken_C(L) == Approx(expected_C(longer) - expected_C(L)).epsilon(5e-3));
+}
+
+TEST_CASE("a charge amplifier reads a quadrant", "[pillar]") {
+  Scene scene = slow_scene(false);
+  scene.readout = Readout{ReadoutKind::kCharge, 1e10, 1e-12};  // 10 ms: a corner at 16 Hz
+  scene.frequencies_Hz = {1.0, 1000.0};
+  const SceneAnswer answer = simulate(scene);
+  const double charge_C = curve_of(answer, "quadrant_charge_real").value[0];
+  const double x = 2.0 * kPi * 0.01;  // omega T at 1 Hz
+  CHECK(curve_of(answer, "reading_imaginary").value[0] ==
+        Approx(-charge_C / 1e-12 * x / (1.0 + x * x)).epsilon(1e-9));
+  CHECK(curve_of(answer, "reading_magnitude").value[1] ==
+        Approx(curve_of(answer, "quadrant_charge_magnitude").value[1] / 1e-12).epsilon(2e-4));
+  CHECK(value_of(answer, "readout_time_constant") == Approx(0.01).epsilon(1e-12));
+  scene.readout->kind = ReadoutKind::kVoltage;
+  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("width of a gap"));
+  scene.readout->kind = ReadoutKind::kCharge;
+  scene.electrodes->quadrants = false;
+  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("quadrants = true"));
+}
