@@ -3,6 +3,7 @@
 #include "models/pillar/viscoelastic_exact.h"
 #include "models/pillar/viscoelastic_pillar.h"
 #include "tests/pillar/small_body.h"
+#include "tests/support/printed_digits.h"
 
 #include <catch2/catch.hpp>
 
@@ -56,9 +57,9 @@ TEST_CASE("a confined bar relaxes from M_0 to M_inf at constant bulk modulus", "
   const Bar bar(true);
   ViscoelasticStepper stepper(bar.system);
   stepper.advance(0.0, Control::kDisplacement, 1.0);
-  CHECK(bar.modulus_Pa(stepper.force()) == Approx(2.6669615e6).epsilon(2e-8));  // printed digits
+  CHECK(bar.modulus_Pa(stepper.force()) == printed("2.6669615e6"));
   for (int i = 0; i < 5; ++i) stepper.advance(10.0 * kTime_s, Control::kDisplacement, 1.0);
-  CHECK(bar.modulus_Pa(stepper.force()) == Approx(2.6470524e6).epsilon(2e-8));
+  CHECK(bar.modulus_Pa(stepper.force()) == printed("2.6470524e6", 1.0, 0.52));
 }
 
 TEST_CASE("a free bar of one shear term relaxes with its time stretched", "[pillar]") {

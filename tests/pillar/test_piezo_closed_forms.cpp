@@ -2,6 +2,7 @@
 #include "models/pillar/krylov_modes.h"
 #include "models/pillar/piezo_static.h"
 #include "tests/pillar/small_body.h"
+#include "tests/support/printed_digits.h"
 
 #include <catch2/catch.hpp>
 
@@ -34,7 +35,7 @@ double scale_V(const Medium& medium) {
 struct Plate {
   Plate(Motion motion, const Medium& medium, bool clamped_sideways)
       : scale(scale_V(medium)),
-        body(with_potential(kinematics_of(motion), scale), {0, 1e-4}, {-kThickness_m, 0}, 4) {
+        body(with_potential(kinematics_of(motion), scale), {0, 1e-4}, {-kThickness_m, 0}, 8) {
     body.hold(1, [](double, double z) { return z < -0.999 * kThickness_m; });
     body.hold(2, [](double, double z) { return z < -0.999 * kThickness_m; });
     body.hold(0, [=](double x, double) { return clamped_sideways || x == 0.0; });
@@ -68,23 +69,23 @@ TEST_CASE("a free piezoelectric plate gives g33 p t, and d33 per volt", "[pillar
   const Medium film = pvdf(12.5, 12.5, -30);
   const Plate plate(Motion::kLongitudinal, film, false);
   const PlateAnswer answer = answer_of(plate, coupled_form(film), 1e3);
-  CHECK(std::abs(answer.voltage_V) == Approx(7.058807e-3).epsilon(1e-7));
-  CHECK(std::abs(answer.displacement_m_V) == Approx(30.00e-12).epsilon(1e-9));
+  CHECK(std::abs(answer.voltage_V) == printed("7.058807e-3"));
+  CHECK(std::abs(answer.displacement_m_V) == printed("30.00e-12"));
 }
 
 TEST_CASE("a plate clamped sideways gives a third less", "[pillar]") {
   const Medium film = averaged_about_z(pvdf(22, 3, -30));
   const Plate plate(Motion::kLongitudinal, film, true);
   const PlateAnswer answer = answer_of(plate, coupled_form(film), 1e3);
-  CHECK(std::abs(answer.voltage_V) == Approx(4.707562e-3).epsilon(2e-7));
-  CHECK(std::abs(answer.displacement_m_V) == Approx(19.78873e-12).epsilon(3e-7));
+  CHECK(std::abs(answer.voltage_V) == printed("4.707562e-3"));
+  CHECK(std::abs(answer.displacement_m_V) == printed("19.78873e-12"));
 }
 
 TEST_CASE("a strip clamped sideways in plane stress gives V/(p t) = .224349", "[pillar]") {
   const Plate plate(Motion::kPlaneSymmetric, pvdf(22, 3, -30), true);
   const Eigen::MatrixXd form = plane_stress_moduli(coupled_form(pvdf(22, 3, -30)));
   const double voltage_V = answer_of(plate, form, 1e3).voltage_V;
-  CHECK(std::abs(voltage_V) / (1e3 * kThickness_m) == Approx(.224349).epsilon(3e-6));
+  CHECK(std::abs(voltage_V) / (1e3 * kThickness_m) == printed(".224349"));
 }
 
 TEST_CASE("thickness modes of a film clamped sideways have the stiffened velocity", "[pillar]") {
@@ -92,8 +93,8 @@ TEST_CASE("thickness modes of a film clamped sideways have the stiffened velocit
   const Medium film = averaged_about_z(pvdf(22, 3, -30));
   const double e33 = film.piezo_C_m2(2, 2);
   const double c33D = film.stiffness_Pa(2, 2) + e33 * e33 / film.permittivity_F_m(2, 2);
-  CHECK(std::sqrt(c33D / 1780.0) == Approx(1219.399).epsilon(5e-7));
-  CHECK(std::sqrt(e33 * e33 / film.permittivity_F_m(2, 2) / c33D) == Approx(.09882).epsilon(5e-5));
+  CHECK(std::sqrt(c33D / 1780.0) == printed("1219.399"));
+  CHECK(std::sqrt(e33 * e33 / film.permittivity_F_m(2, 2) / c33D) == printed(".09882"));
   const Plate plate(Motion::kLongitudinal, film, true);
   const SymmetricSparse K = plate.body.stiffness(coupled_form(film));
   const SymmetricSparse M =
@@ -105,9 +106,9 @@ TEST_CASE("thickness modes of a film clamped sideways have the stiffened velocit
       [&](const Eigen::VectorXd& v) { return factor.solve(times(M, v)); },
       [&](const Eigen::VectorXd& v) { return times(M, v); }, plate.body.system().size(), 1);
   const double lowest_Hz = 1.0 / std::sqrt(pairs.values[0]) / (2.0 * kPi);
-  // Degree 4 represents the quarter wave to 1e-6; the free-free film is two of these.
-  CHECK(lowest_Hz == Approx(12.19399e6).epsilon(2e-6));
-  CHECK(2.0 * lowest_Hz == Approx(24.38798e6).epsilon(2e-6));
+  // The free-free film is two of these.
+  CHECK(lowest_Hz == printed("12.19399e6"));
+  CHECK(2.0 * lowest_Hz == printed("24.38798e6"));
 }
 
 TEST_CASE("potential of a wave of charge falls as cosh through a layer", "[pillar]") {
@@ -169,15 +170,17 @@ TEST_CASE("a film under a wave of pressure has the voltage of its spectral solut
 
 TEST_CASE("uniform pressure on a wide film gives the tabulated voltages", "[pillar][golden]") {
   // mV under 1 kPa on a strip or disc of 40 um, 25 um film, top grounded, bottom read at its
-  // centre. A pillar too soft to hold the film back is a uniform pressure.
+  // centre. A pillar too soft to hold the film back is a uniform pressure. The disc's last digit is
+  // uncertain by one and a half.
   struct Case {
     bool plane;
     PlaneState state;
-    double d31, d32, millivolt, epsilon;
+    double d31, d32;
+    const char* millivolt;
   };
-  const auto c = GENERATE(Case{true, PlaneState::kStress, 22, 3, 4.2759, 2e-5},
-                          Case{true, PlaneState::kStrain, 22, 3, 3.8088, 2e-5},
-                          Case{false, PlaneState::kStrain, 12.5, 12.5, 2.6721, 1e-4});
+  const auto c = GENERATE(Case{true, PlaneState::kStress, 22, 3, "4.2759"},
+                          Case{true, PlaneState::kStrain, 22, 3, "3.8088"},
+                          Case{false, PlaneState::kStrain, 12.5, 12.5, "2.6721"});
   PillarGeometry geometry;
   geometry.film = FilmGeometry{kThickness_m, 400e-6};
   const PillarModel model(geometry, {.degree = 6, .layers = 3, .film_elements = 12},
@@ -187,7 +190,7 @@ TEST_CASE("uniform pressure on a wide film gives the tabulated voltages", "[pill
                            .electrodes = ElectrodeOptions{FilmFace::kTop, 0.0}});
   const PillarState state = piezo_sampled(model, 1e3);
   CHECK(-1e3 * potential_at_V(model, state, 0.0, -kThickness_m) ==
-        Approx(c.millivolt).epsilon(c.epsilon));
+        printed(c.millivolt, 1.0, c.plane ? 0.5 : 1.5));
 }
 
 TEST_CASE("a full electrode gives a small part of the voltage, one way too much",

@@ -1,4 +1,5 @@
 #include "models/pillar/piezo_static.h"
+#include "tests/support/printed_digits.h"
 
 #include <catch2/catch.hpp>
 
@@ -6,6 +7,7 @@
 #include <numbers>
 
 using namespace viscard;
+using namespace viscard::test;
 
 namespace {
 
@@ -68,12 +70,12 @@ TEST_CASE(
       return -model.stress_at(state, model.element_at(r, 0.0, kPillarRegion), r, 0.0)[2];
     };
     // Near the rim the reference itself is good to .05 %.
-    CHECK(base(0.5 * R) == Approx(c.base_half).epsilon(1e-3));
+    CHECK(base(0.5 * R) == Approx(c.base_half).epsilon(1e-4));
     CHECK(base(0.9 * R) == Approx(c.base_nine).epsilon(2e-3));
     CHECK(-model.mean_stress(state, 2, 0.0, kPillarRegion, R) == Approx(1e4).epsilon(2e-3));
     CHECK(-model.mean_stress(state, 2, -25e-6, kFilmRegion, R) ==
           Approx(c.electrode_mean).epsilon(1e-4));
-    CHECK(-model.mean_stress(state, 2, -25e-6, kFilmRegion, 60e-6) == Approx(1111.2).epsilon(1e-3));
+    CHECK(-model.mean_stress(state, 2, -25e-6, kFilmRegion, 60e-6) == Approx(1111.2).epsilon(1e-4));
     const double near_axis = 1e-9;
     CHECK(-model.stress_at(state, model.element_at(near_axis, -25e-6, kFilmRegion), near_axis,
                            -25e-6)[2] == Approx(c.electrode_centre).epsilon(1e-4));
@@ -83,17 +85,17 @@ TEST_CASE(
 TEST_CASE("the film's thickness sets the stress at the electrode as tabulated",
           "[pillar][golden]") {
   struct Case {
-    double thickness_um, mean_Pa;
+    double thickness_um;
+    const char* mean_Pa;
   };
-  const auto c =
-      GENERATE(Case{5, 7887}, Case{25, 4510}, Case{40, 2921}, Case{75, 1214}, Case{100, 754.7});
+  const auto c = GENERATE(Case{5, "7887"}, Case{25, "4510"}, Case{40, "2921"}, Case{75, "1214"},
+                          Case{100, "754.7"});
   const double t_m = c.thickness_um * 1e-6;
   const PillarModel model(on_film(t_m, 100e-6), {.degree = 8, .layers = 4, .film_elements = 2},
                           elastic_media(.33, true), {});
   const PillarState state = model.solve(-1e4 * model.top_traction());
-  // Four digits are known.
   CHECK(-model.mean_stress(state, 2, -t_m, kFilmRegion, model.radius_m()) ==
-        Approx(c.mean_Pa).epsilon(5e-4));
+        printed(c.mean_Pa, 1.0, 0.51));
 }
 
 TEST_CASE("coupled film: open-circuit voltage and short-circuit charge are the converged ones",
@@ -126,16 +128,16 @@ TEST_CASE("one pillar on a wide film in plane stress gives the seed's 4.12 mV",
   // um to either side.
   struct Case {
     PlaneState plane;
-    double millivolt;
+    const char* millivolt;
   };
-  const auto c = GENERATE(Case{PlaneState::kStress, 4.1231}, Case{PlaneState::kStrain, 3.6453});
+  const auto c = GENERATE(Case{PlaneState::kStress, "4.1231"}, Case{PlaneState::kStrain, "3.6453"});
   const PillarModel model(on_film(25e-6, 400e-6), {.degree = 6, .layers = 4, .film_elements = 12},
                           piezo_media(.33, charge_constants(22, 3, -30)),
                           {.motion = Motion::kPlaneSymmetric,
                            .plane = c.plane,
                            .electrodes = ElectrodeOptions{FilmFace::kTop, 0.0}});
   const PillarState state = piezo_sampled(model, 1e3);
-  CHECK(-1e3 * potential_at_V(model, state, 0.0, -25e-6) == Approx(c.millivolt).epsilon(1e-4));
+  CHECK(-1e3 * potential_at_V(model, state, 0.0, -25e-6) == printed(c.millivolt));
 }
 
 TEST_CASE("a disc pillar on a wide film gives 2.4016 mV at the centre", "[pillar][golden]") {
@@ -143,7 +145,7 @@ TEST_CASE("a disc pillar on a wide film gives 2.4016 mV at the centre", "[pillar
                           piezo_media(.33, charge_constants(12.5, 12.5, -30)),
                           {.electrodes = ElectrodeOptions{FilmFace::kTop, 0.0}});
   const PillarState state = piezo_sampled(model, 1e3);
-  CHECK(-1e3 * potential_at_V(model, state, 0.0, -25e-6) == Approx(2.4016).epsilon(1e-4));
+  CHECK(-1e3 * potential_at_V(model, state, 0.0, -25e-6) == printed("2.4016"));
 }
 
 TEST_CASE("sensor and actuator are reciprocal: charge per newton is metres per volt", "[pillar]") {
@@ -163,10 +165,10 @@ TEST_CASE("a piezoelectric body in uniform strain and field has the tabulated st
   Eigen::VectorXd cause(9);
   cause << 1e-4, -2e-4, 3e-4, 0, 0, 0, 0, 0, 1e6;  // strains, then field in V/m
   const Eigen::VectorXd effect = coupled_form(pvdf) * cause;
-  CHECK(effect[0] == Approx(340383.906).epsilon(1e-8));
-  CHECK(effect[1] == Approx(-95275.009).epsilon(1e-8));
-  CHECK(effect[2] == Approx(731081.580).epsilon(1e-8));
-  CHECK(-effect[8] == Approx(9.152042725e-5).epsilon(1e-9));
+  CHECK(effect[0] == printed("340383.906"));
+  CHECK(effect[1] == printed("-95275.009"));
+  CHECK(effect[2] == printed("731081.580"));
+  CHECK(-effect[8] == printed("9.152042725e-5"));
 }
 
 TEST_CASE("an orthotropic film seen by an axisymmetric model has the mean of its constants",
