@@ -184,6 +184,9 @@ void fill_drive(const RawDrive& raw, Scene& scene) {
   }
   fill_traction(raw, scene);
   scene.base_acceleration_m_s2 = raw.acceleration_m_s2;
+  if (raw.voltage_V != 0.0 && scene.kind != AnalysisKind::kStatic) {
+    throw SceneMistake("analysis.load.voltage", "only static analyses drive the electrode");
+  }
   scene.drive_V = raw.voltage_V;
   scene.end_time_s = raw.end_time_s;
   scene.outputs = static_cast<int>(raw.outputs);

@@ -23,7 +23,7 @@ struct RawScene {
   double diameter_m = 0.0, length_m = 0.0;
   double film_thickness_m = 0.0, film_radius_m = 0.0;
   std::string film_material, film_bottom, bottom;  // bottoms: none said is fixed
-  std::string electrode_face, electrode_kind = "equipotential", poling = "+z";
+  std::string electrode_face, electrode_kind, poling = "+z";
   double electrode_radius_m = 0.0;
   bool quadrants = false;
   RawMaterial pillar, film;
@@ -105,13 +105,25 @@ void fill_film(const RawScene& raw, const std::filesystem::path& folder, Scene& 
   if (!(raw.film_thickness_m > 0.0) || !(raw.film_radius_m > 0.0)) {
     throw SceneMistake("geometry.film", "needs thickness and radius");
   }
+  if (raw.film_material.empty()) {
+    throw SceneMistake("geometry.film", "needs a material, the name of one under [materials]");
+  }
+  const std::string material_key = "materials." + raw.film_material;
+  if (raw.film.file.empty() && !(raw.film.E_Pa > 0.0)) {
+    throw SceneMistake(material_key, "[materials] needs a " + raw.film_material +
+                                         ", the film's, with E (and nu, rho) or a file");
+  }
   scene.geometry.film = FilmGeometry{raw.film_thickness_m, raw.film_radius_m};
   if (!raw.film.file.empty()) {
     const MediumFile file = read_medium(folder / raw.film.file);
     scene.film = scene.plane ? file.medium : averaged_about_z(file.medium);
     scene.film_charge_C_N = file.charge_C_N;
   } else {
-    scene.film = isotropic_medium(raw.film.E_Pa, raw.film.nu, raw.film.rho_kg_m3);
+    try {
+      scene.film = isotropic_medium(raw.film.E_Pa, raw.film.nu, raw.film.rho_kg_m3);
+    } catch (const std::invalid_argument& error) {
+      throw SceneMistake(material_key, error.what());
+    }
   }
   if (choice<bool>("geometry.poling", raw.poling, {{"+z", false}, {"-z", true}})) {
     scene.film = with_reversed_poling(*scene.film);
@@ -132,11 +144,16 @@ void fill_bottom(const RawScene& raw, Scene& scene) {
 }
 
 void fill_electrode(const RawScene& raw, Scene& scene) {
+  if (raw.electrode_face.empty()) {
+    throw SceneMistake("geometry.electrode",
+                       "needs the film's face it is on; say face = \"top\" or \"bottom\"");
+  }
   const auto electrode_on =
       choice<FilmFace>("geometry.electrode.face", raw.electrode_face,
                        {{"bottom", FilmFace::kBottom}, {"top", FilmFace::kTop}});
-  const bool sampled = choice<bool>("geometry.electrode.kind", raw.electrode_kind,
-                                    {{"equipotential", false}, {"sampled", true}});
+  const bool sampled = choice<bool>(
+      "geometry.electrode.kind", raw.electrode_kind.empty() ? "equipotential" : raw.electrode_kind,
+      {{"equipotential", false}, {"sampled", true}});
   if (!sampled && !(raw.electrode_radius_m > 0.0)) {
     throw SceneMistake("geometry.electrode", "needs a radius");
   }
@@ -178,9 +195,13 @@ Scene scene_from(const RawScene& raw, const std::filesystem::path& folder) {
   scene.geometry.tip = raw.tip;
   fill_mesh(raw, scene);
   scene.pillar = pillar_material(raw.pillar, folder);
-  if (!raw.film_material.empty() || raw.film_thickness_m > 0.0) fill_film(raw, folder, scene);
+  const bool has_film = !raw.film_material.empty() || raw.film_thickness_m > 0.0 ||
+                        raw.film_radius_m > 0.0 || !raw.film_bottom.empty();
+  if (has_film) fill_film(raw, folder, scene);
   fill_bottom(raw, scene);
-  if (!raw.electrode_face.empty()) fill_electrode(raw, scene);
+  const bool has_electrode = !raw.electrode_face.empty() || !raw.electrode_kind.empty() ||
+                             raw.electrode_radius_m > 0.0 || raw.quadrants;
+  if (has_electrode) fill_electrode(raw, scene);
   std::map<std::string, AnalysisKind> kinds;
   for (const Analysis& analysis : analyses()) kinds[analysis.name] = analysis.kind;
   scene.kind = choice<AnalysisKind>("analysis.kind", raw.analysis, kinds);

@@ -113,7 +113,9 @@ void validate_flare(const Flare& flare, const char* key, const char* what, doubl
   if (!std::isfinite(flare.width_m) || !(flare.height_m >= 0.0) || !std::isfinite(flare.height_m)) {
     throw SceneMistake(key, std::string(what) + " needs a finite width and height");
   }
-  if (flare.width_m != 0.0) require_length(flare.height_m, what);
+  if (flare.width_m != 0.0 && flare.height_m == 0.0) {
+    throw SceneMistake(key, std::string(what) + " needs a height");
+  }
   if (!(flare.width_m > -radius_m)) {
     throw SceneMistake(key, std::string(what) + " takes " + number_text(-flare.width_m * 1e6) +
                                 " um off a radius of " + number_text(radius_m * 1e6) +
@@ -186,8 +188,10 @@ void validate(const PillarGeometry& g) {
   validate_flare(g.foot, "geometry.foot", "the fillet at the foot", 0.5 * g.diameter_m);
   validate_flare(g.tip, "geometry.tip", "the mushroom at the tip", 0.5 * g.diameter_m);
   if (g.foot.height_m + g.tip.height_m > g.length_m * (1.0 + 1e-12)) {
-    throw SceneMistake("geometry.tip",
-                       "fillet and mushroom tip together are higher than the pillar");
+    throw SceneMistake(g.tip.height_m > g.foot.height_m ? "geometry.tip" : "geometry.foot",
+                       "fillet and mushroom tip together are " +
+                           number_text((g.foot.height_m + g.tip.height_m) * 1e6) +
+                           " um high, more than the pillar");
   }
   if (!g.film) return;
   require_length(g.film->thickness_m, "the film's thickness");

@@ -37,6 +37,21 @@ void check_electrodes(const Scene& scene) {
   }
 }
 
+// A mesh that is asked for has to fit into memory.
+void check_mesh(const Scene& scene) {
+  if (!scene.discretisation || !(scene.discretisation->uniform_m > 0.0)) return;
+  const PillarGeometry& g = scene.geometry;
+  const double per_length_1_m = scene.discretisation->degree / scene.discretisation->uniform_m;
+  double section_m2 = 0.5 * g.diameter_m * g.length_m;
+  if (g.film) section_m2 += g.film->radius_m * g.film->thickness_m;
+  const double unknowns = 3.0 * section_m2 * per_length_1_m * per_length_1_m;
+  constexpr double kMost = 1e6;
+  if (unknowns <= kMost) return;
+  throw SceneMistake("discretisation.element_size",
+                     "elements this small make about " + number_text(unknowns, 2) +
+                         " unknowns, where " + number_text(kMost, 2) + " are the most here");
+}
+
 // What a body that nothing holds has an answer to: vibration, and loads that balance themselves, as
 // the field of an electrode does.
 void check_bottom(const Scene& scene) {
@@ -74,6 +89,7 @@ void validate(const Scene& scene) {
   }
   check_electrodes(scene);
   check_bottom(scene);
+  check_mesh(scene);
   if (!std::isfinite(scene.pressure_Pa)) {
     throw SceneMistake("analysis.load.pressure", "the pressure is not finite");
   }
