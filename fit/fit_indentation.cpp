@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -140,50 +141,68 @@ void flag_table_misfit(const HistoryInput& input, const TableContact& contact, F
               result);
 }
 
-FitResult fit_measured_depth(const IndentationData& data, const FitOptions& options) {
-  CleanColumns clean = clean_columns({data.time_s, data.force_N, data.depth_m}, kLeastRows);
-  check_force(clean.columns[1]);
-  const std::vector<std::size_t> spikes = isolated_spikes(clean.columns[0], clean.columns[1]);
+// A table made ready: spikes, an earlier touch and the frame's share of the depth taken out.
+struct ContactTable {
+  CleanColumns clean;
+  DepthLaw law{1.0, 1.0};
+  TableContact contact;
+  std::size_t loaded = 0;  // where loading ends
+  std::size_t n_spikes = 0;
+};
+
+ContactTable contact_table(const IndentationData& data) {
+  ContactTable table;
+  table.clean = clean_columns({data.time_s, data.force_N, data.depth_m}, kLeastRows);
+  std::vector<Column>& columns = table.clean.columns;
+  check_force(columns[1]);
+  const std::vector<std::size_t> spikes = isolated_spikes(columns[0], columns[1]);
+  table.n_spikes = spikes.size();
   if (!spikes.empty()) {
-    for (Column& column : clean.columns) column = without_rows(column, spikes);
+    for (Column& column : columns) column = without_rows(column, spikes);
   }
-  check_depth(clean.columns[1], clean.columns[2]);
+  check_depth(columns[1], columns[2]);
   if (data.frame_stiffness_N_m > 0.0) {
-    for (std::size_t i = 0; i < clean.columns[0].size(); ++i) {
-      clean.columns[2][i] -= clean.columns[1][i] / data.frame_stiffness_N_m;
+    for (std::size_t i = 0; i < columns[0].size(); ++i) {
+      columns[2][i] -= columns[1][i] / data.frame_stiffness_N_m;
     }
   }
-  std::size_t loaded = end_of_loading(clean.columns[2]);
-  const DepthLaw law = data.contact ? depth_law(*data.contact) : DepthLaw{1.0, 1.0};
-  TableContact contact = find_contact(clean.columns[1], clean.columns[2], loaded, law.power);
-  const std::size_t touched =
-      contact.is_fitted ? end_of_earlier_touch(clean.columns[2], loaded, contact.depth_m) : 0;
-  if (touched > 0) {
-    for (Column& column : clean.columns) {
-      column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(touched));
-    }
-    loaded = end_of_loading(clean.columns[2]);
-    contact = find_contact(clean.columns[1], clean.columns[2], loaded, law.power);
+  if (data.contact) table.law = depth_law(*data.contact);
+  table.loaded = end_of_loading(columns[2]);
+  table.contact = find_contact(columns[1], columns[2], table.loaded, table.law.power);
+  if (!table.contact.is_fitted) return table;
+  const std::size_t touched = end_of_earlier_touch(columns[2], table.loaded, table.contact.depth_m);
+  if (touched == 0) return table;
+  for (Column& column : columns) {
+    column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(touched));
   }
-  const HistoryInput input = history_input(clean, contact, law);
-  if (input.time_s.size() < kLeastRows) {
-    throw std::runtime_error("only " + std::to_string(input.time_s.size()) +
-                             " samples lie between contact and its loss; a fit takes at least " +
-                             std::to_string(kLeastRows));
-  }
-  const HistoryModel model(input, options);
+  table.loaded = end_of_loading(columns[2]);
+  table.contact = find_contact(columns[1], columns[2], table.loaded, table.law.power);
+  return table;
+}
+
+// The seed's method on the loading part.
+std::optional<TwoPointModulus> two_points(const HistoryInput& input, std::size_t first,
+                                          std::size_t end, const PunchContact& contact,
+                                          const FitResult& result) {
+  const auto slice = [&](const Column& column) {
+    return Column(column.begin() + static_cast<std::ptrdiff_t>(first),
+                  column.begin() + static_cast<std::ptrdiff_t>(end) + 1);
+  };
+  Column depth_m = slice(input.input);
+  for (double& depth : depth_m) depth -= result.contact_position_m.value_or(0.0);
+  return two_point_modulus(slice(input.time_s), slice(input.output), depth_m, contact,
+                           result.noise.sigma);
+}
+
+// Window, flags and the two-point modulus.
+void report_table(const IndentationData& data, const ContactTable& table, const HistoryInput& input,
+                  const HistoryModel& model, const SpectralFit& fit, FitResult& result) {
+  const TableContact& contact = table.contact;
   const double zero_s = input.time_s[std::min(contact.first, input.time_s.size() - 1)];
-  const SpectralFit fit =
-      fit_spectrum(model, log_time_blocks(model.row_time_s(), zero_s, 2), options);
-  FitResult result;
-  result.is_stiffness = !data.contact;
-  fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
-  result.n_left_out = clean.n_left_out;
-  add_spikes(result, spikes.size());
   result.fit_from_s = input.time_s.front();
   result.fit_to_s = input.time_s.back();
   if (contact.is_fitted) result.contact_position_m = fit.state.nuisance[0];
-  const std::size_t end = std::min(loaded, input.time_s.size() - 1);
+  const std::size_t end = std::min(table.loaded, input.time_s.size() - 1);
   result.fastest_s = std::max(0.0, input.time_s[end] - zero_s);
   add_identifiability_flags(model, fit.state, fit.covariance,
                             {shortest_step_s(input.time_s), input.time_s[end] - zero_s, 0.0,
@@ -192,21 +211,34 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
   flag_saturation(input.output, result);
   flag_table_misfit(input, contact, result);
   flag_gap(input.time_s, contact.first, end, result);
-  if (law.power != 1.0 && input.time_s.size() < clean.columns[0].size()) {
+  if (table.law.power != 1.0 && input.time_s.size() < table.clean.columns[0].size()) {
     result.flags.push_back({"unloading-left-out", 0,
                             "samples after the depth began to fall were left out: the formula for "
                             "a sphere or cone holds while the contact does not shrink"});
   }
-  if (data.contact && law.power == 1.0 && end > contact.first) {
-    const auto slice = [&](const Column& column) {
-      return Column(column.begin() + static_cast<std::ptrdiff_t>(contact.first),
-                    column.begin() + static_cast<std::ptrdiff_t>(end) + 1);
-    };
-    Column depth_m = slice(input.input);
-    for (double& depth : depth_m) depth -= result.contact_position_m.value_or(0.0);
-    result.two_point = two_point_modulus(slice(input.time_s), slice(input.output), depth_m,
-                                         *data.contact, result.noise.sigma);
+  if (data.contact && table.law.power == 1.0 && end > contact.first) {
+    result.two_point = two_points(input, contact.first, end, *data.contact, result);
   }
+}
+
+FitResult fit_measured_depth(const IndentationData& data, const FitOptions& options) {
+  const ContactTable table = contact_table(data);
+  const HistoryInput input = history_input(table.clean, table.contact, table.law);
+  if (input.time_s.size() < kLeastRows) {
+    throw std::runtime_error("only " + counted(input.time_s.size(), "sample") +
+                             " between contact and its loss; a fit takes at least " +
+                             std::to_string(kLeastRows));
+  }
+  const HistoryModel model(input, options);
+  const double zero_s = input.time_s[std::min(table.contact.first, input.time_s.size() - 1)];
+  const SpectralFit fit =
+      fit_spectrum(model, log_time_blocks(model.row_time_s(), zero_s, 2), options);
+  FitResult result;
+  result.is_stiffness = !data.contact;
+  fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
+  result.n_left_out = table.clean.n_left_out;
+  add_spikes(result, table.n_spikes);
+  report_table(data, table, input, model, fit, result);
   if (options.with_curves) fill_curves(model, input, fit.state, result.noise.sigma, result);
   return result;
 }

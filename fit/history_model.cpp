@@ -80,7 +80,6 @@ HistoryModel::HistoryModel(HistoryInput input, const FitOptions& options) : in_(
       mean += in_.output[i] / n;
     }
     row_time_s_.push_back(time);
-    row_count_.push_back(n);
     data_[static_cast<Index>(r)] = std::sqrt(n) * mean;
   }
   if (with_equilibrium_) common_.push_back({"E_inf", false});
@@ -101,12 +100,61 @@ HistoryModel::HistoryModel(HistoryInput input, const FitOptions& options) : in_(
   ln_tau_max_ = std::log(longest_s * 3.0);
 }
 
-std::size_t HistoryModel::first_in_contact(double contact_input) const {
-  if (!in_.contact_input) return in_.contact;
+HistoryModel::Onset HistoryModel::onset_at(double contact_input) const {
+  if (!in_.contact_input) return {in_.contact, in_.time_s[in_.contact], 0.0};
   // The last passage of the contact position before the input rises for good.
-  std::size_t i = end_of_loading(in_.input);
-  while (i > 0 && in_.input[i - 1] > contact_input) --i;
-  return i;
+  Onset onset{end_of_loading(in_.input), 0.0, contact_input};
+  while (onset.first > 0 && in_.input[onset.first - 1] > contact_input) --onset.first;
+  const std::size_t first = onset.first;
+  onset.time_s = in_.time_s[first];
+  if (first > 0 && in_.input[first] > in_.input[first - 1]) {
+    const double share =
+        (contact_input - in_.input[first - 1]) / (in_.input[first] - in_.input[first - 1]);
+    onset.time_s = in_.time_s[first - 1] + share * (in_.time_s[first] - in_.time_s[first - 1]);
+  }
+  return onset;
+}
+
+void HistoryModel::fill_equilibrium(const Onset& onset, Column into) const {
+  for (std::size_t k = onset.first; k < in_.time_s.size(); ++k) {
+    const double depth = in_.input[k] - onset.input;
+    into.value[k] = in_.factor * powered(depth, in_.power);
+    if (into.by_contact != nullptr) {
+      into.by_contact[k] = -in_.factor * powered_slope(depth, in_.power);
+    }
+  }
+}
+
+// Step by step, with the derivatives by ln tau and by the contact position where they are wanted.
+void HistoryModel::fill_term(const Onset& onset, double tau_s, Column into) const {
+  const double c = in_.factor;
+  StepFactors step;
+  double q = 0.0, slope = 0.0;
+  double q_by_contact = 0.0;  // for other tips than flat
+  double previous_s = onset.time_s, previous = 0.0, previous_slope = 0.0;
+  for (std::size_t k = onset.first; k < in_.time_s.size(); ++k) {
+    step.set(in_.time_s[k] - previous_s, tau_s);
+    const double depth = in_.input[k] - onset.input;
+    const double value = powered(depth, in_.power);
+    const double change = value - previous;
+    if (into.by_ln_tau != nullptr) {
+      slope = step.decay * (slope + step.x * q) + change * step.slope;
+      into.by_ln_tau[k] = c * slope;
+    }
+    q = step.decay * q + step.p1 * change;
+    previous_s = in_.time_s[k];
+    previous = value;
+    into.value[k] = c * q;
+    if (into.by_contact == nullptr) continue;
+    if (in_.power == 1.0) {
+      into.by_contact[k] = -c * std::exp(-(in_.time_s[k] - onset.time_s) / tau_s);
+      continue;
+    }
+    const double next_slope = -powered_slope(depth, in_.power);
+    q_by_contact = step.decay * q_by_contact + step.p1 * (next_slope - previous_slope);
+    previous_slope = next_slope;
+    into.by_contact[k] = c * q_by_contact;
+  }
 }
 
 ModelColumns HistoryModel::sample_columns(const Eigen::VectorXd& ln_tau,
@@ -120,25 +168,13 @@ ModelColumns HistoryModel::sample_columns(const Eigen::VectorXd& ln_tau,
     out.nuisance_slopes.assign(static_cast<std::size_t>(n_nuisances()),
                                Eigen::MatrixXd::Zero(count, n_common() + n_terms));
   }
-  const double contact_input = in_.contact_input ? nuisance[0] : 0.0;
-  const std::size_t first = first_in_contact(contact_input);
-  // Contact falls between two samples; the input starts from 0 there.
-  double contact_s = in_.time_s[first];
-  if (in_.contact_input && first > 0 && in_.input[first] > in_.input[first - 1]) {
-    const double share =
-        (contact_input - in_.input[first - 1]) / (in_.input[first] - in_.input[first - 1]);
-    contact_s = in_.time_s[first - 1] + share * (in_.time_s[first] - in_.time_s[first - 1]);
-  }
-  const double c = in_.factor;
+  const auto by_contact = [&](Index column) {
+    return out.nuisance_slopes.empty() ? nullptr : out.nuisance_slopes[0].col(column).data();
+  };
+  const Onset onset = onset_at(in_.contact_input ? nuisance[0] : 0.0);
   Index column = 0;
   if (with_equilibrium_) {
-    for (std::size_t k = first; k < in_.time_s.size(); ++k) {
-      const double depth = in_.input[k] - contact_input;
-      out.values(static_cast<Index>(k), column) = c * powered(depth, in_.power);
-      if (with_slopes && in_.contact_input)
-        out.nuisance_slopes[0](static_cast<Index>(k), column) =
-            -c * powered_slope(depth, in_.power);
-    }
+    fill_equilibrium(onset, {out.values.col(column).data(), nullptr, by_contact(column)});
     ++column;
   }
   if (in_.with_offset) out.values.col(column++).setOnes();
@@ -148,38 +184,10 @@ ModelColumns HistoryModel::sample_columns(const Eigen::VectorXd& ln_tau,
     }
   }
   for (Index i = 0; i < n_terms; ++i) {
-    const double tau_s = std::exp(ln_tau[i]);
-    StepFactors step;
-    double q = 0.0;
-    double slope = 0.0;
-    double contact_slope = 0.0;  // d q/d contact_input, for other tips than flat
-    double previous_s = contact_s;
-    double previous = 0.0;
-    double previous_slope = 0.0;
-    for (std::size_t k = first; k < in_.time_s.size(); ++k) {
-      step.set(in_.time_s[k] - previous_s, tau_s);
-      const double depth = in_.input[k] - contact_input;
-      const double value = powered(depth, in_.power);
-      const double change = value - previous;
-      if (with_slopes) slope = step.decay * (slope + step.x * q) + change * step.slope;
-      q = step.decay * q + step.p1 * change;
-      previous_s = in_.time_s[k];
-      previous = value;
-      const auto row = static_cast<Index>(k);
-      out.values(row, n_common() + i) = c * q;
-      if (!with_slopes) continue;
-      out.term_slopes(row, i) = c * slope;
-      if (!in_.contact_input) continue;
-      if (in_.power == 1.0) {
-        out.nuisance_slopes[0](row, n_common() + i) =
-            -c * std::exp(-(in_.time_s[k] - contact_s) / tau_s);
-      } else {
-        const double next_slope = -powered_slope(depth, in_.power);
-        contact_slope = step.decay * contact_slope + step.p1 * (next_slope - previous_slope);
-        previous_slope = next_slope;
-        out.nuisance_slopes[0](row, n_common() + i) = c * contact_slope;
-      }
-    }
+    const Index of_term = n_common() + i;
+    fill_term(onset, std::exp(ln_tau[i]),
+              {out.values.col(of_term).data(),
+               with_slopes ? out.term_slopes.col(i).data() : nullptr, by_contact(of_term)});
   }
   return out;
 }

@@ -54,18 +54,29 @@ class HistoryModel final : public SpectralModel {
                          const Eigen::VectorXd& coefficients) const;
 
   const std::vector<double>& row_time_s() const { return row_time_s_; }
-  const std::vector<double>& row_count() const { return row_count_; }
 
  private:
   // Sample columns at one choice of parameters, before averaging.
   ModelColumns sample_columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                               bool with_slopes) const;
   Eigen::MatrixXd averaged(const Eigen::MatrixXd& samples) const;
-  std::size_t first_in_contact(double contact_input) const;
+  // The first sample in contact, the time between samples at which contact falls, and the input
+  // there: the history counts from 0 at that time.
+  struct Onset {
+    std::size_t first = 0;
+    double time_s = 0.0, input = 0.0;
+  };
+  Onset onset_at(double contact_input) const;
+  // One number per sample each; derivatives that are not wanted: nullptr.
+  struct Column {
+    double *value, *by_ln_tau, *by_contact;
+  };
+  void fill_equilibrium(const Onset& onset, Column into) const;
+  void fill_term(const Onset& onset, double tau_s, Column into) const;
 
   HistoryInput in_;
   std::vector<std::size_t> row_begin_;  // first sample of each row, and one past the last
-  std::vector<double> row_time_s_, row_count_;
+  std::vector<double> row_time_s_;
   bool with_equilibrium_ = true;
 };
 

@@ -85,6 +85,39 @@ Readings good_readings(const CapturedRun& run, IndentationData& data) {
   return readings;
 }
 
+// Of the approach and whatever went before: nothing moves from then on until the punch is driven
+// in.
+double still_since_s(const CapturedRun& run, const CommandedMove& first) {
+  constexpr double kRinging_s = 0.1;
+  double since_s = -1e300;
+  for (const CommandedMove& move : run.moves) {
+    if (&move == &first) break;
+    since_s = std::max(since_s, move.move.start_time_s + duration_s(move.move) +
+                                    move.start_uncertainty_s + kRinging_s);
+  }
+  return since_s;
+}
+
+// The end of contact, and when the force is zero again; without a retraction it never is.
+double free_again_s(const CapturedRun& run, IndentationData& data) {
+  const CommandedMove* retract = first_move(run, "retract");
+  if (retract == nullptr) return 1e300;
+  data.contact_to_s = std::min(data.contact_to_s, retract->move.start_time_s - data.start_early_s);
+  // Recovery of the surface and the last of the motion are not zero force: leave half a second.
+  return retract->move.start_time_s + duration_s(retract->move) + retract->start_uncertainty_s +
+         data.start_early_s + 0.5;
+}
+
+void take_moves_in_contact(const CapturedRun& run, IndentationData& data) {
+  for (const CommandedMove& move : run.moves) {
+    const bool in_contact =
+        move.move.start_time_s >= data.contact_from_s && move.move.start_time_s < data.contact_to_s;
+    if (!in_contact) continue;
+    data.moves.push_back(move.move);
+    data.start_late_s = std::max(data.start_late_s, move.start_uncertainty_s);
+  }
+}
+
 }  // namespace
 
 ClockLine line_from_below(const std::vector<double>& x, const std::vector<double>& y) {
@@ -133,36 +166,22 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   // The clock line lies early by the smallest delay of a message and may be tilted by its spread:
   // both unknown, but short. Samples this near to a motion that is not modelled are left out.
   data.start_early_s = 0.02 * std::max(1.0, run.rig.clock_speed);
-  const CommandedMove* retract = first_move(run, "retract");
   data.contact_from_s = ramp->move.start_time_s;
   data.first_reading_s = clock.at(readings.clock_s.front());
   data.contact_to_s = clock.at(readings.clock_s.back());
-  double free_again_s = 1e300;
-  if (retract != nullptr) {
-    data.contact_to_s =
-        std::min(data.contact_to_s, retract->move.start_time_s - data.start_early_s);
-    // Recovery of the surface and the last of the motion are not zero force: leave half a second.
-    free_again_s = retract->move.start_time_s + duration_s(retract->move) +
-                   retract->start_uncertainty_s + data.start_early_s + 0.5;
-  }
-  double still_since_s = -1e300;
-  for (const CommandedMove& move : run.moves) {
-    if (&move == ramp) break;
-    still_since_s = std::max(still_since_s, move.move.start_time_s + duration_s(move.move) +
-                                                move.start_uncertainty_s + 0.1);
-  }
-  for (const CommandedMove& move : run.moves) {
-    const bool in_contact = move.move.start_time_s >= ramp->move.start_time_s &&
-                            move.move.start_time_s < data.contact_to_s;
-    if (!in_contact) continue;
-    data.moves.push_back(move.move);
-    data.start_late_s = std::max(data.start_late_s, move.start_uncertainty_s);
+  const double free_s = free_again_s(run, data);
+  const double still_s = still_since_s(run, *ramp);
+  take_moves_in_contact(run, data);
+  if (data.moves.empty()) {
+    throw std::runtime_error(
+        "the readings end before the punch is driven in, so there is nothing to fit. Repeat the "
+        "run with viscard capture");
   }
   for (std::size_t i = 0; i < readings.clock_s.size(); ++i) {
     const double t = clock.at(readings.clock_s[i]);
-    const bool before = t > still_since_s && t < data.contact_from_s;
+    const bool before = t > still_s && t < data.contact_from_s;
     const bool contact = t >= data.contact_from_s && t <= data.contact_to_s;
-    if (!before && !contact && !(t > free_again_s)) continue;
+    if (!before && !contact && !(t > free_s)) continue;
     data.time_s.push_back(t);
     data.force_N.push_back(readings.force_N[i]);
   }

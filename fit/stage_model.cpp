@@ -122,11 +122,66 @@ StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start
   ln_tau_max_ = std::log(3.0 * (data.contact_to_s - data.contact_from_s));
 }
 
+// The moves as the nuisances put them, and what each does to each branch.
+struct StageModel::Drive {
+  std::vector<StageMove> moves;
+  std::vector<StageResponse> responses;
+  std::vector<std::vector<StageResponse::Branch>> branches;
+  double contact_m = 0.0, contact_s = 0.0;
+  double direction = 1.0;
+};
+
+StageModel::Drive StageModel::drive(const Eigen::VectorXd& ln_tau,
+                                    const Eigen::VectorXd& nuisance) const {
+  const auto n_moves = static_cast<Index>(moves_.size());
+  Drive drive;
+  drive.contact_m = nuisance[n_moves];
+  for (Index m = 0; m < n_moves; ++m) {
+    drive.moves.push_back(shifted(moves_[static_cast<std::size_t>(m)], nuisance[m]));
+    const StageMove& move = drive.moves.back();
+    if (m == 0) drive.contact_s = time_at_position_s(move, drive.contact_m);
+    drive.responses.emplace_back(move, m == 0 ? drive.contact_s : move.start_time_s);
+    std::vector<StageResponse::Branch>& branches = drive.branches.emplace_back();
+    for (Index i = 0; i < ln_tau.size(); ++i) {
+      branches.push_back(drive.responses.back().branch(std::exp(ln_tau[i])));
+    }
+  }
+  drive.direction = drive.moves[0].to_m >= drive.moves[0].from_m ? 1.0 : -1.0;
+  return drive;
+}
+
+// The part of the way z in one row of the columns that go with it.
+void StageModel::add_depth(Eigen::MatrixXd& matrix, Index row, double depth_m) const {
+  const Index offset = with_equilibrium_ ? 1 : 0;
+  if (with_equilibrium_) matrix(row, 0) += depth_m;
+  if (with_drift_) {
+    matrix(row, offset + 2) += depth_m * (time_s_[static_cast<std::size_t>(row)] - ramp_s_);
+  }
+}
+
+// What one move, begun before the sample, adds to its row.
+void StageModel::add_move(const Drive& drive, std::size_t m, Index row, bool with_slopes,
+                          ModelColumns& out) const {
+  const double t = time_s_[static_cast<std::size_t>(row)];
+  const StageMove& move = drive.moves[m];
+  const double from_m = m == 0 ? drive.contact_m : move.from_m;
+  add_depth(out.values, row, drive.direction * (position_m(move, t) - from_m));
+  Eigen::MatrixXd* shift = with_slopes ? &out.nuisance_slopes[m] : nullptr;
+  if (shift != nullptr) add_depth(*shift, row, -drive.direction * velocity_m_s(move, t));
+  for (std::size_t i = 0; i < drive.branches[m].size(); ++i) {
+    const BranchResponse response = drive.responses[m].at(drive.branches[m][i], t);
+    const auto term = static_cast<Index>(i);
+    out.values(row, n_common() + term) += drive.direction * response.value_m;
+    if (shift == nullptr) continue;
+    out.term_slopes(row, term) += drive.direction * response.slope_m;
+    (*shift)(row, n_common() + term) -= drive.direction * response.rate_m_s;
+  }
+}
+
 ModelColumns StageModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                                  bool with_slopes) const {
   const Index n_terms = ln_tau.size();
   const Index rows = n_rows();
-  const auto n_moves = static_cast<Index>(moves_.size());
   ModelColumns out;
   out.values = Eigen::MatrixXd::Zero(rows, n_common() + n_terms);
   if (with_slopes) {
@@ -134,52 +189,23 @@ ModelColumns StageModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::Vec
     out.nuisance_slopes.assign(static_cast<std::size_t>(n_nuisances()),
                                Eigen::MatrixXd::Zero(rows, n_common() + n_terms));
   }
-  std::vector<StageMove> moves;
-  std::vector<StageResponse> responses;
-  std::vector<std::vector<StageResponse::Branch>> branches(moves_.size());
-  const double z_contact_m = nuisance[n_moves];
-  double contact_s = 0.0;
-  for (Index m = 0; m < n_moves; ++m) {
-    moves.push_back(shifted(moves_[static_cast<std::size_t>(m)], nuisance[m]));
-    if (m == 0) contact_s = time_at_position_s(moves[0], z_contact_m);
-    responses.emplace_back(moves.back(), m == 0 ? contact_s : moves.back().start_time_s);
-    for (Index i = 0; i < n_terms; ++i) {
-      branches[static_cast<std::size_t>(m)].push_back(responses.back().branch(std::exp(ln_tau[i])));
-    }
-  }
-  const double direction = moves[0].to_m >= moves[0].from_m ? 1.0 : -1.0;
-  const Index first_term = n_common();
+  const Drive moved = drive(ln_tau, nuisance);
   const Index offset = with_equilibrium_ ? 1 : 0;
   for (Index row = 0; row < rows; ++row) {
     const auto k = static_cast<std::size_t>(row);
     const double t = time_s_[k];
     out.values(row, offset) = 1.0;
     if (with_drift_) out.values(row, offset + 1) = t - ramp_s_;
-    if (is_out_of_contact_[k] || !(t > contact_s)) continue;
-    const auto add_depth = [&](Eigen::MatrixXd& matrix, double depth) {
-      if (with_equilibrium_) matrix(row, 0) += depth;
-      if (with_drift_) matrix(row, offset + 2) += depth * (t - ramp_s_);
-    };
-    for (std::size_t m = 0; m < moves.size(); ++m) {
-      if (!(t > responses[m].from_s())) continue;
-      const auto shift = with_slopes ? &out.nuisance_slopes[m] : nullptr;
-      const double from_m = m == 0 ? z_contact_m : moves[m].from_m;
-      add_depth(out.values, direction * (position_m(moves[m], t) - from_m));
-      if (shift) add_depth(*shift, -direction * velocity_m_s(moves[m], t));
-      for (Index i = 0; i < n_terms; ++i) {
-        const BranchResponse response =
-            responses[m].at(branches[m][static_cast<std::size_t>(i)], t);
-        out.values(row, first_term + i) += direction * response.value_m;
-        if (!with_slopes) continue;
-        out.term_slopes(row, i) += direction * response.slope_m;
-        (*shift)(row, first_term + i) -= direction * response.rate_m_s;
-      }
+    if (is_out_of_contact_[k] || !(t > moved.contact_s)) continue;
+    for (std::size_t m = 0; m < moved.moves.size(); ++m) {
+      if (t > moved.responses[m].from_s()) add_move(moved, m, row, with_slopes, out);
     }
     if (!with_slopes) continue;
     Eigen::MatrixXd& contact = out.nuisance_slopes.back();
-    add_depth(contact, -direction);
+    add_depth(contact, row, -moved.direction);
     for (Index i = 0; i < n_terms; ++i) {
-      contact(row, first_term + i) = -direction * std::exp(-(t - contact_s) / std::exp(ln_tau[i]));
+      contact(row, n_common() + i) =
+          -moved.direction * std::exp(-(t - moved.contact_s) / std::exp(ln_tau[i]));
     }
   }
   const auto weight = sigma_N_.cwiseInverse().asDiagonal();

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace viscard {
@@ -37,6 +38,12 @@ class StageModel final : public SpectralModel {
   Eigen::VectorXd row_sigma() const override { return sigma_N_; }
 
  private:
+  struct Drive;
+  Drive drive(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance) const;
+  void add_depth(Eigen::MatrixXd& matrix, Eigen::Index row, double depth_m) const;
+  void add_move(const Drive& drive, std::size_t m, Eigen::Index row, bool with_slopes,
+                ModelColumns& out) const;
+
   std::vector<double> time_s_;
   std::vector<StageMove> moves_;
   std::vector<bool> is_moving_;

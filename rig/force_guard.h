@@ -22,7 +22,6 @@ class ForceGuard {
   // No reading came until time_s.
   GuardAction silent_until(double time_s);
 
-  bool has_warned() const { return has_warned_; }
   double soft_limit_N() const { return soft_N_; }
   double hard_limit_N() const { return hard_N_; }
 

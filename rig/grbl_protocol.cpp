@@ -127,21 +127,6 @@ std::optional<GrblSetting> parse_grbl_setting(std::string_view line) {
   return GrblSetting{static_cast<int>(*number), *value};
 }
 
-std::optional<GrblBuildOptions> parse_grbl_build_options(std::string_view line) {
-  const auto inside = bracketed(line, "OPT");
-  if (!inside) return std::nullopt;
-  const std::vector<std::string_view> fields = split(*inside, ',');
-  GrblBuildOptions options;
-  options.letters = std::string(fields[0]);
-  const auto field = [&](std::size_t i) {
-    const auto value = i < fields.size() ? integer_from_text(fields[i]) : std::nullopt;
-    return value && *value > 0 && *value < 1000000 ? static_cast<int>(*value) : 0;
-  };
-  options.planner_blocks = field(1);
-  options.receive_bytes = field(2);
-  return options;
-}
-
 std::optional<std::string> parse_grbl_message(std::string_view line) {
   const auto inside = bracketed(line, "MSG");
   if (!inside) return std::nullopt;

@@ -52,14 +52,6 @@ struct GrblSetting {
 };
 std::optional<GrblSetting> parse_grbl_setting(std::string_view line);
 
-// "[OPT:V,15,128]" of $I; grblHAL adds fields.
-struct GrblBuildOptions {
-  std::string letters;
-  int planner_blocks = 0;
-  int receive_bytes = 0;
-};
-std::optional<GrblBuildOptions> parse_grbl_build_options(std::string_view line);
-
 // The text of "[MSG:Caution: Unlocked]".
 std::optional<std::string> parse_grbl_message(std::string_view line);
 

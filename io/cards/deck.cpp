@@ -109,12 +109,6 @@ std::string expected(const Card& card, const ElementTest& test, const UnitSystem
 
 }  // namespace
 
-std::vector<std::string> deck_targets() {
-  std::vector<std::string> names;
-  for (const DeckDialect& dialect : dialects()) names.push_back(dialect.target);
-  return names;
-}
-
 Deck one_element_deck(const Card& card, const std::string& target, const UnitSystem& units,
                       ElementTestKind kind) {
   const DeckDialect& dialect = dialect_of(target);

@@ -20,9 +20,6 @@ struct Deck {
   std::string how_to_run;
 };
 
-// Targets decks exist for.
-std::vector<std::string> deck_targets();
-
 // Throws std::invalid_argument naming the targets when there is no deck for this one.
 Deck one_element_deck(const Card& card, const std::string& target, const UnitSystem& units,
                       ElementTestKind kind);

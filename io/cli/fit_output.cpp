@@ -148,7 +148,7 @@ Json json_of(const MasterCurve& curve) {
   if (laws.arrhenius) {
     json["arrhenius"] = json_of(*laws.arrhenius, laws.arrhenius_chi2, laws.arrhenius_bic);
   }
-  json["better"] = laws.wlf_is_better ? "wlf" : "arrhenius";
+  if (laws.better() != nullptr) json["better"] = laws.wlf_is_better ? "wlf" : "arrhenius";
   return json;
 }
 

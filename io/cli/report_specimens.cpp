@@ -7,6 +7,7 @@
 #include "io/cards/conventions.h"
 #include "io/cli/command.h"
 #include "io/cli/fit_material.h"
+#include "io/cli/parallel.h"
 #include "io/config_file.h"
 #include "io/material_file.h"
 #include "io/ratio_file.h"
@@ -18,12 +19,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
+#include <cstddef>
 #include <filesystem>
 #include <mutex>
-#include <thread>
 
 namespace fs = std::filesystem;
 
@@ -204,30 +203,6 @@ void add_pillar_and_cards(SpecimenReport& specimen, const ReportWords& words) {
   for (const std::string& target : words.card_targets) {
     specimen.cards.push_back(card_of(*specimen.material, target, words, stem));
   }
-}
-
-// Calls work(i) for i = 0 .. n - 1 on all cores; the first exception is thrown once all have ended.
-void for_each_in_parallel(std::size_t n, const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex mutex;
-  const auto run = [&] {
-    for (std::size_t i = next++; i < n; i = next++) {
-      try {
-        work(i);
-      } catch (...) {
-        const std::lock_guard<std::mutex> lock(mutex);
-        if (!failure) failure = std::current_exception();
-      }
-    }
-  };
-  std::vector<std::jthread> threads;
-  const std::size_t n_threads =
-      std::min<std::size_t>(n, std::max(1u, std::thread::hardware_concurrency()));
-  for (std::size_t k = 1; k < n_threads; ++k) threads.emplace_back(run);
-  run();
-  threads.clear();
-  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace

@@ -117,6 +117,12 @@ TEST_CASE("a captured run without a ramp, a gain or readings is refused", "[fit]
     CHECK_THROWS_WITH(indentation_from_capture(run),
                       Contains("no ramp") && Contains("interrupted"));
   }
+  SECTION("readings that end before the ramp") {
+    const double ramp_s = run.moves.front().move.start_time_s;
+    std::erase_if(run.load_samples,
+                  [&](const LoadSample& sample) { return sample.host_time_s > ramp_s - 0.1; });
+    CHECK_THROWS_WITH(indentation_from_capture(run), Contains("end before the punch"));
+  }
   SECTION("no readings") {
     run.load_samples.clear();
     CHECK_THROWS_WITH(indentation_from_capture(run), Contains("0 usable force readings"));

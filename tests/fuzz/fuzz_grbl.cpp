@@ -37,7 +37,6 @@ void parse_every_line(std::string_view text) {
     (void)parse_grbl_alarm(line->text);
     (void)parse_grbl_welcome(line->text);
     (void)parse_grbl_setting(line->text);
-    (void)parse_grbl_build_options(line->text);
     (void)parse_grbl_message(line->text);
     (void)is_grbl_push(line->text);
     const auto status = parse_grbl_status(line->text);

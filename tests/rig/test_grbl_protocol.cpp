@@ -71,11 +71,6 @@ TEST_CASE("Settings and build options are read", "[rig]") {
   CHECK(setting->value == 3200.0);
   CHECK(parse_grbl_setting("$1=25 (step idle delay, msec)")->value == 25.0);
   CHECK_FALSE(parse_grbl_setting("$N0=G54"));
-  const auto options = parse_grbl_build_options("[OPT:VNML+,100,1024,3,0]");
-  REQUIRE(options);
-  CHECK(options->letters == "VNML+");
-  CHECK(options->planner_blocks == 100);
-  CHECK(options->receive_bytes == 1024);
   CHECK(parse_grbl_message("[MSG:Reset to continue]").value() == "Reset to continue");
 }
 
