@@ -111,27 +111,31 @@ double static_over_peak(const ReducedBody& reduced, const TransientRequest& requ
   return at_rest / std::max(found.cwiseAbs().maxCoeff(), 1e-300);
 }
 
-// A jump excites waves of every length, with amplitudes that fall no faster than their lengths:
-// what lies beyond the reach of any mesh here is then part of the answer, and only a load that
-// takes its time leaves it small.
-void refuse_jump(const Scene& scene, double first_rad_s, double reach, double tail,
-                 double static_share) {
+// A jump excites waves of every length, with amplitudes that fall no faster than their lengths, a
+// change of slope such that fall by one power more: what lies beyond the reach of any mesh here is
+// then part of the answer, and only a load that takes its time leaves it small. Jumps become ramps,
+// ramps longer ones, until the tail is a good third of the tolerance; a tolerance that leaves this
+// tail such a third does as well. The rest is the share of mesh and basis.
+void refuse_sudden_load(const Scene& scene, double first_rad_s, double reach, double tail,
+                        double static_share) {
   const Roughness load = roughness_of(scene.history);
-  if (load.jumps == 0.0 || tail <= 0.5 * scene.tolerance) return;  // the mesh takes its share too
-  // The ramp's tail is then a good third of the tolerance, and this tail of the larger one, which
-  // leaves meshes and bases their shares.
+  const bool has_jumps = load.jumps > 0.0;
+  if (tail <= (has_jumps ? 0.5 : 0.9) * scene.tolerance) return;
   const double rise_s =
       1.1 * load.jumps * first_rad_s * static_share / (scene.tolerance * reach * reach);
-  const double enough = 2.8 * tail;
   const double wave_m =
       2.0 * std::numbers::pi * std::sqrt(scene.pillar.E0_Pa / scene.pillar.rho_kg_m3) / reach;
+  const std::string cause = has_jumps ? "the load jumps, which excites waves of all lengths; those "
+                                      : "the load changes its slope suddenly; waves ";
+  const std::string cure =
+      has_jumps ? "Let each jump take " + number_text(rise_s, 2) + " s or longer"
+                : "Stretch its ramps " + number_text(2.8 * tail / scene.tolerance, 2) + " times";
   throw SceneMistake(scene.history.size() > 2 ? "analysis.history" : "analysis",
-                     "the load jumps, which excites waves of all lengths; those shorter than " +
-                         number_text(1e6 * wave_m, 2) +
+                     cause + "shorter than " + number_text(1e6 * wave_m, 2) +
                          " um, too short for the meshes here, carry " + number_text(tail, 2) +
-                         " of the answer, too much for the tolerance. Let each jump take " +
-                         number_text(rise_s, 2) + " s or longer, or ask for a tolerance of " +
-                         number_text(enough, 2) + " or larger");
+                         " of the answer, too much for the tolerance. " + cure +
+                         ", or ask for a tolerance of " + number_text(2.8 * tail, 2) +
+                         " or larger");
 }
 
 }  // namespace
@@ -193,7 +197,7 @@ void run_transient_scene(const Scene& scene, SceneAnswer& answer) {
   const double static_share =
       static_over_peak(reduced, request, observers.row(0).transpose(), run.values.row(0));
   const double tail = static_share * tail_beyond(reach, first_rad_s, roughness_of(scene.history));
-  refuse_jump(scene, first_rad_s, reach, tail, static_share);
+  refuse_sudden_load(scene, first_rad_s, reach, tail, static_share);
   answer.step_error = run.converged ? run.error_estimate + reduced.error + tail
                                     : std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < body.outputs.size(); ++i) {

@@ -238,6 +238,22 @@ TEST_CASE("a jump too sharp for the tolerance is refused with a rise and a toler
   check_advice(LoadDirection::kLateral, 3e-4);
 }
 
+TEST_CASE("a ramp too steep for the tolerance is refused with how far to stretch it", "[pillar]") {
+  Scene scene = rod_scene(0.33, 1e-4);
+  scene.direction = LoadDirection::kLateral;
+  scene.tolerance = 1e-3;
+  const double rise_s = 2e-7;
+  scene.history = {{0.0, 0.0}, {rise_s, kPressure_Pa}, {1e-4, kPressure_Pa}};
+  const std::string refusal = refusal_of(scene);
+  CAPTURE(refusal);
+  REQUIRE_THAT(refusal, Catch::Contains("changes its slope suddenly"));
+  Scene slower = scene;
+  slower.history[1].time_s = rise_s * number_after(refusal, "Stretch its ramps ");
+  CHECK(simulate(slower).largest_relative_error <= scene.tolerance);
+  scene.tolerance = number_after(refusal, "ask for a tolerance of ");
+  CHECK(simulate(scene).largest_relative_error <= scene.tolerance);
+}
+
 TEST_CASE("a jump along the axis is answered as its refusal says", "[pillar][slow]") {
   check_advice(LoadDirection::kAxial, 1e-3);
 }
