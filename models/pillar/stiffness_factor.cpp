@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <cassert>
 #include <stdexcept>
 
 namespace viscard {
@@ -15,6 +16,7 @@ Eigen::VectorXd times(const SymmetricSparse& matrix, const Eigen::VectorXd& x) {
   for (int column = 0; column < matrix.cols(); ++column) {
     int at = outer[column];
     const int end = outer[column + 1];
+    assert(at == end || row[at] >= column);  // the lower triangle, rows ascending
     const double own = x[column];
     double even = 0.0;
     double odd = 0.0;
