@@ -269,6 +269,13 @@ void constrain(const SpectralModel& model, const FitOptions& options, SpectralFi
   check_times(model, options.constraints);
   const Parametrisation form(model, n_terms, by_shares);
   const Box box = box_of(form, options.constraints);
+  const Index n_free = (box.high.array() > box.low.array()).count();
+  if (n_free >= model.n_rows()) {
+    throw std::invalid_argument(counted(static_cast<std::size_t>(model.n_rows()), "value") +
+                                " cannot tell " +
+                                counted(static_cast<std::size_t>(n_free), "free parameter") +
+                                " and the noise; hold more of them, or ask for fewer terms");
+  }
   SpectralState best =
       solve_in_box(form, box.low, box.high, spread_start(model, form, box, fit, n_terms));
   if (fit.state.n_terms() == n_terms) {
@@ -280,8 +287,7 @@ void constrain(const SpectralModel& model, const FitOptions& options, SpectralFi
   const double free_inflation = fit.noise.inflation();
   fit.state = best;
   fit.rss = best.rss + model.hidden_rss(best.ln_tau, best.nuisance, best.coefficients);
-  const auto n_parameters = static_cast<double>(form.size());
-  fit.variance = fit.rss / std::max(1.0, model.n_samples() - n_parameters);
+  fit.variance = fit.rss / std::max(1.0, model.n_samples() - static_cast<double>(n_free));
   fit.noise = {};
   double inflation = 1.0;
   if (!options.white_noise) {

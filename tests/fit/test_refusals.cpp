@@ -84,6 +84,25 @@ TEST_CASE("as many parameters as samples are not fitted: nothing would tell the 
   CHECK_THAT(fit.flags.front().text, Contains("5 values cannot tell more than 1"));
 }
 
+TEST_CASE("held parameters leave as many free as the samples can tell, or the fit is refused",
+          "[fit]") {
+  RelaxationData data;
+  for (const double t : {0.1, 0.6, 4.0, 25.0, 160.0}) {
+    data.time_s.push_back(t);
+    data.value.push_back(1e6 + 5e5 * std::exp(-t / 3.0) + 2e4 * std::sin(40.0 * t));
+  }
+  FitOptions options;
+  options.n_terms = 3;
+  options.constraints = {{"tau_1", 0.5, 0.5}};
+  CHECK_THROWS_WITH(fit_relaxation(data, options),
+                    Contains("5 values cannot tell 6 free parameters"));
+  options.n_terms = 1;
+  options.constraints = {{"tau_1", 3.0, 3.0}};
+  const FitResult fit = fit_relaxation(data, options);
+  // E_inf and E_1 are free: three of the five values are left for the noise.
+  CHECK(fit.noise.sigma == Approx(std::sqrt(fit.rss / 3.0)).epsilon(1e-12));
+}
+
 TEST_CASE("rows that are not numbers are left out and counted", "[fit]") {
   RelaxationData data = relaxation_of(s2(), 400, 1000.0, 0.001, 1);
   data.value[7] = std::numeric_limits<double>::infinity();
