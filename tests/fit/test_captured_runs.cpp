@@ -143,6 +143,19 @@ TEST_CASE("one quick message in the middle does not tilt the clock line", "[fit]
   CHECK(line.at(100.0) == Approx(100.0).margin(0.02));
 }
 
+TEST_CASE("without readings after contact drift is said to be unseen", "[fit]") {
+  const EmulatedTruth truth = demo_truth(20, 5);
+  CapturedRun run = in_memory_run(truth, {});
+  CHECK_FALSE(has_flag(fit_indentation(indentation_from_capture(run)), "drift-unseen"));
+  const double retract_s = run.moves.back().move.start_time_s;
+  std::erase_if(run.load_samples,
+                [&](const LoadSample& sample) { return sample.host_time_s > retract_s; });
+  const FitResult fit = fit_indentation(indentation_from_capture(run));
+  CHECK(has_flag(fit, "drift-unseen"));
+  CHECK(fit.is_trustworthy);
+  CHECK(fit.gain_drift_relative == 0.0);
+}
+
 TEST_CASE("a gain that drifts before contact is in the intervals of the moduli", "[fit]") {
   // The cell gains 2e-6 of the force each second for 100 s before contact: .02 %, and (1 + share of
   // the frame) times as much of the modulus, several random errors of E_inf.
