@@ -86,6 +86,19 @@ std::vector<MasterSegment> segments_of(const MasterData& data, std::size_t& n_le
   return segments;
 }
 
+// Rows count relative to their own value, so that a zero among them would outweigh all others.
+void check_moduli(const MasterSegment& segment) {
+  const bool is_dma = !segment.loss.empty();
+  for (std::size_t i = 0; i < segment.value.size(); ++i) {
+    if (segment.value[i] != 0.0 || (is_dma && segment.loss[i] != 0.0)) continue;
+    throw std::runtime_error("the modulus at " + celsius(segment.temperature_C) + " and " +
+                             text_of(segment.argument[i]) + (is_dma ? " Hz" : " s") +
+                             " is zero: no measurement. Leave the row out");
+  }
+  check_sign(segment.value, is_dma ? "a storage modulus" : "a relaxation modulus",
+             is_dma ? "storage_modulus_Pa" : "modulus_Pa");
+}
+
 // By how much ln(argument) of `to` exceeds that of `from` at the same values: average over
 // crossings, the steep ones counting most. Weight 0: the values do not overlap.
 struct Offset {
@@ -215,11 +228,7 @@ bool has_several_temperatures(const std::vector<double>& temperature_C) {
 MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) {
   std::size_t n_left_out = 0;
   const std::vector<MasterSegment> segments = segments_of(data, n_left_out);
-  for (const MasterSegment& segment : segments) {
-    const bool is_dma = !segment.loss.empty();
-    check_sign(segment.value, is_dma ? "a storage modulus" : "a relaxation modulus",
-               is_dma ? "storage_modulus_Pa" : "modulus_Pa");
-  }
+  for (const MasterSegment& segment : segments) check_moduli(segment);
   const std::size_t reference = reference_of(segments, data.T_ref_C);
   const MasterModel model(segments, reference, start_shifts(segments, reference), options);
   const SpectralFit fit = fit_spectrum(model, blocks_of(segments), options);

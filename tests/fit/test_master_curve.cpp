@@ -12,7 +12,6 @@
 
 using namespace viscard;
 using namespace viscard::test;
-using viscard::test::error_text;
 
 namespace {
 
@@ -160,5 +159,17 @@ TEST_CASE("segments that share no modulus are refused by name", "[fit][master]")
         std::string::npos);
   data.T_ref_C = 25.0;
   CHECK(error_text([&] { fit_master_curve(data); }).find("there are 0 C, 50 C") !=
+        std::string::npos);
+}
+
+TEST_CASE("a row of zero and moduli of the wrong sign are refused by name", "[fit][master]") {
+  MasterData data = relaxation_data(kWlf, 0.0, 1);
+  const double kept = data.modulus_Pa[50];
+  data.modulus_Pa[50] = 0.0;
+  CHECK(error_text([&] { fit_master_curve(data); }).find("at 10 C and 0.587802 s") !=
+        std::string::npos);
+  data.modulus_Pa[50] = kept;
+  for (double& modulus : data.modulus_Pa) modulus = -modulus;
+  CHECK(error_text([&] { fit_master_curve(data); }).find("--column modulus_Pa=-NAME") !=
         std::string::npos);
 }
