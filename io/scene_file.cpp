@@ -27,7 +27,7 @@ struct RawScene {
   double electrode_radius_m = 0.0;
   bool quadrants = false;
   RawMaterial pillar, film;
-  std::string analysis = "static";
+  std::string analysis = "static", top;
   std::int64_t modes = 4;
   RawDrive drive;
   std::vector<std::string> quantities;
@@ -83,6 +83,7 @@ void show_scene(FieldVisitor& v, RawScene& s) {
   v.section("analysis", [&](FieldVisitor& a) {
     a.text({"kind", "static"}, s.analysis);
     a.integer("modes", 1, 40, s.modes);
+    a.text({"top", "plate"}, s.top);
     show_drive(a, s.analysis, s.drive);
   });
   v.section("readout", [&](FieldVisitor& r) { show_readout(r, s.drive); });
@@ -205,6 +206,12 @@ Scene scene_from(const RawScene& raw, const std::filesystem::path& folder) {
   std::map<std::string, AnalysisKind> kinds;
   for (const Analysis& analysis : analyses()) kinds[analysis.name] = analysis.kind;
   scene.kind = choice<AnalysisKind>("analysis.kind", raw.analysis, kinds);
+  if (!raw.top.empty()) {
+    if (scene.kind != AnalysisKind::kBuckling) {
+      throw SceneMistake("analysis.top", "only buckling analyses say what is on the top");
+    }
+    scene.plate_on_top = choice<bool>("analysis.top", raw.top, {{"free", false}, {"plate", true}});
+  }
   scene.modes = static_cast<int>(raw.modes);
   scene.wanted = raw.quantities;
   fill_drive(raw.drive, scene);

@@ -37,12 +37,21 @@ Motion axial_motion(const Scene& scene) {
   return scene.plane ? Motion::kPlaneSymmetric : Motion::kLongitudinal;
 }
 
+namespace {
+
+bool is_pressed_by_plate(const Scene& scene, Motion motion) {
+  if (scene.kind == AnalysisKind::kBuckling) return scene.plate_on_top;
+  return moves_top(scene) && motion == axial_motion(scene);
+}
+
+}  // namespace
+
 ModelOptions options_of(const Scene& scene, Motion motion) {
   return {.motion = motion,
           .plane = scene.plane.value_or(PlaneState::kStrain),
           .fixed_bottom = scene.fixed_bottom,
           .pin_bottom = !scene.fixed_bottom && scene.kind == AnalysisKind::kStatic,
-          .rigid_top = moves_top(scene) && motion == axial_motion(scene),
+          .rigid_top = is_pressed_by_plate(scene, motion),
           .condense_pressures_from = scene.condense_pressures_from};
 }
 

@@ -19,7 +19,8 @@ double engesser_pressure_Pa(const Scene& scene) {
   const double radius_of_gyration_m =
       scene.plane ? scene.geometry.diameter_m / std::sqrt(12.0) : 0.25 * scene.geometry.diameter_m;
   // Half waves of four lengths with a free top, of two with one that a plate keeps upright.
-  const double half_wave_m = (moves_top(scene) ? 1.0 : 2.0) * scene.geometry.length_m;
+  const bool is_upright = moves_top(scene) || scene.plate_on_top;
+  const double half_wave_m = (is_upright ? 1.0 : 2.0) * scene.geometry.length_m;
   const double slenderness = half_wave_m / radius_of_gyration_m;
   const double euler_Pa =
       std::numbers::pi * std::numbers::pi * scene.pillar.E0_Pa / (slenderness * slenderness);

@@ -135,7 +135,9 @@ EffectEstimate film_compliance_estimate(const Scene& scene) {
     case AnalysisKind::kTransient:
       return {EffectRole::kNeeded, 1.0, "E A/(k L)", shares.axial, "it moves every resonance"};
     case AnalysisKind::kBuckling:
-      return {EffectRole::kOptional, kUnevenTraction * shares.lateral(), "2 E I/(k L)",
+      // A plate halves the free length above the foot, whose turn then counts twice.
+      return {EffectRole::kOptional,
+              (scene.plate_on_top ? 2.0 : 1.0) * kUnevenTraction * shares.lateral(), "2 E I/(k L)",
               2.0 * shares.bending, "the base turns under the bent pillar"};
     default:
       break;

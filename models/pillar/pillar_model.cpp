@@ -16,6 +16,10 @@ bool is_axial(Motion motion) {
   return motion == Motion::kLongitudinal || motion == Motion::kPlaneSymmetric;
 }
 
+bool is_sideways(Motion motion) {
+  return motion == Motion::kLateral || motion == Motion::kPlaneAntisymmetric;
+}
+
 bool is_plane(Motion motion) {
   return motion == Motion::kPlaneSymmetric || motion == Motion::kPlaneAntisymmetric;
 }
@@ -39,8 +43,8 @@ PillarModel::PillarModel(const PillarGeometry& geometry, const Discretisation& d
   if (geometry.film.has_value() != media.film.has_value()) {
     throw std::invalid_argument("a film needs its material, and a material its film");
   }
-  if (options.rigid_top && !is_axial(options.motion)) {
-    throw std::invalid_argument("a rigid plate on top belongs to axial loading");
+  if (options.rigid_top && !is_axial(options.motion) && !is_sideways(options.motion)) {
+    throw std::invalid_argument("a rigid plate on top belongs to axial and sideways motion");
   }
   media_ = {media.pillar};
   if (media.film) media_.push_back(*media.film);
@@ -62,7 +66,12 @@ DofMap PillarModel::make_dofs(const Kinematics& kinematics) {
   const int columns = section.x().element_count();
   DofMap dofs(kinematics.field_count, section.node_count());
   if (options_.rigid_top) {
-    dofs.tie(1, nodes_on_break(section, mesh_.top_row, 0, mesh_.pillar_columns));
+    const std::vector<int> top = nodes_on_break(section, mesh_.top_row, 0, mesh_.pillar_columns);
+    if (is_axial(options_.motion)) dofs.tie(1, top);
+    const int along_axis = options_.motion == Motion::kLateral ? 2 : 1;
+    for (const int node : top) {
+      if (!is_axial(options_.motion)) dofs.fix(along_axis, node);
+    }
   }
   const int phi = kinematics.potential_field;
   if (options_.electrodes) {

@@ -35,7 +35,9 @@ struct ModelOptions {
   // A free bottom in statics, under loads that balance themselves: motion is seen from the middle
   // of the bottom (sideways: and from its rim, which stays level), see rigid_motion.h.
   bool pin_bottom = false;
-  bool rigid_top = false;                      // ties the top's axial displacement
+  // A rigid plate without friction on the top: ties its axial displacement; sideways the plate
+  // keeps the top upright and lets it slide.
+  bool rigid_top = false;
   std::optional<ElectrodeOptions> electrodes;  // present: the film's potential is unknown too
   double condense_pressures_from = kNearlyIncompressible;  // Poisson ratio; 0.5 always does
 };
@@ -55,7 +57,7 @@ struct PillarState {
 class PillarModel {
  public:
   // Throws std::invalid_argument for a bad geometry, a film without medium or the other way round,
-  // or a rigid top or electrodes in a family that has none.
+  // or a rigid top or electrodes in a family that has none (torsion, ovalling).
   PillarModel(const PillarGeometry& geometry, const Discretisation& discretisation,
               const PillarMedia& media, const ModelOptions& options);
   PillarModel(const PillarModel&) = delete;

@@ -35,8 +35,9 @@ struct Scene {
   AnalysisKind kind = AnalysisKind::kStatic;
   double pressure_Pa = 0.0;              // static; also the prestress of a modal analysis
   std::optional<double> displacement_m;  // static: of the top along +z (sideways +x); no pressure
-  int modes = 4;                         // per family
-  std::vector<HistoryPoint> history;     // creep: pressure in Pa; relaxation: shortening in m
+  bool plate_on_top = false;  // buckling: pressed by a rigid frictionless plate that stays level
+  int modes = 4;              // per family
+  std::vector<HistoryPoint> history;  // creep: pressure in Pa; relaxation: shortening in m
 
   std::vector<std::string> wanted;               // names of results; empty: all
   std::optional<Discretisation> discretisation;  // finest mesh; none: the tolerance decides

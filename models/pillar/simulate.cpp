@@ -24,10 +24,7 @@ double largest_push_Pa(const Scene& scene) {
 }
 
 // Infinite for a pillar so stubby that nothing but the bond's rim gives way.
-double buckling_pressure_Pa(const Scene& scene) {
-  const Discretisation mesh = mesh_sequence(scene.geometry)[1];
-  const PillarModel axial(scene.geometry, mesh, media_of(scene), {.motion = Motion::kLongitudinal});
-  const PillarModel lateral(scene.geometry, mesh, media_of(scene), {.motion = Motion::kLateral});
+double buckling_pressure_Pa(const PillarModel& axial, const PillarModel& lateral) {
   try {
     return buckling(axial, lateral).pressure_Pa;
   } catch (const std::runtime_error&) {
@@ -35,9 +32,31 @@ double buckling_pressure_Pa(const Scene& scene) {
   }
 }
 
-// A plate holds the top upright, so that the pillar buckles between the two (engesser_pressure_Pa).
+double buckling_pressure_Pa(const Scene& scene) {
+  const Discretisation mesh = mesh_sequence(scene.geometry)[1];
+  const PillarModel axial(scene.geometry, mesh, media_of(scene), {.motion = Motion::kLongitudinal});
+  const PillarModel lateral(scene.geometry, mesh, media_of(scene), {.motion = Motion::kLateral});
+  return buckling_pressure_Pa(axial, lateral);
+}
+
+// How far a plate can press the top down before the pillar buckles below it.
+double buckling_shortening_m(const Scene& scene) {
+  const Discretisation mesh = mesh_sequence(scene.geometry)[1];
+  const PillarModel axial(scene.geometry, mesh, media_of(scene),
+                          {.motion = Motion::kLongitudinal, .rigid_top = true});
+  const PillarModel lateral(scene.geometry, mesh, media_of(scene),
+                            {.motion = Motion::kLateral, .rigid_top = true});
+  const Eigen::VectorXd traction = axial.top_traction();
+  const double shortening_m_Pa =
+      traction.dot(axial.solve(traction).unknowns) / traction.sum();  // at 1 Pa
+  return shortening_m_Pa * buckling_pressure_Pa(axial, lateral);
+}
+
+// A plate holds the top upright, so that the pillar buckles between the two.
 std::string beyond_buckling_under_plate(const Scene& scene) {
-  const double most_m = engesser_pressure_Pa(scene) / scene.pillar.E0_Pa * scene.geometry.length_m;
+  const double rough_m = engesser_pressure_Pa(scene) / scene.pillar.E0_Pa * scene.geometry.length_m;
+  if (-*scene.displacement_m < 0.5 * rough_m) return "";
+  const double most_m = scene.plane ? rough_m : buckling_shortening_m(scene);
   if (-*scene.displacement_m < most_m) return "";
   return "a displacement of " + number_text(*scene.displacement_m * 1e6, 5) +
          " um is beyond about " + number_text(-most_m * 1e6, 3) +

@@ -224,3 +224,43 @@ TEST_CASE("moved scenes that cannot be are refused by name", "[pillar]") {
     CHECK_THROWS_WITH(simulate(scene), Catch::Contains("no smaller than"));
   }
 }
+
+// Clamped below and upright above, free to slide: half a wave over the length, pi^2 E I/L^2 with
+// Engesser's correction for shear, four times a free top's. Source: Timoshenko & Gere, Theory of
+// Elastic Stability (1961), 2.1, 2.17.
+TEST_CASE("a slender pillar under a plate buckles as an upright column", "[pillar]") {
+  Scene scene;
+  scene.geometry.length_m = 1200e-6;  // 30 diameters
+  scene.pillar.E0_Pa = 1.8e6;
+  scene.pillar.nu = .33;
+  scene.kind = AnalysisKind::kBuckling;
+  const double free_Pa = value_of(simulate(scene), "buckling_pressure");
+  scene.plate_on_top = true;
+  const double upright_Pa = value_of(simulate(scene), "buckling_pressure");
+  const double euler_Pa = std::pow(std::numbers::pi * 10e-6 / 1200e-6, 2) * 1.8e6;
+  const double kappa = 6.0 * 1.33 / (7.0 + 6.0 * .33);
+  const double column_Pa = euler_Pa / (1.0 + euler_Pa / (kappa * 1.8e6 / 2.66));
+  CHECK(upright_Pa == Approx(column_Pa).epsilon(5e-3));  // a clamped foot adds (R/L)/10 or so
+  CHECK(upright_Pa / free_Pa == Approx(4.0).epsilon(1e-2));
+}
+
+TEST_CASE("a plate may press a pillar as far as it buckles, not beyond", "[pillar]") {
+  Scene scene;
+  scene.pillar.E0_Pa = 1.8e6;
+  scene.pillar.nu = .33;
+  scene.kind = AnalysisKind::kBuckling;
+  scene.plate_on_top = true;
+  const double critical_Pa = value_of(simulate(scene), "buckling_pressure");
+  CHECK(critical_Pa > 2.5 * 29368.9);  // of a free top; at 3 diameters shear takes its share
+  CHECK(critical_Pa < 4.0 * 29368.9);
+  scene.kind = AnalysisKind::kStatic;
+  scene.plate_on_top = false;
+  scene.displacement_m = -1e-6;
+  const double area_m2 = std::numbers::pi * 4e-10;
+  const double moved_m_Pa = area_m2 * 1e-6 / -value_of(simulate(scene), "top_force");
+  // The check takes a coarse mesh, 2e-3 off at most.
+  scene.displacement_m = -0.99 * critical_Pa * moved_m_Pa;
+  CHECK_NOTHROW(refuse_beyond_buckling(scene));
+  scene.displacement_m = -1.01 * critical_Pa * moved_m_Pa;
+  CHECK_THROWS_WITH(refuse_beyond_buckling(scene), Catch::Contains("buckles between"));
+}
