@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -133,64 +134,86 @@ Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralS
   return covariance;
 }
 
-void fill_parameters(const SpectralModel& model, const SpectralState& state,
-                     const Eigen::MatrixXd& covariance, const SeriesFromState& series_from_state,
-                     FitResult& result) {
-  const PronySeries series = series_from_state(state);
-  const auto n = static_cast<Index>(series.terms.size());
+namespace {
+
+// A series with the covariance of (E_inf, E_i, ln tau_i).
+struct KnownSeries {
+  PronySeries series;
+  Eigen::MatrixXd covariance;
+  double E0 = 0.0;
+  Eigen::VectorXd of_E0;  // gradient of E0
+
+  Index n_terms() const { return static_cast<Index>(series.terms.size()); }
+  Eigen::VectorXd unit(Index parameter) const {
+    return Eigen::VectorXd::Unit(covariance.rows(), parameter);
+  }
+  // Standard error of value/E0, from the gradient of the value.
+  double relative_error(const Eigen::VectorXd& gradient, double value) const {
+    return error_of(covariance, (gradient - of_E0 * (value / E0)) / E0);
+  }
+};
+
+KnownSeries known_series(const SpectralModel& model, const SpectralState& state,
+                         const Eigen::MatrixXd& covariance,
+                         const SeriesFromState& series_from_state) {
   const Eigen::MatrixXd slopes = series_slopes(model, state, series_from_state);
   // Products of an unreached parameter with no influence are 0 * inf: take them as 0.
   Eigen::MatrixXd finite = covariance;
   for (Index j = 0; j < finite.rows(); ++j) {
     if (!std::isfinite(finite(j, j))) finite(j, j) = 0.0;
   }
-  const Eigen::MatrixXd cov = slopes * finite * slopes.transpose();
+  KnownSeries known{series_from_state(state), slopes * finite * slopes.transpose(), 0.0, {}};
+  known.E0 = instantaneous_modulus_Pa(known.series);
+  known.of_E0 = Eigen::VectorXd::Zero(known.covariance.rows());
+  known.of_E0.head(1 + known.n_terms()).setOnes();
+  return known;
+}
 
-  result.E_inf_Pa = series.equilibrium_modulus_Pa;
-  result.E0_Pa = instantaneous_modulus_Pa(series);
-  Eigen::VectorXd of_sum = Eigen::VectorXd::Zero(1 + 2 * n);
-  of_sum.head(1 + n).setOnes();
-  result.E0_se_Pa = error_of(cov, of_sum);
-  result.E_inf_se_Pa = std::sqrt(std::max(0.0, cov(0, 0)));
+FittedTerm fitted_term(const KnownSeries& known, Index i) {
+  const MaxwellTerm& from = known.series.terms[static_cast<std::size_t>(i)];
+  const Index modulus = 1 + i, time = 1 + known.n_terms() + i;
+  FittedTerm term;
+  term.modulus_Pa = from.modulus_Pa;
+  term.g = from.modulus_Pa / known.E0;
+  term.tau_s = from.relaxation_time_s;
+  term.modulus_se_Pa = std::sqrt(std::max(0.0, known.covariance(modulus, modulus)));
+  term.ln_tau_se = std::sqrt(std::max(0.0, known.covariance(time, time)));
+  term.modulus_Pa_95 = symmetric(term.modulus_Pa, term.modulus_se_Pa);
+  term.g_95 = symmetric(term.g, known.relative_error(known.unit(modulus), term.modulus_Pa));
+  term.tau_s_95 = {term.tau_s * std::exp(-kNormal95 * term.ln_tau_se),
+                   term.tau_s * std::exp(kNormal95 * term.ln_tau_se)};
+  return term;
+}
+
+std::vector<std::string> parameter_names(Index n_terms, bool is_stiffness) {
+  const std::string unit = is_stiffness ? "_N_m" : "_Pa";
+  std::vector<std::string> names{"E_inf" + unit};
+  for (Index i = 1; i <= n_terms; ++i) names.push_back("E_" + std::to_string(i) + unit);
+  for (Index i = 1; i <= n_terms; ++i) names.push_back("ln_tau_" + std::to_string(i));
+  return names;
+}
+
+}  // namespace
+
+void fill_parameters(const SpectralModel& model, const SpectralState& state,
+                     const Eigen::MatrixXd& covariance, const SeriesFromState& series_from_state,
+                     FitResult& result) {
+  const KnownSeries known = known_series(model, state, covariance, series_from_state);
+  result.E_inf_Pa = known.series.equilibrium_modulus_Pa;
+  result.E0_Pa = known.E0;
+  result.E0_se_Pa = error_of(known.covariance, known.of_E0);
+  result.E_inf_se_Pa = std::sqrt(std::max(0.0, known.covariance(0, 0)));
   result.E0_interval_95 = symmetric(result.E0_Pa, result.E0_se_Pa);
   result.E_inf_interval_95 = symmetric(result.E_inf_Pa, result.E_inf_se_Pa);
   if (!model.may_be_negative()) {
     result.E_inf_interval_95.low = std::max(0.0, result.E_inf_interval_95.low);
   }
-  const double E0 = result.E0_Pa;
-  const auto relative = [&](const Eigen::VectorXd& gradient, double value) {  // of value/E0
-    return error_of(cov, (gradient - of_sum * (value / E0)) / E0);
-  };
-  Eigen::VectorXd of_inf = Eigen::VectorXd::Zero(1 + 2 * n);
-  of_inf[0] = 1.0;
-  result.sum_g = 1.0 - result.E_inf_Pa / E0;
-  result.sum_g_95 = symmetric(result.sum_g, relative(of_inf, result.E_inf_Pa));
+  result.sum_g = 1.0 - result.E_inf_Pa / known.E0;
+  result.sum_g_95 = symmetric(result.sum_g, known.relative_error(known.unit(0), result.E_inf_Pa));
   result.terms.clear();
-  for (Index i = 0; i < n; ++i) {
-    const MaxwellTerm& from = series.terms[static_cast<std::size_t>(i)];
-    FittedTerm term;
-    term.modulus_Pa = from.modulus_Pa;
-    term.g = from.modulus_Pa / E0;
-    term.tau_s = from.relaxation_time_s;
-    term.modulus_se_Pa = std::sqrt(std::max(0.0, cov(1 + i, 1 + i)));
-    term.ln_tau_se = std::sqrt(std::max(0.0, cov(1 + n + i, 1 + n + i)));
-    term.modulus_Pa_95 = symmetric(term.modulus_Pa, term.modulus_se_Pa);
-    Eigen::VectorXd of_term = Eigen::VectorXd::Zero(1 + 2 * n);
-    of_term[1 + i] = 1.0;
-    term.g_95 = symmetric(term.g, relative(of_term, term.modulus_Pa));
-    term.tau_s_95 = {term.tau_s * std::exp(-kNormal95 * term.ln_tau_se),
-                     term.tau_s * std::exp(kNormal95 * term.ln_tau_se)};
-    result.terms.push_back(term);
-  }
-  const std::string unit = result.is_stiffness ? "_N_m" : "_Pa";
-  result.covariance = cov;
-  result.covariance_parameters = {"E_inf" + unit};
-  for (Index i = 1; i <= n; ++i) {
-    result.covariance_parameters.push_back("E_" + std::to_string(i) + unit);
-  }
-  for (Index i = 1; i <= n; ++i) {
-    result.covariance_parameters.push_back("ln_tau_" + std::to_string(i));
-  }
+  for (Index i = 0; i < known.n_terms(); ++i) result.terms.push_back(fitted_term(known, i));
+  result.covariance = known.covariance;
+  result.covariance_parameters = parameter_names(known.n_terms(), result.is_stiffness);
 }
 
 }  // namespace viscard
