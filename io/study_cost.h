@@ -51,7 +51,8 @@ struct LinearFactor {
   bool is_extrapolated = false;  // finer linear meshes than any that were run
   std::string quickest;          // discretisation it is compared with
 };
-// Empty where no row reaches the error or there are fewer than two h1 rows whose errors fall with the mesh.
+// Empty where no row reaches the error or there are fewer than two h1 rows whose errors fall with
+// the mesh.
 std::optional<LinearFactor> factor_over_linear(const CostStudy& study, double error);
 
 // Throws what simulate() and simulate_array() throw for scenes that contradict themselves.
