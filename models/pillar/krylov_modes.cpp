@@ -160,7 +160,8 @@ EigenPairs largest_eigenpairs(const PencilMap& op, const LinearMap& B, int size,
     throw std::invalid_argument(std::to_string(count) + " modes asked of a system of " +
                                 std::to_string(size) + " unknowns");
   }
-  std::minstd_rand random(1);  // a fixed start: the same answer every time
+  std::mt19937_64 random(1);  // a fixed start: the same answer every time
+  std::normal_distribution<double> normal;
   // A space of all unknowns ends by itself.
   const bool is_limited = options.largest_space < size;
   KrylovSpace space(op, B, size, is_limited ? options.largest_space : size + options.block);
@@ -168,7 +169,7 @@ EigenPairs largest_eigenpairs(const PencilMap& op, const LinearMap& B, int size,
     Eigen::MatrixXd vectors(size, columns);
     for (int i = 0; i < columns; ++i) {
       Eigen::VectorXd start(size);
-      for (double& x : start) x = static_cast<double>(random()) / std::minstd_rand::max() - 0.5;
+      for (double& x : start) x = normal(random);
       vectors.col(i) = op(start, B(start));  // the start then has no part outside op's range
     }
     return vectors;
