@@ -101,10 +101,11 @@ TEST_CASE("torsion of the free bar is exact", "[pillar]") {
 // Elasticity (1927), art. 278 (Pochhammer).
 TEST_CASE("the free bar vibrates lengthwise as Pochhammer's long waves", "[pillar]") {
   const double rod_Hz = std::sqrt(kE_Pa / kRho) / (2.0 * 400e-6);
-  const double x = kPi * .33 * 20e-6 / 400e-6;
-  CHECK(free_Hz(bar(10), Motion::kLongitudinal, 1) ==
+  const double nu = GENERATE(.33, .49, .5);
+  const double x = kPi * nu * 20e-6 / 400e-6;
+  CHECK(free_Hz(bar(10), Motion::kLongitudinal, 1, nu) ==
         Approx(rod_Hz * (1.0 - 0.25 * x * x)).epsilon(5e-6));
-  CHECK(free_Hz(bar(10), Motion::kLongitudinal, 1) < rod_Hz * (1.0 - 0.2 * x * x));
+  CHECK(free_Hz(bar(10), Motion::kLongitudinal, 1, nu) < rod_Hz * (1.0 - 0.2 * x * x));
 }
 
 // Euler-Bernoulli's 4.73004^2 sqrt(E I/(rho A))/(2 pi L^2) is the limit of slender ones, which
