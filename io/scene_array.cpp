@@ -192,7 +192,7 @@ ArrayScene scene_from(const RawArray& raw, const std::filesystem::path& folder) 
   scene.surface_energy_J_m2 = raw.surface_energy_J_m2;
   scene.effects = choices_of(raw.effects);
   Scene times;  // the pillar's reader makes lists of frequencies and histories
-  fill_times(raw.times, times);
+  fill_times(raw.times, raw.analysis, times);
   scene.frequencies_Hz = times.frequencies_Hz;
   scene.history = times.history;
   scene.end_time_s = raw.times.end_time_s;

@@ -1,7 +1,9 @@
 #include "io/scene_drive.h"
 
 #include "io/scene_words.h"
+#include "models/pillar/analysis.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -73,6 +75,17 @@ void fill_readout(const RawDrive& raw, Scene& scene) {
     throw SceneMistake("readout", error.what());
   }
   scene.readout = readout;
+}
+
+// What an analysis does not read would be an experiment other than the one that is meant.
+void refuse_unread(bool is_given, const char* key, const std::string& analysis,
+                   const std::vector<std::string>& readers) {
+  if (!is_given || std::find(readers.begin(), readers.end(), analysis) != readers.end()) return;
+  std::string list;
+  for (const std::string& reader : readers) list += (list.empty() ? "" : ", ") + reader;
+  throw SceneMistake(std::string("analysis.") + key, "a " + analysis +
+                                                         " analysis does not use it (" + list +
+                                                         "); leave it out, or change the kind");
 }
 
 bool is_moved(const RawDrive& raw) {
@@ -190,11 +203,16 @@ void fill_drive(const RawDrive& raw, Scene& scene) {
   scene.drive_V = raw.voltage_V;
   scene.end_time_s = raw.end_time_s;
   scene.outputs = static_cast<int>(raw.outputs);
-  fill_times(raw, scene);
+  fill_times(raw, analysis_of(scene.kind).name, scene);
   fill_readout(raw, scene);
 }
 
-void fill_times(const RawDrive& raw, Scene& scene) {
+void fill_times(const RawDrive& raw, const std::string& analysis, Scene& scene) {
+  refuse_unread(raw.from_Hz != 0.0, "frequencies", analysis, {"harmonic"});
+  refuse_unread(raw.end_time_s != 0.0, "end_time", analysis, {"transient"});
+  const std::vector<std::string> in_time = {"relaxation", "creep", "transient"};
+  refuse_unread(!raw.history.empty(), "history", analysis, in_time);
+  refuse_unread(raw.pulse_duration_s != 0.0, "pulse", analysis, in_time);
   fill_frequencies(raw, scene);
   fill_history(raw, scene);
 }

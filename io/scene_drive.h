@@ -36,8 +36,9 @@ void show_times(FieldVisitor& analysis_table, const char* unit, RawDrive& drive)
 // [readout]: kind = "voltage" | "charge", resistance, capacitance, film_resistivity.
 void show_readout(FieldVisitor& readout_table, RawDrive& drive);
 
-// Fills the scene's frequencies and history alone. Throws SceneMistake.
-void fill_times(const RawDrive& raw, Scene& scene);
+// Fills the scene's frequencies and history alone. Throws SceneMistake, also for a key that an
+// analysis of this name does not use.
+void fill_times(const RawDrive& raw, const std::string& analysis, Scene& scene);
 
 // Fills the scene's loads, histories, frequencies and readout. Throws SceneMistake.
 void fill_drive(const RawDrive& drive, Scene& scene);
