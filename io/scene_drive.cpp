@@ -114,6 +114,15 @@ void fill_traction(const RawDrive& raw, Scene& scene) {
     throw SceneMistake("analysis.load", "give one of pressure, shear, force and displacement");
   }
   fill_displacement(raw, scene);
+  const bool in_time = scene.kind == AnalysisKind::kCreep ||
+                       scene.kind == AnalysisKind::kRelaxation ||
+                       scene.kind == AnalysisKind::kTransient;
+  if (in_time && (given > 0 || raw.acceleration_m_s2 != 0.0)) {
+    throw SceneMistake("analysis.load",
+                       std::string("the load of a ") + analysis_of(scene.kind).name +
+                           " analysis stands in its history or pulse; say here only on and "
+                           "direction");
+  }
   if ((raw.shear_Pa != 0.0 || raw.force_N != 0.0) && scene.load_place == LoadPlace::kBase) {
     throw SceneMistake("analysis.load", "the base takes an acceleration");
   }

@@ -148,6 +148,9 @@ TEST_CASE("a history that cannot be is refused with the line of its point", "[cl
       kCreep,
       GENERATE(
           Mistake{"\"120 um\"\n", "\"120 um\"\nbottom = \"free\"\n", 5, "nothing holds"},
+          Mistake{"kind = \"creep\"\n",
+                  "kind = \"creep\"\nload = { pressure = \"5 kPa\", on = \"top\" }\n", 9,
+                  "stands in its history"},
           Mistake{"[\"10 s\",", "[\"0.5 s\",", 12, "goes back in time, from 1 s"},
           Mistake{"[\"0 s\",", "[\"-1 s\",", 10, "goes back in time"},
           Mistake{"[\"0 s\", \"0 Pa\"],", "[\"0.5 s\", \"0 Pa\"],", 9, "starts at 0 s"},
