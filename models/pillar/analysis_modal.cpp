@@ -44,7 +44,8 @@ void note_rigid_motions(const Scene& scene, SceneAnswer& answer) {
   std::string list;
   int all = 0;
   for (const ModeFamily& family : mode_families(scene)) {
-    const int count = rigid_motion_count(family.motion);
+    const int directions = family.harmonic > 0 ? 2 : 1;  // sideways along x and along y
+    const int count = directions * rigid_motion_count(family.motion);
     if (count > 0) list += (all > 0 ? ", " : "") + std::to_string(count) + " " + family.name;
     all += count;
   }

@@ -167,6 +167,28 @@ TEST_CASE("a freed pillar's modes lie among those of the held one", "[pillar]") 
   CHECK(freed[0].frequency_Hz > held[0].frequency_Hz);
 }
 
+TEST_CASE("the six rigid motions of a free body, three of a strip, are told and left out",
+          "[pillar]") {
+  Scene scene;
+  scene.tolerance = 1e-2;
+  scene.geometry = bar(3.0);
+  scene.pillar.E0_Pa = kE_Pa;
+  scene.pillar.nu = .33;
+  scene.pillar.rho_kg_m3 = kRho;
+  scene.kind = AnalysisKind::kModal;
+  scene.modes = 2;
+  scene.fixed_bottom = false;
+  std::string told = "6 motions";
+  SECTION("cylinder") {}
+  SECTION("strip") {
+    scene.plane = PlaneState::kStress;
+    told = "3 motions";
+  }
+  const SceneAnswer answer = simulate(scene);
+  CHECK(answer.notes.at(0).find(told) != std::string::npos);
+  for (const SceneMode& mode : answer.modes) CHECK(mode.frequency_Hz > 1e4);
+}
+
 TEST_CASE("a free film between electrodes becomes thicker by d33 times the voltage", "[pillar]") {
   const SceneAnswer answer = simulate(disc_under_voltage());
   // Case 5 of a free plate: 30.00 pm/V; the pillar is 2e9 times as soft.
