@@ -11,17 +11,6 @@
 namespace viscard {
 namespace {
 
-template <typename Check>
-void at_key(const char* key, const Check& check) {
-  try {
-    check();
-  } catch (const SceneMistake&) {
-    throw;
-  } catch (const std::invalid_argument& error) {
-    throw SceneMistake(key, error.what());
-  }
-}
-
 void check_pressure(const ArrayScene& scene, double pressure_Pa, const char* key) {
   const double critical_Pa = engesser_pressure_Pa(single_pillar(scene));
   if (scene.load != ArrayLoad::kPressure || pressure_Pa < critical_Pa) return;

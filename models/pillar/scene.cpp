@@ -11,18 +11,6 @@
 namespace viscard {
 namespace {
 
-// Runs a check of one part of the scene and says where in a file that part stands.
-template <typename Check>
-void at_key(const char* key, const Check& check) {
-  try {
-    check();
-  } catch (const SceneMistake&) {
-    throw;
-  } catch (const std::invalid_argument& error) {
-    throw SceneMistake(key, error.what());
-  }
-}
-
 void check_electrodes(const Scene& scene) {
   if (!scene.electrodes) return;
   if (!scene.film || !scene.film->is_piezoelectric()) {

@@ -17,4 +17,16 @@ class SceneMistake : public std::invalid_argument {
   std::string key_;
 };
 
+// Runs a check of one part of the scene and says where in a file that part stands.
+template <typename Check>
+void at_key(const char* key, const Check& check) {
+  try {
+    check();
+  } catch (const SceneMistake&) {
+    throw;
+  } catch (const std::invalid_argument& error) {
+    throw SceneMistake(key, error.what());
+  }
+}
+
 }  // namespace viscard

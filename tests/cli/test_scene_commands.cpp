@@ -1,6 +1,6 @@
 #include "io/study_cost.h"
+#include "tests/scenes/scene_text.h"
 #include "tests/support/run_command.h"
-#include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -27,24 +27,6 @@ pvdf = { file = "DATA/materials/pvdf_film_manual.json" }
 kind = "static"
 load = { pressure = "10 kPa", on = "top" }
 )";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
-class SceneText {
- public:
-  explicit SceneText(const std::string& text) {
-    std::ofstream(path()) << replaced(text, "DATA", VISCARD_SOURCE_DIR "/data");
-  }
-  std::string path() const { return (folder_ / "scene.toml").string(); }
-  std::string beside(const std::string& name) const { return (folder_ / name).string(); }
-
- private:
-  ScratchFolder folder_;
-};
 
 }  // namespace
 
