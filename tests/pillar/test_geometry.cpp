@@ -128,7 +128,7 @@ TEST_CASE("impossible outlines are refused by name", "[pillar]") {
   SECTION("flares that overlap to nothing are caught by their heights") {
     g.foot = {5e-6, 70e-6};
     g.tip = {5e-6, 60e-6};
-    CHECK_THROWS_WITH(mesh(g), Catch::Contains("higher than the pillar"));
+    CHECK_THROWS_WITH(mesh(g), Catch::Contains("more than the pillar"));
   }
   SECTION("a fillet without height") {
     g.foot = {5e-6, 0.0};
