@@ -57,6 +57,12 @@ void sync_folder(const std::filesystem::path& folder) {
 void write_file(const std::filesystem::path& path, const std::string& contents, bool overwrite) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail(path, "cannot write", EISDIR);
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
+    throw std::runtime_error(
+        path.string() +
+        " is no file but a device or pipe, which would be lost; choose another "
+        "name");
+  }
   if (!overwrite && std::filesystem::exists(path, ignored)) {
     throw std::runtime_error(path.string() +
                              " exists already; pass --force to replace it, or choose another name");

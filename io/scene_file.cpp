@@ -10,6 +10,7 @@
 #include "models/pillar/scene_results.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
@@ -157,6 +158,13 @@ void fill_electrode(const RawScene& raw, Scene& scene) {
       {{"equipotential", false}, {"sampled", true}});
   if (!sampled && !(raw.electrode_radius_m > 0.0)) {
     throw SceneMistake("geometry.electrode", "needs a radius");
+  }
+  const double under_m = 0.5 * scene.geometry.diameter_m;
+  if (sampled && raw.electrode_radius_m > 0.0 &&
+      std::abs(raw.electrode_radius_m - under_m) > 1e-6 * under_m) {
+    throw SceneMistake("geometry.electrode.radius",
+                       "a sampled face is read in its middle and over the pillar's radius; leave "
+                       "the radius out");
   }
   scene.electrodes =
       ElectrodeOptions{electrode_on == FilmFace::kBottom ? FilmFace::kTop : FilmFace::kBottom,

@@ -39,7 +39,7 @@ void check_wanted(const std::vector<std::string>& wanted, const std::vector<std:
     const std::string near = nearest_word(name, known);
     throw SceneMistake("want.quantities",
                        "this analysis has no '" + name + "'" +
-                           (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                           (near.empty() ? "." : "; did you mean '" + near + "'?") +
                            " It has: " + list);
   }
 }

@@ -31,7 +31,7 @@ Value choice(const std::string& key, const std::string& word,
   }
   const std::string near = nearest_word(word, known);
   throw SceneMistake(key, "cannot be '" + word + "'" +
-                              (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                              (near.empty() ? "." : "; did you mean '" + near + "'?") +
                               " There are: " + list);
 }
 

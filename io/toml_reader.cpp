@@ -201,7 +201,7 @@ class TomlReader final : public FieldVisitor {
       if (is_known) continue;
       const std::string near = nearest_word(word, known_);
       throw std::runtime_error(where(node) + "there is no key '" + prefix_ + word + "'" +
-                               (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                               (near.empty() ? "." : "; did you mean '" + near + "'?") +
                                " Known here: " + all);
     }
     if (!missing_.empty()) throw std::runtime_error(missing_);

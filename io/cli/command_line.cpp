@@ -19,7 +19,7 @@ std::vector<std::string> option_names(const po::options_description& options) {
                                 const char* usage) {
   const std::string near = nearest_word(word, option_names(options));
   throw UsageError("there is no option '" + word + "'" +
-                   (near.empty() ? "" : "; did you mean '" + near + "'?") + " usage: " + usage);
+                   (near.empty() ? "." : "; did you mean '" + near + "'?") + " Usage: " + usage);
 }
 
 }  // namespace

@@ -30,6 +30,8 @@ SceneAnswer answer_of(Scene scene, const std::string& path, Streams& streams) {
     return simulate_planned(scene);
   } catch (const SceneMistake& mistake) {
     throw std::runtime_error(told_with_line(path, mistake));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": " + error.what());
   }
 }
 

@@ -34,7 +34,10 @@ double largest_pressure_Pa(const Scene& scene) {
   if (moves_top(scene) && !is_sideways(scene)) {
     largest = std::abs(*scene.displacement_m) / scene.geometry.length_m * scene.pillar.E0_Pa;
   }
-  if (scene.kind == AnalysisKind::kCreep) {
+  const bool is_in_time =
+      scene.kind == AnalysisKind::kCreep ||
+      (scene.kind == AnalysisKind::kTransient && scene.load_place == LoadPlace::kTop);
+  if (is_in_time) {
     for (const HistoryPoint& p : scene.history) largest = std::max(largest, std::abs(p.value));
   }
   return largest;
@@ -91,6 +94,11 @@ EffectEstimate geometric_stiffness_estimate(const Scene& scene) {
   const double pressure_Pa = largest_pressure_Pa(scene);
   if (pressure_Pa == 0.0) return {.reason = "no pressure on the top"};
   const double share = pressure_Pa / engesser_pressure_Pa(scene);
+  if (scene.direction == LoadDirection::kLateral) return {.reason = "no pressure along the pillar"};
+  if (scene.kind == AnalysisKind::kTransient && share > 1.0) {
+    return {EffectRole::kOutside, 1.0, "p/p_cr", share,
+            "the straight pillar gives way sideways if the load stays longer than a swing"};
+  }
   if (scene.kind != AnalysisKind::kModal) {
     return {EffectRole::kAbsent, 0.0, "p/p_cr", share, "a straight pillar shortens without it"};
   }
@@ -119,7 +127,8 @@ EffectEstimate finite_strain_estimate(const Scene& scene) {
   if (is_sideways(scene) && moves_top(scene)) {  // 3 u R/L^2 at the foot of a beam
     const double L_m = scene.geometry.length_m;
     strain = 1.5 * std::abs(*scene.displacement_m) * scene.geometry.diameter_m / (L_m * L_m);
-  } else if (is_sideways(scene)) {  // bending at the foot: 4 tau L/R, of a strip 3 tau L/R
+  } else if (scene.direction ==
+             LoadDirection::kLateral) {  // bending at the foot: 4 tau L/R, of a strip 3 tau L/R
     strain *= (scene.plane ? 6.0 : 8.0) * scene.geometry.length_m / scene.geometry.diameter_m;
   }
   if (scene.kind == AnalysisKind::kBuckling) {

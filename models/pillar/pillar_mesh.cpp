@@ -196,6 +196,13 @@ void validate(const PillarGeometry& g) {
   if (!g.film) return;
   require_length(g.film->thickness_m, "the film's thickness");
   require_length(g.film->radius_m, "the film's radius");
+  constexpr double kThinnest =
+      1e-6;  // of the diameter: below it rounding in places of nodes counts
+  if (g.film->thickness_m < kThinnest * g.diameter_m) {
+    throw SceneMistake("geometry.film.thickness",
+                       "the film is thinner than a millionth of the pillar's diameter, which no "
+                       "mesh here can tell from none; leave the film out");
+  }
   if (g.film->radius_m < bond_radius_m(g) * (1.0 - 1e-12)) {
     throw SceneMistake("geometry.film.radius", "the film's radius of " +
                                                    number_text(g.film->radius_m * 1e6) +

@@ -75,34 +75,70 @@ double free_shift_1_s2(const PillarModel& model) {
 // many modes above a shift are looked through for the one that bends the pillar as a whole.
 constexpr int kMostModes = 8;
 
+// The pencil K, M of a model, searched from a shift on: pairs of largest 1/(omega^2 + shift).
+class ModeSearch {
+ public:
+  ModeSearch(const PillarModel& model, const SymmetricSparse& stiffness)
+      : model_(model), stiffness_(stiffness), mass_(model.mass()), elastic_(model, mass_) {
+    mass_.prune(0.0);  // it has the stiffness' pattern, where most fields do not meet in it
+  }
+
+  EigenPairs from(double shift_1_s2, int count, int largest_space) {
+    if (shift_1_s2 == 0.0) {
+      model_.factor(stiffness_, factor_);
+    } else {
+      SymmetricSparse shifted = stiffness_;
+      shifted.coeffs() += shift_1_s2 * model_.mass().coeffs();
+      model_.factor(shifted, factor_);
+    }
+    const LinearMap B = [&](const Eigen::VectorXd& x) { return times(mass_, x); };
+    const PencilMap op = [&](const Eigen::VectorXd&, const Eigen::VectorXd& Mx) {
+      return elastic_.of(factor_.solve(Mx));
+    };
+    // The frequencies' own error is the square of the residual: far below that of any mesh.
+    return largest_eigenpairs(op, B, model_.system().size(), count,
+                              {.tolerance = 1e-6, .largest_space = largest_space});
+  }
+  // Modes that lie below the last search's shift (Sylvester), rigid motions not counted.
+  int left_below() const {
+    const auto& options = model_.options();
+    return factor_.negative_pivots() -
+           (options.fixed_bottom ? 0 : rigid_motion_count(options.motion));
+  }
+
+ private:
+  const PillarModel& model_;
+  const SymmetricSparse& stiffness_;
+  SymmetricSparse mass_;
+  WithoutRigidMotion elastic_;
+  StiffnessFactor factor_;
+};
+
+// Modes of a slender body's section lie so close together above their cut-off that a search from
+// zero cannot tell them apart; one from just below the lowest of them can.
+EigenPairs search_from_below(ModeSearch& search, const EigenPairs& rough, double& shift_1_s2,
+                             int count) {
+  constexpr double kJustBelow = 0.98;  // of omega^2, which is known to some 1e-3 by now
+  if (!(rough.values.size() > 0 && rough.values[0] > 0.0)) return rough;
+  shift_1_s2 -= kJustBelow / rough.values[0];
+  EigenPairs pairs = search.from(shift_1_s2, count, 200 + 10 * count);
+  pairs.converged = pairs.converged && search.left_below() == 0;
+  return pairs;
+}
+
 std::vector<PillarMode> modes_of(const PillarModel& model, const SymmetricSparse& stiffness,
                                  int count) {
-  SymmetricSparse mass = model.mass();
-  const double shift = model.options().fixed_bottom ? 0.0 : free_shift_1_s2(model);
-  StiffnessFactor factor;
-  if (shift == 0.0) {
-    model.factor(stiffness, factor);
-  } else {
-    SymmetricSparse shifted = stiffness;
-    shifted.coeffs() += shift * mass.coeffs();
-    model.factor(shifted, factor);
-  }
-  mass.prune(0.0);  // it keeps the stiffness' pattern, where most fields do not meet in it
-  const WithoutRigidMotion elastic(model, mass);
-  const LinearMap B = [&](const Eigen::VectorXd& x) { return times(mass, x); };
-  const PencilMap op = [&](const Eigen::VectorXd&, const Eigen::VectorXd& Mx) {
-    return elastic.of(factor.solve(Mx));
-  };
-  // The frequencies' own error is the square of the residual: far below that of any mesh.
-  const EigenPairs pairs = largest_eigenpairs(
-      op, B, model.system().size(), count, {.tolerance = 1e-6, .largest_space = 60 + 10 * count});
+  ModeSearch search(model, stiffness);
+  double shift_1_s2 = model.options().fixed_bottom ? 0.0 : free_shift_1_s2(model);
+  EigenPairs pairs = search.from(shift_1_s2, count, 60 + 10 * count);
+  if (!pairs.converged) pairs = search_from_below(search, pairs, shift_1_s2, count);
   if (!pairs.converged) {
     throw std::runtime_error(
         "the lowest modes did not converge; ask for fewer, or for a finer mesh");
   }
   std::vector<PillarMode> modes;
   for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
-    const double square = 1.0 / pairs.values[i] - shift;
+    const double square = 1.0 / pairs.values[i] - shift_1_s2;
     modes.push_back(
         {std::sqrt(std::max(square, 0.0)) / (2.0 * std::numbers::pi), pairs.vectors.col(i)});
   }

@@ -16,7 +16,9 @@ namespace viscard {
 namespace {
 
 double largest_push_Pa(const Scene& scene) {
-  double largest_Pa = scene.pressure_Pa;
+  // What oscillates pushes half of the time, whatever its sign.
+  const bool oscillates = scene.kind == AnalysisKind::kHarmonic;
+  double largest_Pa = oscillates ? std::abs(scene.pressure_Pa) : scene.pressure_Pa;
   if (scene.kind == AnalysisKind::kCreep) {
     for (const HistoryPoint& point : scene.history) largest_Pa = std::max(largest_Pa, point.value);
   }
@@ -65,7 +67,8 @@ std::string beyond_buckling_under_plate(const Scene& scene) {
 
 // "" while the straight pillar can bear the load.
 std::string beyond_buckling(const Scene& scene) {
-  if (scene.kind == AnalysisKind::kBuckling || is_sideways(scene)) return "";
+  const bool is_axial = scene.direction == LoadDirection::kAxial;
+  if (scene.kind == AnalysisKind::kBuckling || !is_axial) return "";
   if (moves_top(scene)) return beyond_buckling_under_plate(scene);
   const double largest_Pa = largest_push_Pa(scene);
   const double slenderness = scene.geometry.diameter_m / scene.geometry.length_m;

@@ -5,6 +5,7 @@
 #include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
+#include <sys/stat.h>
 
 #include <filesystem>
 
@@ -76,6 +77,14 @@ TEST_CASE("a folder that cannot be made is one clear line", "[cli]") {
   CHECK(outcome.status == kFailed);
   CHECK(contains(outcome.err, "'/proc/viscard': "));
   CHECK_FALSE(contains(outcome.err, "filesystem error"));
+}
+
+TEST_CASE("a device or pipe is not replaced by a file, even with --force", "[cli][io]") {
+  const test::ScratchFolder folder;
+  const std::filesystem::path pipe = folder / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(write_file(pipe, "text", true), Catch::Contains("no file but a device"));
+  CHECK(std::filesystem::is_fifo(pipe));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <numbers>
 
 using namespace viscard;
 
@@ -177,4 +178,28 @@ TEST_CASE("a pressed pillar softens as the root of one minus its share of the bu
   CHECK(pressed_Hz / free_Hz >= std::sqrt(1.0 - share));
   CHECK_THROWS_WITH(modes_under_pressure(axial, lateral, 1.01 * critical_Pa, 1),
                     Catch::Contains("buckling"));
+}
+
+// Ovalling modes of a long pillar lie close together above the cut-off of its section.
+TEST_CASE("modes of slender pillars are found, however close they lie", "[pillar][stability]") {
+  const double slenderness = GENERATE(40.0, 100.0);
+  const PillarGeometry geometry{.diameter_m = 40e-6, .length_m = slenderness * 40e-6};
+  const Discretisation mesh{.degree = 4, .layers = 2, .longest_m = 20e-6};
+  const PillarMedia media{isotropic_medium(1.8e6, .33, 965.0), {}};
+  const auto modes_of = [&](Motion motion) {
+    const PillarModel model(geometry, mesh, media, {.motion = motion});
+    return lowest_modes(model, 4);
+  };
+  const auto ovalling = modes_of(Motion::kOvalling);
+  REQUIRE(ovalling.size() == 4);
+  for (std::size_t i = 1; i < 4; ++i) {
+    CHECK(ovalling[i].frequency_Hz > ovalling[i - 1].frequency_Hz);
+  }
+  // The end alone vibrates, whatever the length: that of the seed's pillar.
+  CHECK(ovalling[0].frequency_Hz == Approx(449529.6).epsilon(5e-3));
+  const double speed_m_s = std::sqrt(1.8e6 / 965.0);
+  const double euler_Hz = 3.5160153 / (2.0 * std::numbers::pi) * 10e-6 * speed_m_s /
+                          (geometry.length_m * geometry.length_m);
+  // Clamped contraction stiffens the foot, shear softens the shaft: both some diameters over L.
+  CHECK(modes_of(Motion::kLateral)[0].frequency_Hz == Approx(euler_Hz).epsilon(0.1 / slenderness));
 }

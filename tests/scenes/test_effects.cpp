@@ -211,3 +211,46 @@ TEST_CASE("every effect says what it changes and costs, under a name of its own"
   }
   CHECK(names.size() == 12);
 }
+
+TEST_CASE("sideways loads bend, however they come: no pressure buckles, and bending is the strain",
+          "[pillar][plan]") {
+  Scene scene = pillar_on_film();
+  scene.direction = LoadDirection::kLateral;
+  scene.pressure_Pa = 1e5;  // along the pillar it would be beyond buckling
+  SECTION("at rest") {}
+  SECTION("oscillating") {
+    scene.kind = AnalysisKind::kHarmonic;
+    scene.frequencies_Hz = {1.0, 10.0};
+  }
+  SECTION("in time") {
+    scene.kind = AnalysisKind::kTransient;
+    scene.history = {{0.0, 0.0}, {1e-3, 1e5}};
+    scene.pressure_Pa = 0.0;
+    scene.end_time_s = 2e-3;
+  }
+  CHECK_NOTHROW(refuse_beyond_buckling(scene));
+  const SceneEffect strain = effect_of(plan_effects(scene).effects, "finite_strain");
+  // A beam's outermost fibre at the foot: M R/I = 4 tau L/R.
+  CHECK(strain.value == Approx(4.0 * 1e5 * 120.0 / 20.0 / 1.8e6).epsilon(1e-9));
+}
+
+TEST_CASE("a transient push beyond buckling is told", "[pillar][plan]") {
+  Scene scene = pillar_on_film();
+  scene.kind = AnalysisKind::kTransient;
+  scene.pressure_Pa = 0.0;
+  scene.end_time_s = 2e-3;
+  scene.history = {{0.0, 0.0}, {1e-3, 1e5}};
+  const SceneEffect buckling = effect_of(plan_effects(scene).effects, "geometric_stiffness");
+  CHECK(buckling.estimate == 1.0);
+  CHECK(buckling.value > 3.0);
+  scene.history.back().value = 1e4;
+  CHECK(effect_of(plan_effects(scene).effects, "geometric_stiffness").estimate == 0.0);
+}
+
+TEST_CASE("an oscillating push is judged by its size", "[pillar][plan]") {
+  Scene scene = pillar_on_film();
+  scene.kind = AnalysisKind::kHarmonic;
+  scene.frequencies_Hz = {1.0};
+  scene.pressure_Pa = -1e5;
+  CHECK_THROWS_WITH(refuse_beyond_buckling(scene), Catch::Contains("buckling"));
+}
