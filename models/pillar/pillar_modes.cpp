@@ -234,8 +234,9 @@ Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int coun
   const Buckling found = search_buckling(axial, lateral, count);
   if (found.pressure_Pa > 0.0) return found;
   throw std::runtime_error(
-      "no buckling load of the pillar as a whole was found under this loading: the lowest modes "
-      "are local ones at the rim of the bond; a pillar this stubby does not buckle sideways");
+      "no buckling load of the pillar as a whole could be told from local modes at the rim of the "
+      "bond: a stubby pillar does not buckle sideways; of a slender one ask with a larger "
+      "tolerance");
 }
 
 std::vector<PillarMode> modes_under_pressure(const PillarModel& axial, const PillarModel& lateral,
