@@ -103,7 +103,7 @@ void refuse_beyond_buckling(const Scene& scene) {
   throw SceneMistake(
       scene.kind == AnalysisKind::kCreep ? "analysis.history"
       : moves_top(scene)                 ? "analysis.load.displacement"
-                                         : "analysis.load.pressure",
+                                         : "analysis.load",
       why +
           ". Reduce the load, make the pillar shorter or thicker, or say that it is held "
           "straight (geometric_stiffness = \"off\" under [effects])");
