@@ -1,11 +1,11 @@
 #include "fit/fit_dma.h"
 
-#include "fit/assemble_result.h"
-#include "fit/clean_data.h"
-#include "fit/dma_model.h"
-#include "fit/flags.h"
-#include "fit/nnls.h"
-#include "models/text_of_number.h"
+#include "fit/assembly/assemble_result.h"
+#include "fit/curves/dma_model.h"
+#include "fit/intervals/flags.h"
+#include "fit/samples/clean_data.h"
+#include "fit/search/nnls.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "fit/fit_data.h"
-#include "fit/fit_result.h"
+#include "fit/intervals/fit_result.h"
+#include "fit/samples/fit_data.h"
 
 namespace viscard {
 

@@ -1,15 +1,15 @@
 #include "fit/fit_indentation.h"
 
-#include "fit/assemble_result.h"
-#include "fit/clean_data.h"
+#include "fit/assembly/assemble_result.h"
+#include "fit/assembly/two_point_modulus.h"
+#include "fit/curves/history_model.h"
 #include "fit/fit_stage_indentation.h"
-#include "fit/flags.h"
-#include "fit/history_model.h"
-#include "fit/noise_model.h"
-#include "fit/spikes.h"
-#include "fit/table_contact.h"
-#include "fit/two_point_modulus.h"
-#include "models/text_of_number.h"
+#include "fit/intervals/flags.h"
+#include "fit/samples/clean_data.h"
+#include "fit/samples/noise_model.h"
+#include "fit/samples/spikes.h"
+#include "fit/samples/table_contact.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>

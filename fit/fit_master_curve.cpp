@@ -1,10 +1,10 @@
 #include "fit/fit_master_curve.h"
 
-#include "fit/assemble_result.h"
-#include "fit/clean_data.h"
-#include "fit/flags.h"
-#include "fit/master_model.h"
-#include "models/text_of_number.h"
+#include "fit/assembly/assemble_result.h"
+#include "fit/curves/master_model.h"
+#include "fit/intervals/flags.h"
+#include "fit/samples/clean_data.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>

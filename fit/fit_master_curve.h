@@ -1,8 +1,8 @@
 #pragma once
 
-#include "fit/fit_data.h"
-#include "fit/fit_result.h"
-#include "fit/shift_law.h"
+#include "fit/intervals/fit_result.h"
+#include "fit/laws/shift_law.h"
+#include "fit/samples/fit_data.h"
 
 #include <cstddef>
 #include <optional>

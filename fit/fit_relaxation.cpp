@@ -1,14 +1,14 @@
 #include "fit/fit_relaxation.h"
 
-#include "fit/assemble_result.h"
-#include "fit/clean_data.h"
-#include "fit/decay.h"
-#include "fit/flags.h"
-#include "fit/history_model.h"
-#include "fit/spikes.h"
-#include "fit/step_curves.h"
-#include "fit/step_model.h"
-#include "models/text_of_number.h"
+#include "fit/assembly/assemble_result.h"
+#include "fit/assembly/step_curves.h"
+#include "fit/curves/history_model.h"
+#include "fit/curves/step_model.h"
+#include "fit/intervals/flags.h"
+#include "fit/samples/clean_data.h"
+#include "fit/samples/decay.h"
+#include "fit/samples/spikes.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,14 @@
 #include "fit/fit_stage_indentation.h"
 
-#include "fit/assemble_result.h"
-#include "fit/clean_data.h"
-#include "fit/contact_onset.h"
-#include "fit/flags.h"
-#include "fit/gain_drift.h"
-#include "fit/stage_model.h"
-#include "fit/two_point_modulus.h"
-#include "models/retardation_spectrum.h"
-#include "models/text_of_number.h"
+#include "fit/assembly/assemble_result.h"
+#include "fit/assembly/gain_drift.h"
+#include "fit/assembly/two_point_modulus.h"
+#include "fit/curves/stage_model.h"
+#include "fit/intervals/flags.h"
+#include "fit/samples/clean_data.h"
+#include "fit/samples/contact_onset.h"
+#include "models/material/retardation_spectrum.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "fit/fit_data.h"
-#include "fit/fit_result.h"
-#include "models/prony_series.h"
+#include "fit/intervals/fit_result.h"
+#include "fit/samples/fit_data.h"
+#include "models/material/prony_series.h"
 
 namespace viscard {
 

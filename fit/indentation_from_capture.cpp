@@ -1,7 +1,7 @@
 #include "fit/indentation_from_capture.h"
 
-#include "fit/median.h"
-#include "models/sample_force.h"
+#include "fit/samples/median.h"
+#include "models/experiment/sample_force.h"
 
 #include <algorithm>
 #include <cmath>

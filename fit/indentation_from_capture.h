@@ -1,7 +1,7 @@
 #pragma once
 
-#include "fit/fit_data.h"
-#include "models/captured_run.h"
+#include "fit/samples/fit_data.h"
+#include "models/experiment/captured_run.h"
 
 #include <functional>
 

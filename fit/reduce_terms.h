@@ -1,7 +1,7 @@
 #pragma once
 
-#include "models/material.h"
-#include "models/prony_series.h"
+#include "models/material/material.h"
+#include "models/material/prony_series.h"
 
 namespace viscard {
 

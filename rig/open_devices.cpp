@@ -1,10 +1,10 @@
 #include "rig/open_devices.h"
 
-#include "rig/gauge_load_cell.h"
-#include "rig/grbl_stage.h"
-#include "rig/hx711_load_cell.h"
-#include "rig/rig_error.h"
-#include "rig/zaber_stage.h"
+#include "rig/cells/gauge_load_cell.h"
+#include "rig/cells/hx711_load_cell.h"
+#include "rig/lines/rig_error.h"
+#include "rig/stages/grbl_stage.h"
+#include "rig/stages/zaber_stage.h"
 
 namespace viscard {
 

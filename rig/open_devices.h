@@ -1,11 +1,11 @@
 #pragma once
 
-#include "models/rig_config.h"
-#include "rig/load_cell.h"
-#include "rig/record_sink.h"
-#include "rig/rig_clock.h"
-#include "rig/serial_line.h"
-#include "rig/stage.h"
+#include "models/experiment/rig_config.h"
+#include "rig/cells/load_cell.h"
+#include "rig/lines/record_sink.h"
+#include "rig/lines/rig_clock.h"
+#include "rig/lines/serial_line.h"
+#include "rig/stages/stage.h"
 
 #include <memory>
 

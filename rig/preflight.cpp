@@ -1,7 +1,7 @@
 #include "rig/preflight.h"
 
-#include "models/test_phases.h"
-#include "rig/text_number.h"
+#include "models/experiment/test_phases.h"
+#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "models/rig_config.h"
-#include "models/specimen.h"
-#include "models/test_plan.h"
-#include "rig/stage.h"
+#include "models/experiment/rig_config.h"
+#include "models/experiment/specimen.h"
+#include "models/experiment/test_plan.h"
+#include "rig/stages/stage.h"
 
 #include <optional>
 #include <string>

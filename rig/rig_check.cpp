@@ -1,10 +1,10 @@
 #include "rig/rig_check.h"
 
-#include "models/sample_force.h"
-#include "models/text_of_number.h"
+#include "models/experiment/sample_force.h"
+#include "models/maths/text_of_number.h"
+#include "rig/lines/rig_error.h"
 #include "rig/preflight.h"
-#include "rig/rig_error.h"
-#include "rig/text_number.h"
+#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "models/rig_config.h"
-#include "rig/load_cell.h"
-#include "rig/rig_clock.h"
-#include "rig/stage.h"
+#include "models/experiment/rig_config.h"
+#include "rig/cells/load_cell.h"
+#include "rig/lines/rig_clock.h"
+#include "rig/stages/stage.h"
 
 #include <string>
 #include <vector>

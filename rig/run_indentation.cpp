@@ -1,11 +1,11 @@
 #include "rig/run_indentation.h"
 
-#include "models/test_phases.h"
-#include "rig/contact_estimate.h"
-#include "rig/force_control.h"
-#include "rig/run_conclusion.h"
-#include "rig/run_session.h"
-#include "rig/text_number.h"
+#include "models/experiment/test_phases.h"
+#include "rig/protocols/text_number.h"
+#include "rig/run/contact_estimate.h"
+#include "rig/run/force_control.h"
+#include "rig/run/run_conclusion.h"
+#include "rig/run/run_session.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "models/rig_config.h"
-#include "models/specimen.h"
-#include "models/test_plan.h"
-#include "rig/load_cell.h"
+#include "models/experiment/rig_config.h"
+#include "models/experiment/specimen.h"
+#include "models/experiment/test_plan.h"
+#include "rig/cells/load_cell.h"
+#include "rig/lines/record_sink.h"
 #include "rig/preflight.h"
-#include "rig/record_sink.h"
-#include "rig/run_control.h"
-#include "rig/stage.h"
+#include "rig/run/run_control.h"
+#include "rig/stages/stage.h"
 
 #include <optional>
 #include <string>

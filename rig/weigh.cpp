@@ -1,8 +1,8 @@
 #include "rig/weigh.h"
 
-#include "models/sample_force.h"
-#include "rig/rig_error.h"
-#include "rig/text_number.h"
+#include "models/experiment/sample_force.h"
+#include "rig/lines/rig_error.h"
+#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cmath>

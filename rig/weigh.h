@@ -1,8 +1,8 @@
 #pragma once
 
-#include "models/rig_config.h"
-#include "rig/load_cell.h"
-#include "rig/rig_clock.h"
+#include "models/experiment/rig_config.h"
+#include "rig/cells/load_cell.h"
+#include "rig/lines/rig_clock.h"
 
 #include <atomic>
 #include <functional>

@@ -2,7 +2,7 @@
 
 #include "io/cards/conventions.h"
 #include "io/cards/unit_system.h"
-#include "models/material.h"
+#include "models/material/material.h"
 
 #include <optional>
 #include <string>

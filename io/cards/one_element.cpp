@@ -1,7 +1,7 @@
 #include "io/cards/one_element.h"
 
 #include "io/cards/number_text.h"
-#include "models/retardation_spectrum.h"
+#include "models/material/retardation_spectrum.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/material.h"
+#include "models/material/material.h"
 
 #include <string>
 #include <vector>

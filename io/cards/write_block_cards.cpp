@@ -1,7 +1,7 @@
 // FEBio, MOOSE, COMSOL: nested or named values.
 #include "io/cards/card_body.h"
 #include "io/cards/number_text.h"
-#include "models/prony_series.h"
+#include "models/material/prony_series.h"
 
 #include <fmt/format.h>
 

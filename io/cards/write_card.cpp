@@ -2,8 +2,8 @@
 #include "io/cards/card_body.h"
 #include "io/cards/card_header.h"
 #include "io/cards/read_card.h"
-#include "models/fit_defects.h"
-#include "models/text_of_number.h"
+#include "models/material/fit_defects.h"
+#include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
 

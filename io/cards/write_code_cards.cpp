@@ -1,7 +1,7 @@
 // MFront behaviour, neutral JSON and CSV table: texts that programs compile or parse.
 #include "io/cards/card_body.h"
 #include "io/cards/number_text.h"
-#include "models/retardation_spectrum.h"
+#include "models/material/retardation_spectrum.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

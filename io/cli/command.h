@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/nearest_word.h"
+#include "io/basics/nearest_word.h"
 
 #include <iosfwd>
 #include <stdexcept>

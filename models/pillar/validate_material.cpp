@@ -1,9 +1,9 @@
 #include "models/pillar/validate_material.h"
 
-#include "models/pillar/load_history.h"
-#include "models/pillar/viscoelastic_exact.h"
-#include "models/pillar/viscoelastic_pillar.h"
-#include "models/retardation_spectrum.h"
+#include "models/material/retardation_spectrum.h"
+#include "models/pillar/time/load_history.h"
+#include "models/pillar/time/viscoelastic_exact.h"
+#include "models/pillar/time/viscoelastic_pillar.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "models/material.h"
-#include "models/pillar/pillar_mesh.h"
+#include "models/material/material.h"
+#include "models/pillar/mesh/pillar_mesh.h"
 
 #include <functional>
 #include <string>

@@ -1,6 +1,6 @@
 #include "rig/emulator/demo_rig.h"
 
-#include "models/text_of_number.h"
+#include "models/maths/text_of_number.h"
 
 #include <stdexcept>
 #include <string>

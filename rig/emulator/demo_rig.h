@@ -1,8 +1,8 @@
 #pragma once
 
-#include "models/emulated_specimen.h"
-#include "models/rig_config.h"
-#include "models/specimen.h"
+#include "models/experiment/emulated_specimen.h"
+#include "models/experiment/rig_config.h"
+#include "models/experiment/specimen.h"
 
 #include <cstdint>
 

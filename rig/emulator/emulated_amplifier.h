@@ -1,7 +1,7 @@
 #pragma once
 
-#include "models/calibration.h"
-#include "models/emulated_specimen.h"
+#include "models/experiment/calibration.h"
+#include "models/experiment/emulated_specimen.h"
 #include "rig/emulator/emulated_cell.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/emulated_specimen.h"
+#include "models/experiment/emulated_specimen.h"
 #include "rig/emulator/emulated_controller.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "rig/emulator/emulated_motion.h"
 
-#include "models/motion_profile.h"
+#include "models/experiment/motion_profile.h"
 
 #include <algorithm>
 #include <cmath>

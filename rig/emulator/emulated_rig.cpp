@@ -2,7 +2,7 @@
 
 #include "rig/emulator/emulated_specimen.h"
 #include "rig/emulator/pty_port.h"
-#include "rig/rig_clock.h"
+#include "rig/lines/rig_clock.h"
 
 #include <poll.h>
 #include <sys/eventfd.h>

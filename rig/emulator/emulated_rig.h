@@ -1,7 +1,7 @@
 #pragma once
 
-#include "models/emulated_specimen.h"
-#include "models/rig_config.h"
+#include "models/experiment/emulated_specimen.h"
+#include "models/experiment/rig_config.h"
 #include "rig/emulator/emulated_amplifier.h"
 #include "rig/emulator/emulated_gauge.h"
 #include "rig/emulator/emulated_grbl.h"

@@ -1,7 +1,7 @@
 #include "rig/emulator/emulated_specimen.h"
 
-#include "models/material.h"
-#include "models/punch_contact.h"
+#include "models/contact/punch_contact.h"
+#include "models/material/material.h"
 
 namespace viscard {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "models/emulated_specimen.h"
-#include "models/hereditary.h"
+#include "models/experiment/emulated_specimen.h"
+#include "models/material/hereditary.h"
 
 namespace viscard {
 

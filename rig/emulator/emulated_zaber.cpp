@@ -1,7 +1,7 @@
 #include "rig/emulator/emulated_zaber.h"
 
-#include "rig/text_number.h"
-#include "rig/zaber_protocol.h"
+#include "rig/protocols/text_number.h"
+#include "rig/protocols/zaber_protocol.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "rig/emulator/fault_proxy.h"
 
 #include "rig/emulator/pty_port.h"
-#include "rig/rig_clock.h"
+#include "rig/lines/rig_clock.h"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -1,6 +1,6 @@
 // Rows of pillars inside one process: processor time of static voltage maps to .1 %, and wall time
 // of a sweep over diameters and spacings on all cores.
-#include "models/array/array_scene.h"
+#include "models/array/plane/array_scene.h"
 
 #include <fmt/format.h>
 

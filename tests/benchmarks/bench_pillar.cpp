@@ -1,11 +1,11 @@
 // Work of the pillar solver inside one process, in CPU time, with the error beside it. Peers are
 // timed beside the whole command by bench_pillar_peers.
-#include "models/pillar/harmonic_response.h"
-#include "models/pillar/load_history.h"
-#include "models/pillar/pillar_loads.h"
-#include "models/pillar/pillar_modes.h"
-#include "models/pillar/reduced_body.h"
-#include "models/pillar/viscoelastic_pillar.h"
+#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/body/pillar_modes.h"
+#include "models/pillar/time/harmonic_response.h"
+#include "models/pillar/time/load_history.h"
+#include "models/pillar/time/reduced_body.h"
+#include "models/pillar/time/viscoelastic_pillar.h"
 
 #include <fmt/format.h>
 

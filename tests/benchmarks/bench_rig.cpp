@@ -1,15 +1,15 @@
 // What the rig's part of viscard costs and loses: lines a second through a pseudo-terminal, long
 // streams and holds (accelerated), processor share at the rig's own pace. Prints; asserts nothing.
 //   bench_rig [FILTER]
-#include "io/capture_file.h"
+#include "io/capture/capture_file.h"
+#include "rig/cells/hx711_load_cell.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/emulator/pty_port.h"
-#include "rig/hx711_load_cell.h"
+#include "rig/lines/serial_line.h"
 #include "rig/open_devices.h"
+#include "rig/run/run_session.h"
 #include "rig/run_indentation.h"
-#include "rig/run_session.h"
-#include "rig/serial_line.h"
 
 #include <time.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fit/fit_result.h"
+#include "fit/intervals/fit_result.h"
 
 #include <algorithm>
 #include <string>

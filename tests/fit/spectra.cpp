@@ -1,6 +1,6 @@
 #include "tests/fit/spectra.h"
 
-#include "models/hereditary.h"
+#include "models/material/hereditary.h"
 
 #include <algorithm>
 #include <cmath>

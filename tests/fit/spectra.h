@@ -1,7 +1,7 @@
 #pragma once
 
-#include "fit/fit_data.h"
-#include "models/prony_series.h"
+#include "fit/samples/fit_data.h"
+#include "models/material/prony_series.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,6 +1,6 @@
 #include "fit/fit_creep.h"
 #include "fit/fit_dma.h"
-#include "models/retardation_spectrum.h"
+#include "models/material/retardation_spectrum.h"
 #include "tests/fit/spectra.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // The worked example of fit/README.md, as it stands there.
 #include "fit/fit_relaxation.h"
-#include "models/prony_series.h"
+#include "models/material/prony_series.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
+#include "fit/curves/master_model.h"
 #include "fit/fit_master_curve.h"
-#include "fit/master_model.h"
-#include "models/prony_series.h"
+#include "models/material/prony_series.h"
 #include "tests/fit/fit_checks.h"
 #include "tests/support/error_text.h"
 

@@ -1,6 +1,6 @@
 #include "fit/fit_indentation.h"
-#include "io/config_file.h"
-#include "models/hereditary.h"
+#include "io/config/config_file.h"
+#include "models/material/hereditary.h"
 #include "tests/support/error_text.h"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 #include "fit/fit_creep.h"
 #include "fit/fit_indentation.h"
 #include "fit/fit_relaxation.h"
-#include "fit/spikes.h"
+#include "fit/samples/spikes.h"
 #include "tests/fit/fit_checks.h"
 #include "tests/fit/spectra.h"
 

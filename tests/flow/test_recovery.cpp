@@ -1,8 +1,8 @@
 // Recovery of the truth on the emulated rig: capture through both ptys, fit, score. The numbers the
 // demo promises, over many seeds.
-#include "io/cli/demo_score.h"
-#include "io/config_file.h"
-#include "io/material_file.h"
+#include "io/cli/report/demo_score.h"
+#include "io/config/config_file.h"
+#include "io/materials/material_file.h"
 #include "tests/flow/flow_support.h"
 
 #include <catch2/catch.hpp>

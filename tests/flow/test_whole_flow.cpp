@@ -1,6 +1,6 @@
 // From an emulated rig to the page, as a user would type it, on a test short enough for every day.
-#include "io/atomic_file.h"
-#include "io/material_file.h"
+#include "io/basics/atomic_file.h"
+#include "io/materials/material_file.h"
 #include "tests/flow/flow_support.h"
 
 #include <catch2/catch.hpp>

@@ -1,9 +1,9 @@
 // Any file is a capture or one exception with a text. The input is laid over a whole capture in
 // pieces of three bytes (two of place, one of value), so that the damage reaches deep; or taken as
 // it is.
-#include "io/atomic_file.h"
-#include "io/capture_export.h"
-#include "io/capture_file.h"
+#include "io/basics/atomic_file.h"
+#include "io/capture/capture_export.h"
+#include "io/capture/capture_file.h"
 
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 // The first byte chooses the file. What is read must be written and read again unchanged.
-#include "io/config_file.h"
+#include "io/config/config_file.h"
 
 #include <cstdint>
 #include <stdexcept>

@@ -1,5 +1,5 @@
 // Any bytes are a table or one exception with a text.
-#include "io/column_map.h"
+#include "io/tables/column_map.h"
 
 #include <cstdint>
 #include <stdexcept>

@@ -1,7 +1,7 @@
 // Any bytes from a controller are understood, ignored or one RigError: every parser on every line,
 // and the driver itself in the middle of a move. The first byte says in what pieces they arrive.
-#include "rig/grbl_stage.h"
-#include "rig/rig_error.h"
+#include "rig/lines/rig_error.h"
+#include "rig/stages/grbl_stage.h"
 
 #include <cmath>
 #include <cstdint>

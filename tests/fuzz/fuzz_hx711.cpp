@@ -1,7 +1,7 @@
 // Any bytes from an amplifier are readings, noted, or one RigError. The first byte picks the format
 // and the pieces in which the rest arrives.
-#include "rig/hx711_load_cell.h"
-#include "rig/rig_error.h"
+#include "rig/cells/hx711_load_cell.h"
+#include "rig/lines/rig_error.h"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // However a stream is cut into reads, its lines are the same, none is longer than allowed, and
 // nothing grows without end. The first byte seeds the cutting.
-#include "rig/line_splitter.h"
+#include "rig/lines/line_splitter.h"
 
 #include <cstdint>
 #include <cstdlib>

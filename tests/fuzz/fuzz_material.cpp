@@ -1,6 +1,6 @@
 // Any bytes are a material or one exception with a text; a material is written and read again
 // unchanged.
-#include "io/material_file.h"
+#include "io/materials/material_file.h"
 
 #include <cstdint>
 #include <stdexcept>

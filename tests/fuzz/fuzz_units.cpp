@@ -1,5 +1,5 @@
 // Any text is a quantity or one exception with a text.
-#include "io/units.h"
+#include "io/basics/units.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/run_record.h"
+#include "models/experiment/run_record.h"
 
 #include <variant>
 #include <vector>

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "models/test_plan.h"
+#include "models/experiment/test_plan.h"
+#include "rig/cells/hx711_load_cell.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/emulator/fault_proxy.h"
-#include "rig/grbl_stage.h"
-#include "rig/hx711_load_cell.h"
+#include "rig/lines/serial_line.h"
 #include "rig/run_indentation.h"
-#include "rig/serial_line.h"
+#include "rig/stages/grbl_stage.h"
 #include "tests/rig/records_of.h"
 
 #include <functional>

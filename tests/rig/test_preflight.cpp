@@ -1,4 +1,4 @@
-#include "models/punch_contact.h"
+#include "models/contact/punch_contact.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/preflight.h"
 

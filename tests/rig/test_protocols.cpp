@@ -1,4 +1,4 @@
-#include "models/sample_force.h"
+#include "models/experiment/sample_force.h"
 #include "rig/preflight.h"
 #include "tests/rig/device_fixture.h"
 

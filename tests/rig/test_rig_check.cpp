@@ -1,5 +1,5 @@
 #include "rig/emulator/pty_port.h"
-#include "rig/port_probe.h"
+#include "rig/lines/port_probe.h"
 #include "rig/rig_check.h"
 #include "tests/rig/rig_fixture.h"
 

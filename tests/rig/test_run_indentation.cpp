@@ -1,5 +1,5 @@
-#include "models/material.h"
-#include "models/punch_contact.h"
+#include "models/contact/punch_contact.h"
+#include "models/material/material.h"
 #include "tests/rig/rig_fixture.h"
 
 #include <catch2/catch.hpp>

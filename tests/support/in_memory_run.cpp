@@ -1,7 +1,7 @@
 #include "tests/support/in_memory_run.h"
 
-#include "models/hereditary.h"
-#include "models/retardation_spectrum.h"
+#include "models/material/hereditary.h"
+#include "models/material/retardation_spectrum.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "models/captured_run.h"
-#include "models/emulated_specimen.h"
+#include "models/experiment/captured_run.h"
+#include "models/experiment/emulated_specimen.h"
 
 namespace viscard::test {
 

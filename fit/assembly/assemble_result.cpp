@@ -1,0 +1,220 @@
+#include "fit/assembly/assemble_result.h"
+
+#include "fit/assembly/constraints.h"
+#include "fit/intervals/bootstrap.h"
+#include "fit/intervals/flags.h"
+#include "fit/intervals/order_doubt.h"
+#include "fit/intervals/profile_likelihood.h"
+#include "fit/samples/noise_model.h"
+#include "fit/search/quick_search.h"
+#include "models/maths/text_of_number.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace viscard {
+namespace {
+
+// The most terms whose parameters leave a row over: with as many parameters as rows the fit goes
+// through every one, and nothing is left to say what the noise is.
+int most_terms(const SpectralModel& model) {
+  const Eigen::Index spare = model.n_rows() - 1 - model.n_common() - model.n_nuisances();
+  return static_cast<int>(std::max<Eigen::Index>(0, spare / 2));
+}
+
+// All orders: one that was wished for is no worse than the same in a free choice.
+std::vector<SpectralState> wished_path(const SpectralModel& model, const FitOptions& options) {
+  OrderPathOptions path_options;
+  path_options.max_terms =
+      std::min(std::max(options.n_terms.value_or(0), options.max_terms), most_terms(model));
+  const std::unique_ptr<SpectralModel> coarse = model.coarse();
+  std::vector<SpectralState> path = order_path(coarse ? *coarse : model, path_options);
+  if (coarse) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (SpectralState& state : path) {
+      const bool is_converged = state.is_converged;
+      state = solve_coefficients(model, state.ln_tau, state.nuisance);
+      state.is_converged = is_converged;
+    }
+    std::erase_if(path, [&](const SpectralState& state) {
+      const bool is_better = state.rss < lowest;
+      lowest = std::min(lowest, state.rss);
+      return !is_better;
+    });
+  }
+  if (path.empty()) {
+    throw std::runtime_error(
+        "no model fits these data: every modulus comes out zero. Check the sign "
+        "of the fitted column");
+  }
+  return path;
+}
+
+// The order wished for, or the next smaller one that the data can carry.
+std::size_t position_of(const std::vector<SpectralState>& path, int n_terms) {
+  std::size_t position = 0;
+  while (position + 1 < path.size() && path[position + 1].n_terms() <= n_terms) ++position;
+  return position;
+}
+
+void note_fewer_terms(const SpectralModel& model, SpectralFit& fit) {
+  const auto found = static_cast<int>(fit.path[fit.scores.chosen].n_terms());
+  const int wanted = fit.options.n_terms.value_or(0);
+  if (found == wanted || !fit.options.constraints.empty()) return;
+  const int most = most_terms(model);
+  const std::string why =
+      found == most
+          ? counted(static_cast<std::size_t>(model.n_rows()), "value") + " cannot tell more than " +
+                std::to_string(most)
+          : "no fit with more than " + std::to_string(found) + " describes these data any better";
+  fit.notes.push_back({"fewer-terms", 0,
+                       counted(static_cast<std::size_t>(wanted), "term") +
+                           (wanted == 1 ? " was" : " were") + " asked for; " + why});
+}
+
+double full_rss(const SpectralModel& model, const SpectralState& state) {
+  return state.rss + model.hidden_rss(state.ln_tau, state.nuisance, state.coefficients);
+}
+
+double variance_of(const SpectralModel& model, const SpectralState& state) {
+  const auto n_parameters =
+      static_cast<double>(model.n_common() + 2 * state.n_terms() + model.n_nuisances());
+  return full_rss(model, state) / std::max(1.0, model.n_samples() - n_parameters);
+}
+
+Autoregression noise_of(const SpectralModel& model, const SpectralState& state) {
+  return autoregression(model.residual_series(state.ln_tau, state.nuisance, state.coefficients));
+}
+
+// Where the times of the state are the material's own, profiles replace their intervals; with a
+// frame in series only that of E_inf, which is a function of the stage's alone. In creep the
+// covariance stands.
+void add_profiles(const SpectralModel& model, const SpectralFit& fit,
+                  const SeriesFromState& series_from_state, FitResult& result) {
+  const PronySeries series = series_from_state(fit.state);
+  const bool is_creep = model.n_common() > 0 && model.common()[0].name == "J_g";
+  if (is_creep || static_cast<Eigen::Index>(series.terms.size()) != fit.state.n_terms()) return;
+  const Eigen::MatrixXd white = parameter_covariance(model, fit.state, fit.variance);
+  result.profiles =
+      profile_likelihoods(model, fit.state, fit.variance, fit.covariance, white, series_from_state);
+  const bool are_own_times =
+      model.n_common() == 0 || series.equilibrium_modulus_Pa == fit.state.coefficients[0];
+  for (const ProfileCurve& curve : result.profiles) {
+    if (curve.parameter == "E_inf") {
+      result.E_inf_interval_95 = curve.interval_95;
+    } else if (are_own_times) {
+      const std::size_t term = std::stoul(curve.parameter.substr(7)) - 1;
+      result.terms[term].tau_s_95 = {std::exp(curve.interval_95.low),
+                                     std::exp(curve.interval_95.high)};
+    }
+  }
+}
+
+}  // namespace
+
+SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blocks,
+                         const FitOptions& options) {
+  SpectralFit fit;
+  fit.options = options;
+  fit.path = wished_path(model, options);
+  ChoiceInput choice;
+  choice.n_samples = model.n_samples();
+  choice.blocks = blocks;
+  for (const SpectralState& state : fit.path) choice.rss.push_back(full_rss(model, state));
+  if (!options.white_noise) choice.inflation = noise_of(model, fit.path.back()).inflation();
+  fit.scores = choose_order(model, fit.path, choice);
+  if (options.n_terms) {
+    for (OrderRow& row : fit.scores.rows) row.is_chosen = false;
+    fit.scores.chosen = position_of(fit.path, *options.n_terms);
+    fit.scores.rows[fit.scores.chosen].is_chosen = true;
+    note_fewer_terms(model, fit);
+  }
+  // Near the optimum by the quicker search, so that little is left to do for the slower ones.
+  const SpectralState near = quick_search(model, fit.path[fit.scores.chosen], {.tolerance = 1e-10});
+  fit.state = polish(model, refine(model, near));
+  fit.rss = full_rss(model, fit.state);
+  fit.variance = variance_of(model, fit.state);
+  if (!options.white_noise) fit.noise = noise_of(model, fit.state);
+  fit.covariance = parameter_covariance(model, fit.state, fit.variance, fit.noise);
+  if (!options.constraints.empty()) constrain(model, options, fit);
+  return fit;
+}
+
+void fill_result(const SpectralModel& model, const SpectralFit& fit,
+                 const SeriesFromState& series_from_state, FitResult& result) {
+  fill_parameters(model, fit.state, fit.covariance, series_from_state, result);
+  if (fit.options.constraints.empty()) {
+    if (fit.options.with_profiles) add_profiles(model, fit, series_from_state, result);
+    if (fit.options.n_bootstrap > 0) {
+      bootstrap_intervals(
+          model, fit.state, series_from_state,
+          {.n_resamples = fit.options.n_bootstrap, .inflation = fit.noise.inflation()}, result);
+    }
+    carry_order_doubt(model, fit, series_from_state, result);
+  }
+  result.flags.insert(result.flags.end(), fit.notes.begin(), fit.notes.end());
+  result.orders = fit.scores.rows;
+  result.noise.sigma = std::sqrt(fit.variance);
+  result.noise.inflation = fit.noise.inflation();
+  if (fit.scores.wants_faster) {
+    result.flags.push_back(
+        {"faster-relaxation", 0,
+         "something relaxes faster than the first samples can show: E0 is that of "
+         "the first sample, and a lower bound"});
+  }
+  if (fit.scores.wants_slower) {
+    result.flags.push_back(
+        {"slower-relaxation", 0,
+         "something still relaxes when the record ends: E_inf is an upper bound"});
+  }
+  result.rss = fit.rss;
+  const Eigen::VectorXd sigma = model.row_sigma();
+  if (sigma.size() > 0) {  // every rss in the unit of the data
+    const auto in_unit = [&](const SpectralState& state) {
+      return (model.columns(state.ln_tau, state.nuisance, false).values * state.coefficients -
+              model.data())
+          .cwiseProduct(sigma)
+          .squaredNorm();
+    };
+    for (std::size_t i = 0; i < fit.path.size(); ++i) result.orders[i].rss = in_unit(fit.path[i]);
+    result.rss = in_unit(fit.state);
+  }
+  result.n_samples = static_cast<std::size_t>(model.n_samples());
+  result.is_converged = fit.state.is_converged;
+  judge(result);
+}
+
+SeriesFromState relaxation_series_of(const SpectralModel& model, bool is_liquid) {
+  return [&model, is_liquid](const SpectralState& state) {
+    PronySeries series{is_liquid ? 0.0 : state.coefficients[0], {}};
+    for (Eigen::Index i = 0; i < state.n_terms(); ++i) {
+      series.terms.push_back({state.coefficients[model.n_common() + i], std::exp(state.ln_tau[i])});
+    }
+    return series;
+  };
+}
+
+std::vector<int> log_time_blocks(const std::vector<double>& time_s, double zero_s,
+                                 std::size_t shortest) {
+  std::vector<int> blocks;
+  int block = 0;
+  std::size_t begin = 0;
+  constexpr double kRatio = 1.2589254117941673;  // 10^(1/10)
+  const std::size_t longest = std::max(shortest, time_s.size() / 50);
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    const double since_begin = std::abs(time_s[begin] - zero_s);
+    const bool is_wide = std::abs(time_s[i] - zero_s) >= kRatio * since_begin;
+    if (i >= begin + longest || (i >= begin + shortest && is_wide)) {
+      ++block;
+      begin = i;
+    }
+    blocks.push_back(block);
+  }
+  return blocks;
+}
+
+}  // namespace viscard

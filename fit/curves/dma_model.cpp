@@ -1,0 +1,71 @@
+#include "fit/curves/dma_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+
+// x/(1 + x^2) and x^2/(1 + x^2) with their derivatives by ln x; no overflow at either end.
+struct Debye {
+  double storage, loss, storage_slope, loss_slope;
+};
+
+Debye debye(double x) {
+  const double inverse = 1.0 / x;
+  const double loss = x > 1.0 ? inverse / (1.0 + inverse * inverse) : x / (1.0 + x * x);
+  const double storage = x > 1.0 ? 1.0 / (1.0 + inverse * inverse) : x * x / (1.0 + x * x);
+  return {storage, loss, 2.0 * loss * loss, loss * (1.0 - 2.0 * storage)};
+}
+
+}  // namespace
+
+DmaModel::DmaModel(const std::vector<double>& frequency_Hz, const std::vector<double>& storage_Pa,
+                   const std::vector<double>& loss_Pa, const FitOptions& options) {
+  const auto count = static_cast<Index>(frequency_Hz.size());
+  data_.resize(2 * count);
+  sigma_Pa_.resize(2 * count);
+  for (Index i = 0; i < count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    angular_1_s_.push_back(2.0 * std::numbers::pi * frequency_Hz[k]);
+    // A loss near zero carries the error of the whole modulus, not of itself.
+    const double size_Pa = std::hypot(storage_Pa[k], loss_Pa[k]);
+    sigma_Pa_[i] = std::max(std::abs(storage_Pa[k]), 0.01 * size_Pa);
+    sigma_Pa_[count + i] = std::max(std::abs(loss_Pa[k]), 0.01 * size_Pa);
+    data_[i] = storage_Pa[k] / sigma_Pa_[i];
+    data_[count + i] = loss_Pa[k] / sigma_Pa_[count + i];
+  }
+  with_equilibrium_ = !options.is_liquid;
+  if (with_equilibrium_) common_.push_back({"E_inf", false});
+  may_be_negative_ = options.allow_negative;
+  const auto [slow, fast] = std::minmax_element(angular_1_s_.begin(), angular_1_s_.end());
+  ln_tau_min_ = -std::log(3.0 * *fast);
+  ln_tau_max_ = -std::log(*slow / 3.0);
+}
+
+ModelColumns DmaModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& /*nuisance*/,
+                               bool with_slopes) const {
+  const auto count = static_cast<Index>(angular_1_s_.size());
+  const Index n_terms = ln_tau.size();
+  ModelColumns out;
+  out.values = Eigen::MatrixXd::Zero(2 * count, n_common() + n_terms);
+  if (with_slopes) out.term_slopes.resize(2 * count, n_terms);
+  if (with_equilibrium_) out.values.col(0).head(count) = sigma_Pa_.head(count).cwiseInverse();
+  for (Index i = 0; i < n_terms; ++i) {
+    const double tau_s = std::exp(ln_tau[i]);
+    for (Index k = 0; k < count; ++k) {
+      const Debye d = debye(angular_1_s_[static_cast<std::size_t>(k)] * tau_s);
+      out.values(k, n_common() + i) = d.storage / sigma_Pa_[k];
+      out.values(count + k, n_common() + i) = d.loss / sigma_Pa_[count + k];
+      if (!with_slopes) continue;
+      out.term_slopes(k, i) = d.storage_slope / sigma_Pa_[k];
+      out.term_slopes(count + k, i) = d.loss_slope / sigma_Pa_[count + k];
+    }
+  }
+  return out;
+}
+
+}  // namespace viscard

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "fit/curves/spectral_model.h"
+#include "fit/samples/fit_data.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace viscard {
+
+// Storage and loss modulus over frequency, fitted together, each with weight 1/value (equal
+// relative errors): E' = E_inf + sum E_i x^2/(1 + x^2), E'' = sum E_i x/(1 + x^2), x = 2 pi f tau_i
+// (fit/README.md, eq. 6). Rows: all E', then all E''.
+class DmaModel final : public SpectralModel {
+ public:
+  DmaModel(const std::vector<double>& frequency_Hz, const std::vector<double>& storage_Pa,
+           const std::vector<double>& loss_Pa, const FitOptions& options);
+
+  ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                       bool with_slopes) const override;
+  Eigen::VectorXd row_sigma() const override { return sigma_Pa_; }
+
+ private:
+  std::vector<double> angular_1_s_;
+  Eigen::VectorXd sigma_Pa_;
+  bool with_equilibrium_ = true;
+};
+
+}  // namespace viscard

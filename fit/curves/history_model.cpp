@@ -1,0 +1,241 @@
+#include "fit/curves/history_model.h"
+
+#include "models/material/hereditary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+constexpr std::size_t kSmallRecord = 2000;
+constexpr double kBinsPerDecade = 60.0;
+constexpr Index kLongSeries = 16384;
+
+// The factors of a step, kept while the step stays the same.
+struct StepFactors {
+  double dt_s = -1.0;
+  double x = 0.0, decay = 1.0, p1 = 1.0, slope = 0.0;
+
+  void set(double next_dt_s, double tau_s) {
+    // Times read from text differ by rounding; that is the same step.
+    if (std::abs(next_dt_s - dt_s) <= 1e-10 * std::abs(dt_s)) return;
+    dt_s = next_dt_s;
+    x = dt_s / tau_s;
+    decay = std::exp(-x);
+    p1 = phi1(x);
+    slope = x * (p1 - phi2(x));
+  }
+};
+
+// Depth counted from contact, to the power of the tip.
+double powered(double depth, double power) {
+  if (power == 1.0) return depth;
+  return depth > 0.0 ? std::pow(depth, power) : 0.0;
+}
+double powered_slope(double depth, double power) {
+  if (power == 1.0) return 1.0;
+  return depth > 0.0 ? power * std::pow(depth, power - 1.0) : 0.0;
+}
+
+}  // namespace
+
+std::size_t end_of_loading(const std::vector<double>& input) {
+  const auto [low, high] = std::minmax_element(input.begin(), input.end());
+  const double nearly = *high - 0.02 * (*high - *low);
+  return static_cast<std::size_t>(
+      std::find_if(input.begin(), input.end(), [&](double x) { return x >= nearly; }) -
+      input.begin());
+}
+
+HistoryModel::HistoryModel(HistoryInput input, const FitOptions& options) : in_(std::move(input)) {
+  const std::size_t count = in_.time_s.size();
+  with_equilibrium_ = !options.is_liquid;
+  may_be_negative_ = options.allow_negative;
+  const bool is_small = count <= kSmallRecord || options.full_data;
+  const double ratio = std::pow(10.0, 1.0 / kBinsPerDecade);
+  const double zero_s = in_.time_s[in_.contact];
+  // Loading and the first of what follows stay as they are.
+  const double loaded_s = zero_s + 1.5 * (in_.time_s[end_of_loading(in_.input)] - zero_s);
+  for (std::size_t begin = 0; begin < count;) {
+    std::size_t end = begin + 1;
+    if (!is_small && in_.time_s[begin] > loaded_s) {
+      const double limit_s = zero_s + (in_.time_s[begin] - zero_s) * ratio;
+      while (end < count && in_.time_s[end] < limit_s) ++end;
+    }
+    row_begin_.push_back(begin);
+    begin = end;
+  }
+  row_begin_.push_back(count);
+  const std::size_t n_rows = row_begin_.size() - 1;
+  data_.resize(static_cast<Index>(n_rows));
+  for (std::size_t r = 0; r < n_rows; ++r) {
+    const auto n = static_cast<double>(row_begin_[r + 1] - row_begin_[r]);
+    double time = 0.0;
+    double mean = 0.0;
+    for (std::size_t i = row_begin_[r]; i < row_begin_[r + 1]; ++i) {
+      time += in_.time_s[i] / n;
+      mean += in_.output[i] / n;
+    }
+    row_time_s_.push_back(time);
+    data_[static_cast<Index>(r)] = std::sqrt(n) * mean;
+  }
+  if (with_equilibrium_) common_.push_back({"E_inf", false});
+  if (in_.with_offset) common_.push_back({"offset", true});
+  if (in_.with_drift) common_.push_back({"drift", true});
+  if (in_.contact_input) {
+    const double width = in_.contact_half_width;
+    nuisances_.push_back({"contact_m", *in_.contact_input, *in_.contact_input - width,
+                          *in_.contact_input + width, 0.1 * width});
+  }
+  const double longest_s = in_.time_s.back() - zero_s;
+  double shortest_s = longest_s;
+  for (std::size_t i = in_.contact + 1; i < count; ++i) {
+    const double dt_s = in_.time_s[i] - in_.time_s[i - 1];
+    if (dt_s > 0.0) shortest_s = std::min(shortest_s, dt_s);
+  }
+  ln_tau_min_ = std::log(shortest_s / 3.0);
+  ln_tau_max_ = std::log(longest_s * 3.0);
+}
+
+HistoryModel::Onset HistoryModel::onset_at(double contact_input) const {
+  if (!in_.contact_input) return {in_.contact, in_.time_s[in_.contact], 0.0};
+  // The last passage of the contact position before the input rises for good.
+  Onset onset{end_of_loading(in_.input), 0.0, contact_input};
+  while (onset.first > 0 && in_.input[onset.first - 1] > contact_input) --onset.first;
+  const std::size_t first = onset.first;
+  onset.time_s = in_.time_s[first];
+  if (first > 0 && in_.input[first] > in_.input[first - 1]) {
+    const double share =
+        (contact_input - in_.input[first - 1]) / (in_.input[first] - in_.input[first - 1]);
+    onset.time_s = in_.time_s[first - 1] + share * (in_.time_s[first] - in_.time_s[first - 1]);
+  }
+  return onset;
+}
+
+void HistoryModel::fill_equilibrium(const Onset& onset, Column into) const {
+  for (std::size_t k = onset.first; k < in_.time_s.size(); ++k) {
+    const double depth = in_.input[k] - onset.input;
+    into.value[k] = in_.factor * powered(depth, in_.power);
+    if (into.by_contact != nullptr) {
+      into.by_contact[k] = -in_.factor * powered_slope(depth, in_.power);
+    }
+  }
+}
+
+// Step by step, with the derivatives by ln tau and by the contact position where they are wanted.
+void HistoryModel::fill_term(const Onset& onset, double tau_s, Column into) const {
+  const double c = in_.factor;
+  StepFactors step;
+  double q = 0.0, slope = 0.0;
+  double q_by_contact = 0.0;  // for other tips than flat
+  double previous_s = onset.time_s, previous = 0.0, previous_slope = 0.0;
+  for (std::size_t k = onset.first; k < in_.time_s.size(); ++k) {
+    step.set(in_.time_s[k] - previous_s, tau_s);
+    const double depth = in_.input[k] - onset.input;
+    const double value = powered(depth, in_.power);
+    const double change = value - previous;
+    if (into.by_ln_tau != nullptr) {
+      slope = step.decay * (slope + step.x * q) + change * step.slope;
+      into.by_ln_tau[k] = c * slope;
+    }
+    q = step.decay * q + step.p1 * change;
+    previous_s = in_.time_s[k];
+    previous = value;
+    into.value[k] = c * q;
+    if (into.by_contact == nullptr) continue;
+    if (in_.power == 1.0) {
+      into.by_contact[k] = -c * std::exp(-(in_.time_s[k] - onset.time_s) / tau_s);
+      continue;
+    }
+    const double next_slope = -powered_slope(depth, in_.power);
+    q_by_contact = step.decay * q_by_contact + step.p1 * (next_slope - previous_slope);
+    previous_slope = next_slope;
+    into.by_contact[k] = c * q_by_contact;
+  }
+}
+
+ModelColumns HistoryModel::sample_columns(const Eigen::VectorXd& ln_tau,
+                                          const Eigen::VectorXd& nuisance, bool with_slopes) const {
+  const auto count = static_cast<Index>(in_.time_s.size());
+  const Index n_terms = ln_tau.size();
+  ModelColumns out;
+  out.values = Eigen::MatrixXd::Zero(count, n_common() + n_terms);
+  if (with_slopes) {
+    out.term_slopes = Eigen::MatrixXd::Zero(count, n_terms);
+    out.nuisance_slopes.assign(static_cast<std::size_t>(n_nuisances()),
+                               Eigen::MatrixXd::Zero(count, n_common() + n_terms));
+  }
+  const auto by_contact = [&](Index column) {
+    return out.nuisance_slopes.empty() ? nullptr : out.nuisance_slopes[0].col(column).data();
+  };
+  const Onset onset = onset_at(in_.contact_input ? nuisance[0] : 0.0);
+  Index column = 0;
+  if (with_equilibrium_) {
+    fill_equilibrium(onset, {out.values.col(column).data(), nullptr, by_contact(column)});
+    ++column;
+  }
+  if (in_.with_offset) out.values.col(column++).setOnes();
+  if (in_.with_drift) {
+    for (Index k = 0; k < count; ++k) {
+      out.values(k, column) = in_.time_s[static_cast<std::size_t>(k)] - in_.time_s[in_.contact];
+    }
+  }
+  for (Index i = 0; i < n_terms; ++i) {
+    const Index of_term = n_common() + i;
+    fill_term(onset, std::exp(ln_tau[i]),
+              {out.values.col(of_term).data(),
+               with_slopes ? out.term_slopes.col(i).data() : nullptr, by_contact(of_term)});
+  }
+  return out;
+}
+
+Eigen::MatrixXd HistoryModel::averaged(const Eigen::MatrixXd& samples) const {
+  Eigen::MatrixXd rows(n_rows(), samples.cols());
+  for (Index r = 0; r < n_rows(); ++r) {
+    const auto begin = static_cast<Index>(row_begin_[static_cast<std::size_t>(r)]);
+    const auto size = static_cast<Index>(row_begin_[static_cast<std::size_t>(r) + 1]) - begin;
+    rows.row(r) =
+        samples.middleRows(begin, size).colwise().sum() / std::sqrt(static_cast<double>(size));
+  }
+  return rows;
+}
+
+ModelColumns HistoryModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                                   bool with_slopes) const {
+  ModelColumns out = sample_columns(ln_tau, nuisance, with_slopes);
+  if (static_cast<std::size_t>(n_rows()) == in_.time_s.size()) return out;
+  out.values = averaged(out.values);
+  if (with_slopes) {
+    out.term_slopes = averaged(out.term_slopes);
+    for (Eigen::MatrixXd& slopes : out.nuisance_slopes) slopes = averaged(slopes);
+  }
+  return out;
+}
+
+Eigen::VectorXd HistoryModel::fitted(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                                     const Eigen::VectorXd& coefficients) const {
+  return sample_columns(ln_tau, nuisance, /*with_slopes=*/false).values * coefficients;
+}
+
+double HistoryModel::hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                                const Eigen::VectorXd& coefficients) const {
+  if (static_cast<std::size_t>(n_rows()) == in_.time_s.size()) return 0.0;
+  const Eigen::Map<const Eigen::VectorXd> output(in_.output.data(),
+                                                 static_cast<Index>(in_.output.size()));
+  const Eigen::VectorXd residual = output - fitted(ln_tau, nuisance, coefficients);
+  return residual.squaredNorm() - averaged(residual).squaredNorm();
+}
+
+Eigen::VectorXd HistoryModel::residual_series(const Eigen::VectorXd& ln_tau,
+                                              const Eigen::VectorXd& nuisance,
+                                              const Eigen::VectorXd& coefficients) const {
+  const Eigen::Map<const Eigen::VectorXd> output(in_.output.data(),
+                                                 static_cast<Index>(in_.output.size()));
+  const Eigen::VectorXd residual = output - fitted(ln_tau, nuisance, coefficients);
+  return residual.tail(std::min(kLongSeries, residual.size()));
+}
+
+}  // namespace viscard

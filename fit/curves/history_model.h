@@ -1,0 +1,83 @@
+#pragma once
+
+#include "fit/curves/spectral_model.h"
+#include "fit/samples/fit_data.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+namespace viscard {
+
+// Response to a measured history of depth or strain, linear between samples   (fit/README.md, eq.
+// 2):
+//   y(t) = c int E(t - s) d(input^power) + offset [+ drift t]
+// by the exact recursion of models/hereditary.h, one pass over all samples for each relaxation
+// time. Every sample up to the end of loading is a row; later ones are averaged in log time, the
+// data and the basis alike.
+struct HistoryInput {
+  std::vector<double> time_s;  // sorted
+  std::vector<double> input;   // depth in m, or strain
+  std::vector<double> output;  // force in N, or stress in Pa
+  double factor = 1.0;         // c; moduli come out in output/(c input^power)
+  // 1.5 for a sphere, 2 for a cone. input^power is then taken as linear between samples, and the
+  // input must not fall: Lee & Radok (models/punch_contact.h).
+  double power = 1.0;
+  std::size_t contact = 0;  // first sample that may be in contact; before it the input counts as 0
+  // Contact position as a nuisance, counted in the input; none: contact at input 0.
+  std::optional<double> contact_input;
+  double contact_half_width = 0.0;
+  bool with_offset = false;
+  bool with_drift = false;
+};
+
+// First sample within two hundredths of the largest input: where loading ends, whatever drifts
+// later.
+std::size_t end_of_loading(const std::vector<double>& input);
+
+class HistoryModel final : public SpectralModel {
+ public:
+  HistoryModel(HistoryInput input, const FitOptions& options);
+
+  ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                       bool with_slopes) const override;
+  std::vector<std::size_t> row_begins() const override { return row_begin_; }
+  double n_samples() const override { return static_cast<double>(in_.time_s.size()); }
+  double hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                    const Eigen::VectorXd& coefficients) const override;
+  Eigen::VectorXd residual_series(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                                  const Eigen::VectorXd& coefficients) const override;
+
+  // Model at every sample.
+  Eigen::VectorXd fitted(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                         const Eigen::VectorXd& coefficients) const;
+
+  const std::vector<double>& row_time_s() const { return row_time_s_; }
+
+ private:
+  // Sample columns at one choice of parameters, before averaging.
+  ModelColumns sample_columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                              bool with_slopes) const;
+  Eigen::MatrixXd averaged(const Eigen::MatrixXd& samples) const;
+  // The first sample in contact, the time between samples at which contact falls, and the input
+  // there: the history counts from 0 at that time.
+  struct Onset {
+    std::size_t first = 0;
+    double time_s = 0.0, input = 0.0;
+  };
+  Onset onset_at(double contact_input) const;
+  // One number per sample each; derivatives that are not wanted: nullptr.
+  struct Column {
+    double *value, *by_ln_tau, *by_contact;
+  };
+  void fill_equilibrium(const Onset& onset, Column into) const;
+  void fill_term(const Onset& onset, double tau_s, Column into) const;
+
+  HistoryInput in_;
+  std::vector<std::size_t> row_begin_;  // first sample of each row, and one past the last
+  std::vector<double> row_time_s_;
+  bool with_equilibrium_ = true;
+};
+
+}  // namespace viscard

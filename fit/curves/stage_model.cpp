@@ -1,0 +1,220 @@
+#include "fit/curves/stage_model.h"
+
+#include "fit/curves/stage_response.h"
+#include "fit/samples/clean_data.h"
+#include "fit/samples/contact_onset.h"
+#include "fit/samples/median.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+
+StageMove shifted(StageMove move, double shift_s) {
+  move.start_time_s += shift_s;
+  return move;
+}
+
+double median_force_N(const IndentationData& data, double from_s, double to_s, double otherwise) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < data.time_s.size(); ++i) {
+    if (data.time_s[i] >= from_s && data.time_s[i] <= to_s) values.push_back(data.force_N[i]);
+  }
+  return values.empty() ? otherwise : median(std::move(values));
+}
+
+// First time after from_s at which the force passes a level, between samples by straight line.
+double crossing_s(const IndentationData& data, double from_s, double level_N, bool rising) {
+  for (std::size_t i = 1; i < data.time_s.size(); ++i) {
+    if (data.time_s[i] < from_s) continue;
+    const double before = data.force_N[i - 1] - level_N;
+    const double after = data.force_N[i] - level_N;
+    if (rising ? (before < 0.0 && after >= 0.0) : (before > 0.0 && after <= 0.0)) {
+      const double share = before / (before - after);
+      return data.time_s[i - 1] + share * (data.time_s[i] - data.time_s[i - 1]);
+    }
+  }
+  throw std::runtime_error(
+      "the force does not follow the " + std::string(rising ? "ramp" : "unloading") +
+      ": it never passes half its change. Check the clock of the amplifier and "
+      "the moves in the capture");
+}
+
+}  // namespace
+
+Eigen::VectorXd nuisance_start(const IndentationData& data) {
+  const auto n_moves = static_cast<Index>(data.moves.size());
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(n_moves + 1);
+  const StageMove& ramp = data.moves.front();
+  const double after_s = std::max(5.0 * usual_step_s(data.time_s), 0.02 * duration_s(ramp));
+  const ContactOnset onset = contact_onset(data);
+  start[n_moves] = onset.contact_m;
+  start[0] = onset.shift_s;
+  for (Index m = 1; m < n_moves; ++m) {
+    const StageMove& move = data.moves[static_cast<std::size_t>(m)];
+    const double begin_s = move.start_time_s - data.start_early_s;
+    const double end_s = move.start_time_s + duration_s(move) + data.start_late_s;
+    const double before_N = median_force_N(data, begin_s - 10.0 * after_s, begin_s, 0.0);
+    const double after_N = median_force_N(data, end_s, end_s + after_s, 0.0);
+    const double half_s = crossing_s(data, begin_s, 0.5 * (before_N + after_N), after_N > before_N);
+    start[m] = half_s - time_at_position_s(move, 0.5 * (move.from_m + move.to_m));
+  }
+  return start;
+}
+
+StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start,
+                       const StageNoise& noise, const FitOptions& options)
+    : time_s_(data.time_s), moves_(data.moves) {
+  const std::size_t count = time_s_.size();
+  const auto n_moves = static_cast<Index>(moves_.size());
+  const double dt_s = usual_step_s(time_s_);
+  with_equilibrium_ = !options.is_liquid;
+  may_be_negative_ = options.allow_negative;
+
+  is_moving_.assign(count, false);
+  is_out_of_contact_.assign(count, false);
+  for (std::size_t i = 0; i < count; ++i) {
+    is_out_of_contact_[i] = time_s_[i] < data.contact_from_s || time_s_[i] > data.contact_to_s;
+    for (Index m = 0; m < n_moves; ++m) {
+      const StageMove move = shifted(moves_[static_cast<std::size_t>(m)], start[m]);
+      is_moving_[i] = is_moving_[i] || (time_s_[i] > move.start_time_s - dt_s &&
+                                        time_s_[i] < move.start_time_s + duration_s(move) + dt_s);
+    }
+  }
+  data_.resize(static_cast<Index>(count));
+  sigma_N_.resize(static_cast<Index>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto row = static_cast<Index>(i);
+    sigma_N_[row] = is_moving_[i] ? noise.moving_N : noise.resting_N;
+    if (noise.of_stamps_N.size() > 0) {
+      sigma_N_[row] = std::hypot(sigma_N_[row], noise.of_stamps_N[row]);
+    }
+    data_[row] = data.force_N[i] / sigma_N_[row];
+  }
+
+  if (with_equilibrium_) common_.push_back({"E_inf", false});
+  common_.push_back({"offset_N", true});
+  // Without a stretch out of contact after the test, drift and slow relaxation are one.
+  with_drift_ = options.with_drift && !time_s_.empty() && time_s_.back() > data.contact_to_s;
+  if (with_drift_) common_.push_back({"drift_N_s", true});
+  if (with_drift_) common_.push_back({"creep_N_m_s", true});
+  ramp_s_ = data.contact_from_s;
+
+  for (Index m = 0; m < n_moves; ++m) {
+    nuisances_.push_back({"start_" + std::to_string(m + 1) + "_s", start[m], start[m] - 10.0 * dt_s,
+                          start[m] + 10.0 * dt_s, dt_s});
+  }
+  const StageMove& ramp = moves_.front();
+  const double way_m = ramp.to_m - ramp.from_m;
+  const double step_m = std::min(std::abs(way_m), ramp.speed_m_s * dt_s);
+  // Anywhere on the ramp's way, whatever the rig took for the surface; at its very end there would
+  // be no ramp.
+  const double last_m = ramp.to_m - 1e-3 * way_m;
+  nuisances_.push_back({"contact_m", start[n_moves], std::min(ramp.from_m, last_m),
+                        std::max(ramp.from_m, last_m), step_m});
+
+  ln_tau_min_ = std::log(dt_s / 3.0);
+  ln_tau_max_ = std::log(3.0 * (data.contact_to_s - data.contact_from_s));
+}
+
+// The moves as the nuisances put them, and what each does to each branch.
+struct StageModel::Drive {
+  std::vector<StageMove> moves;
+  std::vector<StageResponse> responses;
+  std::vector<std::vector<StageResponse::Branch>> branches;
+  double contact_m = 0.0, contact_s = 0.0;
+  double direction = 1.0;
+};
+
+StageModel::Drive StageModel::drive(const Eigen::VectorXd& ln_tau,
+                                    const Eigen::VectorXd& nuisance) const {
+  const auto n_moves = static_cast<Index>(moves_.size());
+  Drive drive;
+  drive.contact_m = nuisance[n_moves];
+  for (Index m = 0; m < n_moves; ++m) {
+    drive.moves.push_back(shifted(moves_[static_cast<std::size_t>(m)], nuisance[m]));
+    const StageMove& move = drive.moves.back();
+    if (m == 0) drive.contact_s = time_at_position_s(move, drive.contact_m);
+    drive.responses.emplace_back(move, m == 0 ? drive.contact_s : move.start_time_s);
+    std::vector<StageResponse::Branch>& branches = drive.branches.emplace_back();
+    for (Index i = 0; i < ln_tau.size(); ++i) {
+      branches.push_back(drive.responses.back().branch(std::exp(ln_tau[i])));
+    }
+  }
+  drive.direction = drive.moves[0].to_m >= drive.moves[0].from_m ? 1.0 : -1.0;
+  return drive;
+}
+
+// The part of the way z in one row of the columns that go with it.
+void StageModel::add_depth(Eigen::MatrixXd& matrix, Index row, double depth_m) const {
+  const Index offset = with_equilibrium_ ? 1 : 0;
+  if (with_equilibrium_) matrix(row, 0) += depth_m;
+  if (with_drift_) {
+    matrix(row, offset + 2) += depth_m * (time_s_[static_cast<std::size_t>(row)] - ramp_s_);
+  }
+}
+
+// What one move, begun before the sample, adds to its row.
+void StageModel::add_move(const Drive& drive, std::size_t m, Index row, bool with_slopes,
+                          ModelColumns& out) const {
+  const double t = time_s_[static_cast<std::size_t>(row)];
+  const StageMove& move = drive.moves[m];
+  const double from_m = m == 0 ? drive.contact_m : move.from_m;
+  add_depth(out.values, row, drive.direction * (position_m(move, t) - from_m));
+  Eigen::MatrixXd* shift = with_slopes ? &out.nuisance_slopes[m] : nullptr;
+  if (shift != nullptr) add_depth(*shift, row, -drive.direction * velocity_m_s(move, t));
+  for (std::size_t i = 0; i < drive.branches[m].size(); ++i) {
+    const BranchResponse response = drive.responses[m].at(drive.branches[m][i], t);
+    const auto term = static_cast<Index>(i);
+    out.values(row, n_common() + term) += drive.direction * response.value_m;
+    if (shift == nullptr) continue;
+    out.term_slopes(row, term) += drive.direction * response.slope_m;
+    (*shift)(row, n_common() + term) -= drive.direction * response.rate_m_s;
+  }
+}
+
+ModelColumns StageModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                                 bool with_slopes) const {
+  const Index n_terms = ln_tau.size();
+  const Index rows = n_rows();
+  ModelColumns out;
+  out.values = Eigen::MatrixXd::Zero(rows, n_common() + n_terms);
+  if (with_slopes) {
+    out.term_slopes = Eigen::MatrixXd::Zero(rows, n_terms);
+    out.nuisance_slopes.assign(static_cast<std::size_t>(n_nuisances()),
+                               Eigen::MatrixXd::Zero(rows, n_common() + n_terms));
+  }
+  const Drive moved = drive(ln_tau, nuisance);
+  const Index offset = with_equilibrium_ ? 1 : 0;
+  for (Index row = 0; row < rows; ++row) {
+    const auto k = static_cast<std::size_t>(row);
+    const double t = time_s_[k];
+    out.values(row, offset) = 1.0;
+    if (with_drift_) out.values(row, offset + 1) = t - ramp_s_;
+    if (is_out_of_contact_[k] || !(t > moved.contact_s)) continue;
+    for (std::size_t m = 0; m < moved.moves.size(); ++m) {
+      if (t > moved.responses[m].from_s()) add_move(moved, m, row, with_slopes, out);
+    }
+    if (!with_slopes) continue;
+    Eigen::MatrixXd& contact = out.nuisance_slopes.back();
+    add_depth(contact, row, -moved.direction);
+    for (Index i = 0; i < n_terms; ++i) {
+      contact(row, n_common() + i) =
+          -moved.direction * std::exp(-(t - moved.contact_s) / std::exp(ln_tau[i]));
+    }
+  }
+  const auto weight = sigma_N_.cwiseInverse().asDiagonal();
+  out.values = weight * out.values;
+  if (with_slopes) {
+    out.term_slopes = weight * out.term_slopes;
+    for (Eigen::MatrixXd& slopes : out.nuisance_slopes) slopes = weight * slopes;
+  }
+  return out;
+}
+
+}  // namespace viscard

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "fit/curves/spectral_model.h"
+#include "fit/samples/fit_data.h"
+#include "fit/samples/stamp_noise.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace viscard {
+
+// Force of a punch driven by known stage moves through a frame spring. Specimen and frame in series
+// are again a generalised Maxwell solid, so the force follows the *stage* by
+//   F(t) = int R(t - s) dz(s) + offset + drift t + creep t z,   z counted from contact
+// (fit/README.md, eq. 4) with stiffnesses R_inf, R_i in N/m; specimen_series() takes the frame out
+// afterwards. The input z is free of noise, and the residual is the force noise itself. Drift of
+// the zero is seen out of contact, creep of the cell under load (a share of the force) in the long
+// hold.
+//
+// Nuisances: one start time per move (known only roughly on the amplifier's clock) and the contact
+// position; all are sharply seen in the kinks of the force. Out of contact the force is zero.
+class StageModel final : public SpectralModel {
+ public:
+  // start: of the nuisances, shifts first, in s and m; half-widths of their bounds from the data.
+  StageModel(const IndentationData& data, const Eigen::VectorXd& nuisance_start,
+             const StageNoise& noise, const FitOptions& options);
+
+  ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                       bool with_slopes) const override;
+
+  // True for samples while the stage moves (by the start values).
+  const std::vector<bool>& is_moving() const { return is_moving_; }
+  bool has_drift() const { return with_drift_; }
+  const std::vector<bool>& is_out_of_contact() const { return is_out_of_contact_; }
+  const Eigen::VectorXd& sigma_N() const { return sigma_N_; }  // of each sample
+  Eigen::VectorXd row_sigma() const override { return sigma_N_; }
+
+ private:
+  struct Drive;
+  Drive drive(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance) const;
+  void add_depth(Eigen::MatrixXd& matrix, Eigen::Index row, double depth_m) const;
+  void add_move(const Drive& drive, std::size_t m, Eigen::Index row, bool with_slopes,
+                ModelColumns& out) const;
+
+  std::vector<double> time_s_;
+  std::vector<StageMove> moves_;
+  std::vector<bool> is_moving_;
+  std::vector<bool> is_out_of_contact_;
+  Eigen::VectorXd sigma_N_;
+  double ramp_s_ = 0.0;  // drifts count from here
+  bool with_drift_ = false;
+  bool with_equilibrium_ = true;
+};
+
+// Start values of StageModel's nuisances from the force curve alone: where contact_onset() sees the
+// ramp begin and touch, and when each later move passes half its change of force.
+Eigen::VectorXd nuisance_start(const IndentationData& data);
+
+}  // namespace viscard

@@ -1,0 +1,170 @@
+#include "fit/curves/step_model.h"
+
+#include "fit/samples/clean_data.h"
+#include "fit/samples/decay.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+
+// Below this many samples averaging gains nothing.
+constexpr std::size_t kSmallRecord = 2000;
+constexpr double kBinsPerDecade = 60.0;
+// Autocorrelation is taken from at most this many consecutive samples.
+constexpr std::size_t kLongSeries = 8192;
+// Enough rows for the samples: averages in log time, or each for itself.
+std::vector<LogBin> bins_for(std::span<const double> time_s, std::span<const double> value,
+                             const FitOptions& options) {
+  const bool is_alone = time_s.size() <= kSmallRecord || options.full_data;
+  return log_bins(time_s, value, is_alone ? 0.0 : kBinsPerDecade);
+}
+
+}  // namespace
+
+StepModel::StepModel(std::span<const double> time_s, std::span<const double> value, StepShape shape,
+                     const FitOptions& options)
+    : time_s_(time_s),
+      value_(value),
+      shape_(shape),
+      bins_(bins_for(time_s, value, options)),
+      arrays_(bins_),
+      shapes_(bins_),
+      sample_variance_(variance_within(bins_)),
+      is_liquid_(options.is_liquid) {
+  set_rows();
+  with_constant_ = shape == StepShape::kCreep || !is_liquid_;
+  if (with_constant_) common_.push_back({shape == StepShape::kCreep ? "J_g" : "E_inf", false});
+  if (shape == StepShape::kCreep && is_liquid_) common_.push_back({"fluidity", false});
+  may_be_negative_ = options.allow_negative;
+
+  // Times below the sampling or beyond the record are still allowed by a factor of three, but none
+  // of which less than exp(-3) is left at the first sample: its modulus could be anything.
+  sampling_s_ = shortest_step_s(time_s_);
+  ln_tau_min_ = std::log(std::max(time_s_.front(), sampling_s_) / 3.0);
+  ln_tau_max_ = std::log(time_s_.back() * 3.0);
+}
+
+// The same model of wider bins; nothing of what those hide.
+StepModel::StepModel(const StepModel& fine, double bins_per_decade)
+    : SpectralModel(fine),
+      time_s_(fine.time_s_),
+      value_(fine.value_),
+      sampling_s_(fine.sampling_s_),
+      shape_(fine.shape_),
+      bins_(merged_bins(fine.bins_, bins_per_decade)),
+      arrays_(bins_),
+      shapes_({}),
+      sample_variance_(fine.sample_variance_),
+      is_liquid_(fine.is_liquid_),
+      with_constant_(fine.with_constant_) {
+  set_rows();
+}
+
+void StepModel::set_rows() {
+  data_.resize(static_cast<Index>(bins_.size()));
+  for (Index i = 0; i < data_.size(); ++i) {
+    data_[i] = arrays_.weight[i] * bins_[static_cast<std::size_t>(i)].value;
+  }
+  has_averages_ = bins_.size() < time_s_.size();
+}
+
+ModelColumns StepModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& /*nuisance*/,
+                                bool with_slopes) const {
+  const Index n_terms = ln_tau.size();
+  const bool is_creep = shape_ == StepShape::kCreep;
+  ModelColumns out;
+  out.values.resize(n_rows(), n_common() + n_terms);
+  if (with_slopes) out.term_slopes.resize(n_rows(), n_terms);
+  if (with_constant_) out.values.col(0) = arrays_.weight.matrix();
+  if (is_creep && is_liquid_) out.values.col(1) = (arrays_.weight * arrays_.time_s).matrix();
+  const DecayPlaces places = arrays_.places(has_averages_);
+  for (Index i = 0; i < n_terms; ++i) {
+    auto value = out.values.col(n_common() + i);
+    decay_column(places, std::exp(-ln_tau[i]), value.data(),
+                 with_slopes ? out.term_slopes.col(i).data() : nullptr);
+    if (is_creep) value = arrays_.weight.matrix() - value;  // 1 - exp
+  }
+  if (is_creep && with_slopes) out.term_slopes *= -1.0;
+  return out;
+}
+
+std::vector<std::size_t> StepModel::row_begins() const {
+  std::vector<std::size_t> begins;
+  for (const LogBin& bin : bins_) begins.push_back(bin.begin);
+  begins.push_back(time_s_.size());
+  return begins;
+}
+
+double StepModel::hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& /*nuisance*/,
+                             const Eigen::VectorXd& coefficients) const {
+  double within = 0.0;
+  for (const LogBin& bin : bins_) within += bin.count * bin.value_m2;
+  const Index n = shapes_.n_rows();
+  if (n == 0) return within;
+  // What is in the shapes that are known goes by its residual, the rest as it is.
+  Eigen::VectorXd residual = shapes_.data(), column(n);
+  const bool is_creep = shape_ == StepShape::kCreep;
+  if (is_creep && is_liquid_) residual -= coefficients[1] * shapes_.line();
+  for (Index i = 0; i < ln_tau.size(); ++i) {
+    shapes_.decay(std::exp(-ln_tau[i]), column, nullptr);
+    residual -= (is_creep ? -1.0 : 1.0) * coefficients[n_common() + i] * column;
+  }
+  return within - shapes_.data().squaredNorm() + residual.squaredNorm();
+}
+
+SpectralModel::HiddenRows StepModel::hidden_rows(const Eigen::VectorXd& ln_tau) const {
+  const Index n = shapes_.n_rows();
+  HiddenRows out;
+  out.data = shapes_.data();
+  out.columns.values = Eigen::MatrixXd::Zero(n, n_common() + ln_tau.size());
+  out.columns.term_slopes.resize(n, ln_tau.size());
+  const bool is_creep = shape_ == StepShape::kCreep;
+  if (is_creep && is_liquid_) out.columns.values.col(1) = shapes_.line();
+  Eigen::VectorXd slope;
+  for (Index i = 0; i < ln_tau.size(); ++i) {
+    shapes_.decay(std::exp(-ln_tau[i]), out.columns.values.col(n_common() + i), &slope);
+    out.columns.term_slopes.col(i) = slope;
+  }
+  if (is_creep) {
+    out.columns.values.rightCols(ln_tau.size()) *= -1.0;
+    out.columns.term_slopes *= -1.0;
+  }
+  return out;
+}
+
+std::unique_ptr<SpectralModel> StepModel::coarse() const {
+  constexpr double kCoarsePerDecade = 20.0;
+  constexpr std::size_t kFew = 120;
+  if (!has_averages_ || bins_.size() < kFew) return nullptr;
+  return std::unique_ptr<SpectralModel>(new StepModel(*this, kCoarsePerDecade));
+}
+
+Eigen::VectorXd StepModel::residual_series(const Eigen::VectorXd& ln_tau,
+                                           const Eigen::VectorXd& /*nuisance*/,
+                                           const Eigen::VectorXd& coefficients) const {
+  // The end of a long record, where the model is smooth and the sampling even.
+  const std::size_t count = std::min(time_s_.size(), kLongSeries);
+  const std::size_t first = time_s_.size() - count;
+  const double* time_s = time_s_.data() + first;
+  Eigen::VectorXd series =
+      Eigen::Map<const Eigen::VectorXd>(value_.data() + first, static_cast<Index>(count));
+  const bool is_creep = shape_ == StepShape::kCreep;
+  double constant = with_constant_ ? coefficients[0] : 0.0;
+  if (is_creep) constant += coefficients.tail(ln_tau.size()).sum();
+  series.array() -= constant;
+  if (is_creep && is_liquid_) {
+    series -= coefficients[1] * Eigen::Map<const Eigen::VectorXd>(time_s, series.size());
+  }
+  for (Index i = 0; i < ln_tau.size(); ++i) {
+    const double modulus = coefficients[n_common() + i];
+    subtract_decay(time_s, count, std::exp(-ln_tau[i]), is_creep ? -modulus : modulus,
+                   series.data());
+  }
+  return series;
+}
+
+}  // namespace viscard

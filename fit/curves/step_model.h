@@ -1,0 +1,58 @@
+#pragma once
+
+#include "fit/curves/bin_arrays.h"
+#include "fit/curves/spectral_model.h"
+#include "fit/samples/fit_data.h"
+#include "fit/samples/log_bins.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace viscard {
+
+enum class StepShape { kRelaxation, kCreep };
+
+// Response to a step at t = 0: relaxation, value = E_inf + sum E_i exp(-t/tau_i), or creep,
+// value = J_g + sum J_j (1 - exp(-t/lambda_j)) [+ t/eta of a liquid]   (fit/README.md, eq. 5).
+// Long records are averaged in log time, the data and the model alike.
+class StepModel final : public SpectralModel {
+ public:
+  // Times must be sorted, all values finite; both must outlive the model, which does not copy them.
+  StepModel(std::span<const double> time_s, std::span<const double> value, StepShape shape,
+            const FitOptions& options);
+
+  ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                       bool with_slopes) const override;
+  std::vector<std::size_t> row_begins() const override;
+  double n_samples() const override { return static_cast<double>(time_s_.size()); }
+  double hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                    const Eigen::VectorXd& coefficients) const override;
+  double sample_variance() const override { return sample_variance_; }
+  HiddenRows hidden_rows(const Eigen::VectorXd& ln_tau) const override;
+  std::unique_ptr<SpectralModel> coarse() const override;
+  Eigen::VectorXd residual_series(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
+                                  const Eigen::VectorXd& coefficients) const override;
+
+  const std::vector<LogBin>& bins() const { return bins_; }
+  double sampling_s() const { return sampling_s_; }  // shortest step between samples
+
+ private:
+  StepModel(const StepModel& fine, double bins_per_decade);
+  void set_rows();
+
+  std::span<const double> time_s_, value_;
+  double sampling_s_ = 0.0;
+  StepShape shape_;
+  std::vector<LogBin> bins_;
+  BinArrays arrays_;
+  BinShapes shapes_;
+  double sample_variance_ = 0.0;
+  bool has_averages_ = false;
+  bool is_liquid_ = false;
+  bool with_constant_ = true;
+};
+
+}  // namespace viscard

@@ -1,0 +1,96 @@
+#include "fit/intervals/bootstrap.h"
+
+#include "fit/curves/model_variant.h"
+#include "fit/search/quick_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+
+Index block_length(Index rows, double inflation) {
+  const double rho = (inflation - 1.0) / (inflation + 1.0);
+  const double ratio = rho / (1.0 - rho * rho);
+  const double length = std::cbrt(6.0 * ratio * ratio * static_cast<double>(rows));
+  return std::clamp<Index>(static_cast<Index>(std::ceil(length)), 1, std::max<Index>(1, rows / 4));
+}
+
+Interval middle_95(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    const double position = share * static_cast<double>(values.size() - 1);
+    const auto below = static_cast<std::size_t>(position);
+    const std::size_t above = std::min(below + 1, values.size() - 1);
+    return values[below] +
+           (position - static_cast<double>(below)) * (values[above] - values[below]);
+  };
+  return {at(0.025), at(0.975)};
+}
+
+// What was drawn, one list per quantity.
+struct Drawn {
+  std::vector<double> E0, E_inf, sum_g;
+  std::vector<std::vector<double>> modulus, g, tau;
+
+  void add(const PronySeries& series) {
+    E0.push_back(instantaneous_modulus_Pa(series));
+    E_inf.push_back(series.equilibrium_modulus_Pa);
+    sum_g.push_back(1.0 - E_inf.back() / E0.back());
+    modulus.resize(series.terms.size());
+    g.resize(series.terms.size());
+    tau.resize(series.terms.size());
+    for (std::size_t i = 0; i < series.terms.size(); ++i) {
+      modulus[i].push_back(series.terms[i].modulus_Pa);
+      g[i].push_back(series.terms[i].modulus_Pa / E0.back());
+      tau[i].push_back(series.terms[i].relaxation_time_s);
+    }
+  }
+};
+
+}  // namespace
+
+void bootstrap_intervals(const SpectralModel& model, const SpectralState& state,
+                         const SeriesFromState& series_from_state, const BootstrapOptions& options,
+                         FitResult& result) {
+  const Eigen::VectorXd fitted =
+      model.columns(state.ln_tau, state.nuisance, false).values * state.coefficients;
+  const Index rows = model.n_rows();
+  const Index n_parameters = state.coefficients.size() + state.n_terms() + model.n_nuisances();
+  // Residuals of a fit are smaller than the noise by what its parameters took.
+  const double grow = std::sqrt(static_cast<double>(rows) /
+                                static_cast<double>(std::max<Index>(1, rows - n_parameters)));
+  const Eigen::VectorXd residual = grow * (model.data() - fitted);
+  const Index length = block_length(rows, options.inflation);
+  std::mt19937_64 random(options.seed);
+  Drawn drawn;
+  for (int draw = 0; draw < options.n_resamples; ++draw) {
+    Eigen::VectorXd data = fitted;
+    for (Index begin = 0; begin < rows; begin += length) {
+      const auto from = static_cast<Index>(random() % static_cast<std::uint64_t>(rows));
+      for (Index k = 0; k < std::min(length, rows - begin); ++k) {
+        data[begin + k] += residual[(from + k) % rows];
+      }
+    }
+    const SpectralState refitted = quick_search(ModelVariant(model, std::move(data)), state,
+                                                {.max_iterations = 60, .tolerance = 1e-8});
+    const PronySeries series = series_from_state(refitted);
+    if (series.terms.size() == result.terms.size()) drawn.add(series);
+  }
+  if (drawn.E0.size() < 20) return;  // no percentiles of so few
+  result.E0_interval_95 = middle_95(drawn.E0);
+  result.E_inf_interval_95 = middle_95(drawn.E_inf);
+  result.sum_g_95 = middle_95(drawn.sum_g);
+  for (std::size_t i = 0; i < result.terms.size(); ++i) {
+    result.terms[i].modulus_Pa_95 = middle_95(drawn.modulus[i]);
+    result.terms[i].g_95 = middle_95(drawn.g[i]);
+    result.terms[i].tau_s_95 = middle_95(drawn.tau[i]);
+  }
+  result.n_bootstrap = static_cast<int>(drawn.E0.size());
+}
+
+}  // namespace viscard

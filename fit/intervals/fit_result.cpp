@@ -1,0 +1,46 @@
+#include "fit/intervals/fit_result.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace viscard {
+
+Interval combined_95(const Interval& interval, double value, double relative_u) {
+  constexpr double kNormal95 = 1.959963984540054;
+  const double part = kNormal95 * relative_u * std::abs(value);
+  const Interval wide{value - std::hypot(std::max(0.0, value - interval.low), part),
+                      value + std::hypot(std::max(0.0, interval.high - value), part)};
+  // What could not be negative before cannot be now.
+  return interval.low >= 0.0 ? Interval{std::max(0.0, wide.low), wide.high} : wide;
+}
+
+Material material_from_fit(const FitResult& fit, double nu, double rho_kg_m3) {
+  if (fit.is_stiffness) {
+    throw std::invalid_argument(
+        "this fit gives stiffnesses in N/m, not moduli: the punch geometry was not given. Pass "
+        "--punch-diameter (and --layer-thickness) or a specimen file");
+  }
+  Material material;
+  material.E0_Pa = fit.E0_Pa;
+  material.nu = nu;
+  material.rho_kg_m3 = rho_kg_m3;
+  MaterialUncertainty uncertainty;
+  uncertainty.E0_Pa_95 = fit.E0_interval_95;
+  uncertainty.E_inf_Pa_95 = fit.E_inf_interval_95;
+  uncertainty.covariance_parameters = fit.covariance_parameters;
+  uncertainty.covariance = fit.covariance;
+  uncertainty.systematic_relative = fit.systematic_relative;
+  for (const FittedTerm& term : fit.terms) {
+    material.terms.push_back({term.g, term.g, term.tau_s});
+    uncertainty.terms.push_back(
+        {term.modulus_se_Pa, term.ln_tau_se, term.modulus_Pa_95, term.g_95, term.tau_s_95});
+  }
+  material.uncertainty = uncertainty;
+  material.flags = fit.flags;
+  material.provenance.fit_from_s = fit.fit_from_s;
+  material.provenance.fit_to_s = fit.fit_to_s;
+  return material;
+}
+
+}  // namespace viscard

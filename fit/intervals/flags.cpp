@@ -1,0 +1,131 @@
+#include "fit/intervals/flags.h"
+
+#include "models/maths/text_of_number.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+void flag_time(const FittedTerm& term, int n, const TestWindow& window, FitResult& result) {
+  const auto add = [&](const char* name, const std::string& text) {
+    result.flags.push_back({name, n, "term " + std::to_string(n) + ": " + text});
+  };
+  const std::string tau = "relaxation time " + number(term.tau_s) + " s ";
+  if (window.sampling_s > 0.0 && term.tau_s < 3.0 * window.sampling_s) {
+    add("tau-below-sampling", tau + "is below three sampling intervals (" +
+                                  number(3.0 * window.sampling_s) +
+                                  " s): time and modulus are a guess");
+  }
+  if (window.ramp_s > 0.0 && term.tau_s < 0.2 * window.ramp_s) {
+    add("tau-below-ramp", tau + "is below a fifth of the ramp (" + number(0.2 * window.ramp_s) +
+                              " s): most of this term relaxed while the load rose");
+  }
+  if (window.to_s > 0.0 && term.tau_s > window.to_s / 3.0) {
+    add("tau-beyond-window", tau + "is above a third of the record (" + number(window.to_s / 3.0) +
+                                 " s): the equilibrium modulus is an upper bound only");
+  }
+  if (term.modulus_Pa_95.low <= 0.0 && term.modulus_Pa_95.high >= 0.0) {
+    add("modulus-may-be-zero", "the 95 % interval of its modulus contains zero");
+  }
+}
+
+double correlation(const Eigen::MatrixXd& covariance, Index i, Index j) {
+  const double scale = std::sqrt(covariance(i, i) * covariance(j, j));
+  return scale > 0.0 && std::isfinite(scale) ? covariance(i, j) / scale : 0.0;
+}
+
+}  // namespace
+
+void judge(FitResult& result) {
+  if (!(result.E0_interval_95.low > 0.0) || !std::isfinite(result.E0_interval_95.high)) {
+    add_defect(result, "E0-unknown",
+               "the 95 % interval of E0 (" + number(result.E0_interval_95.low) + " to " +
+                   number(result.E0_interval_95.high) +
+                   ") reaches zero: the data do not tell what it is. Ask for fewer terms");
+  }
+  for (const MaterialFlag& flag : result.flags) {
+    if (is_defect(flag.name)) result.is_trustworthy = false;
+  }
+}
+
+void add_defect(FitResult& result, const std::string& name, const std::string& text) {
+  result.flags.push_back({name, 0, text});
+  result.is_trustworthy = false;
+}
+
+void flag_misfit(double sigma, double quiet_sigma, std::size_t n_quiet, double peak,
+                 FitResult& result) {
+  constexpr double kTimes = 10.0;        // noise of the cell under load is never that much larger
+  constexpr double kShareOfPeak = 1e-3;  // steps and backlash of a good stage leave less than that
+  constexpr std::size_t kFewest = 10;
+  if (n_quiet < kFewest || sigma <= kTimes * quiet_sigma || sigma <= kShareOfPeak * peak) return;
+  add_defect(result, "misfit",
+             "the fit leaves " + number(sigma) + " N at each sample, the noise out of contact is " +
+                 number(quiet_sigma) +
+                 " N: something happened that the model does not know (lost steps, slip, a wrong "
+                 "depth). Look at the curve, then repeat the run");
+}
+
+void add_spikes(FitResult& result, std::size_t count) {
+  result.n_spikes = count;
+  if (count == 0) return;
+  result.flags.push_back({"spikes-left-out", 0,
+                          counted(count, "sample") + " far from both neighbours left out as " +
+                              (count == 1 ? "a spike" : "spikes")});
+}
+
+void add_identifiability_flags(const SpectralModel& model, const SpectralState& state,
+                               const Eigen::MatrixXd& covariance, const TestWindow& window,
+                               FitResult& result) {
+  constexpr double kStrong = 0.99;
+  const Index first = model.n_common();
+  const Index n_terms = state.n_terms();
+  for (std::size_t i = 0; i < result.terms.size(); ++i) {
+    flag_time(result.terms[i], static_cast<int>(i) + 1, window, result);
+  }
+  for (Index i = 0; i < n_terms; ++i) {
+    const int n = static_cast<int>(i) + 1;
+    const double ln_tau = state.ln_tau[i];
+    constexpr double kTouch = 1e-6;
+    if (ln_tau < model.ln_tau_min() + kTouch || ln_tau > model.ln_tau_max() - kTouch) {
+      result.flags.push_back(
+          {"on-bound", n,
+           "term " + std::to_string(n) +
+               ": its time went to the end of the range "
+               "that the record allows; the modulus there has no time of its own"});
+    }
+    for (Index j = i + 1; j < n_terms; ++j) {
+      const bool strong = std::abs(correlation(covariance, first + i, first + j)) > kStrong;
+      if (!strong) continue;
+      result.flags.push_back(
+          {"terms-correlated", n,
+           "terms " + std::to_string(n) + " and " + std::to_string(j + 1) +
+               ": their moduli are known only together (correlation above 0.99)"});
+    }
+    for (Index c = 0; c < first; ++c) {
+      const std::string& name = model.common()[static_cast<std::size_t>(c)].name;
+      const bool is_drift = name.starts_with("drift") || name.starts_with("creep");
+      if (!is_drift || std::abs(correlation(covariance, first + i, c)) <= kStrong) continue;
+      result.flags.push_back(
+          {"confused-with-drift", n,
+           "term " + std::to_string(n) + ": cannot be told from drift of the force"});
+    }
+  }
+  if (!result.is_converged) {
+    add_defect(result, "not-converged",
+               "the search for the best times did not settle; try fewer terms with --terms");
+  }
+}
+
+}  // namespace viscard

@@ -1,0 +1,99 @@
+#include "fit/intervals/order_doubt.h"
+
+#include "fit/curves/model_variant.h"
+#include "fit/search/quick_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr double kNormal95 = 1.959963984540054;
+
+void widen(Interval& interval, double value, double error) {
+  interval.low = std::min(interval.low, value - kNormal95 * error);
+  interval.high = std::max(interval.high, value + kNormal95 * error);
+}
+
+double width(const Interval& interval) {
+  return interval.high - interval.low;
+}
+
+// How low E_inf can be when one more term at the end of the range may take its place, until the sum
+// of squares rises by 3.84 variances: steps that double, the root of the rise taken as linear.
+double lowest_equilibrium(const SpectralModel& fine, const SpectralFit& fit, double step) {
+  const std::unique_ptr<SpectralModel> coarse = fine.coarse();
+  const SpectralModel& model = coarse ? *coarse : fine;
+  const double least_rss =
+      coarse ? solve_coefficients(model, fit.state.ln_tau, fit.state.nuisance).rss : fit.state.rss;
+  constexpr double kChiSquare95 = 3.841458820694124;
+  SpectralState slower = fit.state;
+  slower.ln_tau.conservativeResize(slower.n_terms() + 1);
+  slower.ln_tau[slower.ln_tau.size() - 1] = model.ln_tau_max();
+  const double best = fit.state.coefficients[0];
+  double last = best, last_root = 0.0;
+  for (double distance = step; distance > 0.0; distance *= 2.0) {
+    const double value = std::max(0.0, best - distance);
+    const PinnedEquilibrium lowered(model, value, 1e4 * std::sqrt(fit.variance) / step);
+    slower.nuisance = fit.state.nuisance;
+    const SpectralState refitted = quick_search(
+        lowered, slower, {.max_iterations = 30, .tolerance = 1e-6, .unseen_variances = 1e-2});
+    const double rise = (refitted.rss - least_rss) / fit.variance;
+    const double root = std::sqrt(std::max(0.0, rise));
+    if (rise >= kChiSquare95) {
+      const double share = (std::sqrt(kChiSquare95) - last_root) / (root - last_root);
+      return last + share * (value - last);
+    }
+    if (value == 0.0) return 0.0;
+    last = value;
+    last_root = root;
+  }
+  return best;
+}
+
+}  // namespace
+
+void carry_order_doubt(const SpectralModel& model, const SpectralFit& fit,
+                       const SeriesFromState& series_from_state, FitResult& result) {
+  if (fit.options.n_terms) return;  // the order is given, not doubted
+  constexpr double kStrong = 6.0;
+  const Interval E0 = result.E0_interval_95;
+  const Interval E_inf = result.E_inf_interval_95;
+  std::string others;
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < fit.path.size(); ++i) {
+    const bool is_near =
+        std::abs(fit.scores.rows[i].bic - fit.scores.rows[fit.scores.chosen].bic) < kStrong;
+    if (i == fit.scores.chosen || !is_near || !is_within_range(model, fit.path[i])) continue;
+    const PronySeries series = series_from_state(fit.path[i]);
+    widen(result.E0_interval_95, instantaneous_modulus_Pa(series), result.E0_se_Pa);
+    widen(result.E_inf_interval_95, series.equilibrium_modulus_Pa, result.E_inf_se_Pa);
+    others += (others.empty() ? "" : ", ") + std::to_string(fit.path[i].n_terms());
+    last = static_cast<std::size_t>(fit.path[i].n_terms());
+  }
+  if (width(result.E0_interval_95) > 1.5 * width(E0) ||
+      width(result.E_inf_interval_95) > 1.5 * width(E_inf)) {
+    result.flags.push_back({"order-uncertain", 0,
+                            "fits with " + others + (last == 1 ? " term" : " terms") +
+                                " describe the data about as well; the intervals of E0 and E_inf "
+                                "hold theirs too"});
+  }
+  // From a tenth of the record on (the range ends at three records).
+  const double late = model.ln_tau_max() - std::log(30.0);
+  if (fit.state.n_terms() == 0 || fit.state.ln_tau.maxCoeff() < late) return;
+  // Only where the parameter of the state is the material's own (no frame, no creep), and not free.
+  const bool is_own =
+      model.n_common() > 0 && !model.common()[0].is_free &&
+      series_from_state(fit.state).equilibrium_modulus_Pa == fit.state.coefficients[0] &&
+      fit.state.coefficients[0] > 0.0 && result.E_inf_se_Pa > 0.0;
+  if (!is_own || model.may_be_negative()) return;
+  result.E_inf_interval_95.low =
+      std::min(result.E_inf_interval_95.low, lowest_equilibrium(model, fit, result.E_inf_se_Pa));
+}
+
+}  // namespace viscard

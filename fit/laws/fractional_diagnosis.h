@@ -1,0 +1,26 @@
+#pragma once
+
+#include "fit/intervals/fit_result.h"
+#include "models/material/viscoelastic_models.h"
+
+#include <optional>
+
+namespace viscard {
+
+// Whether a power law between two plateaus, E(t) = E_inf + E_1 E_alpha(-(t/tau)^alpha) (fractional
+// Zener; Mainardi, Fractional Calculus and Waves in Linear Viscoelasticity (2010), ch. 3), tells in
+// four parameters what the series tells in 1 + 2N. Both are compared on the averages in
+// FitResult::curves, whose noise is known from the fit:
+//   BIC difference = (chi^2 - chi^2_series)/inflation + (4 - 1 - 2N) ln(n/inflation),
+// negative where the fractional model is the better description.
+struct FractionalDiagnosis {
+  FractionalZenerModel model;  // moduli in the unit of the fitted column
+  double chi_square = 0.0;
+  double series_chi_square = 0.0;
+  double bic_difference = 0.0;
+};
+
+// Nothing for other kinds than relaxation after a step, and below five averages.
+std::optional<FractionalDiagnosis> diagnose_fractional(const FitResult& fit);
+
+}  // namespace viscard

@@ -1,0 +1,92 @@
+#include "fit/laws/ratio_estimates.h"
+
+#include "models/maths/text_of_number.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+
+std::string name_of(const Material& material, std::size_t number) {
+  return material.name.empty()
+             ? "specimen " + std::to_string(number)
+             : "'" + material.name + "' (specimen " + std::to_string(number) + ")";
+}
+
+void check_specimen(const Material& material, std::size_t number) {
+  const std::string name = name_of(material, number);
+  if (!(material.mixing_ratio > 0.0)) {
+    throw std::invalid_argument(name +
+                                " has no mixing ratio; give it with --ratio, or mixing_ratio in "
+                                "its specimen or material file");
+  }
+  const auto size = static_cast<Index>(1 + 2 * material.terms.size());
+  const bool has_covariance = material.uncertainty &&
+                              material.uncertainty->covariance.rows() == size &&
+                              material.uncertainty->covariance.allFinite();
+  if (!has_covariance) {
+    throw std::invalid_argument(name +
+                                " states no covariance of its parameters, so its weight is not "
+                                "known; fit it from data with viscard fit");
+  }
+}
+
+// (ln E0, ln g_i, ln tau_i) and its covariance from that of (E_inf, E_i, ln tau_i).
+RatioEstimate estimate_of(const Material& material) {
+  const auto n = static_cast<Index>(material.terms.size());
+  const Index size = 1 + 2 * n;
+  RatioEstimate out{material.mixing_ratio, Eigen::VectorXd(size), {}};
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(size, size);
+  out.theta[0] = std::log(material.E0_Pa);
+  slopes.row(0).head(1 + n).setConstant(1.0 / material.E0_Pa);
+  for (Index i = 1; i <= n; ++i) {
+    const MaterialTerm& term = material.terms[static_cast<std::size_t>(i - 1)];
+    out.theta[i] = std::log(term.g);
+    out.theta[n + i] = std::log(term.tau_s);
+    slopes.row(i) = -slopes.row(0);
+    slopes(i, i) += 1.0 / (term.g * material.E0_Pa);
+    slopes(n + i, n + i) = 1.0;
+  }
+  out.covariance = slopes * material.uncertainty->covariance * slopes.transpose();
+  // Noise-free data would leave it singular.
+  out.covariance.diagonal().array() += 1e-16 + 1e-12 * out.covariance.diagonal().array();
+  return out;
+}
+
+}  // namespace
+
+std::vector<RatioEstimate> ratio_estimates_of(const std::vector<Material>& specimens) {
+  std::vector<RatioEstimate> out;
+  for (std::size_t s = 0; s < specimens.size(); ++s) {
+    check_specimen(specimens[s], s + 1);
+    const std::size_t n = specimens[s].terms.size();
+    if (n != specimens.front().terms.size()) {
+      throw std::invalid_argument(
+          name_of(specimens[s], s + 1) + " has " + counted(n, "term") + " and " +
+          name_of(specimens.front(), 1) + " " + std::to_string(specimens.front().terms.size()) +
+          ": terms are compared one by one. Fit all with the same --terms N");
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (specimens[s].terms[i].g > 0.0) continue;
+      throw std::invalid_argument(name_of(specimens[s], s + 1) + ": g of term " +
+                                  std::to_string(i + 1) + " is zero; fit with fewer terms");
+    }
+    out.push_back(estimate_of(specimens[s]));
+  }
+  return out;
+}
+
+std::vector<double> distinct_ratios(const std::vector<RatioEstimate>& estimates) {
+  std::vector<double> ratios;
+  for (const RatioEstimate& one : estimates) ratios.push_back(one.ratio);
+  std::sort(ratios.begin(), ratios.end());
+  ratios.erase(std::unique(ratios.begin(), ratios.end()), ratios.end());
+  return ratios;
+}
+
+}  // namespace viscard

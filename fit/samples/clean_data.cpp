@@ -1,0 +1,118 @@
+#include "fit/samples/clean_data.h"
+
+#include "fit/samples/median.h"
+#include "fit/samples/sample_passes.h"
+#include "fit/samples/spikes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace viscard {
+
+namespace {
+
+bool is_ready(const std::vector<std::span<const double>>& columns) {
+  return std::all_of(columns.begin(), columns.end(), all_finite) &&
+         step_range(columns[0]).shortest >= 0.0;
+}
+
+// Numbers of the rows that can be used, in order of time.
+std::vector<std::size_t> usable_rows(const std::vector<std::span<const double>>& columns) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < columns[0].size(); ++i) {
+    const bool is_finite = std::all_of(columns.begin(), columns.end(), [&](const auto& column) {
+      return std::isfinite(column[i]);
+    });
+    if (is_finite) order.push_back(i);
+  }
+  const std::span<const double> time = columns[0];
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return time[a] < time[b]; });
+  return order;
+}
+
+void check_count(std::size_t usable, std::size_t rows, std::size_t least) {
+  if (usable >= least) return;
+  throw std::runtime_error("only " + std::to_string(usable) + " of " + std::to_string(rows) +
+                           " rows hold numbers in every column needed; a fit takes at least " +
+                           std::to_string(least));
+}
+
+}  // namespace
+
+CleanViews::CleanViews(const std::vector<std::span<const double>>& columns, std::size_t least)
+    : views_(columns) {
+  const std::size_t rows = columns.at(0).size();
+  for (const std::span<const double> column : columns) {
+    if (column.size() != rows) {
+      throw std::invalid_argument("columns of " + std::to_string(rows) + " and " +
+                                  std::to_string(column.size()) + " values belong to no one table");
+    }
+  }
+  if (is_ready(columns)) {
+    check_count(rows, rows, least);
+    return;
+  }
+  const std::vector<std::size_t> order = usable_rows(columns);
+  n_left_out_ = rows - order.size();
+  check_count(order.size(), rows, least);
+  for (std::span<const double>& view : views_) {
+    std::vector<double>& target = copies_.emplace_back();
+    target.reserve(order.size());
+    for (const std::size_t i : order) target.push_back(view[i]);
+    view = target;  // keeps its memory when copies_ grows
+  }
+}
+
+void CleanViews::drop_first(std::size_t rows) {
+  for (std::span<const double>& view : views_) view = view.subspan(rows);
+}
+
+void CleanViews::drop(const std::vector<std::size_t>& rows) {
+  if (rows.empty()) return;
+  std::vector<std::vector<double>> kept;
+  for (const std::span<const double> view : views_) kept.push_back(without_rows(view, rows));
+  copies_ = std::move(kept);
+  for (std::size_t i = 0; i < views_.size(); ++i) views_[i] = copies_[i];
+}
+
+CleanColumns clean_columns(const std::vector<std::span<const double>>& columns, std::size_t least) {
+  const CleanViews views(columns, least);
+  CleanColumns clean;
+  clean.n_left_out = views.n_left_out();
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    clean.columns.emplace_back(views.column(i).begin(), views.column(i).end());
+  }
+  return clean;
+}
+
+void check_sign(std::span<const double> values, const std::string& what,
+                const std::string& column) {
+  if (sum_of(values) > 0.0) return;
+  throw std::runtime_error("the fitted column is negative or zero on the whole: " + what +
+                           " is positive. If the sign of the instrument is the other way, map the "
+                           "column with a minus: --column " +
+                           column + "=-NAME");
+}
+
+double shortest_step_s(std::span<const double> time_s) {
+  const StepRange range = step_range(time_s);
+  if (range.shortest > 0.0 || !(range.longest > 0.0)) return range.shortest;
+  double shortest = range.longest;  // some times are repeated
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    const double step = time_s[i] - time_s[i - 1];
+    shortest = step > 0.0 && step < shortest ? step : shortest;
+  }
+  return shortest;
+}
+
+double usual_step_s(std::span<const double> time_s) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < time_s.size(); ++i) steps.push_back(time_s[i] - time_s[i - 1]);
+  return median(std::move(steps));
+}
+
+}  // namespace viscard

@@ -1,0 +1,214 @@
+#include "fit/samples/sample_passes.h"
+
+#include "fit/samples/wide_loops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace viscard {
+namespace {
+
+// Sums in four lanes, so that one addition need not wait for the last; summed up at the end.
+constexpr std::size_t kLanes = 4;
+using Lanes = double __attribute__((vector_size(kLanes * sizeof(double)), aligned(8), may_alias));
+using Flags = long long __attribute__((vector_size(kLanes * sizeof(double))));
+
+inline const Lanes* lanes_at(const double* values) {
+  return reinterpret_cast<const Lanes*>(values);
+}
+
+inline double total(const Lanes& lanes) {
+  return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+}
+
+}  // namespace
+
+VISCARD_WIDE_LOOP double sum_of_samples(const double* values, std::size_t count) {
+  Lanes sums[4] = {};
+  std::size_t i = 0;
+  for (; i + 4 * kLanes <= count; i += 4 * kLanes) {
+    for (std::size_t k = 0; k < 4; ++k) sums[k] += *lanes_at(values + i + k * kLanes);
+  }
+  double sum = total(sums[0]) + total(sums[1]) + total(sums[2]) + total(sums[3]);
+  for (; i < count; ++i) sum += values[i];
+  return sum;
+}
+
+VISCARD_WIDE_LOOP double dot_of_samples(const double* a, const double* b, std::size_t count) {
+  Lanes sums[4] = {};
+  std::size_t i = 0;
+  for (; i + 4 * kLanes <= count; i += 4 * kLanes) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      sums[k] += *lanes_at(a + i + k * kLanes) * *lanes_at(b + i + k * kLanes);
+    }
+  }
+  double sum = total(sums[0]) + total(sums[1]) + total(sums[2]) + total(sums[3]);
+  for (; i < count; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+// Four columns by two at a time, so that each number read enters several products.
+VISCARD_WIDE_LOOP void products_of_4_by_2(const double* a, const double* b, std::size_t rows,
+                                          std::size_t n_a, double* out) {
+  Lanes sums[8] = {};
+  std::size_t i = 0;
+  for (; i + kLanes <= rows; i += kLanes) {
+    const Lanes b0 = *lanes_at(b + i), b1 = *lanes_at(b + rows + i);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Lanes ak = *lanes_at(a + k * rows + i);
+      sums[k] += ak * b0;
+      sums[4 + k] += ak * b1;
+    }
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    double first = total(sums[k]), second = total(sums[4 + k]);
+    for (std::size_t r = i; r < rows; ++r) {
+      first += a[k * rows + r] * b[r];
+      second += a[k * rows + r] * b[rows + r];
+    }
+    out[k] = first;
+    out[n_a + k] = second;
+  }
+}
+
+VISCARD_WIDE_LOOP bool all_samples_finite(const double* values, std::size_t count) {
+  // A finite number times 0 is 0; anything else makes the sum NaN.
+  Lanes sums[4] = {};
+  std::size_t i = 0;
+  for (; i + 4 * kLanes <= count; i += 4 * kLanes) {
+    for (std::size_t k = 0; k < 4; ++k) sums[k] += 0.0 * *lanes_at(values + i + k * kLanes);
+  }
+  double sum = total(sums[0]) + total(sums[1]) + total(sums[2]) + total(sums[3]);
+  for (; i < count; ++i) sum += 0.0 * values[i];
+  return sum == 0.0;
+}
+
+VISCARD_WIDE_LOOP StepRange steps_of_samples(const double* times, std::size_t count) {
+  double low = times[1] - times[0], high = low;
+  Lanes lows = {low, low, low, low}, highs = lows;
+  std::size_t i = 1;
+  for (; i + kLanes <= count; i += kLanes) {
+    const Lanes step = *lanes_at(times + i) - *lanes_at(times + i - 1);
+    lows = step < lows ? step : lows;
+    highs = step > highs ? step : highs;
+  }
+  for (; i < count; ++i) {
+    low = std::min(low, times[i] - times[i - 1]);
+    high = std::max(high, times[i] - times[i - 1]);
+  }
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    low = std::min(low, lows[k]);
+    high = std::max(high, highs[k]);
+  }
+  return {low, high};
+}
+
+// Whether any sample of a stretch, which has a neighbour at either end, is far from both.
+VISCARD_WIDE_LOOP bool has_far_sample(const double* values, std::size_t count, double far) {
+  Flags any = {};
+  std::size_t i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    const Lanes from =
+        *lanes_at(values + i) - 0.5 * (*lanes_at(values + i - 1) + *lanes_at(values + i + 1));
+    any |= (from > far) | (from < -far);
+  }
+  bool is_any = (any[0] | any[1] | any[2] | any[3]) != 0;
+  for (; i < count; ++i) {
+    is_any |= std::abs(values[i] - 0.5 * (values[i - 1] + values[i + 1])) > far;
+  }
+  return is_any;
+}
+
+VISCARD_WIDE_LOOP void add_powers(const double* times, const double* values, std::size_t count,
+                                  double centre, double level, PowerSums& out) {
+  Lanes s[11] = {};
+  std::size_t i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    const Lanes d = *lanes_at(times + i) - centre;
+    const Lanes y = *lanes_at(values + i) - level;
+    const Lanes dd = d * d, ddd = dd * d;
+    s[0] += d;
+    s[1] += dd;
+    s[2] += ddd;
+    s[3] += dd * dd;
+    s[4] += dd * ddd;
+    s[5] += ddd * ddd;
+    s[6] += y;
+    s[7] += y * d;
+    s[8] += y * dd;
+    s[9] += y * ddd;
+    s[10] += y * y;
+  }
+  double sums[11];
+  for (std::size_t k = 0; k < 11; ++k) sums[k] = total(s[k]);
+  for (; i < count; ++i) {
+    const double d = times[i] - centre, y = values[i] - level;
+    const double terms[11] = {
+        d,     d * d,     d * d * d,     d * d * d * d, d * d * d * d * d, d * d * d * d * d * d, y,
+        y * d, y * d * d, y * d * d * d, y * y};
+    for (std::size_t k = 0; k < 11; ++k) sums[k] += terms[k];
+  }
+  out = {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5],
+         sums[6], sums[7], sums[8], sums[9], sums[10]};
+}
+
+bool all_finite(std::span<const double> values) {
+  return all_samples_finite(values.data(), values.size());
+}
+
+double sum_of(std::span<const double> values) {
+  return sum_of_samples(values.data(), values.size());
+}
+
+double dot_of(std::span<const double> a, std::span<const double> b) {
+  return dot_of_samples(a.data(), b.data(), a.size());
+}
+
+void column_products(const double* a, std::size_t n_a, const double* b, std::size_t n_b,
+                     std::size_t rows, double* out) {
+  const bool is_gram = b == nullptr;
+  if (is_gram) {
+    b = a;
+    n_b = n_a;
+  }
+  for (std::size_t j = 0; j < n_b; j += 2) {
+    std::size_t i = is_gram ? j : 0;
+    if (j + 1 < n_b) {
+      for (; i + 4 <= n_a; i += 4) {
+        products_of_4_by_2(a + i * rows, b + j * rows, rows, n_a, out + i + j * n_a);
+      }
+    }
+    for (; i < n_a; ++i) {
+      for (std::size_t k = j; k < std::min(j + 2, n_b); ++k) {
+        out[i + k * n_a] = dot_of_samples(a + i * rows, b + k * rows, rows);
+      }
+    }
+  }
+}
+
+StepRange step_range(std::span<const double> times) {
+  return times.size() < 2 ? StepRange{} : steps_of_samples(times.data(), times.size());
+}
+
+std::vector<std::size_t> far_from_neighbours(std::span<const double> values, double far) {
+  constexpr std::size_t kBlock = 256;
+  std::vector<std::size_t> found;
+  for (std::size_t begin = 1; begin + 1 < values.size(); begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, values.size() - 1);
+    if (!has_far_sample(values.data() + begin, end - begin, far)) continue;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (std::abs(values[i] - 0.5 * (values[i - 1] + values[i + 1])) > far) found.push_back(i);
+    }
+  }
+  return found;
+}
+
+PowerSums power_sums(std::span<const double> times, std::span<const double> values, double centre,
+                     double level) {
+  PowerSums sums;
+  add_powers(times.data(), values.data(), times.size(), centre, level, sums);
+  return sums;
+}
+
+}  // namespace viscard

@@ -1,0 +1,145 @@
+#include "fit/samples/stamp_noise.h"
+
+#include "fit/samples/median.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+
+// The fitted force at any time of contact, straight between readings.
+class ForceCurve {
+ public:
+  explicit ForceCurve(const StageResidual& left) {
+    for (std::size_t i = 0; i < left.time_s.size(); ++i) {
+      if (left.is_out_of_contact[i]) continue;
+      time_s_.push_back(left.time_s[i]);
+      force_N_.push_back(left.fitted_N[static_cast<Index>(i)]);
+    }
+  }
+  bool empty() const { return time_s_.empty(); }
+  double at(double t) const {
+    const auto next = std::upper_bound(time_s_.begin(), time_s_.end(), t);
+    if (next == time_s_.begin()) return force_N_.front();
+    if (next == time_s_.end()) return force_N_.back();
+    const auto i = static_cast<std::size_t>(next - time_s_.begin());
+    const double share = (t - time_s_[i - 1]) / (time_s_[i] - time_s_[i - 1]);
+    return force_N_[i - 1] + share * (force_N_[i] - force_N_[i - 1]);
+  }
+
+ private:
+  std::vector<double> time_s_, force_N_;
+};
+
+// Mean square of F(t + d) - F(t) for normal d, by the three points of Gauss and Hermite.
+Eigen::VectorXd squares_of_stamps(const StageResidual& left, const ForceCurve& curve,
+                                  double stamp_s) {
+  const double reach_s = std::sqrt(3.0) * stamp_s;
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(left.fitted_N.size());
+  for (std::size_t i = 0; i < left.time_s.size(); ++i) {
+    if (left.is_out_of_contact[i]) continue;
+    const double here_N = left.fitted_N[static_cast<Index>(i)];
+    const double later_N = curve.at(left.time_s[i] + reach_s) - here_N;
+    const double earlier_N = curve.at(left.time_s[i] - reach_s) - here_N;
+    squares[static_cast<Index>(i)] = (later_N * later_N + earlier_N * earlier_N) / 6.0;
+  }
+  return squares;
+}
+
+// Root mean squares at rest and in motion, nothing known of stamps.
+StageNoise plain_noise(const StageResidual& left) {
+  double sums[2] = {0.0, 0.0};
+  double counts[2] = {0.0, 0.0};
+  for (Index i = 0; i < left.residual_N.size(); ++i) {
+    const std::size_t kind = left.is_moving[static_cast<std::size_t>(i)] ? 1 : 0;
+    sums[kind] += left.residual_N[i] * left.residual_N[i];
+    counts[kind] += 1.0;
+  }
+  StageNoise noise;
+  noise.resting_N = std::sqrt(sums[0] / std::max(1.0, counts[0]));
+  // Too few samples in motion say nothing of their own.
+  noise.moving_N = counts[1] > 10.0 ? std::sqrt(sums[1] / counts[1]) : noise.resting_N;
+  noise.moving_N = std::max(noise.moving_N, noise.resting_N);
+  return noise;
+}
+
+// Of the readings that no stamp of the largest scatter could spoil.
+double quiet_N(const StageResidual& left, const Eigen::VectorXd& largest_squares, double usual_N) {
+  constexpr double kNothing = 1e-2;  // of the variance
+  double sum = 0.0, count = 0.0;
+  for (Index i = 0; i < left.residual_N.size(); ++i) {
+    if (left.is_moving[static_cast<std::size_t>(i)]) continue;
+    if (largest_squares[i] > kNothing * usual_N * usual_N) continue;
+    sum += left.residual_N[i] * left.residual_N[i];
+    count += 1.0;
+  }
+  return count > 10.0 ? std::sqrt(sum / count) : usual_N;
+}
+
+// Standard deviation that a few far ones do not move.
+double usual_size(const Eigen::VectorXd& residual) {
+  std::vector<double> sizes;
+  for (const double one : residual) sizes.push_back(std::abs(one));
+  return median(std::move(sizes)) / kMedianOfNormal;
+}
+
+// Logarithm of the likelihood but for a constant, at the best of some sizes of shaking.
+double log_likelihood(const StageResidual& left, const Eigen::VectorXd& squares,
+                      StageNoise& noise) {
+  constexpr int kSizes = 16;
+  constexpr double kRatio = 1.3;
+  double best = -std::numeric_limits<double>::infinity();
+  double shaking_N = noise.resting_N;
+  for (int k = 0; k < kSizes; ++k, shaking_N *= kRatio) {
+    double sum = 0.0;
+    for (Index i = 0; i < squares.size(); ++i) {
+      const double own_N =
+          left.is_moving[static_cast<std::size_t>(i)] ? shaking_N : noise.resting_N;
+      const double variance = own_N * own_N + squares[i];
+      sum -= 0.5 * (std::log(variance) + left.residual_N[i] * left.residual_N[i] / variance);
+    }
+    if (sum <= best) continue;
+    best = sum;
+    noise.moving_N = shaking_N;
+  }
+  return best;
+}
+
+}  // namespace
+
+StageNoise stage_noise(const StageResidual& left) {
+  const StageNoise plain = plain_noise(left);
+  const ForceCurve curve(left);
+  const double usual_N = usual_size(left.residual_N);
+  if (curve.empty() || !(usual_N > 0.0)) return plain;
+  constexpr double kShortest_s = 1e-4, kRatio = 1.25, kEnough = 6.0;
+  constexpr int kScatters = 29;  // up to 52 ms
+  const double longest_s = kShortest_s * std::pow(kRatio, kScatters - 1);
+  StageNoise noise;
+  noise.resting_N = quiet_N(left, squares_of_stamps(left, curve, longest_s), usual_N);
+  const auto likelihood_at = [&](double stamp_s) {
+    return log_likelihood(left, squares_of_stamps(left, curve, stamp_s), noise);
+  };
+  const double without = likelihood_at(0.0);
+  double best = without;
+  for (int k = 0; k < kScatters; ++k) {
+    const double stamp_s = kShortest_s * std::pow(kRatio, k);
+    const double value = likelihood_at(stamp_s);
+    if (value <= best) continue;
+    best = value;
+    noise.stamp_s = stamp_s;
+  }
+  if (best < without + kEnough) return plain;
+  const Eigen::VectorXd squares = squares_of_stamps(left, curve, noise.stamp_s);
+  log_likelihood(left, squares, noise);  // the shaking that belongs to it
+  noise.of_stamps_N = squares.cwiseSqrt();
+  return noise;
+}
+
+}  // namespace viscard

@@ -1,0 +1,252 @@
+#include "fit/search/order_choice.h"
+
+#include "fit/samples/column_products.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+constexpr double kStrongBic = 6.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
+
+double n_parameters(const SpectralModel& model, const SpectralState& state) {
+  return static_cast<double>(model.n_common() + 2 * state.n_terms() + model.n_nuisances());
+}
+
+// Whether the paired differences of block errors are above zero by more than so many standard
+// errors, over the blocks that both orders can predict.
+bool is_worse(const std::vector<LeftOut>& a, const std::vector<LeftOut>& best,
+              double standard_errors = 1.0) {
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!a[i].is_predictable || !best[i].is_predictable) continue;
+    differences.push_back(a[i].squared_error - best[i].squared_error);
+  }
+  const auto count = static_cast<double>(differences.size());
+  if (count < 2.0) return false;
+  double mean = 0.0;
+  for (const double difference : differences) mean += difference / count;
+  double square = 0.0;
+  for (const double difference : differences) square += std::pow(difference - mean, 2);
+  return mean > standard_errors * std::sqrt(square / (count * (count - 1.0)));
+}
+
+// Of the space of these columns (of unit length): by their Gram matrix where none hides among the
+// others, else by QR, pivoted where one hardly leaves them.
+Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
+  constexpr double kHidden = 1e-5, kNearlyDependent = 1e-9;
+  const Eigen::LLT<Eigen::MatrixXd> gram(gram_of(columns));
+  if (gram.info() == Eigen::Success && columns.cols() > 0 &&
+      gram.matrixLLT().diagonal().minCoeff() > kHidden) {
+    return gram.matrixU().solve<Eigen::OnTheRight>(columns);
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> quick(columns);
+  if (columns.rows() >= columns.cols() &&
+      quick.matrixQR().diagonal().cwiseAbs().minCoeff() > kNearlyDependent) {
+    return quick.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+}
+
+// Of few rows or columns the smaller matrix lives on the stack.
+constexpr Index kSmall = 12;
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kSmall, kSmall>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kSmall, 1>;
+
+// Error of predicting the rows r from all others, whose part of an orthonormal basis of the model
+// is q: (1 - q q^T)^-1 r, by the smaller of q q^T and q^T q.
+template <typename Matrix, typename Vector>
+LeftOut left_out_error(const Eigen::Ref<const Eigen::MatrixXd>& q,
+                       const Eigen::Ref<const Eigen::VectorXd>& r) {
+  LeftOut out;
+  out.squared_residual = out.squared_error = r.squaredNorm();
+  if (q.cols() == 0) return out;
+  const bool is_short = q.rows() <= q.cols();
+  const Matrix leverage =
+      is_short ? Matrix(q.lazyProduct(q.transpose())) : Matrix(q.transpose().lazyProduct(q));
+  constexpr double kAlone = 0.9;
+  if (q.squaredNorm() < kAlone) {  // the trace: no eigenvalue can reach it
+    const Eigen::LLT<Matrix> rest(Matrix::Identity(leverage.rows(), leverage.cols()) - leverage);
+    if (is_short) {
+      out.squared_error = Vector(rest.solve(r)).squaredNorm();
+    } else {
+      const Vector shares = q.transpose() * r;
+      out.squared_error = (r + q * Vector(rest.solve(shares))).squaredNorm();
+    }
+    return out;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(leverage);
+  out.is_predictable = solver.eigenvalues().maxCoeff() < kAlone;
+  if (!out.is_predictable) return out;
+  const Vector rest = (1.0 - solver.eigenvalues().array()).inverse();
+  const Matrix& w = solver.eigenvectors();
+  if (is_short) {
+    out.squared_error = rest.cwiseProduct(w.transpose() * r).squaredNorm();
+  } else {
+    const Vector shares = rest.cwiseProduct(w.transpose() * (q.transpose() * r));
+    out.squared_error = (r + q * (w * shares)).squaredNorm();
+  }
+  return out;
+}
+
+LeftOut left_out_error(const Eigen::Ref<const Eigen::MatrixXd>& q,
+                       const Eigen::Ref<const Eigen::VectorXd>& r) {
+  return std::min(q.rows(), q.cols()) <= kSmall
+             ? left_out_error<SmallMatrix, SmallVector>(q, r)
+             : left_out_error<Eigen::MatrixXd, Eigen::VectorXd>(q, r);
+}
+
+}  // namespace
+
+std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralState& state,
+                                     const std::vector<int>& blocks) {
+  // Nuisances stay as they are: a single block may hold all that is known of one (the unloading and
+  // its start), which says nothing for or against a term.
+  Eigen::MatrixXd jacobian = full_jacobian(model, state);
+  jacobian.conservativeResize(Eigen::NoChange, jacobian.cols() - model.n_nuisances());
+  const Index linear = state.coefficients.size();
+  const Eigen::VectorXd residual = model.data() - jacobian.leftCols(linear) * state.coefficients;
+  for (Index j = 0; j < jacobian.cols(); ++j) {
+    const double norm = jacobian.col(j).norm();
+    if (norm > 0.0) jacobian.col(j) /= norm;
+  }
+  const Eigen::MatrixXd basis = orthonormal_basis(jacobian);
+
+  const int n_blocks = blocks.empty() ? 0 : *std::max_element(blocks.begin(), blocks.end()) + 1;
+  std::vector<std::vector<Index>> rows(static_cast<std::size_t>(n_blocks));
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    rows[static_cast<std::size_t>(blocks[i])].push_back(static_cast<Index>(i));
+  }
+  std::vector<LeftOut> errors;
+  for (const std::vector<Index>& block : rows) {
+    if (block.empty()) continue;
+    const auto count = static_cast<Index>(block.size());
+    if (block.back() - block.front() + 1 == count) {  // in one piece: no copy
+      errors.push_back(left_out_error(basis.middleRows(block.front(), count),
+                                      residual.segment(block.front(), count)));
+    } else {
+      errors.push_back(left_out_error(Eigen::MatrixXd(basis(block, Eigen::all)),
+                                      Eigen::VectorXd(residual(block))));
+    }
+  }
+  return errors;
+}
+
+bool is_within_range(const SpectralModel& model, const SpectralState& state) {
+  constexpr double kTouch = 1e-6;
+  return state.n_terms() == 0 || (state.ln_tau.minCoeff() > model.ln_tau_min() + kTouch &&
+                                  state.ln_tau.maxCoeff() < model.ln_tau_max() - kTouch);
+}
+
+namespace {
+
+// The range of times ends at three records.
+bool outlasts_record(const SpectralModel& model, const SpectralState& state) {
+  return state.n_terms() > 0 && state.ln_tau.maxCoeff() > model.ln_tau_max() - std::log(9.0);
+}
+
+// What the choice knows of every order of the path.
+struct Candidates {
+  std::vector<OrderRow> rows;
+  std::vector<std::vector<LeftOut>> errors;
+  std::vector<bool> is_eligible;
+  std::size_t best_bic = 0, best_cv = 0;  // among the eligible
+};
+
+OrderRow scored(const SpectralModel& model, const SpectralState& state, double rss,
+                double least_rss, double n_samples, double n_effective) {
+  OrderRow row;
+  row.n_terms = static_cast<int>(state.n_terms());
+  row.rss = rss;
+  const double p = n_parameters(model, state);
+  const double misfit = n_effective * std::log(std::max(rss, least_rss) / n_samples);
+  const double spare = n_effective - p - 1.0;
+  row.aicc = spare > 0.0 ? misfit + 2.0 * p + 2.0 * p * (p + 1.0) / spare
+                         : std::numeric_limits<double>::infinity();
+  row.bic = misfit + p * std::log(n_effective);
+  return row;
+}
+
+Candidates candidates_of(const SpectralModel& model, const std::vector<SpectralState>& path,
+                         const ChoiceInput& input) {
+  Candidates all;
+  // When even the fullest order misfits, its residual is no noise and its memory no measure of how
+  // much was seen: at least five values for each of its parameters are granted.
+  const double granted = std::min(input.n_samples, 5.0 * n_parameters(model, path.back()));
+  const double n_effective = std::max(granted, input.n_samples / input.inflation);
+  for (const SpectralState& state : path) {
+    all.is_eligible.push_back(is_within_range(model, state));
+  }
+  if (std::find(all.is_eligible.begin(), all.is_eligible.end(), true) == all.is_eligible.end()) {
+    all.is_eligible.assign(path.size(), true);
+  }
+  // What rounding of the data makes of a sum of squares: below it no order is better than another.
+  constexpr double kRounding = 2.2e-16;
+  const double least_rss = std::max(kRounding * kRounding * model.data().squaredNorm(), 1e-300);
+  const double noise = std::max(input.rss.back(), least_rss);
+  std::optional<std::size_t> best_bic, best_cv;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    OrderRow row = scored(model, path[i], input.rss[i], least_rss, input.n_samples, n_effective);
+    all.errors.push_back(left_out_errors(model, path[i], input.blocks));
+    row.cv = row.rss - path[i].rss;  // what averages hide
+    for (const LeftOut& block : all.errors.back()) row.cv += block.squared_error;
+    row.cv /= noise;
+    all.rows.push_back(row);
+    if (!all.is_eligible[i]) continue;
+    if (!best_bic || row.bic < all.rows[*best_bic].bic) best_bic = i;
+    if (!best_cv || row.cv < all.rows[*best_cv].cv) best_cv = i;
+  }
+  all.best_bic = *best_bic;
+  all.best_cv = *best_cv;
+  return all;
+}
+
+// A term slower than a third of the record is what drift of the force and memory of the noise look
+// like: it takes strong evidence, or the next smaller order without one stands in for this.
+std::size_t without_lasting_term(const SpectralModel& model, const std::vector<SpectralState>& path,
+                                 const Candidates& all, std::size_t chosen) {
+  if (!outlasts_record(model, path[chosen])) return chosen;
+  constexpr double kStandardErrors = 3.0;
+  for (std::size_t i = chosen; i-- > 0;) {
+    if (all.rows[i].bic - all.rows[chosen].bic > kStrongBic ||
+        is_worse(all.errors[i], all.errors[all.best_cv], kStandardErrors)) {
+      return chosen;
+    }
+    if (all.is_eligible[i] && !outlasts_record(model, path[i])) return i;
+  }
+  return chosen;
+}
+
+}  // namespace
+
+OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralState>& path,
+                         const ChoiceInput& input) {
+  Candidates all = candidates_of(model, path, input);
+  std::size_t choice = all.best_cv;
+  for (std::size_t i = all.best_cv; i-- > 0;) {
+    if (all.is_eligible[i] && !is_worse(all.errors[i], all.errors[all.best_cv])) choice = i;
+  }
+  OrderScores scores;
+  scores.chosen = without_lasting_term(model, path, all, std::min(choice, all.best_bic));
+  scores.rows = std::move(all.rows);
+  scores.rows[scores.chosen].is_chosen = true;
+  // Orders that were left aside although they describe the data better by far.
+  constexpr double kVeryStrong = 10.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool better = scores.rows[i].bic < scores.rows[scores.chosen].bic - kVeryStrong;
+    if (all.is_eligible[i] || !better) continue;
+    scores.wants_faster |= path[i].ln_tau.minCoeff() <= model.ln_tau_min() + 1e-6;
+    scores.wants_slower |= path[i].ln_tau.maxCoeff() >= model.ln_tau_max() - 1e-6;
+  }
+  return scores;
+}
+
+}  // namespace viscard

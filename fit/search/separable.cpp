@@ -1,0 +1,246 @@
+#include "fit/search/separable.h"
+
+#include "fit/samples/column_products.h"
+#include "fit/search/nnls.h"
+#include "fit/search/projection.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+
+// L of N = L L^T for a matrix that may be singular: a direction without length gets a zero column.
+Eigen::MatrixXd lower_factor(Eigen::MatrixXd n) {
+  Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(n.rows(), n.cols());
+  const Eigen::VectorXd length = n.diagonal();
+  constexpr double kNothing = 1e-14;
+  for (Index j = 0; j < n.cols(); ++j) {
+    if (!(n(j, j) > kNothing * length[j])) continue;
+    const Index left = n.rows() - j;
+    lower.col(j).tail(left) = n.col(j).tail(left) / std::sqrt(n(j, j));
+    n.bottomRightCorner(left, left) -=
+        lower.col(j).tail(left) * lower.col(j).tail(left).transpose();
+  }
+  return lower;
+}
+
+// Residual of variable projection. Only |r|, J^T r and J^T J matter to the solver, so it is handed
+// the smallest problem with the same three.
+class ProjectedCost final : public ceres::CostFunction {
+ public:
+  // The solver has absolute thresholds; scaled like this they mean the same for data of any unit.
+  ProjectedCost(const SpectralModel& model, Index n_terms)
+      : model_(model), scale_(1e6 / std::max(model.data().norm(), 1e-280)) {
+    const int size = static_cast<int>(n_terms + model.n_nuisances());
+    mutable_parameter_block_sizes()->push_back(size);
+    set_num_residuals(size + 1);
+  }
+
+  bool Evaluate(const double* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const Index size = num_residuals() - 1;
+    const Eigen::Map<const Eigen::VectorXd> p(parameters[0], size);
+    const Projection at = project(model_, p);
+    Eigen::Map<Eigen::VectorXd> out(residuals, size + 1);
+    out.setZero();
+    out[size] = scale_ * std::sqrt(at.rss);
+    if (!std::isfinite(out[size])) return false;
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+
+    const Eigen::MatrixXd lower = lower_factor(at.normal);
+    for (Index j = 0; j < size; ++j) {  // lower * r = gradient
+      const double part = at.gradient[j] - lower.row(j).head(j).dot(out.head(j));
+      out[j] = lower(j, j) > 0.0 ? part / lower(j, j) : 0.0;
+    }
+    out[size] = scale_ * std::sqrt(std::max(0.0, at.rss - out.head(size).squaredNorm()));
+    out.head(size) *= scale_;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(
+        jacobians[0], size + 1, size);
+    jacobian.topRows(size) = scale_ * lower.transpose();
+    jacobian.row(size).setZero();
+    return true;
+  }
+
+ private:
+  const SpectralModel& model_;
+  const double scale_;
+};
+
+}  // namespace
+
+SpectralState sorted_by_time(SpectralState state, Index n_common) {
+  const Index n_terms = state.n_terms();
+  std::vector<Index> order(static_cast<std::size_t>(n_terms));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(),
+            [&](Index a, Index b) { return state.ln_tau[a] < state.ln_tau[b]; });
+  const SpectralState old = state;
+  for (Index i = 0; i < n_terms; ++i) {
+    const Index from = order[static_cast<std::size_t>(i)];
+    state.ln_tau[i] = old.ln_tau[from];
+    state.coefficients[n_common + i] = old.coefficients[n_common + from];
+  }
+  return state;
+}
+
+std::vector<bool> free_columns(const SpectralModel& model, Index n_terms) {
+  std::vector<bool> is_free;
+  for (const CommonColumn& column : model.common()) {
+    is_free.push_back(column.is_free || model.may_be_negative());
+  }
+  is_free.resize(is_free.size() + static_cast<std::size_t>(n_terms), model.may_be_negative());
+  return is_free;
+}
+
+SpectralState solve_coefficients(const SpectralModel& model, const Eigen::VectorXd& ln_tau,
+                                 const Eigen::VectorXd& nuisance) {
+  SpectralState state{ln_tau, nuisance, {}, 0.0, true};
+  const ModelColumns columns = model.columns(ln_tau, nuisance, /*with_slopes=*/false);
+  const Coefficients best =
+      best_coefficients(model, columns.values, free_columns(model, ln_tau.size()));
+  state.coefficients = best.x;
+  state.rss = best.rss;
+  return state;
+}
+
+SpectralState refine(const SpectralModel& model, const SpectralState& start,
+                     const RefineOptions& options) {
+  const Index n_terms = start.n_terms();
+  const Index size = n_terms + model.n_nuisances();
+  if (size == 0) return solve_coefficients(model, start.ln_tau, start.nuisance);
+  const Box box = search_box(model, n_terms);
+  Eigen::VectorXd p =
+      search_parameters(model, start.ln_tau, start.nuisance).cwiseMax(box.low).cwiseMin(box.high);
+  ceres::Problem problem;
+  problem.AddParameterBlock(p.data(), static_cast<int>(size));
+  for (Index i = 0; i < size; ++i) {
+    problem.SetParameterLowerBound(p.data(), static_cast<int>(i), box.low[i]);
+    problem.SetParameterUpperBound(p.data(), static_cast<int>(i), box.high[i]);
+  }
+  problem.AddResidualBlock(new ProjectedCost(model, n_terms), nullptr, p.data());
+
+  ceres::Solver::Options ceres_options;
+  ceres_options.linear_solver_type = ceres::DENSE_QR;
+  ceres_options.max_num_iterations = options.max_iterations;
+  ceres_options.function_tolerance = options.tolerance;
+  ceres_options.parameter_tolerance = 1e-12;
+  ceres_options.gradient_tolerance = 1e-30;
+  ceres_options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(ceres_options, &problem, &summary);
+
+  SpectralState state = solve_coefficients(model, p.head(n_terms), nuisance_from(model, p));
+  state.is_converged = summary.termination_type == ceres::CONVERGENCE;
+  return sorted_by_time(std::move(state), model.n_common());
+}
+
+Eigen::MatrixXd full_jacobian(const SpectralModel& model, const SpectralState& state) {
+  const ModelColumns columns = model.columns(state.ln_tau, state.nuisance, /*with_slopes=*/true);
+  const Index linear = columns.values.cols();
+  const Index n_terms = state.n_terms();
+  Eigen::MatrixXd jacobian(model.n_rows(), linear + n_terms + model.n_nuisances());
+  jacobian.leftCols(linear) = columns.values;
+  jacobian.rightCols(n_terms + model.n_nuisances()) =
+      nonlinear_slopes(model, columns, state.coefficients);
+  for (Index k = 0; k < model.n_nuisances(); ++k) {
+    jacobian.col(linear + n_terms + k) /= model.nuisances()[static_cast<std::size_t>(k)].scale;
+  }
+  return jacobian;
+}
+
+namespace {
+
+// Jacobian and residual of all rows, those hidden in averages too.
+struct FullSystem {
+  Eigen::MatrixXd jacobian;
+  Eigen::VectorXd residual;
+};
+
+FullSystem full_system(const SpectralModel& model, const SpectralState& state) {
+  const Index linear = state.coefficients.size();
+  FullSystem all{full_jacobian(model, state), {}};
+  all.residual = model.data() - all.jacobian.leftCols(linear) * state.coefficients;
+  const SpectralModel::HiddenRows hidden = model.hidden_rows(state.ln_tau);
+  const Index visible = all.residual.size(), more = hidden.data.size();
+  if (more == 0) return all;
+  all.jacobian.conservativeResize(visible + more, Eigen::NoChange);
+  all.residual.conservativeResize(visible + more);
+  auto rows = all.jacobian.bottomRows(more);
+  rows.setZero();
+  rows.leftCols(linear) = hidden.columns.values;
+  rows.middleCols(linear, state.n_terms()) =
+      hidden.columns.term_slopes *
+      state.coefficients.segment(model.n_common(), state.n_terms()).asDiagonal();
+  all.residual.tail(more) = hidden.data - hidden.columns.values * state.coefficients;
+  return all;
+}
+
+// By normal equations where no column hides among the others: the step, not its target, is all that
+// they make less exact. Else by QR.
+Eigen::VectorXd gauss_newton_step(const FullSystem& at) {
+  constexpr double kHidden = 1e-3;
+  const Eigen::VectorXd scale = at.jacobian.colwise().norm().transpose().cwiseMax(1e-300);
+  const Eigen::VectorXd unit = scale.cwiseInverse();
+  const Eigen::LLT<Eigen::MatrixXd> gram(unit.asDiagonal() * gram_of(at.jacobian) *
+                                         unit.asDiagonal());
+  if (gram.info() == Eigen::Success && gram.matrixLLT().diagonal().minCoeff() > kHidden) {
+    const Eigen::VectorXd right = transposed_product(at.jacobian, at.residual);
+    return gram.solve(right.cwiseProduct(unit)).cwiseProduct(unit);
+  }
+  const Eigen::MatrixXd columns = at.jacobian * unit.asDiagonal();
+  return columns.colPivHouseholderQr().solve(at.residual).cwiseProduct(unit);
+}
+
+bool is_allowed(const SpectralModel& model, const SpectralState& state) {
+  const std::vector<bool> is_free = free_columns(model, state.n_terms());
+  for (Index j = 0; j < state.coefficients.size(); ++j) {
+    if (!is_free[static_cast<std::size_t>(j)] && !(state.coefficients[j] > 0.0)) return false;
+  }
+  return state.n_terms() == 0 || (state.ln_tau.minCoeff() >= model.ln_tau_min() &&
+                                  state.ln_tau.maxCoeff() <= model.ln_tau_max());
+}
+
+}  // namespace
+
+SpectralState polish(const SpectralModel& model, const SpectralState& start) {
+  constexpr int kMaxSteps = 60;
+  constexpr double kSmallStep = 1e-13, kNearly = 1e-9;
+  double last_moved = 1.0;
+  const Index linear = start.coefficients.size();
+  const Index n_terms = start.n_terms();
+  if (!is_allowed(model, start)) return start;  // on a sign bound there is no interior to step in
+  SpectralState state = start;
+  FullSystem now = full_system(model, state);
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const Eigen::VectorXd change = gauss_newton_step(now);
+    if (!change.allFinite()) return state;
+    SpectralState next = state;
+    next.coefficients += change.head(linear);
+    next.ln_tau += change.segment(linear, n_terms);
+    next.nuisance += change.tail(model.n_nuisances());
+    if (!is_allowed(model, next)) return state;
+    FullSystem then = full_system(model, next);
+    // Rounding may raise the sum by a few units in the last place near the optimum.
+    if (!(then.residual.squaredNorm() <= now.residual.squaredNorm() * (1.0 + 1e-9) + 1e-300)) {
+      return state;
+    }
+    next.rss = then.residual.head(model.n_rows()).squaredNorm();
+    state = std::move(next);
+    now = std::move(then);
+    const double moved = n_terms == 0 ? 0.0 : change.segment(linear, n_terms).cwiseAbs().maxCoeff();
+    // Steps that no longer shrink are rounding.
+    if (moved < kSmallStep || (moved < kNearly && moved > 0.5 * last_moved)) break;
+    last_moved = moved;
+  }
+  return state;
+}
+
+}  // namespace viscard

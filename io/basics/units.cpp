@@ -1,0 +1,252 @@
+#include "io/basics/units.h"
+
+#include <locale.h>
+#include <udunits2.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+// UDUNITS keeps its parser and its error handler in globals, and reads reals with strtod.
+class UnitsGuard {
+ public:
+  UnitsGuard() : lock_(mutex()), before_(uselocale(c_locale())) {}
+  ~UnitsGuard() { uselocale(before_); }
+  UnitsGuard(const UnitsGuard&) = delete;
+  UnitsGuard& operator=(const UnitsGuard&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex the_mutex;
+    return the_mutex;
+  }
+  static locale_t c_locale() {
+    static const locale_t locale = newlocale(LC_ALL_MASK, "C", nullptr);
+    return locale;
+  }
+  std::lock_guard<std::mutex> lock_;
+  locale_t before_;
+};
+
+using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
+using Converter = std::unique_ptr<cv_converter, decltype(&cv_free)>;
+
+// The database, read once (about 5 ms) when the first unit is met. Call under UnitsGuard.
+ut_system* unit_system() {
+  static const std::unique_ptr<ut_system, decltype(&ut_free_system)> system = [] {
+    ut_set_error_message_handler(&ut_ignore);
+    return std::unique_ptr<ut_system, decltype(&ut_free_system)>(ut_read_xml(nullptr),
+                                                                 &ut_free_system);
+  }();
+  if (!system) {
+    throw std::runtime_error(
+        "the database of units cannot be read; install the package libudunits2-data (or set "
+        "UDUNITS2_XML_PATH to its udunits2.xml)");
+  }
+  return system.get();
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+// Words of the trade that UDUNITS lacks; they count things, so they are numbers.
+std::string with_known_words(std::string_view text, bool is_temperature) {
+  struct Word {
+    std::string_view word, meaning;
+  };
+  constexpr std::array<Word, 9> kWords{{{"step", "1"},
+                                        {"steps", "1"},
+                                        {"sample", "1"},
+                                        {"samples", "1"},
+                                        {"sps", "s-1"},
+                                        {"SPS", "s-1"},
+                                        {"counts", "count"},
+                                        {"secs", "s"},
+                                        {"deg", "arc_degree"}}};
+  if (is_temperature && (text == "C" || text == "°C")) return "degC";
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t end = i;
+    while (end < text.size() && is_letter(text[end])) ++end;
+    if (end == i) {
+      out += text[i++];
+      continue;
+    }
+    const std::string_view word = text.substr(i, end - i);
+    const auto* known = std::find_if(kWords.begin(), kWords.end(),
+                                     [&](const Word& entry) { return entry.word == word; });
+    out += known == kWords.end() ? word : known->meaning;
+    i = end;
+  }
+  return out;
+}
+
+bool is_no_unit(std::string_view text) {
+  return text.empty() || text == "-" || text == "1";
+}
+
+Unit parse(std::string_view text, bool is_temperature) {
+  if (text.find('\0') != std::string_view::npos || text.size() > 100) return {nullptr, &ut_free};
+  const std::string words = with_known_words(text, is_temperature);
+  return {ut_parse(unit_system(), words.c_str(), UT_UTF8), &ut_free};
+}
+
+bool has_angle(const ut_unit* unit) {
+  std::array<char, 256> text{};
+  const int size = ut_format(unit, text.data(), text.size() - 1, UT_ASCII | UT_DEFINITION);
+  return size > 0 && std::string_view(text.data()).find("rad") != std::string_view::npos;
+}
+
+// The scale, or nothing when the text is no unit, or is one of another quantity.
+std::optional<UnitScale> try_scale(std::string_view unit_text, std::string_view si_unit) {
+  const UnitsGuard guard;
+  const bool is_temperature = si_unit == "degC" || si_unit == "K";
+  const Unit from = parse(is_no_unit(unit_text) ? "1" : unit_text, is_temperature);
+  const Unit to = parse(is_no_unit(si_unit) ? "1" : si_unit, is_temperature);
+  if (!from || !to || ut_are_convertible(from.get(), to.get()) == 0) return std::nullopt;
+  const Converter converter(ut_get_converter(from.get(), to.get()), &cv_free);
+  if (!converter) return std::nullopt;
+  const double at_0 = cv_convert_double(converter.get(), 0.0);
+  const double at_1 = cv_convert_double(converter.get(), 1.0);
+  const double at_2 = cv_convert_double(converter.get(), 2.0);
+  UnitScale scale{at_1 - at_0, at_0};
+  // Reciprocal and logarithmic units have no scale.
+  const bool is_straight = std::abs(at_2 - at_1 - scale.factor) <= 1e-9 * std::abs(scale.factor);
+  if (!is_straight || !std::isfinite(scale.factor) || scale.factor == 0.0) return std::nullopt;
+  if (si_unit == "Hz" && has_angle(from.get())) scale.factor /= 2.0 * std::numbers::pi;
+  return scale;
+}
+
+const char* example_of(std::string_view si_unit) {
+  struct Example {
+    std::string_view unit;
+    const char* text;
+  };
+  static constexpr std::array<Example, 16> kExamples{{{"m", "\"40 um\""},
+                                                      {"s", "\"250 ms\""},
+                                                      {"Pa", "\"1.8 MPa\""},
+                                                      {"N", "\"250 gf\""},
+                                                      {"V", "\"1.2 uV\""},
+                                                      {"V/N", "\"0.7255 V/N\""},
+                                                      {"N/m", "\"10 N/mm\""},
+                                                      {"m/s", "\"0.5 mm/s\""},
+                                                      {"m/s2", "\"200 mm/s2\""},
+                                                      {"kg/m3", "\"965 kg/m3\""},
+                                                      {"Hz", "\"80 Hz\""},
+                                                      {"degC", "\"23 degC\""},
+                                                      {"K", "\"296 K\""},
+                                                      {"1/m", "\"3200 steps/mm\""},
+                                                      {"1/s", "\"1e-6 1/s\""},
+                                                      {"1", "0.495"}}};
+  for (const Example& example : kExamples) {
+    if (example.unit == si_unit) return example.text;
+  }
+  return nullptr;
+}
+
+[[noreturn]] void fail(std::string_view text, std::string_view si_unit, const std::string& why) {
+  std::string message = "'" + std::string(text) + "' " + why;
+  if (const char* example = example_of(is_no_unit(si_unit) ? "1" : si_unit)) {
+    message += "; write it like " + std::string(example);
+  }
+  throw std::invalid_argument(message);
+}
+
+std::string unit_name(std::string_view si_unit) {
+  return is_no_unit(si_unit) ? "a plain number" : "a unit of " + std::string(si_unit);
+}
+
+// n for factor = 10^n to rounding.
+std::optional<int> power_of_ten(double factor) {
+  const double exponent = std::round(std::log10(std::abs(factor)));
+  if (!(std::abs(exponent) < 30.0)) return std::nullopt;
+  const bool is_power = std::abs(factor / std::pow(10.0, exponent) - 1.0) < 1e-12;
+  return is_power ? std::optional<int>(static_cast<int>(exponent)) : std::nullopt;
+}
+
+// "0.13" mm is the double nearest to 0.13e-3 m and not 0.13 * 1e-3, which may be its neighbour: the
+// decimal point is shifted in the text.
+double scaled(std::string_view digits, double value, const UnitScale& scale) {
+  const auto shift = power_of_ten(scale.factor);
+  if (!shift || scale.offset != 0.0) return value * scale.factor + scale.offset;
+  int exponent = *shift;
+  const std::size_t e = digits.find_first_of("eE");
+  if (e != std::string_view::npos) {
+    int written = 0;
+    const std::size_t first = e + (digits[e + 1] == '+' ? 2 : 1);
+    std::from_chars(digits.data() + first, digits.data() + digits.size(), written);
+    exponent += written;
+  }
+  const std::string shifted = std::string(digits.substr(0, e)) + "e" + std::to_string(exponent);
+  double out = 0.0;
+  std::from_chars(shifted.data(), shifted.data() + shifted.size(), out);
+  return out;
+}
+
+}  // namespace
+
+UnitScale scale_to_si(std::string_view unit_text, const char* si_unit) {
+  const std::string_view unit = trimmed(unit_text);
+  if (const auto scale = try_scale(unit, si_unit)) return *scale;
+  std::string why = is_unit(unit) ? "is not " : "is not a known unit (capitals matter); expected ";
+  why += unit_name(si_unit);
+  if (std::string_view(si_unit) == "N" && try_scale(unit, "kg")) {
+    why += " (for the weight of a mass write gf or kgf)";
+  }
+  fail(unit, si_unit, why);
+}
+
+bool is_unit_of(std::string_view unit_text, const char* si_unit) {
+  return try_scale(trimmed(unit_text), si_unit).has_value();
+}
+
+bool is_unit(std::string_view unit_text) {
+  const std::string_view unit = trimmed(unit_text);
+  if (is_no_unit(unit)) return true;
+  const UnitsGuard guard;
+  return parse(unit, true) != nullptr;
+}
+
+double si_from_text(std::string_view text, const char* si_unit) {
+  const std::string_view all = trimmed(text);
+  std::string_view digits = all;
+  if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error == std::errc::invalid_argument) {
+    fail(text, si_unit,
+         "does not begin with a number; expected a number and " + unit_name(si_unit));
+  }
+  if (error != std::errc() || !std::isfinite(value)) fail(text, si_unit, "is not a finite number");
+  const std::string_view unit =
+      trimmed({end, static_cast<std::size_t>(digits.data() + digits.size() - end)});
+  if (unit.empty()) return value;
+  if (unit.front() == ',') fail(text, si_unit, "has a comma; the decimal sign here is a point");
+  const std::string_view number(digits.data(), static_cast<std::size_t>(end - digits.data()));
+  return scaled(number, value, scale_to_si(unit, si_unit));
+}
+
+std::string text_from_number(double value) {
+  std::array<char, 40> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+}  // namespace viscard

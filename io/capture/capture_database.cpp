@@ -1,0 +1,147 @@
+#include "io/capture/capture_database.h"
+
+#include "io/basics/units.h"
+#include "io/capture/capture_schema.h"
+#include "io/config/config_file.h"
+
+#include <sqlite3.h>
+#include <time.h>
+
+#include <ctime>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+
+namespace viscard {
+namespace {
+
+double clock_s(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::string iso_8601_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  const std::size_t size = std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return {text, size};
+}
+
+std::string boot_id() {
+  std::ifstream file("/proc/sys/kernel/random/boot_id");
+  std::string id;
+  std::getline(file, id);
+  return id;
+}
+
+}  // namespace
+
+CaptureDatabase::CaptureDatabase(const std::filesystem::path& path, const CapturedRun& about)
+    : database_(path, Database::Access::kReadWrite) {
+  create(path, about);
+  raw_.emplace(database_.prepare("INSERT INTO raw_bytes VALUES(?,?,?,?,?)"));
+  sample_.emplace(database_.prepare("INSERT INTO load_samples VALUES(?,?,?,?,?,?,?,?,?)"));
+  report_.emplace(database_.prepare("INSERT INTO stage_reports VALUES(?,?,?,?)"));
+  move_.emplace(database_.prepare("INSERT INTO moves VALUES(?,?,?,?,?,?,?,?)"));
+  event_.emplace(database_.prepare("INSERT INTO events VALUES(?,?,?,?,?)"));
+  run_.emplace(database_.prepare("INSERT OR REPLACE INTO run VALUES(?,?)"));
+}
+
+void CaptureDatabase::write(const std::vector<RunRecord>& batch, bool is_synced) {
+  if (is_synced) database_.execute("PRAGMA synchronous=FULL");
+  database_.execute("BEGIN");
+  for (const RunRecord& record : batch) {
+    ++seq_;
+    std::visit([this](const auto& one) { insert(one); }, record);
+  }
+  // Also what makes a transaction of an empty batch, so that there is something to sync.
+  if (is_synced) set("n_records_synced", std::to_string(seq_));
+  database_.execute("COMMIT");
+  if (is_synced) database_.execute("PRAGMA synchronous=NORMAL");
+}
+
+void CaptureDatabase::finish(const std::string& status) {
+  database_.execute("PRAGMA synchronous=FULL");
+  database_.execute("BEGIN");
+  set("status", status);
+  set("finished_at", iso_8601_now());
+  set("finish_clock_monotonic_s", text_from_number(clock_s(CLOCK_MONOTONIC)));
+  set("finish_clock_realtime_s", text_from_number(clock_s(CLOCK_REALTIME)));
+  database_.execute("COMMIT");
+  // From here on the run is safe; a reader that has the file open only keeps the side files.
+  try {
+    database_.execute("PRAGMA wal_checkpoint(TRUNCATE)");
+    database_.text_of("PRAGMA journal_mode=DELETE");
+  } catch (const SqliteError& error) {
+    if (error.code() != SQLITE_BUSY) throw;
+  }
+}
+
+// Tables and what the run is are written before the switch to WAL, so that they stand in the main
+// file.
+void CaptureDatabase::create(const std::filesystem::path& path, const CapturedRun& about) {
+  database_.execute("PRAGMA synchronous=FULL");
+  database_.execute("BEGIN");
+  database_.execute(("PRAGMA application_id=" + std::to_string(kCaptureApplicationId)).c_str());
+  database_.execute(("PRAGMA user_version=" + std::to_string(kCaptureSchemaVersion)).c_str());
+  database_.execute(kCaptureTables);
+  run_.emplace(database_.prepare("INSERT OR REPLACE INTO run VALUES(?,?)"));
+  set("status", "open");
+  set("program", about.program.empty() ? "viscard " VISCARD_VERSION : about.program);
+  set("command", about.command);
+  set("started_at", about.started_at.empty() ? iso_8601_now() : about.started_at);
+  set("start_clock_monotonic_s", text_from_number(clock_s(CLOCK_MONOTONIC)));
+  set("start_clock_realtime_s", text_from_number(clock_s(CLOCK_REALTIME)));
+  set("boot_id", boot_id());
+  set("rig_toml", toml_from_rig(about.rig));
+  set("test_toml", toml_from_test(about.plan));
+  set("specimen_toml", toml_from_specimen(about.specimen));
+  database_.execute("COMMIT");
+  run_.reset();
+  if (database_.text_of("PRAGMA journal_mode=WAL") != "wal") {
+    throw std::runtime_error(path.string() +
+                             ": this disk cannot keep a write-ahead log (a network share?); "
+                             "capture to a local disk");
+  }
+  database_.execute("PRAGMA synchronous=NORMAL");
+}
+
+void CaptureDatabase::set(const char* key, const std::string& value) {
+  run_->bind(1, std::string_view(key)).bind(2, std::string_view(value)).run();
+}
+
+void CaptureDatabase::insert(const RawBytes& raw) {
+  const std::string_view device = raw.device == Device::kStage ? "stage" : "load_cell";
+  raw_->bind(1, seq_).bind(2, raw.host_time_s).bind(3, device).bind(4, raw.is_sent);
+  raw_->bind_blob(5, raw.bytes).run();
+}
+
+void CaptureDatabase::insert(const LoadSample& sample) {
+  sample_->bind(1, seq_).bind(2, sample.index).bind(3, sample.host_time_s);
+  sample_->bind(4, sample.device_time_s).bind(5, sample.counts).bind(6, sample.volts);
+  sample_->bind(7, sample.is_saturated).bind(8, sample.is_glitch);
+  sample_->bind(9, sample.force_N).run();
+}
+
+void CaptureDatabase::insert(const StageReport& report) {
+  report_->bind(1, seq_).bind(2, report.host_time_s).bind(3, report.position_m);
+  report_->bind(4, std::string_view(report.state)).run();
+}
+
+void CaptureDatabase::insert(const CommandedMove& commanded) {
+  const StageMove& move = commanded.move;
+  move_->bind(1, seq_).bind(2, move.start_time_s).bind(3, move.from_m).bind(4, move.to_m);
+  move_->bind(5, move.speed_m_s).bind(6, move.acceleration_m_s2);
+  move_->bind(7, commanded.start_uncertainty_s);
+  move_->bind(8, std::string_view(commanded.purpose)).run();
+}
+
+void CaptureDatabase::insert(const RunEvent& event) {
+  event_->bind(1, seq_).bind(2, event.host_time_s).bind(3, std::string_view(event.name));
+  event_->bind(4, std::string_view(event.value)).bind(5, std::string_view(event.text)).run();
+}
+
+}  // namespace viscard

@@ -1,0 +1,180 @@
+#include "io/capture/capture_export.h"
+
+#include "io/basics/units.h"
+#include "io/capture/capture_file.h"
+#include "models/experiment/calibration.h"
+#include "models/experiment/motion_profile.h"
+#include "models/experiment/sample_force.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+using Buffer = fmt::memory_buffer;
+
+// The last event of that name, as a number in SI.
+std::optional<double> number_of_event(const CapturedRun& run, const std::string& name) {
+  std::optional<double> found;
+  for (const RunEvent& event : run.events) {
+    if (event.name != name) continue;
+    try {
+      found = si_from_text(event.value, "1");
+    } catch (const std::invalid_argument&) {
+      // An event without a number says nothing here.
+    }
+  }
+  return found;
+}
+
+std::string on_one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  }
+  return text;
+}
+
+void append_head(Buffer& out, const CapturedRun& run, double tare_N) {
+  const auto line = [&out](const std::string& text) {
+    fmt::format_to(std::back_inserter(out), "# {}\n", on_one_line(text));
+  };
+  line("load-cell samples of a capture, written by viscard " VISCARD_VERSION);
+  line("captured: " + run.started_at + " by " + run.program + ": " + run.command);
+  line("status: " + run.status +
+       (run.status == "finished" ? "" : " (not the whole test: everything recorded is below)"));
+  line("specimen: " + run.specimen.id + ", " + run.specimen.material);
+  line("rig: " + run.rig.name + ", calibration " + run.rig.calibration.id + " of " +
+       run.rig.calibration.date);
+  line("force_N = " + std::string(run.rig.load_cell.compression_is_positive ? "" : "-") +
+       "(volts - " + text_from_number(run.rig.calibration.zero_volts) + " V)/(" +
+       text_from_number(run.rig.calibration.volts_per_newton) + " V/N) - tare " +
+       text_from_number(tare_N) + " N");
+  for (const RunEvent& event : run.events) {
+    line(fmt::format("event at {:.3f} s: {} {} {}", event.host_time_s, event.name, event.value,
+                     event.text));
+  }
+}
+
+void append_cell(Buffer& out, const std::optional<double>& value) {
+  if (value && std::isfinite(*value)) {
+    fmt::format_to(std::back_inserter(out), "{}", *value);
+  }
+  out.push_back(',');
+}
+
+std::string quoted_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+// What is known of a sample besides the sample itself.
+class SampleRows {
+ public:
+  explicit SampleRows(const CapturedRun& run)
+      : run_(run),
+        tare_N_(number_of_event(run, "tare").value_or(0.0)),
+        contact_m_(number_of_event(run, "contact")) {
+    for (const CommandedMove& move : run.moves) moves_.push_back(move.move);
+  }
+
+  double tare_N() const { return tare_N_; }
+  bool has_depth() const { return contact_m_.has_value() && !moves_.empty(); }
+
+  void append(Buffer& out, const LoadSample& sample) {
+    const std::optional<double> volts = volts_of(sample);
+    const std::optional<double> force_N = force_of(sample);
+    append_cell(out, sample.host_time_s);
+    append_cell(out, sample.device_time_s);
+    append_cell(out, sample.counts);
+    append_cell(out, volts);
+    append_cell(out, force_N);
+    std::optional<double> stage_m;
+    if (!moves_.empty()) stage_m = position_m(moves_, sample.host_time_s);
+    append_cell(out, stage_m);
+    if (has_depth()) append_cell(out, depth_of(*stage_m, force_N));
+    fmt::format_to(std::back_inserter(out), "{},{},{}\n", phase_at(sample.host_time_s),
+                   sample.is_saturated ? 1 : 0, sample.is_glitch ? 1 : 0);
+  }
+
+ private:
+  std::optional<double> volts_of(const LoadSample& sample) const {
+    return sample.force_N ? std::nullopt : reading_from_sample(sample, run_.rig.load_cell);
+  }
+  std::optional<double> force_of(const LoadSample& sample) const {
+    const std::optional<double> force_N = force_N_from_sample(sample, run_.rig);
+    return force_N ? std::optional(*force_N - tare_N_) : std::nullopt;
+  }
+  std::optional<double> depth_of(double stage_m, const std::optional<double>& force_N) const {
+    if (!force_N) return std::nullopt;
+    const double frame_N_m = run_.rig.frame.stiffness_N_m;
+    return stage_m - *contact_m_ - (frame_N_m > 0.0 ? *force_N / frame_N_m : 0.0);
+  }
+  // Samples come in order, so that the events are gone through once.
+  const std::string& phase_at(double time_s) {
+    while (next_event_ < run_.events.size() && run_.events[next_event_].host_time_s <= time_s) {
+      const RunEvent& event = run_.events[next_event_++];
+      if (event.name == "phase") phase_ = quoted_cell(event.value);
+    }
+    return phase_;
+  }
+
+  const CapturedRun& run_;
+  double tare_N_;
+  std::optional<double> contact_m_;
+  std::vector<StageMove> moves_;
+  std::size_t next_event_ = 0;
+  std::string phase_;
+};
+
+std::string escaped(const std::string& bytes) {
+  std::string out;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\r') {
+      out += "\\r";
+    } else if (c == '\n') {
+      out += "\\n";
+    } else if (c == '\\') {
+      out += "\\\\";
+    } else if (byte < 0x20 || byte >= 0x7f) {
+      out += fmt::format("\\x{:02x}", byte);
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string csv_from_capture(const CapturedRun& run) {
+  SampleRows rows(run);
+  Buffer out;
+  append_head(out, run, rows.tare_N());
+  fmt::format_to(std::back_inserter(out),
+                 "time_s,device_time_s,counts,volts,force_N,stage_position_m,{}phase,is_saturated,"
+                 "is_glitch\n",
+                 rows.has_depth() ? "depth_m," : "");
+  for (const LoadSample& sample : run.load_samples) rows.append(out, sample);
+  return fmt::to_string(out);
+}
+
+std::string csv_from_raw_bytes(const std::filesystem::path& capture) {
+  Buffer out;
+  fmt::format_to(std::back_inserter(out), "host_time_s,device,direction,bytes\n");
+  read_raw_bytes(capture, [&out](const RawBytes& raw) {
+    fmt::format_to(std::back_inserter(out), "{},{},{},{}\n", raw.host_time_s,
+                   raw.device == Device::kStage ? "stage" : "load_cell",
+                   raw.is_sent ? "sent" : "received", quoted_cell(escaped(raw.bytes)));
+  });
+  return fmt::to_string(out);
+}
+
+}  // namespace viscard

@@ -1,0 +1,140 @@
+#include "io/capture/sqlite_database.h"
+
+#include <sqlite3.h>
+
+namespace viscard {
+namespace {
+
+[[noreturn]] void fail(sqlite3* database, const std::string& file, int code) {
+  std::string what = file + ": ";
+  switch (code & 0xff) {
+    case SQLITE_FULL:
+      what += "the disk is full";
+      break;
+    case SQLITE_IOERR:
+      what += "the disk could not be read or written (full, removed or over quota?)";
+      break;
+    case SQLITE_NOTADB:
+      what += "is not an SQLite database, so not a capture";
+      break;
+    case SQLITE_CORRUPT:
+      what += "is damaged";
+      break;
+    case SQLITE_BUSY:
+      what += "is held by another program";
+      break;
+    default:
+      what += database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(code);
+  }
+  throw SqliteError(what, code & 0xff);
+}
+
+}  // namespace
+
+void Statement::Finalize::operator()(sqlite3_stmt* statement) const {
+  sqlite3_finalize(statement);
+}
+
+Statement::Statement(sqlite3* database, const char* sql, std::string file)
+    : file_(std::move(file)) {
+  sqlite3_stmt* statement = nullptr;
+  const int code = sqlite3_prepare_v2(database, sql, -1, &statement, nullptr);
+  statement_.reset(statement);
+  if (code != SQLITE_OK) fail(database, file_, code);
+}
+
+void Statement::check(int code) const {
+  if (code != SQLITE_OK && code != SQLITE_ROW && code != SQLITE_DONE) {
+    fail(sqlite3_db_handle(statement_.get()), file_, code);
+  }
+}
+
+Statement& Statement::bind(int place, double value) {
+  check(sqlite3_bind_double(statement_.get(), place, value));
+  return *this;
+}
+Statement& Statement::bind(int place, std::int64_t value) {
+  check(sqlite3_bind_int64(statement_.get(), place, value));
+  return *this;
+}
+Statement& Statement::bind(int place, bool value) {
+  return bind(place, static_cast<std::int64_t>(value));
+}
+Statement& Statement::bind(int place, std::string_view text) {
+  check(sqlite3_bind_text64(statement_.get(), place, text.data(), text.size(), SQLITE_TRANSIENT,
+                            SQLITE_UTF8));
+  return *this;
+}
+Statement& Statement::bind(int place, const std::optional<double>& value) {
+  if (value) return bind(place, *value);
+  check(sqlite3_bind_null(statement_.get(), place));
+  return *this;
+}
+Statement& Statement::bind_blob(int place, std::string_view bytes) {
+  check(sqlite3_bind_blob64(statement_.get(), place, bytes.data(), bytes.size(), SQLITE_TRANSIENT));
+  return *this;
+}
+
+bool Statement::step() {
+  const int code = sqlite3_step(statement_.get());
+  check(code);
+  return code == SQLITE_ROW;
+}
+
+void Statement::run() {
+  const int code = sqlite3_step(statement_.get());
+  if (code != SQLITE_DONE && code != SQLITE_ROW) {
+    sqlite3_reset(statement_.get());
+    check(code);
+  }
+  check(sqlite3_reset(statement_.get()));
+}
+
+double Statement::number(int column) const {
+  return sqlite3_column_double(statement_.get(), column);
+}
+std::int64_t Statement::integer(int column) const {
+  return sqlite3_column_int64(statement_.get(), column);
+}
+std::optional<double> Statement::maybe_number(int column) const {
+  if (sqlite3_column_type(statement_.get(), column) == SQLITE_NULL) return std::nullopt;
+  return number(column);
+}
+std::string Statement::text(int column) const {
+  const void* bytes = sqlite3_column_blob(statement_.get(), column);
+  if (bytes == nullptr) return {};
+  return {static_cast<const char*>(bytes),
+          static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+}
+
+void Database::Close::operator()(sqlite3* database) const {
+  sqlite3_close_v2(database);
+}
+
+Database::Database(const std::filesystem::path& path, Access access) : file_(path.string()) {
+  sqlite3* database = nullptr;
+  const int flags = access == Access::kReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
+  const int code = sqlite3_open_v2(path.c_str(), &database, flags | SQLITE_OPEN_FULLMUTEX, nullptr);
+  database_.reset(database);
+  if (code != SQLITE_OK) fail(database, file_, code);
+  sqlite3_busy_timeout(database, 2000);
+  // The file may come from anywhere: no code of it may run.
+  sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+}
+
+void Database::execute(const char* sql) {
+  const int code = sqlite3_exec(database_.get(), sql, nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK) fail(database_.get(), file_, code);
+}
+
+Statement Database::prepare(const char* sql) {
+  return {database_.get(), sql, file_};
+}
+
+std::string Database::text_of(const char* sql) {
+  Statement statement = prepare(sql);
+  return statement.step() ? statement.text(0) : std::string();
+}
+
+}  // namespace viscard

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "io/cards/card.h"
+#include "io/cli/command.h"
+#include "models/material/material.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// What the user asked of `viscard card`, checked.
+struct CardWords {
+  std::string material;  // path; empty for --list, and where --check goes without
+  std::string target;
+  std::string units;  // empty: not named
+  std::string out;
+  std::string check, prove, deck;
+  std::string bound;         // "", "lower", "upper"
+  std::string elastic_only;  // "", "instantaneous", "long-term"
+  std::optional<int> terms;
+  std::optional<double> clamped_nu;
+  std::optional<double> tolerance;
+  std::optional<double> ratio;  // of a joint fit
+  bool may_extrapolate = false;
+  bool list = false, force = false, json = false, is_reproducible = false;
+  bool accepts_flags = false, may_approximate = false;
+  std::string command_line;
+};
+
+// The material of words.material after --bound, --elastic-only and, with --approximate, the
+// reduction to the terms the target takes; notes say what was done.
+struct PreparedMaterial {
+  Material material;
+  std::string sha256;
+  std::vector<std::string> notes;           // header lines
+  std::optional<std::string> terms_change;  // "approximated" text of the terms, if reduced
+  bool are_terms_dropped = false;
+};
+PreparedMaterial prepare_card_material(const CardWords& words);
+CardOptions card_options(const CardWords& words, const PreparedMaterial& prepared);
+
+int list_card_targets(const CardWords& words, Streams& streams);
+int write_card_file(const CardWords& words, Streams& streams);
+int check_card_file(const CardWords& words, Streams& streams);
+int prove_card_file(const CardWords& words, Streams& streams);
+int write_deck_files(const CardWords& words, Streams& streams);
+
+}  // namespace viscard

@@ -1,0 +1,151 @@
+#include "io/cli/card/command_card.h"
+
+#include "io/basics/nearest_word.h"
+#include "io/cards/conventions.h"
+#include "io/cards/unit_system.h"
+#include "io/cli/card/card_words.h"
+#include "io/cli/words/command_line.h"
+
+namespace po = boost::program_options;
+
+namespace viscard {
+namespace {
+
+void check_word(const std::string& kind, const std::string& word,
+                const std::vector<std::string>& known) {
+  std::string list;
+  for (const std::string& name : known) {
+    if (word == name) return;
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  const std::string near = nearest_word(word, known);
+  throw UsageError("there is no " + kind + " '" + word + "'" +
+                   (near.empty() ? "." : "; did you mean '" + near + "'?") + " There are: " + list);
+}
+
+std::vector<std::string> target_names() {
+  std::vector<std::string> names;
+  for (const CardTarget& target : card_targets()) names.push_back(target.name);
+  return names;
+}
+
+std::vector<std::string> unit_names() {
+  std::vector<std::string> names;
+  for (const UnitSystem& system : unit_systems()) names.emplace_back(system.name);
+  return names;
+}
+
+void add_options(CommandSyntax& syntax, CardWords& words, std::string& terms, double& nu) {
+  syntax.options.add_options()("for", po::value(&words.target)->value_name("TARGET"),
+                               "solver the card is for; --list shows them all")(
+      "units", po::value(&words.units)->value_name("SYSTEM"),
+      "SI (default), mm-t-s, mm-kg-ms, mm-g-ms, um-kg-s or cgs")(
+      "out", po::value(&words.out)->value_name("FILE"), "where to write; stdout if not given")(
+      "list", po::bool_switch(&words.list), "show targets, conventions, limits and evidence")(
+      "check", po::value(&words.check)->value_name("CARD"),
+      "read a card back, say what it means, and compare it with the material if one is named")(
+      "tolerance", po::value<double>()->value_name("X"),
+      "largest relative difference of E(t) that --check accepts; if not given 1e-6, or what the "
+      "target's columns can hold")(
+      "prove", po::value(&words.prove)->value_name("CARD"),
+      "run a card on one element in its solver (calculix) against the exact answer")(
+      "deck", po::value(&words.deck)->value_name("TEST"),
+      "relaxation or creep: write a one-element model with the expected curve beside it")(
+      "approximate", po::bool_switch(&words.may_approximate),
+      "write what the target cannot take exactly, with the error in the header; too many terms are "
+      "refitted to fewer")("terms", po::value(&terms)->value_name("N"),
+                           "with --approximate: refit to N terms")(
+      "ratio", po::value<double>()->value_name("R"),
+      "mixing ratio, when the material is a joint fit: measured, or between measured ones")(
+      "extrapolate", po::bool_switch(&words.may_extrapolate),
+      "with --ratio: also outside the measured range; the header says so")(
+      "bound", po::value(&words.bound)->value_name("END"),
+      "lower or upper: the card at that end of the 95 % intervals of E0 and E_inf")(
+      "elastic-only", po::value(&words.elastic_only)->value_name("WHEN"),
+      "instantaneous or long-term: leave relaxation out")(
+      "clamp-nu", po::value(&nu)->value_name("NU"),
+      "use this Poisson ratio instead of a larger one")("accept-flags",
+                                                        po::bool_switch(&words.accepts_flags),
+                                                        "write terms that the fit has flagged")(
+      "reproducible", po::bool_switch(&words.is_reproducible),
+      "no date and no command line in the header: the same input gives the same bytes")(
+      "force", po::bool_switch(&words.force), "replace an existing file");
+}
+
+int number_of_terms(const std::string& text) {
+  std::size_t end = 0;
+  int terms = 0;
+  try {
+    terms = std::stoi(text, &end);
+  } catch (const std::exception&) {
+    end = 0;
+  }
+  if (end != text.size() || terms < 1 || terms > 100) {
+    throw UsageError("--terms " + text + " must be a whole number from 1 to 100");
+  }
+  return terms;
+}
+
+void check_words(CardWords& words) {
+  const int modes = (words.list ? 1 : 0) + (words.check.empty() ? 0 : 1) +
+                    (words.prove.empty() ? 0 : 1) + (words.deck.empty() ? 0 : 1);
+  if (modes > 1) throw UsageError("--list, --check, --prove and --deck exclude each other");
+  if (words.list) return;
+  if (words.target.empty()) {
+    throw UsageError("--for TARGET is missing; 'viscard card --list' shows the targets");
+  }
+  check_word("card target", words.target, target_names());
+  if (!words.units.empty()) check_word("unit system", words.units, unit_names());
+  if (!words.bound.empty()) check_word("--bound", words.bound, {"lower", "upper"});
+  if (!words.deck.empty()) check_word("--deck", words.deck, {"relaxation", "creep"});
+  if (!words.elastic_only.empty()) {
+    check_word("--elastic-only", words.elastic_only, {"instantaneous", "long-term"});
+  }
+  if (words.terms && !words.may_approximate) {
+    throw UsageError("--terms changes the material; say --approximate too");
+  }
+  if (words.tolerance && !(*words.tolerance > 0.0)) {
+    throw UsageError("--tolerance must be positive");
+  }
+  if (words.clamped_nu && !(*words.clamped_nu > -1.0 && *words.clamped_nu < 0.5)) {
+    throw UsageError("--clamp-nu must lie in (-1, 0.5)");
+  }
+  if (words.material.empty() && words.check.empty() && words.prove.empty()) {
+    throw UsageError("which material? usage: viscard card material.json --for TARGET");
+  }
+}
+
+}  // namespace
+
+int run_card(const std::vector<std::string>& words, Streams& streams) {
+  CardWords card;
+  std::string terms;
+  double nu = 0.0;
+  CommandSyntax syntax{
+      "viscard card MATERIAL.json --for TARGET [--units SYSTEM] [--out FILE] [OPTIONS]",
+      "Writes a material card for a solver, right by that solver's conventions and read back "
+      "before it\n"
+      "is saved. With --list, --check, --prove or --deck: shows the targets, checks a card, runs "
+      "it,\n"
+      "or writes a one-element model to run it in.",
+      "viscard card data/materials/pdms_1to10_seed.json --for abaqus --units mm-t-s"};
+  add_options(syntax, card, terms, nu);
+  syntax.positional = {"material"};
+  const auto values = parse_words(syntax, words, streams);
+  if (!values) return kDone;
+  if (values->count("material") > 0) card.material = (*values)["material"].as<std::string>();
+  card.json = values->count("json") > 0;
+  if (values->count("terms") > 0) card.terms = number_of_terms(terms);
+  if (values->count("clamp-nu") > 0) card.clamped_nu = nu;
+  if (values->count("ratio") > 0) card.ratio = (*values)["ratio"].as<double>();
+  if (values->count("tolerance") > 0) card.tolerance = (*values)["tolerance"].as<double>();
+  card.command_line = quoted_command_line("card", words);
+  check_words(card);
+  if (card.list) return list_card_targets(card, streams);
+  if (!card.check.empty()) return check_card_file(card, streams);
+  if (!card.prove.empty()) return prove_card_file(card, streams);
+  if (!card.deck.empty()) return write_deck_files(card, streams);
+  return write_card_file(card, streams);
+}
+
+}  // namespace viscard

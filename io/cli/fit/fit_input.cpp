@@ -1,0 +1,206 @@
+#include "io/cli/fit/fit_input.h"
+
+#include "fit/fit_creep.h"
+#include "fit/fit_dma.h"
+#include "fit/fit_indentation.h"
+#include "fit/fit_relaxation.h"
+#include "fit/indentation_from_capture.h"
+#include "io/capture/capture_file.h"
+#include "io/tables/csv_table.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+using Column = std::vector<double>;
+
+FitKind kind_of_table(const CsvTable& table, const FitWords& words) {
+  if (words.kind) return *words.kind;
+  const auto has = [&](const char* name) {
+    return find_column(table, name, words.columns).has_value();
+  };
+  if (has("force_N") && has("depth_m")) return FitKind::kIndentation;
+  if (has("modulus_Pa") || has("stress_Pa")) return FitKind::kRelaxation;
+  if (has("compliance_1_Pa")) return FitKind::kCreep;
+  if (has("storage_modulus_Pa") && has("loss_modulus_Pa")) return FitKind::kDma;
+  throw std::runtime_error(table.file +
+                           ": no column says what to fit. Wanted are force_N with depth_m, "
+                           "modulus_Pa, stress_Pa, compliance_1_Pa, or storage_modulus_Pa with "
+                           "loss_modulus_Pa; name them with --column modulus_Pa=\"HEADER\" or a "
+                           "number counting from 1");
+}
+
+// Several segments one after another, in the order of the file.
+CsvTable rows_of_segments(const CsvTable& table, const FitWords& words) {
+  if (words.segments.empty()) return table;
+  std::vector<CsvTable> parts;
+  for (const std::string& segment : words.segments) {
+    parts.push_back(rows_of_segment(table, segment, words.columns));
+  }
+  std::stable_sort(parts.begin(), parts.end(), [](const CsvTable& a, const CsvTable& b) {
+    return !a.lines.empty() && !b.lines.empty() && a.lines.front() < b.lines.front();
+  });
+  CsvTable all = parts.front();
+  for (std::size_t p = 1; p < parts.size(); ++p) {
+    all.lines.insert(all.lines.end(), parts[p].lines.begin(), parts[p].lines.end());
+    for (std::size_t c = 0; c < all.columns.size(); ++c) {
+      CsvColumn& to = all.columns[c];
+      const CsvColumn& from = parts[p].columns[c];
+      to.values.insert(to.values.end(), from.values.begin(), from.values.end());
+      to.text.insert(to.text.end(), from.text.begin(), from.text.end());
+    }
+  }
+  return all;
+}
+
+Column time_of(const CsvTable& table, const FitWords& words) {
+  Column time_s = column_SI(table, "time_s", words.columns);
+  for (double& time : time_s) time -= words.time_zero_s;
+  return time_s;
+}
+
+FitResult fit_relaxation_table(const CsvTable& table, const FitWords& words) {
+  RelaxationData data;
+  data.time_s = time_of(table, words);
+  const bool has_modulus = find_column(table, "modulus_Pa", words.columns).has_value();
+  data.value = column_SI(table, has_modulus ? "modulus_Pa" : "stress_Pa", words.columns);
+  if (!has_modulus && find_column(table, "strain", words.columns)) {
+    data.strain = column_SI(table, "strain", words.columns);
+  }
+  return fit_relaxation(data, words.options);
+}
+
+FitResult fit_indentation_table(const CsvTable& table, const FitWords& words) {
+  if (words.needs_modulus && !words.specimen) {
+    throw std::runtime_error(
+        "--out writes moduli, and without the punch an indentation gives stiffnesses only. Add "
+        "--specimen FILE, or --punch-diameter (and --layer-thickness)");
+  }
+  IndentationData data;
+  data.time_s = time_of(table, words);
+  data.force_N = column_SI(table, "force_N", words.columns);
+  data.depth_m = column_SI(table, "depth_m", words.columns);
+  data.frame_stiffness_N_m = words.frame_stiffness_N_m;
+  if (words.specimen) data.contact = words.specimen->contact;
+  return fit_indentation(data, words.options);
+}
+
+// Several temperatures in a table of relaxation moduli or frequency sweeps: a master curve.
+std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
+                                            const FitWords& words) {
+  const bool is_step =
+      kind == FitKind::kRelaxation && find_column(table, "modulus_Pa", words.columns);
+  const bool has_temperature = find_column(table, "temperature_C", words.columns).has_value();
+  MasterData data;
+  if (has_temperature) data.temperature_C = column_SI(table, "temperature_C", words.columns);
+  if ((!is_step && kind != FitKind::kDma) || !has_several_temperatures(data.temperature_C)) {
+    if (!words.T_ref_C) return std::nullopt;
+    throw std::runtime_error(
+        "a reference temperature is for tables of modulus_Pa, or storage and loss moduli, with a "
+        "column temperature_C of several temperatures");
+  }
+  if (is_step) {
+    data.argument = time_of(table, words);
+    data.modulus_Pa = column_SI(table, "modulus_Pa", words.columns);
+  } else {
+    data.argument = column_SI(table, "frequency_Hz", words.columns);
+    data.modulus_Pa = column_SI(table, "storage_modulus_Pa", words.columns);
+    data.loss_Pa = column_SI(table, "loss_modulus_Pa", words.columns);
+  }
+  data.T_ref_C = words.T_ref_C;
+  return fit_master_curve(data, words.options);
+}
+
+FittedFile fit_table(const std::string& path, const FitWords& words) {
+  const CsvTable table = rows_of_segments(read_csv(path), words);
+  FittedFile fitted;
+  if (words.specimen) fitted.specimen = *words.specimen;
+  const FitKind kind = kind_of_table(table, words);
+  fitted.master = fit_temperatures(table, kind, words);
+  if (fitted.master) {
+    fitted.result = fitted.master->fit;
+    fitted.fitted_unit = "Pa";
+    return fitted;
+  }
+  switch (kind) {
+    case FitKind::kIndentation:
+      fitted.result = fit_indentation_table(table, words);
+      fitted.fitted_unit = "N";
+      break;
+    case FitKind::kRelaxation:
+      fitted.result = fit_relaxation_table(table, words);
+      fitted.fitted_unit = "Pa";
+      break;
+    case FitKind::kCreep:
+      fitted.result =
+          fit_creep({time_of(table, words), column_SI(table, "compliance_1_Pa", words.columns)},
+                    words.options);
+      fitted.fitted_unit = "1/Pa";
+      break;
+    case FitKind::kDma:
+      fitted.result = fit_dma({column_SI(table, "frequency_Hz", words.columns),
+                               column_SI(table, "storage_modulus_Pa", words.columns),
+                               column_SI(table, "loss_modulus_Pa", words.columns)},
+                              words.options);
+      fitted.fitted_unit = "Pa";
+      break;
+  }
+  return fitted;
+}
+
+FittedFile fit_capture(const std::string& path, const FitWords& words) {
+  if (words.kind && *words.kind != FitKind::kIndentation) {
+    throw std::runtime_error(path + ": a capture is an indentation; leave --kind away");
+  }
+  if (!words.columns.empty() || !words.segments.empty() || words.time_zero_s != 0.0) {
+    throw std::runtime_error(
+        path + ": --column, --segment and --time-zero are for tables; a capture needs none");
+  }
+  CapturedRun run = read_capture(path);
+  if (words.specimen) run.specimen = *words.specimen;
+  if (words.frame_stiffness_N_m > 0.0) run.rig.frame.stiffness_N_m = words.frame_stiffness_N_m;
+  FittedFile fitted;
+  fitted.specimen = run.specimen;
+  fitted.fitted_unit = "N";
+  fitted.result = fit_indentation(indentation_from_capture(run), words.options);
+  if (run.status != "finished") {
+    fitted.result.flags.push_back(
+        {"run-" + run.status, 0, "the run was not finished; what was recorded is used"});
+  }
+  // What the run itself had against its record.
+  for (const RunEvent& event : run.events) {
+    if (event.name != "doubt") continue;
+    std::string name = event.value;
+    std::replace(name.begin(), name.end(), '_', '-');
+    fitted.result.flags.push_back({name, 0, event.text});
+  }
+  return fitted;
+}
+
+}  // namespace
+
+FittedFile fit_file(const std::string& path, const FitWords& words) {
+  const bool is_capture = looks_like_capture(path);
+  // Readers name the file themselves; the fit does not know it.
+  try {
+    FittedFile fitted = is_capture ? fit_capture(path, words) : fit_table(path, words);
+    fitted.path = path;
+    if (words.diagnose) {
+      fitted.fractional = diagnose_fractional(fitted.result);
+      if (!fitted.fractional) {
+        throw std::runtime_error(
+            "--diagnose compares relaxation after a step (modulus_Pa or stress_Pa over time_s) "
+            "with a power law; this is none");
+      }
+    }
+    return fitted;
+  } catch (const std::exception& error) {
+    const std::string text = error.what();
+    if (text.find(path) != std::string::npos) throw;
+    throw std::runtime_error(path + ": " + text);
+  }
+}
+
+}  // namespace viscard

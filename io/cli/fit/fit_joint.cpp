@@ -1,0 +1,148 @@
+#include "io/cli/fit/fit_joint.h"
+
+#include "fit/laws/fit_mixing_ratio.h"
+#include "io/basics/atomic_file.h"
+#include "io/basics/sha256.h"
+#include "io/capture/capture_file.h"
+#include "io/cli/fit/fit_batch.h"
+#include "io/materials/material_file.h"
+#include "io/materials/ratio_file.h"
+#include "models/maths/text_of_number.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <ostream>
+
+namespace viscard {
+namespace {
+
+bool is_material_file(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".json" && !looks_like_capture(file);
+}
+
+// Terms are compared one by one, so all specimens need the same number: that of the material files,
+// or the one most of the measured specimens asked for (the smaller of two as frequent).
+int common_order(const std::vector<FittedFile>& fitted, const std::vector<Material>& given) {
+  if (!given.empty()) return static_cast<int>(given.front().terms.size());
+  std::map<int, int> votes;
+  for (const FittedFile& one : fitted) ++votes[static_cast<int>(one.result.terms.size())];
+  return std::max_element(votes.begin(), votes.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+void refit_others(std::vector<FittedFile>& fitted, int order, const JointWords& words,
+                  Streams& streams) {
+  FitWords forced = words.fit;
+  forced.options.n_terms = order;
+  for (FittedFile& one : fitted) {
+    if (static_cast<int>(one.result.terms.size()) == order) continue;
+    streams.err << fmt::format("viscard: {}: fitted with {} like the others, not {}\n", one.path,
+                               counted(static_cast<std::size_t>(order), "term"),
+                               one.result.terms.size());
+    one = fit_file(one.path, forced);
+  }
+}
+
+std::vector<Material> specimens_of(const JointWords& words, Streams& streams) {
+  std::vector<std::string> measured;
+  std::vector<Material> given;
+  for (const std::string& file : words.files) {
+    if (is_material_file(file)) {
+      given.push_back(read_material(file).material);
+      if (given.back().name.empty()) {
+        given.back().name = std::filesystem::path(file).stem().string();
+      }
+    } else {
+      measured.push_back(file);
+    }
+  }
+  std::vector<FittedFile> fitted = fit_files(measured, words.fit, streams);
+  if (!fitted.empty()) refit_others(fitted, common_order(fitted, given), words, streams);
+  // Back into the order of the files.
+  std::vector<Material> specimens;
+  auto next_given = given.begin();
+  auto next_fitted = fitted.begin();
+  for (std::size_t i = 0; i < words.files.size(); ++i) {
+    specimens.push_back(is_material_file(words.files[i])
+                            ? *next_given++
+                            : material_from_fitted(*next_fitted++, words.material));
+    if (!words.ratios.empty()) specimens.back().mixing_ratio = words.ratios[i];
+  }
+  return specimens;
+}
+
+void print(const RatioFit& fit, std::ostream& out) {
+  out << fmt::format("{} at {}\n\n", counted(fit.specimens.size(), "specimen"),
+                     counted(fit.law.ratios.size(), "mixing ratio"));
+  out << fmt::format("{:<24} {:>7} {:>12} {:>10}\n", "specimen", "ratio", "E0 (Pa)", "own error");
+  for (const RatioSpecimen& one : fit.specimens) {
+    out << fmt::format("{:<24} {:>7.4g} {:>12.6g} {:>8.2g} %\n", one.name, one.mixing_ratio,
+                       one.E0_Pa, 100.0 * one.ln_E0_se);
+  }
+  out << fmt::format("\n{:>9} {:>5}  form\n", "BIC", "par.");
+  constexpr std::size_t kShown = 8;
+  for (std::size_t i = 0; i < std::min(kShown, fit.forms.size()); ++i) {
+    const RatioComparison& row = fit.forms[i];
+    out << fmt::format("{:>9.2f} {:>5}  {}: {}\n", row.bic - fit.forms.front().bic,
+                       row.n_parameters, form_name(row.form), form_in_words(row.form));
+  }
+  out << "\n" << law_in_words(fit) << "\n";
+  const auto scatter = [&](double spread, int parameter) {
+    return has_known_spread(fit.law, parameter) ? fmt::format("{:.2g} %", 100.0 * spread)
+                                                : std::string("unknown");
+  };
+  out << "between specimens: E0 " << scatter(fit.law.spread_ln_E0, 0);
+  if (fit.law.n_terms > 0) {
+    out << ", g " << scatter(fit.law.spread_ln_g, 1) << ", tau "
+        << scatter(fit.law.spread_ln_tau, fit.law.n_terms + 1);
+  }
+  out << " (standard deviations)\n\n";
+  for (const double ratio : fit.best.ratios) {
+    const Material at = material_at_ratio(fit, ratio);
+    out << fmt::format(
+        "ratio {:>6.4g}: E0 {:.5g} Pa, {} 95 % {:.5g} to {:.5g}\n", ratio, at.E0_Pa,
+        has_known_spread(fit.best, 0) ? "a new specimen" : "the one specimen (scatter unknown)",
+        at.uncertainty->E0_Pa_95.low, at.uncertainty->E0_Pa_95.high);
+  }
+  for (const MaterialFlag& flag : fit.flags) {
+    out << "  ! " << flag.name << ": " << flag.text << "\n";
+  }
+}
+
+}  // namespace
+
+int run_joint_fit(const JointWords& words, Streams& streams) {
+  if (!words.ratios.empty() && words.ratios.size() != words.files.size()) {
+    throw UsageError(fmt::format("{} and {} --ratio: give one for each file, in their order",
+                                 counted(words.files.size(), "file"), words.ratios.size()));
+  }
+  MixingOptions options;
+  for (const std::string& name : words.shared) {
+    if (name == "E0") {
+      options.share_E0 = true;
+    } else if (name == "g") {
+      options.share_g = true;
+    } else if (name == "tau") {
+      options.share_times = true;
+    } else if (name.rfind("g_", 0) == 0 || name.rfind("tau_", 0) == 0) {
+      options.shared.push_back(name);
+    } else {
+      throw UsageError("--share " + name +
+                       " is not known; there are E0, g, tau, and g_i and tau_i of single terms");
+    }
+  }
+  const RatioFit fit = fit_mixing_ratio(specimens_of(words, streams), options);
+  if (words.json) {
+    streams.out << json_from_ratio_fit(fit);
+  } else {
+    print(fit, streams.out);
+  }
+  if (!words.out.empty()) write_file(words.out, json_from_ratio_fit(fit), words.overwrite);
+  return kDone;
+}
+
+}  // namespace viscard

@@ -1,0 +1,58 @@
+#include "io/cli/fit/fit_material.h"
+
+#include "io/basics/sha256.h"
+
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+
+namespace viscard {
+namespace {
+
+constexpr double kUsualNu = 0.495;  // of a rubber, where nobody said
+
+ValidityWindow window_of(const FitResult& fit) {
+  ValidityWindow window;
+  if (fit.kind == FitKind::kIndentation) {
+    window.t_min_s = fit.fastest_s;
+    window.t_max_s = fit.fit_to_s - fit.fit_from_s;
+    return window;
+  }
+  window.t_min_s = std::max(0.0, fit.fit_from_s);
+  window.t_max_s = fit.fit_to_s - std::min(0.0, fit.fit_from_s);
+  return window;
+}
+
+}  // namespace
+
+std::string now_iso8601() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc)};
+}
+
+Material material_from_fitted(const FittedFile& fitted, const FittedMaterialWords& words) {
+  const Specimen& specimen = fitted.specimen;
+  const bool has_contact = specimen.contact.punch_radius_m > 0.0;
+  const double nu = words.nu.value_or(has_contact ? specimen.contact.poisson_ratio : kUsualNu);
+  Material material =
+      material_from_fit(fitted.result, nu, words.rho_kg_m3.value_or(specimen.rho_kg_m3));
+  material.name =
+      specimen.id.empty() ? std::filesystem::path(fitted.path).stem().string() : specimen.id;
+  if (!specimen.id.empty()) material.T_ref_C = specimen.temperature_C;
+  material.mixing_ratio = specimen.mixing_ratio;
+  if (fitted.master) {
+    material.T_ref_C = fitted.master->T_ref_C;
+    if (const TemperatureShift* shift = fitted.master->laws.better()) material.shift = *shift;
+  }
+  material.valid = window_of(fitted.result);
+  material.provenance.created_by = "viscard " VISCARD_VERSION;
+  material.provenance.created_at = words.created_at;
+  material.provenance.command = words.command;
+  material.provenance.raw_files = {{fitted.path, sha256_of_file(fitted.path)}};
+  return material;
+}
+
+}  // namespace viscard

@@ -1,0 +1,191 @@
+#include "io/cli/report/command_report.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/cards/conventions.h"
+#include "io/cards/unit_system.h"
+#include "io/cli/fit/fit_material.h"
+#include "io/cli/report/report_law.h"
+#include "io/cli/report/report_specimens.h"
+#include "io/cli/words/command_line.h"
+#include "io/cli/words/progress.h"
+#include "models/maths/text_of_number.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+
+namespace viscard {
+namespace {
+
+CommandSyntax report_syntax() {
+  CommandSyntax syntax{
+      "viscard report FILE... --out PAGE.html [OPTIONS]",
+      "Makes one self-contained HTML page of captures and tables (fitted on the way), material "
+      "files and a joint fit: "
+      "estimates with\nintervals, raw record, fit and residuals, spectrum, mixing ratios side by "
+      "side, the pillar, cards, provenance.",
+      "viscard report data/materials/pdms_1to10_seed.json --out report.html"};
+  syntax.options.add_options()("out", po::value<std::string>(), "the page")(
+      "title", po::value<std::string>()->default_value("Soft polymer, from load cell to material"),
+      "heading of the page")(
+      "truth", po::value<std::vector<std::string>>(),
+      "truth of an emulated specimen; once for each capture, in their order. Without it, the file "
+      "that capture --emulate left beside it")(
+      "card", po::value<std::vector<std::string>>(),
+      "target of a card to show, may be repeated (abaqus, ansys, febio, json)")(
+      "units", po::value<std::string>()->default_value("mm-t-s"), "unit system of the cards")(
+      "pictures", po::value<std::string>(), "write every picture into this folder too, as SVG")(
+      "reproducible", "no date: the same input gives the same bytes")("force",
+                                                                      "overwrite existing files");
+  syntax.positional = {"files"};
+  syntax.last_is_repeatable = true;
+  return syntax;
+}
+
+ReportWords checked_words(const po::variables_map& values, const std::vector<std::string>& words,
+                          const char* usage) {
+  const auto list = [&](const char* name) {
+    return values.count(name) > 0 ? values[name].as<std::vector<std::string>>()
+                                  : std::vector<std::string>{};
+  };
+  ReportWords report{list("files"),
+                     list("truth"),
+                     list("card"),
+                     values["units"].as<std::string>(),
+                     "",
+                     quoted_command_line("report", words)};
+  if (report.files.empty()) throw UsageError(std::string("report on what? usage: ") + usage);
+  if (values.count("out") == 0) {
+    throw UsageError("where to? name the page with --out report.html");
+  }
+  if (report.card_targets.empty()) report.card_targets = {"abaqus", "ansys", "febio", "json"};
+  try {
+    for (const std::string& target : report.card_targets) card_target(target);
+    unit_system(report.card_units);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  if (values.count("reproducible") == 0) report.created_at = now_iso8601();
+  return report;
+}
+
+ReportInput input_from_words(const ReportWords& words, const std::string& title, Streams& streams) {
+  ReportInput input;
+  input.title = title;
+  input.created_by = "viscard " VISCARD_VERSION;
+  input.created_at = words.created_at;
+  input.command = words.command;
+  Progress progress(streams, "report");
+  input.specimens = read_specimens(
+      words, [&](double fraction, const std::string& what) { progress.show(fraction, what); });
+  input.law = mixing_law_of(words.files, input.specimens);
+  return input;
+}
+
+// Refused before any work is done.
+void refuse_existing(const fs::path& path, bool is_forced) {
+  if (fs::exists(path) && !is_forced) {
+    throw std::runtime_error(path.string() +
+                             " exists already; pass --force to replace it, or choose another name");
+  }
+}
+
+std::vector<std::string> write_pictures(const RenderedReport& report, const fs::path& folder,
+                                        bool is_forced) {
+  fs::create_directories(folder);
+  std::vector<std::string> paths;
+  for (const ReportPicture& picture : report.pictures) {
+    paths.push_back((folder / (picture.name + ".svg")).string());
+    write_file(paths.back(), picture.svg, is_forced);
+  }
+  return paths;
+}
+
+bool passed_pillar(const SpecimenReport& specimen) {
+  if (!specimen.pillar) return true;
+  const PillarCheck& pillar = *specimen.pillar;
+  const double worst =
+      std::max(pillar.relaxation.largest_relative_error, pillar.creep.largest_relative_error);
+  return worst <= pillar.limit;
+}
+
+// One line for each result on the page that must not be trusted.
+std::vector<std::string> defects_of(const ReportInput& input) {
+  std::vector<std::string> lines;
+  for (const SpecimenReport& specimen : input.specimens) {
+    const std::string& id = specimen.specimen.id;
+    if (specimen.fit && !specimen.fit->is_trustworthy) {
+      lines.push_back(id + ": the fit is not to be trusted; the page and viscard fit say why");
+    }
+    if (!passed_pillar(specimen)) {
+      lines.push_back(id +
+                      ": the pillar differs from the exact answer by more than allowed; the page "
+                      "shows it, and viscard validate says more");
+    }
+  }
+  return lines;
+}
+
+nlohmann::json json_from_specimens(const ReportInput& input) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const SpecimenReport& specimen : input.specimens) {
+    nlohmann::json row{{"id", specimen.specimen.id}, {"has_fit", specimen.fit.has_value()}};
+    if (specimen.material) row["E0_Pa"] = specimen.material->E0_Pa;
+    if (specimen.pillar) {
+      row["pillar"] = {{"relaxation", specimen.pillar->relaxation.largest_relative_error},
+                       {"creep", specimen.pillar->creep.largest_relative_error}};
+    }
+    nlohmann::json files = nlohmann::json::array();
+    for (const RawFile& file : specimen.files) {
+      files.push_back({{"path", file.path}, {"sha256", file.sha256}});
+    }
+    row["files"] = files;
+    row["notes"] = specimen.notes;
+    list.push_back(row);
+  }
+  return list;
+}
+
+}  // namespace
+
+int run_report(const std::vector<std::string>& words, Streams& streams) {
+  CommandSyntax syntax = report_syntax();
+  const auto values = parse_words(syntax, words, streams);
+  if (!values) return kDone;
+  const ReportWords report = checked_words(*values, words, syntax.usage);
+  const fs::path page = (*values)["out"].as<std::string>();
+  const bool is_forced = values->count("force") > 0;
+  refuse_existing(page, is_forced);
+
+  const ReportInput input = input_from_words(report, (*values)["title"].as<std::string>(), streams);
+  const RenderedReport rendered = render_report(input);
+  std::vector<std::string> pictures;
+  if (values->count("pictures") > 0) {
+    pictures = write_pictures(rendered, (*values)["pictures"].as<std::string>(), is_forced);
+  }
+  write_file(page, rendered.html, is_forced);
+  const std::vector<std::string> defects = defects_of(input);
+  if (values->count("json") > 0) {
+    streams.out << nlohmann::json{{"report", page.string()},
+                                  {"specimens", json_from_specimens(input)},
+                                  {"figures", rendered.pictures.size()},
+                                  {"pictures", pictures},
+                                  {"defects", defects}}
+                       .dump(2)
+                << "\n";
+  } else {
+    streams.out << fmt::format(
+        "{}: {}, {}, {} kB\n", page.string(), counted(input.specimens.size(), "specimen"),
+        counted(rendered.pictures.size(), "figure"), rendered.html.size() / 1024);
+  }
+  for (const std::string& defect : defects) streams.err << "viscard: " << defect << "\n";
+  return defects.empty() ? kDone : kFailed;
+}
+
+}  // namespace viscard

@@ -1,0 +1,242 @@
+#include "io/cli/report/report_specimens.h"
+
+#include "fit/indentation_from_capture.h"
+#include "io/basics/atomic_file.h"
+#include "io/basics/parallel.h"
+#include "io/basics/sha256.h"
+#include "io/capture/capture_file.h"
+#include "io/cards/card.h"
+#include "io/cards/conventions.h"
+#include "io/cli/command.h"
+#include "io/cli/fit/fit_material.h"
+#include "io/config/config_file.h"
+#include "io/materials/material_file.h"
+#include "io/materials/ratio_file.h"
+#include "models/maths/text_of_number.h"
+#include "models/pillar/validate_material.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <mutex>
+
+namespace fs = std::filesystem;
+
+namespace viscard {
+namespace {
+
+constexpr double kSameFit = 1e-3;  // relative; beyond it a material file is not from this fit
+
+struct InputFiles {
+  std::vector<std::string> measured;  // captures and tables
+  std::vector<std::string> materials;
+};
+
+InputFiles sorted_by_kind(const std::vector<std::string>& files) {
+  InputFiles sorted;
+  for (const std::string& file : files) {
+    if (!fs::exists(file)) throw std::runtime_error(file + ": there is no such file");
+    if (fs::is_directory(file))
+      throw std::runtime_error(file + ": is a folder; name the files in it");
+    if (looks_like_ratio_file(file)) continue;  // the law over ratios: report_law
+    const bool is_material = fs::path(file).extension() == ".json" && !looks_like_capture(file);
+    (is_material ? sorted.materials : sorted.measured).push_back(file);
+  }
+  return sorted;
+}
+
+// A truth file as a user writes it, or the one that `viscard capture --emulate` leaves.
+EmulatedTruth truth_from_file(const std::string& path) {
+  if (fs::path(path).extension() != ".json") return read_truth(path);
+  nlohmann::json json = nlohmann::json::parse(read_file(path), nullptr, false);
+  if (!json.is_object()) throw std::runtime_error(path + ": not a truth file: no JSON object");
+  json["schema"] = "viscard-material/1";  // its material has the same keys
+  EmulatedTruth truth;
+  truth.material = material_from_json(json.dump(), path).material;
+  return truth;
+}
+
+std::optional<std::string> truth_file_of(const ReportWords& words, const std::string& capture,
+                                         std::size_t index) {
+  if (!words.truth_files.empty()) return words.truth_files[index];
+  if (!looks_like_capture(capture)) return std::nullopt;
+  const std::string beside = fs::path(capture).replace_extension(".truth.json").string();
+  if (fs::exists(beside)) return beside;
+  return std::nullopt;
+}
+
+// Puts the readings on their own clock, tied to the host's: what a reading waited for on its way to
+// the host would otherwise stand in the picture as a motion.
+void put_on_one_clock(CapturedRun& run) {
+  std::vector<double> device_s, host_s;
+  for (const LoadSample& sample : run.load_samples) {
+    if (!sample.device_time_s) return;
+    device_s.push_back(*sample.device_time_s);
+    host_s.push_back(sample.host_time_s);
+  }
+  if (device_s.size() < 3) return;
+  const ClockLine line = line_from_below(device_s, host_s);
+  for (LoadSample& sample : run.load_samples) sample.host_time_s = line.at(*sample.device_time_s);
+}
+
+// Profile likelihoods of few terms, as `viscard fit FILE --profiles` gives them; of many they take
+// long and nobody reads them.
+FittedFile fit_for_page(const std::string& path) {
+  constexpr std::size_t kFewTerms = 6;
+  const FittedFile fitted = fit_file(path, {});
+  if (fitted.result.terms.size() > kFewTerms) return fitted;
+  FitWords words;
+  words.options.with_profiles = true;
+  return fit_file(path, words);
+}
+
+// A capture or a table, fitted as `viscard fit FILE` does.
+SpecimenReport specimen_from_fit(const ReportWords& words, const std::string& path) {
+  SpecimenReport report;
+  const FittedFile fitted = fit_for_page(path);
+  report.fit = fitted.result;
+  report.specimen = fitted.specimen;
+  if (report.specimen.id.empty()) report.specimen.id = fs::path(path).stem().string();
+  if (looks_like_capture(path)) {
+    report.run = read_capture(path);
+    put_on_one_clock(*report.run);
+  }
+  report.files = {{path, sha256_of_file(path)}};
+  if (!report.fit->is_stiffness) {
+    report.material =
+        material_from_fitted(fitted, {.command = words.command, .created_at = words.created_at});
+  }
+  return report;
+}
+
+void add_truth(SpecimenReport& report, const std::string& path) {
+  report.truth = truth_from_file(path);
+  report.files.push_back({path, sha256_of_file(path)});
+}
+
+SpecimenReport specimen_from_material(const std::string& path) {
+  SpecimenReport report;
+  report.material = read_material(path).material;
+  report.specimen.id =
+      report.material->name.empty() ? fs::path(path).stem().string() : report.material->name;
+  report.specimen.mixing_ratio = report.material->mixing_ratio;
+  report.files = {{path, sha256_of_file(path)}};
+  return report;
+}
+
+bool came_from(const Material& material, const SpecimenReport& capture) {
+  const std::vector<RawFile>& raw = material.provenance.raw_files;
+  return std::any_of(raw.begin(), raw.end(), [&](const RawFile& file) {
+    return !file.sha256.empty() && file.sha256 == capture.files.front().sha256;
+  });
+}
+
+// A material file of a capture on the page joins it: data and fit are there already, so the file
+// adds its name, provenance and cards.
+void join_or_append(std::vector<SpecimenReport>& specimens, SpecimenReport material) {
+  for (SpecimenReport& specimen : specimens) {
+    if (!specimen.fit || !specimen.material || !came_from(*material.material, specimen)) continue;
+    const double filed_Pa = material.material->E0_Pa, fitted_Pa = specimen.fit->E0_Pa;
+    const bool is_same = specimen.fit->terms.size() == material.material->terms.size() &&
+                         std::abs(filed_Pa / fitted_Pa - 1.0) < kSameFit;
+    if (!is_same) {
+      specimen.notes.push_back(fmt::format(
+          "The material file {} differs from the fit shown here ({}, E0 = {:.5g} Pa "
+          "against {}, {:.5g} Pa): it was fitted with other options. Pillar and cards are "
+          "those of the file.",
+          material.files.front().path, counted(material.material->terms.size(), "term"), filed_Pa,
+          counted(specimen.fit->terms.size(), "term"), fitted_Pa));
+    }
+    specimen.material = material.material;
+    specimen.files.push_back(material.files.front());
+    return;
+  }
+  specimens.push_back(std::move(material));
+}
+
+PillarCurve report_curve(const ValidationCurve& curve, const char* quantity) {
+  return {quantity, curve.time_s, curve.solver, curve.exact, curve.largest_relative_error};
+}
+
+PillarCheck pillar_of(const Material& material) {
+  const ValidationResult result = validate_material(material);
+  PillarCheck check;
+  check.relaxation = report_curve(result.relaxation, "stress (Pa)");
+  check.creep = report_curve(result.creep, "shortening (m)");
+  check.limit = result.tolerance;
+  check.setup = fmt::format(
+      "A pillar of {:g} µm diameter and {:g} µm length on a fixed base, {} unknowns: relaxation "
+      "under {:g} % of shortening held, creep under {:g} kPa held. Exact answer: {}.",
+      1e6 * result.diameter_m, 1e6 * result.length_m, result.unknowns, 100.0 * result.strain,
+      1e-3 * result.pressure_Pa, result.exact_method);
+  return check;
+}
+
+ReportCard card_of(const Material& material, const std::string& target, const ReportWords& words,
+                   const std::string& stem) {
+  ReportCard card{target, words.card_units, stem + card_target(target).extension, "", ""};
+  CardOptions options;
+  options.target = target;
+  options.units = words.card_units;
+  options.created_at = words.created_at;
+  options.command = words.command;
+  try {
+    card.text = write_card(material, options).text;
+  } catch (const std::invalid_argument& error) {
+    card.refusal = error.what();
+  }
+  return card;
+}
+
+void add_pillar_and_cards(SpecimenReport& specimen, const ReportWords& words) {
+  if (!specimen.material) return;
+  try {
+    specimen.pillar = pillar_of(*specimen.material);
+  } catch (const std::invalid_argument& error) {
+    specimen.notes.push_back(std::string("The pillar was not run: ") + error.what());
+  }
+  const std::string stem = fs::path(specimen.files.front().path).stem().string();
+  for (const std::string& target : words.card_targets) {
+    specimen.cards.push_back(card_of(*specimen.material, target, words, stem));
+  }
+}
+
+}  // namespace
+
+std::vector<SpecimenReport> read_specimens(
+    const ReportWords& words, const std::function<void(double, const std::string&)>& progress) {
+  const InputFiles files = sorted_by_kind(words.files);
+  if (!words.truth_files.empty() && words.truth_files.size() != files.measured.size()) {
+    throw UsageError(fmt::format("{} for {}: give one --truth for each, in the same order, or none",
+                                 counted(words.truth_files.size(), "truth file"),
+                                 counted(files.measured.size(), "capture")));
+  }
+  const std::size_t n_steps = 2 * files.measured.size() + files.materials.size();
+  std::mutex mutex;
+  std::size_t n_done = 0;
+  const auto step_done = [&](const std::string& what) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    progress(static_cast<double>(++n_done) / static_cast<double>(n_steps), what);
+  };
+  std::vector<SpecimenReport> specimens(files.measured.size());
+  for_each_in_parallel(specimens.size(), [&](std::size_t i) {
+    specimens[i] = specimen_from_fit(words, files.measured[i]);
+    if (const auto truth = truth_file_of(words, files.measured[i], i))
+      add_truth(specimens[i], *truth);
+    step_done(files.measured[i]);
+  });
+  for (const std::string& path : files.materials) {
+    join_or_append(specimens, specimen_from_material(path));
+  }
+  for_each_in_parallel(specimens.size(), [&](std::size_t i) {
+    add_pillar_and_cards(specimens[i], words);
+    step_done(specimens[i].specimen.id);
+  });
+  return specimens;
+}
+
+}  // namespace viscard

@@ -1,0 +1,156 @@
+#include "fit/calibration/fit_frame_stiffness.h"
+#include "io/basics/atomic_file.h"
+#include "io/capture/capture_file.h"
+#include "io/cli/rig/calibrate_words.h"
+#include "io/cli/words/stop_on_signal.h"
+#include "io/tables/column_map.h"
+#include "io/tables/csv_table.h"
+#include "rig/emulator/emulated_rig.h"
+#include "rig/open_devices.h"
+#include "rig/run_indentation.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <variant>
+
+namespace viscard {
+namespace {
+
+constexpr double kBlock_Pa = 200e9;       // steel, against which everything else gives way
+constexpr double kUsualFrame_N_m = 10e3;  // of a rig that was taken for rigid so far
+constexpr double kShareOfLimit = 0.7;
+constexpr double kPunch_m = 2e-3;
+
+Specimen rigid_block() {
+  Specimen block;
+  block.id = "rigid block";
+  block.modulus_guess_Pa = kBlock_Pa;
+  block.contact.punch_radius_m = kPunch_m;
+  block.contact.poisson_ratio = 0.3;
+  return block;
+}
+
+TestPlan block_plan(const CalibrateWords& words, const RigConfig& rig) {
+  TestPlan plan;
+  plan.name = "frame stiffness";
+  plan.protocol = "compliance";
+  plan.baseline_s = 1.0;
+  plan.compliance.steps = words.steps;
+  plan.compliance.hold_s = words.mean_s;
+  plan.compliance.force_N =
+      words.force_N > 0.0 ? words.force_N
+                          : kShareOfLimit * rig.safety.soft_fraction * rig.calibration.capacity_N;
+  return plan;
+}
+
+// Keeps what the fit needs.
+struct KeepRecords {
+  CapturedRun& run;
+  void operator()(const RawBytes& raw) const { run.n_raw_bytes += raw.bytes.size(); }
+  void operator()(const LoadSample& sample) const { run.load_samples.push_back(sample); }
+  void operator()(const StageReport& report) const { run.stage_reports.push_back(report); }
+  void operator()(const CommandedMove& move) const { run.moves.push_back(move); }
+  void operator()(const RunEvent& event) const { run.events.push_back(event); }
+};
+
+CapturedRun press_block(const CalibrateWords& words, RigConfig rig) {
+  std::unique_ptr<EmulatedRig> emulated;
+  if (rig.frame.stiffness_N_m == 0.0) rig.frame.stiffness_N_m = kUsualFrame_N_m;
+  const Specimen block = rigid_block();
+  if (words.is_emulated) {
+    EmulatedRigOptions options;
+    options.truth = calibrate_truth(words);
+    options.truth.material.E0_Pa = kBlock_Pa;
+    options.truth.material.terms.clear();
+    options.truth.contact = block.contact;
+    options.config = rig;
+    emulated = std::make_unique<EmulatedRig>(options);
+    rig = emulated->config();
+  }
+  const StopOnSignal on_signal;
+  const RigClock clock(rig.clock_speed);
+  CapturedRun run;
+  run.rig = rig;
+  run.plan = block_plan(words, rig);
+  run.specimen = block;
+  const RecordSink sink = [&run](const RunRecord& record) { std::visit(KeepRecords{run}, record); };
+  RigDevices devices = open_ports(rig, clock);
+  add_drivers(devices, rig, clock, sink);
+  RunControl control;
+  control.clock = &clock;
+  control.stop = &StopOnSignal::is_asked();
+  const RunOutcome outcome =
+      run_indentation(*devices.stage, *devices.load_cell, rig, run.plan, block, sink, control);
+  if (outcome.status != "finished") throw std::runtime_error(outcome.reason);
+  return run;
+}
+
+BlockPoints points_from_table(const std::string& path) {
+  const CsvTable table = read_csv(path);
+  return {column_SI(table, "position_m"), column_SI(table, "force_N"), {}};
+}
+
+void wait_for_block(const CalibrateWords& words, Streams& streams) {
+  if (words.is_emulated || words.asks_nobody) return;
+  streams.err << "Put a block of steel or glass under the punch, nothing soft between, and press "
+                 "Enter: "
+              << std::flush;
+  std::string answer;
+  if (!std::getline(std::cin, answer)) throw std::runtime_error("nothing was measured");
+}
+
+void print(const FrameStiffnessFit& fit, const CalibrateWords& words, Streams& streams) {
+  if (words.as_json) {
+    const nlohmann::ordered_json json = {{"file", words.out_file},
+                                         {"id", words.id},
+                                         {"date", today()},
+                                         {"stiffness_N_m", fit.stiffness_N_m},
+                                         {"stiffness_relative_u", fit.relative_u},
+                                         {"stiffness_interval_95", {fit.low_N_m, fit.high_N_m}},
+                                         {"curvature_m", fit.curvature_m},
+                                         {"n_points", fit.n_points}};
+    streams.out << json.dump() << "\n";
+    return;
+  }
+  streams.out << fmt::format("stiffness   {:.4g} N/mm, {:.4g} to {:.4g} (k = 2)\n",
+                             fit.stiffness_N_m * 1e-3, fit.low_N_m * 1e-3, fit.high_N_m * 1e-3)
+              << fmt::format("curvature   {:.2f} um off the straight line at most, {} points\n",
+                             fit.curvature_m * 1e6, fit.n_points)
+              << fmt::format("{}: '{}'\n", words.out_file, words.id);
+}
+
+}  // namespace
+
+int calibrate_frame(const CalibrateWords& words, Streams& streams) {
+  BlockPoints points;
+  double gain_relative_u = 0.0;
+  const auto gain_u_of = [](const RigConfig& rig) {
+    const LoadCellCalibration& cell = rig.calibration;
+    return std::abs(cell.volts_per_newton_u / cell.volts_per_newton);
+  };
+  if (words.data_file && looks_like_capture(*words.data_file)) {
+    const CapturedRun run = read_capture(*words.data_file);
+    points = block_points_from_capture(run);
+    gain_relative_u = gain_u_of(run.rig);
+  } else if (words.data_file) {
+    points = points_from_table(*words.data_file);
+    if (words.rig_file) gain_relative_u = gain_u_of(read_rig(*words.rig_file));
+  } else {
+    const RigConfig rig = calibrate_rig(words);
+    gain_relative_u = gain_u_of(rig);
+    wait_for_block(words, streams);
+    points = block_points_from_capture(press_block(words, rig));
+  }
+  const FrameStiffnessFit fit = fit_frame_stiffness(points, gain_relative_u);
+  CalibrationRecord record;
+  record.frame = FrameConfig{fit.stiffness_N_m, fit.relative_u, words.id, today(), {}};
+  write_file(words.out_file, toml_from_calibration(record), words.overwrite);
+  print(fit, words, streams);
+  return kDone;
+}
+
+}  // namespace viscard

@@ -1,0 +1,250 @@
+#include "io/basics/atomic_file.h"
+#include "io/capture/capture_file.h"
+#include "io/cli/rig/calibrate_words.h"
+#include "io/cli/words/stop_on_signal.h"
+#include "io/tables/column_map.h"
+#include "io/tables/csv_table.h"
+#include "rig/emulator/emulated_rig.h"
+#include "rig/open_devices.h"
+#include "rig/weigh.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+namespace viscard {
+namespace {
+
+using nlohmann::ordered_json;
+
+// Gravity differs by .26 % to either side between equator and poles (rectangular) where its value
+// was not given.
+constexpr double kGravityHalfWidth = 0.0026;
+
+// Up and down again, each weight alone, as often as there are series.
+std::vector<double> sequence_kg(std::vector<double> masses_kg, int series) {
+  masses_kg.push_back(0.0);
+  std::sort(masses_kg.begin(), masses_kg.end());
+  masses_kg.erase(std::unique(masses_kg.begin(), masses_kg.end()), masses_kg.end());
+  std::vector<double> sequence{0.0};
+  for (int i = 0; i < series; ++i) {
+    sequence.insert(sequence.end(), masses_kg.begin() + 1, masses_kg.end());
+    sequence.insert(sequence.end(), masses_kg.rbegin() + 1, masses_kg.rend());
+  }
+  return sequence;
+}
+
+double weights_relative_u(const CalibrateWords& words) {
+  return std::hypot(words.mass_relative_u,
+                    words.is_gravity_given ? 0.0 : kGravityHalfWidth / std::sqrt(3.0));
+}
+
+// A table has mass_kg or force_N, and volts_V, in the order in which the readings were taken.
+WeightReadings readings_from_table(const CalibrateWords& words) {
+  if (looks_like_capture(*words.data_file)) {
+    throw std::runtime_error(
+        *words.data_file +
+        " is a capture of a test, not a table of weights. Give a CSV file with "
+        "mass_kg (or force_N) and volts_V; a capture of a rigid block goes with "
+        "--compliance");
+  }
+  const CsvTable table = read_csv(*words.data_file);
+  WeightReadings readings;
+  readings.reading = column_SI(table, "volts_V");
+  readings.force_relative_u = weights_relative_u(words);
+  if (find_column(table, "mass_kg")) {
+    for (const double mass_kg : column_SI(table, "mass_kg")) {
+      readings.force_N.push_back(weight_N_from_mass_kg(mass_kg, words.gravity_m_s2));
+    }
+  } else {
+    readings.force_N = column_SI(table, "force_N");
+    readings.force_relative_u = words.mass_relative_u;
+  }
+  return readings;
+}
+
+bool ask_for_weight(double mass_kg, std::ostream& err) {
+  if (mass_kg > 0.0) {
+    err << fmt::format("Put {:g} g on the load cell and nothing else, and press Enter (q ends): ",
+                       mass_kg * 1e3);
+  } else {
+    err << "Take everything off the load cell and press Enter (q ends): ";
+  }
+  err.flush();
+  std::string answer;
+  return std::getline(std::cin, answer) && answer.rfind('q', 0) != 0;
+}
+
+WeightReadings weigh_on(RigConfig rig, const CalibrateWords& words, EmulatedRig* emulated,
+                        Streams& streams) {
+  const StopOnSignal on_signal;
+  if (emulated != nullptr) rig = emulated->config();
+  const RigClock clock(rig.clock_speed);
+  SerialLine line(rig.load_cell.port, rig.load_cell.baud, clock, rig.load_cell.framing);
+  const auto load_cell = make_load_cell(line, rig.load_cell, clock, [](const RunRecord&) {});
+  std::vector<double> masses_kg = words.masses_kg;
+  if (masses_kg.empty()) masses_kg = {0.05, 0.1, 0.15, 0.2};
+  const std::vector<double> sequence = sequence_kg(masses_kg, words.series);
+  std::vector<double> forces_N;
+  for (const double mass_kg : sequence) {
+    forces_N.push_back(weight_N_from_mass_kg(mass_kg, words.gravity_m_s2));
+  }
+  std::size_t next = 0;
+  WeighOptions options;
+  options.settle_s = words.settle_s;
+  options.mean_s = words.mean_s;
+  options.stop = &StopOnSignal::is_asked();
+  options.put_on = [&](double force_N) {
+    const double mass_kg = sequence[next++];
+    if (emulated == nullptr) return ask_for_weight(mass_kg, streams.err);
+    emulated->hang_weight(force_N);
+    return true;
+  };
+  WeightReadings readings;
+  readings.force_relative_u = weights_relative_u(words);
+  readings.resolution =
+      rig.load_cell.driver == "hx711" ? std::abs(rig.load_cell.volts_per_count) : 0.0;
+  for (const WeighedLoad& load : weigh(*load_cell, rig, clock, forces_N, options)) {
+    readings.force_N.push_back(load.force_N);
+    readings.reading.push_back(load.reading);
+    readings.reading_se.push_back(load.sd / std::sqrt(static_cast<double>(load.n)));
+  }
+  return readings;
+}
+
+CalibrationRecord record_from(const LoadCellFit& fit, const CalibrateWords& words,
+                              double capacity_N) {
+  LoadCellCalibration calibration;
+  calibration.volts_per_newton = fit.gain;
+  calibration.volts_per_newton_u = fit.gain_u;
+  calibration.zero_volts = fit.zero;
+  calibration.capacity_N = capacity_N;
+  calibration.id = words.id;
+  calibration.date = today();
+  calibration.valid_until = words.valid_until;
+  calibration.valid_until = last_valid_day(calibration);
+  calibration.nonlinearity = fit.nonlinearity;
+  calibration.hysteresis = fit.hysteresis;
+  calibration.repeatability = fit.repeatability;
+  return {calibration, std::nullopt, fit.budget};
+}
+
+void print_text(const LoadCellFit& fit, const CalibrationRecord& record, const std::string& file,
+                std::ostream& out) {
+  const double relative_u = fit.gain_u / std::abs(fit.gain);
+  out << fmt::format("gain           {:.6g} V/N, +-{:.3f} % (k = 2)\n", fit.gain,
+                     200.0 * relative_u)
+      << fmt::format("zero           {:.6g} V\n", fit.zero)
+      << fmt::format("nonlinearity   {:.4f} % of the reading at {:.4f} N\n",
+                     100.0 * fit.nonlinearity, fit.largest_force_N)
+      << fmt::format("hysteresis     {}\n", fit.has_hysteresis
+                                                ? fmt::format("{:.4f} %", 100.0 * fit.hysteresis)
+                                                : "not measured: take the weights off one by one")
+      << fmt::format("repeatability  {}\n", fit.has_repeatability
+                                                ? fmt::format("{:.4f} %", 100.0 * fit.repeatability)
+                                                : "not measured: go up and down more than once")
+      << "budget         standard uncertainty, relative\n";
+  for (const UncertaintyRow& row : fit.budget) {
+    out << fmt::format("  {:<13}{:.5f} %  {}\n", row.source, 100.0 * row.relative_u, row.how);
+  }
+  out << fmt::format("  {:<13}{:.5f} %\n", "together", 100.0 * relative_u)
+      << fmt::format("{}: '{}', valid until {}\n", file, record.calibration->id,
+                     record.calibration->valid_until);
+}
+
+ordered_json json_from(const LoadCellFit& fit, const CalibrationRecord& record,
+                       const std::string& file) {
+  ordered_json budget = ordered_json::array();
+  for (const UncertaintyRow& row : fit.budget) {
+    budget.push_back({{"source", row.source}, {"relative_u", row.relative_u}, {"how", row.how}});
+  }
+  const LoadCellCalibration& calibration = *record.calibration;
+  return {{"file", file},
+          {"id", calibration.id},
+          {"date", calibration.date},
+          {"valid_until", calibration.valid_until},
+          {"gain_V_N", fit.gain},
+          {"gain_u_V_N", fit.gain_u},
+          {"gain_interval_95", {fit.gain - 2.0 * fit.gain_u, fit.gain + 2.0 * fit.gain_u}},
+          {"zero_V", fit.zero},
+          {"largest_force_N", fit.largest_force_N},
+          {"nonlinearity", fit.nonlinearity},
+          {"hysteresis", fit.hysteresis},
+          {"repeatability", fit.repeatability},
+          {"n_series", fit.n_series},
+          {"budget", budget}};
+}
+
+// Load cells are straight within parts in a thousand. What is ten times worse is a weight that was
+// mixed up, or something that touches the pan: such a record must not become anybody's forces.
+void check_line(const LoadCellFit& fit, const WeightReadings& readings) {
+  constexpr double kWorst = 0.05;
+  const double worst = std::max({fit.nonlinearity, fit.hysteresis, fit.repeatability});
+  if (worst <= kWorst) return;
+  std::size_t furthest = 0;
+  double largest_N = 0.0;
+  for (std::size_t i = 0; i < readings.force_N.size(); ++i) {
+    const double off_N =
+        std::abs((readings.reading[i] - fit.zero) / fit.gain - readings.force_N[i]);
+    if (off_N <= largest_N) continue;
+    largest_N = off_N;
+    furthest = i;
+  }
+  throw std::runtime_error(fmt::format(
+      "the readings do not lie on a line: they depart by {:.0f} % of the largest force, and most "
+      "at "
+      "reading {} of {} ({:.4f} N), by {:.4f} N. Was a weight mixed up, or did something touch the "
+      "load cell? Nothing was written; weigh again",
+      100.0 * worst, furthest + 1, readings.force_N.size(), readings.force_N[furthest], largest_N));
+}
+
+}  // namespace
+
+int calibrate_load_cell(const CalibrateWords& words, Streams& streams) {
+  WeightReadings readings;
+  double capacity_N = words.capacity_N.value_or(0.0);
+  if (words.data_file) {
+    if (capacity_N == 0.0 && words.rig_file) {
+      capacity_N = read_rig(*words.rig_file).calibration.capacity_N;
+    }
+    readings = readings_from_table(words);
+  } else {
+    const RigConfig rig = calibrate_rig(words);
+    if (capacity_N == 0.0) capacity_N = rig.calibration.capacity_N;
+    if (!words.is_emulated && words.masses_kg.empty()) {
+      throw UsageError("calibrate needs --weights, such as \"20 g, 50 g, 100 g, 200 g\"");
+    }
+    for (const double mass_kg : words.masses_kg) {
+      if (mass_kg * words.gravity_m_s2 <= capacity_N) continue;
+      throw UsageError(fmt::format("--weights: {:g} g is more than the load cell's {:.4f} N",
+                                   mass_kg * 1e3, capacity_N));
+    }
+    std::unique_ptr<EmulatedRig> emulated;
+    if (words.is_emulated) {
+      EmulatedRigOptions options;
+      options.truth = calibrate_truth(words);
+      options.config = rig;
+      emulated = std::make_unique<EmulatedRig>(options);
+    }
+    readings = weigh_on(rig, words, emulated.get(), streams);
+  }
+  if (capacity_N == 0.0) {
+    throw UsageError("calibrate needs --capacity, the rated load of the cell, such as \"250 gf\"");
+  }
+  const LoadCellFit fit = fit_load_cell(readings);
+  check_line(fit, readings);
+  const CalibrationRecord record = record_from(fit, words, capacity_N);
+  write_file(words.out_file, toml_from_calibration(record), words.overwrite);
+  if (words.as_json) {
+    streams.out << json_from(fit, record, words.out_file).dump() << "\n";
+  } else {
+    print_text(fit, record, words.out_file, streams.out);
+  }
+  return kDone;
+}
+
+}  // namespace viscard

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "fit/calibration/fit_load_cell.h"
+#include "io/cli/command.h"
+#include "io/config/config_file.h"
+#include "models/experiment/emulated_specimen.h"
+#include "models/experiment/rig_config.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// Words of `viscard calibrate`, as given. SI.
+struct CalibrateWords {
+  std::optional<std::string> rig_file, data_file, truth_file;
+  std::string out_file, id, valid_until;
+  bool is_compliance = false;
+  bool is_emulated = false;
+  bool asks_nobody = false;
+  bool overwrite = false;
+  bool as_json = false;
+  std::vector<double> masses_kg;
+  int series = 3;
+  double gravity_m_s2 = 9.80665;
+  bool is_gravity_given = false;
+  double mass_relative_u = 1e-4;
+  std::optional<double> capacity_N;
+  double settle_s = 1.0;
+  double mean_s = 3.0;
+  double force_N = 0.0;  // highest, on the block; 0: 70 % of the soft limit
+  int steps = 6;
+  double speed = 1.0;
+};
+
+// Dead weights: from a table, or on the rig. The record and what was found.
+int calibrate_load_cell(const CalibrateWords& words, Streams& streams);
+// A rigid block: from a table or a capture, or on the rig.
+int calibrate_frame(const CalibrateWords& words, Streams& streams);
+
+// "2026-11-21", UTC.
+std::string today();
+// The emulated rig's truth and configuration for these words.
+RigConfig calibrate_rig(const CalibrateWords& words);
+EmulatedTruth calibrate_truth(const CalibrateWords& words);
+
+}  // namespace viscard

@@ -1,0 +1,94 @@
+#include "io/cli/rig/capture_setup.h"
+
+#include "io/cli/command.h"
+#include "io/config/config_file.h"
+#include "rig/emulator/demo_rig.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace viscard {
+namespace {
+
+constexpr double kFastest = 500.0;
+
+// An emulated specimen like the one described: PDMS of the demonstration where the mixing ratio is
+// one of its three, otherwise its relaxation with the guessed modulus; geometry as described.
+EmulatedTruth truth_like(const Specimen& specimen, std::uint64_t seed) {
+  const bool is_known = specimen.mixing_ratio == 13.0 || specimen.mixing_ratio == 20.0;
+  EmulatedTruth truth = demo_truth(is_known ? specimen.mixing_ratio : 10.0, seed);
+  if (!is_known && specimen.mixing_ratio != 10.0 && specimen.modulus_guess_Pa > 0.0) {
+    truth.material.name = specimen.material;
+    truth.material.E0_Pa = specimen.modulus_guess_Pa;
+  }
+  truth.contact = specimen.contact;
+  truth.material.nu = specimen.contact.poisson_ratio;
+  return truth;
+}
+
+}  // namespace
+
+void check_words(const CaptureWords& words) {
+  if (words.out_file.empty()) {
+    throw UsageError("capture needs --out FILE, the capture file to write");
+  }
+  if (words.resumes && words.overwrite) {
+    throw UsageError("--resume keeps what is there and --force replaces it: give one of them");
+  }
+  if (!(words.speed > 0.0) || words.speed > kFastest) {
+    throw UsageError(
+        fmt::format("--speed is {}; it must be above 0 and at most {}", words.speed, kFastest));
+  }
+  if (words.is_emulated) return;
+  if (words.truth_file || words.seed || words.speed != 1.0) {
+    throw UsageError("--truth, --seed and --speed are for an emulated rig: add --emulate");
+  }
+  if (!words.rig_file || !words.test_file || words.specimen_files.empty()) {
+    throw UsageError(
+        "capture needs --rig, --test and --specimen (or --emulate to try it without hardware)");
+  }
+}
+
+CaptureSetup capture_setup(const CaptureWords& words, const std::string& specimen_file) {
+  CaptureSetup setup;
+  setup.rig = words.rig_file ? read_rig(*words.rig_file) : demo_rig();
+  setup.plan = words.test_file ? read_test(*words.test_file) : TestPlan{};
+  setup.specimen = specimen_file.empty() ? demo_specimen(10.0) : read_specimen(specimen_file);
+  if (!words.is_emulated) return setup;
+  setup.truth = words.truth_file ? read_truth(*words.truth_file)
+                                 : truth_like(setup.specimen, words.seed.value_or(1));
+  if (words.seed) setup.truth->seed = *words.seed;
+  setup.rig.load_cell.expected_rate_Hz = setup.truth->sample_rate_Hz;
+  if (setup.rig.load_cell.volts_per_count == 0.0) {
+    setup.rig.load_cell.volts_per_count = demo_rig().load_cell.volts_per_count;
+  }
+  setup.rig.clock_speed = words.speed;
+  return setup;
+}
+
+std::string json_from_truth(const EmulatedTruth& truth) {
+  nlohmann::ordered_json json;
+  json["schema"] = "viscard-truth/1";
+  json["name"] = truth.material.name;
+  json["E0_Pa"] = truth.material.E0_Pa;
+  json["nu"] = truth.material.nu;
+  json["terms"] = nlohmann::ordered_json::array();
+  for (const MaterialTerm& term : truth.material.terms) {
+    json["terms"].push_back({{"g", term.g}, {"k", term.k}, {"tau_s", term.tau_s}});
+  }
+  json["punch_radius_m"] = truth.contact.punch_radius_m;
+  json["layer_thickness_m"] = truth.contact.layer_thickness_m;
+  json["frame_stiffness_N_m"] = truth.frame_stiffness_N_m;
+  json["surface_position_m"] = truth.surface_position_m;
+  json["force_noise_N"] = truth.force_noise_N;
+  json["force_offset_N"] = truth.force_offset_N;
+  json["drift_relative_per_s"] = truth.drift_relative_per_s;
+  json["overload_N"] = truth.overload_N;
+  json["sample_rate_Hz"] = truth.sample_rate_Hz;
+  json["steps_per_m"] = truth.steps_per_m;
+  json["acceleration_m_s2"] = truth.acceleration_m_s2;
+  json["seed"] = truth.seed;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace viscard

@@ -1,0 +1,247 @@
+#include "io/cli/rig/command_capture.h"
+
+#include "io/cli/rig/calibrate_words.h"
+#include "io/cli/rig/capture_run.h"
+#include "io/cli/rig/capture_series.h"
+#include "io/cli/rig/capture_setup.h"
+#include "io/cli/rig/live_picture.h"
+#include "io/cli/words/command_line.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <filesystem>
+#include <iostream>
+#include <ostream>
+#include <vector>
+
+namespace po = boost::program_options;
+
+namespace viscard {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t kPictureWidth = 60;
+
+CommandSyntax capture_syntax() {
+  CommandSyntax syntax;
+  syntax.usage = "viscard capture --rig FILE --test FILE --specimen FILE... --out FILE [OPTIONS]";
+  syntax.description =
+      "Runs one indentation test and records every byte of it. With --emulate no rig\n"
+      "and no file is needed: a GRBL stage and an HX711 amplifier are emulated behind real ports.\n"
+      "Ctrl-C stops the stage, lifts the punch and keeps what was recorded. Several --specimen "
+      "make\n"
+      "a series: --out is then a folder, and --resume goes on with what is not finished in it.";
+  syntax.example = "viscard capture --emulate --speed 50 --out run.viscap";
+  auto add = syntax.options.add_options();
+  add("rig", po::value<std::string>(), "rig.toml: ports, calibration");
+  add("test", po::value<std::string>(), "test.toml: depth, ramp, hold");
+  add("specimen", po::value<std::vector<std::string>>(),
+      "specimen.toml: geometry, modulus guess; again for each further specimen");
+  add("out", po::value<std::string>(), "capture file to write (*.viscap), or a folder");
+  add("resume", "leave finished captures, repeat interrupted ones beside them");
+  add("yes", "do not wait for Enter between specimens");
+  add("live", "keep a page with force against time beside the capture: *.live.html");
+  add("acknowledge", "say on stderr how many records are safe from a crash");
+  add("uncalibrated", "capture although the load cell's calibration has expired");
+  add("emulate", "use an emulated rig");
+  add("truth", po::value<std::string>(), "truth.toml: what the emulated specimen is made of");
+  add("seed", po::value<std::uint64_t>(), "seed of the emulated noise");
+  add("speed", po::value<double>()->default_value(1.0),
+      "emulated clock over wall clock, up to 500");
+  add("force", "replace an existing capture file");
+  return syntax;
+}
+
+CaptureWords words_from(const po::variables_map& values) {
+  const auto text = [&](const char* name) {
+    return values.count(name) > 0 ? std::optional(values[name].as<std::string>()) : std::nullopt;
+  };
+  CaptureWords words;
+  words.rig_file = text("rig");
+  words.test_file = text("test");
+  if (values.count("specimen") > 0) {
+    words.specimen_files = values["specimen"].as<std::vector<std::string>>();
+  }
+  words.truth_file = text("truth");
+  words.out_file = text("out").value_or("");
+  words.is_emulated = values.count("emulate") > 0;
+  if (values.count("seed") > 0) words.seed = values["seed"].as<std::uint64_t>();
+  words.speed = values["speed"].as<double>();
+  words.overwrite = values.count("force") > 0;
+  words.as_json = values.count("json") > 0;
+  words.resumes = values.count("resume") > 0;
+  words.asks_nobody = values.count("yes") > 0;
+  words.shows_page = values.count("live") > 0;
+  words.acknowledges = values.count("acknowledge") > 0;
+  words.is_uncalibrated = values.count("uncalibrated") > 0;
+  return words;
+}
+
+// Expired is refused. Undated is said on a real rig: with numbers written by hand nobody can tell.
+void check_calibration(const CaptureWords& words, const CaptureSetup& setup, Streams& streams) {
+  if (!words.rig_file || words.is_uncalibrated) return;
+  const std::string trouble = calibration_trouble(setup.rig.calibration, today());
+  if (trouble.empty()) return;
+  if (!last_valid_day(setup.rig.calibration).empty()) {
+    throw std::runtime_error(trouble + "; or add --uncalibrated to capture all the same");
+  }
+  if (!words.is_emulated) streams.err << "viscard: " << trouble << "\n";
+}
+
+void check_before_start(const CaptureWords& words, const CaptureSetup& setup) {
+  const Preflight expected = preflight(setup.rig, setup.plan, setup.specimen);
+  if (!expected.problems.empty()) throw std::runtime_error(expected.problems.front());
+  if (words.overwrite) return;
+  const std::filesystem::path file = words.out_file;
+  std::vector<std::filesystem::path> written{file};
+  if (setup.truth) written.push_back(std::filesystem::path(file).replace_extension(kTruthEnding));
+  if (words.shows_page)
+    written.push_back(std::filesystem::path(file).replace_extension(kPageEnding));
+  for (const std::filesystem::path& path : written) {
+    if (!std::filesystem::exists(path)) continue;
+    throw std::runtime_error(
+        "'" + path.string() +
+        "' exists already. Choose another --out, or add --force to replace it");
+  }
+}
+
+void print_text(const CaptureOutcome& capture, std::ostream& out) {
+  const RunOutcome& outcome = capture.run;
+  const StreamCounts& stream = outcome.stream;
+  out << fmt::format("{}: {}\n", capture.file, outcome.status)
+      << fmt::format("  peak force      {:.4f} N (expected at most {:.4f}, limit {:.4f})\n",
+                     outcome.peak_force_N, outcome.expected.peak_force_N, outcome.expected.limit_N)
+      << (outcome.contact_position_m
+              ? fmt::format("  depth reached   {:.4f} mm\n", outcome.achieved_depth_m * 1e3)
+              : std::string("  depth reached   none: no contact was found\n"))
+      << fmt::format("  noise           {:.3f} mN per reading\n", outcome.noise_N * 1e3)
+      << fmt::format(
+             "  readings        expected {}, received {}, missing {}, duplicate {}, glitch {}, "
+             "unreadable {}, implausible {}\n",
+             stream.expected(), stream.received, stream.missing, stream.duplicate, stream.glitch,
+             stream.unreadable, stream.implausible)
+      << fmt::format("  longest gap     {:.4f} s, at {:.1f} s\n", stream.longest_gap_s,
+                     stream.longest_gap_at_s);
+  if (outcome.hidden_error_N > 0.0) {
+    out << fmt::format(
+        "  checked         against neighbours: errors above {:.3f} mN would show at rest\n",
+        outcome.hidden_error_N * 1e3);
+  }
+  for (const std::string& doubt : outcome.doubts) out << "  doubt           " << doubt << "\n";
+  if (!capture.force_N.empty()) {
+    out << "  force           " << sparkline(capture.force_N, kPictureWidth) << "\n";
+  }
+}
+
+ordered_json json_from_outcome(const CaptureOutcome& capture) {
+  const RunOutcome& outcome = capture.run;
+  const StreamCounts& stream = outcome.stream;
+  ordered_json json;
+  json["file"] = capture.file;
+  json["status"] = outcome.status;
+  json["reason"] = outcome.reason;
+  json["peak_force_N"] = outcome.peak_force_N;
+  json["expected_peak_force_N"] = outcome.expected.peak_force_N;
+  json["limit_N"] = outcome.expected.limit_N;
+  json["depth_m"] = outcome.achieved_depth_m;
+  json["contact_position_m"] = outcome.contact_position_m
+                                   ? ordered_json(*outcome.contact_position_m)
+                                   : ordered_json(nullptr);
+  json["noise_N"] = outcome.noise_N;
+  json["hidden_error_N"] = outcome.hidden_error_N;
+  json["doubts"] = outcome.doubts;
+  json["readings"] = {{"expected", stream.expected()},
+                      {"received", stream.received},
+                      {"missing", stream.missing},
+                      {"duplicate", stream.duplicate},
+                      {"glitch", stream.glitch},
+                      {"saturated", stream.saturated},
+                      {"unreadable", stream.unreadable},
+                      {"implausible", stream.implausible},
+                      {"longest_gap_s", stream.longest_gap_s},
+                      {"longest_gap_at_s", stream.longest_gap_at_s}};
+  return json;
+}
+
+// Waits until the person has changed the specimen; false when that was declined.
+bool is_next_ready(const SeriesStep& step, const CaptureWords& words, Streams& streams) {
+  if (words.is_emulated || words.asks_nobody) return true;
+  streams.err << "Put the specimen of " << step.specimen_file
+              << " under the punch and press Enter (q ends here): " << std::flush;
+  std::string answer;
+  return std::getline(std::cin, answer) && answer.rfind('q', 0) != 0;
+}
+
+// Several specimens need somebody to change them, unless nobody needs to.
+void check_somebody_is_there(const CaptureWords& words, std::size_t n_left) {
+  if (n_left < 2 || words.is_emulated || words.asks_nobody || isatty(STDIN_FILENO) == 1) return;
+  throw UsageError(
+      "between several specimens capture waits for Enter, and there is no terminal to wait at: add "
+      "--yes if they change by themselves");
+}
+
+struct SeriesResult {
+  ordered_json runs = ordered_json::array();
+  std::string trouble;  // why it ended early
+};
+
+SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords& words,
+                        const std::string& command, Streams& streams) {
+  SeriesResult result;
+  bool is_first = true;
+  for (const SeriesStep& step : steps) {
+    if (!step.finished_file.empty()) {
+      result.runs.push_back({{"file", step.finished_file}, {"status", "finished before"}});
+      if (!words.as_json) streams.out << step.finished_file << ": finished before\n";
+      continue;
+    }
+    CaptureWords one = words;
+    one.out_file = step.out_file;
+    const CaptureSetup setup = capture_setup(one, step.specimen_file);
+    check_before_start(one, setup);
+    check_calibration(one, setup, streams);
+    if (!is_first && !is_next_ready(step, words, streams)) {
+      result.trouble = "the series was ended before " + step.specimen_file;
+      return result;
+    }
+    is_first = false;
+    const CaptureOutcome outcome = capture_once(one, setup, command, streams);
+    result.runs.push_back(json_from_outcome(outcome));
+    if (!words.as_json) print_text(outcome, streams.out);
+    if (outcome.run.status == "finished") continue;
+    result.trouble = outcome.run.reason;
+    return result;
+  }
+  return result;
+}
+
+}  // namespace
+
+int run_capture(const std::vector<std::string>& words, Streams& streams) {
+  CommandSyntax syntax = capture_syntax();
+  const auto values = parse_words(syntax, words, streams);
+  if (!values) return kDone;
+  const CaptureWords asked = words_from(*values);
+  check_words(asked);
+  const std::vector<SeriesStep> steps = series_from_words(asked);
+  std::size_t n_left = 0;
+  for (const SeriesStep& step : steps) n_left += step.finished_file.empty() ? 1 : 0;
+  check_somebody_is_there(asked, n_left);
+  const SeriesResult result =
+      run_series(steps, asked, quoted_command_line("capture", words), streams);
+  if (asked.as_json) {
+    const ordered_json series = {{"runs", result.runs}, {"reason", result.trouble}};
+    streams.out << (steps.size() == 1 ? result.runs.at(0) : series).dump() << "\n";
+  }
+  if (result.trouble.empty()) return kDone;
+  streams.err << "viscard: " << result.trouble << "\n";
+  if (steps.size() > 1 || asked.resumes) {
+    streams.err << "viscard: the same command with --resume goes on from here\n";
+  }
+  return kFailed;
+}
+
+}  // namespace viscard

@@ -1,0 +1,87 @@
+#include "io/cli/rig/command_export.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/capture/capture_export.h"
+#include "io/capture/capture_file.h"
+#include "io/cli/words/command_line.h"
+#include "models/maths/text_of_number.h"
+
+#include <nlohmann/json.hpp>
+
+#include <ostream>
+
+namespace po = boost::program_options;
+
+namespace viscard {
+namespace {
+
+CommandSyntax export_syntax() {
+  CommandSyntax syntax;
+  syntax.usage = "viscard export RUN.viscap [--out FILE.csv] [OPTIONS]";
+  syntax.description =
+      "Writes every sample of a capture as CSV: time, counts, volts, force, stage position, "
+      "phase.\n"
+      "An interrupted run gives all that was committed, and its head says that it was "
+      "interrupted.\n"
+      "Without --out the table goes to standard output.";
+  syntax.example = "viscard export run.viscap --out run.csv";
+  syntax.options.add_options()("out", po::value<std::string>(), "CSV file to write")(
+      "raw", "the bytes as received and sent instead of the samples")("force",
+                                                                      "replace an existing file");
+  syntax.positional = {"capture"};
+  return syntax;
+}
+
+nlohmann::ordered_json summary_of(const CapturedRun& run, const std::string& capture) {
+  std::size_t n_gaps = 0;
+  for (const RunEvent& event : run.events) n_gaps += event.name == "gap" ? 1 : 0;
+  return {{"capture", capture},
+          {"status", run.status},
+          {"started_at", run.started_at},
+          {"program", run.program},
+          {"command", run.command},
+          {"specimen", run.specimen.id},
+          {"n_samples", run.load_samples.size()},
+          {"n_stage_reports", run.stage_reports.size()},
+          {"n_moves", run.moves.size()},
+          {"n_events", run.events.size()},
+          {"n_gaps", n_gaps},
+          {"n_raw_bytes", run.n_raw_bytes}};
+}
+
+}  // namespace
+
+int run_export(const std::vector<std::string>& words, Streams& streams) {
+  CommandSyntax syntax = export_syntax();
+  const auto values = parse_words(syntax, words, streams);
+  if (!values) return kDone;
+  if (values->count("capture") == 0) {
+    throw UsageError("which capture? usage: " + std::string(syntax.usage));
+  }
+  const auto capture = (*values)["capture"].as<std::string>();
+  const bool is_json = values->count("json") > 0;
+  const bool is_raw = values->count("raw") > 0;
+  const CapturedRun run = read_capture(capture);
+  const std::string table = is_raw ? csv_from_raw_bytes(capture) : csv_from_capture(run);
+  nlohmann::ordered_json summary = summary_of(run, capture);
+  if (values->count("out") > 0) {
+    const auto out = (*values)["out"].as<std::string>();
+    write_file(out, table, values->count("force") > 0);
+    summary["out"] = out;
+    if (!is_json) {
+      streams.err << out << ": " << counted(run.load_samples.size(), "sample") << " of " << capture
+                  << ", " << run.status << "\n";
+    }
+  } else if (!is_json) {
+    streams.out << table;
+  }
+  if (is_json) streams.out << summary.dump(2) << "\n";
+  if (run.status != "finished") {
+    streams.err << "viscard: " << capture << " is "
+                << (run.status == "running" ? "still being written" : "of an interrupted run")
+                << "; all that was committed is exported\n";
+  }
+  return kDone;
+}
+
+}  // namespace viscard

@@ -1,0 +1,193 @@
+#include "io/cli/rig/command_rig.h"
+
+#include "io/cli/rig/calibrate_words.h"
+#include "io/cli/rig/overshoot_study.h"
+#include "io/cli/words/command_line.h"
+#include "io/cli/words/progress.h"
+#include "io/config/config_file.h"
+#include "rig/emulator/demo_rig.h"
+#include "rig/emulator/emulated_rig.h"
+#include "rig/lines/port_probe.h"
+#include "rig/open_devices.h"
+#include "rig/protocols/text_number.h"
+#include "rig/rig_check.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <ostream>
+
+namespace po = boost::program_options;
+
+namespace viscard {
+namespace {
+
+using nlohmann::ordered_json;
+
+int list_ports(bool as_json, Streams& streams) {
+  ordered_json rows = ordered_json::array();
+  for (const std::string& path : present_ports()) {
+    const PortStatus status = port_status(path);
+    rows.push_back({{"port", status.path}, {"device", status.device}, {"trouble", status.trouble}});
+    if (as_json) continue;
+    streams.out << status.path << (status.device == status.path ? "" : " (" + status.device + ")")
+                << "  " << (status.trouble.empty() ? "free" : status.trouble) << "\n";
+  }
+  if (as_json) {
+    streams.out << ordered_json{{"ports", rows}}.dump() << "\n";
+  } else if (rows.empty()) {
+    streams.out << "No serial port is present. Plug the stage and the load cell in and switch them "
+                   "on; 'dmesg | tail' says what the system made of them.\n";
+  }
+  return kDone;
+}
+
+RigCheck check(RigConfig rig, bool is_emulated, double seconds) {
+  std::unique_ptr<EmulatedRig> emulated;
+  if (is_emulated) {
+    EmulatedRigOptions options;
+    options.truth = demo_truth(10.0, 1);
+    options.config = rig;
+    emulated = std::make_unique<EmulatedRig>(options);
+    rig = emulated->config();
+  }
+  const RigClock clock(rig.clock_speed);
+  const RecordSink nowhere = [](const RunRecord&) {};
+  rig.stage.home = false;  // a check moves nothing
+  RigDevices devices = open_ports(rig, clock);
+  add_drivers(devices, rig, clock, nowhere);
+  return check_rig(*devices.stage, *devices.load_cell, rig, clock, seconds);
+}
+
+// A capture refuses an expired calibration, and one of tomorrow; an undated one it only mentions.
+void add_calibration(const RigConfig& rig, RigCheck& found) {
+  const std::string trouble = calibration_trouble(rig.calibration, today());
+  if (trouble.empty()) return;
+  found.advice.push_back(trouble);
+  if (!last_valid_day(rig.calibration).empty()) found.is_usable = false;
+}
+
+void print_text(const RigCheck& found, std::ostream& out) {
+  out << fmt::format(
+             "stage      {}, {:.0f} steps/mm, {:.0f} mm/s2, {:.3f} to {:.1f} mm/s, at {:.3f} mm\n",
+             found.stage_identity, found.dynamics.steps_per_m * 1e-3,
+             found.dynamics.acceleration_m_s2 * 1e3, found.dynamics.min_speed_m_s * 1e3,
+             found.dynamics.max_speed_m_s * 1e3, found.position_m * 1e3)
+      << fmt::format("           answers in {:.1f} ms (longest {:.1f}), {} of {} lost\n",
+                     found.latency.mean_s * 1e3, found.latency.longest_s * 1e3,
+                     found.latency.n_lost, found.latency.n + found.latency.n_lost)
+      << fmt::format(
+             "load cell  {:.2f} readings/s, up to {:.1f} ms late, {} missing, {} unreadable\n",
+             found.rate_Hz, found.jitter_s * 1e3, found.stream.missing, found.stream.unreadable)
+      << fmt::format("           reads {} N{}, noise {:.3f} mN per reading\n",
+                     text_from_number(found.force_N, 4),
+                     found.reads_as.empty() ? std::string() : " from " + found.reads_as,
+                     found.noise_N * 1e3);
+  for (const std::string& text : found.advice) out << "advice     " << text << "\n";
+  out << (found.is_usable ? "ready\n" : "not fit for a test yet\n");
+}
+
+void print_json(const RigCheck& found, std::ostream& out) {
+  const ordered_json json = {{"is_usable", found.is_usable},
+                             {"stage",
+                              {{"identity", found.stage_identity},
+                               {"steps_per_m", found.dynamics.steps_per_m},
+                               {"acceleration_m_s2", found.dynamics.acceleration_m_s2},
+                               {"min_speed_m_s", found.dynamics.min_speed_m_s},
+                               {"max_speed_m_s", found.dynamics.max_speed_m_s},
+                               {"position_m", found.position_m},
+                               {"latency_mean_s", found.latency.mean_s},
+                               {"latency_longest_s", found.latency.longest_s},
+                               {"reports", found.latency.n},
+                               {"reports_lost", found.latency.n_lost}}},
+                             {"load_cell",
+                              {{"rate_Hz", found.rate_Hz},
+                               {"jitter_s", found.jitter_s},
+                               {"missing", found.stream.missing},
+                               {"unreadable", found.stream.unreadable},
+                               {"reads_as", found.reads_as},
+                               {"force_N", found.force_N},
+                               {"noise_N", found.noise_N}}},
+                             {"advice", found.advice}};
+  out << json.dump() << "\n";
+}
+
+int show_overshoot(bool as_json, Streams& streams) {
+  Progress progress(streams, "overshoot");
+  const std::vector<OvershootRow> rows =
+      study_overshoot({}, [&](double fraction) { progress.show(fraction, ""); });
+  progress.clear();
+  if (!as_json) {
+    streams.out << "force beyond a limit of 1 N (N), emulated GRBL, 8.8 N/mm, 80 readings/s\n"
+                   "steps/mm  mm/s2  mm/s  jog cancel  expected  ladder   reset\n";
+  }
+  ordered_json list = ordered_json::array();
+  for (const OvershootRow& row : rows) {
+    list.push_back({{"steps_per_m", row.steps_per_m},
+                    {"acceleration_m_s2", row.acceleration_m_s2},
+                    {"speed_m_s", row.speed_m_s},
+                    {"jog_cancel_N", row.gentle_N},
+                    {"jog_cancel_expected_N", row.expected_N},
+                    {"ladder_N", row.ladder_N},
+                    {"reset_N", row.reset_N}});
+    if (as_json) continue;
+    streams.out << fmt::format("{:8.0f} {:6.0f} {:5.1f} {:11.3f} {:9.3f} {:7.3f} {:7.3f}\n",
+                               row.steps_per_m * 1e-3, row.acceleration_m_s2 * 1e3,
+                               row.speed_m_s * 1e3, row.gentle_N, row.expected_N, row.ladder_N,
+                               row.reset_N);
+  }
+  if (as_json) streams.out << ordered_json{{"limit_N", 1.0}, {"rows", list}}.dump() << "\n";
+  return kDone;
+}
+
+}  // namespace
+
+int run_rig(const std::vector<std::string>& words, Streams& streams) {
+  CommandSyntax syntax;
+  syntax.usage = "viscard rig list | check --rig FILE | overshoot [OPTIONS]";
+  syntax.description =
+      "list shows the serial ports and why one cannot be used, without opening any.\n"
+      "check opens both devices of a rig file, identifies and measures them, and says what to "
+      "change;\n"
+      "nothing moves. overshoot shows how far the force goes beyond a limit, on the emulated rig.";
+  syntax.example = "viscard rig check --emulate";
+  syntax.options.add_options()("rig", po::value<std::string>(), "rig.toml: ports, calibration")(
+      "seconds", po::value<double>()->default_value(3.0), "how long to listen")(
+      "emulate", "check an emulated rig");
+  syntax.positional = {"what"};
+  const auto values = parse_words(syntax, words, streams);
+  if (!values) return kDone;
+  const std::string what = values->count("what") > 0 ? (*values)["what"].as<std::string>() : "";
+  const bool as_json = values->count("json") > 0;
+  for (const char* option : {"rig", "seconds", "emulate"}) {
+    if (what == "check" || values->count(option) == 0 || (*values)[option].defaulted()) continue;
+    throw UsageError("--" + std::string(option) + " belongs to 'viscard rig check'");
+  }
+  if (what == "list") return list_ports(as_json, streams);
+  if (what == "overshoot") return show_overshoot(as_json, streams);
+  if (what != "check") {
+    throw UsageError("rig needs to know what: list, check or overshoot. usage: " +
+                     std::string(syntax.usage));
+  }
+  const bool is_emulated = values->count("emulate") > 0;
+  if (!is_emulated && values->count("rig") == 0) {
+    throw UsageError("rig check needs --rig FILE (or --emulate to see what it prints)");
+  }
+  const double seconds = (*values)["seconds"].as<double>();
+  if (!(seconds >= 1.0) || seconds > 3600.0) {
+    throw UsageError(fmt::format("--seconds {} is outside 1 to 3600", seconds));
+  }
+  const RigConfig rig =
+      values->count("rig") > 0 ? read_rig((*values)["rig"].as<std::string>()) : demo_rig();
+  RigCheck found = check(rig, is_emulated, seconds);
+  if (values->count("rig") > 0) add_calibration(rig, found);
+  if (as_json) {
+    print_json(found, streams.out);
+  } else {
+    print_text(found, streams.out);
+  }
+  return found.is_usable ? kDone : kFailed;
+}
+
+}  // namespace viscard

@@ -1,0 +1,161 @@
+#include "io/cli/scene/answer_output.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/cli/scene/answer_pictures.h"
+#include "io/cli/scene/command_plan.h"
+#include "models/maths/text_of_number.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace viscard {
+
+nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s) {
+  nlohmann::json results = nlohmann::json::object();
+  for (const SceneResult& r : answer.results) {
+    results[r.name] = {{"value", r.value}, {"unit", r.unit}, {"error_estimate", r.error_estimate}};
+  }
+  nlohmann::json modes = nlohmann::json::array();
+  for (const SceneMode& m : answer.modes) {
+    modes.push_back({{"family", m.family},
+                     {"harmonic", m.harmonic},
+                     {"frequency_Hz", m.frequency_Hz},
+                     {"error_estimate", m.error_estimate}});
+  }
+  nlohmann::json effects = nlohmann::json::array();
+  for (const SceneEffect& e : answer.effects) {
+    effects.push_back(json_from_effect(e));
+  }
+  return {{"results", results},
+          {"modes", modes},
+          {"effects", effects},
+          {"discretisation",
+           {{"degree", answer.discretisation.degree}, {"layers", answer.discretisation.layers}}},
+          {"notes", answer.notes},
+          {"unknowns", answer.unknowns},
+          {"wall_s", wall_s}};
+}
+
+void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out) {
+  for (const SceneResult& r : answer.results) {
+    out << fmt::format("  {:<28} {:>14.7g} {:<4} +- {:.1e}\n", r.name, r.value, r.unit,
+                       r.error_estimate);
+  }
+  for (const SceneMode& m : answer.modes) {
+    out << fmt::format("  {:<13} m = {}  {:>14.2f} Hz +- {:.1e}\n", m.family, m.harmonic,
+                       m.frequency_Hz, m.error_estimate);
+  }
+  for (const std::string& note : answer.notes) out << "  note: " << note << "\n";
+  out << fmt::format("  effects on: ");
+  bool first = true;
+  for (const SceneEffect& e : answer.effects) {
+    if (!e.on) continue;
+    out << (first ? "" : ", ") << e.name;
+    first = false;
+  }
+  out << (first ? "none" : "")
+      << fmt::format("\n  degree {}, {} at the rim, {}, {:.3g} s\n", answer.discretisation.degree,
+                     counted(static_cast<std::size_t>(answer.discretisation.layers), "layer"),
+                     counted(static_cast<std::size_t>(answer.unknowns), "unknown"), wall_s);
+}
+
+namespace {
+
+// "centre_voltage" stands for centre_voltage_1, centre_voltage_2, ...
+bool is_named(const std::string& result, const std::string& wanted) {
+  if (!result.starts_with(wanted)) return false;
+  const std::string rest = result.substr(wanted.size());
+  return rest.empty() || (rest.size() > 1 && rest[0] == '_' &&
+                          rest.find_first_not_of("0123456789", 1) == std::string::npos);
+}
+
+}  // namespace
+
+void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer) {
+  if (wanted.empty() || answer.results.empty()) return;
+  const auto stands_for = [&](const std::string& name, const SceneResult& r) {
+    if (is_named(r.name, name)) return true;
+    const bool is_curve =
+        std::any_of(answer.curves.begin(), answer.curves.end(), [&](const SceneCurve& curve) {
+          return curve.name == name || curve.name.starts_with(name + "_");
+        });
+    return is_curve && r.name.starts_with(name + "_");
+  };
+  std::erase_if(answer.results, [&](const SceneResult& r) {
+    return std::none_of(wanted.begin(), wanted.end(),
+                        [&](const std::string& name) { return stands_for(name, r); });
+  });
+}
+
+namespace {
+
+std::string csv_of(const SceneCurve& curve, const std::string& command) {
+  const std::string column = curve.unit == "1" ? curve.name : curve.name + "_" + curve.unit;
+  const bool has_error = curve.error.size() == curve.x.size();
+  std::string text = fmt::format("# {} (viscard {})\n{},{}{}\n", command, VISCARD_VERSION,
+                                 curve.x_name, column, has_error ? ",error_" + column : "");
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    text += fmt::format("{},{}", curve.x[i], curve.value[i]);
+    if (has_error) text += fmt::format(",{:.3g}", curve.error[i]);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string csv_of_results(const std::vector<SceneResult>& results, const std::string& command) {
+  std::string text =
+      fmt::format("# {} (viscard {})\nresult,value,unit,error\n", command, VISCARD_VERSION);
+  for (const SceneResult& r : results) {
+    const bool is_quoted = r.name.find(',') != std::string::npos;  // of a sweep: "at d, s"
+    text += fmt::format("{0}{1}{0},{2:.9g},{3},{4:.3g}\n", is_quoted ? "\"" : "", r.name, r.value,
+                        r.unit, r.error_estimate);
+  }
+  return text;
+}
+
+std::string csv_of_modes(const std::vector<SceneMode>& modes, const std::string& command) {
+  std::string text = fmt::format("# {} (viscard {})\nfamily,harmonic,frequency_Hz,error_Hz\n",
+                                 command, VISCARD_VERSION);
+  for (const SceneMode& m : modes) {
+    text += fmt::format("{},{},{:.9g},{:.3g}\n", m.family, m.harmonic, m.frequency_Hz,
+                        m.error_estimate);
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_pictures(const std::vector<std::pair<std::string, std::string>>& pictures,
+                    const std::string& folder, bool overwrite) {
+  for (const auto& [name, svg] : pictures) {
+    write_file(std::filesystem::path(folder) / (name + ".svg"), svg, overwrite);
+  }
+}
+
+void write_files(const SceneAnswer& answer, const nlohmann::json& object, const std::string& folder,
+                 const std::string& command, bool overwrite) {
+  std::filesystem::create_directories(folder);
+  nlohmann::json with_command = object;
+  with_command["command"] = command;
+  with_command["created_by"] = "viscard " VISCARD_VERSION;
+  write_file(std::filesystem::path(folder) / "results.json", with_command.dump(2) + "\n",
+             overwrite);
+  if (!answer.results.empty()) {
+    write_file(std::filesystem::path(folder) / "results.csv",
+               csv_of_results(answer.results, command), overwrite);
+  }
+  if (!answer.modes.empty()) {
+    write_file(std::filesystem::path(folder) / "modes.csv", csv_of_modes(answer.modes, command),
+               overwrite);
+  }
+  for (const SceneCurve& curve : answer.curves) {
+    write_file(std::filesystem::path(folder) / (curve.name + ".csv"), csv_of(curve, command),
+               overwrite);
+  }
+  write_pictures(pictures_of(answer), folder, overwrite);
+}
+
+}  // namespace viscard

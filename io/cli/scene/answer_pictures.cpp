@@ -1,0 +1,100 @@
+#include "io/cli/scene/answer_pictures.h"
+
+#include "io/plots/plot.h"
+#include "io/report/report_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace viscard {
+
+bool spans_decades(const std::vector<double>& values) {
+  double low = HUGE_VAL;
+  double high = 0.0;
+  for (const double value : values) {
+    if (value != 0.0) low = std::min(low, std::abs(value));
+    high = std::max(high, std::abs(value));
+  }
+  return high > 30.0 * low;
+}
+
+namespace {
+
+// "electrode_voltage_magnitude" -> "electrode voltage magnitude (V)"
+std::string label_of(const SceneCurve& curve, const std::string& unit) {
+  std::string text = curve.name;
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return curve.unit == "1" ? text : text + " (" + unit + ")";
+}
+
+std::vector<double> times(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+PlotPanel panel_of(const SceneCurve& curve) {
+  const bool in_time = curve.x_name == "time_s";
+  const bool is_size = curve.name.ends_with("_magnitude") || curve.name.ends_with("_spectrum");
+  const bool is_log = is_size && spans_decades(curve.value);
+  // Logarithmic axes carry powers of ten as they are; the others want numbers one can read.
+  const ShownUnit x_unit = in_time ? shown_unit("s", curve.x) : ShownUnit{1.0, "Hz"};
+  const ShownUnit y_unit =
+      is_log ? ShownUnit{1.0, curve.unit} : shown_unit(curve.unit, curve.value);
+  PlotPanel panel;
+  panel.x = {.label = in_time ? "time (" + x_unit.text + ")" : "frequency (Hz)",
+             .is_log = !in_time && spans_decades(curve.x)};
+  panel.y = {.label = label_of(curve, y_unit.text), .is_log = is_log};
+  PlotSeries line;
+  line.x = times(curve.x, x_unit.per_si);
+  line.y = times(curve.value, y_unit.per_si);
+  if (curve.error.size() == curve.value.size() && !is_log) {
+    PlotSeries band{.mark = Mark::kBand, .label = "estimated error", .x = line.x};
+    for (std::size_t i = 0; i < curve.value.size(); ++i) {
+      const double half = curve.error[i] * y_unit.per_si;
+      band.y_low.push_back(line.y[i] - half);
+      band.y_high.push_back(line.y[i] + half);
+    }
+    band.ink = Ink::kSky;
+    panel.series.push_back(std::move(band));
+  }
+  panel.series.push_back(std::move(line));
+  return panel;
+}
+
+const SceneCurve* find(const SceneAnswer& answer, const std::string& name) {
+  for (const SceneCurve& curve : answer.curves) {
+    if (curve.name == name) return &curve;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> pictures_of(const SceneAnswer& answer) {
+  std::vector<std::pair<std::string, std::string>> pictures;
+  for (const SceneCurve& curve : answer.curves) {
+    const bool is_part = curve.name.ends_with("_real") || curve.name.ends_with("_imaginary") ||
+                         curve.name.ends_with("_phase");
+    if (is_part || curve.x.size() < 2) continue;
+    Plot plot;
+    plot.title = label_of(curve, curve.unit);
+    plot.description = plot.title + " against " + curve.x_name;
+    plot.panels.push_back(panel_of(curve));
+    const std::string stem = curve.name.substr(0, curve.name.rfind('_'));
+    const SceneCurve* phase = find(answer, stem + "_phase");
+    if (phase != nullptr && curve.name.ends_with("_magnitude")) {
+      plot.panels.front().shares_x_with_below = true;
+      plot.panels.push_back(panel_of(*phase));
+      plot.height_px = 560;
+    }
+    try {
+      pictures.emplace_back(curve.name, svg_from_plot(plot, "curve"));
+    } catch (const std::runtime_error&) {
+      return {};  // no gnuplot
+    }
+  }
+  return pictures;
+}
+
+}  // namespace viscard

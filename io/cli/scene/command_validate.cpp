@@ -1,0 +1,131 @@
+#include "io/cli/scene/command_validate.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/cli/words/command_line.h"
+#include "io/cli/words/progress.h"
+#include "io/materials/material_file.h"
+#include "models/pillar/validate_material.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <ostream>
+
+namespace po = boost::program_options;
+
+namespace viscard {
+namespace {
+
+nlohmann::json json_from_curve(const ValidationCurve& curve, const char* quantity) {
+  return {{"largest_relative_error", curve.largest_relative_error},
+          {"at_time_s", curve.at_time_s},
+          {"solver_error_estimate", curve.solver_error_estimate},
+          {"steps", curve.steps},
+          {"time_s", curve.time_s},
+          {quantity, curve.solver},
+          {std::string("exact_") + quantity, curve.exact}};
+}
+
+nlohmann::json json_from_result(const ValidationResult& result, const std::string& name) {
+  return {{"material", name},
+          {"passed", result.passed},
+          {"max_error", result.tolerance},
+          {"diameter_m", result.diameter_m},
+          {"length_m", result.length_m},
+          {"strain", result.strain},
+          {"pressure_Pa", result.pressure_Pa},
+          {"unknowns", result.unknowns},
+          {"exact_method", result.exact_method},
+          {"notes", result.notes},
+          {"relaxation", json_from_curve(result.relaxation, "stress_Pa")},
+          {"creep", json_from_curve(result.creep, "displacement_m")}};
+}
+
+std::string csv_from_curve(const ValidationCurve& curve, const char* quantity,
+                           const std::string& command) {
+  std::string text = fmt::format("# {} ({})\ntime_s,{},exact_{}\n", command,
+                                 "viscard " VISCARD_VERSION, quantity, quantity);
+  for (std::size_t i = 0; i < curve.time_s.size(); ++i) {
+    text += fmt::format("{},{},{}\n", curve.time_s[i], curve.solver[i], curve.exact[i]);
+  }
+  return text;
+}
+
+void print_result(const ValidationResult& result, const std::string& name, std::ostream& out) {
+  out << fmt::format("{}: pillar {:g} um x {:g} um on a fixed base, {} unknowns\n", name,
+                     result.diameter_m * 1e6, result.length_m * 1e6, result.unknowns);
+  out << fmt::format("  {:<11} {:>22} {:>12} {:>11} {:>8}\n", "test", "largest relative error",
+                     "at time (s)", "allowed", "steps");
+  const auto row = [&](const char* test, const ValidationCurve& curve) {
+    out << fmt::format("  {:<11} {:>22.2e} {:>12.4g} {:>11.0e} {:>8}\n", test,
+                       curve.largest_relative_error, curve.at_time_s, result.tolerance,
+                       curve.steps);
+  };
+  row("relaxation", result.relaxation);
+  row("creep", result.creep);
+  out << "  exact answer: " << result.exact_method << "\n";
+  for (const std::string& note : result.notes) out << "  note: " << note << "\n";
+  out << (result.passed ? "  passed\n" : "  FAILED\n");
+}
+
+CommandSyntax validate_syntax() {
+  CommandSyntax syntax{
+      "viscard validate MATERIAL.json [OPTIONS]",
+      "Runs a pillar (40 um across, 120 um long, fixed base) in relaxation and in creep with the "
+      "material through\nthe time-stepping solver and compares with the exact answers. Exit status "
+      "1 "
+      "if they differ by more than allowed.",
+      "viscard validate data/materials/pdms_1to10_seed.json"};
+  syntax.options.add_options()("csv", po::value<std::string>(), "write the relaxation curve here")(
+      "creep-csv", po::value<std::string>(), "write the creep curve here")(
+      "max-error", po::value<double>()->default_value(1e-6, "1e-6"),
+      "largest relative error allowed")("force", "overwrite existing files");
+  syntax.positional = {"material"};
+  return syntax;
+}
+
+}  // namespace
+
+int run_validate(const std::vector<std::string>& words, Streams& streams) {
+  CommandSyntax syntax = validate_syntax();
+  const auto values = parse_words(syntax, words, streams);
+  if (!values) return kDone;
+  if (values->count("material") == 0) {
+    throw UsageError(std::string("which material? usage: ") + syntax.usage);
+  }
+  ValidateOptions options;
+  options.tolerance = (*values)["max-error"].as<double>();
+  if (!(options.tolerance > 0.0 && options.tolerance < 1.0)) {
+    throw UsageError("--max-error must lie between 0 and 1");
+  }
+  const auto path = (*values)["material"].as<std::string>();
+  const Material material = read_material(path).material;
+  const std::string name = material.name.empty() ? path : material.name;
+  Progress progress(streams, "validate");
+  options.progress = [&](double fraction) { progress.show(fraction, name); };
+  const ValidationResult result = validate_material(material, options);
+  progress.clear();
+
+  const std::string command = quoted_command_line("validate", words);
+  const auto write = [&](const char* option, const ValidationCurve& curve, const char* quantity) {
+    if (values->count(option) == 0) return;
+    write_file((*values)[option].as<std::string>(), csv_from_curve(curve, quantity, command),
+               values->count("force") > 0);
+  };
+  write("csv", result.relaxation, "stress_Pa");
+  write("creep-csv", result.creep, "displacement_m");
+  if (values->count("json") > 0) {
+    streams.out << json_from_result(result, name).dump(2) << "\n";
+  } else {
+    print_result(result, name, streams.out);
+  }
+  if (result.passed) return kDone;
+  streams.err << fmt::format(
+      "viscard: {}: the pillar differs from the exact answer by {:.2e} in relaxation and {:.2e} in "
+      "creep, more than the {:.0e} allowed. Look at the notes, or allow more with --max-error\n",
+      name, result.relaxation.largest_relative_error, result.creep.largest_relative_error,
+      result.tolerance);
+  return kFailed;
+}
+
+}  // namespace viscard

@@ -1,0 +1,197 @@
+#include "io/cli/scene/row_pictures.h"
+
+#include "io/cli/scene/answer_pictures.h"
+#include "io/plots/plot.h"
+#include "io/report/report_numbers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+constexpr double kUm = 1e6;  // lengths are shown in micrometres
+
+using Pictures = std::vector<std::pair<std::string, std::string>>;
+
+// "crosstalk_percent" -> "crosstalk": its unit says the rest.
+std::string words_of(std::string name) {
+  if (const std::size_t at = name.find("_percent"); at != std::string::npos) name.erase(at, 8);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string labelled(const std::string& name, const std::string& unit) {
+  return unit.empty() || unit == "1" ? words_of(name) : words_of(name) + " (" + unit + ")";
+}
+
+// "centre_voltage_12" -> "centre_voltage" and 12; no number: 0.
+std::pair<std::string, int> stem_and_pillar(const std::string& name) {
+  const std::size_t end = name.find_last_not_of("0123456789");
+  const bool has_number = end != std::string::npos && name[end] == '_' && end + 1 < name.size() &&
+                          name.size() - end < 8;
+  if (!has_number) return {name, 0};
+  return {name.substr(0, end), std::stoi(name.substr(end + 1))};
+}
+
+// The results of one name, pillar after pillar.
+struct OverPillars {
+  std::string name, unit;
+  std::vector<double> pillar, value, error;
+};
+
+std::vector<OverPillars> grouped(const std::vector<SceneResult>& results) {
+  std::vector<OverPillars> groups;
+  for (const SceneResult& result : results) {
+    const auto [stem, pillar] = stem_and_pillar(result.name);
+    if (pillar == 0 || !std::isfinite(result.value)) continue;
+    auto at = std::find_if(groups.begin(), groups.end(),
+                           [&, &name = stem](const OverPillars& g) { return g.name == name; });
+    if (at == groups.end()) at = groups.insert(groups.end(), {stem, result.unit, {}, {}, {}});
+    at->pillar.push_back(pillar);
+    at->value.push_back(result.value);
+    at->error.push_back(result.error_estimate);
+  }
+  std::erase_if(groups, [](const OverPillars& g) { return g.pillar.size() < 2; });
+  return groups;
+}
+
+Plot plot_over_pillars(const OverPillars& group) {
+  const bool is_log = spans_decades(group.value);
+  // Powers of ten stay in the base unit; the others want numbers one can read.
+  const ShownUnit unit = is_log ? ShownUnit{1.0, group.unit} : shown_unit(group.unit, group.value);
+  PlotSeries dots{.mark = Mark::kErrorBars, .x = group.pillar};
+  for (std::size_t i = 0; i < group.value.size(); ++i) {
+    const double y = unit.per_si * (is_log ? std::abs(group.value[i]) : group.value[i]);
+    const double half = unit.per_si * group.error[i];
+    dots.y.push_back(y);
+    dots.y_low.push_back(is_log ? std::max(y - half, 1e-2 * y) : y - half);
+    dots.y_high.push_back(y + half);
+  }
+  PlotPanel panel;
+  panel.x = {
+      .label = "pillar", .min = group.pillar.front() - 1.0, .max = group.pillar.back() + 1.0};
+  panel.y = {.label = (is_log ? "size of " : "") + labelled(group.name, unit.text),
+             .is_log = is_log};
+  panel.series.push_back(std::move(dots));
+  Plot plot;
+  plot.title = words_of(group.name);
+  plot.description = plot.title + " of each pillar of the row, with its estimated error";
+  plot.panels.push_back(std::move(panel));
+  return plot;
+}
+
+// A parameter of a sweep.
+struct SweepKey {
+  const char* name;
+  double ArrayGeometry::*of;
+  std::size_t values;
+};
+
+// Spacing where several have as many values: what a designer chooses last.
+SweepKey key_with_most_values(const ArraySweep& sweep) {
+  const SweepKey keys[] = {
+      {"spacing", &ArrayGeometry::spacing_m, sweep.spacing_m.size()},
+      {"diameter", &ArrayGeometry::diameter_m, sweep.diameter_m.size()},
+      {"film thickness", &ArrayGeometry::film_thickness_m, sweep.thickness_m.size()}};
+  return *std::max_element(std::begin(keys), std::end(keys),
+                           [](const auto& a, const auto& b) { return a.values < b.values; });
+}
+
+// What varies beside the abscissa, as text: the lines' names.
+std::string others_of(const ArraySweep& sweep, const ArrayGeometry& g, const SweepKey& abscissa) {
+  std::string text;
+  const auto add = [&](const char* name, std::size_t values, double ArrayGeometry::*of) {
+    if (of == abscissa.of || values < 2) return;
+    text += fmt::format("{}{} {:.4g} um", text.empty() ? "" : ", ", name, kUm * (g.*of));
+  };
+  add("diameter", sweep.diameter_m.size(), &ArrayGeometry::diameter_m);
+  add("spacing", sweep.spacing_m.size(), &ArrayGeometry::spacing_m);
+  add("film", sweep.thickness_m.size(), &ArrayGeometry::film_thickness_m);
+  return text;
+}
+
+PlotSeries limit_line(const PlotPanel& panel, double limit) {
+  PlotSeries line{.label = "limit", .ink = Ink::kGrey, .is_dashed = true};
+  double low = HUGE_VAL;
+  double high = -HUGE_VAL;
+  for (const PlotSeries& series : panel.series) {
+    for (const double x : series.x) low = std::min(low, x), high = std::max(high, x);
+  }
+  line.x = {low, high, high, low, high};
+  line.y = {limit, limit, NAN, -limit, -limit};  // the gap in the middle parts the two
+  return line;
+}
+
+Plot plot_over_sweep(const ArraySceneFile& file, const std::vector<SweepPoint>& points,
+                     const std::map<std::size_t, SweepRow>& rows, std::size_t column) {
+  const SweepKey key = key_with_most_values(file.sweep);
+  const SceneResult& first = rows.begin()->second[column];
+  std::vector<double> values;
+  for (const auto& [i, row] : rows) values.push_back(row[column].value);
+  const ShownUnit unit = shown_unit(first.unit, values);
+  PlotPanel panel;
+  panel.x.label = std::string(key.name) + " (um)";
+  panel.y.label = labelled(stem_and_pillar(first.name).first, unit.text);
+  std::map<std::string, std::size_t> line_of;
+  for (const auto& [i, row] : rows) {
+    const ArrayGeometry& g = points[i].scene.geometry;
+    const std::string name = others_of(file.sweep, g, key);
+    const auto [at, is_new] = line_of.try_emplace(name, panel.series.size());
+    if (is_new) panel.series.push_back({.label = name, .ink = ink_of_series(at->second)});
+    panel.series[at->second].x.push_back(kUm * (g.*key.of));
+    panel.series[at->second].y.push_back(unit.per_si * row[column].value);
+  }
+  const std::size_t lines = panel.series.size();
+  for (std::size_t i = 0; i < lines; ++i) {
+    PlotSeries dots = panel.series[i];  // where the sweep has points
+    dots.mark = Mark::kPoints;
+    dots.label.clear();
+    panel.series.push_back(std::move(dots));
+  }
+  if (first.name.starts_with("deviation_percent") && file.sweep.limit_percent > 0.0) {
+    panel.series.push_back(limit_line(panel, file.sweep.limit_percent));
+  }
+  Plot plot{.title = words_of(first.name), .panels = {}};
+  plot.description = plot.title + " against " + key.name;
+  plot.panels.push_back(std::move(panel));
+  plot.height_px = 420;
+  return plot;
+}
+
+// None at all without gnuplot.
+bool draw(const std::string& name, const Plot& plot, Pictures& pictures) {
+  try {
+    pictures.emplace_back(name, svg_from_plot(plot, "row"));
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Pictures pictures_over_pillars(const SceneAnswer& answer) {
+  Pictures pictures;
+  if (!answer.curves.empty()) return pictures;  // those have pictures of their own
+  for (const OverPillars& group : grouped(answer.results)) {
+    if (!draw(group.name, plot_over_pillars(group), pictures)) return {};
+  }
+  return pictures;
+}
+
+Pictures pictures_over_sweep(const ArraySceneFile& file, const std::vector<SweepPoint>& points,
+                             const std::map<std::size_t, SweepRow>& rows) {
+  Pictures pictures;
+  if (rows.size() < 2 || key_with_most_values(file.sweep).values < 2) return pictures;
+  for (std::size_t column = 0; column < rows.begin()->second.size(); ++column) {
+    const std::string& name = rows.begin()->second[column].name;
+    if (!draw(name, plot_over_sweep(file, points, rows, column), pictures)) return {};
+  }
+  return pictures;
+}
+
+}  // namespace viscard

@@ -1,0 +1,90 @@
+#include "io/cli/words/command_line.h"
+
+#include "io/cli/words/output_paths.h"
+
+#include <ostream>
+
+namespace po = boost::program_options;
+
+namespace viscard {
+namespace {
+
+std::vector<std::string> option_names(const po::options_description& options) {
+  std::vector<std::string> names;
+  for (const auto& option : options.options()) names.push_back("--" + option->long_name());
+  return names;
+}
+
+[[noreturn]] void throw_unknown(const std::string& word, const po::options_description& options,
+                                const char* usage) {
+  const std::string near = nearest_word(word, option_names(options));
+  throw UsageError("there is no option '" + word + "'" +
+                   (near.empty() ? "." : "; did you mean '" + near + "'?") + " Usage: " + usage);
+}
+
+}  // namespace
+
+std::optional<po::variables_map> parse_words(CommandSyntax& syntax,
+                                             const std::vector<std::string>& words,
+                                             Streams& streams) {
+  syntax.options.add_options()("json", "print one machine-readable object on stdout, nothing else")(
+      "help,h", "print this");
+  po::options_description all;
+  all.add(syntax.options);
+  po::options_description hidden;
+  po::positional_options_description positions;
+  for (std::size_t i = 0; i < syntax.positional.size(); ++i) {
+    const bool repeats = syntax.last_is_repeatable && i + 1 == syntax.positional.size();
+    const char* name = syntax.positional[i].c_str();
+    if (repeats) {
+      hidden.add_options()(name, po::value<std::vector<std::string>>());
+    } else {
+      hidden.add_options()(name, po::value<std::string>());
+    }
+    positions.add(name, repeats ? -1 : 1);
+  }
+  all.add(hidden);
+
+  po::variables_map values;
+  try {
+    // No guessing of shortened options: a script must not change meaning when an option is added.
+    const int style =
+        po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
+    po::store(po::command_line_parser(words).options(all).positional(positions).style(style).run(),
+              values);
+  } catch (const po::unknown_option& error) {
+    throw_unknown(error.get_option_name(), syntax.options, syntax.usage);
+  } catch (const po::too_many_positional_options_error&) {
+    throw UsageError(std::string("too many words on the command line. usage: ") + syntax.usage);
+  } catch (const po::error& error) {
+    throw UsageError(std::string(error.what()) + ". usage: " + syntax.usage);
+  }
+  if (values.count("help") > 0) {
+    streams.out << "usage: " << syntax.usage << "\n\n"
+                << syntax.description << "\n\n"
+                << syntax.options << "\nExample: " << syntax.example << "\n";
+    return std::nullopt;
+  }
+  check_output_paths(values);
+  po::notify(values);
+  return values;
+}
+
+std::string quoted_command_line(const std::string& command, const std::vector<std::string>& words) {
+  const std::string plain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789@%_-+=:,./";
+  std::string line = "viscard " + command;
+  for (const std::string& word : words) {
+    line += ' ';
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += '\'';
+  }
+  return line;
+}
+
+}  // namespace viscard

@@ -1,0 +1,94 @@
+#include "io/cli/words/output_paths.h"
+
+#include "io/cli/command.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace fs = std::filesystem;
+namespace po = boost::program_options;
+
+namespace viscard {
+namespace {
+
+constexpr std::array<std::string_view, 5> kOutputs{"out", "csv", "creep-csv", "svg", "vtk"};
+
+struct NamedPath {
+  std::string option;
+  fs::path path;
+  bool is_output = false;
+};
+
+std::vector<NamedPath> paths_among(const po::variables_map& values) {
+  std::vector<NamedPath> paths;
+  for (const auto& [name, value] : values) {
+    bool is_output = false;
+    for (const std::string_view output : kOutputs) is_output = is_output || output == name;
+    const boost::any& held = value.value();
+    if (const auto* text = boost::any_cast<std::string>(&held)) {
+      if (!text->empty()) paths.push_back({name, *text, is_output});
+    } else if (const auto* texts = boost::any_cast<std::vector<std::string>>(&held)) {
+      for (const std::string& each : *texts) paths.push_back({name, each, is_output});
+    }
+  }
+  return paths;
+}
+
+// Links and other spellings of one file count as the same. Folders may be shared, and a word that
+// names no file ("relaxation") is not a path.
+bool is_same_file(const fs::path& output, const NamedPath& other) {
+  std::error_code error;
+  if (fs::is_directory(output, error)) return false;
+  if (fs::exists(output, error) && fs::exists(other.path, error)) {
+    return fs::equivalent(output, other.path, error);
+  }
+  return other.is_output && fs::absolute(output, error).lexically_normal() ==
+                                fs::absolute(other.path, error).lexically_normal();
+}
+
+void refuse_shared_file(const NamedPath& output, const std::vector<NamedPath>& all) {
+  for (const NamedPath& other : all) {
+    if (&other == &output || !is_same_file(output.path, other)) continue;
+    throw UsageError("--" + output.option + " '" + output.path.string() + "' is also " +
+                     (other.is_output ? "--" + other.option : "read by this command") +
+                     "; choose another name for it");
+  }
+}
+
+// The nearest folder that is there must be one, and writable: some commands make what lies below.
+void refuse_unwritable_folder(const NamedPath& output) {
+  std::error_code error;
+  fs::path folder = fs::absolute(output.path, error).lexically_normal().parent_path();
+  while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+  const std::string where = "cannot write --" + output.option + " '" + output.path.string() + "': ";
+  if (!fs::is_directory(folder, error)) {
+    throw std::runtime_error(where + "'" + folder.string() +
+                             "' is not a folder; choose another place");
+  }
+  if (::access(folder.c_str(), W_OK) != 0) {
+    throw std::runtime_error(where + std::strerror(errno) + " in '" + folder.string() +
+                             "'; choose a folder you may write to");
+  }
+}
+
+}  // namespace
+
+void check_output_paths(const po::variables_map& values) {
+  const std::vector<NamedPath> paths = paths_among(values);
+  for (const NamedPath& path : paths) {
+    if (!path.is_output) continue;
+    refuse_shared_file(path, paths);
+    refuse_unwritable_folder(path);
+  }
+}
+
+}  // namespace viscard

@@ -1,0 +1,88 @@
+#include "io/cli/words/printed_values.h"
+
+#include "io/basics/nearest_word.h"
+#include "io/basics/units.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+struct Named {
+  std::string name;
+  double value;
+  std::string unit;
+};
+
+std::vector<Named> named_values(const SceneAnswer& answer) {
+  std::vector<Named> all;
+  for (const SceneResult& r : answer.results) all.push_back({r.name, r.value, r.unit});
+  std::map<std::string, int> count;
+  for (const SceneMode& m : answer.modes) {
+    all.push_back({fmt::format("{} {}", m.family, ++count[m.family]), m.frequency_Hz, "Hz"});
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<PrintedComparison> compare_printed(const std::vector<PrintedValue>& printed,
+                                               const SceneAnswer& answer) {
+  const std::vector<Named> all = named_values(answer);
+  std::vector<std::string> known;
+  for (const Named& one : all) known.push_back(one.name);
+  std::vector<PrintedComparison> rows;
+  for (const PrintedValue& p : printed) {
+    const auto ours =
+        std::find_if(all.begin(), all.end(), [&](const Named& n) { return n.name == p.name; });
+    if (ours == all.end()) {
+      const std::string near = nearest_word(p.name, known);
+      throw std::runtime_error("[[printed]]: the answer has no '" + p.name + "'" +
+                               (near.empty() ? "" : "; did you mean '" + near + "'?"));
+    }
+    const double value = si_from_text(p.value, ours->unit.c_str());
+    // Voltages and displacements are printed without their sign.
+    const double percent = 100.0 * (std::abs(value) / std::abs(ours->value) - 1.0);
+    rows.push_back({p.name, value, ours->value, ours->unit, percent, p.note});
+    if (ours->unit == "%") rows.back().difference_points = value - ours->value;
+  }
+  return rows;
+}
+
+void print_comparison(const std::vector<PrintedComparison>& rows, std::ostream& out) {
+  if (rows.empty()) return;
+  std::size_t width = 24;
+  for (const PrintedComparison& row : rows) width = std::max(width, row.name.size());
+  out << fmt::format("\n  {:<{}} {:>12} {:>14} {:<5} {:>11}\n", "", width, "printed", "ours", "",
+                     "difference");
+  for (const PrintedComparison& row : rows) {
+    const std::string difference = row.difference_points
+                                       ? fmt::format("{:+9.4f} points", *row.difference_points)
+                                       : fmt::format("{:+9.3f} %", row.difference_percent);
+    out << fmt::format("  {:<{}} {:>12.6g} {:>14.7g} {:<5} {}{}{}\n", row.name, width, row.printed,
+                       row.ours, row.unit, difference, row.note.empty() ? "" : "  ", row.note);
+  }
+  out << "  (what a source prints without its sign is compared by size)\n";
+}
+
+nlohmann::json json_from_comparison(const std::vector<PrintedComparison>& rows) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const PrintedComparison& row : rows) {
+    list.push_back({{"name", row.name},
+                    {"printed", row.printed},
+                    {"ours", row.ours},
+                    {"unit", row.unit},
+                    {"difference_percent", row.difference_percent},
+                    {"note", row.note}});
+    if (row.difference_points) list.back()["difference_points"] = *row.difference_points;
+  }
+  return list;
+}
+
+}  // namespace viscard

@@ -1,0 +1,35 @@
+#include "io/cli/words/stop_on_signal.h"
+
+namespace viscard {
+namespace {
+
+std::atomic<bool> stop_asked{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
+
+extern "C" void ask_to_stop(int) {
+  stop_asked = true;
+}
+
+}  // namespace
+
+StopOnSignal::StopOnSignal() {
+  stop_asked = false;
+  struct sigaction action {};
+  std::size_t n = 0;
+  action.sa_handler = ask_to_stop;
+  for (const int number : kAsking) sigaction(number, &action, &before_[n++]);
+  action.sa_handler = SIG_IGN;
+  for (const int number : kIgnored) sigaction(number, &action, &before_[n++]);
+}
+
+StopOnSignal::~StopOnSignal() {
+  std::size_t n = 0;
+  for (const int number : kAsking) sigaction(number, &before_[n++], nullptr);
+  for (const int number : kIgnored) sigaction(number, &before_[n++], nullptr);
+}
+
+const std::atomic<bool>& StopOnSignal::is_asked() {
+  return stop_asked;
+}
+
+}  // namespace viscard

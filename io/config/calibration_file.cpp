@@ -1,0 +1,105 @@
+// What `viscard calibrate` writes and a rig file names.
+#include "io/basics/atomic_file.h"
+#include "io/config/config_file.h"
+#include "io/config/config_show.h"
+
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+constexpr Range kPositive = Range::kPositive;
+constexpr Range kNotNegative = Range::kNotNegative;
+
+void show_budget(FieldVisitor& fields, std::vector<UncertaintyRow>& budget) {
+  fields.list(
+      "budget", budget.size(), [&](std::size_t size) { budget.assign(size, {}); },
+      [&](FieldVisitor& inner, std::size_t i) {
+        inner.text({"source", "weights", true}, budget[i].source);
+        inner.quantity({"relative_u", "1", kNotNegative, true}, budget[i].relative_u);
+        inner.text({"how", "as stated"}, budget[i].how);
+      });
+}
+
+void show_frame_numbers(FieldVisitor& fields, FrameConfig& frame) {
+  fields.quantity({"stiffness", "N/m"}, frame.stiffness_N_m);
+  fields.quantity({"stiffness_relative_u", "1", kNotNegative}, frame.stiffness_relative_u);
+  fields.text({"id", "bench 2026-11"}, frame.id);
+  fields.text({"date", "2026-11-21"}, frame.date);
+}
+
+// What `viscard calibrate` writes: one of the two sections, and what its uncertainty is made of.
+void show_record(FieldVisitor& fields, LoadCellCalibration& calibration, FrameConfig& frame,
+                 std::vector<UncertaintyRow>& budget) {
+  fields.section("calibration", [&](FieldVisitor& inner) {
+    LoadCellCalibration found = calibration;
+    found.file = "-";  // nothing is required
+    show_calibration(inner, found, false);
+    found.file.clear();
+    calibration = found;
+  });
+  fields.section("frame", [&](FieldVisitor& inner) { show_frame_numbers(inner, frame); });
+  show_budget(fields, budget);
+}
+
+}  // namespace
+
+// Nothing is required where a record of `viscard calibrate` is named: it is read afterwards. A
+// force gauge knows its own gain.
+void show_calibration(FieldVisitor& fields, LoadCellCalibration& calibration, bool knows_gain) {
+  fields.text({"file", "cell-7.calibration.toml"}, calibration.file);
+  const bool is_elsewhere = !calibration.file.empty();
+  if (knows_gain && calibration.volts_per_newton == 0.0) calibration.volts_per_newton = 1.0;
+  fields.quantity(
+      {.key = "volts_per_newton", .unit = "V/N", .is_required = !is_elsewhere && !knows_gain},
+      calibration.volts_per_newton);
+  fields.quantity({"volts_per_newton_u", "V/N", kNotNegative}, calibration.volts_per_newton_u);
+  fields.quantity({"zero_volts", "V"}, calibration.zero_volts);
+  fields.quantity({"capacity", "N", kPositive, !is_elsewhere}, calibration.capacity_N);
+  fields.text({"id", "cell-7 2026-11"}, calibration.id);
+  fields.text({"date", "2026-11-21"}, calibration.date);
+  fields.text({"valid_until", "2027-11-21"}, calibration.valid_until);
+  fields.quantity({"nonlinearity", "1", kNotNegative}, calibration.nonlinearity);
+  fields.quantity({"hysteresis", "1", kNotNegative}, calibration.hysteresis);
+  fields.quantity({"repeatability", "1", kNotNegative}, calibration.repeatability);
+}
+
+CalibrationRecord calibration_from_toml(const std::string& text, const std::string& name) {
+  CalibrationRecord record;
+  LoadCellCalibration calibration;
+  FrameConfig frame;
+  frame.stiffness_N_m = -1.0;
+  read_toml_fields(text, name, [&](FieldVisitor& fields) {
+    show_record(fields, calibration, frame, record.budget);
+  });
+  if (calibration.volts_per_newton != 0.0) {
+    if (calibration.id.empty() || calibration.date.empty()) {
+      throw std::runtime_error(name + ": the calibration has no id or no date");
+    }
+    record.calibration = calibration;
+  }
+  if (frame.stiffness_N_m > 0.0) record.frame = frame;
+  return record;
+}
+
+CalibrationRecord read_calibration(const std::filesystem::path& path) {
+  return calibration_from_toml(read_file(path), path.string());
+}
+
+std::string toml_from_calibration(const CalibrationRecord& record) {
+  return toml_from_fields([&](FieldVisitor& fields) {
+    LoadCellCalibration calibration = record.calibration.value_or(LoadCellCalibration{});
+    FrameConfig frame = record.frame.value_or(FrameConfig{});
+    std::vector<UncertaintyRow> budget = record.budget;
+    if (record.calibration) {
+      fields.section("calibration",
+                     [&](FieldVisitor& inner) { show_calibration(inner, calibration, false); });
+    }
+    if (record.frame) {
+      fields.section("frame", [&](FieldVisitor& inner) { show_frame_numbers(inner, frame); });
+    }
+    show_budget(fields, budget);
+  });
+}
+
+}  // namespace viscard

@@ -1,0 +1,278 @@
+#include "io/basics/nearest_word.h"
+#include "io/basics/units.h"
+#include "io/config/config_fields.h"
+
+#include <toml++/toml.h>
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+const char* text_of(Range range) {
+  switch (range) {
+    case Range::kPositive:
+      return "a positive number";
+    case Range::kNotNegative:
+      return "a number that is not negative";
+    case Range::kFraction:
+      return "a number from 0 to 1";
+    case Range::kAny:
+      break;
+  }
+  return "a finite number";
+}
+
+bool is_in(Range range, double value) {
+  if (!std::isfinite(value)) return false;
+  switch (range) {
+    case Range::kPositive:
+      return value > 0.0;
+    case Range::kNotNegative:
+      return value >= 0.0;
+    case Range::kFraction:
+      return value >= 0.0 && value <= 1.0;
+    case Range::kAny:
+      break;
+  }
+  return true;
+}
+
+// A text in a file says its unit; a bare number between quotes may be in any.
+double si_with_unit(const std::string& text, const char* unit) {
+  const double value = si_from_text(text, unit);
+  const bool has_unit = text.find_first_not_of("0123456789+-.eE \t") != std::string::npos;
+  if (!has_unit && std::string(unit) != "1") {
+    throw std::invalid_argument("\"" + text + "\" has no unit; write it with one, as \"" + text +
+                                " " + unit + "\", or without the quotes if it is in " + unit);
+  }
+  return value;
+}
+
+class TomlReader final : public FieldVisitor {
+ public:
+  TomlReader(const toml::table& table, std::string file, std::string prefix)
+      : table_(table), file_(std::move(file)), prefix_(std::move(prefix)) {}
+
+  void quantity(const QuantityField& field, double& value) override {
+    const toml::node* node = find(field.key, field.is_required, expected(field));
+    if (node == nullptr) return;
+    double written = 0.0;
+    if (const auto number = node->value_exact<double>()) {
+      written = *number;
+    } else if (const auto whole = node->value_exact<std::int64_t>()) {
+      written = static_cast<double>(*whole);
+    } else if (const auto text = node->value_exact<std::string>()) {
+      if (field.word != nullptr && *text == field.word) {
+        value = field.word_value;
+        return;
+      }
+      try {
+        written = si_with_unit(*text, field.unit);
+      } catch (const std::invalid_argument& error) {
+        fail(*node, field.key, error.what());
+      }
+    } else {
+      fail(*node, field.key, "expected " + expected(field));
+    }
+    if (!is_in(field.range, written)) {
+      fail(*node, field.key,
+           "is " + text_from_number(written) + "; expected " + text_of(field.range));
+    }
+    value = written / field.written_per_value;
+  }
+
+  void text(const TextField& field, std::string& value) override {
+    const std::string what = std::string("a text in quotes, such as \"") + field.example + "\"";
+    const toml::node* node = find(field.key, field.is_required, what);
+    if (node == nullptr) return;
+    if (const auto text = node->value_exact<std::string>()) {
+      value = *text;
+    } else if (node->is_date() || node->is_date_time()) {  // a date needs no quotes in TOML
+      std::ostringstream date;
+      node->is_date() ? date << *node->as_date() : date << *node->as_date_time();
+      value = date.str();
+    } else {
+      fail(*node, field.key, "expected " + what);
+    }
+  }
+
+  void integer(const char* key, std::int64_t low, std::int64_t high, std::int64_t& value) override {
+    const std::string what =
+        "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+    const toml::node* node = find(key, false, what);
+    if (node == nullptr) return;
+    const auto number = node->value_exact<std::int64_t>();
+    if (!number || *number < low || *number > high) fail(*node, key, "expected " + what);
+    value = *number;
+  }
+
+  void boolean(const char* key, bool& value) override {
+    const toml::node* node = find(key, false, "true or false");
+    if (node == nullptr) return;
+    const auto truth = node->value_exact<bool>();
+    if (!truth) fail(*node, key, "expected true or false, without quotes");
+    value = *truth;
+  }
+
+  void texts(const TextField& field, std::vector<std::string>& values) override {
+    const std::string what = std::string("a list of texts, such as [\"") + field.example + "\"]";
+    const toml::array* entries = list_at(field.key, field.is_required, what);
+    if (entries == nullptr) return;
+    values.clear();
+    for (const toml::node& entry : *entries) {
+      const auto text = entry.value_exact<std::string>();
+      if (!text) fail(entry, field.key, "expected " + what);
+      values.push_back(*text);
+    }
+  }
+
+  void quantity_pairs(const char* key, const char* first_unit, const char* second_unit,
+                      std::vector<std::pair<double, double>>& values) override {
+    const std::string what = std::string("a list of pairs, [[\"1 ") + first_unit + "\", \"2 " +
+                             second_unit + "\"], ...]";
+    const toml::array* entries = list_at(key, false, what);
+    if (entries == nullptr) return;
+    values.clear();
+    for (const toml::node& entry : *entries) {
+      const toml::array* pair = entry.as_array();
+      if (pair == nullptr || pair->size() != 2) fail(entry, key, "expected " + what);
+      values.emplace_back(quantity_of(*pair->get(0), key, first_unit),
+                          quantity_of(*pair->get(1), key, second_unit));
+    }
+  }
+
+  void quantities(const QuantityField& field, std::vector<double>& values) override {
+    const std::string what = "a list, each entry " + expected(field);
+    const toml::array* entries = list_at(field.key, field.is_required, what);
+    if (entries == nullptr) return;
+    values.clear();
+    for (const toml::node& entry : *entries) {
+      const double written = quantity_of(entry, field.key, field.unit);
+      if (!is_in(field.range, written)) {
+        fail(entry, field.key,
+             "is " + text_from_number(written) + "; expected " + text_of(field.range));
+      }
+      values.push_back(written / field.written_per_value);
+    }
+  }
+
+  void section(const char* key, const std::function<void(FieldVisitor&)>& body) override {
+    static const toml::table kEmpty;
+    const toml::node* node = find(key, false, "");
+    if (node != nullptr && !node->is_table()) {
+      fail(*node, key, std::string("expected a section [") + prefix_ + key + "]");
+    }
+    TomlReader inner(node != nullptr ? *node->as_table() : kEmpty, file_, prefix_ + key + ".");
+    body(inner);
+    inner.refuse_unknown_keys();
+  }
+
+  void list(const char* key, std::size_t, const std::function<void(std::size_t)>& resize,
+            const std::function<void(FieldVisitor&, std::size_t)>& body) override {
+    const toml::node* node = find(key, false, "");
+    if (node == nullptr) return;
+    const toml::array* entries = node->as_array();
+    if (entries == nullptr) fail(*node, key, "expected a list of tables");
+    resize(entries->size());
+    for (std::size_t i = 0; i < entries->size(); ++i) {
+      const toml::table* entry = entries->get(i)->as_table();
+      if (entry == nullptr) fail(*entries->get(i), key, "expected a list of tables");
+      TomlReader inner(*entry, file_, prefix_ + key + "[" + std::to_string(i + 1) + "].");
+      body(inner, i);
+      inner.refuse_unknown_keys();
+    }
+  }
+
+  // Told at the end of a section: a key that is misspelt says more than the one that is then
+  // missing.
+  void refuse_unknown_keys() const {
+    for (const auto& [key, node] : table_) {
+      const std::string word(key.str());
+      bool is_known = false;
+      std::string all;
+      for (const std::string& known : known_) {
+        is_known = is_known || known == word;
+        all += (all.empty() ? "" : ", ") + known;
+      }
+      if (is_known) continue;
+      const std::string near = nearest_word(word, known_);
+      throw std::runtime_error(where(node) + "there is no key '" + prefix_ + word + "'" +
+                               (near.empty() ? "." : "; did you mean '" + near + "'?") +
+                               " Known here: " + all);
+    }
+    if (!missing_.empty()) throw std::runtime_error(missing_);
+  }
+
+ private:
+  double quantity_of(const toml::node& node, const char* key, const char* unit) const {
+    if (const auto number = node.value<double>()) return *number;
+    const auto text = node.value_exact<std::string>();
+    if (!text) fail(node, key, std::string("expected a number or a text with a unit of ") + unit);
+    try {
+      return si_with_unit(*text, unit);
+    } catch (const std::invalid_argument& error) {
+      fail(node, key, error.what());
+    }
+  }
+
+  static std::string expected(const QuantityField& field) {
+    std::string what = text_of(field.range);
+    if (std::string(field.unit) != "1") what += std::string(" with a unit of ") + field.unit;
+    if (field.word != nullptr) what += std::string(", or \"") + field.word + "\"";
+    return what;
+  }
+
+  const toml::node* find(const char* key, bool is_required, const std::string& what) {
+    known_.emplace_back(key);
+    const toml::node* node = table_.get(key);
+    if (node == nullptr && is_required && missing_.empty()) {
+      const auto line = table_.source().begin.line;
+      missing_ = file_ + (line > 0 ? ":" + std::to_string(line) : "") + ": '" + prefix_ + key +
+                 "' is missing; expected " + what;
+    }
+    return node;
+  }
+
+  // The list under a key; nullptr where there is none and need be none.
+  const toml::array* list_at(const char* key, bool is_required, const std::string& what) {
+    const toml::node* node = find(key, is_required, what);
+    if (node == nullptr) return nullptr;
+    if (node->as_array() == nullptr) fail(*node, key, "expected " + what);
+    return node->as_array();
+  }
+
+  std::string where(const toml::node& node) const {
+    return file_ + ":" + std::to_string(node.source().begin.line) + ": ";
+  }
+
+  [[noreturn]] void fail(const toml::node& node, const char* key, const std::string& what) const {
+    throw std::runtime_error(where(node) + prefix_ + key + ": " + what);
+  }
+
+  const toml::table& table_;
+  std::string file_;
+  std::string prefix_;  // "stage."
+  std::vector<std::string> known_;
+  std::string missing_;  // what to say of the first required key that is not there
+};
+
+}  // namespace
+
+void read_toml_fields(const std::string& text, const std::string& name, const ShowFields& show) {
+  toml::table table;
+  try {
+    table = toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw std::runtime_error(name + ":" + std::to_string(error.source().begin.line) +
+                             ": not TOML: " + std::string(error.description()));
+  }
+  TomlReader reader(table, name, "");
+  show(reader);
+  reader.refuse_unknown_keys();
+}
+
+}  // namespace viscard

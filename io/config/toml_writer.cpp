@@ -1,0 +1,105 @@
+#include "io/basics/units.h"
+#include "io/config/config_fields.h"
+
+#include <fmt/format.h>
+
+namespace viscard {
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (byte < 0x20 || byte == 0x7f) {
+      out += fmt::format("\\u{:04X}", byte);
+    } else {
+      out += c;
+    }
+  }
+  return out + "\"";
+}
+
+// TOML tells 1.0 from 1; the sign of an infinity is legal there too.
+std::string number(double value) {
+  std::string out = text_from_number(value);
+  if (out.find_first_not_of("-0123456789") == std::string::npos) out += ".0";
+  return out;
+}
+
+class TomlWriter final : public FieldVisitor {
+ public:
+  explicit TomlWriter(std::string prefix) : prefix_(std::move(prefix)) {}
+
+  void quantity(const QuantityField& field, double& value) override {
+    if (field.word != nullptr && value == field.word_value) {
+      line(field.key, quoted(field.word));
+    } else {
+      line(field.key, number(value * field.written_per_value));
+    }
+  }
+  void text(const TextField& field, std::string& value) override { line(field.key, quoted(value)); }
+  void integer(const char* key, std::int64_t, std::int64_t, std::int64_t& value) override {
+    line(key, std::to_string(value));
+  }
+  void boolean(const char* key, bool& value) override { line(key, value ? "true" : "false"); }
+
+  void texts(const TextField& field, std::vector<std::string>& values) override {
+    std::string all;
+    for (const std::string& value : values) all += (all.empty() ? "" : ", ") + quoted(value);
+    line(field.key, "[" + all + "]");
+  }
+  void quantities(const QuantityField& field, std::vector<double>& values) override {
+    std::string all;
+    for (const double value : values) {
+      all += (all.empty() ? "" : ", ") + number(value * field.written_per_value);
+    }
+    line(field.key, "[" + all + "]");
+  }
+  void quantity_pairs(const char* key, const char*, const char*,
+                      std::vector<std::pair<double, double>>& values) override {
+    std::string all;
+    for (const auto& [first, second] : values) {
+      all += (all.empty() ? "[" : ", [") + number(first) + ", " + number(second) + "]";
+    }
+    line(key, "[" + all + "]");
+  }
+
+  void section(const char* key, const std::function<void(FieldVisitor&)>& body) override {
+    TomlWriter inner(prefix_ + key + ".");
+    body(inner);
+    sections_ += "\n[" + prefix_ + key + "]\n" + inner.all();
+  }
+  void list(const char* key, std::size_t size, const std::function<void(std::size_t)>&,
+            const std::function<void(FieldVisitor&, std::size_t)>& body) override {
+    for (std::size_t i = 0; i < size; ++i) {
+      TomlWriter inner(prefix_ + key + ".");
+      body(inner, i);
+      sections_ += "\n[[" + prefix_ + key + "]]\n" + inner.all();
+    }
+  }
+
+  // Plain keys come before the sections, whatever order they were shown in.
+  std::string all() const { return lines_ + sections_; }
+
+ private:
+  void line(const char* key, const std::string& value) {
+    lines_ += std::string(key) + " = " + value + "\n";
+  }
+
+  std::string prefix_;
+  std::string lines_;
+  std::string sections_;
+};
+
+}  // namespace
+
+std::string toml_from_fields(const ShowFields& show) {
+  TomlWriter writer("");
+  show(writer);
+  return writer.all();
+}
+
+}  // namespace viscard

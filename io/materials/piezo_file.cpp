@@ -1,0 +1,94 @@
+#include "io/materials/piezo_file.h"
+
+#include "io/basics/atomic_file.h"
+
+#include <Eigen/LU>
+#include <nlohmann/json.hpp>
+
+#include <set>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+using nlohmann::json;
+
+double number_in(const json& object, const char* key) {
+  if (!object.contains(key)) throw std::invalid_argument(std::string("'") + key + "' is missing");
+  if (!object[key].is_number()) {
+    throw std::invalid_argument(std::string("'") + key + "' must be a number");
+  }
+  return object[key].get<double>();
+}
+
+double number_in(const json& object, const char* key, double otherwise) {
+  return object.contains(key) ? number_in(object, key) : otherwise;
+}
+
+Matrix6d stiffness_from(const json& elastic) {
+  if (elastic.contains("E_Pa")) {
+    return isotropic_moduli_Pa(number_in(elastic, "E_Pa"), number_in(elastic, "nu"));
+  }
+  const double s11 = number_in(elastic, "s11"), s12 = number_in(elastic, "s12");
+  const double s13 = number_in(elastic, "s13"), s33 = number_in(elastic, "s33");
+  const double s55 = number_in(elastic, "s55"), s66 = number_in(elastic, "s66");
+  Matrix6d s = Matrix6d::Zero();
+  s.topLeftCorner<3, 3>() << s11, s12, s13, s12, s11, s13, s13, s13, s33;
+  s.diagonal().tail<3>() << s55, s55, s66;
+  const Matrix6d scaled = s / s11;  // so that the inverse is of numbers near one
+  const Matrix6d inverse = scaled.inverse();
+  return 0.5 * (inverse + inverse.transpose()) / s11;
+}
+
+MediumFile medium_from(const json& object) {
+  static const std::set<std::string> kKnown = {
+      "schema", "name", "rho_kg_m3", "elastic", "charge_C_N", "relative_permittivity", "source"};
+  for (const auto& [key, value] : object.items()) {
+    if (!kKnown.contains(key)) throw std::invalid_argument("there is no key '" + key + "'");
+  }
+  if (object.value("schema", "") != "viscard-medium/1") {
+    throw std::invalid_argument("'schema' must be \"viscard-medium/1\"");
+  }
+  if (!object.contains("elastic")) throw std::invalid_argument("'elastic' is missing");
+  MediumFile file;
+  file.name = object.value("name", "");
+  const double rho = number_in(object, "rho_kg_m3");
+  const Matrix6d stiffness = stiffness_from(object["elastic"]);
+  if (!object.contains("charge_C_N")) {
+    file.medium.stiffness_Pa = stiffness;
+    file.medium.rho_kg_m3 = rho;
+    return file;
+  }
+  const json& d = object["charge_C_N"];
+  file.charge_C_N(2, 0) = number_in(d, "d31");
+  file.charge_C_N(2, 1) = number_in(d, "d32", file.charge_C_N(2, 0));
+  file.charge_C_N(2, 2) = number_in(d, "d33");
+  file.charge_C_N(0, 4) = number_in(d, "d15", 0.0);
+  file.charge_C_N(1, 3) = number_in(d, "d24", file.charge_C_N(0, 4));
+  const json permittivity = object.value("relative_permittivity", json::array());
+  if (!permittivity.is_array() || permittivity.size() != 3) {
+    throw std::invalid_argument("'relative_permittivity' must be three numbers");
+  }
+  Eigen::Matrix3d eps = Eigen::Matrix3d::Zero();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    eps(i, i) = permittivity[static_cast<std::size_t>(i)].get<double>() * kVacuumPermittivity_F_m;
+  }
+  file.permittivity_stress_F_m = eps(2, 2);
+  file.medium = piezo_medium(stiffness, file.charge_C_N, eps, rho);
+  return file;
+}
+
+}  // namespace
+
+MediumFile read_medium(const std::filesystem::path& path) {
+  const std::string text = read_file(path);
+  try {
+    return medium_from(json::parse(text));
+  } catch (const json::exception& error) {
+    throw std::runtime_error(path.string() + ": not a medium file: " + error.what());
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(path.string() + ": " + error.what());
+  }
+}
+
+}  // namespace viscard

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "models/pillar/system/medium.h"
+
+#include <filesystem>
+#include <string>
+
+namespace viscard {
+
+// Elastic and piezoelectric media of films and ceramics, schema "viscard-medium/1" (io/README.md):
+// JSON with name, rho_kg_m3 and
+//   elastic: {E_Pa, nu} or {s11, s12, s13, s33, s55, s66 in 1/Pa} (transversely isotropic about z);
+//   charge_C_N: {d31, d32, d33, d24, d15}, d32 = d31 and d24 = d15 unless given;
+//   relative_permittivity: [e11, e22, e33] at constant stress.
+struct MediumFile {
+  std::string name;
+  Medium medium;
+  PiezoMatrix charge_C_N = PiezoMatrix::Zero();
+  double permittivity_stress_F_m = 0.0;  // along z
+};
+
+// Throws std::runtime_error naming file and key.
+MediumFile read_medium(const std::filesystem::path& path);
+
+}  // namespace viscard

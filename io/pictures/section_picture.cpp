@@ -1,0 +1,199 @@
+#include "io/pictures/section_picture.h"
+
+#include "io/plots/plot_svg.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace viscard {
+namespace {
+
+constexpr double kWidth_px = 560.0;
+constexpr double kHeight_px = 560.0;
+constexpr double kLeft_px = 30.0, kRight_px = 130.0, kTop_px = 50.0, kBottom_px = 40.0;
+// Largest displacement drawn: of the height, and of the pillar's radius where it does not swing.
+constexpr double kSwing = 0.15, kBulge = 0.4;
+
+// From dark to light for sizes, blue through white to red for signed values.
+// Anchors of viridis: Smith & van der Walt (2015); of the other: Moreland, ISVC (2009) 92.
+std::string colour(double share, bool is_signed) {
+  static const std::vector<std::array<double, 3>> kSize = {
+      {68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}};
+  static const std::vector<std::array<double, 3>> kSigned = {
+      {59, 76, 192}, {141, 176, 254}, {221, 221, 221}, {244, 152, 122}, {180, 4, 38}};
+  const auto& anchors = is_signed ? kSigned : kSize;
+  const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(anchors.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(at), anchors.size() - 2);
+  const double t = at - static_cast<double>(i);
+  std::array<int, 3> rgb{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    rgb[c] = static_cast<int>(std::lround(anchors[i][c] * (1.0 - t) + anchors[i + 1][c] * t));
+  }
+  return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
+}
+
+// A corner of a quadrilateral as drawn: in the plane of the section, m, and its value.
+struct Corner {
+  double x_m, z_m, value;
+};
+
+struct Shown {
+  std::string title;
+  bool is_signed = false;
+  std::vector<std::array<Corner, 4>> quads;
+  std::string note;
+};
+
+double largest_drawn_m(const SectionGrid& grid) {
+  const double length_m = *std::max_element(grid.z_m.begin(), grid.z_m.end());
+  double radius_m = 0.0;
+  for (std::size_t i = 0; i < grid.x_m.size(); ++i) {
+    if (grid.z_m[i] > 0.0) radius_m = std::max(radius_m, grid.x_m[i]);
+  }
+  const double widest_m = *std::max_element(grid.x_m.begin(), grid.x_m.end());
+  constexpr double kDisc = 4.0;  // so much wider than high, the film bends rather than the pillar
+  if (widest_m > kDisc * length_m) return kSwing * 0.5 * widest_m;
+  const double swing_m = kSwing * length_m;
+  return grid.harmonic == 1 ? swing_m : std::min(swing_m, kBulge * radius_m);
+}
+
+// "static_stress_zz_Pa" -> "static stress zz (Pa)"
+std::string title_of(std::string name, const std::string& unit) {
+  if (unit != "1" && name.ends_with("_" + unit)) {
+    name = name.substr(0, name.size() - unit.size() - 1) + " (" + unit + ")";
+  }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+// Both halves of the section, moved by factor times the displacement (if it is one).
+Shown shown_of(const SectionGrid& grid, const SectionField& field) {
+  const std::string name = field.unit == "1" ? field.name : grid.name + "_" + field.name;
+  Shown shown{title_of(name, field.unit), !field.is_vector, {}, {}};
+  double largest = 0.0;
+  for (std::size_t i = 0; i < field.value.size(); ++i) {
+    const auto u = displacement_at(grid, field, i, 0.0);
+    largest = std::max(largest, std::hypot(u[0], u[1], u[2]));
+  }
+  const double factor = field.is_vector && largest > 0.0 ? largest_drawn_m(grid) / largest : 0.0;
+  if (field.is_vector) {
+    shown.note = field.unit == "1" ? "largest displacement is 1"
+                                   : fmt::format("displacement drawn {:.3g} times", factor);
+  }
+  const bool is_of_film = field.name == "potential_V";
+  for (std::size_t q = 0; q < grid.quads.size(); ++q) {
+    if (is_of_film && !grid.is_film[q]) continue;
+    for (const double theta : {0.0, std::numbers::pi}) {
+      std::array<Corner, 4> corners{};
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto p = static_cast<std::size_t>(grid.quads[q][k]);
+        const double side = theta == 0.0 ? 1.0 : -1.0;
+        corners[k] = {side * grid.x_m[p], grid.z_m[p], 0.0};
+        if (!field.is_vector) {
+          corners[k].value = scalar_at(grid, field, p, theta);
+          continue;
+        }
+        const auto u = displacement_at(grid, field, p, theta);
+        corners[k].x_m += factor * u[0];
+        corners[k].z_m += factor * u[2];
+        corners[k].value = std::hypot(u[0], u[1], u[2]);
+      }
+      shown.quads.push_back(corners);
+    }
+  }
+  return shown;
+}
+
+struct Range {
+  double low = 0.0, high = 0.0;
+  double share(double value) const { return high > low ? (value - low) / (high - low) : 0.5; }
+};
+
+// The rim of the bond has infinite stress: colours span all but the outermost hundredth of values.
+Range range_of(const Shown& shown) {
+  std::vector<double> values;
+  for (const auto& quad : shown.quads) {
+    for (const Corner& corner : quad) values.push_back(corner.value);
+  }
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  if (!shown.is_signed) return {0.0, values.back()};
+  const double size = std::max(std::abs(values[values.size() / 100]),
+                               std::abs(values[values.size() - 1 - values.size() / 100]));
+  return {-size, size};
+}
+
+std::string scale_bar(const Range& range, const Shown& shown) {
+  std::string text;
+  const double x = kWidth_px - kRight_px + 30.0;
+  constexpr int kSteps = 40;
+  const double height = 0.6 * kHeight_px;
+  for (int i = 0; i < kSteps; ++i) {
+    text += fmt::format(
+        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"16\" height=\"{:.1f}\" fill=\"{}\"/>\n", x,
+        kTop_px + height * (1.0 - (i + 1.0) / kSteps), height / kSteps + 0.5,
+        colour((i + 0.5) / kSteps, shown.is_signed));
+  }
+  for (int i = 0; i <= 4; ++i) {
+    const double value = range.low + (range.high - range.low) * i / 4.0;
+    text += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{:.3g}</text>\n", x + 22.0,
+                        kTop_px + height * (1.0 - i / 4.0) + 4.0, value);
+  }
+  return text;
+}
+
+std::string svg_of(const Shown& shown) {
+  double low_x = HUGE_VAL, high_x = -HUGE_VAL, low_z = HUGE_VAL, high_z = -HUGE_VAL;
+  for (const auto& quad : shown.quads) {
+    for (const Corner& c : quad) {
+      low_x = std::min(low_x, c.x_m);
+      high_x = std::max(high_x, c.x_m);
+      low_z = std::min(low_z, c.z_m);
+      high_z = std::max(high_z, c.z_m);
+    }
+  }
+  const double scale = std::min((kWidth_px - kLeft_px - kRight_px) / (high_x - low_x),
+                                (kHeight_px - kTop_px - kBottom_px) / (high_z - low_z));
+  const double left =
+      kLeft_px + 0.5 * (kWidth_px - kLeft_px - kRight_px - scale * (high_x - low_x));
+  const Range range = range_of(shown);
+  std::string body;
+  for (const auto& quad : shown.quads) {
+    double mean = 0.0;
+    std::string points;
+    for (const Corner& c : quad) {
+      mean += 0.25 * c.value;
+      points += fmt::format("{:.1f},{:.1f} ", left + scale * (c.x_m - low_x),
+                            kHeight_px - kBottom_px - scale * (c.z_m - low_z));
+    }
+    const std::string ink = colour(range.share(mean), shown.is_signed);
+    body += fmt::format("<polygon points=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"0.6\"/>\n",
+                        points, ink, ink);
+  }
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+      "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" font-size=\"13\" role=\"img\">\n"
+      "<title>{2}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
+      "<text x=\"12\" y=\"24\" font-size=\"15\">{2}</text>\n{3}{4}"
+      "<text x=\"12\" y=\"{5:.0f}\" fill=\"#444\">{6}</text>\n</svg>\n",
+      kWidth_px, kHeight_px, escaped_markup(shown.title), body, scale_bar(range, shown),
+      kHeight_px - 14.0, escaped_markup(shown.note));
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> pictures_from_grid(const SectionGrid& grid) {
+  std::vector<std::pair<std::string, std::string>> pictures;
+  for (const SectionField& field : grid.fields) {
+    const bool is_numbered = field.unit == "1";  // a mode, named after its family already
+    pictures.emplace_back(is_numbered ? field.name : grid.name + "_" + field.name,
+                          svg_of(shown_of(grid, field)));
+  }
+  return pictures;
+}
+
+}  // namespace viscard

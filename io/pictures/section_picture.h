@@ -1,0 +1,16 @@
+#pragma once
+
+#include "models/pillar/analyses/solution_fields.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace viscard {
+
+// Pictures of a solution in the section along the axis, name and SVG: of every displacement the
+// deformed body, coloured by its size (exaggerated so that it can be seen, by a factor that is
+// told), of every scalar the body coloured by it. A potential is drawn over the film alone.
+std::vector<std::pair<std::string, std::string>> pictures_from_grid(const SectionGrid& grid);
+
+}  // namespace viscard

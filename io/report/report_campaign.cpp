@@ -1,0 +1,152 @@
+#include "io/report/report_campaign.h"
+
+#include "io/plots/plot_svg.h"
+#include "io/report/report_numbers.h"
+#include "models/maths/text_of_number.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace viscard {
+namespace {
+
+constexpr double kNormal95 = 1.959963984540054;
+
+std::map<double, std::vector<std::size_t>> specimens_by_ratio(
+    const std::vector<SpecimenEstimates>& estimates) {
+  std::map<double, std::vector<std::size_t>> by_ratio;
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    by_ratio[estimates[i].mixing_ratio].push_back(i);
+  }
+  return by_ratio;
+}
+
+struct Spread {
+  double mean = 0.0, deviation = 0.0, own_error = 0.0;
+};
+
+Spread spread_of(const std::vector<Estimate>& values) {
+  const auto count = static_cast<double>(values.size());
+  Spread spread;
+  std::vector<double> errors;
+  for (const Estimate& one : values) {
+    spread.mean += one.value / count;
+    errors.push_back((one.interval_95.high - one.interval_95.low) / (2.0 * kNormal95));
+  }
+  for (const Estimate& one : values) {
+    spread.deviation += std::pow(one.value - spread.mean, 2) / (count - 1.0);
+  }
+  spread.deviation = std::sqrt(spread.deviation);
+  std::sort(errors.begin(), errors.end());
+  spread.own_error = errors[errors.size() / 2];
+  return spread;
+}
+
+std::string percent(double share) {
+  return fmt::format("{:.2g} %", 100.0 * share);
+}
+
+// Twice the half-width around a mean of few is only a guide to how many digits it deserves.
+std::string mean_html(const Spread& spread, double per_si) {
+  const Interval digits{spread.mean - spread.deviation, spread.mean + spread.deviation};
+  return number_html(spread.mean, per_si, spread.deviation > 0.0 ? &digits : nullptr);
+}
+
+}  // namespace
+
+std::vector<SpecimenStyle> styles_of(const std::vector<SpecimenEstimates>& estimates) {
+  const auto by_ratio = specimens_by_ratio(estimates);
+  const bool is_campaign =
+      by_ratio.size() > 1 && by_ratio.size() < estimates.size() && by_ratio.begin()->first > 0.0;
+  std::vector<SpecimenStyle> styles(estimates.size());
+  if (!is_campaign) {
+    for (std::size_t i = 0; i < estimates.size(); ++i) {
+      styles[i] = {ink_of_series(i), estimates[i].label};
+    }
+    return styles;
+  }
+  std::size_t number = 0;
+  for (const auto& [ratio, members] : by_ratio) {
+    for (const std::size_t i : members) styles[i].ink = ink_of_series(number);
+    styles[members.front()].label =
+        fmt::format("{:g} : 1 ({})", ratio, counted(members.size(), "specimen"));
+    ++number;
+  }
+  return styles;
+}
+
+HtmlTable spread_table(const std::vector<SpecimenEstimates>& estimates) {
+  std::vector<double> moduli;
+  for (const SpecimenEstimates& specimen : estimates) moduli.push_back(specimen.E0_Pa.value);
+  const bool is_stiffness = estimates.front().is_stiffness;
+  const ShownUnit unit = shown_unit(is_stiffness ? "N/m" : "Pa", moduli);
+  const char* symbol = is_stiffness ? "R" : "E";
+  HtmlTable table({{"Ratio", false},
+                   {"Specimens"},
+                   {fmt::format("Mean <i>{}</i><sub>0</sub> <span class=\"unit\">({})</span>",
+                                symbol, escaped_markup(unit.text))},
+                   {"between specimens"},
+                   {"error of one fit"},
+                   {"Mean relaxation <span class=\"unit\">(%)</span>"},
+                   {"between specimens"},
+                   {"error of one fit"}});
+  for (const auto& [ratio, members] : specimens_by_ratio(estimates)) {
+    if (members.size() < 2 || !(ratio > 0.0)) continue;
+    std::vector<Estimate> E0, relaxed;
+    for (const std::size_t i : members) {
+      E0.push_back(estimates[i].E0_Pa);
+      relaxed.push_back(estimates[i].sum_g);
+    }
+    const Spread stiff = spread_of(E0), soft = spread_of(relaxed);
+    table.add_row({fmt::format("<span class=\"nw\">{:g} : 1</span>", ratio),
+                   std::to_string(members.size()), mean_html(stiff, unit.per_si),
+                   percent(stiff.deviation / stiff.mean), percent(stiff.own_error / stiff.mean),
+                   mean_html(soft, 100.0), percent(soft.deviation / soft.mean),
+                   percent(soft.own_error / soft.mean)});
+  }
+  return table;
+}
+
+std::optional<Plot> profile_plot(const FitResult& fit) {
+  constexpr double kChiSquare95 = 3.841458820694124;
+  constexpr double kHighest = 10.0;
+  if (fit.profiles.empty()) return std::nullopt;
+  Plot plot{.title = "Profile likelihoods",
+            .description =
+                "Rise of the residual sum of squares over its variance as one parameter "
+                "is held, all others fitted again.",
+            .columns = static_cast<int>(std::min<std::size_t>(4, fit.profiles.size())),
+            .height_px = 260};
+  const auto rows = (fit.profiles.size() + static_cast<std::size_t>(plot.columns) - 1) /
+                    static_cast<std::size_t>(plot.columns);
+  plot.height_px *= static_cast<int>(rows);
+  const ShownUnit unit = shown_unit(fit.is_stiffness ? "N/m" : "Pa", {fit.E_inf_Pa});
+  for (const ProfileCurve& curve : fit.profiles) {
+    const bool is_time = curve.parameter != "E_inf";
+    PlotPanel panel;
+    panel.x.label = is_time ? fmt::format("τ{} (s)", curve.parameter.substr(7))
+                            : fmt::format("{} ({})", fit.is_stiffness ? "R∞" : "E∞", unit.text);
+    panel.y = {.label = "rise of χ²", .min = 0.0, .max = kHighest};
+    PlotSeries line{.mark = Mark::kLine, .ink = Ink::kBlue};
+    for (std::size_t i = 0; i < curve.value.size(); ++i) {
+      if (!std::isfinite(curve.value[i]) || curve.rise[i] > 1.5 * kHighest) continue;
+      line.x.push_back(is_time ? std::exp(curve.value[i]) : curve.value[i] * unit.per_si);
+      line.y.push_back(curve.rise[i]);
+    }
+    if (line.x.size() < 2) continue;
+    PlotSeries limit{.mark = Mark::kLine, .ink = Ink::kGrey, .is_dashed = true};
+    limit.x = {line.x.front(), line.x.back()};
+    limit.y = {kChiSquare95, kChiSquare95};
+    PlotSeries dots = line;
+    dots.mark = Mark::kPoints;
+    panel.series = {limit, line, dots};
+    plot.panels.push_back(panel);
+  }
+  if (plot.panels.empty()) return std::nullopt;
+  return plot;
+}
+
+}  // namespace viscard

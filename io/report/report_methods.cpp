@@ -1,0 +1,82 @@
+#include "io/report/report_sections.h"
+
+#include <algorithm>
+#include <string>
+
+namespace viscard {
+namespace {
+
+template <typename Predicate>
+bool any_fit(const ReportInput& input, Predicate predicate) {
+  return std::any_of(
+      input.specimens.begin(), input.specimens.end(),
+      [&](const SpecimenReport& specimen) { return specimen.fit && predicate(specimen); });
+}
+
+std::string loading_text(const ReportInput& input) {
+  std::string text;
+  if (any_fit(input, [](const SpecimenReport& s) { return s.run.has_value(); })) {
+    text +=
+        "Captured runs: a rigid punch was driven into the specimen, held, partly unloaded and held "
+        "again. The force follows the recorded motion of the stage through the hereditary integral "
+        "of specimen and frame in series, in closed form between the knots of the motion (Taylor, "
+        "Pister and Goudreau, 1970); time zero is never put at the end of the ramp. Contact "
+        "position, starts of the motions, zero and drift of the load cell are fitted with the "
+        "material, and their uncertainty is in its intervals. The stiffness of the frame is "
+        "subtracted in compliance. ";
+  }
+  const auto is_table = [](const SpecimenReport& s) { return !s.run.has_value(); };
+  if (any_fit(input, is_table)) {
+    text +=
+        "Tables: step records are fitted as they are, loading histories through the exact "
+        "hereditary integral of the measured depth or strain (Taylor, Pister and Goudreau, 1970). ";
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_methods(Page& page, const ReportInput& input) {
+  if (!any_fit(input, [](const SpecimenReport&) { return true; })) return;
+  const bool is_punch = any_fit(input, [](const SpecimenReport& specimen) {
+    return specimen.fit->kind == FitKind::kIndentation && !specimen.fit->is_stiffness;
+  });
+  const bool has_profiles = any_fit(
+      input, [](const SpecimenReport& specimen) { return !specimen.fit->profiles.empty(); });
+  page.add_heading(2, "methods", "Methods");
+  std::string loading = loading_text(input);
+  if (is_punch) {
+    loading +=
+        "Moduli of a flat punch on a bonded layer carry the layer's correction factor, computed "
+        "from the integral equation of the contact.";
+  }
+  page.add_paragraph(loading);
+  page.add_paragraph(
+      "Times are found by variable projection (Golub and Pereyra, 1973) from a non-negative "
+      "spectrum on a dense grid, for every number of terms; there are no starting values. The "
+      "number of terms is the smallest whose cross-validated error is within one standard error of "
+      "the best, and no more than the Bayesian information criterion asks for; a term that lasts "
+      "longer than a third of the record takes strong evidence.");
+  std::string intervals =
+      "Intervals hold 95 %. They follow from the covariance with the memory of the noise (an "
+      "autoregression of the residuals)";
+  intervals += has_profiles
+                   ? "; those of the equilibrium modulus and, where no frame is in series, "
+                     "of the times come from profile likelihoods (Venzon and Moolgavkar, "
+                     "1988). "
+                   : ". ";
+  if (is_punch) {
+    intervals +=
+        "Drift of the load cell's gain before contact, where the record shows it, is in the "
+        "intervals of the moduli. Punch, layer, Poisson ratio, calibration and frame scale all "
+        "moduli of a specimen together: the systematic part, stated apart.";
+  }
+  page.add_paragraph(intervals);
+  if (!input.law) return;
+  page.add_paragraph(
+      "The joint fit is a multivariate meta-regression of the specimens' parameters on the mixing "
+      "ratio, with one variance between specimens for each kind of parameter (van Houwelingen, "
+      "Arends and Stijnen, 2002).");
+}
+
+}  // namespace viscard

@@ -1,0 +1,305 @@
+#include "io/report/report_campaign.h"
+#include "io/report/report_figures.h"
+#include "io/report/report_numbers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+constexpr double kRounding = 1e-16;  // errors below are drawn here: a logarithmic axis has no zero
+
+std::vector<double> scaled(const std::vector<double>& values, double factor) {
+  std::vector<double> out(values);
+  for (double& value : out) value *= factor;
+  return out;
+}
+
+// A motion with its hold: samples first .. last - 1, time counted from start_s.
+struct Motion {
+  double start_s = 0.0;
+  std::size_t first = 0, last = 0;
+};
+
+std::vector<Motion> motions_of(const FitCurves& curves) {
+  std::vector<double> starts = curves.motion_start_s;
+  if (starts.empty()) starts.push_back(0.0);
+  std::vector<Motion> motions;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const auto index_at = [&](double time_s) {
+      return static_cast<std::size_t>(
+          std::lower_bound(curves.time_s.begin(), curves.time_s.end(), time_s) -
+          curves.time_s.begin());
+    };
+    const std::size_t last = k + 1 < starts.size() ? index_at(starts[k + 1]) : curves.time_s.size();
+    const Motion motion{starts[k], k == 0 ? 0 : index_at(starts[k]), last};
+    if (motion.last > motion.first + 2) motions.push_back(motion);
+  }
+  return motions;
+}
+
+struct FitColumns {
+  PlotSeries measured, fitted, residual;
+};
+
+FitColumns columns_of(const FitCurves& curves, const Motion& motion, double factor) {
+  FitColumns columns;
+  columns.measured = {.mark = Mark::kPoints, .label = "measured", .ink = Ink::kGrey, .size = 1.1};
+  columns.fitted = {.mark = Mark::kLine, .label = "fit", .ink = Ink::kVermillion, .size = 0.9};
+  columns.residual = {.mark = Mark::kPoints, .ink = Ink::kBlue, .size = 0.9};
+  const bool has_sigma = curves.sigma.size() == curves.time_s.size();
+  for (std::size_t i = motion.first; i < motion.last; ++i) {
+    const double time_s = curves.time_s[i] - motion.start_s;
+    columns.measured.x.push_back(time_s);
+    columns.fitted.x.push_back(time_s);
+    columns.residual.x.push_back(time_s);
+    columns.measured.y.push_back(curves.measured[i] * factor);
+    columns.fitted.y.push_back(curves.fitted[i] * factor);
+    const double residual = curves.measured[i] - curves.fitted[i];
+    const double scale = has_sigma && curves.sigma[i] > 0.0 ? 1.0 / curves.sigma[i] : factor;
+    columns.residual.y.push_back(residual * scale);
+  }
+  return columns;
+}
+
+// A hold relaxes by a few per cent of what the motion before it spans: the axis shows the hold,
+// that is, what follows the motion's extreme value, and cuts the motion off.
+void show_the_hold(PlotAxis& axis, const PlotSeries& fitted) {
+  const auto [lowest, highest] = std::minmax_element(fitted.y.begin(), fitted.y.end());
+  const bool is_loading = fitted.y.front() < fitted.y.back();
+  const auto extreme = is_loading ? highest : lowest;
+  if (extreme == fitted.y.begin() || extreme + 2 >= fitted.y.end()) return;
+  const auto [low, high] = std::minmax_element(extreme, fitted.y.end());
+  const double span = *high - *low;
+  if (!(span > 0.0) || span > 0.5 * (*highest - *lowest)) return;
+  axis.min = *low - (is_loading ? 0.35 : 0.15) * span;
+  axis.max = *high + (is_loading ? 0.15 : 0.35) * span;
+}
+
+// Nineteen of twenty residuals should lie in the band.
+void show_two_sigma(PlotPanel& panel) {
+  const PlotSeries& residual = panel.series.front();
+  double largest = 3.0;
+  for (const double value : residual.y) {
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  }
+  panel.y.max = 1.1 * largest;
+  panel.y.min = -1.1 * largest;
+  // A logarithmic axis begins at the first time above zero.
+  const auto first = std::find_if(residual.x.begin(), residual.x.end(),
+                                  [](double time_s) { return time_s > 0.0; });
+  if (first == residual.x.end()) return;
+  PlotSeries band{.mark = Mark::kBand, .ink = Ink::kGrey};
+  band.x = {*first, residual.x.back()};
+  band.y_low = {-1.96, -1.96};
+  band.y_high = {1.96, 1.96};
+  panel.series.insert(panel.series.begin(), band);
+}
+
+const char* motion_name(std::size_t index, std::size_t n_motions) {
+  if (n_motions == 1) return "";
+  constexpr const char* kNames[] = {"Loading and hold", "Unloading and recovery"};
+  return index < 2 ? kNames[index] : "Next motion";
+}
+
+const char* value_name(const FitResult& fit) {
+  switch (fit.kind) {
+    case FitKind::kIndentation:
+      return "force";
+    case FitKind::kRelaxation:
+      return "relaxation modulus";
+    case FitKind::kCreep:
+      return "creep compliance";
+    case FitKind::kDma:
+      break;
+  }
+  return "storage modulus";  // the loss is not among the curves
+}
+
+void add_error(PlotPanel& panel, const PillarCurve& curve, Ink ink) {
+  PlotSeries error{.mark = Mark::kLine, .ink = ink, .size = 0.8};
+  for (std::size_t i = 0; i < curve.time_s.size(); ++i) {
+    const double relative = std::abs(curve.solver[i] / curve.exact[i] - 1.0);
+    error.x.push_back(curve.time_s[i]);
+    error.y.push_back(std::max(relative, kRounding));
+  }
+  panel.series.push_back(error);
+}
+
+// A dashed line at the largest error that passes, from the first time of the panel to the last.
+void add_limit(PlotPanel& panel, double limit) {
+  PlotSeries line{.mark = Mark::kLine, .label = "limit", .ink = Ink::kGrey, .is_dashed = true};
+  double first_s = INFINITY, last_s = 0.0;
+  for (const PlotSeries& series : panel.series) {
+    for (const double time_s : series.x) {
+      if (time_s > 0.0) first_s = std::min(first_s, time_s);
+      last_s = std::max(last_s, time_s);
+    }
+  }
+  if (!(limit > 0.0) || !(last_s > first_s)) return;
+  line.x = {first_s, last_s};
+  line.y = {limit, limit};
+  panel.series.push_back(line);
+}
+
+// First value that is not zero: what the pillar answers at once.
+double first_value(const std::vector<double>& values) {
+  for (const double value : values) {
+    if (std::isfinite(value) && value != 0.0) return value;
+  }
+  return 1.0;
+}
+
+void add_pillar_curve(PlotPanel& panel, const PillarCurve& curve, Ink ink,
+                      const std::string& label) {
+  const double factor = 1.0 / first_value(curve.exact);
+  PlotSeries exact{.mark = Mark::kLine, .ink = ink, .size = 0.9};
+  exact.x = curve.time_s;
+  exact.y = scaled(curve.exact, factor);
+  PlotSeries solver{.mark = Mark::kPoints, .label = label, .ink = ink, .is_hollow = true};
+  solver.size = 1.9;
+  const std::size_t stride = std::max<std::size_t>(1, curve.time_s.size() / 40);
+  for (std::size_t i = 0; i < curve.time_s.size(); i += stride) {
+    solver.x.push_back(curve.time_s[i]);
+    solver.y.push_back(curve.solver[i] * factor);
+  }
+  panel.series.push_back(exact);
+  panel.series.push_back(solver);
+}
+
+// A reading at the end of the converter's range would squeeze all others: it is drawn at the edge.
+PlotSeries flagged_dots(const RunSeries& series, double per_si) {
+  const auto [lowest, highest] = std::minmax_element(series.volts.begin(), series.volts.end());
+  PlotSeries dots{.mark = Mark::kPoints, .label = "saturated or glitch, left out"};
+  dots.ink = Ink::kVermillion;
+  dots.size = 2.0;
+  dots.x = series.flagged_s;
+  for (const double volts : series.flagged_V) {
+    dots.y.push_back(per_si * std::clamp(volts, *lowest, *highest));
+  }
+  return dots;
+}
+
+}  // namespace
+
+std::optional<Plot> run_plot(const RunSeries& series) {
+  if (series.time_s.empty()) return std::nullopt;
+  const ShownUnit volt = shown_unit(series.is_force ? "N" : "V", series.volts);
+  PlotPanel volts;
+  volts.y.label = fmt::format("{} ({})", series.is_force ? "force gauge" : "amplifier", volt.text);
+  volts.x.label = "time since the run began (s)";
+  volts.notes = series.phases;
+  volts.height_share = 1.2;
+  volts.series.push_back({.x = series.time_s, .y = scaled(series.volts, volt.per_si), .size = 0.7});
+  if (!series.flagged_s.empty()) volts.series.push_back(flagged_dots(series, volt.per_si));
+  Plot plot{.title = "Recorded run",
+            .description = "Output of the load cell and way of the stage over time.",
+            .height_px = 430};
+  PlotPanel way;
+  way.x.label = volts.x.label;
+  way.series.push_back({.ink = Ink::kGreen, .size = 0.8});
+  if (!series.depth_m.empty()) {
+    const double deepest = *std::max_element(series.depth_m.begin(), series.depth_m.end());
+    const ShownUnit unit = shown_unit("m", {deepest});
+    way.y.label = fmt::format("depth ({})", unit.text);
+    way.y.min = -0.5 * deepest * unit.per_si;  // the approach from far above would hide the rest
+    way.series[0].x = series.time_s;
+    way.series[0].y = scaled(series.depth_m, unit.per_si);
+  } else if (!series.report_s.empty()) {
+    const ShownUnit unit = shown_unit("m", series.position_m);
+    way.y.label = fmt::format("stage ({})", unit.text);
+    way.series[0].x = series.report_s;
+    way.series[0].y = scaled(series.position_m, unit.per_si);
+  }
+  const bool has_way = has_something_to_draw(way);
+  volts.shares_x_with_below = has_way;
+  if (has_way) {
+    volts.x.min = way.x.min = series.time_s.front();
+    volts.x.max = way.x.max = series.time_s.back();
+    for (const PlotNote& note : series.phases) way.notes.push_back({note.x, ""});
+  }
+  plot.panels.push_back(volts);
+  if (has_way) plot.panels.push_back(way);
+  return plot;
+}
+
+std::optional<Plot> fit_plot(const FitResult& fit) {
+  const FitCurves& curves = fit.curves;
+  const std::vector<Motion> motions = motions_of(curves);
+  if (motions.empty()) return std::nullopt;
+  const bool is_dma = fit.kind == FitKind::kDma;
+  const ShownUnit unit = shown_unit(curves.unit, curves.measured);
+  Plot plot{
+      .title = "Data and fit",
+      .description = "Measured and fitted values and their difference, logarithmic time axis.",
+      .columns = static_cast<int>(motions.size()),
+      .height_px = 430};
+  std::vector<PlotPanel> residuals;
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    FitColumns columns = columns_of(curves, motions[k], unit.per_si);
+    PlotPanel values;
+    values.title = motion_name(k, motions.size());
+    values.x.is_log = true;
+    values.x.label = is_dma ? "frequency (Hz)" : k == 0 ? "time (s)" : "time since unloading (s)";
+    values.y.label = fmt::format("{} ({})", value_name(fit), unit.text);
+    values.height_share = 2.0;
+    values.shares_x_with_below = true;
+    if (fit.kind == FitKind::kIndentation) show_the_hold(values.y, columns.fitted);
+    PlotPanel residual;
+    residual.x = values.x;
+    const bool has_sigma = curves.sigma.size() == curves.time_s.size();
+    residual.y.label = has_sigma ? "residual/σ" : fmt::format("residual ({})", unit.text);
+    residual.height_share = 1.1;
+    values.series = {columns.measured, columns.fitted};
+    residual.series = {columns.residual};
+    if (has_sigma) show_two_sigma(residual);
+    plot.panels.push_back(values);
+    residuals.push_back(residual);
+  }
+  plot.panels.insert(plot.panels.end(), residuals.begin(), residuals.end());
+  for (const PlotPanel& panel : plot.panels) {
+    if (!has_something_to_draw(panel)) return std::nullopt;
+  }
+  return plot;
+}
+
+std::optional<Plot> pillar_plot(const ReportInput& input,
+                                const std::vector<SpecimenEstimates>& estimates) {
+  Plot plot{.title = "Pillar in relaxation and creep",
+            .description = "Solver on the exact answer, and the relative error, over time.",
+            .columns = 2,
+            .height_px = 520};
+  plot.panels.resize(4);
+  const char* titles[] = {"Relaxation", "Creep"};
+  const char* label = "relative to the first value";
+  for (std::size_t p = 0; p < 4; ++p) {
+    plot.panels[p].x = {.label = "time (s)", .is_log = true};
+    plot.panels[p].height_share = p < 2 ? 1.7 : 1.0;
+    plot.panels[p].shares_x_with_below = p < 2;
+    plot.panels[p].title = p < 2 ? titles[p] : "";
+    plot.panels[p].y.label = p < 2 ? label : "relative error";
+    plot.panels[p].y.is_log = p >= 2;
+  }
+  double limit = 0.0;
+  const std::vector<SpecimenStyle> styles = styles_of(estimates);
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    if (!input.specimens[i].pillar) continue;
+    limit = input.specimens[i].pillar->limit;
+    const PillarCurve* curves[] = {&input.specimens[i].pillar->relaxation,
+                                   &input.specimens[i].pillar->creep};
+    for (std::size_t p = 0; p < 2; ++p) {
+      add_pillar_curve(plot.panels[p], *curves[p], styles[i].ink, styles[i].label);
+      add_error(plot.panels[p + 2], *curves[p], styles[i].ink);
+    }
+  }
+  for (std::size_t p = 2; p < 4; ++p) add_limit(plot.panels[p], limit);
+  for (const PlotPanel& panel : plot.panels) {
+    if (!has_something_to_draw(panel)) return std::nullopt;
+  }
+  return plot;
+}
+
+}  // namespace viscard

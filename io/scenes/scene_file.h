@@ -1,0 +1,27 @@
+#pragma once
+
+#include "io/basics/printed_value.h"
+#include "models/pillar/mesh/scene_mistake.h"
+#include "models/pillar/scene/scene.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+struct SceneFile {
+  Scene scene;
+  std::vector<std::string> quantities;  // wanted results; empty: all
+  std::vector<PrintedValue> printed;    // [[printed]]
+};
+
+// Scene files are TOML; data/scenes/ holds commented examples. Material files are looked for beside
+// the scene. Throws std::runtime_error with file:line, key and what is expected, or naming the
+// material file that is wrong.
+SceneFile read_scene(const std::filesystem::path& path);
+
+// "file:line: key: what" for a mistake that only showed when the scene was solved.
+std::string told_with_line(const std::filesystem::path& path, const SceneMistake& mistake);
+
+}  // namespace viscard

@@ -1,0 +1,70 @@
+#include "io/scenes/scene_words.h"
+
+#include "io/materials/material_file.h"
+#include "models/pillar/scene/scene_results.h"
+
+#include <algorithm>
+
+namespace viscard {
+
+void show_material(FieldVisitor& v, RawMaterial& m) {
+  v.text({"file", "pdms_1to10_seed.json"}, m.file);
+  v.quantity({.key = "E", .unit = "Pa", .range = Range::kPositive}, m.E_Pa);
+  v.quantity({.key = "nu"}, m.nu);
+  v.quantity({.key = "rho", .unit = "kg/m3", .range = Range::kPositive}, m.rho_kg_m3);
+}
+
+void show_printed(FieldVisitor& v, std::vector<PrintedValue>& printed) {
+  v.list(
+      "printed", printed.size(), [&](std::size_t n) { printed.resize(n); },
+      [&](FieldVisitor& p, std::size_t i) {
+        p.text({"name", "lateral 1", true}, printed[i].name);
+        p.text({"value", "16103 Hz", true}, printed[i].value);
+        p.text({"note", "the mesh of the source is coarse"}, printed[i].note);
+      });
+}
+
+void check_wanted(const std::vector<std::string>& wanted, const std::vector<std::string>& known) {
+  for (const std::string& name : wanted) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (is_peak_stress(name)) {
+      throw SceneMistake("want.quantities",
+                         "the peak stress at the rim of the bond is infinite in an elastic body (a "
+                         "clamped corner): it grows with every refinement. Ask for "
+                         "base_stress_rim_mean, the mean over the outermost tenth of the radius, "
+                         "or for base_stress_at_half_radius");
+    }
+    std::string list;
+    for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
+    const std::string near = nearest_word(name, known);
+    throw SceneMistake("want.quantities",
+                       "this analysis has no '" + name + "'" +
+                           (near.empty() ? "." : "; did you mean '" + near + "'?") +
+                           " It has: " + list);
+  }
+}
+
+EffectChoices choices_of(const std::map<std::string, std::string>& effects) {
+  EffectChoices choices;
+  for (const auto& [name, word] : effects) {
+    if (word.empty()) continue;
+    choices[name] = choice<EffectChoice>(
+        "effects." + name, word,
+        {{"auto", EffectChoice::kAuto}, {"on", EffectChoice::kOn}, {"off", EffectChoice::kOff}});
+  }
+  return choices;
+}
+
+Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder) {
+  if (!raw.file.empty()) return read_material(folder / raw.file).material;
+  if (!(raw.E_Pa > 0.0)) {
+    throw SceneMistake("materials.pillar", "needs E (and nu, rho) or a file");
+  }
+  Material material;
+  material.E0_Pa = raw.E_Pa;
+  material.nu = raw.nu;
+  material.rho_kg_m3 = raw.rho_kg_m3;
+  return material;
+}
+
+}  // namespace viscard

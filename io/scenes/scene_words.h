@@ -1,0 +1,56 @@
+#pragma once
+
+#include "io/basics/nearest_word.h"
+#include "io/basics/printed_value.h"
+#include "io/config/config_fields.h"
+#include "io/materials/piezo_file.h"
+#include "models/material/material.h"
+#include "models/pillar/mesh/scene_mistake.h"
+#include "models/pillar/scene/effect_choice.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// What the readers of all kinds of scenes share.
+
+// The value of a word. Throws SceneMistake with the known words, and the nearest, for another.
+template <typename Value>
+Value choice(const std::string& key, const std::string& word,
+             const std::map<std::string, Value>& all) {
+  const auto found = all.find(word);
+  if (found != all.end()) return found->second;
+  std::vector<std::string> known;
+  std::string list;
+  for (const auto& [name, value] : all) {
+    known.push_back(name);
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  const std::string near = nearest_word(word, known);
+  throw SceneMistake(key, "cannot be '" + word + "'" +
+                              (near.empty() ? "." : "; did you mean '" + near + "'?") +
+                              " There are: " + list);
+}
+
+// A material as it stands in a scene: a file, or an elastic one in place.
+struct RawMaterial {
+  std::string file;
+  double E_Pa = 0.0, nu = 0.0, rho_kg_m3 = 0.0;
+};
+void show_material(FieldVisitor& v, RawMaterial& material);
+void show_printed(FieldVisitor& v, std::vector<PrintedValue>& printed);
+
+// Every wanted name must be one of the known ones. Throws SceneMistake with the nearest and all
+// that are known.
+void check_wanted(const std::vector<std::string>& wanted, const std::vector<std::string>& known);
+
+// [effects]: name to "auto", "on", "off" or nothing. Throws SceneMistake.
+EffectChoices choices_of(const std::map<std::string, std::string>& effects);
+
+// Files are looked for in `folder`. Throws SceneMistake for neither file nor modulus.
+Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder);
+
+}  // namespace viscard

@@ -1,0 +1,137 @@
+#include "io/tables/column_names.h"
+
+#include "io/tables/column_map.h"
+
+#include <algorithm>
+#include <numbers>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+bool is_stated(const std::string& unit) {
+  return !unit.empty() && unit != "-";
+}
+
+// Lower case, with one blank for any run of blanks, underscores and hyphens.
+std::string plain(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const bool is_gap = c == ' ' || c == '_' || c == '-' || c == '\t';
+    if (is_gap && (out.empty() || out.back() == ' ')) continue;
+    out += is_gap ? ' ' : static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  }
+  while (!out.empty() && out.back() == ' ') out.pop_back();
+  return out;
+}
+
+bool is_alias(const std::string& name, const char* alias) {
+  const std::string text = alias;
+  const bool is_letter = text.size() == 1 || text.find('\'') == 1;  // t, T, E', G''
+  return is_letter ? name == text : plain(name) == text;
+}
+
+// omega, w: radians a second, whether the unit says so or not.
+bool is_angular(const std::string& name) {
+  const std::string text = plain(name);
+  return name == "w" || name == "ω" || text == "omega" || text == "angular frequency";
+}
+
+std::optional<UnitScale> scale_if_fits(const CsvColumn& column, const std::string& unit,
+                                       const Quantity& quantity) {
+  if (quantity.is_text) return UnitScale{};
+  if (std::string(quantity.si_unit) == "Hz" && is_angular(column.name)) {
+    if (is_stated(unit) && unit != "rad/s" && unit != "1/s" && unit != "s-1") return std::nullopt;
+    return UnitScale{0.5 / std::numbers::pi, 0.0};
+  }
+  if (!is_stated(unit)) return UnitScale{};
+  if (!is_unit_of(unit, quantity.si_unit)) return std::nullopt;
+  return scale_to_si(unit, quantity.si_unit);
+}
+
+}  // namespace
+
+const std::vector<Quantity>& quantities() {
+  static const std::vector<Quantity> kQuantities{
+      {"time_s", "time", "s", {"t", "time", "elapsed time", "test time", "run time", "zeit"}},
+      {"force_N", "force", "N", {"F", "force", "load", "normal force", "kraft"}},
+      {"depth_m",
+       "depth",
+       "m",
+       {"h", "depth", "indentation", "indentation depth", "displacement", "penetration"}},
+      {"modulus_Pa",
+       "modulus",
+       "Pa",
+       {"E", "G", "E(t)", "G(t)", "e relax", "g relax", "e(t)", "g(t)", "modulus",
+        "relaxation modulus"}},
+      {"stress_Pa", "stress", "Pa", {"stress", "sigma", "σ"}},
+      {"strain", "strain", "1", {"strain", "epsilon", "eps", "ε", "gamma"}},
+      {"compliance_1_Pa",
+       "compliance",
+       "1/Pa",
+       {"J", "D", "j(t)", "d(t)", "compliance", "creep compliance"}},
+      {"frequency_Hz",
+       "frequency",
+       "Hz",
+       {"f", "freq", "frequency", "w", "ω", "omega", "angular frequency"}},
+      {"storage_modulus_Pa",
+       "storage_modulus",
+       "Pa",
+       {"E'", "G'", "e stor", "g stor", "storage modulus", "storage"}},
+      {"loss_modulus_Pa",
+       "loss_modulus",
+       "Pa",
+       {"E''", "G''", "E\"", "G\"", "e loss", "g loss", "loss modulus", "loss"}},
+      {"mass_kg", "mass", "kg", {"m", "mass", "weight"}},
+      {"volts_V", "volts", "V", {"U", "V", "volts", "voltage", "reading", "output", "amplifier"}},
+      {"position_m", "position", "m", {"z", "position", "stage", "stage position"}},
+      {"temperature_C", "temperature", "degC", {"T", "temp", "temperature"}},
+      {"segment", "segment", "1", {"segment", "set", "phase", "step", "step name"}, true}};
+  return kQuantities;
+}
+
+const Quantity& quantity_named(const std::string& name) {
+  for (const Quantity& quantity : quantities()) {
+    if (name == quantity.name) return quantity;
+  }
+  throw std::invalid_argument("there is no quantity '" + name + "'");
+}
+
+std::optional<HeaderMatch> match_header(const CsvColumn& column, const Quantity& quantity) {
+  if (column.name.empty()) return std::nullopt;
+  if (column.header == quantity.name || column.name == quantity.name) {
+    const auto scale = scale_if_fits(column, column.unit, quantity);
+    // A name with its SI unit over another unit contradicts itself: not taken, so the user must
+    // say.
+    const bool names_unit = std::string(quantity.name) != quantity.base;
+    const bool is_si = scale && scale->factor == 1.0 && scale->offset == 0.0;
+    if (!scale || (names_unit && !is_si)) return std::nullopt;
+    return HeaderMatch{3, *scale};
+  }
+  for (const char* alias : quantity.aliases) {
+    if (!is_alias(column.name, alias)) continue;
+    const auto scale = scale_if_fits(column, column.unit, quantity);
+    if (!scale) return std::nullopt;
+    const bool is_own_name = plain(column.name) == plain(quantity.base);
+    return HeaderMatch{is_own_name ? 2 : 1, *scale};
+  }
+  // force_mN, depth_um: the quantity's own name with another unit behind it.
+  const std::string head = std::string(quantity.base) + "_";
+  if (quantity.is_text || is_stated(column.unit) || column.name.rfind(head, 0) != 0) {
+    return std::nullopt;
+  }
+  const auto scale = scale_if_fits(column, column.name.substr(head.size()), quantity);
+  if (!scale) return std::nullopt;
+  return HeaderMatch{2, *scale};
+}
+
+const std::vector<std::string>& column_names() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names;
+    for (const Quantity& quantity : quantities()) names.emplace_back(quantity.name);
+    return names;
+  }();
+  return kNames;
+}
+
+}  // namespace viscard

@@ -1,0 +1,275 @@
+#include "io/tables/csv_table.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/basics/units.h"
+#include "io/tables/csv_dialect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+constexpr std::size_t kSampleLines = 200;
+
+std::string without_doubled_quotes(std::string_view cell) {
+  std::string out;
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    out += cell[i];
+    if (cell[i] == '"' && i + 1 < cell.size() && cell[i + 1] == '"') ++i;
+  }
+  return out;
+}
+
+std::string_view without_brackets(std::string_view cell) {
+  const bool is_bracketed = cell.size() >= 2 && ((cell.front() == '(' && cell.back() == ')') ||
+                                                 (cell.front() == '[' && cell.back() == ']'));
+  return is_bracketed ? trimmed_cell(cell.substr(1, cell.size() - 2)) : cell;
+}
+
+// E(t), G'(w): a function's argument and not a unit.
+bool is_argument(std::string_view header, std::size_t open, std::string_view inside) {
+  const bool is_attached = open > 0 && header[open - 1] != ' ';
+  return header[open] == '(' && is_attached &&
+         (inside == "t" || inside == "w" || inside == "f" || inside == "ω" || inside == "omega");
+}
+
+void split_header(CsvColumn& column) {
+  column.name = column.header;
+  const std::string_view header = column.header;
+  if (header.empty()) return;
+  const std::size_t open = header.find_last_of("([");
+  const char close = header.back();
+  if (open != std::string_view::npos && open > 0 && (close == ')' || close == ']')) {
+    const std::string_view inside = trimmed_cell(header.substr(open + 1, header.size() - open - 2));
+    if (is_argument(header, open, inside) || !is_unit(inside)) return;
+    column.name = trimmed_cell(header.substr(0, open));
+    column.unit = inside;
+    return;
+  }
+  for (const char* mark : {" / ", ", ", "/"}) {  // "Force / N", "Force, N", "F/N"
+    const std::size_t at = header.rfind(mark);
+    if (at == std::string_view::npos || at == 0) continue;
+    const std::string_view unit = trimmed_cell(header.substr(at + std::string_view(mark).size()));
+    if (unit.empty() || !is_unit(unit)) continue;
+    column.name = trimmed_cell(header.substr(0, at));
+    column.unit = unit;
+    return;
+  }
+}
+
+class TableReader {
+ public:
+  TableReader(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {
+    table_.file = name_;
+  }
+
+  CsvTable read() {
+    take_sample();
+    dialect_ = detect_dialect(sample_, name_);
+    table_.separator = dialect_.separator;
+    table_.has_decimal_comma = dialect_.has_decimal_comma;
+    find_width();
+    read_head();
+    read_rows();
+    drop_empty_last_column();
+    return std::move(table_);
+  }
+
+ private:
+  [[noreturn]] void fail(std::size_t line, const std::string& what) const {
+    throw std::runtime_error(name_ + ":" + std::to_string(line) + ": " + what);
+  }
+
+  void take_sample() {
+    LineReader lines(text_);
+    TextLine line;
+    while (sample_.size() < kSampleLines && lines.next(line)) sample_.push_back(line);
+    if (sample_.empty()) {
+      throw std::runtime_error(name_ + ": is empty; expected a table of numbers");
+    }
+  }
+
+  bool has_number(const std::vector<std::string_view>& cells) const {
+    return std::any_of(cells.begin(), cells.end(), [&](std::string_view cell) {
+      return number_from_cell(cell, dialect_).has_value();
+    });
+  }
+
+  // The number of cells that most lines with numbers have.
+  void find_width() {
+    std::map<std::size_t, std::size_t> counts;
+    std::vector<std::string_view> cells;
+    for (const TextLine& line : sample_) {
+      split_cells(line, dialect_.separator, cells);
+      if (!has_number(cells)) continue;
+      ++counts[cells.size()];
+      width_ = cells.size();  // of the last: it wins a tie, for notes come first
+    }
+    if (counts.empty()) {
+      throw std::runtime_error(name_ + ": has no line with a number in its first " +
+                               std::to_string(sample_.size()) + "; expected a table of numbers");
+    }
+    for (const auto& [width, count] : counts) {
+      if (count > counts[width_]) width_ = width;
+    }
+  }
+
+  // Header, units and what stands before them; leaves first_row_ at the first line of numbers.
+  void read_head() {
+    table_.columns.resize(width_);
+    LineReader lines(text_);
+    TextLine line;
+    std::vector<std::string_view> cells;
+    bool has_units = false;
+    while (lines.next(line)) {
+      split_cells(line, dialect_.separator, cells);
+      const std::vector<std::string_view> names = header_cells(line, dialect_.separator);
+      const bool is_text = !has_number(cells);
+      if (is_text && !table_.has_header && names.size() == width_) {
+        take_header(names);
+      } else if (is_text && table_.has_header && !has_units && is_row_of_units(names)) {
+        has_units = true;
+        take_units(names);
+      } else if (!table_.has_header &&
+                 (is_text || (cells.size() != width_ && !is_all_numbers(cells)))) {
+        table_.preamble.emplace_back(line.text);
+      } else {
+        break;
+      }
+    }
+    first_line_ = line.number;
+    if (!table_.has_header) take_header_from_comment(lines.last_comment());
+    for (CsvColumn& column : table_.columns) {
+      if (column.unit.empty()) split_header(column);
+    }
+  }
+
+  bool is_all_numbers(const std::vector<std::string_view>& cells) const {
+    return std::all_of(cells.begin(), cells.end(), [&](std::string_view cell) {
+      return number_from_cell(cell, dialect_).has_value();
+    });
+  }
+
+  void take_header(const std::vector<std::string_view>& names) {
+    table_.has_header = true;
+    for (std::size_t i = 0; i < width_; ++i) {
+      table_.columns[i].header = without_doubled_quotes(names[i]);
+      table_.columns[i].name = table_.columns[i].header;
+    }
+  }
+
+  bool is_row_of_units(const std::vector<std::string_view>& cells) const {
+    return cells.size() == width_ &&
+           std::all_of(cells.begin(), cells.end(),
+                       [](std::string_view cell) { return is_unit(without_brackets(cell)); });
+  }
+
+  void take_units(const std::vector<std::string_view>& cells) {
+    for (std::size_t i = 0; i < width_; ++i) {
+      table_.columns[i].unit = std::string(without_brackets(cells[i]));
+    }
+  }
+
+  void take_header_from_comment(std::string_view comment) {
+    if (comment.empty()) return;
+    try {
+      const auto names = header_cells({0, comment}, dialect_.separator);
+      if (names.size() == width_ && !has_number(names)) take_header(names);
+    } catch (const std::runtime_error&) {
+      // A comment with an odd quote is a comment.
+    }
+  }
+
+  void read_rows() {
+    const auto guess = static_cast<std::size_t>(std::count(text_.begin(), text_.end(), '\n')) + 1;
+    for (CsvColumn& column : table_.columns) column.values.reserve(guess);
+    table_.lines.reserve(guess);
+    for_each_row([&](const TextLine& line, const std::vector<std::string_view>& cells) {
+      table_.lines.push_back(static_cast<std::uint32_t>(line.number));
+      for (std::size_t i = 0; i < width_; ++i) add_value(table_.columns[i], cells[i], line.number);
+    });
+    const bool has_text =
+        std::any_of(is_text_.begin(), is_text_.end(), [](char is) { return is != 0; });
+    if (!has_text) return;
+    for_each_row([&](const TextLine&, const std::vector<std::string_view>& cells) {
+      for (std::size_t i = 0; i < width_; ++i) {
+        if (is_text_[i] != 0) table_.columns[i].text.push_back(without_doubled_quotes(cells[i]));
+      }
+    });
+  }
+
+  template <typename Take>
+  void for_each_row(Take take) {
+    is_text_.resize(width_, 0);
+    LineReader lines(text_);
+    TextLine line;
+    std::vector<std::string_view> cells;
+    while (lines.next(line)) {
+      if (line.number < first_line_) continue;
+      split_cells(line, dialect_.separator, cells);
+      const bool has_more =
+          std::any_of(cells.begin() + static_cast<std::ptrdiff_t>(std::min(width_, cells.size())),
+                      cells.end(), [](auto cell) { return !cell.empty(); });
+      if (cells.size() < width_ || has_more) {
+        fail(line.number, std::to_string(cells.size()) + " cells where the table has " +
+                              std::to_string(width_) + " columns");
+      }
+      take(line, cells);
+    }
+  }
+
+  void add_value(CsvColumn& column, std::string_view cell, std::size_t line) {
+    const auto number = number_from_cell(cell, dialect_);
+    const bool is_good = number && std::isfinite(*number);
+    column.values.push_back(is_good ? *number : std::numeric_limits<double>::quiet_NaN());
+    if (is_good) return;
+    if (column.first_bad_line == 0) {
+      column.first_bad_line = line;
+      column.first_bad_cell = std::string(cell.substr(0, 40));
+    }
+    const auto i = static_cast<std::size_t>(&column - table_.columns.data());
+    if (!cell.empty() && !number) is_text_[i] = 1;
+  }
+
+  // Lines that end with a separator make a column of nothing.
+  void drop_empty_last_column() {
+    const CsvColumn& last = table_.columns.back();
+    const bool is_empty = last.header.empty() && last.text.empty() &&
+                          std::all_of(last.values.begin(), last.values.end(),
+                                      [](double value) { return std::isnan(value); });
+    if (is_empty && width_ > 1) table_.columns.pop_back();
+  }
+
+  std::string_view text_;
+  std::string name_;
+  CsvTable table_;
+  Dialect dialect_;
+  std::vector<TextLine> sample_;
+  std::vector<char> is_text_;
+  std::size_t width_ = 0;
+  std::size_t first_line_ = 0;
+};
+
+}  // namespace
+
+CsvTable csv_from_text(std::string_view bytes, const std::string& name) {
+  const std::string text = utf8_from_bytes(bytes, name);
+  try {
+    return TableReader(text, name).read();
+  } catch (const std::runtime_error& error) {
+    const std::string what = error.what();  // split_cells() does not know the file
+    if (what.rfind("line ", 0) != 0) throw;
+    throw std::runtime_error(name + ": " + what);
+  }
+}
+
+CsvTable read_csv(const std::filesystem::path& path) {
+  return csv_from_text(read_file(path), path.string());
+}
+
+}  // namespace viscard

@@ -1,0 +1,156 @@
+#include "models/array/plane/array_geometry.h"
+
+#include "models/pillar/mesh/scene_mistake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace viscard {
+namespace {
+
+std::string micrometres(double value_m) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g um", value_m * 1e6);
+  return text;
+}
+
+void require(double value_m, bool may_be_zero, const char* key, const char* what) {
+  if (std::isfinite(value_m) && (value_m > 0.0 || (may_be_zero && value_m == 0.0))) return;
+  throw SceneMistake(key, std::string(what) + " is " + micrometres(value_m) + "; it must be " +
+                              (may_be_zero ? "zero or " : "") + "positive and finite");
+}
+
+void append(std::vector<double>& breaks, const std::vector<double>& more) {
+  for (const double x : more) {
+    const double same = 1e-9 * std::abs(more.back() - more.front());
+    if (breaks.empty() || x > breaks.back() + same) breaks.push_back(x);
+  }
+}
+
+int column_of(const std::vector<double>& breaks, double x) {
+  const auto nearest = std::min_element(breaks.begin(), breaks.end(), [&](double a, double b) {
+    return std::abs(a - x) < std::abs(b - x);
+  });
+  return static_cast<int>(nearest - breaks.begin());
+}
+
+}  // namespace
+
+double electrode_half_width_m(const ArrayGeometry& g, const ArrayElectrodes& e) {
+  return e.half_width_m > 0.0 ? e.half_width_m : 0.5 * g.diameter_m;
+}
+
+double pillar_centre_m(const ArrayGeometry& g, int pillar) {
+  return (pillar - 0.5 * (g.count - 1)) * (g.diameter_m + g.spacing_m);
+}
+
+void validate(const ArrayGeometry& g, const ArrayElectrodes& e) {
+  if (g.count < 1 || g.count > 4096) {
+    throw SceneMistake("geometry.count", "the array has " + std::to_string(g.count) +
+                                             " pillars; it must have between 1 and 4096");
+  }
+  require(g.diameter_m, false, "geometry.diameter", "the pillars' diameter");
+  require(g.length_m, false, "geometry.length", "the pillars' length");
+  require(g.film_thickness_m, false, "geometry.film.thickness", "the film's thickness");
+  require(e.half_width_m, true, "geometry.electrode.radius", "the electrodes' half width");
+  const bool has_gap = g.count > 1 || g.ends == FilmEnds::kMirror;
+  if (has_gap) {
+    require(g.spacing_m, false, "geometry.spacing",
+            "the spacing (edge to edge; pillars must not overlap)");
+  }
+  if (g.ends == FilmEnds::kFree) {
+    require(g.film_edge_m, true, "geometry.film.edge", "the film's edge");
+  }
+  const double beyond_m = electrode_half_width_m(g, e) - 0.5 * g.diameter_m;
+  if (has_gap && !(beyond_m < 0.5 * g.spacing_m)) {
+    throw SceneMistake("geometry.electrode.radius",
+                       "the electrodes reach " + micrometres(beyond_m) +
+                           " beyond their pillars and overlap at a spacing of " +
+                           micrometres(g.spacing_m));
+  }
+  if (g.ends == FilmEnds::kFree && beyond_m > g.film_edge_m) {
+    throw SceneMistake("geometry.film.edge",
+                       "the outer electrodes lie outside the film; make it at "
+                       "least " +
+                           micrometres(beyond_m));
+  }
+}
+
+std::vector<double> breaks_between(const std::vector<MeshMark>& marks, double reach_m,
+                                   double largest_m, int layers, double ratio) {
+  std::vector<double> breaks;
+  for (std::size_t i = 0; i + 1 < marks.size(); ++i) {
+    const double a = marks[i].x;
+    const double b = marks[i + 1].x;
+    const int singular_ends = (marks[i].is_singular ? 1 : 0) + (marks[i + 1].is_singular ? 1 : 0);
+    double reach = singular_ends == 0 ? 0.0 : reach_m;
+    // What would remain between the graded parts is no element of its own.
+    if (singular_ends > 0 && b - a < 1.5 * singular_ends * reach_m) reach = (b - a) / singular_ends;
+    const double left = a + (marks[i].is_singular ? reach : 0.0);
+    const double right = b - (marks[i + 1].is_singular ? reach : 0.0);
+    if (marks[i].is_singular) append(breaks, graded_breaks(a, left, layers, ratio, false));
+    if (right - left > 1e-9 * (b - a)) {
+      const int n = std::max(1, static_cast<int>(std::ceil((right - left) / largest_m - 1e-9)));
+      append(breaks, graded_breaks(left, right, n, 1.0, true));
+    }
+    if (marks[i + 1].is_singular) append(breaks, graded_breaks(right, b, layers, ratio, true));
+  }
+  return breaks;
+}
+
+ArrayMesh array_mesh(const ArrayGeometry& g, const ArrayElectrodes& e, const Discretisation& d) {
+  validate(g, e);
+  const double R = 0.5 * g.diameter_m;
+  const double t = g.film_thickness_m;
+  const double half_width = electrode_half_width_m(g, e);
+  const double beyond = half_width - R;
+  const double edge = g.ends == FilmEnds::kMirror ? 0.5 * g.spacing_m : g.film_edge_m;
+  // An electrode wider than its pillar belongs to the cell, with some film on either side.
+  double half_cell = R;
+  if (beyond > 1e-9 * R) {
+    const bool has_gap = g.count > 1 || g.ends == FilmEnds::kMirror;
+    double more = std::min(t, edge - beyond);
+    if (has_gap) more = std::min(more, 0.5 * (0.5 * g.spacing_m - beyond));
+    half_cell = half_width + more;
+  }
+  const bool ends_at_rim = half_cell <= std::max(R, half_width) * (1.0 + 1e-9);
+  std::vector<MeshMark> marks{{-half_cell, ends_at_rim}, {half_cell, ends_at_rim}};
+  const auto add_pair = [&](double x, bool is_singular) {
+    if (x >= half_cell * (1.0 - 1e-9)) return;
+    marks.push_back({x, is_singular});
+    marks.push_back({-x, is_singular});
+  };
+  add_pair(R, true);
+  if (std::abs(beyond) > 1e-9 * R) add_pair(half_width, e.is_equipotential);
+  std::sort(marks.begin(), marks.end(),
+            [](const MeshMark& a, const MeshMark& b) { return a.x < b.x; });
+
+  const double reach = std::min(R, t);
+  const auto line = [&](std::vector<MeshMark> along) {
+    if (!(d.uniform_m > 0.0)) return breaks_between(along, reach, 2.0 * reach, d.layers, d.ratio);
+    for (MeshMark& mark : along) mark.is_singular = false;
+    return breaks_between(along, 0.0, d.uniform_m, 1, d.ratio);
+  };
+  ArrayMesh mesh;
+  mesh.cell_x = line(marks);
+  mesh.first_pillar_column = column_of(mesh.cell_x, -R);
+  mesh.last_pillar_column = column_of(mesh.cell_x, R);
+  const double gap = g.spacing_m - 2.0 * (half_cell - R);
+  if (g.count > 1) mesh.gap_x = line({{0.0, ends_at_rim}, {gap, ends_at_rim}});
+  const double rest = edge - (half_cell - R);
+  if (rest > 1e-6 * R) mesh.edge_x = line({{0.0, ends_at_rim}, {rest, false}});
+  // Singular at the bottom: an electrode's edge, and the corner where a film that ends nearby is
+  // held.
+  const bool bottom_electrode = e.is_equipotential && e.grounded == FilmFace::kTop;
+  const bool bottom_corner = g.ends == FilmEnds::kFree && edge < t;
+  mesh.film_z = line({{-t, bottom_electrode || bottom_corner}, {0.0, true}});
+  const std::vector<MeshMark> shaft = {{0.0, true}, {g.length_m, false}};
+  mesh.pillar_z = d.uniform_m > 0.0 ? line(shaft)
+                                    : breaks_between(shaft, 2.0 * R, 4.0 * R / d.shaft_elements,
+                                                     d.layers, d.ratio);
+  return mesh;
+}
+
+}  // namespace viscard

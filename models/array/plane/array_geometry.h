@@ -1,0 +1,66 @@
+#pragma once
+
+#include "models/pillar/body/pillar_model.h"
+#include "models/pillar/mesh/pillar_mesh.h"
+
+#include <vector>
+
+namespace viscard {
+
+// How the film ends beyond the outer pillars.
+enum class FilmEnds {
+  kFree,   // cut off, free
+  kMirror  // half a spacing further begins the mirror image: an endless row
+};
+
+// A row of identical pillars, strips in the plane, on one film whose bottom is held. Pillars are
+// numbered from the left; lengths in m.
+struct ArrayGeometry {
+  int count = 8;
+  double diameter_m = 40e-6;
+  double length_m = 120e-6;
+  double spacing_m = 60e-6;  // from edge to edge of neighbours
+  double film_thickness_m = 25e-6;
+  FilmEnds ends = FilmEnds::kFree;
+  double film_edge_m = 100e-6;  // film beyond the outer pillars' faces, for free ends
+};
+
+// One electrode under each pillar on the face that is not grounded.
+struct ArrayElectrodes {
+  FilmFace grounded = FilmFace::kTop;
+  double half_width_m = 0.0;      // 0: as wide as the pillar
+  bool is_equipotential = false;  // false: the face carries no charge, and its potential is read
+};
+
+// Throws SceneMistake naming the length that is wrong, or the electrodes that overlap or
+// leave the film.
+void validate(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes);
+
+double electrode_half_width_m(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes);
+double pillar_centre_m(const ArrayGeometry& geometry, int pillar);  // 0 is the middle of the row
+
+// Where elements must end, and whether stress or field is singular there, so that they shrink.
+struct MeshMark {
+  double x = 0.0;
+  bool is_singular = false;
+};
+// Breaks from the first mark to the last: `layers` elements shrink by `ratio` over `reach_m` toward
+// each singular mark, others are no longer than `largest_m`. Marks ascend.
+std::vector<double> breaks_between(const std::vector<MeshMark>& marks, double reach_m,
+                                   double largest_m, int layers, double ratio);
+
+// The row as a chain of pieces that repeat: [edge] cell [gap cell]... [edge]. The cell stands
+// around its pillar with x = 0 in its middle; gap and edge start at x = 0, and the left edge is the
+// right one seen in a mirror. Where gap or edge is empty there is none.
+struct ArrayMesh {
+  std::vector<double> cell_x, gap_x, edge_x;
+  std::vector<double> film_z;    // from -thickness to 0
+  std::vector<double> pillar_z;  // from 0 to length
+  int first_pillar_column = 0;   // of the cell's columns
+  int last_pillar_column = 0;    // one past
+};
+// Elements of the shaft are no longer than two diameters over `shaft_elements`.
+ArrayMesh array_mesh(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes,
+                     const Discretisation& discretisation);
+
+}  // namespace viscard

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "models/array/plane/array_geometry.h"
+#include "models/pillar/system/medium.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace viscard {
+
+// What a row of pillars is made of. Plane stress or plane strain; 1 m thick across the plane.
+struct ArrayMedia {
+  Medium pillar;
+  Medium film;  // with a permittivity: the potential is solved for, coupled both ways (eq. 20)
+  PlaneState plane = PlaneState::kStress;
+};
+
+// Ports (condense.h) of a pillar, in this order: 1 Pa of pressure on its top, 1 Pa of shear along
+// +x on its top, then the inertia of each of its lowest modes on a fixed base (eq. A2), unit mass
+// norm.
+constexpr int kPressurePort = 0;
+constexpr int kShearPort = 1;
+constexpr int kFirstModePort = 2;
+
+// One pillar condensed to the nodes of its base: matrix on [base, ports].
+struct CondensedPillar {
+  Eigen::MatrixXd matrix;
+  int base_size = 0;
+  Eigen::VectorXd mode_rad_s;         // angular frequencies of the modes on a fixed base, ascending
+  std::vector<bool> mode_is_lateral;  // they move to the side, the others along the axis
+  int unknowns = 0;                   // before condensation
+
+  int port_count() const { return static_cast<int>(matrix.rows()) - base_size; }
+  // F' K^-1 F of the pillar on a fixed base.
+  Eigen::MatrixXd fixed_base_compliance() const {
+    return -matrix.bottomRightCorner(port_count(), port_count());
+  }
+};
+// `modes`: how many modes to give ports; 0 for statics. At nu = 0.5 in plane strain the bulk
+// modulus is 1e6 shear moduli, which moves answers by about 1e-6. Throws std::runtime_error if the
+// modes do not converge.
+CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media, int degree,
+                                 int modes = 0);
+
+// Mean of the film's potential over [from, to] on the face that is not grounded, or its value at
+// from = to.
+struct PotentialReading {
+  double from_m = 0.0;
+  double to_m = 0.0;
+};
+
+// A length of film, perhaps with a pillar on it, condensed to its two vertical ends: matrix on
+// [left end, right end, ports]. Ports are the pillar's, then the readings in V per unit (a film
+// without permittivity has none), then, for an equipotential electrode, its voltage in V, whose
+// load is minus the charge in C.
+struct CondensedPiece {
+  Eigen::MatrixXd matrix;
+  int end_size = 0;
+  std::vector<bool> end_is_across;  // of the unknowns of an end: displacement along x?
+  int unknowns = 0;
+
+  int port_count() const { return static_cast<int>(matrix.rows()) - 2 * end_size; }
+};
+
+struct FilmPiece {
+  std::vector<double> x_m;  // breaks
+  std::vector<PotentialReading> readings;
+  const CondensedPillar* pillar = nullptr;  // stands on columns [first, last)
+  int first_pillar_column = 0;
+  int last_pillar_column = 0;
+  double electrode_half_width_m = 0.0;  // of an equipotential electrode around x = 0; 0: none
+};
+CondensedPiece condensed_film(const FilmPiece& piece, const ArrayMesh& mesh,
+                              const ArrayMedia& media, FilmFace grounded, int degree);
+// The piece seen in a mirror across x. Its ports must be symmetric, as readings of the potential
+// are.
+CondensedPiece mirrored(const CondensedPiece& piece);
+
+}  // namespace viscard

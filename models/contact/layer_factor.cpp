@@ -1,0 +1,76 @@
+#include "models/contact/layer_factor.h"
+
+#include "models/maths/gauss_legendre.h"
+#include "models/maths/text_of_number.h"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+// 1 - K(x): K is the compliance of the bonded layer in Hankel space over that of the half-space
+// (eq. 10), divided through by cosh 2x so that it never overflows.
+double missing_compliance(double x, double nu) {
+  const double k = 3.0 - 4.0 * nu;
+  const double e = std::exp(-2.0 * x);
+  const double numerator = k * (1.0 - e * e) - 4.0 * x * e;
+  const double denominator =
+      k * (1.0 + e * e) + 2.0 * e * (2.0 * x * x + 5.0 - 12.0 * nu + 8.0 * nu * nu);
+  return 1.0 - numerator / denominator;
+}
+
+}  // namespace
+
+double layer_factor(double radius_over_thickness, double poisson_ratio) {
+  if (!(radius_over_thickness >= 0.0 && radius_over_thickness <= 10.0)) {
+    throw std::invalid_argument("punch radius over layer thickness is " +
+                                text_of(radius_over_thickness) +
+                                "; the layer correction holds from 0 to 10");
+  }
+  if (!(poisson_ratio >= 0.0 && poisson_ratio <= 0.5)) {
+    throw std::invalid_argument("Poisson ratio is " + text_of(poisson_ratio) +
+                                "; the layer correction holds from 0 to 0.5");
+  }
+  if (radius_over_thickness == 0.0) return 1.0;
+
+  // Transform variable x from 0 to 30, where 1 - K is below 1e-20, in panels of one.
+  static const QuadratureRule panel = gauss_legendre(24);
+  constexpr int kPanels = 30;
+  std::vector<double> x;
+  std::vector<double> weight;
+  for (int p = 0; p < kPanels; ++p) {
+    for (std::size_t i = 0; i < panel.points.size(); ++i) {
+      x.push_back(p + panel.points[i]);
+      weight.push_back(panel.weights[i] * missing_compliance(x.back(), poisson_ratio));
+    }
+  }
+
+  // chi(t) - (2 r/pi) int_0^1 [int (1 - K(x)) cos(x r t) cos(x r s) dx] chi(s) ds = 1, r = a/H, and
+  // kappa = int chi. The inner integral separates into a product of cosines.
+  const int count = radius_over_thickness > 2.0 ? 60 : 24;
+  const QuadratureRule rule = gauss_legendre(count);
+  const auto n_x = static_cast<Eigen::Index>(x.size());
+  Eigen::MatrixXd cosines(count, n_x);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index k = 0; k < n_x; ++k) {
+      cosines(i, k) = std::cos(x[static_cast<std::size_t>(k)] * radius_over_thickness *
+                               rule.points[static_cast<std::size_t>(i)]);
+    }
+  }
+  const Eigen::Map<const Eigen::VectorXd> x_weights(weight.data(), n_x);
+  const Eigen::Map<const Eigen::VectorXd> t_weights(rule.weights.data(), count);
+  const Eigen::MatrixXd kernel = (2.0 * radius_over_thickness / std::numbers::pi) * cosines *
+                                 x_weights.asDiagonal() * cosines.transpose();
+  const Eigen::MatrixXd system =
+      Eigen::MatrixXd::Identity(count, count) - kernel * t_weights.asDiagonal();
+  const Eigen::VectorXd chi = system.partialPivLu().solve(Eigen::VectorXd::Ones(count));
+  return t_weights.dot(chi);
+}
+
+}  // namespace viscard

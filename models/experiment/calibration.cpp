@@ -1,0 +1,92 @@
+#include "models/experiment/calibration.h"
+
+#include "models/maths/text_of_number.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace viscard {
+
+void validate(const LoadCellCalibration& calibration) {
+  if (!std::isfinite(calibration.volts_per_newton) || calibration.volts_per_newton == 0.0) {
+    throw std::invalid_argument("load cell gain is " + text_of(calibration.volts_per_newton) +
+                                " V/N; it must be finite and not zero");
+  }
+  if (!(calibration.capacity_N > 0.0) || !std::isfinite(calibration.capacity_N)) {
+    throw std::invalid_argument("load cell capacity is " + text_of(calibration.capacity_N) +
+                                " N; it must be positive");
+  }
+}
+
+namespace {
+
+// Gregorian.
+int days_of(int month, int year) {
+  if (month == 2) return (year % 4 == 0 && year % 100 != 0) || year % 400 == 0 ? 29 : 28;
+  return month == 4 || month == 6 || month == 9 || month == 11 ? 30 : 31;
+}
+
+bool is_iso_day(const std::string& text) {
+  const std::string day = text.substr(0, 10);
+  if (day.size() < 10 || day[4] != '-' || day[7] != '-') return false;
+  for (const std::size_t i : {0, 1, 2, 3, 5, 6, 8, 9}) {
+    if (day[i] < '0' || day[i] > '9') return false;
+  }
+  if (text.size() > 10 && text[10] != 'T' && text[10] != ' ') return false;
+  const int year = std::stoi(day.substr(0, 4));
+  const int month = std::stoi(day.substr(5, 2));
+  const int in_month = std::stoi(day.substr(8, 2));
+  return month >= 1 && month <= 12 && in_month >= 1 && in_month <= days_of(month, year);
+}
+
+void validate_date(const char* key, const std::string& text) {
+  if (text.empty() || is_iso_day(text)) return;
+  throw std::invalid_argument("calibration." + std::string(key) + " '" + text +
+                              "' is no day such as 2026-11-21");
+}
+
+}  // namespace
+
+void validate_dates(const LoadCellCalibration& calibration) {
+  validate_date("date", calibration.date);
+  validate_date("valid_until", calibration.valid_until);
+}
+
+std::string last_valid_day(const LoadCellCalibration& calibration) {
+  if (!calibration.valid_until.empty()) return calibration.valid_until;
+  const std::string& date = calibration.date;
+  if (date.size() < 10 || date.find_first_not_of("0123456789") != 4) return {};
+  const int year = std::stoi(date.substr(0, 4)) + 1;
+  // A year after a leap day there is none.
+  const std::string day = date.substr(4, 6) == "-02-29" ? "-02-28" : date.substr(4, 6);
+  return std::to_string(year) + day;
+}
+
+std::string calibration_trouble(const LoadCellCalibration& calibration, const std::string& today) {
+  const std::string last = last_valid_day(calibration);
+  const std::string name = calibration.id.empty() ? "" : " '" + calibration.id + "'";
+  if (last.empty()) {
+    return "the load cell's calibration" + name +
+           " has no date, so nobody can tell whether it still holds. Make one with: viscard "
+           "calibrate; or set date under [calibration] of the rig file";
+  }
+  // ISO dates compare as text.
+  if (calibration.date.substr(0, 10) > today.substr(0, 10)) {
+    return "the load cell's calibration" + name + " is dated " + calibration.date +
+           ", which is later than today, " + today.substr(0, 10) +
+           ". Correct date under [calibration], or this computer's clock";
+  }
+  if (today.substr(0, 10) <= last.substr(0, 10)) return {};
+  return "the load cell's calibration" + name + " expired on " + last +
+         ". Make a new one with: viscard calibrate";
+}
+
+double force_N_from_volts(const LoadCellCalibration& calibration, double volts) {
+  return (volts - calibration.zero_volts) / calibration.volts_per_newton;
+}
+
+double volts_from_force_N(const LoadCellCalibration& calibration, double force_N) {
+  return force_N * calibration.volts_per_newton + calibration.zero_volts;
+}
+
+}  // namespace viscard

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "models/experiment/rig_config.h"
+#include "models/experiment/run_record.h"
+#include "models/experiment/specimen.h"
+#include "models/experiment/test_plan.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// One test run as read back from its capture file: what was asked for and what was received, each
+// list in the order of reception. Host times are s since the run began (run_record.h).
+struct CapturedRun {
+  RigConfig rig;
+  TestPlan plan;
+  Specimen specimen;
+  std::vector<LoadSample> load_samples;
+  std::vector<StageReport> stage_reports;
+  std::vector<CommandedMove> moves;
+  std::vector<RunEvent> events;
+  std::string status;      // "finished" | "interrupted" | "running"
+  std::string started_at;  // ISO 8601, wall clock
+  std::string program;     // "viscard 0.1.0"
+  std::string command;     // command line
+  std::size_t n_raw_bytes = 0;
+};
+
+}  // namespace viscard

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "models/experiment/calibration.h"
+
+#include <string>
+
+namespace viscard {
+
+// What rig.toml says (data/demo/01_rig.toml is the commented example). SI.
+
+struct StageConfig {
+  std::string driver = "grbl";  // "grbl" | "zaber"
+  std::string port;             // path; prefer /dev/serial/by-id/...
+  int baud = 115200;
+  char axis = 'Z';
+  int toward_specimen = -1;  // sign of machine motion that presses into the specimen
+  double travel_m = 10e-3;   // software limit of the way toward the specimen from where it starts
+  double backlash_m = 0.0;
+  bool home = false;  // run the controller's homing cycle before a test
+  // Zaber only: what no controller tells. One microstep of the motor, from the maker's page.
+  double microstep_m = 0.0;
+  int device = 1;  // address on the chain
+  int axis_number = 1;
+};
+
+struct LoadCellConfig {
+  std::string driver = "hx711";  // "hx711" | "scpi" | "mark10" | "sauter"
+  std::string port;
+  int baud = 115200;
+  std::string line_format =
+      "auto";  // "counts" | "micros,counts" | "millis,counts" | "volts" | "auto"
+  double expected_rate_Hz = 80.0;
+  double volts_per_count = 0.0;  // V per count of the converter
+  bool compression_is_positive = true;
+  std::string dialect = "34401a";  // of a SCPI multimeter (rig/scpi_protocol.h)
+  // Of forces that come without a unit: "N", "mN", "gf" ... Empty: hx711 numbers are counts or
+  // volts, and gauges are set to N.
+  std::string unit;
+  std::string framing = "8N1";  // data bits, parity (N E O), stop bits
+};
+
+// Compliance of everything between the stage's position and the punch tip (the load cell is one
+// spring of it): depth = stage position - contact position - force/frame_stiffness.
+struct FrameConfig {
+  double stiffness_N_m = 0.0;         // 0: rigid
+  double stiffness_relative_u = 0.0;  // standard uncertainty, relative
+  std::string id;                     // names its record
+  std::string date;                   // ISO 8601
+  std::string file;                   // of the record that a rig file names; empty once read
+};
+
+struct SafetyConfig {
+  double warn_fraction = 0.70;  // of the cell's capacity
+  double soft_fraction = 0.80;  // decelerating stop
+  double hard_fraction = 0.95;  // immediate stop
+};
+
+struct RigConfig {
+  std::string name;
+  StageConfig stage;
+  LoadCellConfig load_cell;
+  LoadCellCalibration calibration;
+  FrameConfig frame;
+  SafetyConfig safety;
+  double clock_speed = 1.0;  // > 1 only with an emulated rig: its clock over the wall clock
+};
+
+}  // namespace viscard

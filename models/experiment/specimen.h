@@ -1,0 +1,21 @@
+#pragma once
+
+#include "models/contact/punch_contact.h"
+
+#include <string>
+
+namespace viscard {
+
+// What specimen.toml says (data/demo/03_pdms_1to10.toml is the commented example): what lies under
+// the punch. SI.
+struct Specimen {
+  std::string id;
+  std::string material;       // "PDMS"
+  double mixing_ratio = 0.0;  // parts of base to one of curing agent; 0: not given
+  PunchContact contact;
+  double modulus_guess_Pa = 0.0;  // for pre-flight and the stage travel only, never for the fit
+  double rho_kg_m3 = 0.0;
+  double temperature_C = 23.0;
+};
+
+}  // namespace viscard

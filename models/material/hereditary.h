@@ -1,0 +1,43 @@
+#pragma once
+
+#include "models/material/prony_series.h"
+
+#include <vector>
+
+namespace viscard {
+
+// phi_1(x) = (1 - exp(-x))/x and phi_2(x) = (1 - phi_1(x))/x   (eq. 6), for x >= 0, accurate to a
+// few rounding errors from x = 0 to infinity: expm1 for phi_1, a series for phi_2 where it cancels.
+double phi1(double x);
+double phi2(double x);
+
+// Hereditary integral of a generalised Maxwell solid,
+//   sigma(t) = int_0^t E(t - s) d(strain)/ds ds   (eq. 5),
+// for strain that is linear in each step, which the recursion
+//   q_i <- exp(-dt/tau_i) q_i + E_i phi_1(dt/tau_i) d(strain)
+// integrates exactly whatever dt/tau_i. "Strain" may be any input that stress follows linearly: the
+// depth of a flat punch gives its force. Sources: Taylor, Pister & Goudreau, IJNME 2 (1970) 45;
+// Simo & Hughes, Computational Inelasticity (1998), ch. 10.
+class HereditaryStress {
+ public:
+  explicit HereditaryStress(PronySeries series);
+
+  // Takes a step of dt_s >= 0 in which the strain goes to `strain` linearly; dt_s = 0 is a jump.
+  // Returns the stress at its end. Throws std::invalid_argument if dt_s < 0 or not finite.
+  double advance(double dt_s, double strain);
+
+  // Stress at the end of a step is algorithmic_modulus_Pa(dt) * strain + carried_Pa(dt), the split
+  // an implicit solver needs (a spring in series, a finite element).
+  double algorithmic_modulus_Pa(double dt_s) const;
+  double carried_Pa(double dt_s) const;
+
+  double stress_Pa() const;
+  double strain() const { return strain_; }
+
+ private:
+  PronySeries series_;
+  std::vector<double> branch_Pa_;  // q_i
+  double strain_ = 0.0;
+};
+
+}  // namespace viscard

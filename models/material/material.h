@@ -1,0 +1,114 @@
+#pragma once
+
+#include "models/material/prony_series.h"
+#include "models/material/temperature_shift.h"
+#include "models/maths/interval.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// The one internal description of a viscoelastic solid, SI:
+//   G(t) = G_0 [1 - sum g_i (1 - exp(-t/tau_i))],  K(t) likewise with k_i   (eq. 7)
+// where G_0 and K_0 follow from the instantaneous E_0 and nu. k_i = g_i keeps the Poisson ratio
+// constant (the default, and then E relaxes with the same g_i); k_i = 0 keeps the bulk modulus.
+struct MaterialTerm {
+  double g = 0.0;      // shear, relative to G_0
+  double k = 0.0;      // bulk, relative to K_0
+  double tau_s = 0.0;  // > 0
+};
+
+// What the fit says about a parameter; absent for a material typed in by hand.
+struct TermUncertainty {
+  double modulus_se_Pa = 0.0;
+  double ln_tau_se = 0.0;
+  Interval modulus_Pa_95, g_95, tau_s_95;
+};
+
+struct MaterialUncertainty {
+  Interval E0_Pa_95, E_inf_Pa_95;
+  std::vector<TermUncertainty> terms;  // as Material::terms
+  std::vector<std::string>
+      covariance_parameters;         // names of rows, e.g. "E_inf_Pa", "E_1_Pa", "ln_tau_1"
+  Eigen::MatrixXd covariance;        // square, in the units the names say
+  double systematic_relative = 0.0;  // scales all moduli together: geometry, calibration, frame
+};
+
+// Where the description has been seen to hold.
+struct ValidityWindow {
+  double t_min_s = 0.0;
+  double t_max_s = 0.0;     // 0: unknown
+  double strain_max = 0.0;  // 0: unknown
+};
+
+// An identifiability flag: what the data could not tell. Cards annotate or refuse flagged terms.
+struct MaterialFlag {
+  std::string name;  // short and stable, e.g. "tau-below-sampling"
+  int term = 0;      // 1-based; 0 for the whole material
+  std::string text;  // a sentence for a person
+};
+
+struct RawFile {
+  std::string path;
+  std::string sha256;
+};
+
+struct Provenance {
+  std::string created_by;  // "viscard 0.1.0"
+  std::string created_at;  // ISO 8601, empty in reproducible mode
+  std::string command;     // command line
+  std::vector<RawFile> raw_files;
+  double fit_from_s = 0.0, fit_to_s = 0.0;  // fit window
+  std::string nu_origin = "assumed";        // assumed | measured
+  std::string bulk_origin = "assumed";
+};
+
+struct Material {
+  std::string name;
+  double E0_Pa = 0.0;
+  double nu = 0.0;
+  double rho_kg_m3 = 0.0;  // 0: not given
+  std::vector<MaterialTerm> terms;
+  double mixing_ratio = 0.0;  // parts of base to one of curing agent; 0: not given
+  std::optional<double> T_ref_C;
+  std::optional<TemperatureShift> shift;  // of all times together; counted from T_ref_C
+  ValidityWindow valid;
+  std::optional<MaterialUncertainty> uncertainty;
+  std::vector<MaterialFlag> flags;
+  Provenance provenance;
+};
+
+// Throws std::invalid_argument naming the value: E0 not positive, nu outside (-1, 0.5], density
+// negative, a g or k negative or not finite, tau not positive, sum g or sum k >= 1, a shift
+// whose reference is not T_ref_C.
+void validate(const Material& material);
+
+// True when every k_i equals its g_i (constant Poisson ratio).
+bool has_constant_poisson_ratio(const Material& material);
+
+// Everything a solver card or a solver may ask for, derived in this one place (eq. 7).
+// K_0 is infinite at nu = 0.5 and the bulk series is then empty.
+struct DerivedModuli {
+  double E0_Pa = 0.0, E_inf_Pa = 0.0;
+  double G0_Pa = 0.0, G_inf_Pa = 0.0;
+  double K0_Pa = 0.0, K_inf_Pa = 0.0;
+  double nu_inf = 0.0;  // long-term Poisson ratio
+  double sum_g = 0.0, sum_k = 0.0;
+  std::vector<double> G_Pa, K_Pa;     // branch moduli g_i G_0, k_i K_0
+  std::vector<double> E_Pa;           // g_i E_0: a branch's share of E_0 at the Poisson ratio nu
+  double E_rest_Pa = 0.0;             // (1 - sum g_i) E_0: the share that never relaxes
+  std::vector<double> beta_1_s;       // 1/tau_i
+  std::vector<double> norton_1_Pa_s;  // 1/(3 G_i tau_i): creep rate per von Mises stress
+};
+DerivedModuli derived_moduli(const Material& material);
+
+PronySeries shear_series(const Material& material);  // G(t)
+// E(t). With constant Poisson ratio the terms carry over; otherwise E(t) follows from G and K by
+// 9KG/(3K + G) in the Laplace domain, which again gives a Prony series (eq. 7b).
+PronySeries young_series(const Material& material);
+
+}  // namespace viscard

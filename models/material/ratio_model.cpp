@@ -1,0 +1,272 @@
+#include "models/material/ratio_model.h"
+
+#include "models/maths/text_of_number.h"
+
+#include <boost/math/distributions/students_t.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+using Index = Eigen::Index;
+
+int degree_of(const RatioModel& model, int parameter) {
+  if (parameter == 0) return model.form.E0_degree;
+  const std::string name = parameter <= model.n_terms
+                               ? "g_" + std::to_string(parameter)
+                               : "tau_" + std::to_string(parameter - model.n_terms);
+  const auto& same = model.form.same;
+  if (std::find(same.begin(), same.end(), name) != same.end()) return 0;
+  return parameter <= model.n_terms ? model.form.g_degree : model.form.tau_degree;
+}
+
+double spread_of(const RatioModel& model, int parameter) {
+  if (parameter == 0) return model.spread_ln_E0;
+  return parameter <= model.n_terms ? model.spread_ln_g : model.spread_ln_tau;
+}
+
+Index position_of(const RatioModel& model, double ratio) {
+  const auto found = std::find_if(model.ratios.begin(), model.ratios.end(), [&](double measured) {
+    return std::abs(measured - ratio) <= 1e-9 * std::abs(ratio);
+  });
+  return found == model.ratios.end() ? -1 : found - model.ratios.begin();
+}
+
+// theta and its covariance for a new specimen.
+struct Prediction {
+  Eigen::VectorXd theta;
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd quantile;  // of Student's t, for each parameter
+};
+constexpr double kNormal975 = 1.959963984540054;  // 97.5 % quantile of the normal distribution
+
+Prediction predict(const RatioModel& model, double ratio) {
+  const Eigen::MatrixXd design = design_at(model, ratio);
+  Prediction out{design * model.coefficients, design * model.covariance * design.transpose(),
+                 Eigen::VectorXd(design.rows())};
+  for (Index k = 0; k < design.rows(); ++k) {
+    const int parameter = static_cast<int>(k);
+    if (!has_known_spread(model, parameter)) {
+      out.quantile[k] = kNormal975;
+      continue;
+    }
+    out.covariance(k, k) += std::pow(spread_of(model, parameter), 2);
+    out.quantile[k] = student_t_975(model.n_specimens - n_columns(model, parameter));
+  }
+  return out;
+}
+
+Interval around(double value, double half_width) {
+  return {value - half_width, value + half_width};
+}
+
+// E_inf, E_i, ln tau_i of theta and their derivatives by it.
+Eigen::MatrixXd slopes_of_moduli(const Prediction& from, int n_terms) {
+  const double E0_Pa = std::exp(from.theta[0]);
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(1 + 2 * n_terms, 1 + 2 * n_terms);
+  double rest = 1.0;
+  for (Index i = 1; i <= n_terms; ++i) {
+    const double g = std::exp(from.theta[i]);
+    rest -= g;
+    slopes(0, i) = -E0_Pa * g;
+    slopes(i, 0) = slopes(i, i) = E0_Pa * g;
+    slopes(n_terms + i, n_terms + i) = 1.0;
+  }
+  slopes(0, 0) = E0_Pa * rest;
+  return slopes;
+}
+
+MaterialUncertainty uncertainty_of(const Prediction& from, int n_terms, double E_inf_Pa) {
+  MaterialUncertainty out;
+  const auto error = [&](Index k) { return std::sqrt(from.covariance(k, k)); };
+  const auto lognormal = [&](Index k) {
+    const Interval ln = around(from.theta[k], from.quantile[k] * error(k));
+    return Interval{std::exp(ln.low), std::exp(ln.high)};
+  };
+  const Eigen::MatrixXd slopes = slopes_of_moduli(from, n_terms);
+  out.covariance = slopes * from.covariance * slopes.transpose();
+  out.E0_Pa_95 = lognormal(0);
+  const double worst = from.quantile.maxCoeff();
+  const double ln_E_inf_se = std::sqrt(out.covariance(0, 0)) / E_inf_Pa;
+  const double E_inf_quantile = ln_E_inf_se > 0.0 ? from.quantile[0] : worst;
+  out.E_inf_Pa_95 = {E_inf_Pa * std::exp(-E_inf_quantile * ln_E_inf_se),
+                     E_inf_Pa * std::exp(E_inf_quantile * ln_E_inf_se)};
+  out.covariance_parameters = {"E_inf_Pa"};
+  for (int i = 1; i <= n_terms; ++i) {
+    out.covariance_parameters.push_back("E_" + std::to_string(i) + "_Pa");
+  }
+  for (Index i = 1; i <= n_terms; ++i) {
+    out.covariance_parameters.push_back("ln_tau_" + std::to_string(i));
+    TermUncertainty term;
+    const double modulus_Pa = std::exp(from.theta[0] + from.theta[i]);
+    term.modulus_se_Pa = std::sqrt(out.covariance(i, i));
+    term.ln_tau_se = error(n_terms + i);
+    const double ln_half = from.quantile[i] * term.modulus_se_Pa / modulus_Pa;
+    term.modulus_Pa_95 = {modulus_Pa * std::exp(-ln_half), modulus_Pa * std::exp(ln_half)};
+    term.g_95 = lognormal(i);
+    term.tau_s_95 = lognormal(n_terms + i);
+    out.terms.push_back(term);
+  }
+  return out;
+}
+
+void check_range(const RatioFit& fit, double ratio, bool may_extrapolate) {
+  if (!(ratio > 0.0) || !std::isfinite(ratio)) {
+    throw std::invalid_argument("mixing ratio " + text_of(ratio) + " must be positive");
+  }
+  const double low = fit.law.ratios.front(), high = fit.law.ratios.back();
+  if (may_extrapolate || (ratio >= low && ratio <= high)) return;
+  throw std::invalid_argument("ratio " + text_of(ratio) + " lies outside the measured range, " +
+                              text_of(low) + " to " + text_of(high) +
+                              ": the law is not seen to hold there. Pass --extrapolate to use it "
+                              "all the same; the card will say so");
+}
+
+}  // namespace
+
+double variable_of(RatioVariable variable, double ratio) {
+  switch (variable) {
+    case RatioVariable::kLogRatio:
+      return std::log(ratio);
+    case RatioVariable::kRatio:
+      return ratio;
+    case RatioVariable::kCrosslinkerShare:
+      return 1.0 / (1.0 + ratio);
+  }
+  return 0.0;
+}
+
+ScaledVariable scale_of(const RatioModel& model) {
+  const double a = variable_of(model.form.variable, model.ratios.front());
+  const double b = variable_of(model.form.variable, model.ratios.back());
+  return {0.5 * (a + b), a == b ? 1.0 : 0.5 * (b - a)};
+}
+
+bool operator==(const RatioForm& a, const RatioForm& b) {
+  const bool same_degrees = a.E0_degree == b.E0_degree && a.g_degree == b.g_degree &&
+                            a.tau_degree == b.tau_degree && a.same == b.same;
+  const bool uses_variable = a.E0_degree > 0 || a.g_degree > 0 || a.tau_degree > 0;
+  return same_degrees && (a.variable == b.variable || !uses_variable);
+}
+
+bool is_law(const RatioForm& form) {
+  return form.E0_degree >= 0 && form.g_degree >= 0 && form.tau_degree >= 0;
+}
+
+int n_columns(const RatioModel& model, int parameter) {
+  const int degree = degree_of(model, parameter);
+  return degree == kPerRatio ? static_cast<int>(model.ratios.size()) : degree + 1;
+}
+
+Eigen::MatrixXd design_at(const RatioModel& model, double ratio) {
+  const int size = 1 + 2 * model.n_terms;
+  int columns = 0;
+  for (int k = 0; k < size; ++k) columns += n_columns(model, k);
+  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(size, columns);
+  const ScaledVariable scaled = scale_of(model);
+  const double x = (variable_of(model.form.variable, ratio) - scaled.middle) / scaled.half;
+  Index column = 0;
+  for (int k = 0; k < size; ++k) {
+    if (degree_of(model, k) == kPerRatio) {
+      const Index position = position_of(model, ratio);
+      if (position < 0) {
+        throw std::invalid_argument("ratio " + text_of(ratio) +
+                                    " was not measured, and this form holds for those that were");
+      }
+      design(k, column + position) = 1.0;
+    } else {
+      for (int power = 0; power <= degree_of(model, k); ++power) {
+        design(k, column + power) = std::pow(x, power);
+      }
+    }
+    column += n_columns(model, k);
+  }
+  return design;
+}
+
+bool has_known_spread(const RatioModel& model, int parameter) {
+  return model.n_specimens > n_columns(model, parameter);
+}
+
+namespace {
+
+// Name and number of the first parameter that each of the three spreads is of.
+std::vector<std::pair<std::string, int>> first_of_each_kind(int n_terms) {
+  if (n_terms == 0) return {{"E0", 0}};
+  return {{"E0", 0}, {"g", 1}, {"tau", n_terms + 1}};
+}
+
+}  // namespace
+
+Material material_at_ratio(const RatioFit& fit, double ratio, bool may_extrapolate) {
+  check_range(fit, ratio, may_extrapolate);
+  const bool is_measured = position_of(fit.best, ratio) >= 0;
+  const RatioModel& model = is_measured ? fit.best : fit.law;
+  const Prediction from = predict(model, ratio);
+  Material material = fit.common;
+  material.mixing_ratio = ratio;
+  material.E0_Pa = std::exp(from.theta[0]);
+  double rest = 1.0;
+  for (Index i = 1; i <= model.n_terms; ++i) {
+    const double g = std::exp(from.theta[i]);
+    material.terms.push_back({g, g, std::exp(from.theta[model.n_terms + i])});
+    rest -= g;
+  }
+  if (!(rest > 0.0)) {
+    throw std::invalid_argument("at ratio " + text_of(ratio) +
+                                " the law lets the whole modulus relax; it does not reach there");
+  }
+  const double systematic =
+      fit.common.uncertainty ? fit.common.uncertainty->systematic_relative : 0.0;
+  material.uncertainty = uncertainty_of(from, model.n_terms, material.E0_Pa * rest);
+  material.uncertainty->systematic_relative = systematic;
+  material.name += (material.name.empty() ? "ratio " : " ") + text_of(ratio) + ":1";
+  material.flags = fit.flags;
+  std::string unknown;
+  for (const auto& [name, parameter] : first_of_each_kind(model.n_terms)) {
+    if (!has_known_spread(model, parameter)) unknown += (unknown.empty() ? "" : ", ") + name;
+  }
+  if (!unknown.empty()) {
+    material.flags.push_back({"spread-unknown", 0,
+                              "too few specimens to tell how " + unknown +
+                                  " scatter between them; the intervals are those of the "
+                                  "specimen that was measured"});
+  }
+  if (ratio < fit.law.ratios.front() || ratio > fit.law.ratios.back()) {
+    material.flags.push_back({"extrapolated-ratio", 0,
+                              "ratio " + text_of(ratio) + " lies outside the measured range, " +
+                                  text_of(fit.law.ratios.front()) + " to " +
+                                  text_of(fit.law.ratios.back())});
+  }
+  return material;
+}
+
+RatioBand ratio_band(const RatioFit& fit, int count) {
+  RatioBand band;
+  const double low = fit.law.ratios.front(), high = fit.law.ratios.back();
+  for (int i = 0; i < count; ++i) {
+    const double ratio = i + 1 == count ? high : low + (high - low) * i / (count - 1);
+    const Prediction at = predict(fit.law, ratio);
+    const double half = at.quantile[0] * std::sqrt(at.covariance(0, 0));
+    band.ratio.push_back(ratio);
+    band.E0_Pa.push_back(std::exp(at.theta[0]));
+    band.E0_low_Pa.push_back(std::exp(at.theta[0] - half));
+    band.E0_high_Pa.push_back(std::exp(at.theta[0] + half));
+  }
+  return band;
+}
+
+double student_t_975(int degrees_of_freedom) {
+  if (degrees_of_freedom < 1) {
+    throw std::invalid_argument("Student's t needs at least one degree of freedom");
+  }
+  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
+}
+
+}  // namespace viscard

@@ -1,0 +1,116 @@
+#pragma once
+
+#include "models/material/material.h"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// How a material changes with its mixing ratio r (parts of base to one of curing agent). A
+// specimen s is described by theta = (ln E0, ln g_1 .. ln g_N, ln tau_1 .. ln tau_N) and
+//   theta_s = X(r_s) beta + u_s,   u_s ~ N(0, spread^2)                      (eq. 28)
+// with each row of X a polynomial in a variable of the ratio, or one value for each measured ratio.
+enum class RatioVariable {
+  kLogRatio,          // ln r: E0 is a power of the ratio
+  kRatio,             // r
+  kCrosslinkerShare,  // 1/(1 + r)
+};
+
+constexpr int kPerRatio = -1;  // a value of its own at each measured ratio
+
+struct RatioForm {
+  RatioVariable variable = RatioVariable::kLogRatio;
+  int E0_degree = 1;              // of ln E0 in the variable, or kPerRatio
+  int g_degree = 0;               // of every ln g_i
+  int tau_degree = 0;             // of every ln tau_i
+  std::vector<std::string> same;  // "g_1", "tau_2": these at one value, whatever the degree
+};
+bool operator==(const RatioForm& a, const RatioForm& b);
+
+// Its value at a ratio: ln r, r or 1/(1 + r).
+double variable_of(RatioVariable variable, double ratio);
+
+// True when the form says something of ratios that were not measured.
+bool is_law(const RatioForm& form);
+// "independent", "shared-times", "shared-spectrum", "law", or "mixed" for what has no name.
+std::string form_name(const RatioForm& form);
+// "ln E0 linear in ln(ratio), spectrum and times the same at all ratios".
+std::string form_in_words(const RatioForm& form);
+
+// One form fitted to all specimens (fit/fit_mixing_ratio.h).
+struct RatioModel {
+  RatioForm form;
+  int n_terms = 0;
+  std::vector<double> ratios;    // measured, ascending, each once
+  Eigen::VectorXd coefficients;  // beta: the columns of theta's first row, then of the next ...
+  Eigen::MatrixXd covariance;    // of beta
+  // Between-specimen standard deviations of ln E0, of each ln g_i and of each ln tau_i.
+  double spread_ln_E0 = 0.0, spread_ln_g = 0.0, spread_ln_tau = 0.0;
+  int n_specimens = 0;
+  double log_likelihood = 0.0;  // maximum likelihood
+  double bic = 0.0;
+  int n_parameters = 0;  // beta and three spreads
+};
+
+// The variable as the polynomials take it, counted from the middle of the measured range in halves
+// of it: well-conditioned.
+struct ScaledVariable {
+  double middle = 0.0;
+  double half = 1.0;
+};
+ScaledVariable scale_of(const RatioModel& model);
+
+// How many of beta belong to row `parameter` of theta.
+int n_columns(const RatioModel& model, int parameter);
+// Whether there are more specimens than values that describe this parameter; if not, nothing is
+// known of the scatter between specimens.
+bool has_known_spread(const RatioModel& model, int parameter);
+// X(ratio), 1 + 2N rows. Throws std::invalid_argument if the form holds for measured ratios only
+// and this is none.
+Eigen::MatrixXd design_at(const RatioModel& model, double ratio);
+
+// E0 over a range of ratios, for plots: mean and 95 % band of a new specimen.
+struct RatioBand {
+  std::vector<double> ratio, E0_Pa, E0_low_Pa, E0_high_Pa;
+};
+
+// A joint fit: what was compared, what is best, and the best law for ratios not measured.
+struct RatioComparison {
+  RatioForm form;
+  int n_parameters = 0;
+  double log_likelihood = 0.0, bic = 0.0;
+};
+struct RatioSpecimen {
+  std::string name;
+  double mixing_ratio = 0.0;
+  double E0_Pa = 0.0;
+  double ln_E0_se = 0.0;  // of its own fit
+};
+struct RatioFit {
+  RatioModel best, law;                // of all forms by BIC, and of those that are laws
+  std::vector<RatioComparison> forms;  // ascending BIC
+  std::vector<RatioSpecimen> specimens;
+  std::vector<MaterialFlag> flags;
+  // What all materials share: nu, density, temperature, window, systematic part, raw files.
+  Material common;
+};
+
+// The material at a ratio: mean of the specimens, its intervals those of a new specimen (estimate
+// and between-specimen spread, Student's t; where the spread is not known those of the measured
+// specimen itself, flagged spread-unknown), its covariance likewise. A measured ratio is answered
+// by the best form, another by the best law. Outside the measured range it throws
+// std::invalid_argument unless may_extrapolate, and then the material carries the flag
+// "extrapolated-ratio".
+Material material_at_ratio(const RatioFit& fit, double ratio, bool may_extrapolate = false);
+RatioBand ratio_band(const RatioFit& fit, int count = 60);
+// "E0 = 18.8 MPa x ratio^-0.99 (exponent +- 0.04); between specimens E0 scatters by 8 % ...", each
+// number with the digits that its standard error allows.
+std::string law_in_words(const RatioFit& fit);
+
+// 97.5 % quantile of Student's t. Throws std::invalid_argument below one degree of freedom.
+double student_t_975(int degrees_of_freedom);
+
+}  // namespace viscard

@@ -1,0 +1,254 @@
+#include "models/pillar/analyses/scene_body.h"
+#include "models/pillar/analyses/wave_mesh.h"
+#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/mesh/number_text.h"
+#include "models/pillar/time/harmonic_response.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace viscard {
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+// Up to this many frequencies are solved one by one on the whole body.
+constexpr std::size_t kMostDirect = 16;
+
+// Complex amplitude of one output over frequency, and |y| + |omega dy/domega|: the tolerance refers
+// to it, so that a curve counts as right if it is so within the tolerance in amplitude or
+// frequency. Close to a pole nothing better can be asked of any mesh.
+struct Sweep {
+  std::vector<Complex> value;
+  std::vector<double> allowed;
+};
+
+// Everything needed for one frequency.
+class Response {
+ public:
+  Response(const Scene& scene, const SceneBody& body, const ReducedBody& reduced)
+      : is_base_(scene.load_place == LoadPlace::kBase),
+        solver_(reduced.system),
+        mass_(dense(reduced.system.mass)) {
+    const double area_m2 = top_area_m2(*body.model);
+    sides_.resize(reduced.basis.cols(), static_cast<Eigen::Index>(1 + body.outputs.size()));
+    sides_.col(0) =
+        is_base_
+            ? reduced.load(-scene.base_acceleration_m_s2 * unit_acceleration_force(*body.model))
+            : reduced.load(sign(scene) * scene.pressure_Pa * area_m2 * body.system.load);
+    for (std::size_t i = 0; i < body.outputs.size(); ++i) {
+      sides_.col(static_cast<Eigen::Index>(i + 1)) = reduced.output(body.outputs[i].of);
+    }
+    base_acceleration_m_s2_ = scene.base_acceleration_m_s2;
+  }
+
+  // Values of all outputs, and what the tolerance refers to.
+  void add(double frequency_Hz, std::vector<Sweep>& sweeps) const {
+    const double omega = kTwoPi * frequency_Hz;
+    const Eigen::MatrixXcd answers = solver_.solve(omega, sides_.cast<Complex>());
+    const Eigen::VectorXcd inertia = 2.0 * omega * omega * (mass_ * answers.col(0));
+    for (std::size_t i = 0; i < sweeps.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(i + 1);
+      Complex value = sides_.col(column).cast<Complex>().transpose() * answers.col(0);
+      // The load's response to the dual load: omega dy/domega without the slope of the moduli.
+      const Complex slope = answers.col(column).transpose() * inertia;
+      double size = std::abs(value) + std::abs(slope);
+      if (is_base_ && i == 0) {  // relative to the base so far
+        value = (value - base_acceleration_m_s2_ / (omega * omega)) /
+                (-base_acceleration_m_s2_ / (omega * omega));
+        size = std::abs(value) + (2.0 * size) * omega * omega / std::abs(base_acceleration_m_s2_);
+      }
+      sweeps[i].value.push_back(value);
+      sweeps[i].allowed.push_back(size);
+    }
+  }
+
+  // Frequency near a peak of |y| on the grid where it is largest, by golden section.
+  double peak_between(double low_Hz, double high_Hz, std::size_t output) const {
+    const auto size = [&](double f) {
+      std::vector<Sweep> one(static_cast<std::size_t>(sides_.cols() - 1));
+      add(f, one);
+      return std::abs(one[output].value[0]);
+    };
+    const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+    double a = high_Hz - ratio * (high_Hz - low_Hz);
+    double b = low_Hz + ratio * (high_Hz - low_Hz);
+    double at_a = size(a);
+    double at_b = size(b);
+    for (int i = 0; i < 60 && high_Hz - low_Hz > 1e-9 * high_Hz; ++i) {
+      if (at_a > at_b) {
+        high_Hz = b;
+        b = a;
+        at_b = at_a;
+        a = high_Hz - ratio * (high_Hz - low_Hz);
+        at_a = size(a);
+      } else {
+        low_Hz = a;
+        a = b;
+        at_a = at_b;
+        b = low_Hz + ratio * (high_Hz - low_Hz);
+        at_b = size(b);
+      }
+    }
+    return 0.5 * (low_Hz + high_Hz);
+  }
+
+ private:
+  static double sign(const Scene& scene) {
+    return scene.direction == LoadDirection::kAxial ? -1.0 : 1.0;  // a pressure pushes down
+  }
+
+  bool is_base_;
+  HarmonicSolver solver_;
+  Eigen::MatrixXd mass_;
+  Eigen::MatrixXd sides_;  // load, then outputs as dual loads
+  double base_acceleration_m_s2_ = 0.0;
+};
+
+void add_curves(const Scene& scene, const std::string& name, const std::string& unit,
+                const Sweep& sweep, SceneAnswer& answer) {
+  const std::vector<double>& f = scene.frequencies_Hz;
+  const auto part = [&](const char* suffix, const char* part_unit, bool watched,
+                        const std::function<double(Complex)>& of) {
+    SceneCurve curve{name + suffix, part_unit, f, {}, "frequency_Hz"};
+    for (const Complex& y : sweep.value) curve.value.push_back(of(y));
+    if (watched) curve.allowed = sweep.allowed;
+    curve.is_watched = watched;
+    answer.curves.push_back(std::move(curve));
+  };
+  part("_real", unit.c_str(), true, [](Complex y) { return y.real(); });
+  part("_imaginary", unit.c_str(), true, [](Complex y) { return y.imag(); });
+  part("_magnitude", unit.c_str(), true, [](Complex y) { return std::abs(y); });
+  part("_phase", "rad", false, [](Complex y) { return std::arg(y); });
+  answer.results.push_back(
+      {name + "_at_lowest", std::abs(sweep.value.front()), unit, 0.0, sweep.allowed.front()});
+  if (f.size() > 1) {
+    answer.results.push_back(
+        {name + "_at_highest", std::abs(sweep.value.back()), unit, 0.0, sweep.allowed.back()});
+  }
+}
+
+// Resonances of the first output inside the sweep.
+void add_peaks(const Scene& scene, const Response& response, const std::string& name,
+               const Sweep& sweep, SceneAnswer& answer) {
+  const std::vector<double>& f = scene.frequencies_Hz;
+  int number = 0;
+  for (std::size_t i = 1; i + 1 < f.size() && number < 9; ++i) {
+    const double here = std::abs(sweep.value[i]);
+    if (here <= std::abs(sweep.value[i - 1]) || here < std::abs(sweep.value[i + 1])) continue;
+    answer.results.push_back({name + "_resonance_" + std::to_string(++number),
+                              response.peak_between(f[i - 1], f[i + 1], 0), "Hz"});
+  }
+}
+
+// Frequencies at which the tolerance allows no statement of the amplitude.
+void note_poles(const Scene& scene, const Sweep& sweep, SceneAnswer& answer) {
+  std::string list;
+  int count = 0;
+  for (std::size_t i = 0; i < sweep.value.size(); ++i) {
+    const double size = std::abs(sweep.value[i]);
+    if (sweep.allowed[i] * scene.tolerance < 0.5 * size) continue;
+    if (++count <= 4) list += (count > 1 ? ", " : "") + number_text(scene.frequencies_Hz[i], 8);
+  }
+  if (count == 0) return;
+  // A coarse mesh may resonate where the pillar does not; no answer ends below degree 5.
+  if (scene.frequencies_Hz.size() == 1 && answer.discretisation.degree >= 5) {
+    throw std::runtime_error(
+        "at " + list +
+        " Hz the pillar is on a resonance, or a node between two, with too little damping: "
+        "the amplitude depends on the frequency more sharply than the tolerance "
+        "can tell. Choose another frequency, or a material with damping");
+  }
+  answer.notes.push_back(std::to_string(count) + " of the frequencies (" + list +
+                         (count > 4 ? ", ..." : "") +
+                         " Hz) lie on a resonance or a node too sharp for the tolerance: see the "
+                         "error column there");
+}
+
+bool is_solved_one_by_one(const Scene& scene, const SceneBody& body) {
+  return scene.frequencies_Hz.size() <= kMostDirect && !body.system.incompressible;
+}
+
+ReducedBody reduced_for(const Scene& scene, const SceneBody& body,
+                        const std::vector<Eigen::VectorXd>& loads) {
+  if (is_solved_one_by_one(scene, body)) {
+    std::vector<double> omega;
+    for (const double f : scene.frequencies_Hz) omega.push_back(kTwoPi * f);
+    return reduce_at(body.system, loads, omega);
+  }
+  const DynamicRange range{.lowest_rad_s = kTwoPi * scene.frequencies_Hz.front(),
+                           .highest_rad_s = kTwoPi * scene.frequencies_Hz.back(),
+                           .tolerance = 0.1 * scene.tolerance};
+  ReducedBody reduced = reduce_dynamic(body.system, loads, range);
+  if (reduced.sound_up_to_rad_s < range.highest_rad_s) {
+    throw std::runtime_error(
+        "a sweep of that many modes is sound up to about " +
+        number_text(reduced.sound_up_to_rad_s / kTwoPi, 4) +
+        " Hz only: end it there, or ask for at most " + std::to_string(kMostDirect) +
+        " frequencies, which are solved one by one, or for a larger tolerance");
+  }
+  return reduced;
+}
+
+}  // namespace
+
+void check_harmonic(const Scene& scene) {
+  const std::vector<double>& f = scene.frequencies_Hz;
+  if (f.empty()) throw std::invalid_argument("a harmonic analysis needs frequencies");
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    if (!(f[i] > 0.0) || !std::isfinite(f[i]) || (i > 0 && !(f[i] > f[i - 1]))) {
+      throw std::invalid_argument("frequencies must be positive and ascend strictly; number " +
+                                  std::to_string(i + 1) + " is " + number_text(f[i]) + " Hz");
+    }
+  }
+  if (scene.load_place == LoadPlace::kTop ? scene.pressure_Pa == 0.0
+                                          : scene.base_acceleration_m_s2 == 0.0) {
+    throw std::invalid_argument(
+        "a harmonic analysis needs a pressure on the top or an acceleration of the base");
+  }
+  check_sideways_in_time(scene);
+  wave_mesh(scene);  // refuses what no mesh can resolve
+}
+
+void run_harmonic(const Scene& scene, SceneAnswer& answer) {
+  const bool is_axial = scene.direction == LoadDirection::kAxial;
+  const Motion lateral = scene.plane ? Motion::kPlaneAntisymmetric : Motion::kLateral;
+  if (!scene.discretisation) {
+    const WaveMesh mesh = wave_mesh(scene);
+    answer.discretisation.longest_m = mesh.longest_m;
+    answer.discretisation.skin_m = mesh.skin_m;
+    answer.discretisation.skin_at_foot = scene.load_place == LoadPlace::kBase;
+  }
+  const SceneBody body =
+      body_of(scene, is_axial ? axial_motion(scene) : lateral, {.with_mass = true}, answer);
+  std::vector<Eigen::VectorXd> loads = {body.system.load};
+  if (scene.load_place == LoadPlace::kBase) loads.push_back(unit_acceleration_force(*body.model));
+  const ReducedBody reduced = reduced_for(scene, body, loads);
+  answer.step_error = reduced.error;
+  const Response response(scene, body, reduced);
+  std::vector<Sweep> sweeps(body.outputs.size());
+  for (const double frequency_Hz : scene.frequencies_Hz) response.add(frequency_Hz, sweeps);
+  const bool is_base = scene.load_place == LoadPlace::kBase;
+  const std::string first = is_base ? "transmissibility" : "top_displacement";
+  add_curves(scene, first, is_base ? "1" : "m", sweeps[0], answer);
+  if (!is_solved_one_by_one(scene, body)) add_peaks(scene, response, first, sweeps[0], answer);
+  note_poles(scene, sweeps[0], answer);
+  if (sweeps.size() < 2) return;
+  add_curves(scene, body.outputs[1].name, body.outputs[1].unit, sweeps[1], answer);
+  if (!scene.readout) return;
+  const ReadoutFilter filter = readout_of(scene, body, answer);
+  Sweep reading = sweeps[1];
+  for (std::size_t i = 0; i < reading.value.size(); ++i) {
+    const Complex gain = viscard::response(filter, kTwoPi * scene.frequencies_Hz[i]);
+    reading.value[i] *= gain;
+    reading.allowed[i] *= std::abs(gain);
+  }
+  add_curves(scene, "reading", "V", reading, answer);
+}
+
+}  // namespace viscard

@@ -1,0 +1,217 @@
+#include "models/pillar/analyses/scene_body.h"
+#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/mesh/number_text.h"
+#include "models/pillar/mesh/scene_mistake.h"
+#include "models/pillar/time/inertial_stepper.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace viscard {
+namespace {
+
+// The pillar's first resonance, by the rod or by the cantilever (Euler-Bernoulli), with the
+// instantaneous modulus. Source: Graff, Wave Motion in Elastic Solids (1975), ch. 2, 3. It only
+// sets scales: how far the basis reaches and how long the first steps are.
+double first_resonance_rad_s(const Scene& scene) {
+  const double L_m = scene.geometry.length_m;
+  const double speed_m_s = std::sqrt(scene.pillar.E0_Pa / scene.pillar.rho_kg_m3);
+  if (scene.direction == LoadDirection::kAxial) return 0.5 * std::numbers::pi * speed_m_s / L_m;
+  const double gyration_m = scene.geometry.diameter_m / (scene.plane ? std::sqrt(12.0) : 4.0);
+  return 3.516 * gyration_m * speed_m_s / (L_m * L_m);
+}
+
+// How rough a load history is: its jumps and its changes of slope, each added up, over its peak.
+struct Roughness {
+  double jumps = 0.0;
+  double kinks_1_s = 0.0;
+};
+Roughness roughness_of(const std::vector<HistoryPoint>& history) {
+  Roughness sum{std::abs(history.front().value), 0.0};
+  double peak = sum.jumps;
+  double slope = 0.0;
+  for (std::size_t i = 1; i < history.size(); ++i) {
+    const HistoryPoint& from = history[i - 1];
+    const HistoryPoint& to = history[i];
+    peak = std::max(peak, std::abs(to.value));
+    const bool is_jump = to.time_s <= from.time_s;
+    if (is_jump) sum.jumps += std::abs(to.value - from.value);
+    if (is_jump) continue;
+    const double next_slope = (to.value - from.value) / (to.time_s - from.time_s);
+    sum.kinks_1_s += std::abs(next_slope - slope);
+    slope = next_slope;
+  }
+  peak = std::max(peak, 1e-300);
+  return {sum.jumps / peak, (sum.kinks_1_s + std::abs(slope)) / peak};
+}
+
+// What modes above a frequency add to the displacement beyond their static share, over the static
+// displacement under the peak: a jump excites a mode by (8/pi^2) (omega_1/omega)^2, a change of
+// slope by 1/omega of that; modes lie 2 omega_1 apart. Source: the rod's own series, Graff, Wave
+// Motion in Elastic Solids (1975), ch. 2.
+double tail_beyond(double omega_rad_s, double first_rad_s, const Roughness& load) {
+  const double ratio = first_rad_s / omega_rad_s;
+  return 0.4 * load.jumps * ratio + 0.2 * load.kinks_1_s * ratio / omega_rad_s;
+}
+
+// The frequency beyond which that is a share of the tolerance, for an answer that is twice the
+// static one.
+constexpr double kFarthest = 60.0;  // first resonances; meshes and bases end there
+constexpr int kLargestBasis = 450;
+double reach_rad_s(const Scene& scene, double first_rad_s) {
+  const Roughness load = roughness_of(scene.history);
+  double omega = 5.0 * first_rad_s;
+  while (omega < kFarthest * first_rad_s &&
+         tail_beyond(omega, first_rad_s, load) > 0.4 * scene.tolerance) {
+    omega *= 1.1;
+  }
+  return omega;
+}
+
+// Largest value, with its sign; of extremes to either side that the tolerance cannot tell apart,
+// the one on the side of the first, so that ringing without damping has one answer.
+double peak_of(const std::vector<double>& values, double tolerance) {
+  double size = 0.0;
+  for (const double value : values) size = std::max(size, std::abs(value));
+  const auto first = std::find_if(values.begin(), values.end(), [&](double value) {
+    return std::abs(value) >= (1.0 - 4.0 * tolerance) * size;
+  });
+  if (first == values.end()) return 0.0;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *first < 0.0 ? *low : *high;
+}
+
+void add_curve(const std::string& name, const std::string& unit, double tolerance,
+               const std::vector<double>& time_s, const std::vector<double>& values,
+               SceneAnswer& answer) {
+  const double peak = peak_of(values, tolerance);
+  answer.results.push_back({name + "_peak", peak, unit});
+  answer.results.push_back({name + "_end", values.back(), unit, 0.0, std::abs(peak)});
+  answer.curves.push_back({name, unit, time_s, values});
+  const Spectrum spectrum = amplitude_spectrum(
+      std::vector<double>(values.begin(), values.end() - 1), time_s[1] - time_s[0]);
+  answer.curves.push_back(
+      {name + "_spectrum", unit, spectrum.frequency_Hz, spectrum.amplitude, "frequency_Hz"});
+}
+
+// Displacement under the largest load at rest, over the largest that was found.
+double static_over_peak(const ReducedBody& reduced, const TransientRequest& request,
+                        const Eigen::VectorXd& observer, const Eigen::VectorXd& found) {
+  const Eigen::MatrixXd stiffness =
+      dense(reduced.system.elastic) + dense(reduced.system.shear) + dense(reduced.system.bulk);
+  double peak = 0.0;
+  for (const double value : request.corner_value) peak = std::max(peak, std::abs(value));
+  const double at_rest = std::abs(observer.dot(stiffness.ldlt().solve(request.load))) * peak;
+  return at_rest / std::max(found.cwiseAbs().maxCoeff(), 1e-300);
+}
+
+// A jump excites waves of every length, with amplitudes that fall no faster than their lengths, a
+// change of slope such that fall by one power more: what lies beyond the reach of any mesh here is
+// then part of the answer, and only a load that takes its time leaves it small. Jumps become ramps,
+// ramps longer ones, until the tail is a good third of the tolerance; a tolerance that leaves this
+// tail such a third does as well. The rest is the share of mesh and basis.
+void refuse_sudden_load(const Scene& scene, double first_rad_s, double reach, double tail,
+                        double static_share) {
+  const Roughness load = roughness_of(scene.history);
+  const bool has_jumps = load.jumps > 0.0;
+  if (tail <= (has_jumps ? 0.5 : 0.9) * scene.tolerance) return;
+  const double rise_s =
+      1.1 * load.jumps * first_rad_s * static_share / (scene.tolerance * reach * reach);
+  const double wave_m =
+      2.0 * std::numbers::pi * std::sqrt(scene.pillar.E0_Pa / scene.pillar.rho_kg_m3) / reach;
+  const std::string cause = has_jumps ? "the load jumps, which excites waves of all lengths; those "
+                                      : "the load changes its slope suddenly; waves ";
+  const std::string cure =
+      has_jumps ? "Let each jump take " + number_text(rise_s, 2) + " s or longer"
+                : "Stretch its ramps " + number_text(2.8 * tail / scene.tolerance, 2) + " times";
+  throw SceneMistake(scene.history.size() > 2 ? "analysis.history" : "analysis",
+                     cause + "shorter than " + number_text(1e6 * wave_m, 2) +
+                         " um, too short for the meshes here, carry " + number_text(tail, 2) +
+                         " of the answer, too much for the tolerance. " + cure +
+                         ", or ask for a tolerance of " + number_text(2.8 * tail, 2) +
+                         " or larger");
+}
+
+}  // namespace
+
+void check_transient(const Scene& scene) {
+  if (scene.history.size() < 2) {
+    throw std::invalid_argument("a transient analysis needs a history of at least two points");
+  }
+  if (!(scene.end_time_s > 0.0) || !std::isfinite(scene.end_time_s)) {
+    throw std::invalid_argument("a transient analysis needs an end_time that is positive");
+  }
+  if (scene.outputs < 10 || scene.outputs > 200000) {
+    throw std::invalid_argument("outputs: " + std::to_string(scene.outputs) +
+                                "; it must lie between 10 and 200000");
+  }
+  validate(scene.history);
+  check_sideways_in_time(scene);
+}
+
+void run_transient_scene(const Scene& scene, SceneAnswer& answer) {
+  const bool is_axial = scene.direction == LoadDirection::kAxial;
+  const bool is_base = scene.load_place == LoadPlace::kBase;
+  const double first_rad_s = first_resonance_rad_s(scene);
+  const double reach = reach_rad_s(scene, first_rad_s);
+  // Elements as long as the waves that count, so that a rising degree resolves them.
+  if (!scene.discretisation) {
+    answer.discretisation.longest_m =
+        2.0 * std::numbers::pi * std::sqrt(scene.pillar.E0_Pa / scene.pillar.rho_kg_m3) / reach;
+  }
+  const Motion lateral = scene.plane ? Motion::kPlaneAntisymmetric : Motion::kLateral;
+  const SceneBody body =
+      body_of(scene, is_axial ? axial_motion(scene) : lateral, {.with_mass = true}, answer);
+  const Eigen::VectorXd load =
+      is_base
+          ? Eigen::VectorXd(-unit_acceleration_force(*body.model))
+          : Eigen::VectorXd((is_axial ? -1.0 : 1.0) * top_area_m2(*body.model) * body.system.load);
+  const Roughness roughness = roughness_of(scene.history);
+  const DynamicRange range{
+      .lowest_rad_s = 2.0 * std::numbers::pi / scene.end_time_s,
+      .highest_rad_s = reach,
+      .tolerance = 0.2 * scene.tolerance,
+      .corner_rad_s = first_rad_s,
+      .second_corner_rad_s = roughness.jumps == 0.0 ? roughness.kinks_1_s : 0.0,
+      .largest_basis = kLargestBasis};
+  const ReducedBody reduced = reduce_dynamic(body.system, {load}, range);
+  TransientRequest request{.load = reduced.load(load), .end_s = scene.end_time_s};
+  request.outputs = scene.outputs;
+  request.tolerance = 0.1 * scene.tolerance;
+  request.first_step_s = std::numbers::pi / (10.0 * first_rad_s);
+  for (const HistoryPoint& point : scene.history) {
+    request.corner_time_s.push_back(point.time_s);
+    request.corner_value.push_back(point.value);
+  }
+  Eigen::MatrixXd observers(static_cast<Eigen::Index>(body.outputs.size()), reduced.basis.cols());
+  for (std::size_t i = 0; i < body.outputs.size(); ++i) {
+    observers.row(static_cast<Eigen::Index>(i)) = reduced.output(body.outputs[i].of).transpose();
+  }
+  const TransientResult run = run_transient(reduced.system, request, observers);
+  const double static_share =
+      static_over_peak(reduced, request, observers.row(0).transpose(), run.values.row(0));
+  const double tail = static_share * tail_beyond(reach, first_rad_s, roughness_of(scene.history));
+  refuse_sudden_load(scene, first_rad_s, reach, tail, static_share);
+  answer.step_error = run.converged ? run.error_estimate + reduced.error + tail
+                                    : std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < body.outputs.size(); ++i) {
+    const Eigen::VectorXd row = run.values.row(static_cast<Eigen::Index>(i));
+    const std::string name =
+        is_base && i == 0 ? "top_displacement_from_base" : body.outputs[i].name;
+    const std::vector<double> values(row.begin(), row.end());
+    add_curve(name, body.outputs[i].unit, scene.tolerance, run.time_s, values, answer);
+    if (i == 1 && scene.readout) {
+      const ReadoutFilter filter = readout_of(scene, body, answer);
+      add_curve("reading", "V", scene.tolerance, run.time_s, reading_of(filter, run.time_s, values),
+                answer);
+    }
+  }
+}
+
+}  // namespace viscard

@@ -1,0 +1,104 @@
+#include "models/pillar/analyses/scene_body.h"
+
+#include "models/pillar/body/piezo_quadrants.h"
+#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/time/viscoelastic_pillar.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace viscard {
+
+namespace {
+
+double free_face_m(const Scene& scene) {
+  const bool is_top = scene.electrodes->grounded == FilmFace::kBottom;
+  return is_top ? 0.0 : -scene.geometry.film->thickness_m;
+}
+
+// Holds an unknown that nothing loads at zero: its row and column leave the matrix but for the
+// diagonal. Of the film alone, so that it stands in the elastic part only.
+void hold_at_zero(int dof, SymmetricSparse& matrix) {
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    for (SymmetricSparse::InnerIterator entry(matrix, column); entry; ++entry) {
+      const bool is_own = entry.row() == dof || entry.col() == dof;
+      if (is_own && entry.row() != entry.col()) entry.valueRef() = 0.0;
+    }
+  }
+}
+
+// What an electrode in quadrants reads of a sideways motion (piezo_quadrants.h).
+void add_quadrants(const Scene& scene, SceneBody& body) {
+  const PillarModel* model = body.model.get();
+  if (model->electrode_dof() < 0) {
+    const double z_m = free_face_m(scene);
+    body.outputs.push_back({"quadrant_voltage", "V", [model, z_m](const Eigen::VectorXd& u) {
+                              PillarState state;
+                              state.unknowns = u;
+                              return quadrant_mean_V(*model, state, z_m, model->radius_m());
+                            }});
+    return;
+  }
+  const Eigen::VectorXd row = quadrant_charge_row(*model, body.system.elastic);
+  hold_at_zero(model->electrode_dof(), body.system.elastic);
+  body.outputs.push_back(
+      {"quadrant_charge", "C", [row](const Eigen::VectorXd& u) { return row.dot(u); }});
+}
+
+}  // namespace
+
+SceneBody body_of(const Scene& scene, Motion motion, const SceneBodyOptions& options,
+                  SceneAnswer& answer) {
+  ModelOptions model_options = options_of(scene, motion);
+  model_options.rigid_top = options.rigid_top;
+  const bool is_axial = motion == axial_motion(scene);
+  if (is_axial || reads_quadrants(scene)) model_options.electrodes = scene.electrodes;
+  SceneBody body;
+  body.model = std::make_unique<PillarModel>(scene.geometry, answer.discretisation, media_of(scene),
+                                             model_options);
+  count_unknowns(*body.model, answer);
+  body.system = viscoelastic_system(*body.model, scene.pillar, options.with_mass);
+  body.system.load = unit_top_force(*body.model);
+  const Eigen::VectorXd load = body.system.load;
+  body.outputs.push_back(
+      {"top_displacement", "m", [load](const Eigen::VectorXd& u) { return load.dot(u); }});
+  const PillarModel* model = body.model.get();
+  if (!model->options().electrodes) return body;
+  if (!is_axial) {
+    add_quadrants(scene, body);
+    return body;
+  }
+  if (model->electrode_dof() >= 0) {
+    body.outputs.push_back({"electrode_voltage", "V", [model](const Eigen::VectorXd& u) {
+                              return model->potential_scale_V() * u[model->electrode_dof()];
+                            }});
+    return body;
+  }
+  const double z_m = free_face_m(scene);
+  body.outputs.push_back({"potential_at_centre", "V", [model, z_m](const Eigen::VectorXd& u) {
+                            PillarState state;
+                            state.unknowns = u;
+                            return potential_at_V(*model, state, 0.0, z_m);
+                          }});
+  return body;
+}
+
+ReadoutFilter readout_of(const Scene& scene, const SceneBody& body, SceneAnswer& answer) {
+  if (!scene.readout || body.model->electrode_dof() < 0) {
+    throw std::invalid_argument("a readout needs an electrode with a radius");
+  }
+  if (reads_quadrants(scene)) {  // a charge amplifier: -Q/C_f, through R_f C_f
+    const double time_s = scene.readout->resistance_Ohm * scene.readout->capacitance_F;
+    if (std::isfinite(time_s)) answer.results.push_back({"readout_time_constant", time_s, "s"});
+    return {-1.0 / scene.readout->capacitance_F, time_s};
+  }
+  const double capacitance_F = piezo_static(*body.model, 1.0).capacitance_F;
+  const ReadoutFilter filter = readout_filter(*scene.readout, capacitance_F);
+  answer.results.push_back({"electrode_capacitance", capacitance_F, "F"});
+  if (std::isfinite(filter.time_constant_s)) {
+    answer.results.push_back({"readout_time_constant", filter.time_constant_s, "s"});
+  }
+  return filter;
+}
+
+}  // namespace viscard

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "models/pillar/analyses/analysis.h"
+#include "models/pillar/time/reduced_body.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// A linear output of a scene's body.
+struct BodyOutput {
+  std::string name;
+  std::string unit;
+  std::function<double(const Eigen::VectorXd&)> of;
+};
+
+// One scene on one mesh as a viscoelastic body: matrices, the unit force on its top (1 N), and what
+// can be read from it. The first output is the displacement of the top; with electrodes comes the
+// open-circuit voltage, or the potential at the centre of a charge-free face; sideways the charge
+// of a shorted quadrant, or its mean voltage on a charge-free face.
+struct SceneBody {
+  std::unique_ptr<PillarModel> model;
+  ViscoelasticSystem system;
+  std::vector<BodyOutput> outputs;
+};
+
+struct SceneBodyOptions {
+  bool rigid_top = false;
+  bool with_mass = false;
+};
+SceneBody body_of(const Scene& scene, Motion motion, const SceneBodyOptions& options,
+                  SceneAnswer& answer);
+
+// Filter between the electrode's open-circuit voltage (a quadrant's charge) and the reading; adds
+// time constant and capacitance to the results. Only with an electrode and a readout.
+ReadoutFilter readout_of(const Scene& scene, const SceneBody& body, SceneAnswer& answer);
+
+}  // namespace viscard

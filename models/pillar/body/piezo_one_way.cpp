@@ -1,0 +1,138 @@
+#include "models/pillar/body/piezo_one_way.h"
+
+#include <stdexcept>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+// The potentials' own system, and what strain puts into it.
+class FilmPotential {
+ public:
+  explicit FilmPotential(const PillarModel& electric) : electric_(electric) {
+    const Kinematics& k = electric.system().kinematics();
+    std::vector<OperatorRow> rows = k.strain;
+    rows.insert(rows.end(), k.electric_field.begin(), k.electric_field.end());
+    Eigen::MatrixXd form = coupled_form(electric.medium(kFilmRegion));
+    const bool is_plane = electric.options().motion == Motion::kPlaneSymmetric;
+    if (is_plane && electric.options().plane == PlaneState::kStress) {
+      form = plane_stress_moduli(form);
+    }
+    form.topLeftCorner(6, 6).setZero();
+    form_ = electric.system().form(rows, {{}, form});
+    number_potentials();
+    factor_.factor(potential_block());
+  }
+
+  // Unknowns of the electric model for the strain of `u`, with the electrode open.
+  Eigen::VectorXd from_strain(const Eigen::VectorXd& u) const {
+    return expanded(factor_.solve(restricted(times(form_, u))));
+  }
+  // For a unit charge row on the electrode, in the sign of piezo_static().
+  Eigen::VectorXd from_electrode() const {
+    Eigen::VectorXd charge = Eigen::VectorXd::Zero(form_.rows());
+    charge[electric_.electrode_dof()] = 1.0;
+    return -expanded(factor_.solve(restricted(charge)));
+  }
+
+ private:
+  void number_potentials() {
+    const DofMap& dofs = electric_.system().dofs();
+    const int phi = electric_.system().kinematics().potential_field;
+    place_.assign(static_cast<std::size_t>(dofs.count()), -1);
+    for (int node = 0; node < electric_.system().section().node_count(); ++node) {
+      const int dof = dofs.dof(phi, node);
+      if (dof < 0 || place_[static_cast<std::size_t>(dof)] >= 0) continue;
+      place_[static_cast<std::size_t>(dof)] = static_cast<int>(dof_.size());
+      dof_.push_back(dof);
+    }
+  }
+  // The form's electric block is negative definite; its opposite is factored.
+  SymmetricSparse potential_block() const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Eigen::Index column = 0; column < form_.outerSize(); ++column) {
+      const int j = place_[static_cast<std::size_t>(column)];
+      if (j < 0) continue;
+      for (SymmetricSparse::InnerIterator it(form_, column); it; ++it) {
+        const int i = place_[static_cast<std::size_t>(it.row())];
+        if (i >= 0) entries.emplace_back(std::max(i, j), std::min(i, j), -it.value());
+      }
+    }
+    const auto n = static_cast<Eigen::Index>(dof_.size());
+    SymmetricSparse block(n, n);
+    block.setFromTriplets(entries.begin(), entries.end());
+    return block;
+  }
+  Eigen::VectorXd restricted(const Eigen::VectorXd& all) const {
+    Eigen::VectorXd part(static_cast<Eigen::Index>(dof_.size()));
+    for (std::size_t i = 0; i < dof_.size(); ++i) part[static_cast<Eigen::Index>(i)] = all[dof_[i]];
+    return part;
+  }
+  Eigen::VectorXd expanded(const Eigen::VectorXd& part) const {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(form_.rows());
+    for (std::size_t i = 0; i < dof_.size(); ++i) all[dof_[i]] = part[static_cast<Eigen::Index>(i)];
+    return all;
+  }
+
+  const PillarModel& electric_;
+  SymmetricSparse form_;
+  std::vector<int> dof_;    // of each potential
+  std::vector<int> place_;  // and back, -1 for displacements
+  StiffnessFactor factor_;
+};
+
+// The elastic solution in the numbering of the electric model, potentials zero.
+Eigen::VectorXd renumbered(const PillarModel& elastic, const PillarModel& electric,
+                           const Eigen::VectorXd& u) {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(electric.system().size());
+  const int potential = electric.system().kinematics().potential_field;
+  for (int field = 0; field < electric.system().kinematics().field_count; ++field) {
+    if (field == potential) continue;
+    for (int node = 0; node < electric.system().section().node_count(); ++node) {
+      const int to = electric.system().dofs().dof(field, node);
+      const int from = elastic.system().dofs().dof(field, node);
+      if (to >= 0 && from >= 0) all[to] = u[from];
+    }
+  }
+  return all;
+}
+
+void require_same_mesh(const PillarModel& elastic, const PillarModel& electric) {
+  if (elastic.system().section().node_count() != electric.system().section().node_count()) {
+    throw std::invalid_argument("the elastic and the electric model need the same mesh");
+  }
+}
+
+}  // namespace
+
+PiezoAnswer piezo_one_way(const PillarModel& elastic, const PillarModel& electric,
+                          double pressure_Pa) {
+  require_same_mesh(elastic, electric);
+  const int electrode = electric.electrode_dof();
+  if (electrode < 0) {
+    throw std::invalid_argument("the film has no electrode whose voltage could be told");
+  }
+  const Eigen::VectorXd traction = elastic.top_traction();
+  PiezoAnswer answer;
+  answer.open = elastic.solve(-pressure_Pa * traction);
+  answer.top_displacement_m = traction.dot(answer.open.unknowns) / traction.sum();
+  const FilmPotential film(electric);
+  const double scale_V = electric.potential_scale_V();
+  answer.voltage_V =
+      film.from_strain(renumbered(elastic, electric, answer.open.unknowns))[electrode] * scale_V;
+  const double V_per_C = -film.from_electrode()[electrode] * scale_V * scale_V;
+  answer.capacitance_F = 1.0 / V_per_C;
+  answer.charge_C = -answer.voltage_V / V_per_C;
+  return answer;
+}
+
+PillarState piezo_one_way_sampled(const PillarModel& elastic, const PillarModel& electric,
+                                  double pressure_Pa) {
+  require_same_mesh(elastic, electric);
+  const PillarState state = elastic.solve(-pressure_Pa * elastic.top_traction());
+  const Eigen::VectorXd u = renumbered(elastic, electric, state.unknowns);
+  const Eigen::VectorXd potential = FilmPotential(electric).from_strain(u);
+  return {u + potential, u + potential};
+}
+
+}  // namespace viscard

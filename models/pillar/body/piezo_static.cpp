@@ -1,0 +1,83 @@
+#include "models/pillar/body/piezo_static.h"
+
+#include <stdexcept>
+
+namespace viscard {
+
+PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa) {
+  const int electrode = model.electrode_dof();
+  if (electrode < 0) {
+    throw std::invalid_argument("the film has no electrode whose voltage could be told");
+  }
+  const Eigen::VectorXd traction = model.top_traction();
+  const double area = traction.sum();
+  Eigen::VectorXd unit_charge = Eigen::VectorXd::Zero(traction.size());
+  unit_charge[electrode] = 1.0;
+  StiffnessFactor factor;
+  model.factor(model.stiffness(), factor);
+  // Row of the electrode: (charge that leaves it) * scale, since phi = scale * unknown and the
+  // electric part of the form is negative.
+  const double scale_V = model.potential_scale_V();
+  PiezoAnswer answer;
+  answer.open.unknowns = factor.solve(-pressure_Pa * traction, &answer.open.pressure_source);
+  const Eigen::VectorXd by_charge = factor.solve(unit_charge);
+  answer.voltage_V = answer.open.unknowns[electrode] * scale_V;
+  answer.top_displacement_m = traction.dot(answer.open.unknowns) / area;
+  // Work of a charge Q at potential V is -Q V in the coupled form, so the load of Q is -Q scale.
+  const double V_per_C = -by_charge[electrode] * scale_V * scale_V;
+  answer.capacitance_F = 1.0 / V_per_C;
+  answer.charge_C = -answer.voltage_V / V_per_C;
+  const double u_per_C = -traction.dot(by_charge) / area * scale_V;
+  answer.displacement_per_V_m = u_per_C / V_per_C;
+  return answer;
+}
+
+PillarState piezo_sampled(const PillarModel& model, double pressure_Pa) {
+  return model.solve(-pressure_Pa * model.top_traction());
+}
+
+double potential_at_V(const PillarModel& model, const PillarState& state, double x, double z) {
+  const OperatorRow value = {{model.system().kinematics().potential_field, 0, 0, 0, 1.0}};
+  const SectionElement& element = model.element_at(x, z, kFilmRegion);
+  return model.potential_scale_V() *
+         model.system().rows_at({value}, state.unknowns, element, x, z)[0];
+}
+
+double mean_potential_V(const PillarModel& model, const PillarState& state, double z,
+                        double radius_m) {
+  const LineMesh& line = model.mesh().section.x();
+  const bool is_axisymmetric = model.system().kinematics().x_power == 1;
+  double sum_V = 0.0;
+  double area = 0.0;
+  for (int column = 0; column < line.element_count(); ++column) {
+    const LineMesh::ElementRule rule = line.rule(column);
+    for (Eigen::Index i = 0; i < rule.x.size() && rule.x[i] < radius_m; ++i) {
+      const double weight = rule.weight[i] * (is_axisymmetric ? rule.x[i] : 1.0);
+      sum_V += weight * potential_at_V(model, state, rule.x[i], z);
+      area += weight;
+    }
+  }
+  return sum_V / area;
+}
+
+double one_way_voltage_V(const PillarModel& model, const PillarState& state,
+                         const PiezoMatrix& charge_C_N, double permittivity_stress_F_m,
+                         double electrode_radius_m) {
+  const LineMesh& line = model.mesh().section.z();
+  double voltage_V = 0.0;
+  for (int row = 0; row < model.mesh().bond_row; ++row) {
+    const LineMesh::ElementRule rule = line.rule(row);
+    for (Eigen::Index i = 0; i < rule.x.size(); ++i) {
+      for (int component = 0; component < 6; ++component) {
+        const double d = charge_C_N(2, component);
+        if (d == 0.0) continue;
+        voltage_V +=
+            rule.weight[i] * d / permittivity_stress_F_m *
+            model.mean_stress(state, component, rule.x[i], kFilmRegion, electrode_radius_m);
+      }
+    }
+  }
+  return voltage_V;
+}
+
+}  // namespace viscard

@@ -1,0 +1,61 @@
+#include "models/pillar/body/pillar_loads.h"
+
+#include <numbers>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+// The field that carries the motion as a whole, whose virtual work under a unit traction (force per
+// volume) in that direction is measure * int field x^x_power: for m = 1, u_x has the mean b/2 over
+// the angle and the measure is pi instead of 2 pi (eq. 12).
+int carrying_field(const PillarModel& model) {
+  switch (model.options().motion) {
+    case Motion::kLongitudinal:
+    case Motion::kPlaneSymmetric:
+    case Motion::kLateral:
+      return 1;
+    case Motion::kPlaneAntisymmetric:
+      return 0;
+    default:
+      throw std::invalid_argument("this family of motion has no load that moves the whole pillar");
+  }
+}
+
+}  // namespace
+
+double top_area_m2(const PillarModel& model) {
+  const double R_m = radius_at_m(model.geometry(), model.geometry().length_m);  // of a wider tip
+  return model.system().kinematics().x_power == 1 ? std::numbers::pi * R_m * R_m : 2.0 * R_m;
+}
+
+Eigen::VectorXd unit_top_force(const PillarModel& model) {
+  const PillarMesh& mesh = model.mesh();
+  return model.system().line_load(carrying_field(model), mesh.top_row, 0, mesh.pillar_columns) /
+         top_area_m2(model);
+}
+
+Eigen::VectorXd unit_acceleration_force(const PillarModel& model) {
+  const DiscreteSystem& system = model.system();
+  const Section& section = system.section();
+  const Kinematics& k = system.kinematics();
+  const int field = carrying_field(model);
+  const Eigen::Index n1 = section.degree() + 1;
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(system.size());
+  for (const SectionElement& element : section.elements()) {
+    const double weight = k.measure * model.medium(element.region).rho_kg_m3;
+    const Eigen::VectorXd x =
+        weight * section.x().integral(element.column, k.x_power, 0, 0).rowwise().sum();
+    const Eigen::VectorXd z = section.z().integral(element.row, 0, 0, 0).rowwise().sum();
+    for (Eigen::Index iz = 0; iz < n1; ++iz) {
+      for (Eigen::Index ix = 0; ix < n1; ++ix) {
+        const int node = element.nodes[static_cast<std::size_t>(iz * n1 + ix)];
+        const int dof = system.dofs().dof(field, node);
+        if (dof >= 0) load[dof] += x[ix] * z[iz];
+      }
+    }
+  }
+  return load;
+}
+
+}  // namespace viscard

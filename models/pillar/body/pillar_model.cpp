@@ -1,0 +1,244 @@
+#include "models/pillar/body/pillar_model.h"
+
+#include "models/pillar/body/rigid_motion.h"
+#include "models/pillar/mesh/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+bool is_axial(Motion motion) {
+  return motion == Motion::kLongitudinal || motion == Motion::kPlaneSymmetric;
+}
+
+bool is_sideways(Motion motion) {
+  return motion == Motion::kLateral || motion == Motion::kPlaneAntisymmetric;
+}
+
+bool is_plane(Motion motion) {
+  return motion == Motion::kPlaneSymmetric || motion == Motion::kPlaneAntisymmetric;
+}
+
+// Breaks of the mesh must meet the electrode's edge.
+PillarGeometry with_electrode(PillarGeometry geometry, const ModelOptions& options) {
+  if (options.electrodes && geometry.film) {
+    geometry.film->electrode_radius_m = options.electrodes->electrode_radius_m;
+    geometry.film->electrode_is_below = options.electrodes->grounded == FilmFace::kTop;
+  }
+  return geometry;
+}
+
+}  // namespace
+
+PillarModel::PillarModel(const PillarGeometry& geometry, const Discretisation& discretisation,
+                         const PillarMedia& media, const ModelOptions& options)
+    : geometry_(with_electrode(geometry, options)),
+      options_(options),
+      mesh_(pillar_mesh(geometry_, discretisation)) {
+  if (geometry.film.has_value() != media.film.has_value()) {
+    throw std::invalid_argument("a film needs its material, and a material its film");
+  }
+  if (options.rigid_top && !is_axial(options.motion) && !is_sideways(options.motion)) {
+    throw std::invalid_argument("a rigid plate on top belongs to axial and sideways motion");
+  }
+  media_ = {media.pillar};
+  if (media.film) media_.push_back(*media.film);
+  Kinematics kinematics = kinematics_of(options.motion);
+  if (options.electrodes) {
+    if (!media.film || !(media.film->permittivity_F_m(2, 2) > 0.0)) {
+      throw std::invalid_argument("electrodes need a film with a permittivity");
+    }
+    potential_scale_V_ =
+        std::sqrt(media.film->stiffness_Pa(2, 2) / media.film->permittivity_F_m(2, 2));
+    kinematics = with_potential(kinematics, potential_scale_V_);
+  }
+  DofMap dofs = make_dofs(kinematics);
+  system_ = std::make_unique<DiscreteSystem>(mesh_.section, std::move(kinematics), std::move(dofs));
+}
+
+DofMap PillarModel::make_dofs(const Kinematics& kinematics) {
+  const Section& section = mesh_.section;
+  const int columns = section.x().element_count();
+  DofMap dofs(kinematics.field_count, section.node_count());
+  if (options_.rigid_top) {
+    const std::vector<int> top = nodes_on_break(section, mesh_.top_row, 0, mesh_.pillar_columns);
+    if (is_axial(options_.motion)) dofs.tie(1, top);
+    const int along_axis = options_.motion == Motion::kLateral ? 2 : 1;
+    for (const int node : top) {
+      if (!is_axial(options_.motion)) dofs.fix(along_axis, node);
+    }
+  }
+  const int phi = kinematics.potential_field;
+  if (options_.electrodes) {
+    const bool top_grounded = options_.electrodes->grounded == FilmFace::kTop;
+    for (int node = 0; node < section.node_count(); ++node) {
+      if (section.node_z(node) > 0.0) dofs.fix(phi, node);  // the pillar carries no field
+    }
+    const int electrode_row = top_grounded ? 0 : mesh_.bond_row;
+    std::vector<int> electrode;
+    const double edge_m = options_.electrodes->electrode_radius_m * (1.0 + 1e-9);
+    for (const int node : nodes_on_break(section, electrode_row, 0, columns)) {
+      if (edge_m > 0.0 && section.node_x(node) <= edge_m) electrode.push_back(node);
+    }
+    if (!electrode.empty()) electrode_handle_ = dofs.tie(phi, electrode);
+    for (const int node : nodes_on_break(section, top_grounded ? mesh_.bond_row : 0, 0, columns)) {
+      dofs.fix(phi, node);
+    }
+  }
+  for (int node = 0; node < section.node_count(); ++node) {
+    if (section.node_x(node) != 0.0) continue;
+    for (const int field : kinematics.zero_on_axis) dofs.fix(field, node);
+  }
+  if (options_.fixed_bottom) {
+    for (const int node : nodes_on_break(section, 0, 0, columns)) {
+      for (int field = 0; field < kinematics.field_count; ++field) {
+        if (field != phi) dofs.fix(field, node);
+      }
+    }
+  } else if (options_.pin_bottom) {
+    const std::vector<int> bottom = nodes_on_break(section, 0, 0, columns);
+    for (const RigidPin& pin : rigid_pins(options_.motion)) {
+      dofs.fix(pin.field, pin.at_rim ? bottom.back() : bottom.front());
+    }
+  }
+  dofs.number();
+  return dofs;
+}
+
+bool PillarModel::condenses_pressure(const Medium& medium) const {
+  const bool is_plane_stress = is_plane(options_.motion) && options_.plane == PlaneState::kStress;
+  return medium.is_isotropic && medium.poisson_ratio >= options_.condense_pressures_from &&
+         !is_plane_stress;
+}
+
+Eigen::MatrixXd PillarModel::elastic_form(const Medium& medium) const {
+  const bool is_plane_stress = is_plane(options_.motion) && options_.plane == PlaneState::kStress;
+  if (condenses_pressure(medium)) return medium.shear_Pa * deviatoric_form();
+  if (options_.electrodes) {
+    const Eigen::MatrixXd form = coupled_form(medium);
+    return is_plane_stress ? plane_stress_moduli(form) : form;
+  }
+  if (!is_plane_stress) return medium.stiffness_Pa;
+  if (medium.poisson_ratio == 0.5) {  // E/(1 - nu^2) stays finite: condense 3-D moduli just below
+    return plane_stress_moduli(medium.shear_Pa * (deviatoric_form() + 1e12 * volumetric_form()));
+  }
+  return plane_stress_moduli(medium.stiffness_Pa);
+}
+
+SymmetricSparse PillarModel::stiffness() const {
+  const Kinematics& k = system_->kinematics();
+  std::vector<Eigen::MatrixXd> forms;
+  std::vector<double> bulk_Pa;
+  for (const Medium& medium : media_) {
+    forms.push_back(elastic_form(medium));
+    const bool condensed = condenses_pressure(medium);
+    const double penalty_Pa = kPenaltyOverShear * medium.shear_Pa;
+    bulk_Pa.push_back(!condensed ? 0.0 : std::isinf(medium.bulk_Pa) ? penalty_Pa : medium.bulk_Pa);
+  }
+  std::vector<OperatorRow> rows = k.strain;
+  rows.insert(rows.end(), k.electric_field.begin(), k.electric_field.end());
+  for (Eigen::MatrixXd& form : forms) {  // an elastic region among electric ones
+    if (form.rows() < static_cast<Eigen::Index>(rows.size())) {
+      const auto n = static_cast<Eigen::Index>(rows.size());
+      form.conservativeResizeLike(Eigen::MatrixXd::Zero(n, n));
+    }
+  }
+  SymmetricSparse matrix = system_->form(rows, forms);
+  const bool any = std::any_of(bulk_Pa.begin(), bulk_Pa.end(), [](double K) { return K > 0.0; });
+  if (any) matrix.coeffs() += system_->volume_form(bulk_Pa, true).coeffs();
+  return matrix;
+}
+
+SymmetricSparse PillarModel::mass() const {
+  std::vector<Eigen::MatrixXd> forms;
+  for (const Medium& medium : media_) {
+    forms.push_back(medium.rho_kg_m3 * Eigen::MatrixXd::Identity(3, 3));
+  }
+  return system_->form(system_->kinematics().displacement, forms);
+}
+
+void PillarModel::factor(const SymmetricSparse& matrix, StiffnessFactor& factor) const {
+  factor.factor(matrix);
+  const Medium& pillar = media_[kPillarRegion];
+  if (condenses_pressure(pillar) && std::isinf(pillar.bulk_Pa)) {
+    factor.constrain(system_->volume_form({kPenaltyOverShear * pillar.shear_Pa, 0.0}, true));
+  }
+}
+
+PillarState PillarModel::solve(const Eigen::VectorXd& forces) const {
+  StiffnessFactor factored;
+  factor(stiffness(), factored);
+  PillarState state;
+  state.unknowns = factored.solve(forces, &state.pressure_source);
+  return state;
+}
+
+Eigen::VectorXd PillarModel::top_traction() const {
+  if (!is_axial(options_.motion)) throw std::invalid_argument("this family has no axial load");
+  return system_->line_load(1, mesh_.top_row, 0, mesh_.pillar_columns);
+}
+
+int PillarModel::electrode_dof() const {
+  return electrode_handle_ < 0 ? -1 : system_->dofs().tied_dof(electrode_handle_);
+}
+
+const SectionElement& PillarModel::element_at(double x, double z, int region) const {
+  const Section& section = mesh_.section;
+  for (const bool left : {true, false}) {
+    for (const bool below : {true, false}) {
+      const double xi = x / section.stretch_at(region, z).scale;
+      const int column = section.x().element_at(xi, left);
+      const int row = section.z().element_at(z, below);
+      if (section.region(column, row) != region) continue;
+      for (const SectionElement& element : section.elements()) {
+        if (element.column == column && element.row == row) return element;
+      }
+    }
+  }
+  throw std::invalid_argument("the point x = " + number_text(x * 1e6) + " um, z = " +
+                              number_text(z * 1e6) + " um does not lie in the body asked for");
+}
+
+Eigen::VectorXd PillarModel::stress_at(const PillarState& state, const SectionElement& element,
+                                       double x, double z) const {
+  const Medium& own = medium(element.region);
+  const Kinematics& k = system_->kinematics();
+  std::vector<OperatorRow> rows = k.strain;
+  if (options_.electrodes)
+    rows.insert(rows.end(), k.electric_field.begin(), k.electric_field.end());
+  const Eigen::VectorXd at = system_->rows_at(rows, state.unknowns, element, x, z);
+  const Eigen::MatrixXd form = elastic_form(own);
+  Eigen::VectorXd stress = (form * at.head(form.cols())).head(6);
+  if (condenses_pressure(own)) {
+    const double bulk_Pa = std::isinf(own.bulk_Pa) ? kPenaltyOverShear * own.shear_Pa : own.bulk_Pa;
+    stress.head(3).array() +=
+        bulk_Pa * system_->projected_divergence_at(state.pressure_source, element, x, z);
+  }
+  return stress;
+}
+
+double PillarModel::mean_stress(const PillarState& state, int component, double z, int region,
+                                double radius_m) const {
+  const LineMesh& line = mesh_.section.x();
+  const double scale = mesh_.section.stretch_at(region, z).scale;
+  double sum = 0.0;
+  double area = 0.0;
+  for (int column = 0; column < line.element_count(); ++column) {
+    const LineMesh::ElementRule rule = line.rule(column);
+    if (scale * rule.x[0] > radius_m) break;
+    const SectionElement& element = element_at(scale * rule.x[rule.x.size() / 2], z, region);
+    for (Eigen::Index i = 0; i < rule.x.size(); ++i) {
+      const double weight = rule.weight[i] * (system_->kinematics().x_power == 1 ? rule.x[i] : 1.0);
+      sum += weight * stress_at(state, element, scale * rule.x[i], z)[component];
+      area += weight;
+    }
+  }
+  return sum / area;
+}
+
+}  // namespace viscard

@@ -1,0 +1,256 @@
+#include "models/pillar/body/pillar_modes.h"
+
+#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/body/rigid_motion.h"
+#include "models/pillar/mesh/number_text.h"
+#include "models/pillar/system/krylov_modes.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+// Stress stiffness of a lateral model per Pa of pressure on the top of the axial one.
+SymmetricSparse stress_stiffness_per_Pa(const PillarModel& axial, const PillarModel& lateral) {
+  const PillarState state = axial.solve(-axial.top_traction());
+  const auto form = [&](const SectionElement& element, double x, double z) {
+    const Eigen::VectorXd s = axial.stress_at(state, element, x, z);
+    Eigen::Matrix3d stress;
+    stress << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
+    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(9, 9);
+    for (Eigen::Index k = 0; k < 3; ++k) D.block<3, 3>(3 * k, 3 * k) = stress;
+    return D;
+  };
+  return lateral.system().varying_form(lateral.system().kinematics().gradient, form);
+}
+
+// What is left of a motion without its rigid part: x - R (R'MR)^-1 R'M x. A free body's elastic
+// modes are those of its stiffness among the motions that are left.
+class WithoutRigidMotion {
+ public:
+  WithoutRigidMotion(const PillarModel& model, const SymmetricSparse& mass) {
+    if (model.options().fixed_bottom) return;
+    rigid_ = rigid_motions(model);
+    mass_rigid_ = mass.selfadjointView<Eigen::Lower>() * rigid_;
+    masses_.compute(rigid_.transpose() * mass_rigid_);
+  }
+  Eigen::VectorXd of(Eigen::VectorXd x) const {
+    if (rigid_.cols() > 0) x -= rigid_ * masses_.solve(mass_rigid_.transpose() * x);
+    return x;
+  }
+
+ private:
+  Eigen::MatrixXd rigid_, mass_rigid_;
+  Eigen::LLT<Eigen::MatrixXd> masses_;
+};
+
+// A free body's stiffness is singular; adding this much of its mass mends that. Far below the
+// square of its first elastic frequency, of the order of the slowest medium's wave across the
+// largest extent, and far above rounding, which is that of the fastest medium.
+double free_shift_1_s2(const PillarModel& model) {
+  double slowest = std::numeric_limits<double>::infinity();  // squares of wave speeds
+  double fastest = 0.0;
+  for (int region = 0; region < (model.geometry().film ? 2 : 1); ++region) {
+    const Medium& medium = model.medium(region);
+    const double shear_Pa =
+        medium.is_isotropic ? medium.shear_Pa : medium.stiffness_Pa.diagonal().tail(3).minCoeff();
+    slowest = std::min(slowest, shear_Pa / medium.rho_kg_m3);
+    fastest = std::max(fastest, shear_Pa / medium.rho_kg_m3);
+  }
+  const PillarGeometry& g = model.geometry();
+  const double height_m = g.length_m + (g.film ? g.film->thickness_m : 0.0);
+  const double across_m = g.film ? 2.0 * g.film->radius_m : g.diameter_m;
+  const double extent_m = std::max(height_m, across_m);
+  return std::max(1e-4 * slowest, 1e-11 * fastest) / (extent_m * extent_m);
+}
+
+// Where the rim of the bond makes the stress singular, modes that live at the rim alone come down
+// without bound as meshes are refined: they belong to the idealised corner, not to the pillar. So
+// many modes above a shift are looked through for the one that bends the pillar as a whole.
+constexpr int kMostModes = 8;
+
+// The pencil K, M of a model, searched from a shift on: pairs of largest 1/(omega^2 + shift).
+class ModeSearch {
+ public:
+  ModeSearch(const PillarModel& model, const SymmetricSparse& stiffness)
+      : model_(model), stiffness_(stiffness), mass_(model.mass()), elastic_(model, mass_) {
+    mass_.prune(0.0);  // it has the stiffness' pattern, where most fields do not meet in it
+  }
+
+  EigenPairs from(double shift_1_s2, int count, int largest_space) {
+    if (shift_1_s2 == 0.0) {
+      model_.factor(stiffness_, factor_);
+    } else {
+      SymmetricSparse shifted = stiffness_;
+      shifted.coeffs() += shift_1_s2 * model_.mass().coeffs();
+      model_.factor(shifted, factor_);
+    }
+    const LinearMap B = [&](const Eigen::VectorXd& x) { return times(mass_, x); };
+    const PencilMap op = [&](const Eigen::VectorXd&, const Eigen::VectorXd& Mx) {
+      return elastic_.of(factor_.solve(Mx));
+    };
+    // The frequencies' own error is the square of the residual: far below that of any mesh.
+    return largest_eigenpairs(op, B, model_.system().size(), count,
+                              {.tolerance = 1e-6, .largest_space = largest_space});
+  }
+  // Modes that lie below the last search's shift (Sylvester), rigid motions not counted.
+  int left_below() const {
+    const auto& options = model_.options();
+    return factor_.negative_pivots() -
+           (options.fixed_bottom ? 0 : rigid_motion_count(options.motion));
+  }
+
+ private:
+  const PillarModel& model_;
+  const SymmetricSparse& stiffness_;
+  SymmetricSparse mass_;
+  WithoutRigidMotion elastic_;
+  StiffnessFactor factor_;
+};
+
+// Modes of a slender body's section lie so close together above their cut-off that a search from
+// zero cannot tell them apart; one from just below the lowest of them can.
+EigenPairs search_from_below(ModeSearch& search, const EigenPairs& rough, double& shift_1_s2,
+                             int count) {
+  constexpr double kJustBelow = 0.98;  // of omega^2, which is known to some 1e-3 by now
+  if (!(rough.values.size() > 0 && rough.values[0] > 0.0)) return rough;
+  shift_1_s2 -= kJustBelow / rough.values[0];
+  EigenPairs pairs = search.from(shift_1_s2, count, 200 + 10 * count);
+  pairs.converged = pairs.converged && search.left_below() == 0;
+  return pairs;
+}
+
+std::vector<PillarMode> modes_of(const PillarModel& model, const SymmetricSparse& stiffness,
+                                 int count) {
+  ModeSearch search(model, stiffness);
+  double shift_1_s2 = model.options().fixed_bottom ? 0.0 : free_shift_1_s2(model);
+  EigenPairs pairs = search.from(shift_1_s2, count, 60 + 10 * count);
+  if (!pairs.converged) pairs = search_from_below(search, pairs, shift_1_s2, count);
+  if (!pairs.converged) {
+    throw std::runtime_error(
+        "the lowest modes did not converge; ask for fewer, or for a finer mesh");
+  }
+  std::vector<PillarMode> modes;
+  for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
+    const double square = 1.0 / pairs.values[i] - shift_1_s2;
+    modes.push_back(
+        {std::sqrt(std::max(square, 0.0)) / (2.0 * std::numbers::pi), pairs.vectors.col(i)});
+  }
+  return modes;
+}
+
+}  // namespace
+
+std::vector<PillarMode> lowest_modes(const PillarModel& model, int count) {
+  return modes_of(model, model.stiffness(), count);
+}
+
+namespace {
+
+// The pencil K + p K_sigma of a lateral model, and what tells a mode of the whole pillar.
+struct BucklingPencil {
+  const PillarModel& lateral;
+  SymmetricSparse stiffness, stress;
+  Eigen::VectorXd side;  // unit force sideways on the top
+  double side_compliance = 0.0;
+
+  // Vectors of unit energy: (f.v)^2 is what the mode adds to the compliance under a side force.
+  bool is_of_the_pillar(const Eigen::VectorXd& mode) const {
+    const double moved = side.dot(mode);
+    return moved * moved > 0.5 * side_compliance;
+  }
+};
+
+// Modes of largest theta in [K + shift K_sigma]^-1 K v = theta v, p = shift/(1 - 1/theta): those
+// above the shift, from there on upward. The pillar's own is marked if it is among them.
+Buckling buckling_above(const BucklingPencil& pencil, double shift_Pa, int count) {
+  SymmetricSparse shifted = pencil.stiffness;
+  shifted.coeffs() += shift_Pa * pencil.stress.coeffs();
+  StiffnessFactor factor;
+  pencil.lateral.factor(shifted, factor);
+  const LinearMap B = [&](const Eigen::VectorXd& x) { return times(pencil.stiffness, x); };
+  const PencilMap op = [&](const Eigen::VectorXd&, const Eigen::VectorXd& Kx) {
+    return factor.solve(Kx);
+  };
+  Buckling result;
+  const EigenPairs pairs =
+      largest_eigenpairs(op, B, pencil.lateral.system().size(), count, {.tolerance = 1e-6});
+  if (!pairs.converged) return result;
+  for (Eigen::Index i = 0; i < pairs.values.size() && pairs.values[i] > 1.0; ++i) {
+    result.pressures_Pa.push_back(shift_Pa / (1.0 - 1.0 / pairs.values[i]));
+    if (result.pressure_Pa == 0.0 && pencil.is_of_the_pillar(pairs.vectors.col(i))) {
+      result.pressure_Pa = result.pressures_Pa.back();
+    }
+  }
+  return result;
+}
+
+// Without a pressure if there is none for the pillar as a whole.
+Buckling search_buckling(const PillarModel& axial, const PillarModel& lateral, int count) {
+  BucklingPencil pencil{lateral, lateral.stiffness(), stress_stiffness_per_Pa(axial, lateral),
+                        unit_top_force(lateral)};
+  StiffnessFactor factor;
+  lateral.factor(pencil.stiffness, factor);
+  const Eigen::VectorXd bent = factor.solve(pencil.side);
+  pencil.side_compliance = pencil.side.dot(bent);
+  const LinearMap B = [&](const Eigen::VectorXd& x) { return times(pencil.stiffness, x); };
+  const LinearMap op = [&](const Eigen::VectorXd& x) {
+    return factor.solve(-times(pencil.stress, x));
+  };
+  // The factor's own error is the square of the residual; stiff volume leaves some noise in the
+  // latter.
+  const EigenPairs pairs =
+      largest_eigenpairs(op, B, lateral.system().size(), count, {.tolerance = 1e-6});
+  Buckling result;
+  for (Eigen::Index i = 0; pairs.converged && i < pairs.values.size() && pairs.values[i] > 0.0;
+       ++i) {
+    result.pressures_Pa.push_back(1.0 / pairs.values[i]);
+    if (result.pressure_Pa == 0.0 && pencil.is_of_the_pillar(pairs.vectors.col(i))) {
+      result.pressure_Pa = result.pressures_Pa.back();
+    }
+  }
+  if (result.pressure_Pa > 0.0) return result;
+  // Rayleigh's quotient of the pillar bent by a side force lies above its buckling pressure; local
+  // modes far below it are out of the way of a search that begins not far under it.
+  const double quotient_Pa = -pencil.side_compliance / bent.dot(times(pencil.stress, bent));
+  for (const double share : {0.9, 0.8, 0.6, 0.4}) {
+    if (!(quotient_Pa > 0.0)) break;
+    const Buckling above = buckling_above(pencil, share * quotient_Pa, std::max(count, kMostModes));
+    result.pressure_Pa = above.pressure_Pa;
+    if (result.pressure_Pa > 0.0) return result;
+  }
+  return result;
+}
+
+}  // namespace
+
+Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int count) {
+  const Buckling found = search_buckling(axial, lateral, count);
+  if (found.pressure_Pa > 0.0) return found;
+  throw std::runtime_error(
+      "no buckling load of the pillar as a whole could be told from local modes at the rim of the "
+      "bond: a stubby pillar does not buckle sideways; of a slender one ask with a larger "
+      "tolerance");
+}
+
+std::vector<PillarMode> modes_under_pressure(const PillarModel& axial, const PillarModel& lateral,
+                                             double pressure_Pa, int count) {
+  const double critical_Pa = search_buckling(axial, lateral, 1).pressure_Pa;
+  if (critical_Pa > 0.0 && pressure_Pa >= critical_Pa) {
+    throw std::runtime_error("a pressure of " + number_text(pressure_Pa, 5) +
+                             " Pa on the top is beyond the buckling pressure of " +
+                             number_text(critical_Pa, 5) +
+                             " Pa: the straight pillar has no stable state to vibrate about");
+  }
+  SymmetricSparse stiffness = lateral.stiffness();
+  stiffness.coeffs() += pressure_Pa * stress_stiffness_per_Pa(axial, lateral).coeffs();
+  return modes_of(lateral, stiffness, count);
+}
+
+}  // namespace viscard

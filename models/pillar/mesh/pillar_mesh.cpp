@@ -1,0 +1,286 @@
+#include "models/pillar/mesh/pillar_mesh.h"
+
+#include "models/pillar/mesh/electrode_edge.h"
+#include "models/pillar/mesh/number_text.h"
+#include "models/pillar/mesh/scene_mistake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace viscard {
+namespace {
+
+void require_length(double value_m, const char* what) {
+  if (!(value_m > 0.0) || !std::isfinite(value_m)) {
+    throw std::invalid_argument(std::string(what) + " is " + number_text(value_m * 1e6) +
+                                " um; it must be positive and finite");
+  }
+}
+
+// Adds the breaks beyond the last one.
+void append(std::vector<double>& breaks, const std::vector<double>& more) {
+  const double same = more.empty() ? 0.0 : 1e-9 * std::abs(more.back() - more.front());
+  for (const double x : more) {
+    if (breaks.empty() || x > breaks.back() + same) breaks.push_back(x);
+  }
+}
+
+// Adds a break where none is near.
+void insert(std::vector<double>& breaks, double at) {
+  const double near = 1e-9 * (breaks.back() - breaks.front());
+  const bool is_there =
+      std::any_of(breaks.begin(), breaks.end(), [&](double b) { return std::abs(b - at) <= near; });
+  if (!is_there) breaks.insert(std::upper_bound(breaks.begin(), breaks.end(), at), at);
+}
+
+// Cuts every interval into equal pieces no longer than `size`.
+std::vector<double> cut(const std::vector<double>& breaks, double size) {
+  std::vector<double> fine;
+  for (std::size_t i = 1; i < breaks.size(); ++i) {
+    const double pieces = std::ceil((breaks[i] - breaks[i - 1]) / size * (1.0 - 1e-9));
+    append(fine, graded_breaks(breaks[i - 1], breaks[i], std::max(1, static_cast<int>(pieces)), 1.0,
+                               true));
+  }
+  return fine;
+}
+
+// The same between two breaks only, with sizes that may grow away from one end: see skin_m.
+class WaveBreaks {
+ public:
+  WaveBreaks(const Discretisation& d, double end_m)
+      : size_m_(d.longest_m), skin_m_(d.skin_m), end_m_(end_m) {}
+
+  std::vector<double> cut_between(const std::vector<double>& breaks, double from, double to) const {
+    std::vector<double> all;
+    const double near = 1e-9 * (to - from);
+    for (const double b : breaks) {
+      if (!all.empty() && b > from + near && b <= to + near) cut(all.back(), b, all);
+      append(all, {b});
+    }
+    return all;
+  }
+
+ private:
+  // Number of elements from the end to a distance from it, int ds/size(s).
+  double count_to(double distance_m) const {
+    if (skin_m_ == 0.0 || distance_m <= skin_m_) return distance_m / size_m_;
+    return skin_m_ / size_m_ + std::log1p((distance_m - skin_m_) / size_m_);
+  }
+  double distance_of(double count) const {
+    const double in_skin = skin_m_ / size_m_;
+    if (skin_m_ == 0.0 || count <= in_skin) return count * size_m_;
+    return skin_m_ + size_m_ * std::expm1(count - in_skin);
+  }
+  // Breaks within (from, to): equal shares of the elements between them.
+  void cut(double from, double to, std::vector<double>& all) const {
+    const double a = count_to(std::abs(from - end_m_));
+    const double b = count_to(std::abs(to - end_m_));
+    const int pieces = static_cast<int>(std::ceil(std::abs(b - a) * (1.0 - 1e-9)));
+    for (int i = 1; i < pieces; ++i) {
+      const double distance_m = distance_of(a + (b - a) * i / pieces);
+      append(all, {to > end_m_ || from > end_m_ ? end_m_ + distance_m : end_m_ - distance_m});
+    }
+  }
+
+  double size_m_, skin_m_, end_m_;
+};
+
+std::vector<double> film_radii(const FilmGeometry& film, double radius_m, const Discretisation& d) {
+  std::vector<double> breaks;
+  const double graded_m = std::min(2.0 * radius_m, film.radius_m);
+  if (graded_m > radius_m * (1.0 + 1e-9)) {
+    append(breaks, graded_breaks(radius_m, graded_m, d.layers, d.ratio, false));
+  }
+  if (film.radius_m > graded_m * (1.0 + 1e-9)) {
+    append(breaks, graded_breaks(graded_m, film.radius_m, d.film_elements, 1.0, true));
+  }
+  return breaks;
+}
+
+std::vector<double> pillar_heights(const PillarGeometry& g, double radius_m,
+                                   const Discretisation& d) {
+  const double foot_m = std::min(2.0 * radius_m, g.length_m);
+  std::vector<double> breaks = graded_breaks(0.0, foot_m, d.layers, d.ratio, false);
+  if (g.length_m > foot_m * (1.0 + 1e-9)) {
+    append(breaks, graded_breaks(foot_m, g.length_m, d.shaft_elements, 1.0, true));
+  }
+  return breaks;
+}
+
+void validate_flare(const Flare& flare, const char* key, const char* what, double radius_m) {
+  if (!std::isfinite(flare.width_m) || !(flare.height_m >= 0.0) || !std::isfinite(flare.height_m)) {
+    throw SceneMistake(key, std::string(what) + " needs a finite width and height");
+  }
+  if (flare.width_m != 0.0 && flare.height_m == 0.0) {
+    throw SceneMistake(key, std::string(what) + " needs a height");
+  }
+  if (!(flare.width_m > -radius_m)) {
+    throw SceneMistake(key, std::string(what) + " takes " + number_text(-flare.width_m * 1e6) +
+                                " um off a radius of " + number_text(radius_m * 1e6) +
+                                " um: nothing is left");
+  }
+}
+
+// 1 at the end, falling to 0 at the flare's height.
+double share_of(const Flare& flare, double from_end_m) {
+  if (flare.width_m == 0.0) return 0.0;
+  return std::max(1.0 - from_end_m / flare.height_m, 0.0);
+}
+
+double radius_slope(const PillarGeometry& g, double z_m) {
+  double slope = 0.0;
+  if (g.foot.width_m != 0.0)
+    slope -= 2.0 * g.foot.width_m * share_of(g.foot, z_m) / g.foot.height_m;
+  if (g.tip.width_m != 0.0)
+    slope += 2.0 * g.tip.width_m * share_of(g.tip, g.length_m - z_m) / g.tip.height_m;
+  return slope;
+}
+
+bool has_flares(const PillarGeometry& g) {
+  return g.foot.width_m != 0.0 || g.tip.width_m != 0.0;
+}
+
+// Lines that the mesh must meet whatever its kind.
+struct Breaks {
+  std::vector<double> x, z;
+};
+
+Breaks necessary_breaks(const PillarGeometry& g) {
+  const double radius_m = bond_radius_m(g);
+  Breaks breaks{{0.0, radius_m}, {0.0, g.length_m}};
+  if (g.film) {
+    append(breaks.x, {g.film->radius_m});
+    breaks.z.insert(breaks.z.begin(), -g.film->thickness_m);
+  }
+  return breaks;
+}
+
+Breaks graded_mesh_breaks(const PillarGeometry& g, const Discretisation& d) {
+  const double radius_m = bond_radius_m(g);
+  Breaks breaks{graded_breaks(0.0, radius_m, d.layers, d.ratio, true), {}};
+  if (g.film) {
+    append(breaks.x, film_radii(*g.film, radius_m, d));
+    const double graded_m = std::min(g.film->thickness_m, radius_m);
+    if (g.film->thickness_m > graded_m * (1.0 + 1e-9)) breaks.z.push_back(-g.film->thickness_m);
+    append(breaks.z, graded_breaks(-graded_m, 0.0, d.layers, d.ratio, true));
+  }
+  append(breaks.z, pillar_heights(g, radius_m, d));
+  return breaks;
+}
+
+}  // namespace
+
+double bond_radius_m(const PillarGeometry& g) {
+  return 0.5 * g.diameter_m + g.foot.width_m;
+}
+
+double radius_at_m(const PillarGeometry& g, double z_m) {
+  const double foot = share_of(g.foot, z_m);
+  const double tip = share_of(g.tip, g.length_m - z_m);
+  return 0.5 * g.diameter_m + g.foot.width_m * foot * foot + g.tip.width_m * tip * tip;
+}
+
+void validate(const PillarGeometry& g) {
+  require_length(g.diameter_m, "the pillar's diameter");
+  require_length(g.length_m, "the pillar's length");
+  validate_flare(g.foot, "geometry.foot", "the fillet at the foot", 0.5 * g.diameter_m);
+  validate_flare(g.tip, "geometry.tip", "the mushroom at the tip", 0.5 * g.diameter_m);
+  if (g.foot.height_m + g.tip.height_m > g.length_m * (1.0 + 1e-12)) {
+    throw SceneMistake(g.tip.height_m > g.foot.height_m ? "geometry.tip" : "geometry.foot",
+                       "fillet and mushroom tip together are " +
+                           number_text((g.foot.height_m + g.tip.height_m) * 1e6) +
+                           " um high, more than the pillar");
+  }
+  if (!g.film) return;
+  require_length(g.film->thickness_m, "the film's thickness");
+  require_length(g.film->radius_m, "the film's radius");
+  constexpr double kThinnest =
+      1e-6;  // of the diameter: below it rounding in places of nodes counts
+  if (g.film->thickness_m < kThinnest * g.diameter_m) {
+    throw SceneMistake("geometry.film.thickness",
+                       "the film is thinner than a millionth of the pillar's diameter, which no "
+                       "mesh here can tell from none; leave the film out");
+  }
+  if (g.film->radius_m < bond_radius_m(g) * (1.0 - 1e-12)) {
+    throw SceneMistake("geometry.film.radius", "the film's radius of " +
+                                                   number_text(g.film->radius_m * 1e6) +
+                                                   " um is smaller than the pillar's of " +
+                                                   number_text(bond_radius_m(g) * 1e6) + " um");
+  }
+  if (!(g.film->electrode_radius_m >= 0.0 &&
+        g.film->electrode_radius_m <= g.film->radius_m * (1.0 + 1e-9))) {
+    throw SceneMistake("geometry.electrode.radius",
+                       "the electrode's radius of " +
+                           number_text(g.film->electrode_radius_m * 1e6) +
+                           " um does not lie on the film");
+  }
+}
+
+PillarMesh pillar_mesh(const PillarGeometry& g, const Discretisation& d) {
+  validate(g);
+  const double radius_m = bond_radius_m(g);
+  const bool is_uniform = d.uniform_m > 0.0;
+  Breaks breaks = is_uniform ? necessary_breaks(g) : graded_mesh_breaks(g, d);
+  if (g.film && g.film->electrode_radius_m > 0.0) {
+    if (is_uniform) {
+      insert(breaks.x, g.film->electrode_radius_m);
+    } else {
+      grade_toward_electrode(*g.film, d, breaks.x, breaks.z);
+    }
+  }
+  if (g.foot.width_m != 0.0) insert(breaks.z, g.foot.height_m);
+  if (g.tip.width_m != 0.0) insert(breaks.z, g.length_m - g.tip.height_m);
+  if (is_uniform) {
+    breaks = {cut(breaks.x, d.uniform_m), cut(breaks.z, d.uniform_m)};
+  } else if (d.longest_m > 0.0) {
+    const double end_m = d.skin_at_foot ? 0.0 : g.length_m;
+    breaks = {WaveBreaks(d, radius_m).cut_between(breaks.x, 0.0, radius_m),
+              WaveBreaks(d, end_m).cut_between(breaks.z, 0.0, g.length_m)};
+  }
+  const auto below = [](const std::vector<double>& all, double at) {
+    return static_cast<int>(
+        std::count_if(all.begin(), all.end(), [&](double b) { return b < at; }));
+  };
+  PillarMesh mesh{Section(LineMesh(breaks.x, d.degree), LineMesh(breaks.z, d.degree),
+                          [&](double r_m, double z_m) {
+                            if (z_m < 0.0) return kFilmRegion;
+                            return r_m < radius_m ? kPillarRegion : Section::kEmpty;
+                          }),
+                  below(breaks.x, radius_m * (1.0 - 1e-9)), below(breaks.z, -1e-9 * g.length_m),
+                  static_cast<int>(breaks.z.size()) - 1};
+  if (has_flares(g)) {
+    mesh.section.stretch(kPillarRegion, [g, radius_m](double z_m) {
+      return Stretch{radius_at_m(g, z_m) / radius_m, radius_slope(g, z_m) / radius_m};
+    });
+  }
+  return mesh;
+}
+
+std::vector<Discretisation> refinements_to(const Discretisation& finest) {
+  std::vector<Discretisation> meshes;
+  for (int coarser = 2; coarser >= 0; --coarser) {
+    Discretisation mesh = finest;
+    if (finest.uniform_m > 0.0) {
+      mesh.uniform_m *= std::pow(2.0, coarser);
+    } else {
+      mesh.degree -= coarser;
+    }
+    meshes.push_back(mesh);
+  }
+  return meshes;
+}
+
+std::vector<int> nodes_on_break(const Section& section, int break_row, int first_column,
+                                int last_column) {
+  std::vector<int> nodes;
+  const int p = section.degree();
+  for (int ix = first_column * p; ix <= last_column * p; ++ix) {
+    const int node = section.node(ix, break_row * p);
+    if (node >= 0) nodes.push_back(node);
+  }
+  return nodes;
+}
+
+}  // namespace viscard

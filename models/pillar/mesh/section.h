@@ -1,0 +1,68 @@
+#pragma once
+
+#include "models/pillar/mesh/line_mesh.h"
+
+#include <functional>
+#include <vector>
+
+namespace viscard {
+
+// A meridian (r, z) or plane (x, z) section: cells of a rectilinear grid, each filled with one
+// region or empty, with tensor-product elements of degree p. Rectangles make every matrix a sum of
+// Kronecker products of one-dimensional ones (models/README.md, eq. 13).
+// Where a region's outline is not straight, its cells are stretched along x: x = scale(z) times the
+// x of the grid.
+struct Stretch {
+  double scale = 1.0;
+  double slope_1_m = 0.0;  // d scale/dz
+};
+
+struct SectionElement {
+  int column = 0;
+  int row = 0;
+  int region = 0;
+  std::vector<int> nodes;  // (p + 1)^2, x fastest
+};
+
+class Section {
+ public:
+  static constexpr int kEmpty = -1;
+
+  // region_at(x, z) at the middle of a cell: a region number, or kEmpty.
+  // Throws std::invalid_argument if every cell is empty.
+  Section(LineMesh x, LineMesh z, const std::function<int(double, double)>& region_at);
+
+  const LineMesh& x() const { return x_; }
+  const LineMesh& z() const { return z_; }
+  int degree() const { return x_.degree(); }
+  int node_count() const { return static_cast<int>(node_x_.size()); }
+  const std::vector<SectionElement>& elements() const { return elements_; }
+  double node_x(int node) const { return node_x_[static_cast<std::size_t>(node)]; }
+  double node_z(int node) const { return node_z_[static_cast<std::size_t>(node)]; }
+
+  // Stretches one region. Throws std::invalid_argument where the scale is not positive at a break
+  // or a node, for the elements there would be turned inside out.
+  void stretch(int region, std::function<Stretch(double z)> of_height);
+  bool is_stretched(int region) const { return region == stretched_region_; }
+  Stretch stretch_at(int region, double z) const {
+    return is_stretched(region) ? stretch_(z) : Stretch{};
+  }
+
+  // Region of a cell, or kEmpty.
+  int region(int column, int row) const;
+  // Node at a place of the grid, or -1.
+  int node(int ix, int iz) const;
+
+ private:
+  LineMesh x_;
+  LineMesh z_;
+  std::vector<int> region_;  // columns fastest
+  std::vector<int> node_;    // x fastest; -1 where no element is
+  std::vector<double> node_x_;
+  std::vector<double> node_z_;
+  std::vector<SectionElement> elements_;
+  int stretched_region_ = kEmpty;
+  std::function<Stretch(double)> stretch_;
+};
+
+}  // namespace viscard

@@ -1,0 +1,96 @@
+#pragma once
+
+#include "models/pillar/mesh/section.h"
+#include "models/pillar/system/dof_map.h"
+#include "models/pillar/system/kinematics.h"
+
+#include <Eigen/SparseCore>
+
+#include <functional>
+#include <vector>
+
+namespace viscard {
+
+// Symmetric; only the lower triangle is stored.
+using SymmetricSparse = Eigen::SparseMatrix<double>;
+
+// Quadratic forms over a section (eq. 13): sum_ij D_ij int row_i(u) row_j(v) measure x^x_power dx
+// dz, assembled element by element from Kronecker products of one-dimensional matrices. All
+// matrices of one system share one sparsity pattern, so they may be added value by value.
+class DiscreteSystem {
+ public:
+  // The section must outlive the system.
+  DiscreteSystem(const Section& section, Kinematics kinematics, DofMap dofs);
+
+  const Section& section() const { return *section_; }
+  const Kinematics& kinematics() const { return kinematics_; }
+  const DofMap& dofs() const { return dofs_; }
+  int size() const { return dofs_.count(); }
+
+  // One square matrix D per region, rows.size() wide and symmetric; an empty one skips the region.
+  SymmetricSparse form(const std::vector<OperatorRow>& rows,
+                       const std::vector<Eigen::MatrixXd>& per_region) const;
+
+  // factor * int (div u)(div v) per region; with a projection, div u enters through its L2
+  // projection on discontinuous Q_(p-2), which is a pressure of that space condensed element by
+  // element (eq. 14). Source: Stenberg & Suri, Math. Comp. 65 (1996) 1. Degree 1 projects on
+  // constants.
+  SymmetricSparse volume_form(const std::vector<double>& per_region, bool projected) const;
+
+  // int value(field) over the part of the horizontal line z = breaks[row] between columns
+  // [first, last), seen from the elements below (from_below) or above: force per unit traction,
+  // m^2.
+  Eigen::VectorXd line_load(int field, int break_row, int first_column, int last_column) const;
+
+  // Values of the field at all nodes, and back.
+  Eigen::VectorXd field_values(int field, const Eigen::VectorXd& solution) const;
+
+  // rows(u) at one point (x, z) of the body, which must lie in the element.
+  Eigen::VectorXd rows_at(const std::vector<OperatorRow>& rows, const Eigen::VectorXd& solution,
+                          const SectionElement& element, double x, double z) const;
+
+  // The projected div u (eq. 14) at a point of an element.
+  double projected_divergence_at(const Eigen::VectorXd& solution, const SectionElement& element,
+                                 double x, double z) const;
+
+  // A form whose matrix D(element, x, z) varies within the elements, by full quadrature.
+  SymmetricSparse varying_form(
+      const std::vector<OperatorRow>& rows,
+      const std::function<Eigen::MatrixXd(const SectionElement&, double, double)>& D) const;
+
+  // Unknowns of one element, field slowest: field_count * (p + 1)^2, -1 where held.
+  std::vector<int> element_dofs(const SectionElement& element) const;
+  SymmetricSparse zero() const;
+
+ private:
+  void order_elements();
+  void build_pattern();
+  // Adds an element matrix, of which the lower triangle is read, to a matrix of this system.
+  void scatter(std::size_t element, const Eigen::MatrixXd& local, SymmetricSparse& matrix) const;
+  // int L (div N) and int L L of one element, L the Legendre products of Q_(p-2).
+  struct Projection {
+    int degree = 0;
+    Eigen::MatrixXd divergence;
+    Eigen::MatrixXd mass;
+  };
+  Projection projection(const SectionElement& element) const;
+  Projection stretched_projection(const SectionElement& element) const;
+  Eigen::MatrixXd quadrature_form(
+      const std::vector<OperatorRow>& rows, const SectionElement& element,
+      const std::function<Eigen::MatrixXd(double x, double z)>& D) const;
+
+  const Section* section_;
+  Kinematics kinematics_;
+  DofMap dofs_;
+  std::vector<int> column_start_;  // the pattern of all matrices, as they store it
+  std::vector<int> row_;
+  // Unknowns of an element that are not held, ascending (tied ones several times), and the local
+  // number of each: its place among element_dofs().
+  struct LocalOrder {
+    std::vector<int> dofs;
+    std::vector<int> local;
+  };
+  std::vector<LocalOrder> local_;
+};
+
+}  // namespace viscard

@@ -1,0 +1,141 @@
+// What the products of one-dimensional matrices cannot do: coefficients that vary, elements that
+// are stretched, and values at single points.
+#include "models/pillar/system/discrete_system.h"
+
+namespace viscard {
+namespace {
+
+// Basis functions of an element at one point, and their derivatives along x and z of the body. With
+// x = scale(z) xi: d/dx = (1/scale) d/dxi, d/dz = d/dzeta - xi (slope/scale) d/dxi.
+struct PointBasis {
+  double x = 0.0;
+  Eigen::RowVectorXd value, d_dx, d_dz;
+};
+
+template <typename Row>
+PointBasis point_basis(double xi, const Stretch& stretch, const Row& bx, const Row& dbx,
+                       const Row& bz, const Row& dbz) {
+  const Eigen::Index n = bx.size();
+  PointBasis basis{stretch.scale * xi, Eigen::RowVectorXd(n * n), Eigen::RowVectorXd(n * n),
+                   Eigen::RowVectorXd(n * n)};
+  const double shear = xi * stretch.slope_1_m / stretch.scale;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    basis.value.segment(i * n, n) = bz[i] * bx;
+    basis.d_dx.segment(i * n, n) = bz[i] / stretch.scale * dbx;
+    basis.d_dz.segment(i * n, n) = dbz[i] * bx - shear * bz[i] * dbx;
+  }
+  return basis;
+}
+
+// rows on all unknowns of an element: rows.size() x (field_count * n).
+void fill_rows(const std::vector<OperatorRow>& rows, const PointBasis& at,
+               Eigen::Ref<Eigen::MatrixXd> B) {
+  const Eigen::Index n = at.value.size();
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (const OperatorTerm& t : rows[r]) {
+      const Eigen::RowVectorXd& basis = t.dx == 1 ? at.d_dx : t.dz == 1 ? at.d_dz : at.value;
+      B.block(static_cast<Eigen::Index>(r), t.field * n, 1, n) +=
+          (t.inverse_x == 1 ? t.factor / at.x : t.factor) * basis;
+    }
+  }
+}
+
+}  // namespace
+
+Eigen::MatrixXd DiscreteSystem::quadrature_form(
+    const std::vector<OperatorRow>& rows, const SectionElement& element,
+    const std::function<Eigen::MatrixXd(double x, double z)>& D) const {
+  const auto n_rows = static_cast<Eigen::Index>(rows.size());
+  const LineMesh::ElementRule in_x = section_->x().rule(element.column);
+  const LineMesh::ElementRule in_z = section_->z().rule(element.row);
+  const Eigen::Index n1 = section_->degree() + 1;
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(in_x.x.size() * in_z.x.size() * n_rows,
+                                            kinematics_.field_count * n1 * n1);
+  Eigen::MatrixXd DB(B.rows(), B.cols());
+  Eigen::Index start = 0;
+  for (Eigen::Index kz = 0; kz < in_z.x.size(); ++kz) {
+    const Stretch stretch = section_->stretch_at(element.region, in_z.x[kz]);
+    for (Eigen::Index kx = 0; kx < in_x.x.size(); ++kx, start += n_rows) {
+      const PointBasis at = point_basis<Eigen::RowVectorXd>(
+          in_x.x[kx], stretch, in_x.value.row(kx), in_x.derivative.row(kx), in_z.value.row(kz),
+          in_z.derivative.row(kz));
+      fill_rows(rows, at, B.middleRows(start, n_rows));
+      const double weight = kinematics_.measure * in_x.weight[kx] * in_z.weight[kz] *
+                            stretch.scale * (kinematics_.x_power == 1 ? at.x : 1.0);
+      DB.middleRows(start, n_rows).noalias() =
+          weight * D(at.x, in_z.x[kz]) * B.middleRows(start, n_rows);
+    }
+  }
+  return B.transpose() * DB;
+}
+
+SymmetricSparse DiscreteSystem::varying_form(
+    const std::vector<OperatorRow>& rows,
+    const std::function<Eigen::MatrixXd(const SectionElement&, double, double)>& D) const {
+  SymmetricSparse matrix = zero();
+  for (std::size_t e = 0; e < section_->elements().size(); ++e) {
+    const SectionElement& element = section_->elements()[e];
+    const auto here = [&](double x, double z) { return D(element, x, z); };
+    scatter(e, quadrature_form(rows, element, here), matrix);
+  }
+  return matrix;
+}
+
+DiscreteSystem::Projection DiscreteSystem::stretched_projection(
+    const SectionElement& element) const {
+  const int q = std::max(section_->degree() - 2, 0);
+  const Eigen::Index nq = q + 1;
+  const Eigen::Index n1 = section_->degree() + 1;
+  const LineMesh::ElementRule in_x = section_->x().rule(element.column);
+  const LineMesh::ElementRule in_z = section_->z().rule(element.row);
+  const auto legendre = [q](const LineMesh& line, int e, const Eigen::VectorXd& points) {
+    std::vector<double> unit;
+    for (const double at : points) {
+      unit.push_back((at - line.breaks()[static_cast<std::size_t>(e)]) / line.length(e));
+    }
+    return legendre_values(q, unit);
+  };
+  const Eigen::MatrixXd Lx = legendre(section_->x(), element.column, in_x.x);
+  const Eigen::MatrixXd Lz = legendre(section_->z(), element.row, in_z.x);
+  Projection p{q, Eigen::MatrixXd::Zero(nq * nq, kinematics_.field_count * n1 * n1),
+               Eigen::MatrixXd::Zero(nq * nq, nq * nq)};
+  Eigen::MatrixXd divergence(1, p.divergence.cols());
+  Eigen::VectorXd pressure(nq * nq);
+  for (Eigen::Index kz = 0; kz < in_z.x.size(); ++kz) {
+    const Stretch stretch = section_->stretch_at(element.region, in_z.x[kz]);
+    for (Eigen::Index kx = 0; kx < in_x.x.size(); ++kx) {
+      const PointBasis at = point_basis<Eigen::RowVectorXd>(
+          in_x.x[kx], stretch, in_x.value.row(kx), in_x.derivative.row(kx), in_z.value.row(kz),
+          in_z.derivative.row(kz));
+      divergence.setZero();
+      fill_rows({kinematics_.divergence}, at, divergence);
+      for (Eigen::Index i = 0; i < nq; ++i) pressure.segment(i * nq, nq) = Lz(kz, i) * Lx.row(kx);
+      const double weight = in_x.weight[kx] * in_z.weight[kz] * stretch.scale *
+                            (kinematics_.x_power == 1 ? at.x : 1.0);
+      p.divergence += weight * pressure * divergence;
+      p.mass += weight * pressure * pressure.transpose();
+    }
+  }
+  return p;
+}
+
+Eigen::VectorXd DiscreteSystem::rows_at(const std::vector<OperatorRow>& rows,
+                                        const Eigen::VectorXd& solution,
+                                        const SectionElement& element, double x, double z) const {
+  const Stretch stretch = section_->stretch_at(element.region, z);
+  const double xi = x / stretch.scale;
+  const BasisValues in_x = section_->x().basis_at(element.column, xi);
+  const BasisValues in_z = section_->z().basis_at(element.row, z);
+  const PointBasis at = point_basis<Eigen::RowVectorXd>(xi, stretch, in_x.value, in_x.derivative,
+                                                        in_z.value, in_z.derivative);
+  const std::vector<int> dofs = element_dofs(element);
+  Eigen::VectorXd local = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(dofs.size()));
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    if (dofs[i] >= 0) local[static_cast<Eigen::Index>(i)] = solution[dofs[i]];
+  }
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), local.size());
+  fill_rows(rows, at, B);
+  return B * local;
+}
+
+}  // namespace viscard

@@ -1,0 +1,67 @@
+// What is read from a solution, and loads.
+#include "models/pillar/system/discrete_system.h"
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace viscard {
+
+double DiscreteSystem::projected_divergence_at(const Eigen::VectorXd& solution,
+                                               const SectionElement& element, double x,
+                                               double z) const {
+  const Projection p = projection(element);
+  const std::vector<int> dofs = element_dofs(element);
+  Eigen::VectorXd local = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(dofs.size()));
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    if (dofs[i] >= 0) local[static_cast<Eigen::Index>(i)] = solution[dofs[i]];
+  }
+  const Eigen::VectorXd coefficient = p.mass.ldlt().solve(p.divergence * local);
+  const auto along = [&](const LineMesh& line, int e, double at) {
+    return legendre_values(p.degree,
+                           {(at - line.breaks()[static_cast<std::size_t>(e)]) / line.length(e)});
+  };
+  const double xi = x / section_->stretch_at(element.region, z).scale;
+  const Eigen::MatrixXd in_x = along(section_->x(), element.column, xi);
+  const Eigen::MatrixXd in_z = along(section_->z(), element.row, z);
+  double value = 0.0;
+  for (Eigen::Index kz = 0; kz <= p.degree; ++kz) {
+    for (Eigen::Index kx = 0; kx <= p.degree; ++kx) {
+      value += coefficient[kz * (p.degree + 1) + kx] * in_z(0, kz) * in_x(0, kx);
+    }
+  }
+  return value;
+}
+
+Eigen::VectorXd DiscreteSystem::line_load(int field, int break_row, int first_column,
+                                          int last_column) const {
+  const int p = section_->degree();
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(size());
+  const double z = section_->z().breaks()[static_cast<std::size_t>(break_row)];
+  for (int column = first_column; column < last_column; ++column) {
+    // At a bond both sides have one width, so either region tells it.
+    const int below = section_->region(column, break_row - 1);
+    const int region = below != Section::kEmpty ? below : section_->region(column, break_row);
+    const double scale = std::pow(section_->stretch_at(region, z).scale, kinematics_.x_power + 1);
+    const Eigen::MatrixXd mass = scale * section_->x().integral(column, kinematics_.x_power, 0, 0);
+    for (int i = 0; i <= p; ++i) {
+      const int node = section_->node(column * p + i, break_row * p);
+      if (node < 0) throw std::invalid_argument("a load acts where there is no material");
+      const int dof = dofs_.dof(field, node);
+      if (dof >= 0) load[dof] += kinematics_.measure * mass.row(i).sum();
+    }
+  }
+  return load;
+}
+
+Eigen::VectorXd DiscreteSystem::field_values(int field, const Eigen::VectorXd& solution) const {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(section_->node_count());
+  for (int node = 0; node < section_->node_count(); ++node) {
+    const int dof = dofs_.dof(field, node);
+    if (dof >= 0) values[node] = solution[dof];
+  }
+  return values;
+}
+
+}  // namespace viscard

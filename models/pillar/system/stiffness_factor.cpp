@@ -1,0 +1,91 @@
+#include "models/pillar/system/stiffness_factor.h"
+
+#include <Eigen/Core>
+
+#include <cassert>
+#include <stdexcept>
+
+namespace viscard {
+
+// Every stored entry serves two rows. Sums in two parts do not wait for one another.
+Eigen::VectorXd times(const SymmetricSparse& matrix, const Eigen::VectorXd& x) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(matrix.rows());
+  const int* outer = matrix.outerIndexPtr();
+  const int* row = matrix.innerIndexPtr();
+  const double* value = matrix.valuePtr();
+  for (int column = 0; column < matrix.cols(); ++column) {
+    int at = outer[column];
+    const int end = outer[column + 1];
+    assert(at == end || row[at] >= column);  // the lower triangle, rows ascending
+    const double own = x[column];
+    double even = 0.0;
+    double odd = 0.0;
+    if (at < end && row[at] == column) even = value[at++] * own;
+    for (; at + 1 < end; at += 2) {
+      even += value[at] * x[row[at]];
+      odd += value[at + 1] * x[row[at + 1]];
+      y[row[at]] += value[at] * own;
+      y[row[at + 1]] += value[at + 1] * own;
+    }
+    if (at < end) {
+      even += value[at] * x[row[at]];
+      y[row[at]] += value[at] * own;
+    }
+    y[column] += even + odd;
+  }
+  return y;
+}
+
+void StiffnessFactor::factor(const SymmetricSparse& matrix) {
+  if (!is_analysed_) {
+    ldlt_.analyse(matrix);
+    is_analysed_ = true;
+  }
+  if (!ldlt_.factor(matrix)) {
+    throw std::runtime_error(
+        "the stiffness matrix is singular: a part of the body is neither held nor joined to one "
+        "that "
+        "is, or a modulus is zero");
+  }
+}
+
+Eigen::VectorXd StiffnessFactor::solve(const Eigen::VectorXd& right_side,
+                                       Eigen::VectorXd* pressure_source) const {
+  Eigen::VectorXd u = ldlt_.solve(right_side);
+  if (penalty_.size() == 0 && pressure_source == nullptr) return u;
+  Eigen::VectorXd added = Eigen::VectorXd::Zero(u.size());
+  if (penalty_.size() > 0) constrain_solution(u, added);
+  if (pressure_source != nullptr) *pressure_source = u + added;
+  return u;
+}
+
+// Conjugate gradients for the pressures, whose force is C added beside the penalty's C u; u itself
+// stands for the residual. Rounding is reached when the violation of the constraint stops falling.
+void StiffnessFactor::constrain_solution(Eigen::VectorXd& u, Eigen::VectorXd& added) const {
+  double violation = u.dot(times(penalty_, u));
+  Eigen::VectorXd direction = u;
+  constexpr int kIterations = 40;  // each gains a factor of ten or more; see kPenaltyOverShear
+  for (int i = 0; i < kIterations && violation > 0.0; ++i) {
+    const Eigen::VectorXd C_direction = times(penalty_, direction);
+    const Eigen::VectorXd response = ldlt_.solve(C_direction);
+    const double step = violation / C_direction.dot(response);
+    const Eigen::VectorXd next = u - step * response;
+    const double remaining = next.dot(times(penalty_, next));
+    if (!(remaining < 0.5 * violation)) break;
+    u = next;
+    added += step * direction;
+    direction = u + remaining / violation * direction;
+    violation = remaining;
+  }
+}
+
+int StiffnessFactor::negative_pivots() const {
+  return static_cast<int>((ldlt_.pivots().array() < 0.0).count());
+}
+
+double StiffnessFactor::pivot_ratio() const {
+  const Eigen::VectorXd pivots = ldlt_.pivots().cwiseAbs();
+  return pivots.minCoeff() / pivots.maxCoeff();
+}
+
+}  // namespace viscard

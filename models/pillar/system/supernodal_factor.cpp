@@ -1,0 +1,199 @@
+#include "models/pillar/system/supernodal_factor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+// Unpivoted L D L^T of the leading `count` columns of a front, and what remains of the others.
+bool eliminate(Eigen::Ref<Eigen::MatrixXd> front, Eigen::Index count,
+               Eigen::Ref<Eigen::VectorXd> d) {
+  constexpr Eigen::Index kPanel = 16;
+  const Eigen::Index n = front.rows();
+  Eigen::MatrixXd scaled;
+  for (Eigen::Index start = 0; start < count; start += kPanel) {
+    const Eigen::Index width = std::min(kPanel, count - start);
+    for (Eigen::Index j = start; j < start + width; ++j) {
+      const double pivot = front(j, j);
+      if (pivot == 0.0 || !std::isfinite(pivot)) return false;
+      d[j] = pivot;
+      const Eigen::Index below = n - j - 1;
+      front.col(j).tail(below) /= pivot;
+      for (Eigen::Index k = j + 1; k < start + width; ++k) {
+        front.col(k).tail(n - k) -= (front(k, j) * pivot) * front.col(j).tail(n - k);
+      }
+    }
+    const Eigen::Index rest = n - start - width;
+    if (rest == 0) continue;
+    const auto panel = front.block(start + width, start, rest, width);
+    scaled.noalias() = panel * d.segment(start, width).asDiagonal();
+    front.bottomRightCorner(rest, rest).triangularView<Eigen::Lower>() -=
+        scaled * panel.transpose();
+  }
+  return true;
+}
+
+// Adds the lower triangle of a child's update to the front of its parent.
+void add_update(const Eigen::MatrixXd& update, const std::vector<int>& to,
+                Eigen::Map<Eigen::MatrixXd>& front) {
+  const auto n = static_cast<Eigen::Index>(to.size());
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double* from = update.data() + j * n;
+    double* column = front.data() + to[static_cast<std::size_t>(j)] * front.rows();
+    for (Eigen::Index i = j; i < n; ++i) column[to[static_cast<std::size_t>(i)]] += from[i];
+  }
+}
+
+}  // namespace
+
+void SupernodalFactor::analyse(const Sparse& lower) {
+  BlockOrder order = block_order(lower);
+  position_ = std::move(order.position);
+  blocks_.clear();
+  largest_front_ = 0;
+  for (ColumnBlock& columns : order.blocks) {
+    blocks_.push_back({std::move(columns), -1, {}, {}});
+    largest_front_ = std::max<Eigen::Index>(largest_front_, blocks_.back().height());
+  }
+  find_parents();
+  place_entries(lower);
+}
+
+void SupernodalFactor::find_parents() {
+  for (Block& block : blocks_) {
+    if (block.rows.empty()) continue;
+    // Blocks ascend by column: the parent is the one that holds the first row.
+    const auto after =
+        std::upper_bound(blocks_.begin(), blocks_.end(), block.rows.front(),
+                         [](int row, const Block& other) { return row < other.first; });
+    const Block& up = *(after - 1);
+    block.parent = static_cast<int>(&up - blocks_.data());
+    auto next = up.rows.begin();  // both ascend
+    for (const int row : block.rows) {
+      if (row < up.first + up.count) {
+        block.to_parent.push_back(row - up.first);
+        continue;
+      }
+      while (*next < row) ++next;
+      block.to_parent.push_back(up.count + static_cast<int>(next - up.rows.begin()));
+    }
+  }
+}
+
+void SupernodalFactor::place_entries(const Sparse& lower) {
+  const auto each = [&](const auto& action) {
+    int value = 0;
+    for (int column = 0; column < lower.outerSize(); ++column) {
+      const int a = position_[static_cast<std::size_t>(column)];
+      for (Sparse::InnerIterator it(lower, column); it; ++it, ++value) {
+        const int b = position_[static_cast<std::size_t>(it.row())];
+        action(value, static_cast<std::size_t>(std::min(a, b)), std::max(a, b));
+      }
+    }
+  };
+  first_entry_.assign(position_.size() + 1, 0);
+  each([&](int, std::size_t column, int) { ++first_entry_[column + 1]; });
+  std::partial_sum(first_entry_.begin(), first_entry_.end(), first_entry_.begin());
+  std::vector<std::size_t> next(first_entry_.begin(), first_entry_.end() - 1);
+  entries_.resize(static_cast<std::size_t>(lower.nonZeros()));
+  each([&](int value, std::size_t column, int row) { entries_[next[column]++] = {value, row}; });
+  std::vector<int> in_front(position_.size());  // of the rows of the block at hand
+  for (const Block& block : blocks_) {
+    const auto first = static_cast<std::size_t>(block.first);
+    std::iota(in_front.begin() + block.first, in_front.begin() + block.first + block.count, 0);
+    int last = block.count;
+    for (const int row : block.rows) in_front[static_cast<std::size_t>(row)] = last++;
+    for (int column = 0; column < block.count; ++column) {
+      const auto at = first + static_cast<std::size_t>(column);
+      for (std::size_t i = first_entry_[at]; i < first_entry_[at + 1]; ++i) {
+        const int row = in_front[static_cast<std::size_t>(entries_[i].place)];
+        entries_[i].place = column * block.height() + row;
+      }
+    }
+  }
+}
+
+bool SupernodalFactor::factor(const Sparse& lower) {
+  pivots_.resize(lower.rows());
+  std::vector<Eigen::MatrixXd> updates(blocks_.size());  // what each block leaves to its parent
+  std::vector<std::vector<std::size_t>> children(blocks_.size());
+  std::vector<double> memory(static_cast<std::size_t>(largest_front_ * largest_front_));
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    Block& block = blocks_[b];
+    const Eigen::Index below = block.height() - block.count;
+    Eigen::Map<Eigen::MatrixXd> front(memory.data(), block.height(), block.height());
+    front.setZero();
+    const auto first = first_entry_.begin() + block.first;
+    for (std::size_t i = *first; i < *(first + block.count); ++i) {
+      memory[static_cast<std::size_t>(entries_[i].place)] = lower.valuePtr()[entries_[i].value];
+    }
+    for (const std::size_t child : children[b]) {
+      add_update(updates[child], blocks_[child].to_parent, front);
+      updates[child].resize(0, 0);
+    }
+    if (!eliminate(front, block.count, pivots_.segment(block.first, block.count))) return false;
+    block.L = front.leftCols(block.count);
+    if (block.parent >= 0) {
+      updates[b] = front.bottomRightCorner(below, below);
+      children[static_cast<std::size_t>(block.parent)].push_back(b);
+    }
+  }
+  return true;
+}
+
+Eigen::VectorXd SupernodalFactor::solve(const Eigen::VectorXd& right_side) const {
+  Eigen::VectorXd x(right_side.size());
+  for (std::size_t i = 0; i < position_.size(); ++i)
+    x[position_[i]] = right_side[static_cast<Eigen::Index>(i)];
+  Eigen::VectorXd outside;
+  for (const Block& block : blocks_) {
+    auto own = x.segment(block.first, block.count);
+    block.L.topRows(block.count).triangularView<Eigen::UnitLower>().solveInPlace(own);
+    outside.noalias() = block.L.bottomRows(block.L.rows() - block.count) * own;
+    for (std::size_t i = 0; i < block.rows.size(); ++i)
+      x[block.rows[i]] -= outside[static_cast<Eigen::Index>(i)];
+  }
+  x.array() /= pivots_.array();
+  for (auto block = blocks_.rbegin(); block != blocks_.rend(); ++block) {
+    auto own = x.segment(block->first, block->count);
+    outside.resize(static_cast<Eigen::Index>(block->rows.size()));
+    for (std::size_t i = 0; i < block->rows.size(); ++i)
+      outside[static_cast<Eigen::Index>(i)] = x[block->rows[i]];
+    own.noalias() -= block->L.bottomRows(outside.size()).transpose() * outside;
+    block->L.topRows(block->count).transpose().triangularView<Eigen::UnitUpper>().solveInPlace(own);
+  }
+  Eigen::VectorXd solution(right_side.size());
+  for (std::size_t i = 0; i < position_.size(); ++i)
+    solution[static_cast<Eigen::Index>(i)] = x[position_[i]];
+  return solution;
+}
+
+Eigen::MatrixXd SupernodalFactor::forward(const Eigen::MatrixXd& right_sides) const {
+  Eigen::MatrixXd x(right_sides.rows(), right_sides.cols());
+  for (std::size_t i = 0; i < position_.size(); ++i) {
+    x.row(position_[i]) = right_sides.row(static_cast<Eigen::Index>(i));
+  }
+  Eigen::MatrixXd outside;
+  for (const Block& block : blocks_) {
+    auto own = x.middleRows(block.first, block.count);
+    block.L.topRows(block.count).triangularView<Eigen::UnitLower>().solveInPlace(own);
+    outside.noalias() = block.L.bottomRows(block.L.rows() - block.count) * own;
+    for (std::size_t i = 0; i < block.rows.size(); ++i) {
+      x.row(block.rows[i]) -= outside.row(static_cast<Eigen::Index>(i));
+    }
+  }
+  return x;
+}
+
+Eigen::Index SupernodalFactor::entries() const {
+  Eigen::Index count = 0;
+  for (const Block& block : blocks_) count += block.L.size();
+  return count;
+}
+
+}  // namespace viscard

@@ -1,0 +1,72 @@
+#include "models/pillar/time/harmonic_response.h"
+
+#include "models/pillar/mesh/number_text.h"
+#include "models/pillar/time/relative_modulus.h"
+
+#include <Eigen/LU>
+#include <Eigen/SparseLU>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace viscard {
+namespace {
+
+using Complex = std::complex<double>;
+
+void require_frequency(double omega_rad_s) {
+  if (!(omega_rad_s >= 0.0) || !std::isfinite(omega_rad_s)) {
+    throw std::invalid_argument("an angular frequency of " + number_text(omega_rad_s) +
+                                " rad/s; it must be finite and not negative");
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXcd solve_harmonic(const ViscoelasticSystem& body, const Eigen::VectorXd& load,
+                                double omega_rad_s) {
+  require_frequency(omega_rad_s);
+  if (body.incompressible) {
+    throw std::invalid_argument("an incompressible body oscillates in its reduced form only");
+  }
+  const Complex s(0.0, omega_rad_s);
+  const Complex shear = relative_modulus(body.terms, &MaterialTerm::g, s);
+  const Complex bulk = relative_modulus(body.terms, &MaterialTerm::k, s);
+  Eigen::SparseMatrix<Complex> lower = body.elastic.cast<Complex>();
+  lower.coeffs() +=
+      shear * body.shear.coeffs().cast<Complex>() + bulk * body.bulk.coeffs().cast<Complex>();
+  if (body.mass.size() > 0) {
+    lower.coeffs() -= omega_rad_s * omega_rad_s * body.mass.coeffs().cast<Complex>();
+  }
+  const Eigen::SparseMatrix<Complex> upper =
+      lower.triangularView<Eigen::StrictlyLower>().transpose();
+  const Eigen::SparseMatrix<Complex> whole = lower + upper;
+  Eigen::SparseLU<Eigen::SparseMatrix<Complex>> lu(whole);
+  if (lu.info() != Eigen::Success) {
+    throw std::runtime_error("at " + number_text(omega_rad_s / (2.0 * M_PI)) +
+                             " Hz the body resonates without damping: no steady answer exists");
+  }
+  return lu.solve(load.cast<Complex>());
+}
+
+HarmonicSolver::HarmonicSolver(const ViscoelasticSystem& small)
+    : terms_(small.terms),
+      elastic_(dense(small.elastic)),
+      shear_(dense(small.shear)),
+      bulk_(dense(small.bulk)),
+      mass_(dense(small.mass)) {}
+
+Eigen::MatrixXcd HarmonicSolver::solve(double omega_rad_s, const Eigen::MatrixXcd& loads) const {
+  require_frequency(omega_rad_s);
+  const Complex s(0.0, omega_rad_s);
+  const Complex shear = relative_modulus(terms_, &MaterialTerm::g, s);
+  const Complex bulk = relative_modulus(terms_, &MaterialTerm::k, s);
+  Eigen::MatrixXcd matrix(elastic_.rows(), elastic_.cols());
+  matrix.real() =
+      elastic_ + shear.real() * shear_ + bulk.real() * bulk_ - omega_rad_s * omega_rad_s * mass_;
+  matrix.imag() = shear.imag() * shear_ + bulk.imag() * bulk_;
+  return matrix.partialPivLu().solve(loads);
+}
+
+}  // namespace viscard

@@ -1,0 +1,60 @@
+#include "models/pillar/time/readout.h"
+
+#include "models/material/hereditary.h"
+#include "models/pillar/mesh/number_text.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace viscard {
+namespace {
+
+void require_positive(double value, const char* what, bool zero_too) {
+  if (value > 0.0 || (zero_too && value == 0.0)) return;
+  throw std::invalid_argument(std::string("the readout's ") + what + " is " + number_text(value) +
+                              "; it must be positive");
+}
+
+}  // namespace
+
+void validate(const Readout& r) {
+  const bool is_charge = r.kind == ReadoutKind::kCharge;
+  require_positive(r.resistance_Ohm, "resistance", false);
+  require_positive(r.capacitance_F, is_charge ? "feedback capacitance" : "capacitance", !is_charge);
+  require_positive(r.film_leakage_s, "leakage time of the film (resistivity times permittivity)",
+                   false);
+}
+
+ReadoutFilter readout_filter(const Readout& r, double film_capacitance_F) {
+  validate(r);
+  if (r.kind == ReadoutKind::kCharge) {
+    return {film_capacitance_F / r.capacitance_F, r.resistance_Ohm * r.capacitance_F};
+  }
+  const double whole_F = film_capacitance_F + r.capacitance_F;
+  const double conductance_S = 1.0 / r.resistance_Ohm + film_capacitance_F / r.film_leakage_s;
+  return {film_capacitance_F / whole_F, whole_F / conductance_S};
+}
+
+std::complex<double> response(const ReadoutFilter& filter, double omega_rad_s) {
+  if (std::isinf(filter.time_constant_s)) return filter.gain;
+  const std::complex<double> x(0.0, omega_rad_s * filter.time_constant_s);
+  return filter.gain * (std::abs(x) > 1.0 ? 1.0 / (1.0 + 1.0 / x) : x / (1.0 + x));
+}
+
+std::vector<double> reading_of(const ReadoutFilter& filter, const std::vector<double>& time_s,
+                               const std::vector<double>& open_voltage_V) {
+  std::vector<double> reading;
+  double value = 0.0;
+  double last_V = 0.0;
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    const double dt_s = i == 0 ? 0.0 : time_s[i] - time_s[i - 1];
+    const double x = dt_s / filter.time_constant_s;
+    value = std::exp(-x) * value + filter.gain * phi1(x) * (open_voltage_V[i] - last_V);
+    last_V = open_voltage_V[i];
+    reading.push_back(value);
+  }
+  return reading;
+}
+
+}  // namespace viscard

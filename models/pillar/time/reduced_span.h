@@ -1,0 +1,61 @@
+#pragma once
+
+#include "models/pillar/system/stiffness_factor.h"
+#include "models/pillar/time/reduced_body.h"
+
+#include <Eigen/Core>
+
+#include <complex>
+
+namespace viscard {
+
+// The span that a ReducedBody is made of while it grows, with what every matrix of the body makes
+// of its basis.
+class ReducedSpan {
+ public:
+  // The body must outlive the span.
+  explicit ReducedSpan(const ViscoelasticSystem& body);
+
+  // Factors the body's stiffness at relative moduli.
+  void factor(double shear, double bulk, StiffnessFactor& factored) const;
+  const StiffnessFactor& instantaneous() const { return instantaneous_; }
+  Eigen::Index count() const { return basis_.cols(); }
+  const Eigen::MatrixXd& basis() const { return basis_; }
+  bool has_mass() const { return body_.mass.size() > 0; }
+
+  // Adds the part of v that is new; false if there is none to rounding.
+  bool add(Eigen::VectorXd v);
+
+  // (elastic + shear S + bulk B - omega^2 M) basis.
+  template <typename Scalar>
+  Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> image(Scalar shear, Scalar bulk,
+                                                              double omega2 = 0.0) const {
+    Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> sum =
+        shear_.cast<Scalar>() * shear + bulk_.cast<Scalar>() * bulk + elastic_.cast<Scalar>();
+    if (omega2 != 0.0) sum -= Scalar(omega2) * mass_.cast<Scalar>();
+    return sum;
+  }
+
+  // The same seen from the basis: basis' (elastic + shear S + bulk B - omega^2 M) basis.
+  Eigen::MatrixXcd restricted(std::complex<double> shear, std::complex<double> bulk,
+                              double omega2) const;
+  // (elastic + shear S + bulk B - omega^2 M) basis c, without forming the sum.
+  Eigen::VectorXcd image_of(std::complex<double> shear, std::complex<double> bulk, double omega2,
+                            const Eigen::VectorXcd& c) const;
+
+  // Norm of a residual in the inverse of the instantaneous stiffness.
+  double dual_norm(const Eigen::VectorXd& residual) const;
+
+  ReducedBody reduced() const;
+
+ private:
+  double energy_norm(const Eigen::VectorXd& v) const;
+
+  const ViscoelasticSystem& body_;
+  StiffnessFactor instantaneous_;
+  Eigen::MatrixXd basis_, elastic_, shear_, bulk_, mass_;  // unknowns x count()
+  // count() x count(): basis' times these.
+  Eigen::MatrixXd small_elastic_, small_shear_, small_bulk_, small_mass_;
+};
+
+}  // namespace viscard

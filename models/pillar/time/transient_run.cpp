@@ -1,0 +1,105 @@
+#include "models/pillar/time/inertial_stepper.h"
+#include "models/pillar/time/modal_response.h"
+#include "models/pillar/time/transient_stops.h"
+
+#include <unsupported/Eigen/FFT>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+Eigen::MatrixXd run_once(const ViscoelasticSystem& small, const TransientRequest& r,
+                         const std::vector<TransientPiece>& pieces,
+                         const Eigen::MatrixXd& observers, int refinement, int& steps) {
+  InertialStepper stepper(small);
+  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(observers.rows(), r.outputs + 1);
+  Eigen::Index output = 0;
+  for (const TransientPiece& piece : pieces) {
+    const int n =
+        refinement * std::max(1, static_cast<int>(std::ceil(piece.length_s / r.first_step_s)));
+    stepper.set_step(piece.length_s / n);
+    for (int i = 0; i < n; ++i) {
+      const double a = piece.first + (piece.last - piece.first) * i / n;
+      const double b = piece.first + (piece.last - piece.first) * (i + 1) / n;
+      stepper.advance(a * r.load, b * r.load);
+    }
+    steps += n;
+    if (piece.ends_with_output) values.col(++output) = observers * stepper.displacement();
+  }
+  return values;
+}
+
+double largest_change(const Eigen::MatrixXd& now, const Eigen::MatrixXd& before) {
+  double largest = 0.0;
+  for (Eigen::Index row = 0; row < now.rows(); ++row) {
+    const double size = now.row(row).cwiseAbs().maxCoeff();
+    if (size == 0.0) continue;
+    largest = std::max(largest, (now.row(row) - before.row(row)).cwiseAbs().maxCoeff() / size);
+  }
+  return largest;
+}
+
+}  // namespace
+
+TransientResult run_transient(const ViscoelasticSystem& small, const TransientRequest& r,
+                              const Eigen::MatrixXd& observers) {
+  if (!(r.end_s > 0.0) || r.outputs < 2 || !(r.first_step_s > 0.0) || r.corner_time_s.empty() ||
+      r.corner_time_s.size() != r.corner_value.size() ||
+      !std::is_sorted(r.corner_time_s.begin(), r.corner_time_s.end())) {
+    throw std::invalid_argument(
+        "a transient needs an end, at least two outputs and a load whose times do not go back");
+  }
+  return relaxes_alike(small) ? run_by_modes(small, r, observers)
+                              : run_by_steps(small, r, observers);
+}
+
+TransientResult run_by_steps(const ViscoelasticSystem& small, const TransientRequest& r,
+                             const Eigen::MatrixXd& observers) {
+  const std::vector<TransientPiece> pieces = pieces_of(r);
+  TransientResult result;
+  for (int i = 0; i <= r.outputs; ++i) result.time_s.push_back(r.end_s / r.outputs * i);
+  Eigen::MatrixXd last;
+  int refinement = 1;
+  for (int level = 0; !result.converged; ++level, refinement *= 2) {
+    const Eigen::MatrixXd run = run_once(small, r, pieces, observers, refinement, result.steps);
+    if (level > 0) {
+      const Eigen::MatrixXd better = (4.0 * run - last) / 3.0;
+      if (level > 1) {
+        result.error_estimate = largest_change(better, result.values);
+        result.converged = result.error_estimate <= r.tolerance;
+      }
+      result.values = better;
+    }
+    last = run;
+    if (!result.converged && 3 * result.steps > r.most_steps) break;
+  }
+  return result;
+}
+
+Spectrum amplitude_spectrum(const std::vector<double>& samples, double dt_s) {
+  const std::size_t n = samples.size();
+  if (n < 4 || !(dt_s > 0.0)) throw std::invalid_argument("a spectrum needs at least four samples");
+  double mean = 0.0;
+  for (const double x : samples) mean += x / static_cast<double>(n);
+  std::vector<double> windowed(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double phase = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
+    windowed[i] = (samples[i] - mean) * (1.0 - std::cos(phase));  // Hann, of mean one
+  }
+  std::vector<std::complex<double>> transform;
+  Eigen::FFT<double> fft;
+  fft.fwd(transform, windowed);
+  Spectrum spectrum;
+  for (std::size_t k = 0; k <= n / 2; ++k) {
+    spectrum.frequency_Hz.push_back(static_cast<double>(k) / (static_cast<double>(n) * dt_s));
+    spectrum.amplitude.push_back(2.0 * std::abs(transform[k]) / static_cast<double>(n));
+  }
+  return spectrum;
+}
+
+}  // namespace viscard

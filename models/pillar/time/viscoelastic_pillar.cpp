@@ -1,0 +1,72 @@
+#include "models/pillar/time/viscoelastic_pillar.h"
+
+#include <stdexcept>
+
+namespace viscard {
+
+namespace {
+
+bool is_plane_stress(const ModelOptions& options) {
+  return options.plane == PlaneState::kStress && (options.motion == Motion::kPlaneSymmetric ||
+                                                  options.motion == Motion::kPlaneAntisymmetric);
+}
+
+void require_one_relaxation(const Material& material) {
+  if (has_constant_poisson_ratio(material)) return;
+  throw std::invalid_argument(
+      "in plane stress the shear and the bulk modulus must relax alike (k = g for every term of "
+      "the "
+      "Prony series); use plane strain or the cylinder instead");
+}
+
+}  // namespace
+
+ViscoelasticSystem viscoelastic_system(const PillarModel& model, const Material& material,
+                                       bool with_mass) {
+  const DiscreteSystem& discrete = model.system();
+  const DerivedModuli moduli = derived_moduli(material);
+  const std::vector<OperatorRow>& strain = discrete.kinematics().strain;
+  const SymmetricSparse whole = model.stiffness();
+  ViscoelasticSystem system;
+  system.terms = material.terms;
+  if (is_plane_stress(model.options()) && material.nu < 0.5) {
+    require_one_relaxation(material);
+    const Matrix6d& c_Pa = model.medium(kPillarRegion).stiffness_Pa;
+    system.shear = discrete.form(strain, {plane_stress_moduli(c_Pa), {}});
+    system.bulk = discrete.zero();
+  } else if (is_plane_stress(model.options())) {
+    system.shear = whole;  // incompressible: only the shear modulus is left in plane stress
+    if (model.geometry().film) {
+      throw std::invalid_argument("an incompressible strip in plane stress cannot stand on a film");
+    }
+    system.bulk = discrete.zero();
+  } else {
+    system.incompressible = material.nu == 0.5;
+    system.shear = discrete.form(strain, {moduli.G0_Pa * deviatoric_form(), {}});
+    const double bulk_Pa = system.incompressible ? kPenaltyOverShear * moduli.G0_Pa : moduli.K0_Pa;
+    system.bulk = discrete.volume_form({bulk_Pa, 0.0}, material.nu >= kNearlyIncompressible);
+  }
+  system.elastic = discrete.zero();
+  if (model.geometry().film) {
+    system.elastic.coeffs() = whole.coeffs() - system.shear.coeffs() - system.bulk.coeffs();
+  }
+  if (with_mass) system.mass = model.mass();
+  return system;
+}
+
+ViscoelasticPillar::ViscoelasticPillar(const PillarGeometry& geometry,
+                                       const Discretisation& discretisation,
+                                       const Material& material, TopLoad top,
+                                       const std::optional<Medium>& film) {
+  validate(material);
+  model_ = std::make_unique<PillarModel>(
+      geometry, discretisation,
+      PillarMedia{isotropic_medium(material.E0_Pa, material.nu, material.rho_kg_m3), film},
+      ModelOptions{.rigid_top = top == TopLoad::kRigidPlate});
+  system_ = viscoelastic_system(*model_, material, /*with_mass=*/false);
+  const Eigen::VectorXd traction = model_->top_traction();
+  top_area_m2_ = traction.sum();
+  system_.load = traction / top_area_m2_;
+}
+
+}  // namespace viscard

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "models/material/material.h"
+#include "models/pillar/body/pillar_model.h"
+#include "models/pillar/time/viscoelastic_system.h"
+
+#include <memory>
+#include <optional>
+
+namespace viscard {
+
+// Stiffness (and, with_mass, mass) of any model of one pillar of a viscoelastic material: any
+// family of motion, with or without film and electrodes, whose part is elastic. The model must have
+// been made with the material's instantaneous moduli; the load is left empty. Throws
+// std::invalid_argument for plane stress with shear and bulk moduli that relax differently, where
+// the condensed moduli are no sum of the two.
+ViscoelasticSystem viscoelastic_system(const PillarModel& model, const Material& material,
+                                       bool with_mass);
+
+// How the top of the pillar is loaded along its axis.
+enum class TopLoad {
+  kRigidPlate,  // a rigid frictionless plate: one displacement
+  kPressure     // uniform pressure, free top: load.u is the mean displacement
+};
+
+// Longitudinal (m = 0) model of a pillar of one viscoelastic material, on a rigid base or an
+// elastic film. The unit load is a pull of 1 N along +z, so load.u is the (mean) axial displacement
+// of the top in m.
+class ViscoelasticPillar {
+ public:
+  // `film` is needed exactly when the geometry has one. Throws std::invalid_argument for
+  // a bad geometry or material. Near nu = 0.5 (from 0.45) pressures are condensed, see
+  // volume_form().
+  ViscoelasticPillar(const PillarGeometry& geometry, const Discretisation& discretisation,
+                     const Material& material, TopLoad top,
+                     const std::optional<Medium>& film = std::nullopt);
+
+  const ViscoelasticSystem& system() const { return system_; }
+  const PillarModel& model() const { return *model_; }
+  double top_area_m2() const { return top_area_m2_; }
+
+ private:
+  std::unique_ptr<PillarModel> model_;
+  ViscoelasticSystem system_;
+  double top_area_m2_ = 0.0;
+};
+
+}  // namespace viscard

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "models/material/material.h"
+#include "models/pillar/system/discrete_system.h"
+#include "models/pillar/system/stiffness_factor.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace viscard {
+
+// Matrices of a body in which one viscoelastic material may stand on elastic ones:
+//   force(t) = elastic u + int [G(t-s)/G_0 shear + K(t-s)/K_0 bulk] du(s)   (eq. 16)
+// with the instantaneous moduli in `shear` (G_0) and `bulk` (K_0), all on one pattern.
+struct ViscoelasticSystem {
+  SymmetricSparse elastic;
+  SymmetricSparse shear;
+  SymmetricSparse bulk;  // an incompressible body: the volume form times a penalty modulus
+  bool incompressible = false;
+  SymmetricSparse mass;  // empty: quasi-static
+  std::vector<MaterialTerm> terms;
+  Eigen::VectorXd load;  // force vector of a unit load; load.u is the displacement it works on
+};
+
+// elastic + shear_factor shear + bulk_factor bulk; an incompressible body's penalty keeps factor 1.
+SymmetricSparse stiffness_at(const ViscoelasticSystem& system, double shear_factor,
+                             double bulk_factor);
+
+enum class Control { kForce, kDisplacement };
+
+// Steps the body with internal variables d_i = int exp(-(t-s)/tau_i) du(s), which the recursion
+//   d_i <- exp(-x) d_i + sum_m weight_m(x) (increment of step m), x = dt/tau_i   (eq. 17)
+// integrates exactly, whatever x, for displacement that is a polynomial through the last `order` +
+// 1 points: order 1 is the usual recursion for strain linear per step, exact for relaxation at
+// constant Poisson ratio. For steps that outrun all relaxation times it becomes the backward
+// differentiation formula of that order. Sources: Taylor, Pister & Goudreau, IJNME 2 (1970) 45;
+// Simo & Hughes, Computational Inelasticity (1998), ch. 10; Hairer & Wanner, Solving ODEs II
+// (1996), V.1.
+class ViscoelasticStepper {
+ public:
+  // The system must outlive the stepper.
+  explicit ViscoelasticStepper(const ViscoelasticSystem& system, int order = 1);
+
+  // A step of dt_s >= 0 to the given multiple of the unit load, or to the given load.u; dt_s = 0 is
+  // a jump. Factors the matrix anew only when dt_s differs from the last step's. Throws
+  // std::invalid_argument if dt_s < 0 or not finite.
+  void advance(double dt_s, Control control, double value);
+
+  // Forgets the earlier points of the polynomial: the rate of loading is about to jump.
+  void start_anew() { earlier_s_.clear(); }
+
+  double force() const { return force_; }  // multiple of load
+  double displacement() const { return system_->load.dot(displacement_vector_); }  // load.u
+  const Eigen::VectorXd& displacement_vector() const { return displacement_vector_; }
+  int factorisations() const { return factorisations_; }
+
+ private:
+  void prepare(double dt_s);
+  void remember(double dt_s, const Eigen::VectorXd& increment);
+
+  const ViscoelasticSystem* system_;
+  SymmetricSparse matrix_;
+  StiffnessFactor factor_;
+  int order_;
+  std::vector<double>
+      factored_s_;  // lengths of the new step and those before it at the last factoring
+  std::vector<double> earlier_s_;  // lengths of earlier steps in use, latest first
+  Eigen::MatrixXd increments_;     // unknowns x (order - 1): their increments of displacement
+  Eigen::VectorXd decay_;          // exp(-x_i)
+  Eigen::MatrixXd weights_;        // steps x terms
+  Eigen::VectorXd g_, k_;          // relative moduli
+  Eigen::VectorXd load_response_;  // matrix^-1 load
+  Eigen::MatrixXd memory_;         // unknowns x terms, d_i
+  Eigen::VectorXd displacement_vector_;
+  double force_ = 0.0;
+  int factorisations_ = 0;
+};
+
+}  // namespace viscard

@@ -1,0 +1,218 @@
+#include "rig/cells/gauge_load_cell.h"
+
+#include "models/maths/text_of_number.h"
+#include "rig/lines/rig_error.h"
+#include "rig/protocols/scpi_protocol.h"
+#include "rig/protocols/text_number.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr double kAnswer_wall_s = 0.5;  // longest wait for a reading at the rate declared
+constexpr double kQuiet_wall_s = 0.15;  // no byte for so long: whatever was late has come
+constexpr double kPause_wall_s = 0.05;  // between lines of the opening: no flow control
+constexpr double kText_wall_s = 2.0;    // identity and the like; a self-test takes that long
+constexpr int kFirstTries = 6;
+constexpr int kMostSilent = 10;
+constexpr int kMostRefused = 5;
+constexpr double kGapInPeriods = 2.5;  // answers jitter more than a stream does
+
+}  // namespace
+
+GaugeLoadCell::GaugeLoadCell(Transport& transport, const LoadCellConfig& config,
+                             const RigClock& clock, RecordSink sink)
+    : transport_(transport),
+      protocol_(gauge_protocol(config)),
+      clock_(clock),
+      sink_(std::move(sink)),
+      period_s_(1.0 / config.expected_rate_Hz) {}
+
+GaugeLoadCell::~GaugeLoadCell() {
+  if (protocol_.closing.empty()) return;
+  try {
+    transport_.write(protocol_.closing);
+  } catch (...) {
+    // Gone: nothing to give back.
+  }
+}
+
+void GaugeLoadCell::send(const std::string& words) {
+  sink_(RawBytes{Device::kLoadCell, true, clock_.now_s(), words});
+  transport_.write(words);
+}
+
+void GaugeLoadCell::wait_quiet(const Pump& pump, double wall_s) {
+  const double until_s = monotonic_s() + wall_s;
+  while (monotonic_s() < until_s) pump();
+}
+
+// One question whose answer is a line of text; nothing if none comes.
+std::optional<std::string> GaugeLoadCell::ask_text(const std::string& query, const Pump& pump) {
+  text_answer_.reset();
+  awaits_text_ = true;
+  send(query);
+  const double until_s = monotonic_s() + kText_wall_s;
+  while (!text_answer_ && monotonic_s() < until_s) pump();
+  awaits_text_ = false;
+  return text_answer_;
+}
+
+void GaugeLoadCell::connect(const Pump& pump) {
+  for (const std::string& words : protocol_.opening) {
+    send(words);
+    wait_quiet(pump, kPause_wall_s);
+  }
+  if (!protocol_.identity_query.empty()) {
+    identity_ = ask_text(protocol_.identity_query, pump).value_or("");
+  }
+  if (!protocol_.error_query.empty()) {
+    const auto text = ask_text(protocol_.error_query, pump);
+    const auto error = text ? parse_scpi_error(*text) : std::nullopt;
+    if (error && error->code != 0) {
+      throw RigError("the instrument on '" + transport_.name() +
+                     "' refused its setup: " + error->text + " (" + std::to_string(error->code) +
+                     "). Set another dialect under [load_cell] of the rig file");
+    }
+  }
+  wait_quiet(pump, kQuiet_wall_s);
+  is_connected_ = true;
+  const double until_s = monotonic_s() + kFirstTries * (kAnswer_wall_s + kQuiet_wall_s);
+  while (counts_.received == 0 && monotonic_s() < until_s) pump();
+  if (counts_.received > 0) return;
+  is_connected_ = false;
+  const bool is_noise = splitter_.n_bytes() > 5 && splitter_.unprintable_fraction() > 0.2;
+  const std::string words = identity_.empty() ? "" : " (it calls itself '" + identity_ + "')";
+  throw RigError("no reading came from the " + protocol_.name + " instrument on '" +
+                 transport_.name() + "'" + words + ". " +
+                 (is_noise ? "What came is mostly unreadable: are baud and framing right?"
+                           : "Is this its port, is it switched on, and is its interface set to "
+                             "RS-232 with the baud rate of the rig file?"));
+}
+
+void GaugeLoadCell::service() {
+  const Chunk chunk = transport_.read_available();
+  if (!chunk.bytes.empty()) feed(chunk);
+  if (is_connected_) ask_if_due();
+}
+
+void GaugeLoadCell::feed(const Chunk& chunk) {
+  sink_(RawBytes{Device::kLoadCell, false, chunk.time_s, chunk.bytes});
+  quiet_since_s_ = chunk.time_s;
+  if (protocol_.fixed_length == 0) {
+    splitter_.feed(chunk.bytes, chunk.time_s, 10.0 / transport_.baud());
+    while (const auto line = splitter_.next()) {
+      if (!trimmed(line->text).empty()) take_answer(line->text, line->time_s);
+    }
+    return;
+  }
+  begun_ += chunk.bytes;
+  if (begun_.size() < protocol_.fixed_length) return;
+  const std::string answer = std::exchange(begun_, "");
+  // More bytes than an answer has: out of step, so nothing of them can be told apart.
+  take_answer(answer, chunk.time_s);
+}
+
+void GaugeLoadCell::take_answer(const std::string& text, double time_s) {
+  if (awaits_text_) {
+    text_answer_ = std::string(trimmed(text));
+    return;
+  }
+  if (!is_connected_) return;
+  if (trimmed(text) == trimmed(protocol_.query)) return;  // adapters that echo
+  if (!asked_s_ || waits_for_quiet_) {
+    ++counts_.duplicate;
+    sink_(RunEvent{time_s, "load_cell_late", text.substr(0, 80),
+                   "An answer of the load cell to no open question was left out"});
+    return;
+  }
+  const auto answer = protocol_.parse(text);
+  if (!answer) return note_unreadable(text, time_s);
+  if (!answer->error.empty()) {
+    asked_s_.reset();
+    if (++n_refused_ >= kMostRefused) {
+      throw RigError("the force gauge on '" + transport_.name() + "' refuses to answer: '" +
+                     answer->error + "'. Set its interface as the rig file says");
+    }
+    return;
+  }
+  if (unit_ && *unit_ != answer->unit) {
+    throw RigError("the load cell changed its unit from '" + *unit_ + "' to '" + answer->unit +
+                   "' in the middle of the run. Set it back, then start the run again");
+  }
+  unit_ = answer->unit;
+  n_silent_ = n_refused_ = 0;
+  hand_out(*answer, time_s);
+}
+
+void GaugeLoadCell::note_unreadable(const std::string& text, double time_s) {
+  ++counts_.unreadable;
+  asked_s_.reset();
+  waits_for_quiet_ = true;
+  sink_(RunEvent{time_s, "load_cell_unreadable", text.substr(0, 80),
+                 "A line from the load cell is no reading"});
+}
+
+void GaugeLoadCell::hand_out(const GaugeAnswer& answer, double time_s) {
+  LoadSample sample;
+  sample.host_time_s = time_s;
+  sample.device_time_s = asked_s_;
+  sample.volts = answer.volts;
+  sample.force_N = answer.force_N;
+  sample.is_saturated = answer.is_overload;
+  counts_.saturated += answer.is_overload ? 1 : 0;
+  shortest_turn_s_ = std::min(shortest_turn_s_, time_s - *asked_s_);
+  asked_s_.reset();
+  if (counts_.received > 0) {
+    const double step_s = time_s - last_arrival_s_;
+    if (step_s > counts_.longest_gap_s) {
+      counts_.longest_gap_s = step_s;
+      counts_.longest_gap_at_s = time_s;
+    }
+    if (step_s > kGapInPeriods * period_s_ + clock_.from_wall_s(0.1)) {
+      const auto n_missing = static_cast<std::int64_t>(std::llround(step_s / period_s_)) - 1;
+      counts_.missing += n_missing;
+      sink_(RunEvent{
+          time_s, "gap", text_from_number(step_s, 6),
+          counted(static_cast<std::size_t>(n_missing), "reading") + " of the load cell missing"});
+    } else {
+      period_s_ += 0.05 * (step_s - period_s_);
+    }
+  }
+  last_arrival_s_ = time_s;
+  sample.index = counts_.received++;
+  sink_(sample);
+  if (listener_) listener_(sample);
+}
+
+void GaugeLoadCell::ask_if_due() {
+  const double now_s = clock_.now_s();
+  if (waits_for_quiet_) {
+    if (now_s - quiet_since_s_ < clock_.from_wall_s(kQuiet_wall_s)) return;
+    waits_for_quiet_ = false;
+    begun_.clear();
+  }
+  if (asked_s_) {
+    const double longest_s = std::max(clock_.from_wall_s(kAnswer_wall_s), 5.0 * period_s_);
+    if (now_s - *asked_s_ < longest_s) return;
+    asked_s_.reset();
+    waits_for_quiet_ = true;
+    quiet_since_s_ = now_s;
+    if (++n_silent_ >= kMostSilent) {
+      throw RigError("the load cell on '" + transport_.name() +
+                     "' has stopped answering. Check its cable and supply");
+    }
+    return;
+  }
+  asked_s_ = now_s;
+  send(protocol_.query);
+}
+
+double GaugeLoadCell::made_at_s(const LoadSample& sample) const {
+  return sample.device_time_s ? *sample.device_time_s + shortest_turn_s_ : sample.host_time_s;
+}
+
+}  // namespace viscard

@@ -1,0 +1,314 @@
+#include "rig/cells/hx711_load_cell.h"
+
+#include "models/maths/text_of_number.h"
+#include "rig/lines/rig_error.h"
+#include "rig/protocols/force_unit.h"
+#include "rig/protocols/text_number.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr double kFirstReading_wall_s = 15.0;  // banner and tare chatter last up to 10 s
+constexpr std::size_t kLinesToLearn = 6;
+constexpr double kLateness_wall_s = 0.3;  // of a line, by stalls of either side
+constexpr double kGapInPeriods = 1.5;
+constexpr double kBurst = 0.5;  // of a period: readings closer together were held up
+constexpr double kLargest_V = 100.0;
+
+Hx711Format declared_format(const LoadCellConfig& config) {
+  const auto format = hx711_format_from_word(config.line_format);
+  if (!format) {
+    throw RigError("load cell line_format '" + config.line_format +
+                   "' is unknown; there are auto, counts, micros,counts, millis,counts, volts");
+  }
+  return *format;
+}
+
+// Counts printed as floating-point numbers, such as a mean "20386.0": no amplifier of a load cell
+// gives 100 V, and noise never makes whole volts.
+bool are_counts(const std::vector<double>& values) {
+  const auto is_large = [](double value) { return std::abs(value) > kLargest_V; };
+  const auto is_whole = [](double value) { return value == std::floor(value); };
+  const bool is_constant =
+      std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
+  return std::any_of(values.begin(), values.end(), is_large) ||
+         (!is_constant && std::all_of(values.begin(), values.end(), is_whole));
+}
+
+// The shape that all of these lines have, by how the first number grows; nothing if they have none.
+std::optional<Hx711Format> learnt_format(const std::vector<ReceivedLine>& lines, double rate_Hz) {
+  std::vector<double> ticks;
+  std::vector<double> values;
+  bool is_integer = true;
+  bool is_plain = true;
+  for (const ReceivedLine& line : lines) {
+    const auto timed = parse_hx711_line(line.text, true);
+    if (timed) ticks.push_back(*timed->ticks);
+    const auto plain = parse_hx711_line(line.text, false);
+    is_plain = is_plain && plain.has_value();
+    is_integer = is_integer && plain && plain->is_integer;
+    if (plain && plain->value) values.push_back(*plain->value);
+  }
+  if (ticks.size() == lines.size()) {
+    const double step = (ticks.back() - ticks.front()) / static_cast<double>(ticks.size() - 1);
+    const auto is_about = [&](double expected) {
+      return step > 0.3 * expected && step < 3.0 * expected;
+    };
+    if (is_about(1e6 / rate_Hz)) return Hx711Format::kMicrosCounts;
+    if (is_about(1e3 / rate_Hz)) return Hx711Format::kMillisCounts;
+  }
+  if (!is_plain) return std::nullopt;
+  return is_integer || are_counts(values) ? Hx711Format::kCounts : Hx711Format::kVolts;
+}
+
+}  // namespace
+
+Hx711LoadCell::Hx711LoadCell(Transport& transport, const LoadCellConfig& config,
+                             const RigClock& clock, RecordSink sink, double patience)
+    : transport_(transport),
+      clock_(clock),
+      sink_(std::move(sink)),
+      patience_(patience),
+      format_(declared_format(config)),
+      period_s_(1.0 / config.expected_rate_Hz),
+      declared_unit_(config.unit) {
+  if (!config.unit.empty() && !newtons_per_unit(config.unit)) {
+    throw RigError("unit '" + config.unit +
+                   "' under [load_cell] of the rig file is unknown; there are N, mN, g, kg, lb");
+  }
+}
+
+void Hx711LoadCell::connect(const Pump& pump) {
+  const double deadline_s = monotonic_s() + patience_ * kFirstReading_wall_s;
+  while (!is_connected_ && monotonic_s() < deadline_s) pump();
+  if (is_connected_) return;
+  const std::string where = "'" + transport_.name() + "'";
+  if (splitter_.n_bytes() == 0) {
+    throw RigError("nothing came from the load cell on " + where +
+                   ". Is this its port, and is the amplifier switched on?");
+  }
+  if (splitter_.unprintable_fraction() > 0.2) {
+    throw RigError("what comes from the load cell on " + where +
+                   " is mostly unreadable: is the baud rate of " +
+                   std::to_string(transport_.baud()) + " right?");
+  }
+  throw RigError("no readings could be made out on " + where + "; a line was '" +
+                 (first_lines_.empty() ? std::string() : first_lines_.back().text.substr(0, 60)) +
+                 "'. Set line_format in the rig file: counts, micros,counts, millis,counts, volts");
+}
+
+void Hx711LoadCell::service() {
+  const Chunk chunk = transport_.read_available();
+  if (!chunk.bytes.empty()) {
+    sink_(RawBytes{Device::kLoadCell, false, chunk.time_s, chunk.bytes});
+    splitter_.feed(chunk.bytes, chunk.time_s, 10.0 / transport_.baud());
+  }
+  while (const auto line = splitter_.next()) take_line(*line);
+}
+
+void Hx711LoadCell::take_line(const ReceivedLine& line) {
+  // What came first may be the second half of a line.
+  if (!std::exchange(is_past_first_line_, true) || trimmed(line.text).empty()) return;
+  if (is_hx711_fault(line.text)) {
+    throw RigError("the amplifier on '" + transport_.name() + "' says '" + line.text.substr(0, 60) +
+                   "'. Check the wires between it and its HX711");
+  }
+  if (!is_connected_) return learn(line);
+  const auto reading = parse_hx711_line(line.text, has_clock());
+  // A new unit has a shape of its own, and is told apart below; so has "ovf".
+  const bool is_judged = reading && reading->value && reading->unit == unit_;
+  if (reading && (!is_judged || shape_.fits(line.text))) {
+    take_reading(*reading, line.time_s);
+  } else {
+    take_text(line);
+  }
+}
+
+void Hx711LoadCell::learn(const ReceivedLine& line) {
+  first_lines_.push_back(line);
+  if (first_lines_.size() > kLinesToLearn) first_lines_.erase(first_lines_.begin());
+  if (first_lines_.size() < kLinesToLearn) return;
+  const bool is_declared = format_ != Hx711Format::kAuto;
+  const auto fits = [&](const ReceivedLine& text) {
+    return parse_hx711_line(text.text, has_clock()).has_value();
+  };
+  if (is_declared) {
+    if (!std::all_of(first_lines_.begin(), first_lines_.end(), fits)) return;
+  } else {
+    const auto learnt = learnt_format(first_lines_, 1.0 / period_s_);
+    if (!learnt) return;
+    format_ = *learnt;
+  }
+  if (has_clock()) {
+    device_clock_.emplace(format_ == Hx711Format::kMicrosCounts ? 1e-6 : 1e-3,
+                          clock_.from_wall_s(kLateness_wall_s));
+    // The last of them, so that a restart right after is noticed.
+    const auto last = parse_hx711_line(line.text, true);
+    if (last) device_clock_->take(*last->ticks, line.time_s, period_s_);
+  }
+  last_arrival_s_ = line.time_s;
+  is_connected_ = true;
+}
+
+// A sentence in the middle of a run is a banner if the readings had paused, and garbage otherwise.
+void Hx711LoadCell::take_text(const ReceivedLine& line) {
+  ++counts_.unreadable;
+  const auto n_letters = std::count_if(line.text.begin(), line.text.end(),
+                                       [](unsigned char c) { return std::isalpha(c) != 0; });
+  if (n_letters >= 4) {
+    banner_ = line.text.substr(0, 40);
+    throw_if_restarted(line.time_s);
+  }
+  sink_(RunEvent{line.time_s, "load_cell_unreadable", line.text.substr(0, 80),
+                 "A line from the load cell is no reading"});
+}
+
+// A banner within a pause: the pause may come before it (it was switched off) or behind it (it
+// starts its converter and takes its tare).
+void Hx711LoadCell::throw_if_restarted(double time_s) const {
+  const double pause_s = clock_.from_wall_s(0.3) + 10 * period_s_;
+  if (banner_.empty() || time_s - last_arrival_s_ <= pause_s) return;
+  throw DeviceRestarted("the load cell's amplifier restarted in the middle of the run ('" +
+                        banner_ +
+                        "'); its tare is gone. Check its supply, then start the run again");
+}
+
+void Hx711LoadCell::take_reading(const Hx711Line& reading, double time_s) {
+  throw_if_restarted(time_s);
+  banner_.clear();
+  if (counts_.received > 0 && reading.unit != unit_) {
+    throw RigError("the load cell changed its unit from '" + unit_ + "' to '" + reading.unit +
+                   "' in the middle of the run. Set it back, then start the run again");
+  }
+  unit_ = reading.unit;
+  if (reading.ticks && device_clock_) {
+    if (!take_clock(*reading.ticks, time_s)) return;
+  } else if (counts_.received > 0) {
+    take_arrival(time_s);
+  }
+  hand_out(reading, time_s);
+}
+
+// Of a stream without a clock. What comes in one burst behind a gap was not missing but held up: by
+// the machine, its adapter, or the amplifier's own buffer.
+void Hx711LoadCell::take_arrival(double time_s) {
+  const double step_s = time_s - last_arrival_s_;
+  if (n_owed_ > 0 && step_s < kBurst * period_s_) {
+    --n_owed_;
+    --counts_.missing;
+    ++n_late_;
+    return;
+  }
+  if (n_late_ > 0) {
+    sink_(RunEvent{time_s, "late", std::to_string(n_late_),
+                   std::to_string(n_late_) +
+                       " readings said to be missing had only been held up: they came in a burst"});
+  }
+  n_late_ = 0;
+  note_gap(step_s, time_s);
+  n_owed_ = last_missing_;
+}
+
+// False if the line is to be left out.
+bool Hx711LoadCell::take_clock(double ticks, double time_s) {
+  switch (device_clock_->take(ticks, time_s, period_s_)) {
+    case DeviceClock::Verdict::kDuplicate:
+      ++counts_.duplicate;
+      return false;
+    case DeviceClock::Verdict::kSuspect:
+      ++counts_.unreadable;
+      sink_(RunEvent{time_s, "load_cell_unreadable", text_from_number(ticks, 0),
+                     "A reading whose clock does not fit was left out"});
+      return false;
+    case DeviceClock::Verdict::kRestarted:
+      throw DeviceRestarted(
+          "the load cell's amplifier restarted in the middle of the run (its clock began anew); "
+          "its tare is gone. Check its supply, then start the run again");
+    case DeviceClock::Verdict::kLastWasBad:
+      doubt_last(time_s);
+      break;
+    case DeviceClock::Verdict::kGood:
+      break;
+  }
+  const double step_s = device_clock_->step_s();
+  if (counts_.received > 0) note_gap(step_s, time_s);
+  // The converter's own oscillator is several percent off: its period is followed.
+  if (step_s > 0.7 * period_s_ && step_s < 1.3 * period_s_)
+    period_s_ += 0.02 * (step_s - period_s_);
+  return true;
+}
+
+// The time of the reading before was garbled so that it seemed to follow a gap.
+void Hx711LoadCell::doubt_last(double time_s) {
+  const std::int64_t index = counts_.received - 1;
+  ++counts_.implausible;
+  counts_.missing -= last_missing_;
+  sink_(RunEvent{time_s, "implausible", std::to_string(index),
+                 "Reading " + std::to_string(index) +
+                     " of the load cell came with a time that the next one contradicts"});
+}
+
+void Hx711LoadCell::note_gap(double step_s, double time_s) {
+  last_missing_ = 0;
+  if (step_s > counts_.longest_gap_s) {
+    counts_.longest_gap_s = step_s;
+    counts_.longest_gap_at_s = time_s;
+  }
+  // Without a device clock a late line looks like a lost one: only a long silence counts.
+  const double least_s =
+      device_clock_ ? kGapInPeriods * period_s_
+                    : std::max(kGapInPeriods * period_s_, 3 * period_s_ + clock_.from_wall_s(0.1));
+  if (step_s <= least_s) return;
+  const auto n_missing = static_cast<std::int64_t>(std::llround(step_s / period_s_)) - 1;
+  counts_.missing += n_missing;
+  last_missing_ = n_missing;
+  sink_(RunEvent{
+      time_s, "gap", text_from_number(step_s, 6),
+      counted(static_cast<std::size_t>(n_missing), "reading") + " of the load cell missing"});
+}
+
+void Hx711LoadCell::hand_out(const Hx711Line& reading, double time_s) {
+  LoadSample sample;
+  sample.index = counts_.received++;
+  sample.host_time_s = time_s;
+  if (device_clock_) sample.device_time_s = device_clock_->time_s();
+  last_arrival_s_ = time_s;
+  const std::string& unit = reading.unit.empty() ? declared_unit_ : reading.unit;
+  if (!unit.empty()) {
+    if (reading.value) sample.force_N = *reading.value * newtons_per_unit(unit).value_or(1.0);
+  } else if (format_ == Hx711Format::kVolts) {
+    sample.volts = reading.value;
+  } else {
+    sample.counts = reading.value;
+  }
+  if (sample.counts) {
+    sample.is_saturated = is_hx711_saturated(*sample.counts);
+    sample.is_glitch = is_hx711_glitch(*sample.counts, previous_counts_);
+    if (!sample.is_glitch) previous_counts_ = sample.counts;
+  } else if (!sample.volts && !sample.force_N) {
+    sample.is_saturated = true;  // "ovf", "inf": it says itself that this is no reading
+  }
+  counts_.saturated += sample.is_saturated ? 1 : 0;
+  counts_.glitch += sample.is_glitch ? 1 : 0;
+  sink_(sample);
+  if (listener_) listener_(sample);
+}
+
+std::string Hx711LoadCell::reads_as() const {
+  const std::string& unit = unit_.empty() ? declared_unit_ : unit_;
+  if (!unit.empty()) return unit;
+  return format_ == Hx711Format::kVolts ? "volts" : "counts";
+}
+
+double Hx711LoadCell::made_at_s(const LoadSample& sample) const {
+  if (!sample.device_time_s || !device_clock_) return sample.host_time_s;
+  return *sample.device_time_s + device_clock_->host_minus_device_s();
+}
+
+}  // namespace viscard

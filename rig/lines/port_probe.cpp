@@ -1,0 +1,153 @@
+#include "rig/lines/port_probe.h"
+
+#include "rig/lines/rig_error.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+namespace viscard {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string present_ports_text() {
+  const std::vector<std::string> ports = present_ports();
+  if (ports.empty()) return "No serial port is present: is the device plugged in and switched on?";
+  std::string text = "Present now:";
+  for (const std::string& port : ports) text += " " + port;
+  return text;
+}
+
+std::string trouble_text(const std::string& path, int error) {
+  switch (error) {
+    case ENOENT:
+    case ENODEV:
+    case ENXIO:
+      return "there is no port '" + path + "'. " + present_ports_text();
+    case EACCES:
+    case EPERM:
+      return "no permission to open '" + path +
+             "'. Join the group that owns it (sudo usermod -aG dialout $USER), log in "
+             "again, and retry";
+    case EBUSY:
+    case EWOULDBLOCK:
+      return "'" + path + "' is in use by another program (fuser " + path +
+             " names it). Close that program, or wait for its run to end";
+    default:
+      return "'" + path + "' cannot be opened: " + std::strerror(error) +
+             ". Unplug the device, plug it in again, and retry";
+  }
+}
+
+[[noreturn]] void throw_for(const std::string& path, int error) {
+  throw RigError(trouble_text(path, error));
+}
+
+bool holds(const fs::path& process, const fs::path& device) {
+  std::error_code error;
+  fs::directory_iterator entry(process / "fd", error);
+  while (!error && entry != fs::directory_iterator()) {
+    std::error_code ignored;  // closed meanwhile
+    if (fs::read_symlink(entry->path(), ignored) == device) return true;
+    entry.increment(error);
+  }
+  return false;
+}
+
+// A program that has the device open and lets us see that, or 0.
+long holder_of(const fs::path& device) {
+  std::error_code error;
+  fs::directory_iterator process("/proc", error);
+  while (!error && process != fs::directory_iterator()) {
+    const std::string pid = process->path().filename().string();
+    const bool is_number = pid.find_first_not_of("0123456789") == std::string::npos;
+    if (is_number && holds(process->path(), device)) return std::stol(pid);
+    process.increment(error);
+  }
+  return 0;
+}
+
+const char* kind_of_file(mode_t mode) {
+  if (S_ISREG(mode)) return "a regular file";
+  if (S_ISDIR(mode)) return "a folder";
+  if (S_ISFIFO(mode)) return "a pipe";
+  if (S_ISSOCK(mode)) return "a socket";
+  return "a device without a serial line";
+}
+
+}  // namespace
+
+std::vector<std::string> present_ports() {
+  std::vector<std::string> ports;
+  std::vector<std::string> covered;  // devices that a stable name already stands for
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator("/dev/serial/by-id", ignored)) {
+    ports.push_back(entry.path().string());
+    covered.push_back(fs::weakly_canonical(entry.path(), ignored).string());
+  }
+  for (const auto& entry : fs::directory_iterator("/dev", ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("ttyUSB", 0) != 0 && name.rfind("ttyACM", 0) != 0) continue;
+    const std::string path = entry.path().string();
+    if (std::find(covered.begin(), covered.end(), path) == covered.end()) ports.push_back(path);
+  }
+  std::sort(ports.begin(), ports.end());
+  return ports;
+}
+
+PortStatus port_status(const std::string& path) {
+  PortStatus result{path, path, ""};
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) {
+    result.trouble = trouble_text(path, errno);
+    return result;
+  }
+  std::error_code ignored;
+  const fs::path device = fs::weakly_canonical(path, ignored);
+  result.device = device.string();
+  if (!S_ISCHR(status.st_mode)) {
+    result.trouble = "'" + path + "' is " + kind_of_file(status.st_mode) + ", not a serial port";
+  } else if (access(path.c_str(), R_OK | W_OK) != 0) {
+    result.trouble = trouble_text(path, errno);
+  } else if (const long pid = holder_of(device); pid != 0 && pid != getpid()) {
+    result.trouble = "in use by process " + std::to_string(pid) +
+                     ". Close that program, or wait for its run to end";
+  }
+  return result;
+}
+
+int open_exclusively(const std::string& path) {
+  if (path.empty()) {
+    throw RigError("no port is given: set port = \"/dev/serial/by-id/...\" in the rig file. " +
+                   present_ports_text());
+  }
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) throw_for(path, errno);
+  if (!S_ISCHR(status.st_mode)) {
+    throw RigError("'" + path + "' is " + kind_of_file(status.st_mode) + ", not a serial port. " +
+                   present_ports_text());
+  }
+  const int descriptor = open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) throw_for(path, errno);
+  if (isatty(descriptor) != 1) {
+    close(descriptor);
+    throw RigError("'" + path + "' is " + kind_of_file(status.st_mode) + ", not a serial port. " +
+                   present_ports_text());
+  }
+  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    const int error = errno;
+    close(descriptor);
+    throw_for(path, error);
+  }
+  return descriptor;
+}
+
+}  // namespace viscard

@@ -1,0 +1,190 @@
+#include "rig/protocols/grbl_protocol.h"
+
+#include "rig/protocols/text_number.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+bool starts_with_nocase(std::string_view text, std::string_view lower_prefix) {
+  if (text.size() < lower_prefix.size()) return false;
+  return std::equal(lower_prefix.begin(), lower_prefix.end(), text.begin(), [](char a, char b) {
+    return a == static_cast<char>(std::tolower(static_cast<unsigned char>(b)));
+  });
+}
+
+std::vector<double> numbers(std::string_view text) {
+  std::vector<double> values;
+  for (const std::string_view part : split(text, ',')) {
+    const auto value = number_from_text(part);
+    if (!value) return {};
+    values.push_back(*value);
+  }
+  return values;
+}
+
+std::optional<int> code_after(std::string_view line, std::string_view lower_prefix) {
+  line = trimmed(line);
+  if (!starts_with_nocase(line, lower_prefix)) return std::nullopt;
+  const auto code = integer_from_text(line.substr(lower_prefix.size()));
+  if (!code || *code < 0 || *code > 255) return std::nullopt;
+  return static_cast<int>(*code);
+}
+
+// The inside of "[KEY:inside]".
+std::optional<std::string_view> bracketed(std::string_view line, std::string_view key) {
+  line = trimmed(line);
+  if (line.size() < key.size() + 3 || line.front() != '[' || line.back() != ']')
+    return std::nullopt;
+  if (line.substr(1, key.size()) != key || line[key.size() + 1] != ':') return std::nullopt;
+  return line.substr(key.size() + 2, line.size() - key.size() - 3);
+}
+
+void read_field(std::string_view key, std::string_view value, GrblStatus& status) {
+  if (key == "MPos") status.machine_mm = numbers(value);
+  if (key == "WPos") status.work_mm = numbers(value);
+  if (key == "WCO") status.work_offset_mm = numbers(value);
+  if (key == "Pn") status.pins = std::string(value);
+  if (key == "Bf" || key == "F" || key == "FS") {
+    const std::vector<double> values = numbers(value);
+    if (values.empty()) return;
+    if (key == "Bf") {
+      status.planner_blocks_free = static_cast<int>(std::clamp(values[0], 0.0, 1e6));
+    } else {
+      status.feed_mm_min = values[0];
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<GrblStatus> parse_grbl_status(std::string_view line) {
+  line = trimmed(line);
+  if (line.size() < 3 || line.front() != '<' || line.back() != '>') return std::nullopt;
+  if (line.find('<', 1) != std::string_view::npos) return std::nullopt;  // two run into each other
+  const std::vector<std::string_view> fields = split(line.substr(1, line.size() - 2), '|');
+  GrblStatus status;
+  const std::vector<std::string_view> state = split(fields[0], ':');
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  if (state[0].empty() || !std::all_of(state[0].begin(), state[0].end(), is_letter)) {
+    return std::nullopt;
+  }
+  status.state = std::string(state[0]);
+  if (state.size() > 1) {
+    if (const auto sub = integer_from_text(state[1]); sub && *sub >= 0 && *sub < 1000) {
+      status.substate = static_cast<int>(*sub);
+    }
+  }
+  for (std::size_t i = 1; i < fields.size(); ++i) {
+    const std::size_t colon = fields[i].find(':');
+    if (colon == std::string_view::npos) continue;
+    read_field(fields[i].substr(0, colon), fields[i].substr(colon + 1), status);
+  }
+  // One cut short is no report.
+  if (status.machine_mm.empty() && status.work_mm.empty()) return std::nullopt;
+  return status;
+}
+
+bool is_grbl_ok(std::string_view line) {
+  return trimmed(line) == "ok";
+}
+
+std::optional<int> parse_grbl_error(std::string_view line) {
+  return code_after(line, "error:");
+}
+
+std::optional<int> parse_grbl_alarm(std::string_view line) {
+  return code_after(line, "alarm:");
+}
+
+std::optional<GrblWelcome> parse_grbl_welcome(std::string_view line) {
+  line = trimmed(line);
+  GrblWelcome welcome;
+  if (starts_with_nocase(line, "grblhal ")) {
+    welcome.is_hal = true;
+  } else if (!starts_with_nocase(line, "grbl ")) {
+    return std::nullopt;
+  }
+  line.remove_prefix(line.find(' ') + 1);
+  welcome.version = std::string(line.substr(0, line.find(' ')));
+  return welcome;
+}
+
+std::optional<GrblSetting> parse_grbl_setting(std::string_view line) {
+  line = trimmed(line);
+  const std::size_t equals = line.find('=');
+  if (line.empty() || line.front() != '$' || equals == std::string_view::npos) return std::nullopt;
+  const auto number = integer_from_text(line.substr(1, equals - 1));
+  // GRBL 0.9 and some clones add "(text)" behind the value.
+  std::string_view value_text = line.substr(equals + 1);
+  value_text = value_text.substr(0, value_text.find('('));
+  const auto value = number_from_text(value_text);
+  if (!number || !value || *number < 0 || *number > 9999) return std::nullopt;
+  return GrblSetting{static_cast<int>(*number), *value};
+}
+
+std::optional<std::string> parse_grbl_message(std::string_view line) {
+  const auto inside = bracketed(line, "MSG");
+  if (!inside) return std::nullopt;
+  return std::string(*inside);
+}
+
+bool is_grbl_push(std::string_view line) {
+  line = trimmed(line);
+  return line.empty() || line.front() == '<' || line.front() == '[' || line.front() == '$' ||
+         line.front() == '>' || parse_grbl_alarm(line) || parse_grbl_welcome(line);
+}
+
+std::string format_grbl_jog(char axis, double target_mm, double feed_mm_min) {
+  return std::string("$J=G53G90G21") + axis + text_from_number(target_mm, 5) + "F" +
+         text_from_number(feed_mm_min, 3);
+}
+
+std::string grbl_error_text(int code) {
+  static constexpr std::array<std::pair<int, const char*>, 17> kTexts{
+      {{1, "a letter was expected"},
+       {2, "a number could not be read"},
+       {3, "the '$' command is unknown to this firmware"},
+       {4, "a negative value where none may be"},
+       {5, "homing is switched off: set $22=1, or leave homing out of the rig file"},
+       {7, "the settings memory was empty and has been filled with defaults: set it up again"},
+       {8, "the command needs the stage at rest"},
+       {9, "the stage is locked by an alarm: unlock it with $X after checking it"},
+       {10, "soft limits need homing: set $22=1"},
+       {11, "the line is too long"},
+       {13, "the safety door is open: close it"},
+       {14, "a settings line is too long"},
+       {15, "the target is beyond the stage's travel ($130-132)"},
+       {16, "a word that jogging does not take"},
+       {20, "a word this firmware does not know"},
+       {22, "the feed rate is missing"},
+       {33, "the target is invalid"}}};
+  for (const auto& [number, text] : kTexts) {
+    if (number == code) return "error " + std::to_string(code) + ": " + text;
+  }
+  return "error " + std::to_string(code);
+}
+
+std::string grbl_alarm_text(int code) {
+  static constexpr std::array<std::pair<int, const char*>, 10> kTexts{
+      {{1, "a limit switch was hit; the position is lost"},
+       {2, "the target lies beyond the soft limits"},
+       {3, "reset while moving; steps may be lost"},
+       {4, "the probe was not in its expected state"},
+       {5, "the probe touched nothing"},
+       {6, "homing was interrupted by a reset"},
+       {7, "homing was interrupted by the door"},
+       {8, "homing could not clear the limit switch: raise the pull-off $27"},
+       {9, "homing found no limit switch: check its wiring and the travel $130-132"},
+       {10, "homing found a second switch active"}}};
+  for (const auto& [number, text] : kTexts) {
+    if (number == code) return "alarm " + std::to_string(code) + ": " + text;
+  }
+  return "alarm " + std::to_string(code);
+}
+
+}  // namespace viscard

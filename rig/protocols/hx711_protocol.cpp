@@ -1,0 +1,104 @@
+#include "rig/protocols/hx711_protocol.h"
+
+#include "rig/protocols/text_number.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+bool is_no_number_word(std::string_view text) {
+  const std::string word = lower(trimmed(text));
+  static constexpr std::array<const char*, 8> kWords{"nan", "-nan", "inf",  "-inf",
+                                                     "ovf", "-ovf", "+inf", "overflow"};
+  return std::any_of(kWords.begin(), kWords.end(),
+                     [&](const char* known) { return word == known; });
+}
+
+bool is_unit(std::string_view text) {
+  static constexpr std::array<const char*, 5> kUnits{"g", "kg", "lbs", "lb", "n"};
+  const std::string word = lower(trimmed(text));
+  return std::any_of(kUnits.begin(), kUnits.end(), [&](const char* unit) { return word == unit; });
+}
+
+// "12.34 g" or "12.34g" or "12,34" or "nan" into line; false if it is none of these.
+bool read_value(std::string_view text, bool allow_comma, Hx711Line& line) {
+  text = trimmed(text);
+  if (text.empty()) return false;
+  if (is_no_number_word(text)) return true;
+  std::size_t end = text.find_last_of("0123456789.");
+  if (end == std::string_view::npos) return false;
+  const std::string_view unit = trimmed(text.substr(end + 1));
+  if (!unit.empty() && !is_unit(unit)) return false;
+  std::string digits(trimmed(text.substr(0, end + 1)));
+  if (allow_comma && std::count(digits.begin(), digits.end(), ',') == 1 &&
+      digits.find('.') == std::string::npos) {
+    std::replace(digits.begin(), digits.end(), ',', '.');
+  }
+  const auto value = number_from_text(digits);
+  if (!value) return false;
+  line.value = value;
+  line.is_integer = digits.find_first_of(".eE") == std::string::npos;
+  line.unit = std::string(unit);
+  return true;
+}
+
+}  // namespace
+
+std::optional<Hx711Format> hx711_format_from_word(std::string_view word) {
+  if (word == "auto") return Hx711Format::kAuto;
+  if (word == "counts") return Hx711Format::kCounts;
+  if (word == "micros,counts") return Hx711Format::kMicrosCounts;
+  if (word == "millis,counts") return Hx711Format::kMillisCounts;
+  if (word == "volts") return Hx711Format::kVolts;
+  return std::nullopt;
+}
+
+std::optional<Hx711Line> parse_hx711_line(std::string_view text, bool has_clock) {
+  text = trimmed(text);
+  Hx711Line line;
+  if (has_clock) {
+    const std::vector<std::string_view> parts = split(text, ',');
+    if (parts.size() < 2) return std::nullopt;
+    const auto ticks = integer_from_text(parts[0]);
+    if (!ticks || *ticks < 0 || *ticks > 0xffffffffLL) return std::nullopt;
+    if (!read_value(parts[1], false, line)) return std::nullopt;
+    line.ticks = static_cast<double>(*ticks);
+    if (parts.size() > 2 && is_unit(parts[2])) line.unit = std::string(trimmed(parts[2]));
+    return line;
+  }
+  // "one reading:\t12.3\t| average:\t12.4": the first of the two.
+  std::string_view rest = text.substr(0, text.find('|'));
+  const std::size_t colon = rest.rfind(':');
+  if (colon != std::string_view::npos) rest = rest.substr(colon + 1);
+  if (!read_value(rest, true, line)) return std::nullopt;
+  return line;
+}
+
+bool is_hx711_fault(std::string_view text) {
+  const std::string line = lower(text);
+  return line.find("hx711 not found") != std::string::npos ||
+         line.find("not ready") != std::string::npos;
+}
+
+bool is_hx711_glitch(double counts, std::optional<double> previous_counts) {
+  constexpr double kLeast = 1023.0;  // shorter runs of ones are within the noise of any reading
+  constexpr double kJump = 1000.0;
+  if (!previous_counts || std::abs(counts - *previous_counts) < kJump) return false;
+  if (counts == -1.0) return true;
+  if (!(counts >= kLeast) || counts >= kHx711Highest || counts != std::floor(counts)) return false;
+  const auto code = static_cast<unsigned long>(counts);
+  return (code & (code + 1)) == 0;
+}
+
+}  // namespace viscard

@@ -1,0 +1,82 @@
+#include "rig/protocols/scpi_protocol.h"
+
+#include "rig/lines/rig_error.h"
+#include "rig/protocols/text_number.h"
+
+#include <array>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+constexpr double kOverload = 9.9e37;
+constexpr const char* kClear = "\x03";  // device clear: drops a measurement that was begun
+
+// RS-232 needs remote control first. 10 V covers the amplifier without autoranging, 1 power line
+// cycle is the quickest that rejects hum; no autozero, which halves the rate; nothing that would
+// answer, so that answers stay in step with questions.
+const std::array<GaugeProtocol, 3>& dialects() {
+  static const std::array<GaugeProtocol, 3> kRows{
+      {{.name = "34401a",
+        .opening = {kClear, "SYST:REM\n", "*CLS\n", "CONF:VOLT:DC 10,0.0001\n", "VOLT:DC:NPLC 1\n",
+                    "ZERO:AUTO OFF\n", "TRIG:SOUR IMM\n", "SAMP:COUN 1\n"},
+        .identity_query = "*IDN?\n",
+        .query = "READ?\n",
+        .error_query = "SYST:ERR?\n",
+        .closing = "SYST:LOC\n",
+        .parse = parse_scpi_reading},
+       {.name = "gdm",
+        .opening = {"*CLS\n", "CONF:VOLT:DC 10\n"},
+        .identity_query = "*IDN?\n",
+        .query = "VAL1?\n",
+        .closing = "SYST:LOC\n",
+        .parse = parse_scpi_reading},
+       {.name = "owon",
+        .opening = {"*CLS\n", "CONF:VOLT:DC 5\n", "RATE F\n"},
+        .identity_query = "*IDN?\n",
+        .query = "MEAS1?\n",
+        .closing = "SYST:LOC\n",
+        .parse = parse_scpi_reading}}};
+  return kRows;
+}
+
+}  // namespace
+
+GaugeProtocol scpi_protocol(const std::string& dialect) {
+  std::string known;
+  for (const GaugeProtocol& row : dialects()) {
+    if (row.name == dialect) return row;
+    known += (known.empty() ? "" : ", ") + row.name;
+  }
+  throw RigError("dialect '" + dialect +
+                 "' under [load_cell] of the rig file is unknown; there are " + known);
+}
+
+std::optional<GaugeAnswer> parse_scpi_reading(std::string_view line) {
+  GaugeAnswer answer;
+  for (const std::string_view part : split(line, ',')) {
+    // A unit may follow: "1.779E+0 VDC".
+    std::string_view digits = trimmed(part);
+    digits = digits.substr(0, digits.find(' '));
+    const auto value = number_from_text(digits);
+    if (!value) return std::nullopt;
+    answer.is_overload = std::abs(*value) >= kOverload;
+    answer.volts = answer.is_overload ? std::nullopt : value;
+  }
+  return answer;
+}
+
+std::optional<ScpiError> parse_scpi_error(std::string_view line) {
+  const std::size_t comma = line.find(',');
+  if (comma == std::string_view::npos) return std::nullopt;
+  const auto code = integer_from_text(line.substr(0, comma));
+  std::string_view text = trimmed(line.substr(comma + 1));
+  if (!code || *code < -32768 || *code > 32767 || text.size() < 2 || text.front() != '"') {
+    return std::nullopt;
+  }
+  text.remove_prefix(1);
+  if (text.back() == '"') text.remove_suffix(1);
+  return ScpiError{static_cast<int>(*code), std::string(text)};
+}
+
+}  // namespace viscard

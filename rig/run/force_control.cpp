@@ -1,0 +1,40 @@
+#include "rig/run/force_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+constexpr double kShare = 0.7;
+constexpr double kSureSigmas =
+    6.0;  // a response this far above noise says something of the stiffness
+
+}  // namespace
+
+ForceControl::ForceControl(const Options& options) : options_(options) {
+  if (!(options.target_N > 0.0) || !(options.stiffness_N_m > 0.0) ||
+      !(options.largest_step_m > 0.0)) {
+    throw std::invalid_argument("force control needs a positive force, stiffness and largest step");
+  }
+}
+
+double ForceControl::step_m(double force_N) {
+  if (last_force_N_ && last_step_m_ != 0.0) {
+    const double response_N = force_N - *last_force_N_;
+    // Relaxation takes from a response upward and adds to one downward: only the first is believed.
+    if (last_step_m_ > 0.0 && response_N > kSureSigmas * options_.noise_N) {
+      options_.stiffness_N_m = std::max(options_.stiffness_N_m, response_N / last_step_m_);
+    }
+  }
+  last_force_N_ = force_N;
+  const double gap_N = options_.target_N - force_N;
+  last_step_m_ = std::abs(gap_N) <= options_.tolerance_N
+                     ? 0.0
+                     : std::clamp(kShare * gap_N / options_.stiffness_N_m, -options_.largest_step_m,
+                                  options_.largest_step_m);
+  return last_step_m_;
+}
+
+}  // namespace viscard

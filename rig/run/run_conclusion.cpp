@@ -1,0 +1,105 @@
+#include "rig/run/run_conclusion.h"
+
+#include "models/maths/text_of_number.h"
+#include "rig/protocols/text_number.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+namespace viscard {
+namespace {
+
+constexpr double kFlatForce = 0.2;  // of the expected peak: less is no specimen of that kind
+constexpr double kLongGap_s = 1.0;  // wall, in a stream of readings
+constexpr double kLongGapPeriods = 20.0;
+
+// A stage that lost its steps reports the depth it was told; only the force shows that it is not
+// there.
+void doubt_flat_force(RunSession& session, RunOutcome& outcome) {
+  const double expected_N = outcome.expected.peak_force_N;
+  if (outcome.status != "finished" || outcome.peak_force_N > kFlatForce * expected_N) return;
+  outcome.doubts.push_back("the force reached only " + text_from_number(outcome.peak_force_N, 4) +
+                           " N of the " + text_from_number(expected_N, 4) +
+                           " N expected. Did the stage lose steps, or is modulus_guess of the "
+                           "specimen far too high?");
+  session.event("doubt", "force_flat", outcome.doubts.back());
+}
+
+// Bare counts do not tell whether the amplifier has lost its tare in a long pause.
+void doubt_gap(RunSession& session, RunOutcome& outcome, double most_s) {
+  if (outcome.status != "finished" || outcome.stream.longest_gap_s < most_s) return;
+  // What was only held up has come since.
+  if (static_cast<double>(outcome.stream.missing) * session.load_cell().period_s() < 0.5 * most_s) {
+    return;
+  }
+  outcome.doubts.push_back("no reading came for " +
+                           text_from_number(outcome.stream.longest_gap_s, 2) + " s, at " +
+                           text_from_number(outcome.stream.longest_gap_at_s, 1) +
+                           " s. Did the amplifier restart, and is its zero the same?");
+  session.event("doubt", "gap", outcome.doubts.back());
+}
+
+// Text carries no check sum. Lines that are no reading show that the line is disturbed, and then
+// some that are one are wrong as well: of the 80 ways to flip one bit of a digit 30 make another
+// digit, so that for every line that could not be read .6 could; and of the digits of a count the
+// lower ones, about half, change it by less than stands out.
+void doubt_line(RunSession& session, RunOutcome& outcome) {
+  constexpr double kReadableToNot = 30.0 / 50.0;
+  const StreamCounts& stream = outcome.stream;
+  if (stream.unreadable + stream.implausible == 0) return;
+  const double n_hidden = std::ceil(kReadableToNot * static_cast<double>(stream.unreadable) +
+                                    static_cast<double>(stream.implausible));
+  outcome.doubts.push_back(
+      counted(static_cast<std::size_t>(stream.unreadable), "line") +
+      " of the load cell could not be read and " +
+      counted(static_cast<std::size_t>(stream.implausible), "reading") +
+      " stood out of the neighbours (these are left out of a fit): about " +
+      text_from_number(n_hidden, 0) +
+      " more readings may be wrong by less than can be told, some 8 times the noise. Check its "
+      "cable and its ground");
+  session.event("doubt", "line_noise", outcome.doubts.back());
+}
+
+// Every record says how far its readings have been looked at, also where nothing spoke against it.
+void say_what_can_hide(RunSession& session, RunOutcome& outcome) {
+  if (outcome.noise_N <= 0.0) return;  // ended before the noise was measured
+  outcome.hidden_error_N = SpikeWatch::kSurelyFound * outcome.noise_N;
+  session.event(
+      "checked", text_from_number(outcome.hidden_error_N, 6),
+      "The line carries no check sum: readings were held against their neighbours, "
+      "which shows errors above " +
+          text_from_number(outcome.hidden_error_N * 1e3, 3) +
+          " mN at rest, and above twice the step between readings on a ramp; of the first "
+          "five and the last two readings above twice that");
+}
+
+}  // namespace
+
+void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock) {
+  outcome.peak_force_N = session.peak_force_N();
+  outcome.stream = session.load_cell().counts();
+  try {
+    session.finish_watching();
+    outcome.stream.implausible += session.n_implausible();
+    say_what_can_hide(session, outcome);
+    doubt_line(session, outcome);
+    doubt_flat_force(session, outcome);
+    doubt_gap(
+        session, outcome,
+        std::max(kLongGapPeriods * session.load_cell().period_s(), clock.from_wall_s(kLongGap_s)));
+    session.event(outcome.status, outcome.reason.empty() ? "" : "reason",
+                  outcome.reason.empty() ? "The run is complete" : outcome.reason);
+  } catch (const std::exception& error) {
+    if (outcome.reason.empty()) throw;
+    outcome.reason += std::string("; besides: ") + error.what();
+  }
+}
+
+std::string what_was_done(double lifted_m) {
+  return lifted_m > 0.0 ? ". The stage was stopped and lifted by " +
+                              text_from_number(lifted_m * 1e3, 3) + " mm"
+                        : ". The stage was told to stop; it was not lifted";
+}
+
+}  // namespace viscard

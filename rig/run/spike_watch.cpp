@@ -1,0 +1,189 @@
+#include "rig/run/spike_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+constexpr std::size_t kSide = 5;    // readings a line is laid through
+constexpr std::size_t kFirst = 32;  // readings judged together
+constexpr std::size_t kRing = 256;  // distances remembered
+constexpr std::size_t kRenew = 16;  // distances between two medians
+constexpr double kSigmas = 6.3;
+constexpr double kFewMore = 40.0;      // added to them, shared by the readings known
+constexpr double kPerMedian = 1.4826;  // standard deviation over median of |normal|
+// Standard deviations of the distance of a reading from its foretold value, in units of one
+// reading's: from the mean of ten neighbours (1 + 1/10), and from one line (1 + 1/5 + 9/10).
+constexpr double kOfBoth = 1.049;
+constexpr double kOfOne = 1.449;
+constexpr double kRounded = 0.5;
+constexpr double kEarlyOrLate = 0.25;
+constexpr double kLikely = 3.0;      // times the noise: neighbours further off are left out
+constexpr double kNoisySlope = 1.0;  // per reading, in units of one reading's noise
+constexpr double kStaircase = 2.0;   // times the scatter of the neighbours about their line
+constexpr double kAtTheEnd = 1.5;    // where only one side is known
+constexpr double kTurned = 2.5;      // of the slope there: a corner may lie between
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+}  // namespace
+
+std::vector<std::int64_t> SpikeWatch::take(std::int64_t index, double place, double value) {
+  if (!readings_.empty()) {
+    const double step = std::abs(value - readings_.back().value);
+    if (step > 0.0 && (least_step_ == 0.0 || step < least_step_)) least_step_ = step;
+  }
+  readings_.push_back({index, place, value, false});
+  if (n_learnt_ == 0) {
+    if (readings_.size() < kFirst) return {};
+    learn_first();
+  }
+  std::vector<std::int64_t> found = judge_until(readings_.size() - kSide);
+  while (next_ > kSide) {
+    readings_.pop_front();
+    --next_;
+  }
+  return found;
+}
+
+std::vector<std::int64_t> SpikeWatch::finish() {
+  if (n_learnt_ == 0 && readings_.size() > 2 * kSide) learn_first();
+  return n_learnt_ == 0 ? std::vector<std::int64_t>() : judge_until(readings_.size());
+}
+
+std::vector<std::int64_t> SpikeWatch::judge_until(std::size_t end) {
+  std::vector<std::int64_t> found;
+  for (; next_ < end; ++next_) {
+    readings_[next_].is_spike = judge(next_);
+    if (readings_[next_].is_spike) found.push_back(readings_[next_].index);
+  }
+  return found;
+}
+
+// What the readings on one side foretell for the one at `at`; spikes found before do not count.
+SpikeWatch::Line SpikeWatch::foretold(std::size_t at, int direction) const {
+  std::array<std::size_t, kSide> side{};
+  std::size_t n = 0;
+  for (std::size_t k = 1; k <= kSide; ++k) {
+    if (direction < 0 ? k > at : at + k >= readings_.size()) break;
+    const std::size_t i = direction < 0 ? at - k : at + k;
+    if (!readings_[i].is_spike) side[n++] = i;
+  }
+  if (n < 3) return {};
+  std::vector<double> numbers;
+  numbers.reserve(kSide * (kSide - 1) / 2);
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = a + 1; b < n; ++b) {
+      const double places = readings_[side[b]].place - readings_[side[a]].place;
+      if (places == 0.0) continue;
+      numbers.push_back((readings_[side[b]].value - readings_[side[a]].value) / places);
+    }
+  }
+  if (numbers.empty()) return {};
+  Line line;
+  line.slope = median(numbers);
+  numbers.clear();
+  for (std::size_t a = 0; a < n; ++a) {
+    const Reading& reading = readings_[side[a]];
+    numbers.push_back(reading.value + line.slope * (readings_[at].place - reading.place));
+  }
+  line.value = median(numbers);
+  for (double& number : numbers) number = std::abs(number - line.value);
+  // The largest but one: one spoilt reading must not count.
+  std::nth_element(numbers.begin(), numbers.end() - 2, numbers.end());
+  line.scatter = *(numbers.end() - 2);
+  line.is_known = true;
+  return line;
+}
+
+double SpikeWatch::noise() const {
+  return std::max(usual_, least_ > 0.0 ? least_ : 0.5 * least_step_);
+}
+
+bool SpikeWatch::lies_between(std::size_t at, double slack) const {
+  const double before = readings_[at - 1].value, behind = readings_[at + 1].value;
+  const double value = readings_[at].value;
+  return value > std::min(before, behind) - slack && value < std::max(before, behind) + slack;
+}
+
+bool SpikeWatch::judge(std::size_t at) {
+  const Line before = foretold(at, -1);
+  const Line behind = foretold(at, 1);
+  if (!before.is_known && !behind.is_known) return false;
+  const double sigmas =
+      kSigmas + kFewMore / static_cast<double>(std::max(n_learnt_, std::size_t{1}));
+  const double one = sigmas * kOfOne * noise();
+  const double value = readings_[at].value;
+  if (!before.is_known || !behind.is_known) {
+    const Line& line = before.is_known ? before : behind;
+    return std::abs(value - line.value) > kAtTheEnd * one + kTurned * std::abs(line.slope);
+  }
+  const double slope = std::max(std::abs(before.slope), std::abs(behind.slope));
+  // What noise alone makes of slopes asks for no allowance.
+  const double corner =
+      std::max(0.0, std::abs(before.slope - behind.slope) - kNoisySlope * noise());
+  const double ramp = std::max(0.0, slope - kNoisySlope * noise());
+  // The single steps of a coarse stage make a staircase of a ramp.
+  const double scatter =
+      std::max(0.0, std::max(before.scatter, behind.scatter) - kLikely * noise());
+  const double slack = kRounded * corner + kEarlyOrLate * ramp + kStaircase * scatter;
+  // On the way a reading between those beside it is none: a staircase never turns back.
+  if (slope > kLikely * noise() && lies_between(at, kLikely * noise())) return false;
+  const double apart = std::abs(before.value - behind.value);
+  const double middle = 0.5 * (before.value + behind.value);
+  // Two lines of pure noise are seldom further apart than this.
+  const bool do_agree = apart < 4.0 * noise();
+  const double distance = std::abs(
+      value - (do_agree ? mean_around(at, middle, 0.5 * (before.slope + behind.slope)) : middle));
+  const bool is_spike = do_agree ? distance > sigmas * kOfBoth * noise() + slack
+                                 : distance > 0.5 * apart + one + slack;
+  if (do_agree && !is_spike) learn(distance / kOfBoth);
+  return is_spike;
+}
+
+// Of the neighbours on both sides, brought to the place of the one at `at` along the slope.
+double SpikeWatch::mean_around(std::size_t at, double middle, double slope) const {
+  double sum = 0.0;
+  int n = 0;
+  for (std::size_t i = at - std::min(at, kSide); i <= at + kSide && i < readings_.size(); ++i) {
+    if (i == at || readings_[i].is_spike) continue;
+    const double here = readings_[i].value + slope * (readings_[at].place - readings_[i].place);
+    if (std::abs(here - middle) > kLikely * noise()) continue;
+    sum += here;
+    ++n;
+  }
+  return n > 0 ? sum / n : middle;
+}
+
+// A ring of the last distances; its median is renewed now and then.
+void SpikeWatch::learn(double distance) {
+  if (distances_.size() < kRing) {
+    distances_.push_back(distance);
+  } else {
+    distances_[ring_at_] = distance;
+    ring_at_ = (ring_at_ + 1) % kRing;
+  }
+  ++n_learnt_;
+  if (n_learnt_ % kRenew != 0) return;
+  std::vector<double> sorted = distances_;
+  usual_ = kPerMedian * median(sorted);
+}
+
+// Nothing is known yet: every reading's distance counts, and the median leaves out the spoilt ones.
+void SpikeWatch::learn_first() {
+  for (std::size_t at = kSide; at + kSide < readings_.size(); ++at) {
+    const double middle = 0.5 * (foretold(at, -1).value + foretold(at, 1).value);
+    distances_.push_back(std::abs(readings_[at].value - middle) / kOfBoth);
+  }
+  n_learnt_ = distances_.size();
+  std::vector<double> sorted = distances_;
+  usual_ = kPerMedian * median(sorted);
+}
+
+}  // namespace viscard

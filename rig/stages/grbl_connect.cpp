@@ -1,0 +1,191 @@
+// The conversations of GrblStage that wait for answers: opening, settings, recovery.
+#include "rig/protocols/text_number.h"
+#include "rig/stages/grbl_stage.h"
+
+#include <cmath>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr double kBoot_wall_s = 3.0;     // bootloader of an AVR board and the firmware's start
+constexpr double kSettle_wall_s = 0.05;  // messages that follow a welcome
+constexpr double kReset_wall_s = 1.5;    // from a soft reset to the welcome
+constexpr int kResets = 3;               // one is lost when an alarm is just being told
+constexpr int kMostReadings = 4;         // of the settings, until two agree
+
+}  // namespace
+
+bool GrblStage::wait_for(const std::function<bool()>& is_there, const Pump& pump,
+                         double wall_s) const {
+  const double deadline_s = monotonic_s() + wall_s * patience_;
+  while (!is_there()) {
+    if (monotonic_s() > deadline_s) return false;
+    pump();
+  }
+  return true;
+}
+
+void GrblStage::command(const std::string& line, const Pump& pump, double timeout_wall_s) {
+  awaited_error_.reset();
+  send_line(line, true);
+  if (!wait_for([&] { return pending_.empty(); }, pump, timeout_wall_s)) {
+    throw RigError("the stage on '" + transport_.name() + "' did not answer '" + line +
+                   "' within " + text_from_number(timeout_wall_s, 0) + " s. Switch it off and on");
+  }
+  if (awaited_error_) {
+    throw RigError("the stage refused '" + line + "': " + grbl_error_text(*awaited_error_));
+  }
+}
+
+// Many boards reset when their port is opened and say so within seconds; those that do not are
+// asked to by a soft reset, which at rest keeps the position.
+void GrblStage::await_welcome(const Pump& pump) {
+  const auto is_there = [&] { return !awaits_welcome_; };
+  bool is_welcome = wait_for(is_there, pump, kBoot_wall_s);
+  for (int i = 0; i < kResets && !is_welcome; ++i) {
+    send_realtime(grbl::kSoftReset);
+    is_welcome = wait_for(is_there, pump, kReset_wall_s);
+  }
+  if (is_welcome) return;
+  const bool is_noise = splitter_.n_bytes() > 20 && splitter_.unprintable_fraction() > 0.2;
+  throw RigError("no GRBL controller answered on '" + transport_.name() + "' (" +
+                 std::to_string(splitter_.n_bytes()) + " bytes received). " +
+                 (is_noise ? "They are mostly unreadable: is the baud rate of " +
+                                 std::to_string(transport_.baud()) + " right?"
+                           : "Is this the stage's port, and is it switched on?"));
+}
+
+void GrblStage::ask_position(const Pump& pump) {
+  const std::size_t before = n_reports_;
+  polls_ = true;
+  next_poll_s_ = clock_.now_s();
+  // Work positions come without their offset up to 30 times in a row.
+  if (!wait_for([&] { return n_reports_ > before; }, pump, 8.0)) {
+    throw RigError("the stage on '" + transport_.name() + "' does not report its position. " +
+                   "Set $10=1 on it, and check its firmware is GRBL 1.1 or grblHAL");
+  }
+}
+
+// Read until two readings agree: one garbled digit would spoil every move.
+void GrblStage::read_settings(const Pump& pump) {
+  std::map<int, double> before;
+  for (int i = 0; i < kMostReadings; ++i) {
+    settings_.clear();
+    command("$$", pump);
+    if (!settings_.empty() && settings_ == before) break;
+    before = settings_;
+  }
+  const StageDynamics found = dynamics();
+  if (!(found.steps_per_m > 0.0) || !(found.acceleration_m_s2 > 0.0) ||
+      !(found.max_speed_m_s > 0.0)) {
+    throw RigError(
+        std::string("the stage did not report steps/mm, acceleration and largest rate ") +
+        "of axis " + config_.axis + " ($" + std::to_string(100 + axis_) + ", $" +
+        std::to_string(120 + axis_) + ", $" + std::to_string(110 + axis_) +
+        "). Check the axis in the rig file");
+  }
+}
+
+void GrblStage::unlock(const Pump& pump) {
+  command("$X", pump);
+  note(clock_.now_s(), "stage_unlocked", "",
+       "The stage was unlocked without homing; positions count from where it stood");
+}
+
+// What follows a welcome: settings, homing or unlocking, position.
+void GrblStage::converse(const Pump& pump) {
+  wait_for([] { return false; }, pump, kSettle_wall_s);
+  ask_position(pump);
+  if (state_ == "Hold") send_realtime(grbl::kResume);
+  read_settings(pump);
+  ask_position(pump);  // in the unit that the settings name
+  if (config_.home) {
+    polls_ = false;  // homing answers no '?'
+    forget_questions();
+    command("$H", pump, 180.0);
+    ask_position(pump);
+  } else if (state_ == "Alarm") {
+    unlock(pump);
+    ask_position(pump);
+  }
+}
+
+void GrblStage::connect(const Pump& pump) {
+  is_recovering_ = true;  // a second welcome or an alarm left over surprises nobody yet
+  await_welcome(pump);
+  // A board that resets late says so in the middle of the conversation, which then begins anew.
+  for (int i = 0; i <= kResets; ++i) {
+    const int n_welcomes = n_welcomes_;
+    try {
+      converse(pump);
+      if (n_welcomes == n_welcomes_) break;
+    } catch (const PortHungUp&) {
+      throw;
+    } catch (const RigError&) {
+      if (n_welcomes == n_welcomes_ || i == kResets) throw;
+    }
+  }
+  if (state_ != "Idle") {
+    throw RigError("the stage reports '" + state_ +
+                   "' and is not ready. Close its door, release its switches, and retry");
+  }
+  exact_m_ = reported_m_;
+  start_m_ = reported_m_;
+  is_recovering_ = false;
+}
+
+// After a critical alarm nothing but a reset is heard; after stop_hard() one has been sent already.
+void GrblStage::recover(const Pump& pump) {
+  const bool has_reset = is_recovering_;
+  is_recovering_ = true;
+  polls_ = false;
+  forget_questions();
+  const auto cut_short = std::exchange(active_, std::nullopt);  // not to be waited for any more
+  const auto is_there = [&] { return !awaits_welcome_; };
+  bool is_welcome = has_reset && wait_for(is_there, pump, kReset_wall_s);
+  for (int i = 0; i < kResets && !is_welcome; ++i) {
+    awaits_welcome_ = true;
+    pending_.clear();
+    send_realtime(grbl::kSoftReset);
+    is_welcome = wait_for(is_there, pump, kReset_wall_s);
+  }
+  if (!is_welcome) {
+    throw RigError("the stage on '" + transport_.name() +
+                   "' does not answer a reset: IT MAY STILL PRESS. Lift the punch by hand");
+  }
+  wait_for([] { return false; }, pump, kSettle_wall_s);
+  command("$X", pump);
+  ask_position(pump);
+  exact_m_ = reported_m_;
+  if (cut_short) hand_out(*cut_short, reported_m_);
+  is_recovering_ = false;
+}
+
+std::vector<std::string> GrblStage::advice() const {
+  std::vector<std::string> advice;
+  const StageDynamics found = dynamics();
+  if (setting(1, 255.0) != 255.0) {
+    advice.push_back("$1=" + text_from_number(setting(1, 0.0), 0) +
+                     ": the motor lets go after a move and the hold is lost; set $1=255");
+  }
+  if (found.steps_per_m < 1600e3) {
+    advice.push_back(
+        "$" + std::to_string(100 + axis_) + "=" + text_from_number(found.steps_per_m * 1e-3, 0) +
+        " steps/mm: a decelerating stop needs 7.5 steps, " +
+        text_from_number(7.5e6 / found.steps_per_m, 1) + " um, and it moves no slower than " +
+        text_from_number(found.min_speed_m_s * 1e3, 3) +
+        " mm/s; use microstepping for at least 1600");
+  }
+  if (found.acceleration_m_s2 < 0.1) {
+    advice.push_back("$" + std::to_string(120 + axis_) + "=" +
+                     text_from_number(found.acceleration_m_s2 * 1e3, 0) +
+                     " mm/s2: stops and ramps are slow; set at least 100");
+  }
+  if (setting(21, 0.0) == 0.0) {
+    advice.push_back("$21=0: no hard limits; limit switches and $21=1 protect cell and stage");
+  }
+  return advice;
+}
+
+}  // namespace viscard

@@ -1,0 +1,223 @@
+// What GrblStage makes of position reports: when to ask, which question an answer belongs to, and
+// whether a move goes where it was told and ends.
+#include "rig/protocols/text_number.h"
+#include "rig/stages/grbl_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr double kStatusTimeout_wall_s = 0.25;
+constexpr double kForgetQuestion_wall_s = 1.0;  // an answer later than that is none
+constexpr double kTimesPrompt = 4.0;            // the mean answer is that far below the timeout
+constexpr int kMostMisses = 20;                 // times 250 ms without any report: it is not there
+constexpr double kPollMoving_s = 0.1;  // rig time; the firmware asks for at most 5 to 10 Hz
+constexpr double kPollResting_s = 0.2;
+constexpr int kMostRestsElsewhere = 3;
+constexpr int kMostAstray = 2;  // one such report may be a garbled digit
+constexpr double kNudge_wall_s = 0.7;
+constexpr double kNoAnswer_wall_s = 5.0;
+constexpr double kNoProgress_wall_s = 5.0;
+
+}  // namespace
+
+std::optional<double> GrblStage::reported_position_m(const GrblStatus& status) {
+  if (!status.work_offset_mm.empty()) work_offset_mm_ = status.work_offset_mm;
+  const auto i = static_cast<std::size_t>(axis_);
+  const double mm = setting(13, 0.0) != 0.0 ? 25.4 : 1.0;
+  if (i < status.machine_mm.size()) return toward_ * status.machine_mm[i] * mm * 1e-3;
+  if (i < status.work_mm.size() && i < work_offset_mm_.size()) {
+    return toward_ * (status.work_mm[i] + work_offset_mm_[i]) * mm * 1e-3;
+  }
+  return std::nullopt;  // work positions whose offset has not come yet
+}
+
+// When the question that this report answers was asked: the oldest that is still open, since a
+// report cannot be older than that. Nothing for a report that nobody asked for.
+std::optional<double> GrblStage::question_answered(double time_s) {
+  if (asked_s_.empty()) return std::nullopt;
+  const double asked_s = asked_s_.front();
+  if (asked_s_.size() == 1) {
+    const double took_s = (time_s - asked_s) / clock_.speed();
+    latency_.mean_s += (took_s - latency_.mean_s) / ++latency_.n;
+    latency_.longest_s = std::max(latency_.longest_s, took_s);
+  }
+  asked_s_.pop_front();
+  n_missed_ = 0;
+  is_last_missed_ = false;
+  is_answered_since_ = !asked_s_.empty();
+  return asked_s;
+}
+
+void GrblStage::forget_questions() {
+  asked_s_.clear();
+  is_last_missed_ = false;
+  n_missed_ = 0;
+}
+
+void GrblStage::take_status(const GrblStatus& status, double time_s) {
+  const auto asked_s = question_answered(time_s);
+  state_ = status.state;
+  const auto position = reported_position_m(status);
+  if (!position) return;
+  if (active_ && std::abs(*position - reported_m_) > 0.25e-6) active_->progress_s = time_s;
+  reported_m_ = *position + 0.0;  // no negative zero
+  ++n_reports_;
+  sink_(StageReport{time_s, reported_m_, state_});
+  if (active_ && asked_s) follow_move(*asked_s, time_s);
+}
+
+void GrblStage::follow_move(double asked_s, double received_s) {
+  ActiveMove& active = *active_;
+  if (state_ == "Hold" || state_ == "Door") {
+    throw RigError(
+        "the stage reports '" + state_ +
+        "' in the middle of a move: somebody pressed its hold button or opened its door, "
+        "or the line is disturbed. Release it, then start the run again");
+  }
+  if (!active.is_stopping) active.tracker.reported(asked_s, received_s, reported_m_);
+  watch_way();
+  // An Idle that may be older than the ok says nothing about this move.
+  if (state_ != "Idle" || !active.has_ok || asked_s < active.ok_s) return;
+  const double target_m = active.tracker.move().to_m;
+  if (std::abs(reported_m_ - target_m) <= resolution_m()) return end_move(target_m);
+  rest_elsewhere(asked_s);
+}
+
+// A line garbled on its way to the controller can be a valid one for another place.
+void GrblStage::watch_way() {
+  const StageMove& move = active_->tracker.move();
+  const double low_m = std::min(move.from_m, move.to_m) - 2.0 * resolution_m();
+  const double high_m = std::max(move.from_m, move.to_m) + 2.0 * resolution_m();
+  if (reported_m_ >= low_m && reported_m_ <= high_m) {
+    active_->n_astray = 0;
+    return;
+  }
+  next_poll_s_ = clock_.now_s();
+  if (++active_->n_astray < kMostAstray) return;
+  stop_hard();
+  throw StageAlarm("the stage was sent to " + text_from_number(move.to_m * 1e3, 3) +
+                   " mm and is at " + text_from_number(reported_m_ * 1e3, 3) +
+                   " mm, outside its way: it was stopped at once. Check its cable for "
+                   "interference, then start the run again");
+}
+
+void GrblStage::rest_elsewhere(double asked_s) {
+  ActiveMove& active = *active_;
+  if (active.is_stopping) {
+    if (asked_s < active.stop_s) return;
+    // Twice the same: one report can be garbled, and this one is what is remembered.
+    const bool is_sure = active.stood_m && *active.stood_m == reported_m_;
+    active.stood_m = reported_m_;
+    next_poll_s_ = clock_.now_s();
+    if (is_sure) end_move(reported_m_);
+    return;
+  }
+  if (++active.n_rests_elsewhere < kMostRestsElsewhere) return;
+  const double target_m = active.tracker.move().to_m;
+  active_.reset();
+  exact_m_.reset();
+  throw RigError("the stage stands at " + text_from_number(reported_m_ * 1e3, 3) +
+                 " mm and did not reach " + text_from_number(target_m * 1e3, 3) +
+                 " mm. Look for an obstacle or a limit; a hold button pressed in a move ends it "
+                 "likewise. Then start the run again");
+}
+
+void GrblStage::end_move(double end_m) {
+  const ActiveMove ended = std::move(*active_);
+  active_.reset();
+  hand_out(ended, end_m);
+}
+
+void GrblStage::hand_out(const ActiveMove& ended, double end_m) {
+  exact_m_ = end_m;
+  CommandedMove commanded = ended.tracker.best(end_m);
+  commanded.purpose = ended.purpose;
+  if (const int n = ended.tracker.n_contradictions(); n >= 2) {
+    note(clock_.now_s(), "move_doubtful", ended.purpose,
+         std::to_string(n) +
+             " position reports do not agree with the speed and acceleration that "
+             "the controller's settings promise: the move was slower or faster");
+  }
+  sink_(commanded);
+}
+
+// True while the newest question may still be answered. One that was not in time is counted.
+bool GrblStage::awaits_report(double now_s) {
+  if (asked_s_.empty()) return false;
+  if (now_s - asked_s_.back() <= clock_.from_wall_s(kStatusTimeout_wall_s)) return true;
+  // As many answers as questions are missing from a line that answers promptly: the answer credited
+  // to an older question was this one's. From here on the two count in step again.
+  const bool is_prompt = latency_.n > 0 && kTimesPrompt * latency_.mean_s < kStatusTimeout_wall_s;
+  if (is_answered_since_ && is_prompt) {
+    latency_.n_lost += static_cast<int>(asked_s_.size());
+    forget_questions();
+    return false;
+  }
+  if (!is_last_missed_) {
+    is_last_missed_ = true;
+    if (++n_missed_ >= kMostMisses) {
+      throw RigError("the stage has stopped answering on '" + transport_.name() +
+                     "'. Check its cable and supply; it may still be moving");
+    }
+  }
+  const double oldest_s = now_s - clock_.from_wall_s(kForgetQuestion_wall_s);
+  while (!asked_s_.empty() && asked_s_.front() < oldest_s) {
+    asked_s_.pop_front();
+    ++latency_.n_lost;
+  }
+  return false;
+}
+
+void GrblStage::poll_status() {
+  const double now_s = clock_.now_s();
+  const bool is_waiting = awaits_report(now_s);
+  watch_deadlines(now_s);
+  if (is_waiting || now_s < next_poll_s_) return;
+  send_realtime(grbl::kStatus);
+  asked_s_.push_back(now_s);
+  is_answered_since_ = false;
+  is_last_missed_ = false;
+  next_poll_s_ = now_s + (active_ ? kPollMoving_s : kPollResting_s);
+  // Just after the expected end, so that standstill is noticed without delay.
+  if (active_ && expected_end_s_ > now_s) {
+    next_poll_s_ = std::min(next_poll_s_, expected_end_s_ + 2e-3);
+  }
+}
+
+// A jog cancel that arrives in the very moment a jog ends, or a disturbed line, can leave GRBL in
+// a hold although it says Idle: it then answers reports but takes no line until '~', which does
+// nothing otherwise (gnea/grbl protocol.c, protocol_exec_rt_system).
+void GrblStage::nudge(double now_s) {
+  if (active_->is_nudged || state_ != "Idle") return;
+  active_->is_nudged = true;
+  send_realtime(grbl::kResume);
+  note(now_s, "stage_nudged", "", "A move stayed unanswered at Idle; the stage was told to go on");
+}
+
+void GrblStage::watch_deadlines(double now_s) {
+  if (!active_) return;
+  const double written_s = active_->tracker.move().start_time_s;
+  if (!active_->has_ok) {
+    if (now_s > written_s + clock_.from_wall_s(patience_ * kNudge_wall_s)) nudge(now_s);
+    if (now_s > written_s + clock_.from_wall_s(patience_ * kNoAnswer_wall_s)) {
+      throw RigError("the stage did not answer a move within " +
+                     text_from_number(patience_ * kNoAnswer_wall_s, 1) +
+                     " s. Check its cable and supply");
+    }
+  }
+  const double due_s = expected_end_s_ + 0.5 * duration_s(active_->tracker.move());
+  const double patience_s = clock_.from_wall_s(patience_ * kNoProgress_wall_s);
+  // A slow controller may take its time as long as it gets on.
+  if (now_s > due_s + patience_s && now_s > active_->progress_s + patience_s) {
+    throw RigError("the stage should have come to rest " +
+                   text_from_number(now_s - expected_end_s_, 1) +
+                   " s ago, does not move and reports '" + state_ +
+                   "'. Switch it off and on, then start the run again");
+  }
+}
+
+}  // namespace viscard

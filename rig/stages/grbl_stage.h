@@ -1,0 +1,144 @@
+#pragma once
+
+#include "models/experiment/rig_config.h"
+#include "rig/lines/line_splitter.h"
+#include "rig/lines/rig_clock.h"
+#include "rig/protocols/grbl_protocol.h"
+#include "rig/stages/move_tracker.h"
+#include "rig/stages/stage.h"
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// A stage behind GRBL 1.1 or grblHAL. What it relies on, and no more (rig/README.md gives the
+// sources):
+// - a welcome after opening or a soft reset; everything before it is dropped;
+// - one "ok" or "error:N" per line, in order; all else is news and answers nothing;
+// - "ok" to a jog means queued: it has ended when a report that was asked for after the ok says
+//   Idle, at the target;
+// - reports may be lost, late, or come unasked: one '?' outstanding, 250 ms, then another, and an
+//   answer belongs to the oldest question that it can belong to; where answers have been prompt and
+//   one stays out for another 250 ms, the oldest was lost;
+// - a line that stays unanswered at Idle may be held back by a hold nobody asked for: '~' frees it;
+// - after an alarm it may say nothing at all until 0x18.
+class GrblStage final : public Stage {
+ public:
+  // patience shortens (or lengthens) how long it waits for a controller that does not answer.
+  GrblStage(Transport& transport, const StageConfig& config, const RigClock& clock, RecordSink sink,
+            double patience = 1.0);
+
+  Transport& transport() override { return transport_; }
+  void connect(const Pump& pump) override;
+  void service() override;
+  StageDynamics dynamics() const override;
+  std::vector<std::string> advice() const override;
+  ReportLatency report_latency() const override { return latency_; }
+  std::string identity() const override { return version_; }
+  double position_m() const override;
+  void begin_move(double to_m, double speed_m_s, const std::string& purpose) override;
+  bool is_moving() const override { return active_.has_value(); }
+  double expected_end_s() const override { return expected_end_s_; }
+  void stop_soft() override;
+  void stop_hard() override;
+  void recover(const Pump& pump) override;
+
+  // Sends one line and waits for its answer. Throws RigError on error:N or when none comes.
+  void command(const std::string& line, const Pump& pump, double timeout_wall_s = 3.0);
+  const std::map<int, double>& settings() const { return settings_; }
+  const std::string& state() const { return state_; }
+
+ private:
+  struct Pending {
+    std::string line;
+    bool is_awaited;  // command() looks at the answer; otherwise an error is thrown
+  };
+  struct ActiveMove {
+    MoveTracker tracker;
+    std::string purpose;
+    bool has_ok = false;
+    double ok_s = 0.0;
+    bool is_stopping = false;
+    double stop_s = 0.0;
+    int n_rests_elsewhere = 0;
+    int n_astray = 0;               // reports in a row from outside its way
+    std::optional<double> stood_m;  // where the last report after a stop saw it at rest
+    double progress_s = 0.0;        // when a report last saw it elsewhere than the one before
+    bool is_nudged = false;
+  };
+
+  void send_line(const std::string& line, bool is_awaited);
+  void send_realtime(char c);
+  void take_line(const ReceivedLine& line);
+  void take_answer(std::optional<int> error, double time_s);
+  void take_alarm(int code, double time_s);
+  void take_welcome(const GrblWelcome& welcome, double time_s);
+  void take_status(const GrblStatus& status, double time_s);
+  std::optional<double> question_answered(double time_s);
+  void follow_move(double asked_s, double received_s);
+  void watch_way();
+  void rest_elsewhere(double asked_s);
+  void end_move(double end_m);
+  void hand_out(const ActiveMove& ended, double end_m);
+  void poll_status();
+  bool awaits_report(double now_s);
+  void nudge(double now_s);
+  void watch_deadlines(double now_s);
+  std::optional<double> reported_position_m(const GrblStatus& status);
+  bool wait_for(const std::function<bool()>& is_there, const Pump& pump, double wall_s) const;
+  void await_welcome(const Pump& pump);
+  void converse(const Pump& pump);
+  void ask_position(const Pump& pump);
+  void read_settings(const Pump& pump);
+  void unlock(const Pump& pump);
+  double setting(int number, double otherwise) const;
+  double resolution_m() const;
+  double least_speed_m_s() const;
+  void forget_questions();
+  void note(double time_s, const std::string& name, const std::string& value,
+            const std::string& text) const;
+
+  Transport& transport_;
+  StageConfig config_;
+  const RigClock& clock_;
+  RecordSink sink_;
+  double patience_;
+  LineSplitter splitter_;
+  int axis_;
+  double toward_;
+
+  bool is_connected_ = false;  // past the welcome: lines count
+  bool awaits_welcome_ = true;
+  bool is_recovering_ = false;  // alarms are expected
+  std::string version_;
+  bool is_hal_ = false;
+  std::map<int, double> settings_;
+  std::deque<Pending> pending_;
+  std::optional<int> awaited_error_;
+
+  std::string state_;  // as last reported
+  double reported_m_ = 0.0;
+  std::optional<double> exact_m_;  // end of the last move, to the step
+  std::optional<double> start_m_;  // where it stood at connect(): travel counts from here
+  std::vector<double> work_offset_mm_;
+  std::size_t n_reports_ = 0;
+  int n_welcomes_ = 0;
+
+  bool polls_ = false;
+  std::deque<double> asked_s_;  // times of the '?' not yet answered, oldest first
+  bool is_last_missed_ = false;
+  bool is_answered_since_ = false;  // an older question, after the newest was asked
+  int n_missed_ = 0;
+  ReportLatency latency_;
+  double next_poll_s_ = 0.0;
+
+  std::optional<ActiveMove> active_;
+  double expected_end_s_ = 0.0;
+};
+
+}  // namespace viscard

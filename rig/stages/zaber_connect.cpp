@@ -1,0 +1,133 @@
+// The conversations of ZaberStage that wait for answers: opening, settings, recovery.
+#include "rig/protocols/text_number.h"
+#include "rig/stages/zaber_stage.h"
+
+namespace viscard {
+namespace {
+
+constexpr double kReply_wall_s = 3.0;
+constexpr double kHome_wall_s = 180.0;
+constexpr double kRest_wall_s = 5.0;
+
+}  // namespace
+
+// Waits for the answer to one command; its data. Throws RigError when it is rejected.
+std::string ZaberStage::ask(const std::string& words, const Pump& pump) {
+  action_data_.reset();
+  action_rejection_.clear();
+  asked_words_ = words;
+  actions_.push_back(words);
+  const double deadline_s = monotonic_s() + kReply_wall_s;
+  while (!action_data_ && action_rejection_.empty() && monotonic_s() < deadline_s) pump();
+  asked_words_.reset();
+  if (action_data_) return *action_data_;
+  if (!action_rejection_.empty()) {
+    throw RigError("the stage refused '" + words + "': " + action_rejection_);
+  }
+  throw RigError("the stage on '" + transport_.name() + "' did not answer '" + words + "'");
+}
+
+double ZaberStage::number(const std::string& setting, const Pump& pump) {
+  const std::string data = ask("get " + setting, pump);
+  const auto value = number_from_text(data);
+  if (!value) {
+    throw RigError("the stage answered '" + data + "' when asked for " + setting +
+                   ". Check axis_number under [stage] of the rig file");
+  }
+  return *value;
+}
+
+void ZaberStage::wait_for_rest(const Pump& pump, double wall_s) {
+  const double deadline_s = monotonic_s() + wall_s;
+  do {
+    ask("", pump);
+    if (monotonic_s() > deadline_s) {
+      throw RigError("the stage on '" + transport_.name() +
+                     "' does not come to rest: IT MAY STILL PRESS. Lift the punch by hand");
+    }
+  } while (is_busy_);
+}
+
+void ZaberStage::ask_position(const Pump& pump) {
+  const std::size_t before = n_reports_;
+  polls_ = true;
+  question_.reset();
+  next_poll_s_ = clock_.now_s();
+  const double deadline_s = monotonic_s() + kReply_wall_s;
+  while (n_reports_ == before) {
+    if (monotonic_s() > deadline_s) {
+      throw RigError("the stage on '" + transport_.name() + "' does not tell its position");
+    }
+    pump();
+  }
+}
+
+void ZaberStage::read_settings(const Pump& pump) {
+  identity_ = "Zaber, firmware " + ask("get version", pump);
+  max_speed_data_ = number("maxspeed", pump);
+  acceleration_data_ = number("accel", pump);
+  const StageDynamics found = dynamics();
+  if (!(found.acceleration_m_s2 > 0.0) || !(found.max_speed_m_s > 0.0)) {
+    throw RigError("the stage reports maxspeed or accel 0. Set both on the controller");
+  }
+}
+
+void ZaberStage::connect(const Pump& pump) {
+  try {
+    ask("", pump);
+  } catch (const RigError&) {
+    const bool is_noise = splitter_.n_bytes() > 20 && splitter_.unprintable_fraction() > 0.2;
+    throw RigError(
+        "no Zaber controller of address " + std::to_string(config_.device) + " answered on '" +
+        transport_.name() + "' (" + std::to_string(splitter_.n_bytes()) + " bytes received). " +
+        (is_noise ? "They are mostly unreadable: is the baud rate right?"
+                  : "Is this the stage's port, is it switched on, is it set to the ASCII "
+                    "protocol at 115200 baud?"));
+  }
+  wait_for_rest(pump, kRest_wall_s);
+  read_settings(pump);
+  if (is_zaber_fault(flag_)) throw RigError("the stage reports " + zaber_flag_text(flag_));
+  if (config_.home) {
+    ask("home", pump);
+    wait_for_rest(pump, kHome_wall_s);
+  }
+  if (flag_ == "WR" || flag_ == "WH") {
+    throw RigError(
+        "the stage has no reference position since it was switched on. Clear the way and set home "
+        "= true under [stage] of the rig file, or home it by its own software");
+  }
+  ask_position(pump);
+  exact_m_ = reported_m_;
+  start_m_ = reported_m_;
+  is_recovering_ = false;
+}
+
+void ZaberStage::recover(const Pump& pump) {
+  is_recovering_ = true;
+  polls_ = false;
+  question_.reset();
+  wait_for_rest(pump, kRest_wall_s);
+  ask("warnings clear", pump);
+  if (flag_ == "FO" || flag_ == "FD") ask("driver enable", pump);
+  ask_position(pump);
+  if (active_) end_move(reported_m_);
+  exact_m_ = reported_m_;
+  flag_.clear();  // a fault that is still there is told again
+  is_recovering_ = false;
+}
+
+std::vector<std::string> ZaberStage::advice() const {
+  std::vector<std::string> advice;
+  if (dynamics().max_speed_m_s < 1e-3) {
+    advice.push_back("maxspeed lets the stage go no faster than " +
+                     text_from_number(dynamics().max_speed_m_s * 1e3, 3) +
+                     " mm/s: retracting takes long; set maxspeed higher on the controller");
+  }
+  if (dynamics().acceleration_m_s2 < 0.1) {
+    advice.push_back("accel is " + text_from_number(dynamics().acceleration_m_s2 * 1e3, 0) +
+                     " mm/s2: stops and ramps are slow; set accel for at least 100");
+  }
+  return advice;
+}
+
+}  // namespace viscard

@@ -1,0 +1,302 @@
+#include "rig/stages/zaber_stage.h"
+
+#include "rig/protocols/text_number.h"
+#include "rig/stages/travel_limit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr double kAnswer_wall_s = 0.25;
+constexpr int kMostSends = 4;
+constexpr int kMostMisses = 20;
+constexpr double kPollMoving_s = 0.05;
+constexpr double kPollResting_s = 0.2;
+constexpr int kMostRestsElsewhere = 3;
+constexpr double kNoEnd_wall_s = 5.0;
+constexpr const char* kAskPosition = "get pos";
+
+}  // namespace
+
+ZaberStage::ZaberStage(Transport& transport, const StageConfig& config, const RigClock& clock,
+                       RecordSink sink)
+    : transport_(transport),
+      config_(config),
+      clock_(clock),
+      sink_(std::move(sink)),
+      toward_(config.toward_specimen < 0 ? -1.0 : 1.0) {
+  if (!(config_.microstep_m > 0.0)) {
+    throw RigError(
+        "a Zaber stage counts microsteps, and the rig file does not say how far one goes. Set "
+        "microstep under [stage], such as \"0.047625 um\", from the maker's page of the stage");
+  }
+}
+
+ZaberStage::~ZaberStage() {
+  if (speed_data_ == 0 || static_cast<double>(speed_data_) == max_speed_data_) return;
+  try {
+    send("set maxspeed " + text_from_number(max_speed_data_, 0));
+  } catch (...) {
+    // A stage that is gone needs no setting.
+  }
+}
+
+void ZaberStage::note(double time_s, const std::string& name, const std::string& value,
+                      const std::string& text) const {
+  sink_(RunEvent{time_s, name, value, text});
+}
+
+StageDynamics ZaberStage::dynamics() const {
+  return {1.0 / config_.microstep_m,
+          microsteps_s2_from_zaber(acceleration_data_) * config_.microstep_m,
+          microsteps_s_from_zaber(max_speed_data_) * config_.microstep_m};
+}
+
+double ZaberStage::position_m() const {
+  return exact_m_ && !active_ ? *exact_m_ : reported_m_;
+}
+
+ZaberStage::Sent ZaberStage::send(const std::string& words) {
+  next_id_ = (next_id_ + 1) % 100;
+  const std::string line =
+      format_zaber_command(config_.device, config_.axis_number, next_id_, words);
+  const Sent sent{next_id_, words, clock_.now_s(), 1};
+  sink_(RawBytes{Device::kStage, true, sent.written_s, line});
+  transport_.write(line);
+  return sent;
+}
+
+void ZaberStage::service() {
+  const Chunk chunk = transport_.read_available();
+  if (!chunk.bytes.empty()) {
+    sink_(RawBytes{Device::kStage, false, chunk.time_s, chunk.bytes});
+    splitter_.feed(chunk.bytes, chunk.time_s);
+  }
+  while (const auto line = splitter_.next()) take_line(*line);
+  drive();
+}
+
+void ZaberStage::take_line(const ReceivedLine& line) {
+  if (trimmed(line.text).empty()) return;
+  const auto message = parse_zaber_message(line.text);
+  if (!message) {
+    note(line.time_s, "stage_unreadable", line.text.substr(0, 80),
+         "A line from the stage makes no sense or has a wrong checksum");
+    return;
+  }
+  if (message->device != config_.device) return;  // a neighbour on the chain
+  if (message->kind == ZaberMessage::Kind::kReply) return take_reply(*message, line.time_s);
+  if (message->kind == ZaberMessage::Kind::kInfo) {
+    note(line.time_s, "stage_message", message->data, "The stage says: " + message->data);
+  } else {
+    next_poll_s_ = line.time_s;  // an alert: something has changed, so ask
+  }
+}
+
+void ZaberStage::take_reply(const ZaberMessage& reply, double time_s) {
+  const auto is_answered = [&](const std::optional<Sent>& sent) {
+    return sent && reply.id == sent->id;
+  };
+  if (is_answered(question_)) {
+    const Sent question = *std::exchange(question_, std::nullopt);
+    take_flag(reply, time_s);
+    take_position(question, reply, time_s);
+  } else if (is_answered(action_)) {
+    const Sent action = *std::exchange(action_, std::nullopt);
+    take_flag(reply, time_s);
+    take_action_reply(action, reply, time_s);
+  } else {
+    note(time_s, "stage_unexpected_answer", reply.data,
+         "A reply of the stage to no open question was ignored");
+  }
+}
+
+void ZaberStage::take_flag(const ZaberMessage& reply, double time_s) {
+  is_busy_ = reply.is_busy;
+  if (reply.flag == flag_) return;
+  flag_ = reply.flag;
+  if (flag_ == "--") return;
+  note(time_s, "stage_warning", flag_, "The stage warns: " + zaber_flag_text(flag_));
+  if (is_recovering_) return;
+  if (is_zaber_fault(flag_)) {
+    exact_m_.reset();
+    throw StageAlarm("the stage stopped with " + zaber_flag_text(flag_));
+  }
+  if (flag_ == "WR" || flag_ == "WH") {
+    exact_m_.reset();
+    throw DeviceRestarted(
+        "the stage lost its reference position in the middle of the run (was its supply cut?). "
+        "Home it, then start the run again");
+  }
+}
+
+void ZaberStage::take_action_reply(const Sent& action, const ZaberMessage& reply, double time_s) {
+  const bool is_asked_for = asked_words_ == action.words;
+  if (reply.is_rejected) {
+    const std::string reason = zaber_rejection_text(reply.data);
+    if (action.words == "estop" && reply.data == "BADCOMMAND") {
+      action_ = send("stop");  // firmware without it
+      return;
+    }
+    if (is_asked_for) {
+      action_rejection_ = reason;
+      return;
+    }
+    actions_.clear();
+    if (active_ && !active_->reply_s) active_.reset();
+    throw RigError("the stage refused '" + action.words + "': " + reason);
+  }
+  if (is_asked_for) action_data_ = reply.data;
+  if (active_ && !active_->reply_s && action.words.rfind("move abs", 0) == 0) {
+    active_->reply_s = time_s;
+    active_->tracker->acknowledged(time_s);
+    expected_end_s_ = active_->tracker->latest_end_s();
+    next_poll_s_ = std::min(time_s + kPollMoving_s, expected_end_s_ + 2e-3);
+  }
+}
+
+void ZaberStage::take_position(const Sent& question, const ZaberMessage& reply, double time_s) {
+  const double took_s = (time_s - question.written_s) / clock_.speed();
+  latency_.mean_s += (took_s - latency_.mean_s) / ++latency_.n;
+  latency_.longest_s = std::max(latency_.longest_s, took_s);
+  n_missed_ = 0;
+  const auto microsteps = reply.is_rejected ? std::nullopt : number_from_text(reply.data);
+  if (!microsteps) return;
+  reported_m_ = metres(*microsteps);
+  ++n_reports_;
+  sink_(StageReport{time_s, reported_m_, reply.is_busy ? "BUSY" : "IDLE"});
+  if (active_) follow_move(question.written_s, time_s, reply.is_busy);
+}
+
+void ZaberStage::follow_move(double asked_s, double received_s, bool is_busy) {
+  ActiveMove& active = *active_;
+  const bool has_begun = active.reply_s && asked_s >= *active.reply_s;
+  if (active.tracker && !active.is_stopping) {
+    active.tracker->reported(asked_s, received_s, reported_m_);
+  }
+  if (is_busy) return;
+  if (active.is_stopping) {
+    // Stopped, also when that came before the move itself had been sent.
+    if (!action_ && asked_s >= active.stop_s) end_move(reported_m_);
+    return;
+  }
+  if (!has_begun) return;
+  const double target_m = metres(static_cast<double>(active.target));
+  if (std::abs(reported_m_ - target_m) < 0.5 * config_.microstep_m) return end_move(target_m);
+  if (++active.n_rests_elsewhere < kMostRestsElsewhere) return;
+  active_.reset();
+  exact_m_.reset();
+  throw RigError("the stage stands at " + text_from_number(reported_m_ * 1e3, 4) +
+                 " mm and did not reach " + text_from_number(target_m * 1e3, 4) + " mm (" +
+                 zaber_flag_text(flag_) +
+                 "). Look for an obstacle or a turned knob, then start the run again");
+}
+
+void ZaberStage::end_move(double end_m) {
+  exact_m_ = end_m;
+  const ActiveMove ended = *std::exchange(active_, std::nullopt);
+  if (!ended.tracker) return;  // stopped before it was sent
+  CommandedMove commanded = ended.tracker->best(end_m);
+  commanded.purpose = ended.purpose;
+  sink_(commanded);
+}
+
+void ZaberStage::begin_move(double to_m, double speed_m_s, const std::string& purpose) {
+  if (active_) throw RigError("a move was asked for while the stage was still moving");
+  const StageDynamics limits = dynamics();
+  const double from_m = position_m();
+  const long long target = std::llround(toward_ * to_m / config_.microstep_m);
+  to_m = metres(static_cast<double>(target));
+  if (start_m_) check_travel(to_m, *start_m_, config_.travel_m);
+  const double now_s = clock_.now_s();
+  expected_end_s_ = now_s;
+  if (std::abs(to_m - from_m) < 0.5 * config_.microstep_m) return;
+  const double wanted_m_s = std::min(speed_m_s, limits.max_speed_m_s);
+  const long long speed_data = zaber_speed_data(wanted_m_s / config_.microstep_m);
+  const double real_m_s =
+      microsteps_s_from_zaber(static_cast<double>(speed_data)) * config_.microstep_m;
+  const StageMove move{now_s, from_m, to_m, real_m_s, limits.acceleration_m_s2};
+  validate(move);
+  active_ = ActiveMove{move, std::nullopt, purpose, target};
+  expected_end_s_ = now_s + duration_s(move);
+  next_poll_s_ = now_s + kPollMoving_s;
+  // The move only follows when the speed has been taken: never faster than asked for.
+  if (speed_data != speed_data_) actions_.push_back("set maxspeed " + std::to_string(speed_data));
+  speed_data_ = speed_data;
+  actions_.push_back("move abs " + std::to_string(target));
+  start_action();
+}
+
+void ZaberStage::start_action() {
+  if (action_ || actions_.empty()) return;
+  action_ = send(actions_.front());
+  actions_.pop_front();
+  if (!active_ || action_->words.rfind("move abs", 0) != 0) return;
+  active_->planned.start_time_s = action_->written_s;
+  active_->tracker.emplace(active_->planned, config_.microstep_m);
+  expected_end_s_ = action_->written_s + duration_s(active_->planned);
+}
+
+void ZaberStage::drive() {
+  const double now_s = clock_.now_s();
+  const double answer_s = clock_.from_wall_s(kAnswer_wall_s);
+  if (question_ && now_s - question_->written_s > answer_s) {
+    question_.reset();  // its id tells its answer from the next one's, however late
+    ++latency_.n_lost;
+    if (++n_missed_ >= kMostMisses) {
+      throw RigError("the stage has stopped answering on '" + transport_.name() +
+                     "'. Check its cable and supply; it may still be moving");
+    }
+  }
+  if (action_ && now_s - action_->written_s > answer_s) {
+    if (action_->n_sent >= kMostSends) {
+      throw RigError("the stage did not answer '" + action_->words + "' on '" + transport_.name() +
+                     "'. Check its cable and supply");
+    }
+    const int n_sent = action_->n_sent;
+    action_ = send(action_->words);
+    action_->n_sent = n_sent + 1;
+  }
+  start_action();
+  watch_deadline(now_s);
+  if (!polls_ || question_ || now_s < next_poll_s_) return;
+  question_ = send(kAskPosition);
+  next_poll_s_ = now_s + (active_ ? kPollMoving_s : kPollResting_s);
+  if (active_ && expected_end_s_ > now_s) {
+    next_poll_s_ = std::min(next_poll_s_, expected_end_s_ + 2e-3);
+  }
+}
+
+void ZaberStage::watch_deadline(double now_s) {
+  if (!active_ || !active_->reply_s) return;
+  if (now_s <
+      expected_end_s_ + 0.5 * duration_s(active_->planned) + clock_.from_wall_s(kNoEnd_wall_s)) {
+    return;
+  }
+  throw RigError("the stage should have come to rest " +
+                 text_from_number(now_s - expected_end_s_, 1) +
+                 " s ago and still moves. Switch it off and on, home it, and start again");
+}
+
+void ZaberStage::stop(const std::string& words) {
+  actions_.clear();
+  action_ = send(words);
+  if (!active_) return;
+  active_->is_stopping = true;
+  active_->stop_s = clock_.now_s();
+  next_poll_s_ = active_->stop_s;
+}
+
+void ZaberStage::stop_soft() {
+  stop("stop");
+}
+
+void ZaberStage::stop_hard() {
+  is_recovering_ = true;
+  stop("estop");
+}
+
+}  // namespace viscard

@@ -1,0 +1,125 @@
+#pragma once
+
+#include "models/experiment/rig_config.h"
+#include "rig/lines/line_splitter.h"
+#include "rig/lines/rig_clock.h"
+#include "rig/protocols/zaber_protocol.h"
+#include "rig/stages/move_tracker.h"
+#include "rig/stages/stage.h"
+
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// A Zaber stage that speaks the ASCII protocol (rig/zaber_protocol.h). What it relies on:
+// - every command carries a checksum and an id, and only a reply with that id answers it: late
+//   replies, replies of other devices on the chain and garbled ones are left alone;
+// - commands are only such as do no harm when sent twice (an absolute move, a setting, a stop), so
+//   one without answer is sent again;
+// - a move has ended when a question asked after its reply is answered IDLE, at the target;
+// - a fault flag means that the axis stopped by itself; no reference position (WR) means that no
+//   position is worth anything.
+class ZaberStage final : public Stage {
+ public:
+  // Throws RigError if the rig file does not say how far a microstep goes.
+  ZaberStage(Transport& transport, const StageConfig& config, const RigClock& clock,
+             RecordSink sink);
+  ~ZaberStage() override;  // gives the controller its own largest speed back
+
+  Transport& transport() override { return transport_; }
+  void connect(const Pump& pump) override;
+  void service() override;
+  StageDynamics dynamics() const override;
+  std::vector<std::string> advice() const override;
+  ReportLatency report_latency() const override { return latency_; }
+  std::string identity() const override { return identity_; }
+  double position_m() const override;
+  void begin_move(double to_m, double speed_m_s, const std::string& purpose) override;
+  bool is_moving() const override { return active_.has_value(); }
+  double expected_end_s() const override { return expected_end_s_; }
+  void stop_soft() override;
+  void stop_hard() override;
+  void recover(const Pump& pump) override;
+
+ private:
+  struct Sent {
+    int id = 0;
+    std::string words;
+    double written_s = 0.0;
+    int n_sent = 0;
+  };
+  struct ActiveMove {
+    StageMove planned;  // of which the start is not known until its command is written
+    std::optional<MoveTracker> tracker;
+    std::string purpose;
+    long long target = 0;  // microsteps
+    std::optional<double> reply_s = {};
+    bool is_stopping = false;
+    double stop_s = 0.0;
+    int n_rests_elsewhere = 0;
+  };
+
+  Sent send(const std::string& words);
+  void take_line(const ReceivedLine& line);
+  void take_reply(const ZaberMessage& reply, double time_s);
+  void take_flag(const ZaberMessage& reply, double time_s);
+  void take_action_reply(const Sent& action, const ZaberMessage& reply, double time_s);
+  void take_position(const Sent& question, const ZaberMessage& reply, double time_s);
+  void follow_move(double asked_s, double received_s, bool is_busy);
+  void end_move(double end_m);
+  void drive();
+  void start_action();
+  void watch_deadline(double now_s);
+  void stop(const std::string& words);
+  std::string ask(const std::string& words, const Pump& pump);
+  double number(const std::string& setting, const Pump& pump);
+  void wait_for_rest(const Pump& pump, double wall_s);
+  void read_settings(const Pump& pump);
+  void ask_position(const Pump& pump);
+  double metres(double microsteps) const {
+    return toward_ * microsteps * config_.microstep_m + 0.0;
+  }
+  void note(double time_s, const std::string& name, const std::string& value,
+            const std::string& text) const;
+
+  Transport& transport_;
+  StageConfig config_;
+  const RigClock& clock_;
+  RecordSink sink_;
+  LineSplitter splitter_;
+  double toward_;
+  int next_id_ = 0;
+
+  std::deque<std::string> actions_;  // to be sent one after another, each when the one before is OK
+  std::optional<Sent> action_;       // not yet answered
+  std::optional<Sent> question_;     // "get pos", not yet answered
+  std::optional<std::string> action_data_;
+  std::string action_rejection_;
+  std::optional<std::string> asked_words_;  // of ask(), which looks at rejections itself
+
+  std::string identity_;
+  double max_speed_data_ = 0.0;
+  long long speed_data_ = 0;  // as last set
+  double acceleration_data_ = 0.0;
+  bool is_recovering_ = true;  // faults are expected; until connected as well
+  std::string flag_;           // as last reported
+  bool is_busy_ = false;
+
+  double reported_m_ = 0.0;
+  std::optional<double> exact_m_;
+  std::optional<double> start_m_;
+  std::size_t n_reports_ = 0;
+  bool polls_ = false;
+  int n_missed_ = 0;
+  ReportLatency latency_;
+  double next_poll_s_ = 0.0;
+
+  std::optional<ActiveMove> active_;
+  double expected_end_s_ = 0.0;
+};
+
+}  // namespace viscard

@@ -1,0 +1,242 @@
+#include "fit/reduce_terms.h"
+#include "io/basics/atomic_file.h"
+#include "io/cards/conventions.h"
+#include "io/cards/read_card.h"
+#include "io/cli/card/command_card.h"
+#include "io/materials/material_file.h"
+#include "tests/io/cards/card_materials.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <filesystem>
+#include <sstream>
+#include <utility>
+
+using namespace viscard;
+using namespace viscard::test;
+
+namespace {
+
+// A folder that goes with the test, and the command run in it.
+class CardCommand {
+ public:
+  CardCommand()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("viscard-card-" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~CardCommand() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  CardCommand(const CardCommand&) = delete;
+  CardCommand& operator=(const CardCommand&) = delete;
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string save(const Material& material, const std::string& name = "m.json") const {
+    write_file(path(name), json_from_material(material), true);
+    return path(name);
+  }
+  int run(const std::vector<std::string>& words) {
+    std::ostringstream printed, messages;
+    Streams streams{printed, messages};
+    int status = kDone;
+    try {
+      status = run_card(words, streams);
+    } catch (const UsageError& error) {
+      messages << error.what();
+      status = kBadWords;
+    } catch (const std::exception& error) {
+      messages << error.what();
+      status = kFailed;
+    }
+    out = printed.str();
+    err = messages.str();
+    return status;
+  }
+
+  std::string out, err;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace
+
+TEST_CASE("viscard card writes, refuses to overwrite, and writes again with --force",
+          "[cards][cli]") {
+  CardCommand card;
+  const std::string material = card.save(reference_material());
+  const std::vector<std::string> words{material, "--for", "comsol", "--out", card.path("c.txt")};
+  CHECK(card.run(words) == kDone);
+  CHECK(std::filesystem::exists(card.path("c_relaxation.txt")));
+  const std::string before = read_file(card.path("c.txt"));
+  CHECK(card.run(words) == kFailed);
+  CHECK(card.err.find("exists already; pass --force") != std::string::npos);
+  CHECK(read_file(card.path("c.txt")) == before);
+  std::vector<std::string> forced = words;
+  forced.push_back("--force");
+  CHECK(card.run(forced) == kDone);
+}
+
+TEST_CASE("viscard card explains every wrong use in one line", "[cards][cli]") {
+  CardCommand card;
+  const std::string material = card.save(reference_material());
+  struct Row {
+    std::vector<std::string> words;
+    int status;
+    const char* part;
+  };
+  const std::vector<Row> rows{
+      {{material, "--for", "abacus"}, kBadWords, "did you mean 'abaqus'?"},
+      {{material, "--for", "nastran"}, kBadWords, "frontistr"},
+      {{material, "--for", "abaqus", "--units", "mm-kg"}, kBadWords, "mm-kg-ms"},
+      {{material}, kBadWords, "--for TARGET is missing"},
+      {{"--for", "abaqus"}, kBadWords, "which material?"},
+      {{card.path("none.json"), "--for", "abaqus"}, kFailed, "cannot open"},
+      {{material, "--for", "abaqus", "--terms", "1"}, kBadWords, "--approximate"},
+      {{material, "--for", "abaqus", "--terms", "0", "--approximate"}, kBadWords, "1 to 100"},
+      {{material, "--for", "abaqus", "--bound", "low"}, kBadWords, "lower"},
+      {{material, "--for", "abaqus", "--bound", "lower"}, kFailed, "no intervals"},
+      {{material, "--for", "abaqus", "--clamp-nu", "0.5"}, kBadWords, "(-1, 0.5)"},
+      {{material, "--for", "lsdyna006"}, kFailed, "--approximate"},
+      {{material, "--for", "json", "--deck", "creep", "--out", card.path("d")}, kFailed, "mfront"},
+      {{material, "--for", "febio", "--deck", "creep"}, kBadWords, "--out FOLDER"},
+      {{"--prove", material, "--for", "abaqus"}, kBadWords, "--deck"},
+      {{"--check", card.path("none.inp"), "--for", "abaqus"}, kFailed, "cannot open"},
+      {{"--check", material, "--for", "abaqus"}, kFailed, "no *ELASTIC"},
+      {{"--list", "--check", material}, kBadWords, "exclude"},
+  };
+  for (const Row& row : rows) {
+    std::string line;
+    for (const std::string& word : row.words) line += word + " ";
+    CAPTURE(line);
+    CHECK(card.run(row.words) == row.status);
+    CAPTURE(card.err);
+    CHECK(card.err.find(row.part) != std::string::npos);
+    CHECK(card.err.find('\n') == std::string::npos);
+    CHECK(card.out.empty());
+  }
+}
+
+TEST_CASE("viscard card --list shows every target, in words and as JSON", "[cards][cli]") {
+  CardCommand card;
+  CHECK(card.run({"--list"}) == kDone);
+  for (const CardTarget& target : card_targets()) {
+    CHECK(card.out.find("\n" + target.name + " ") != std::string::npos);
+  }
+  CHECK(card.run({"--list", "--json"}) == kDone);
+  const auto json = nlohmann::json::parse(card.out);
+  CHECK(json.at("targets").size() == card_targets().size());
+  CHECK(json.at("units").size() == 6);
+}
+
+TEST_CASE("viscard card --approximate reduces, and the error it states holds", "[cards][cli]") {
+  CardCommand card;
+  Material thirty = material_of_terms(30, 0.4);
+  thirty.valid = {1e-3, 1e6, 0.0};
+  const std::string material = card.save(thirty);
+  CHECK(card.run({material, "--for", "febio"}) == kFailed);
+  CHECK(card.err.find("at most 6") != std::string::npos);
+  REQUIRE(card.run({material, "--for", "febio", "--approximate", "--json"}) == kDone);
+  const auto json = nlohmann::json::parse(card.out);
+  CHECK(json.at("n_terms") == 6);
+  CHECK(json.at("card").get<std::string>().find("30 refitted to 6") != std::string::npos);
+  CHECK(card.run({material, "--for", "abaqus", "--approximate", "--terms", "4"}) == kDone);
+  CHECK(card.out.find("30 refitted to 4") != std::string::npos);
+}
+
+TEST_CASE("viscard card --check exits 0 for a right card and 1 for a wrong one", "[cards][cli]") {
+  CardCommand card;
+  const std::string material = card.save(reference_material());
+  const std::string path = card.path("c.feb");
+  REQUIRE(card.run({material, "--for", "febio", "--units", "mm-t-s", "--out", path}) == kDone);
+  CHECK(card.run({"--check", path, "--for", "febio", material}) == kDone);
+  CHECK(card.out.find("agrees") != std::string::npos);
+  std::string text = read_file(path);
+  text.replace(text.find("<g0>0.977934</g0>"), 17, "");
+  write_file(path, text, true);
+  CHECK(card.run({"--check", path, "--for", "febio", material, "--json"}) == kFailed);
+  const auto json = nlohmann::json::parse(card.out);
+  CHECK(json.at("agrees") == false);
+  bool is_named = false;
+  for (const auto& finding : json.at("findings")) is_named |= finding.at("name") == "g0-left-at-1";
+  CHECK(is_named);
+}
+
+TEST_CASE("viscard card --bound writes both ends of the intervals", "[cards][cli]") {
+  CardCommand card;
+  Material material = reference_material();
+  MaterialUncertainty uncertainty;
+  uncertainty.E0_Pa_95 = {1.8e6, 1.96e6};
+  uncertainty.E_inf_Pa_95 = {1.75e6, 1.9e6};
+  uncertainty.terms = {{1e3, 0.1, {1e4, 2e4}, {0.005, 0.01}, {0.1, 0.3}},
+                       {1e3, 0.1, {2e4, 3e4}, {0.01, 0.02}, {2.0, 3.0}}};
+  material.uncertainty = uncertainty;
+  const auto moduli = [&](const char* bound) {
+    REQUIRE(card.run({card.save(material), "--for", "abaqus", "--bound", bound, "--json"}) ==
+            kDone);
+    const auto json = nlohmann::json::parse(card.out);
+    return std::pair(json.at("E0_Pa").get<double>(), json.at("E_inf_Pa").get<double>());
+  };
+  // Both ends to rounding: the card is written with all digits.
+  const auto [E0_low, E_inf_low] = moduli("lower");
+  CHECK(E0_low == Approx(1.8e6).epsilon(1e-12));
+  CHECK(E_inf_low == Approx(1.75e6).epsilon(1e-12));
+  const auto [E0_high, E_inf_high] = moduli("upper");
+  CHECK(E0_high == Approx(1.96e6).epsilon(1e-12));
+  CHECK(E_inf_high == Approx(1.9e6).epsilon(1e-12));
+  // Terms keep their part of what relaxes.
+  const std::string text = nlohmann::json::parse(card.out).at("card").get<std::string>();
+  const double part = material.terms[0].g / (material.terms[0].g + material.terms[1].g);
+  const ReadCard read = read_card(text, "abaqus", "");
+  const double g_1 = read.material.terms[0].g, g_2 = read.material.terms[1].g;
+  CHECK(g_1 / (g_1 + g_2) == Approx(part).epsilon(1e-12));
+
+  // Ends that cross leave the shares as fitted; the systematic part widens both.
+  material.uncertainty->E_inf_Pa_95 = {1.85e6, 1.87e6};
+  material.uncertainty->systematic_relative = 0.1;
+  const auto [E0, E_inf] = moduli("lower");
+  CHECK(E0 == Approx(0.9 * 1.8e6).epsilon(1e-12));
+  CHECK(E_inf == Approx(E0 * (1.0 - material.terms[0].g - material.terms[1].g)).epsilon(1e-12));
+}
+
+TEST_CASE("viscard card --deck writes a model that holds the card and the expected curve",
+          "[cards][cli]") {
+  CardCommand card;
+  Material material = reference_material();
+  for (const char* target : {"abaqus", "ansys", "lsdyna", "febio", "febio-uncoupled", "mfront",
+                             "calculix", "openradioss", "comsol", "moose", "frontistr"}) {
+    for (const char* kind : {"relaxation", "creep"}) {
+      CAPTURE(target, kind);
+      const std::string folder = card.path(std::string(target) + kind);
+      REQUIRE(card.run({card.save(material), "--for", target, "--deck", kind, "--out", folder,
+                        "--json"}) == kDone);
+      const auto files = nlohmann::json::parse(card.out).at("files");
+      CHECK(files.size() >= 2);
+      const std::string curve = read_file(files.back().get<std::string>());
+      CHECK(curve.find("time_s,") != std::string::npos);
+      bool holds_card = false;  // its first relaxation time, rate or Norton law
+      for (const auto& file : files) {
+        const std::string text = read_file(file.get<std::string>());
+        for (const char* number : {"0.1945", "5.1413", "LAW=NORTON"}) {
+          holds_card |= text.find(number) != std::string::npos;
+        }
+      }
+      CHECK(holds_card);
+    }
+  }
+}
+
+TEST_CASE("viscard card --help has an example, and --reproducible repeats itself", "[cards][cli]") {
+  CardCommand card;
+  CHECK(card.run({"--help"}) == kDone);
+  CHECK(card.out.find("Example: viscard card ") != std::string::npos);
+  const std::string material = card.save(reference_material());
+  CHECK(card.run({material, "--for", "mfront", "--reproducible"}) == kDone);
+  const std::string first = card.out;
+  CHECK(card.run({"--reproducible", "--for", "mfront", material}) == kDone);
+  CHECK(card.out == first);
+}

@@ -1,0 +1,72 @@
+#include "io/materials/material_file.h"
+#include "models/material/temperature_shift.h"
+#include "tests/support/run_command.h"
+#include "tests/support/scratch_folder.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+
+using namespace viscard;
+using namespace viscard::test;
+using Catch::Contains;
+
+namespace {
+
+// One term of 1 s at 20 C under WLF 8.86, 101.6 K; a millionth of ripple in place of noise.
+std::string write_table(const ScratchFolder& folder) {
+  const TemperatureShift wlf{.T_ref_C = 20.0, .C1 = 8.86, .C2_K = 101.6};
+  const std::string file = (folder / "segments.csv").string();
+  std::ofstream table(file);
+  table.precision(12);
+  table << "temperature_C,time_s,modulus_Pa\n";
+  for (const double T_C : {0.0, 10.0, 20.0, 30.0, 40.0, 50.0}) {
+    for (int i = 0; i < 30; ++i) {
+      const double t_s = std::pow(10.0, -1.5 + 3.0 * i / 29.0);
+      const double x = t_s / std::exp(ln_shift_factor(wlf, T_C));
+      const double ripple = 1e-6 * ((7 * i + static_cast<int>(T_C)) % 11 - 5);
+      table << T_C << "," << t_s << ","
+            << (1e6 + 8e5 * std::exp(-x) + 6e5 * std::exp(-x / 30.0) + 4e5 * std::exp(-x * 30.0)) *
+                   (1.0 + ripple)
+            << "\n";
+    }
+  }
+  return file;
+}
+
+}  // namespace
+
+TEST_CASE("a table of several temperatures becomes a material with its shift, and a card",
+          "[cli][master]") {
+  const ScratchFolder folder;
+  const std::string table = write_table(folder);
+  const std::string material = (folder / "m.json").string();
+  const CommandOutcome ran = run_command({"fit", table, "--reference-temperature", "20 degC",
+                                          "--out", material, "--density", "965 kg/m3", "--json"});
+  INFO(ran.err);
+  REQUIRE(ran.status == kDone);
+  const auto shift = nlohmann::json::parse(ran.out)["shift"];
+  CHECK(shift["better"] == "wlf");
+  CHECK(shift["factors"].size() == 6);
+  CHECK(shift["wlf"]["C1"].get<double>() == Approx(8.86).epsilon(2e-3));  // ripple 1e-6 at 6 points
+  const Material read = read_material(material).material;
+  REQUIRE(read.shift);
+  CHECK(read.shift->C2_K == Approx(101.6).epsilon(2e-3));
+  CHECK(read.shift->C2_K_95.low < 101.6);
+  CHECK(read.T_ref_C == 20.0);
+  CHECK(json_from_material(read_material(material)) ==
+        json_from_material(material_from_json(json_from_material(read), "again")));
+  const CommandOutcome card = run_command({"card", material, "--for", "abaqus", "--accept-flags"});
+  CHECK_THAT(card.out, Contains("*TRS, DEFINITION=WLF\n20, 8.8"));
+}
+
+TEST_CASE("a reference temperature that was not measured is refused with those that were",
+          "[cli][master]") {
+  const ScratchFolder folder;
+  const CommandOutcome ran =
+      run_command({"fit", write_table(folder), "--reference-temperature", "25 degC"});
+  CHECK(ran.status == kFailed);
+  CHECK_THAT(ran.err, Contains("there are 0 C, 10 C, 20 C"));
+}

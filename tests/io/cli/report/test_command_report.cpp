@@ -1,0 +1,198 @@
+#include "io/capture/capture_file.h"
+#include "io/config/config_file.h"
+#include "io/materials/material_file.h"
+#include "tests/io/plots/markup.h"
+#include "tests/support/error_text.h"
+#include "tests/support/in_memory_run.h"
+#include "tests/support/run_command.h"
+#include "tests/support/scratch_folder.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace viscard {
+namespace {
+
+using test::contains;
+using test::run_command;
+
+std::string contents_of(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+// A capture of the demo's 1:10 specimen, made in memory with a short hold.
+void write_run(const std::string& path, const EmulatedTruth& truth) {
+  TestPlan plan;
+  plan.hold_s = 20.0;
+  plan.recovery_s = 10.0;
+  CapturedRun run = test::in_memory_run(truth, plan);
+  run.specimen.id = "PDMS <1:10>";
+  run.specimen.mixing_ratio = 10.0;
+  run.specimen.modulus_guess_Pa = 2e6;
+  CaptureWriter writer(path, run);
+  for (const StageReport& report : run.stage_reports) writer.append(report);
+  for (const LoadSample& sample : run.load_samples) writer.append(sample);
+  for (const CommandedMove& move : run.moves) writer.append(move);
+  for (const RunEvent& event : run.events) writer.append(event);
+  writer.finish("finished");
+}
+
+std::string write_material(const test::ScratchFolder& folder) {
+  Material material;
+  material.name = "PDMS";
+  material.E0_Pa = 1.8e6;
+  material.nu = 0.33;
+  material.terms = {{0.1, 0.1, 0.5}};
+  const std::string path = (folder / "pdms.json").string();
+  write_text(path, json_from_material(material));
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("a capture becomes a page with fit, truth, pillar and cards", "[cli][report]") {
+  const test::ScratchFolder folder;
+  const std::string capture = (folder / "run.viscap").string();
+  const std::string page = (folder / "page.html").string();
+  const std::string truth_file = (folder / "truth.toml").string();
+  const EmulatedTruth truth = test::demo_truth(10, 3);
+  write_run(capture, truth);
+  write_text(truth_file, toml_from_truth(truth));
+  const auto outcome = run_command({"report", capture, "--truth", truth_file, "--out", page,
+                                    "--pictures", (folder / "pictures").string(), "--json"});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == kDone);
+  const nlohmann::json json = nlohmann::json::parse(outcome.out);
+  REQUIRE(json["specimens"].size() == 1);
+  CHECK(json["specimens"][0]["E0_Pa"].get<double>() == Approx(truth.material.E0_Pa).epsilon(0.01));
+  CHECK(json["specimens"][0]["files"].size() == 2);
+  CHECK(json["pictures"].size() == json["figures"].get<std::size_t>());
+  for (const auto& picture : json["pictures"]) {
+    CHECK(test::first_fault(contents_of(picture.get<std::string>())) == "");
+  }
+  const std::string html = contents_of(page);
+  CHECK(test::first_fault(html) == "");
+  const std::string text = test::text_of(html);
+  for (const char* part : {"PDMS <1:10>", "Truth and estimate", "The fitted material in a pillar",
+                           "*VISCOELASTIC", "TB,PRONY", "SHA-256"}) {
+    CAPTURE(part);
+    CHECK(contains(text, part));
+  }
+}
+
+TEST_CASE("a material file alone makes a page, and its capture joins it", "[cli][report]") {
+  const test::ScratchFolder folder;
+  const std::string capture = (folder / "run.viscap").string();
+  const std::string fitted = (folder / "run.json").string();
+  const std::string page = (folder / "page.html").string();
+  CHECK(run_command({"report", write_material(folder), "--out", page}).status == kDone);
+  CHECK(contains(test::text_of(contents_of(page)), "Known from its material file only"));
+
+  write_run(capture, test::demo_truth(10, 4));
+  REQUIRE(run_command({"fit", capture, "--out", fitted}).status == kDone);
+  const auto outcome = run_command({"report", capture, fitted, "--out", page, "--force", "--json"});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == kDone);
+  const nlohmann::json json = nlohmann::json::parse(outcome.out);
+  REQUIRE(json["specimens"].size() == 1);
+  CHECK(json["specimens"][0]["files"].size() == 2);
+  CHECK(json["specimens"][0]["notes"].empty());
+}
+
+TEST_CASE("a material file from other options of the fit is said to differ", "[cli][report]") {
+  const test::ScratchFolder folder;
+  const std::string capture = (folder / "run.viscap").string();
+  const std::string fitted = (folder / "run.json").string();
+  write_run(capture, test::demo_truth(10, 5));
+  REQUIRE(run_command({"fit", capture, "--terms", "1", "--out", fitted}).status != kBadWords);
+  const auto outcome =
+      run_command({"report", capture, fitted, "--out", (folder / "page.html").string(), "--json"});
+  const nlohmann::json json = nlohmann::json::parse(outcome.out);
+  REQUIRE(json["specimens"].size() == 1);
+  REQUIRE(json["specimens"][0]["notes"].size() == 1);
+  CHECK(contains(json["specimens"][0]["notes"][0].get<std::string>(), "other options"));
+}
+
+TEST_CASE("a table of the user's is fitted on the way", "[cli][report]") {
+  const test::ScratchFolder folder;
+  const std::string table = (folder / "relaxation.csv").string();
+  std::string text = "time_s,modulus_Pa\n";
+  for (int i = 0; i < 200; ++i) {
+    const double t = 0.01 * std::pow(10.0, i / 50.0);
+    const double noise = 1.0 + 1e-3 * std::sin(12.9898 * i * i);
+    text += std::to_string(t) + "," +
+            std::to_string((1e6 + 2e5 * std::exp(-t / 0.3) + 1e5 * std::exp(-t / 20)) * noise) +
+            "\n";
+  }
+  write_text(table, text);
+  const std::string page = (folder / "page.html").string();
+  const auto outcome = run_command({"report", table, "--out", page});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == kDone);
+  CHECK(contains(test::text_of(contents_of(page)), "relaxation modulus"));
+}
+
+TEST_CASE("reproducible pages are the same bytes twice", "[cli][report]") {
+  const test::ScratchFolder folder;
+  const std::string material = write_material(folder), page = (folder / "page.html").string();
+  const std::vector<std::string> words{"report",  material, "--reproducible",
+                                       "--force", "--out",  page};
+  REQUIRE(run_command(words).status == kDone);
+  const std::string first = contents_of(page);
+  REQUIRE(run_command(words).status == kDone);
+  CHECK(contents_of(page) == first);
+}
+
+TEST_CASE("wrong words to report get one clear line", "[cli][report]") {
+  const test::ScratchFolder folder;
+  const std::string material = write_material(folder), page = (folder / "page.html").string();
+  const auto fails = [&](std::vector<std::string> words, int status, const std::string& part) {
+    words.insert(words.begin(), "report");
+    const auto outcome = run_command(words);
+    CAPTURE(words, outcome.err);
+    CHECK(outcome.status == status);
+    CHECK(contains(outcome.err, part));
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    CHECK(outcome.out.empty());
+    CHECK_FALSE(std::filesystem::exists(page));
+  };
+  fails({"--out", page}, kBadWords, "report on what?");
+  fails({material}, kBadWords, "--out report.html");
+  fails({material, "--out", page, "--card", "abacus"}, kBadWords, "abaqus");
+  fails({material, "--out", page, "--units", "furlong"}, kBadWords, "mm-t-s");
+  fails({material, "--out", page, "--truth", material}, kBadWords, "1 truth file for 0 captures");
+  fails({material, "--out", page, "--titel", "x"}, kBadWords, "--title");
+  fails({(folder / "absent.viscap").string(), "--out", page}, kFailed, "no such file");
+  fails({(folder / ".").string(), "--out", page}, kFailed, "is a folder");
+  write_text((folder / "broken.json").string(), "{ \"E0_Pa\": ");
+  fails({(folder / "broken.json").string(), "--out", page}, kFailed, "broken.json");
+  write_text((folder / "text.csv").string(), "a,b\nc,d\n");
+  fails({(folder / "text.csv").string(), "--out", page}, kFailed, "text.csv");
+}
+
+TEST_CASE("an existing page is kept unless --force is given", "[cli][report]") {
+  const test::ScratchFolder folder;
+  const std::string page = (folder / "page.html").string();
+  write_text(page, "mine");
+  const std::string material = write_material(folder);
+  const auto refused = run_command({"report", material, "--out", page});
+  CHECK(refused.status == kFailed);
+  CHECK(contains(refused.err, "--force"));
+  CHECK(contents_of(page) == "mine");
+  CHECK(run_command({"report", material, "--out", page, "--force"}).status == kDone);
+  CHECK(contents_of(page) != "mine");
+}
+
+}  // namespace viscard

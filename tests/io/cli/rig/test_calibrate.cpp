@@ -1,0 +1,168 @@
+#include "io/cli/rig/command_calibrate.h"
+#include "io/config/config_file.h"
+#include "tests/support/scratch_folder.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace viscard {
+namespace {
+
+using Catch::Matchers::Contains;
+using nlohmann::json;
+using test::ScratchFolder;
+
+struct Calibrated {
+  int status = 0;
+  std::string out, err;
+};
+
+Calibrated calibrate(const std::vector<std::string>& words) {
+  std::ostringstream out, err;
+  Streams streams{out, err, false};
+  Calibrated result;
+  result.status = run_calibrate(words, streams);
+  result.out = out.str();
+  result.err = err.str();
+  return result;
+}
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path) << text;
+}
+
+// A cell that is not as its data sheet says: gain 2 % high, a bow and a loop, noise, and zero off.
+std::string truth_file(const ScratchFolder& folder) {
+  write(
+      folder / "truth.toml",
+      "seed = 5\n"
+      "[contact]\npunch_diameter = \"4 mm\"\nlayer_thickness = \"11 mm\"\npoisson_ratio = 0.495\n"
+      "[material]\nE0 = \"1.88 MPa\"\n"
+      "[rig]\nframe_stiffness = \"12.5 N/mm\"\nforce_noise = \"0.5 mN\"\nforce_offset = \"20 mN\"\n"
+      "drift_relative = \"0 1/s\"\noverload = \"375 gf\"\ncell_gain = \"0.7400 V/N\"\n"
+      "cell_full_scale = \"1.9613 N\"\ncell_hysteresis = 0.003\ncell_nonlinearity = 0.001\n");
+  return (folder / "truth.toml").string();
+}
+
+}  // namespace
+
+TEST_CASE("Dead weights on the emulated rig recover gain and hysteresis within their interval",
+          "[cli][pty]") {
+  const ScratchFolder folder;
+  const std::string out = (folder / "cell.toml").string();
+  const Calibrated run =
+      calibrate({"--emulate", "--truth", truth_file(folder), "--speed", "50", "--series", "2",
+                 "--gravity", "9.80665 m/s2", "--out", out, "--json"});
+  REQUIRE(run.status == kDone);
+  const json found = json::parse(run.out);
+  const double gain = found["gain_V_N"];
+  const double gain_u = found["gain_u_V_N"];
+  CHECK(std::abs(gain - 0.74) < 2.0 * gain_u);
+  CHECK(gain_u / gain < 2e-3);  // bow and loop, rectangular: 1.0e-3 and .9e-3
+  CHECK(found["gain_interval_95"][0].get<double>() < 0.74);
+  CHECK(found["gain_interval_95"][1].get<double>() > 0.74);
+  CHECK(found["hysteresis"].get<double>() == Approx(0.003).epsilon(0.05));  // noise of the means
+  CHECK(found["repeatability"].get<double>() < 1e-4);
+  CHECK(found["n_series"] == 2);
+  CHECK(found["budget"].size() == 5);
+  // The record is what a rig file can name.
+  const CalibrationRecord record = read_calibration(out);
+  REQUIRE(record.calibration.has_value());
+  CHECK(record.calibration->volts_per_newton == gain);
+  CHECK(record.calibration->capacity_N == Approx(2.4517).epsilon(1e-4));
+  CHECK(record.calibration->date.size() == 10);
+  CHECK(record.calibration->valid_until > record.calibration->date);
+  write(folder / "rig.toml",
+        "[stage]\nport = \"/dev/null\"\n[load_cell]\nport = \"/dev/null\"\nvolts_per_count = 1e-6\n"
+        "[calibration]\nfile = \"cell.toml\"\n[frame]\nstiffness = \"rigid\"\n");
+  const RigConfig rig = read_rig(folder / "rig.toml");
+  CHECK(rig.calibration.volts_per_newton == gain);
+  CHECK(rig.calibration.id == record.calibration->id);
+  CHECK(rig_from_toml(toml_from_rig(rig), "again").calibration.volts_per_newton == gain);
+}
+
+TEST_CASE("A rigid block on the emulated rig recovers the frame's stiffness within its interval",
+          "[cli][pty]") {
+  const ScratchFolder folder;
+  const std::string out = (folder / "frame.toml").string();
+  write(folder / "truth.toml",
+        "[contact]\npunch_diameter = \"4 mm\"\nlayer_thickness = \"half-space\"\npoisson_ratio = "
+        "0.3\n"
+        "[material]\nE0 = \"200 GPa\"\n"
+        "[rig]\nframe_stiffness = \"12.5 N/mm\"\nsurface_position = \"0.3 mm\"\n"
+        "force_noise = \"0.5 mN\"\noverload = \"375 gf\"\n");
+  const Calibrated run =
+      calibrate({"--compliance", "--emulate", "--truth", (folder / "truth.toml").string(),
+                 "--speed", "10", "--seconds", "1 s", "--steps", "5", "--out", out, "--json"});
+  REQUIRE(run.status == kDone);
+  const json found = json::parse(run.out);
+  CHECK(found["n_points"] == 5);
+  const double stiffness_N_m = found["stiffness_N_m"];
+  CHECK(stiffness_N_m == Approx(12.5e3).epsilon(0.005));
+  CHECK(found["stiffness_interval_95"][0].get<double>() < 12.5e3);
+  CHECK(found["stiffness_interval_95"][1].get<double>() > 12.5e3);
+  CHECK(found["curvature_m"].get<double>() < 0.5e-6);  // a step of the stage is .3 um
+  CHECK(read_calibration(out).frame->stiffness_N_m == stiffness_N_m);
+}
+
+TEST_CASE("A table of weights and readings is calibrated as well", "[cli]") {
+  const ScratchFolder folder;
+  std::string table = "mass (g),voltage (mV)\n";
+  for (const double mass_g : {0.0, 50.0, 100.0, 200.0, 100.0, 50.0, 0.0}) {
+    const double force_N = mass_g * 1e-3 * 9.81 * (1.0 - 1.2 / 8000.0);
+    table += std::to_string(mass_g) + "," + std::to_string(1e3 * (0.7255 * force_N + 0.01)) + "\n";
+  }
+  write(folder / "weights.csv", table);
+  const std::string out = (folder / "cell.toml").string();
+  const std::vector<std::string> words{"--data",     (folder / "weights.csv").string(),
+                                       "--capacity", "250 gf",
+                                       "--gravity",  "9.81 m/s2",
+                                       "--id",       "cell 7",
+                                       "--out",      out};
+  const Calibrated run = calibrate(words);
+  CHECK(run.status == kDone);
+  CHECK_THAT(run.out, Contains("cell 7"));
+  CHECK_THAT(run.out, Contains("budget"));
+  CHECK_THAT(run.out, Contains("not measured: go up and down more than once"));
+  CHECK(read_calibration(out).calibration->volts_per_newton == Approx(0.7255).epsilon(1e-6));
+  CHECK_THROWS_WITH(calibrate(words), Contains("exists already"));
+}
+
+TEST_CASE("Weights mixed up make no record, and the reading is named", "[cli]") {
+  const ScratchFolder folder;
+  const std::vector<double> asked_g{0.0, 20.0, 50.0, 100.0, 200.0, 100.0, 50.0, 20.0, 0.0};
+  std::vector<double> put_g = asked_g;
+  put_g[6] = 20.0;  // the seventh reading
+  std::string table = "mass_kg,volts_V\n";
+  for (std::size_t i = 0; i < asked_g.size(); ++i) {
+    table += std::to_string(asked_g[i] * 1e-3) + "," +
+             std::to_string(0.1 + 0.7255 * 9.80665e-3 * put_g[i]) + "\n";
+  }
+  write(folder / "weights.csv", table);
+  const std::string out = (folder / "cell.toml").string();
+  const std::vector<std::string> words{
+      "--data", (folder / "weights.csv").string(), "--capacity", "250 gf", "--out", out};
+  CHECK_THROWS_WITH(calibrate(words), Contains("reading 7 of 9") && Contains("mixed up"));
+  CHECK_FALSE(std::filesystem::exists(out));
+}
+
+TEST_CASE("Bad words of a calibration are named", "[cli]") {
+  CHECK_THROWS_AS(calibrate({"--out", "x.toml"}), UsageError);
+  CHECK_THROWS_WITH(calibrate({"--emulate"}), Contains("--out"));
+  CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--weights", "20 V"}),
+                    Contains("--weights"));
+  CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--weights", "300 g"}),
+                    Contains("300 g is more than"));
+  CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--gravity", "1.6 m/s2"}),
+                    Contains("nowhere on Earth"));
+  CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--valid-until", "2020-01-31"}),
+                    Catch::Contains("--valid-until 2020-01-31 is past"));
+  CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--valid-until", "soon"}),
+                    Contains("'soon'"));
+}
+
+}  // namespace viscard

@@ -1,0 +1,337 @@
+// viscard capture as a user calls it: series, resuming, pictures.
+#include "io/basics/atomic_file.h"
+#include "io/capture/capture_file.h"
+#include "io/capture/sqlite_database.h"
+#include "io/cli/rig/live_picture.h"
+#include "rig/emulator/demo_rig.h"
+#include "rig/emulator/emulated_rig.h"
+#include "rig/emulator/pty_port.h"
+#include "tests/support/error_text.h"
+#include "tests/support/run_command.h"
+#include "tests/support/scratch_folder.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace viscard {
+namespace {
+
+using test::contains;
+using test::run_command;
+using test::ScratchFolder;
+
+std::string demo(const std::string& name) {
+  return VISCARD_SOURCE_DIR "/data/demo/" + name;
+}
+
+constexpr const char* kShortTest = R"(
+[approach]
+speed = "0.2 mm/s"
+baseline = "1 s"
+[ramp]
+depth = "0.13 mm"
+duration = "1 s"
+hold = "3 s"
+[recovery]
+hold = "2 s"
+)";
+
+// viscard capture --force with the demo's rig behind these ports.
+test::CommandOutcome replace_over_ports(const ScratchFolder& folder,
+                                        const std::filesystem::path& capture,
+                                        const std::string& stage, const std::string& load_cell) {
+  std::string rig = read_file(demo("01_rig.toml"));
+  const auto put = [&rig](const std::string& from, const std::string& to) {
+    rig.replace(rig.find(from), from.size(), to);
+  };
+  put("/dev/serial/by-id/stage", stage);
+  put("/dev/serial/by-id/load_cell", load_cell);
+  write_file(folder / "rig.toml", rig, false);
+  return run_command({"capture", "--rig", folder / "rig.toml", "--test", demo("02_test.toml"),
+                      "--specimen", demo("03_pdms_1to10.toml"), "--out", capture, "--force"});
+}
+
+std::vector<std::string> series_words(const ScratchFolder& folder) {
+  const std::string test_file = folder / "test.toml";
+  if (!std::filesystem::exists(test_file)) write_file(test_file, kShortTest, false);
+  return {"capture",    "--emulate",
+          "--speed",    "100",
+          "--test",     test_file,
+          "--specimen", demo("03_pdms_1to10.toml"),
+          "--specimen", demo("04_pdms_1to13.toml"),
+          "--out",      folder / "series"};
+}
+
+std::vector<std::string> with(std::vector<std::string> words, const std::string& word) {
+  words.push_back(word);
+  return words;
+}
+
+// A capture that somebody's crash left behind.
+void leave_interrupted(const std::filesystem::path& path) {
+  CapturedRun about;
+  about.rig.calibration.volts_per_newton = 0.7255;
+  about.rig.calibration.capacity_N = 2.45;
+  about.specimen.id = "left behind";
+  about.specimen.modulus_guess_Pa = 1e6;
+  about.specimen.contact.punch_radius_m = 2e-3;
+  CaptureWriter writer(path, about);
+  writer.append(LoadSample{.index = 0, .counts = 1.0});
+}
+
+}  // namespace
+
+TEST_CASE("what would stand beside a capture is not overwritten either", "[cli][capture]") {
+  const ScratchFolder folder;
+  write_file(folder / "run.truth.json", "precious", false);
+  const auto refused = run_command(
+      {"capture", "--emulate", "--speed", "100", "--out", (folder / "run.viscap").string()});
+  CHECK(refused.status == kFailed);
+  CHECK(contains(refused.err, "run.truth.json' exists already"));
+  CHECK(read_file(folder / "run.truth.json") == "precious");
+}
+
+TEST_CASE("a series is resumed with what is not finished, and nothing is overwritten",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "series");
+  const auto first = folder / "series/01_03_pdms_1to10.viscap";
+  leave_interrupted(first);
+  const std::string left = read_file(first);
+
+  const auto refused = run_command(series_words(folder));
+  CHECK(refused.status == kFailed);
+  CHECK(contains(refused.err, "exists already"));
+
+  const auto resumed = run_command(with(series_words(folder), "--resume"));
+  INFO(resumed.err);
+  REQUIRE(resumed.status == kDone);
+  CHECK(read_file(first) == left);
+  CHECK(read_capture(folder / "series/01_03_pdms_1to10.2.viscap").status == "finished");
+  CHECK(read_capture(folder / "series/02_04_pdms_1to13.viscap").status == "finished");
+
+  const auto again = run_command(with(with(series_words(folder), "--resume"), "--json"));
+  CHECK(again.status == kDone);
+  const auto json = nlohmann::json::parse(again.out);
+  REQUIRE(json["runs"].size() == 2);
+  for (const auto& run : json["runs"]) CHECK(run["status"] == "finished before");
+}
+
+TEST_CASE("one finished capture is left alone by --resume", "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const std::string out = folder / "run.viscap";
+  const std::string test_file = folder / "test.toml";
+  write_file(test_file, kShortTest, false);
+  const std::vector<std::string> words{"capture", "--emulate", "--speed", "100", "--test",
+                                       test_file, "--live",    "--out",   out,   "--resume"};
+  const auto first = run_command(words);
+  INFO(first.err);
+  REQUIRE(first.status == kDone);
+  CHECK(contains(first.out, "run.viscap: finished\n"));
+  CHECK(contains(first.out, "force           ▁"));
+  CHECK(contains(first.err, "live page: "));
+  const std::string page = read_file(folder / "run.live.html");
+  CHECK(contains(page, "<polyline"));
+  CHECK(contains(page, "over"));
+  CHECK_FALSE(contains(page, "http-equiv='refresh'"));
+  const auto again = run_command(words);
+  CHECK(again.status == kDone);
+  CHECK(contains(again.out, "run.viscap: finished before"));
+}
+
+TEST_CASE("a reading that was marked implausible is read back as a glitch", "[cli][capture]") {
+  const ScratchFolder folder;
+  leave_interrupted(folder / "old.viscap");
+  CapturedRun about = read_capture(folder / "old.viscap");
+  {
+    CaptureWriter writer(folder / "run.viscap", about);
+    for (int i = 0; i < 4; ++i) writer.append(LoadSample{.index = i, .counts = 1.0 * i});
+    writer.append(RunEvent{0.0, "implausible", "2", "it stands out"});
+    writer.finish("finished");
+  }
+  const CapturedRun run = read_capture(folder / "run.viscap");
+  REQUIRE(run.load_samples.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) CHECK(run.load_samples[i].is_glitch == (i == 2));
+}
+
+TEST_CASE("capture refuses words that do not go together", "[cli][capture]") {
+  CHECK(run_command({"capture", "--emulate"}).status == kBadWords);
+  CHECK(run_command({"capture", "--emulate", "--out", "x.viscap", "--resume", "--force"}).status ==
+        kBadWords);
+  CHECK(run_command({"capture", "--out", "x.viscap"}).status == kBadWords);
+  CHECK(run_command({"capture", "--emulate", "--out", "x.viscap", "--speed", "501"}).status ==
+        kBadWords);
+  if (isatty(STDIN_FILENO) != 1) {
+    const ScratchFolder folder;
+    const auto outcome =
+        run_command({"capture", "--rig", demo("01_rig.toml"), "--test", demo("02_test.toml"),
+                     "--specimen", demo("03_pdms_1to10.toml"), "--specimen",
+                     demo("04_pdms_1to13.toml"), "--out", folder / "series"});
+    CHECK(outcome.status == kBadWords);
+    CHECK(contains(outcome.err, "--yes"));
+  }
+}
+
+TEST_CASE("capture names the port that is not there", "[cli][capture]") {
+  const ScratchFolder folder;
+  const auto outcome =
+      run_command({"capture", "--rig", demo("01_rig.toml"), "--test", demo("02_test.toml"),
+                   "--specimen", demo("03_pdms_1to10.toml"), "--out", folder / "run.viscap"});
+  CHECK(outcome.status == kFailed);
+  CHECK(contains(outcome.err, "there is no port '/dev/serial/by-id/stage'"));
+  CHECK_FALSE(std::filesystem::exists(folder / "run.viscap"));
+}
+
+TEST_CASE("a run that never begins leaves the capture that --force would have replaced",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const std::filesystem::path capture = folder / "run.viscap";
+  leave_interrupted(capture);
+  const std::string before = read_file(capture);
+  const PtyPort stage, load_cell;  // plugged in, and silent
+  const auto outcome = replace_over_ports(folder, capture, stage.path(), load_cell.path());
+  CAPTURE(outcome.err);
+  CHECK(outcome.status == kFailed);
+  CHECK(contains(outcome.err, "nothing came from the load cell"));
+  CHECK(read_file(capture) == before);
+  CHECK(read_capture(capture).specimen.id == "left behind");
+  CHECK_FALSE(std::filesystem::exists(capture.string() + ".previous"));
+}
+
+TEST_CASE("a run refused because the punch presses leaves the capture that --force would replace",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const std::filesystem::path capture = folder / "run.viscap";
+  leave_interrupted(capture);
+  const std::string before = read_file(capture);
+  EmulatedRigOptions options;
+  options.truth = demo_truth(10.0, 7);
+  options.truth.surface_position_m = -0.3e-3;
+  options.truth.overload_N = 100.0;
+  options.config = demo_rig();
+  const EmulatedRig emulated(options);
+  const auto outcome = replace_over_ports(folder, capture, emulated.config().stage.port,
+                                          emulated.config().load_cell.port);
+  CAPTURE(outcome.err);
+  CHECK(outcome.status == kFailed);
+  CHECK(contains(outcome.err, "the record that --force was to replace is kept"));
+  CHECK(contains(outcome.err, "lifted"));
+  CHECK(read_file(capture) == before);
+  CHECK_FALSE(std::filesystem::exists(capture.string() + ".previous"));
+}
+
+TEST_CASE("what a run has against its record is a flag of the fit", "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  const std::string file = folder / "run.viscap";
+  write_file(folder / "test.toml", kShortTest, false);
+  REQUIRE(run_command({"capture", "--emulate", "--speed", "100", "--test", folder / "test.toml",
+                       "--out", file})
+              .status == kDone);
+  const auto has_flag = [&] {
+    const auto fit = run_command({"fit", file, "--json"});
+    CAPTURE(fit.err);
+    REQUIRE(fit.status == kDone);
+    const auto flags = nlohmann::json::parse(fit.out)["flags"].dump();
+    return contains(flags, "line-noise") && contains(flags, "3 lines could not be read");
+  };
+  CHECK_FALSE(has_flag());
+  Database(file, Database::Access::kReadWrite)
+      .execute(
+          "INSERT INTO events (host_time_s, name, value, text) VALUES (1.0, 'doubt', "
+          "'line_noise', '3 lines could not be read')");
+  CHECK(has_flag());
+}
+
+TEST_CASE("a damaged capture is never taken for a table", "[cli][capture]") {
+  const ScratchFolder folder;
+  const std::string file = folder / "run.viscap";
+  write_file(file, "garbled, and no longer what it was\n", false);
+  const auto weights = run_command(
+      {"calibrate", "--data", file, "--rig", demo("01_rig.toml"), "--out", folder / "c.toml"});
+  CHECK(weights.status == kFailed);
+  CHECK(contains(weights.err, "not a table of weights"));
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"fit", file},
+        {"report", file, "--out", folder / "r.html"},
+        {"calibrate", "--compliance", "--data", file, "--out", folder / "f.toml"}}) {
+    const auto outcome = run_command(words);
+    CAPTURE(words[0], outcome.err);
+    CHECK(outcome.status == kFailed);
+    CHECK(contains(outcome.err, "run.viscap"));
+    CHECK(contains(outcome.err, "capture"));
+  }
+}
+
+TEST_CASE("options of rig check are refused where they mean nothing", "[cli][rig]") {
+  const auto outcome = run_command({"rig", "overshoot", "--rig", "none.toml"});
+  CHECK(outcome.status == kBadWords);
+  CHECK(contains(outcome.err, "--rig belongs to 'viscard rig check'"));
+}
+
+TEST_CASE("rig list and rig check say what they find, and what they cannot do", "[cli][rig][pty]") {
+  CHECK(run_command({"rig", "list"}).status == kDone);
+  CHECK(nlohmann::json::parse(run_command({"rig", "list", "--json"}).out)["ports"].is_array());
+  CHECK(run_command({"rig"}).status == kBadWords);
+  CHECK(run_command({"rig", "check"}).status == kBadWords);
+  CHECK(run_command({"rig", "check", "--emulate", "--seconds", "0"}).status == kBadWords);
+  const auto missing = run_command({"rig", "check", "--rig", demo("01_rig.toml")});
+  CHECK(missing.status == kFailed);
+  CHECK(contains(missing.err, "there is no port"));
+  const auto found = run_command({"rig", "check", "--emulate", "--seconds", "1", "--json"});
+  CHECK(found.status == kDone);
+  const auto json = nlohmann::json::parse(found.out);
+  CHECK(json["stage"]["identity"] == "Grbl 1.1h");
+  CHECK(json["load_cell"]["rate_Hz"].get<double>() == Approx(80.0).epsilon(0.1));  // 80 readings
+}
+
+TEST_CASE("a sparkline shows the highest of each share, low to high", "[cli]") {
+  CHECK(sparkline({}, 10).empty());
+  CHECK(sparkline({1.0, 1.0}, 10) == "▁▁");
+  CHECK(sparkline({0, 1, 2, 3, 4, 5, 6, 7}, 8) == "▁▂▃▄▅▆▇█");
+  std::vector<double> spike(1000, 0.0);
+  spike[501] = 1.0;
+  CHECK(contains(sparkline(spike, 10), "█"));
+}
+
+TEST_CASE("a history stays small however long the run and keeps its ends", "[cli]") {
+  LiveHistory history;
+  for (int i = 0; i < 100'000; ++i) history.add(i, std::sin(1e-3 * i));
+  CHECK(history.time_s().size() <= LiveHistory::kMost);
+  CHECK(history.time_s().size() > LiveHistory::kMost / 4);
+  CHECK(history.time_s().front() == 0.0);
+  CHECK(history.time_s().back() > 99'000.0);
+  for (std::size_t i = 0; i < history.time_s().size(); ++i) {
+    REQUIRE(history.force_N()[i] == std::sin(1e-3 * history.time_s()[i]));
+  }
+}
+
+TEST_CASE("the live line fits its terminal and tells phase, force, depth and time left", "[cli]") {
+  LiveHistory history;
+  for (int i = 0; i < 50; ++i) history.add(i, 0.01 * i);
+  const RunProgress now{
+      .time_s = 50, .phase = "hold", .force_N = 0.843, .depth_m = 128.3e-6, .time_left_s = 83.0};
+  const std::string line = line_from_live(now, history, 2.4517, 100);
+  for (const char* part : {"hold", "0.843 N", "34 % of the cell", "128.3 um", "1:23 left", "█"}) {
+    CHECK(contains(line, part));
+  }
+  CHECK(line_from_live(now, history, 2.4517, 40).size() <= 40);
+  CHECK(clock_from_s(7267.0) == "2:01:07");
+}
+
+TEST_CASE("the live page reloads while the run goes on and escapes what it shows", "[cli]") {
+  LiveHistory history;
+  history.add(0.0, 0.0);
+  history.add(1.0, 1.0);
+  const RunProgress now{.time_s = 1, .phase = "<b>"};
+  const std::string page = page_from_live(now, history, 2.0, 0.5, "a & b", false);
+  CHECK(contains(page, "http-equiv='refresh'"));
+  CHECK(contains(page, "a &amp; b"));
+  CHECK(contains(page, "&lt;b&gt;"));
+  CHECK(contains(page, "#d55e00"));  // the limit lies within the picture
+}
+
+}  // namespace viscard

@@ -1,0 +1,82 @@
+#include "io/basics/atomic_file.h"
+#include "io/capture/capture_file.h"
+#include "io/tables/column_map.h"
+#include "tests/io/capture/capture_samples.h"
+#include "tests/support/error_text.h"
+#include "tests/support/run_command.h"
+#include "tests/support/scratch_folder.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+namespace viscard {
+namespace {
+
+using test::contains;
+using test::run_command;
+using test::ScratchFolder;
+
+std::string capture_of(const ScratchFolder& folder, const std::string& status) {
+  const std::string path = folder / (status + ".viscap");
+  CaptureWriter writer(path, test::demo_run());
+  writer.append(RunEvent{0.0, "phase", "hold", ""});
+  for (int i = 0; i < 50; ++i) writer.append(test::sample(i));
+  if (status == "finished") writer.finish(status);
+  return path;
+}
+
+TEST_CASE("viscard export writes every sample to stdout or to a file", "[cli][capture]") {
+  const ScratchFolder folder;
+  const std::string capture = capture_of(folder, "finished");
+  const auto table = run_command({"export", capture});
+  CHECK(table.status == kDone);
+  CHECK(table.err.empty());
+  CHECK(column_SI(csv_from_text(table.out, "stdout"), "time_s").size() == 50);
+  const std::string out = folder / "run.csv";
+  const auto file = run_command({"export", capture, "--out", out});
+  CHECK(file.status == kDone);
+  CHECK(file.out.empty());
+  CHECK(read_file(out) == table.out);
+  const auto again = run_command({"export", capture, "--out", out});
+  CHECK(again.status == kFailed);
+  CHECK(contains(again.err, "exists already; pass --force"));
+  CHECK(run_command({"export", capture, "--out", out, "--force", "--raw"}).status == kDone);
+  CHECK(contains(read_file(out), "host_time_s,device,direction,bytes"));
+}
+
+TEST_CASE("viscard export --json prints one object and nothing else", "[cli][capture]") {
+  const ScratchFolder folder;
+  const auto outcome = run_command({"export", capture_of(folder, "finished"), "--json"});
+  const auto json = nlohmann::json::parse(outcome.out);
+  CHECK(json["status"] == "finished");
+  CHECK(json["n_samples"] == 50);
+  CHECK(json["n_gaps"] == 0);
+  CHECK(outcome.err.empty());
+}
+
+TEST_CASE("an interrupted capture is exported and said to be so", "[cli][capture]") {
+  const ScratchFolder folder;
+  const auto outcome = run_command({"export", capture_of(folder, "interrupted")});
+  CHECK(outcome.status == kDone);
+  CHECK(contains(outcome.out, "# status: interrupted"));
+  CHECK(contains(outcome.err, "is of an interrupted run; all that was committed is exported"));
+  CHECK(column_SI(csv_from_text(outcome.out, "stdout"), "time_s").size() == 50);
+}
+
+TEST_CASE("viscard export refuses what is no capture in one line", "[cli][capture]") {
+  const ScratchFolder folder;
+  CHECK(run_command({"export"}).status == kBadWords);
+  CHECK(run_command({"export", "a", "b"}).status == kBadWords);
+  const auto missing = run_command({"export", folder / "none.viscap"});
+  CHECK(missing.status == kFailed);
+  CHECK(contains(missing.err, "No such file"));
+  const std::string whole = read_file(capture_of(folder, "finished"));
+  write_file(folder / "cut.viscap", whole.substr(0, whole.size() / 3), false);
+  const auto truncated = run_command({"export", folder / "cut.viscap"});
+  CHECK(truncated.status == kFailed);
+  CHECK(truncated.out.empty());
+  CHECK(contains(truncated.err, "is truncated"));
+}
+
+}  // namespace
+}  // namespace viscard

@@ -1,0 +1,143 @@
+#include "io/cost/study_cost.h"
+#include "tests/io/scenes/scene_text.h"
+#include "tests/support/run_command.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+using namespace viscard;
+using namespace viscard::test;
+
+namespace {
+
+const char* const kSensor = R"(tolerance = 1e-3
+[geometry]
+diameter = "40 um"
+length = "120 um"
+film = { thickness = "25 um", radius = "60 um", material = "pvdf" }
+electrode = { face = "top", radius = "20 um" }
+[materials]
+pillar = { E = "1.8 MPa", nu = 0.33, rho = "965 kg/m3" }
+pvdf = { file = "DATA/materials/pvdf_film_manual.json" }
+[analysis]
+kind = "static"
+load = { pressure = "10 kPa", on = "top" }
+)";
+
+}  // namespace
+
+TEST_CASE("a scene that contradicts itself is told in one line with the line of the file",
+          "[cli][scene]") {
+  struct Case {
+    const char *from, *to, *where, *what;
+  };
+  const Case c = GENERATE(
+      Case{"tolerance = 1e-3", "tolerance = 0", "scene.toml:1:", "tolerance"},
+      Case{", on = \"top\"", "", "scene.toml:12:", "no place"},
+      Case{"radius = \"20 um\"", "radius = \"90 um\"", "scene.toml:6:", "electrode"},
+      Case{"radius = \"60 um\"", "radius = \"10 um\"", "scene.toml:", "film"},
+      Case{"pressure = \"10 kPa\"", "pressure = \"40 kPa\"", "scene.toml:12:", "buckling"},
+      Case{"length =", "lenght =", "scene.toml:", "lenght"},
+      Case{"kind = \"static\"", "kind = \"statik\"", "scene.toml:11:", "did you mean 'static'"},
+      Case{"nu = 0.33", "nu = 0.7", "scene.toml:8:", "Poisson"},
+      Case{"E = \"1.8 MPa\"", "E = \"1.8 um\"", "scene.toml:8:", "MPa"},
+      Case{"[analysis]", "[effects]\ninertai = \"on\"\n[analysis]",
+           "scene.toml:11:", "did you mean 'inertia'"},
+      Case{"[analysis]", "[effects]\nfilm_compliance = \"off\"\n[analysis]",
+           "scene.toml:11:", "cannot be off"},
+      Case{"[analysis]", "[effects]\ninertia = \"maybe\"\n[analysis]",
+           "scene.toml:11:", "There are: auto, off, on"});
+  CAPTURE(c.to);
+  const SceneText scene(replaced(kSensor, c.from, c.to));
+  const CommandOutcome outcome = run_command({"scene", "check", scene.path()});
+  CAPTURE(outcome.err);
+  CHECK(outcome.status == 1);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err.find(c.where) != std::string::npos);
+  CHECK(outcome.err.find(c.what) != std::string::npos);
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+}
+
+TEST_CASE("a scene is drawn with its sizes", "[cli][scene]") {
+  const SceneText scene(kSensor);
+  const std::string svg = scene.beside("scene.svg");
+  REQUIRE(run_command({"scene", "check", scene.path(), "--svg", svg}).status == 0);
+  std::stringstream text;
+  text << std::ifstream(svg).rdbuf();
+  for (const char* part : {"<svg", "d 40 um", "l 120 um", "t 25 um", "film radius 60 um",
+                           "electrode, radius 20 um", "10 kPa", "</svg>"}) {
+    CAPTURE(part);
+    CHECK(text.str().find(part) != std::string::npos);
+  }
+  CHECK(run_command({"scene", "check", scene.path(), "--svg", svg}).status == 1);  // is there
+  CHECK(run_command({"scene", "check", scene.path(), "--svg", svg, "--force"}).status == 0);
+}
+
+TEST_CASE("the plan is one object with every effect, estimate and reason", "[cli][scene]") {
+  const SceneText scene(kSensor);
+  const CommandOutcome outcome = run_command({"plan", scene.path(), "--json"});
+  REQUIRE(outcome.status == 0);
+  const auto object = nlohmann::json::parse(outcome.out);
+  CHECK(object["effects"].size() == 12);
+  for (const auto& effect : object["effects"]) {
+    CHECK(effect["name"].is_string());
+    CHECK(effect["on"].is_boolean());
+    CHECK((effect["estimate"].is_number() || effect["estimate"].is_null()));
+    CHECK_FALSE(effect["reason"].get<std::string>().empty());
+  }
+  CHECK(object["left_out"].get<double>() <= 0.5 * object["tolerance"].get<double>());
+  CHECK(run_command({"plan"}).status == 2);
+  CHECK(run_command({"plan", scene.path(), "--tol", "2"}).status == 2);
+}
+
+TEST_CASE("what accuracy costs: rows, a front, and advice that keeps what it promises",
+          "[cli][scene]") {
+  const SceneText scene(
+      replaced(kSensor, "electrode = { face = \"top\", radius = \"20 um\" }\n", "") +
+      "[want]\nquantities = [\"top_displacement\"]\n");
+  const std::string out = scene.beside("cost");
+  const CommandOutcome outcome =
+      run_command({"cost", scene.path(), "--budget", "2s", "--json", "--out", out});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == 0);
+  const auto study = nlohmann::json::parse(outcome.out);
+  REQUIRE(study["rows"].size() >= 1);
+  for (const auto& row : study["rows"]) {
+    CHECK(row["unknowns"].get<int>() > 0);
+    CHECK(row["wall_s"].get<double>() > 0.0);
+    CHECK(row["error"].get<double>() >= 0.0);
+  }
+  for (const auto& advice : study["recommendations"]) {
+    if (advice["row"].is_null()) continue;
+    const auto& row = study["rows"][advice["row"].get<std::size_t>()];
+    CHECK(row["error"].get<double>() <= 0.5 * advice["tolerance"].get<double>());
+  }
+  for (const char* name : {"cost.csv", "cost.json", "cost.svg"}) {
+    CHECK(std::ifstream(out + "/" + name).good());
+  }
+  CHECK(run_command({"cost", scene.path(), "--budget", "soon"}).status == 2);
+}
+
+TEST_CASE("the factor over linear elements is read off the line through their errors",
+          "[io][scene]") {
+  CostStudy study;
+  study.rows = {{.discretisation = "h1 10 um", .effects = "all on", .wall_s = 1e-3, .error = 4e-2},
+                {.discretisation = "h1 5 um", .effects = "all on", .wall_s = 1e-2, .error = 4e-3},
+                {.discretisation = "graded p4, 2 layers",
+                 .effects = "all on",
+                 .wall_s = 2e-3,
+                 .error = 9e-4}};
+  const auto beyond = factor_over_linear(study, 1e-3);  // error falls as 1/time here
+  REQUIRE(beyond);
+  CHECK(beyond->factor == Approx(4e-2 / 2e-3).epsilon(1e-12));
+  CHECK(beyond->is_extrapolated);
+  const auto between = factor_over_linear(study, 1e-2);
+  REQUIRE(between);
+  CHECK(between->factor == Approx(4e-3 / 2e-3).epsilon(1e-12));
+  CHECK_FALSE(between->is_extrapolated);
+  CHECK_FALSE(factor_over_linear(study, 1e-5));  // no row is that accurate
+}

@@ -1,0 +1,89 @@
+#include "io/basics/atomic_file.h"
+#include "io/cli/scene/array_sweep.h"
+#include "tests/io/scenes/scene_text.h"
+#include "tests/support/run_command.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+using namespace viscard;
+using namespace viscard::test;
+
+namespace {
+
+const char* const kMap = R"(tolerance = 1e-3
+[geometry]
+kind = "array"
+count = 1
+diameter = "40 um"
+length = "120 um"
+spacing = "60 um"
+film = { thickness = "25 um", ends = "mirror", material = "pvdf" }
+[materials]
+pillar = { E = "1.8 MPa", nu = 0.33, rho = "965 kg/m3" }
+pvdf = { file = "DATA/materials/pvdf_seed.json" }
+[analysis]
+kind = "static"
+load = { pressure = "1 kPa", on = "top" }
+[sweep]
+diameter = ["20 um", "30 um", "40 um"]
+spacing = ["40 um", "50 um", "60 um", "80 um"]
+length_over_diameter = 3
+[want]
+quantities = ["centre_voltage", "deviation_percent"]
+)";
+
+// The table without its first line, which tells the command and with it the folder.
+std::string rows_of(const std::filesystem::path& folder) {
+  const std::string text = read_file(folder / "sweep.csv");
+  return text.substr(text.find('\n'));
+}
+
+}  // namespace
+
+TEST_CASE("a sweep that was killed goes on and gives the same table", "[cli][scene][array]") {
+  const SceneText scene(kMap);
+  const std::string whole = scene.beside("whole");
+  REQUIRE(run_command({"simulate", scene.path(), "--out", whole}).status == 0);
+  const std::filesystem::path cut = scene.beside("cut");
+  const std::filesystem::path part = cut / "sweep.part.csv";
+  const pid_t child = fork();
+  if (child == 0) {
+    run_command({"simulate", scene.path(), "--out", cut.string()});
+    _exit(0);
+  }
+  // Killed as soon as two points are there.
+  const auto lines = [&] {
+    std::ifstream in(part);
+    return std::count(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>(), '\n');
+  };
+  while (lines() < 3 && waitpid(child, nullptr, WNOHANG) == 0) usleep(1000);
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  REQUIRE(std::filesystem::exists(part));
+  std::ofstream(part, std::ios::app) << "7,centre_voltage_1,-0.0";  // a line that was cut off
+  const CommandOutcome outcome = run_command({"simulate", scene.path(), "--out", cut.string()});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.err.find("going on: ") != std::string::npos);
+  CHECK(rows_of(cut) == rows_of(whole));
+  CHECK_FALSE(std::filesystem::exists(part));
+}
+
+TEST_CASE("points of another sweep are not taken over", "[cli][scene][array]") {
+  const SceneText scene(kMap);
+  const std::filesystem::path folder = scene.beside("other");
+  {
+    SweepStore store(folder, "sweep of another scene");
+    store.add(0, {{"centre_voltage_1", 1.0, "V"}});
+  }
+  const CommandOutcome outcome = run_command({"simulate", scene.path(), "--out", folder.string()});
+  CHECK(outcome.status == 1);
+  CHECK(outcome.err.find("another sweep") != std::string::npos);
+}

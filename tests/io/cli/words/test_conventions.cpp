@@ -1,0 +1,144 @@
+#include "io/cli/words/command_line.h"
+#include "tests/support/error_text.h"
+#include "tests/support/run_command.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace viscard {
+namespace {
+
+using test::contains;
+using test::run_command;
+
+bool is_one_line(const std::string& text) {
+  return std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
+}
+
+TEST_CASE("the overview lists every command in the order of the flow", "[cli]") {
+  const auto help = run_command({"--help"});
+  CHECK(help.status == kDone);
+  CHECK(help.err.empty());
+  std::size_t last = 0;
+  for (const Command& command : commands()) {
+    const std::size_t at = help.out.find("\n  " + std::string(command.name) + " ");
+    CAPTURE(command.name);
+    REQUIRE(at != std::string::npos);
+    CHECK(at > last);
+    last = at;
+  }
+  const std::vector<std::string> flow{"capture", "calibrate", "export", "fit",
+                                      "card",    "validate",  "plan",   "simulate",
+                                      "cost",    "report",    "demo"};
+  std::size_t place = 0;
+  for (const Command& command : commands()) {
+    const auto found = std::find(flow.begin(), flow.end(), std::string(command.name));
+    if (found == flow.end()) continue;  // a later command outside the flow
+    const auto here = static_cast<std::size_t>(found - flow.begin());
+    CHECK(here >= place);
+    place = here;
+  }
+  CHECK(run_command({"help"}).out == help.out);
+}
+
+TEST_CASE("without words the overview goes to stderr and the status is that of bad words",
+          "[cli]") {
+  const auto nothing = run_command({});
+  CHECK(nothing.status == kBadWords);
+  CHECK(nothing.out.empty());
+  CHECK(contains(nothing.err, "usage: viscard COMMAND"));
+}
+
+TEST_CASE("the version is one line", "[cli]") {
+  CHECK(run_command({"--version"}).out == "viscard " VISCARD_VERSION "\n");
+}
+
+TEST_CASE("a misspelt command gets one line with the nearest one, and status 2", "[cli]") {
+  const auto outcome = run_command({"exprot", "run.viscap"});
+  CHECK(outcome.status == kBadWords);
+  CHECK(outcome.out.empty());
+  CHECK(is_one_line(outcome.err));
+  CHECK(contains(outcome.err, "there is no command 'exprot'; did you mean 'export'?"));
+}
+
+TEST_CASE("every command explains itself with an example of its own", "[cli]") {
+  REQUIRE(commands().size() >= 3);
+  for (const Command& command : commands()) {
+    const std::string name = command.name;
+    CAPTURE(name);
+    const auto help = run_command({name, "--help"});
+    CHECK(help.status == kDone);
+    CHECK(help.err.empty());
+    CHECK(contains(help.out, "usage: viscard " + name));
+    CHECK(contains(help.out, "\nExample: viscard " + name));
+    CHECK(contains(help.out, "--json"));
+    CHECK(run_command({name, "-h"}).out == help.out);
+    CHECK(std::string(command.summary).size() > 5);
+  }
+}
+
+TEST_CASE("the options in every example exist", "[cli]") {
+  for (const Command& command : commands()) {
+    const auto help = run_command({command.name, "--help"});
+    const std::size_t at = help.out.find("\nExample: ");
+    REQUIRE(at != std::string::npos);
+    std::istringstream example(help.out.substr(at + 10));
+    const std::string before = help.out.substr(0, at);
+    for (std::string word; example >> word;) {
+      if (word.rfind("--", 0) != 0) continue;
+      CAPTURE(command.name, word);
+      CHECK(contains(before, word.substr(0, word.find('='))));
+    }
+  }
+}
+
+TEST_CASE("a misspelt option gets one line with the nearest one, and status 2", "[cli]") {
+  for (const Command& command : commands()) {
+    CAPTURE(command.name);
+    for (const char* option : {"--jsno", "--no-such-option-at-all"}) {
+      const auto outcome = run_command({command.name, option});
+      CAPTURE(outcome.err);
+      CHECK(outcome.status == kBadWords);
+      CHECK(outcome.out.empty());
+      CHECK(is_one_line(outcome.err));
+      CHECK(contains(outcome.err, std::string("there is no option '") + option + "'"));
+    }
+    CHECK(contains(run_command({command.name, "--jsno"}).err, "did you mean '--json'?"));
+  }
+}
+
+TEST_CASE("a shortened option is not guessed", "[cli]") {
+  for (const Command& command : commands()) {
+    CAPTURE(command.name);
+    CHECK(run_command({command.name, "--hel"}).status == kBadWords);
+  }
+}
+
+TEST_CASE("a command that fails prints nothing on stdout, with --json either", "[cli]") {
+  for (const Command& command : commands()) {
+    const std::string name = command.name;
+    if (name == "demo" || name == "capture") continue;  // they take no input file
+    CAPTURE(name);
+    const auto outcome = run_command({name, "--json", "/nowhere/no-such-file"});
+    CHECK(outcome.status != kDone);
+    CHECK(outcome.out.empty());
+    CHECK(is_one_line(outcome.err));
+  }
+}
+
+TEST_CASE("command lines are recorded as a shell wants them", "[cli]") {
+  CHECK(quoted_command_line("fit", {"a b.csv", "--column", "time_s=Time (s)", "it's", ""}) ==
+        "viscard fit 'a b.csv' --column 'time_s=Time (s)' 'it'\\''s' ''");
+}
+
+TEST_CASE("an output that cannot be written is a failure of the program", "[cli]") {
+  const std::string program = VISCARD_PROGRAM;
+  CHECK(std::system((program + " --help > /dev/null").c_str()) == 0);
+  const int status = std::system((program + " --help > /dev/full 2> /dev/null").c_str());
+  CHECK(WEXITSTATUS(status) == kFailed);
+}
+
+}  // namespace
+}  // namespace viscard

@@ -1,0 +1,91 @@
+// --force replaces what an earlier run wrote, never what the command reads.
+#include "io/basics/atomic_file.h"
+#include "tests/support/error_text.h"
+#include "tests/support/run_command.h"
+#include "tests/support/scratch_folder.h"
+
+#include <catch2/catch.hpp>
+#include <sys/stat.h>
+
+#include <filesystem>
+
+namespace viscard {
+namespace {
+
+using test::contains;
+using test::run_command;
+
+TEST_CASE("no output replaces an input of the same command, even with --force", "[cli]") {
+  const test::ScratchFolder folder;
+  const std::string input = (folder / "input").string();
+  const std::string linked = (folder / "linked").string();
+  write_file(input, "time_s,force_N\n0,1\n", false);
+  std::filesystem::create_symlink(input, linked);
+  const std::vector<std::vector<std::string>> lines{
+      {"export", input, "--out", input},
+      {"export", input, "--out", linked},
+      {"fit", input, "--out", (folder / "." / "input").string()},
+      {"card", input, "--for", "abaqus", "--out", input},
+      {"card", "--check", input, "--for", "abaqus", "--out", input},
+      {"validate", input, "--csv", input},
+      {"validate", input, "--creep-csv", input},
+      {"report", input, "--out", input},
+      {"simulate", input, "--out", input},
+      {"scene", "check", input, "--svg", input},
+      {"capture", "--emulate", "--test", input, "--out", input},
+      {"capture", "--emulate", "--specimen", input, "--out", input},
+      {"calibrate", "--data", input, "--out", input},
+  };
+  for (std::vector<std::string> words : lines) {
+    words.emplace_back("--force");
+    const auto outcome = run_command(words);
+    CAPTURE(words, outcome.err);
+    CHECK(outcome.status == kBadWords);
+    CHECK(contains(outcome.err, "is also read by this command; choose another name"));
+    CHECK(read_file(input) == "time_s,force_N\n0,1\n");
+  }
+}
+
+TEST_CASE("two outputs of one command cannot share a file", "[cli]") {
+  const test::ScratchFolder folder;
+  const std::string table = (folder / "table.csv").string();
+  const auto outcome =
+      run_command({"validate", "material.json", "--csv", table, "--creep-csv", table});
+  CHECK(outcome.status == kBadWords);
+  CHECK(contains(outcome.err, "is also --"));
+}
+
+TEST_CASE("a word that is no file may be the name of an output", "[cli]") {
+  const test::ScratchFolder folder;
+  const auto outcome = run_command(
+      {"fit", (folder / "missing.csv").string(), "--kind", "relaxation", "--out", "relaxation"});
+  CHECK_FALSE(contains(outcome.err, "is also"));
+}
+
+TEST_CASE("an output without a place to go is told before any work", "[cli]") {
+  const test::ScratchFolder folder;
+  const std::string file = (folder / "file").string();
+  write_file(file, "x", false);
+  const auto outcome = run_command({"fit", "missing.csv", "--out", file + "/material.json"});
+  CHECK(outcome.status == kFailed);
+  CHECK(contains(outcome.err, "is not a folder; choose another place"));
+  CHECK_FALSE(contains(outcome.err, "missing.csv"));
+}
+
+TEST_CASE("a folder that cannot be made is one clear line", "[cli]") {
+  const auto outcome = run_command({"demo", "--out", "/proc/viscard"});
+  CHECK(outcome.status == kFailed);
+  CHECK(contains(outcome.err, "'/proc/viscard': "));
+  CHECK_FALSE(contains(outcome.err, "filesystem error"));
+}
+
+TEST_CASE("a device or pipe is not replaced by a file, even with --force", "[cli][io]") {
+  const test::ScratchFolder folder;
+  const std::filesystem::path pipe = folder / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(write_file(pipe, "text", true), Catch::Contains("no file but a device"));
+  CHECK(std::filesystem::is_fifo(pipe));
+}
+
+}  // namespace
+}  // namespace viscard

@@ -1,0 +1,195 @@
+#include "io/config/config_file.h"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <functional>
+
+namespace viscard {
+namespace {
+
+const std::filesystem::path kDemo = std::filesystem::path(VISCARD_SOURCE_DIR) / "data" / "demo";
+
+std::string error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string rig_error(const std::string& text) {
+  return error_of([&] { rig_from_toml(text, "rig.toml"); });
+}
+
+const char* const kMinimalRig =
+    "[calibration]\nvolts_per_newton = \"0.7255 V/N\"\ncapacity = \"250 gf\"\n"
+    "[frame]\nstiffness = \"rigid\"\n";
+
+TEST_CASE("the demo's rig reads as its comments say", "[io][config]") {
+  const RigConfig rig = read_rig(kDemo / "01_rig.toml");
+  CHECK(rig.stage.driver == "grbl");
+  CHECK(rig.stage.toward_specimen == -1);
+  CHECK(rig.stage.travel_m == 10e-3);
+  CHECK(rig.load_cell.volts_per_count == 20.0 / 16777216.0);
+  CHECK(rig.calibration.volts_per_newton == 0.7255);
+  CHECK(rig.calibration.capacity_N == Approx(0.25 * 9.80665).epsilon(1e-15));
+  CHECK(rig.calibration.date == "2024-01-15");
+  CHECK(rig.frame.stiffness_N_m == 10e3);
+  CHECK(rig.frame.stiffness_relative_u == 0.02);
+  CHECK(rig.safety.soft_fraction == 0.8);
+}
+
+TEST_CASE("the demo's test and specimens read as their comments say", "[io][config]") {
+  const TestPlan plan = read_test(kDemo / "02_test.toml");
+  CHECK(plan.depth_m == 0.13e-3);
+  CHECK(plan.ramp_s == 1.0);
+  CHECK(plan.hold_s == 60.0);
+  CHECK(plan.recovery_s == 20.0);
+  CHECK(plan.unload_speed_m_s == 4e-3);
+  const Specimen specimen = read_specimen(kDemo / "03_pdms_1to10.toml");
+  CHECK(specimen.contact.punch_radius_m == 2.2e-3);
+  CHECK(specimen.contact.layer_thickness_m == 11e-3);
+  CHECK(specimen.contact.poisson_ratio == 0.495);
+  CHECK(specimen.modulus_guess_Pa == 2e6);
+  CHECK(specimen.rho_kg_m3 == 965.0);
+  CHECK(read_specimen(kDemo / "04_pdms_1to13.toml").mixing_ratio == 13.0);
+  CHECK(read_specimen(kDemo / "05_pdms_1to20.toml").mixing_ratio == 20.0);
+}
+
+TEST_CASE(
+    "the demo's comment on depth holds: 0.13 mm is below 80 % of the cell, 0.25 mm above its "
+    "rating",
+    "[io][config]") {
+  const RigConfig rig = read_rig(kDemo / "01_rig.toml");
+  const TestPlan plan = read_test(kDemo / "02_test.toml");
+  const EmulatedTruth truth = read_truth(kDemo / "03_pdms_1to10.truth.toml");
+  const double N_per_m = force_per_modulus_and_depth_m(truth.contact) * truth.material.E0_Pa;
+  CAPTURE(N_per_m);
+  CHECK(N_per_m * plan.depth_m < 0.8 * rig.calibration.capacity_N);
+  CHECK(N_per_m * plan.depth_m == Approx(1.8).margin(0.05));  // "about 1.8 N"
+  CHECK(N_per_m * 0.25e-3 == Approx(3.5).margin(0.05));       // "3.5 N at 0.25 mm"
+}
+
+TEST_CASE("the demo's truths carry the seed's values", "[io][config]") {
+  const EmulatedTruth truth = read_truth(kDemo / "04_pdms_1to13.truth.toml");
+  CHECK(truth.material.E0_Pa == 1.65e6);
+  CHECK(truth.material.nu == 0.495);  // of the contact
+  REQUIRE(truth.material.terms.size() == 2);
+  CHECK(truth.material.terms[0].g == 0.01251);
+  CHECK(truth.material.terms[0].k == 0.01251);  // constant Poisson ratio
+  CHECK(truth.material.terms[1].tau_s == 1.686);
+  CHECK(truth.force_noise_N == Approx(2e-4 * 0.25 * 9.80665).epsilon(1e-14));
+  CHECK(truth.drift_relative_per_s == 1e-6);
+  CHECK(truth.steps_per_m == 3.2e6);
+  CHECK(truth.acceleration_m_s2 == 0.2);
+  CHECK(read_truth(kDemo / "03_pdms_1to10.truth.toml").material.E0_Pa == 1.88e6);
+  CHECK(read_truth(kDemo / "05_pdms_1to20.truth.toml").material.terms[1].g == 0.01913);
+}
+
+TEST_CASE("configurations written as TOML read back the same", "[io][config]") {
+  RigConfig rig = read_rig(kDemo / "01_rig.toml");
+  rig.name = "a \"quoted\" name, a \\ and a\ttab, µ";
+  rig.stage.baud = 250000;
+  rig.load_cell.compression_is_positive = false;
+  rig.calibration.volts_per_newton = 0.1 + 0.2;  // needs all 17 digits
+  rig.frame.stiffness_N_m = 0.0;
+  rig.clock_speed = 50.0;
+  const std::string text = toml_from_rig(rig);
+  const RigConfig again = rig_from_toml(text, "again");
+  CHECK(toml_from_rig(again) == text);
+  CHECK(again.name == rig.name);
+  CHECK(again.stage.baud == 250000);
+  CHECK_FALSE(again.load_cell.compression_is_positive);
+  CHECK(again.calibration.volts_per_newton == 0.1 + 0.2);
+  CHECK(again.frame.stiffness_N_m == 0.0);
+  CHECK(again.clock_speed == 50.0);
+
+  const Specimen specimen = read_specimen(kDemo / "05_pdms_1to20.toml");
+  const Specimen specimen_again = specimen_from_toml(toml_from_specimen(specimen), "again");
+  CHECK(specimen_again.contact.punch_radius_m == specimen.contact.punch_radius_m);
+  CHECK(specimen_again.id == specimen.id);
+  CHECK(specimen_again.temperature_C == specimen.temperature_C);
+
+  TestPlan plan;
+  plan.depth_m = 1.0 / 3.0 * 1e-3;
+  CHECK(test_from_toml(toml_from_test(plan), "again").depth_m == plan.depth_m);
+
+  const EmulatedTruth truth = read_truth(kDemo / "03_pdms_1to10.truth.toml");
+  const std::string truth_text = toml_from_truth(truth);
+  CHECK(toml_from_truth(truth_from_toml(truth_text, "again")) == truth_text);
+}
+
+TEST_CASE("what is left out of a rig keeps its default", "[io][config]") {
+  const RigConfig rig = rig_from_toml(kMinimalRig, "rig.toml");
+  CHECK(rig.stage.baud == 115200);
+  CHECK(rig.load_cell.expected_rate_Hz == 80.0);
+  CHECK(rig.load_cell.volts_per_count == 20.0 / 16777216.0);
+  CHECK(rig.frame.stiffness_N_m == 0.0);
+}
+
+TEST_CASE("a misspelt key is refused with its line and the nearest one", "[io][config]") {
+  const std::string error = rig_error(std::string(kMinimalRig) + "[stage]\nprot = \"/dev/x\"\n");
+  CHECK(error.find("rig.toml:7: there is no key 'stage.prot'; did you mean 'port'?") == 0);
+  CHECK(rig_error(std::string(kMinimalRig) + "[saftey]\n").find("did you mean 'safety'?") !=
+        std::string::npos);
+}
+
+TEST_CASE("a value that does not fit is refused with line, key and what is expected",
+          "[io][config]") {
+  const std::string minimal = kMinimalRig;
+  CHECK(rig_error(minimal + "[stage]\ntravel = \"10 kg\"\n") ==
+        "rig.toml:7: stage.travel: 'kg' is not a unit of m; write it like \"40 um\"");
+  CHECK(rig_error(minimal + "[stage]\ntravel = -1\n") ==
+        "rig.toml:7: stage.travel: is -1; expected a positive number");
+  CHECK(rig_error(minimal + "[stage]\ntravel = nan\n") ==
+        "rig.toml:7: stage.travel: is nan; expected a positive number");
+  CHECK(rig_error(minimal + "[stage]\ntravel = true\n").find("expected a positive number") !=
+        std::string::npos);
+  CHECK(rig_error(minimal + "[stage]\nbaud = 1.5\n").find("expected a whole number") !=
+        std::string::npos);
+  CHECK(rig_error(minimal + "[stage]\nport = 3\n").find("expected a text in quotes") !=
+        std::string::npos);
+  CHECK(rig_error(minimal + "[safety]\nsoft_fraction = 0.99\n").find("soft_fraction < hard") !=
+        std::string::npos);
+  CHECK(rig_error("stage = 1\n" + minimal).find("expected a section [stage]") != std::string::npos);
+}
+
+TEST_CASE("a missing key is named with what belongs there", "[io][config]") {
+  CHECK(rig_error("[frame]\nstiffness = 1e4\n[calibration]\ncapacity = 2.45\n") ==
+        "rig.toml:3: 'calibration.volts_per_newton' is missing; expected a finite number with a "
+        "unit of V/N");
+  CHECK(
+      rig_error("[frame]\nstifness = 1e4\n[calibration]\ncapacity = 2.45\nvolts_per_newton = 0.7\n")
+          .find("rig.toml:2: there is no key 'frame.stifness'; did you mean 'stiffness'?") == 0);
+  CHECK(rig_error("[calibration]\ncapacity = 2.45\nvolts_per_newton = 0.7\n") ==
+        "rig.toml: 'frame.stiffness' is missing; expected a positive number with a unit of N/m, or "
+        "\"rigid\"");
+}
+
+TEST_CASE("a file that is not TOML is refused with its line", "[io][config]") {
+  CHECK(rig_error("name = \"a\"\nname = \"b\"\n").find("rig.toml:2: not TOML: ") == 0);
+  CHECK(rig_error("[stage\n").find("rig.toml:1: not TOML: ") == 0);
+}
+
+TEST_CASE("values that contradict each other are refused with the file's name", "[io][config]") {
+  const std::string error = error_of([] {
+    specimen_from_toml(
+        "id = \"a\"\nmodulus_guess = 1e6\n[contact]\npunch_diameter = 1e-3\n"
+        "layer_thickness = \"half-space\"\npoisson_ratio = 0.6\n",
+        "specimen.toml");
+  });
+  CHECK(error.find("specimen.toml: ") == 0);
+  CHECK(error.find("0.6") != std::string::npos);
+  CHECK(error_of([] {
+          truth_from_toml(
+              "[contact]\npunch_diameter = 1e-3\nlayer_thickness = \"half-space\"\n"
+              "poisson_ratio = 0.4\n[material]\nE0 = 1e6\nterms = [{g = 0.6, tau = 1},"
+              "{g = 0.5, tau = 2}]\n",
+              "truth.toml");
+        }).find("truth.toml: ") == 0);
+}
+
+}  // namespace
+}  // namespace viscard

@@ -1,0 +1,129 @@
+// What `viscard cost` recommends for a tolerance, followed, meets it: against an answer finer than
+// anything the study itself has run.
+#include "io/cost/study_cost.h"
+#include "io/cost/study_trials.h"
+#include "io/scenes/scene_array.h"
+#include "io/scenes/scene_file.h"
+#include "models/array/plane/array_plan.h"
+#include "models/pillar/analyses/analysis.h"
+#include "models/pillar/analyses/error_control.h"
+#include "models/pillar/plan/plan.h"
+#include "models/pillar/plan/relaxed_modes.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+using namespace viscard;
+
+namespace {
+
+SceneAnswer independent_answer(const Scene& scene) {
+  Scene on = plan_effects(with_all_effects_on(scene)).reduced;
+  const bool moves =
+      scene.kind == AnalysisKind::kHarmonic || scene.kind == AnalysisKind::kTransient;
+  on.tolerance = moves ? 0.05 * scene.tolerance : 1e-6;
+  SceneAnswer answer;
+  answer.discretisation = mesh_sequence(on.geometry).back();  // degree 10, five layers
+  analysis_of(on.kind).run(on, answer);
+  if (on.kind == AnalysisKind::kModal) relax_modes(on, answer);
+  return answer;
+}
+
+SceneAnswer independent_answer(const ArrayScene& scene) {
+  const ArrayScene on = plan_effects(with_all_effects_on(scene)).reduced;
+  return array_answer_on(
+      on,
+      {.degree = 10, .layers = scene.electrodes.is_equipotential ? 10 : 6, .shaft_elements = 3});
+}
+
+bool is_asked(const std::vector<std::string>& wanted, const std::string& name) {
+  return wanted.empty() || std::any_of(wanted.begin(), wanted.end(), [&](const std::string& w) {
+           return name == w || name.starts_with(w + "_");
+         });
+}
+
+double error_of(const SceneAnswer& answer, const SceneAnswer& exact,
+                const std::vector<std::string>& wanted) {
+  double largest = 0.0;
+  for (const SceneResult& r : exact.results) {
+    if (!is_asked(wanted, r.name)) continue;
+    const auto mine = std::find_if(answer.results.begin(), answer.results.end(),
+                                   [&](const SceneResult& other) { return other.name == r.name; });
+    if (mine == answer.results.end()) return 1.0;
+    const double size = std::max(std::abs(r.value), r.scale);
+    if (size > 0.0) largest = std::max(largest, std::abs(mine->value - r.value) / size);
+  }
+  REQUIRE(answer.modes.size() == exact.modes.size());
+  for (std::size_t i = 0; i < exact.modes.size(); ++i) {
+    largest = std::max(largest,
+                       std::abs(answer.modes[i].frequency_Hz / exact.modes[i].frequency_Hz - 1.0));
+  }
+  return largest;
+}
+
+// Rows that the budget was too short for are missing among the study's.
+const CostTrial& trial_of(const CostRow& row, const CostTrials& trials) {
+  const auto found =
+      std::find_if(trials.rows.begin(), trials.rows.end(), [&](const CostTrial& trial) {
+        return trial.discretisation == row.discretisation && trial.effects == row.effects;
+      });
+  REQUIRE(found != trials.rows.end());
+  return *found;
+}
+
+template <typename AnyScene>
+void follow(const AnyScene& scene, double budget_s) {
+  const CostStudy study = study_cost(scene, {.budget_s = budget_s, .repeats = 1});
+  const CostTrials trials = trials_of(scene);
+  const SceneAnswer exact = independent_answer(scene);
+  int followed = 0;
+  for (const CostAdvice& advice : study.advice) {
+    if (advice.row < 0) continue;
+    const CostTrial& row = trial_of(study.rows[static_cast<std::size_t>(advice.row)], trials);
+    CAPTURE(advice.text, row.discretisation, row.effects);
+    CHECK(error_of(row.run(), exact, scene.wanted) <= advice.tolerance);
+    ++followed;
+  }
+  CHECK(followed >= 2);  // of the five tolerances; the loose ones at least
+}
+
+void follow_file(const std::string& name, double budget_s) {
+  CAPTURE(name);
+  const std::filesystem::path path =
+      std::filesystem::path(VISCARD_SOURCE_DIR) / "data/scenes" / name;
+  if (scene_kind(path) == "array") {
+    follow(read_array_scene(path).scene, budget_s);
+  } else {
+    follow(read_scene(path).scene, budget_s);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("what a cost study recommends meets its tolerance", "[io][scene]") {
+  follow_file(GENERATE(as<std::string>{}, "pillar_buckling.toml", "pillar_sensor.toml",
+                       "array_voltages.toml"),
+              0.2);
+}
+
+TEST_CASE("without time a cost study shows a few cheap meshes and says what it left out",
+          "[io][scene]") {
+  const Scene scene = read_scene(VISCARD_SOURCE_DIR "/data/scenes/pillar_buckling.toml").scene;
+  const CostStudy study = study_cost(scene, {.budget_s = 1e-9, .repeats = 1});
+  CHECK(study.rows.size() == 4);
+  CHECK(study.left_out + 4 == static_cast<int>(trials_of(scene).rows.size()));
+}
+
+TEST_CASE("what a cost study recommends meets its tolerance on every example",
+          "[io][scene][slow]") {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(VISCARD_SOURCE_DIR "/data/scenes")) {
+    if (entry.path().extension() != ".toml") continue;
+    follow_file(entry.path().filename().string(), 20.0);
+    ++count;
+  }
+  CHECK(count >= 11);
+}

@@ -1,0 +1,180 @@
+#include "io/basics/atomic_file.h"
+#include "io/basics/sha256.h"
+#include "io/materials/material_file.h"
+#include "models/contact/punch_contact.h"
+#include "tests/support/error_text.h"
+#include "tests/support/scratch_folder.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+namespace viscard {
+namespace {
+
+using test::contains;
+using test::error_text;
+
+std::string error_of(const std::string& json) {
+  return error_text([&] { material_from_json(json, "m.json"); });
+}
+
+Material full_material() {
+  Material material;
+  material.name = "PDMS \"1:10\" µ";
+  material.E0_Pa = 1.88e6 / 3.0;
+  material.nu = 0.1 + 0.2;
+  material.rho_kg_m3 = 965.0;
+  material.terms = {{0.1 / 3.0, 0.0, 0.1945}, {1e-300, 1e-17, 2.403}};
+  material.T_ref_C = -5.0;
+  material.valid = {0.0125, 60.0, 0.01};
+  MaterialUncertainty uncertainty;
+  uncertainty.E0_Pa_95 = {1.0 / 7.0, 2.0 / 7.0};
+  uncertainty.E_inf_Pa_95 = {0.0, std::numeric_limits<double>::infinity()};
+  uncertainty.terms = {{1.0, 0.2, {1, 2}, {3, 4}, {5, 6}}, {1.5, 0.3, {7, 8}, {9, 10}, {11, 12}}};
+  uncertainty.covariance_parameters = {"E_inf_Pa", "E_1_Pa"};
+  uncertainty.covariance = Eigen::MatrixXd::Constant(2, 2, 1.0 / 3.0);
+  uncertainty.systematic_relative = 0.021;
+  material.uncertainty = uncertainty;
+  material.flags = {{"tau-below-sampling", 1, "too fast to be seen"}};
+  material.provenance = {"viscard 0.1.0",
+                         "2026-11-21T09:00:00Z",
+                         "viscard fit run.viscap",
+                         {{"run.viscap", std::string(64, 'a')}},
+                         0.5,
+                         60.25,
+                         "measured",
+                         "assumed"};
+  return material;
+}
+
+TEST_CASE("a material survives being written and read, every double exactly", "[io][material]") {
+  const Material before = full_material();
+  const std::string text = json_from_material(before);
+  const MaterialFile file = material_from_json(text, "m.json");
+  const Material& after = file.material;
+  CHECK(after.name == before.name);
+  CHECK(after.E0_Pa == before.E0_Pa);
+  CHECK(after.nu == before.nu);
+  CHECK(after.rho_kg_m3 == before.rho_kg_m3);
+  REQUIRE(after.terms.size() == 2);
+  CHECK(after.terms[0].g == before.terms[0].g);
+  CHECK(after.terms[0].k == 0.0);
+  CHECK(after.terms[1].k == 1e-17);
+  CHECK(after.terms[1].g == 1e-300);
+  CHECK(after.T_ref_C == -5.0);
+  CHECK(after.valid.t_max_s == 60.0);
+  REQUIRE(after.uncertainty.has_value());
+  CHECK(after.uncertainty->E0_Pa_95.low == 1.0 / 7.0);
+  CHECK(std::isinf(after.uncertainty->E_inf_Pa_95.high));
+  CHECK(after.uncertainty->terms[1].tau_s_95.high == 12.0);
+  CHECK(after.uncertainty->covariance == before.uncertainty->covariance);
+  CHECK(after.uncertainty->systematic_relative == 0.021);
+  CHECK(after.flags[0].term == 1);
+  CHECK(after.provenance.raw_files[0].sha256 == std::string(64, 'a'));
+  CHECK(after.provenance.nu_origin == "measured");
+  CHECK(json_from_material(file) == text);
+  CHECK(json_from_material(after) == text);
+}
+
+TEST_CASE("a material written by hand needs a modulus, a Poisson ratio and its terms",
+          "[io][material]") {
+  const Material material =
+      material_from_json(R"({"E0_Pa": 2e6, "nu": 0.45, "terms": [{"g": 0.1, "tau_s": 2}]})", "m")
+          .material;
+  CHECK(material.E0_Pa == 2e6);
+  CHECK(material.terms[0].k == 0.1);  // constant Poisson ratio
+  CHECK(material.rho_kg_m3 == 0.0);
+  CHECK_FALSE(material.T_ref_C.has_value());
+  CHECK_FALSE(material.uncertainty.has_value());
+}
+
+TEST_CASE("keys viscard does not know survive, at every depth", "[io][material]") {
+  MaterialFile file = material_from_json(
+      R"({"E0_Pa": 2e6, "nu": 0.45, "colour": {"r": 0.1}, "valid": {"t_max_s": 3, "why": "short"},
+          "terms": [{"g": 0.1, "tau_s": 2, "origin": "batch 7"}],
+          "provenance": {"operator": "Ann"}})",
+      "m");
+  file.material.E0_Pa = 3e6;
+  const std::string text = json_from_material(file);
+  CHECK(contains(text, "\"r\": 0.1"));
+  CHECK(contains(text, "\"why\": \"short\""));
+  CHECK(contains(text, "\"origin\": \"batch 7\""));
+  CHECK(contains(text, "\"operator\": \"Ann\""));
+  const MaterialFile again = material_from_json(text, "m");
+  CHECK(again.material.E0_Pa == 3e6);
+  CHECK(json_from_material(again) == text);
+}
+
+TEST_CASE("a known key that was taken out does not come back from the original", "[io][material]") {
+  MaterialFile file =
+      material_from_json(R"({"E0_Pa": 2e6, "nu": 0.45, "terms": [], "T_ref_C": 20})", "m");
+  file.material.T_ref_C.reset();
+  CHECK_FALSE(contains(json_from_material(file), "T_ref_C"));
+}
+
+TEST_CASE("a material file that cannot be right is refused with file and key", "[io][material]") {
+  CHECK(contains(error_of("{\"E0_Pa\": 1e6,\n  nu: 3}"),
+                 "m.json: is not JSON: parse error at line 2"));
+  CHECK(contains(error_of(""), "m.json: is not JSON"));
+  CHECK(error_of("[1, 2]") == "m.json: the file must be an object, { ... }");
+  CHECK(contains(error_of(R"({"E0": 1e6, "nu": 0.4, "terms": []})"),
+                 "m.json: 'E0_Pa' is missing; expected the instantaneous Young's modulus in Pa "
+                 "(there is a 'E0')"));
+  CHECK(error_of(R"({"E0_Pa": "2 MPa", "nu": 0.4, "terms": []})") ==
+        "m.json: E0_Pa: expected a number in SI, without quotes or unit");
+  CHECK(error_of(R"({"E0_Pa": 1e6, "nu": 0.4, "terms": {}})") ==
+        "m.json: terms: expected a list, [ ... ]");
+  CHECK(contains(error_of(R"({"E0_Pa": 1e6, "nu": 0.4, "terms": [{"g": 0.1}]})"),
+                 "m.json: 'terms[1].tau_s' is missing"));
+  CHECK(contains(
+      error_of(
+          R"({"E0_Pa": 1e6, "nu": 0.4, "terms": [{"g": 0.6, "tau_s": 1}, {"g": 0.5, "tau_s": 2}]})"),
+      "m.json: the g of all terms add up to 1.1"));
+  CHECK(contains(error_of(R"({"E0_Pa": 1e6, "nu": 0.51, "terms": []})"),
+                 "m.json: Poisson ratio is 0.51"));
+  CHECK(contains(error_of(R"({"E0_Pa": -1e6, "nu": 0.4, "terms": []})"), "m.json: E0 is -1"));
+  CHECK(contains(error_of(R"({"E0_Pa": 1e999, "nu": 0.4, "terms": []})"), "m.json: is not JSON: "));
+  CHECK(contains(error_of(R"({"E0_Pa": 1, "E0_Pa": 2, "nu": 0.4, "terms": []})"),
+                 "m.json: key 'E0_Pa' is given twice"));
+  CHECK(contains(error_of(R"({"schema": "viscard-material/2", "E0_Pa": 1, "nu": 0, "terms": []})"),
+                 "update viscard"));
+  CHECK(contains(error_of(R"({"schema": "geojson", "E0_Pa": 1, "nu": 0, "terms": []})"),
+                 "no material file"));
+  CHECK(contains(error_of(R"({"E0_Pa": 1, "nu": 0, "terms": [], "uncertainty":
+                 {"covariance_parameters": ["a", "b"], "covariance": [[1, 2], [3]]}})"),
+                 "m.json: uncertainty.covariance: expected 2 rows of 2 numbers"));
+  CHECK(contains(error_text([] { read_material("/nowhere/m.json"); }), "/nowhere/m.json"));
+}
+
+TEST_CASE("the seed's materials read, and their comment on the layer holds", "[io][material]") {
+  for (const char* name :
+       {"pdms_1to10_seed.json", "pdms_1to13_seed.json", "pdms_1to20_seed.json"}) {
+    const MaterialFile file =
+        read_material(std::filesystem::path(VISCARD_SOURCE_DIR) / "data/materials" / name);
+    CHECK(file.material.terms.size() == 2);
+    CHECK(has_constant_poisson_ratio(file.material));
+    CHECK(contains(file.material.flags.at(0).text, "27 %"));
+  }
+  const PunchContact contact{
+      .punch_radius_m = 2.2e-3, .layer_thickness_m = 11e-3, .poisson_ratio = 0.495};
+  CHECK(layer_factor(contact) == Approx(1.27).margin(0.01));  // "overstates it by 27 %"
+}
+
+TEST_CASE("SHA-256 agrees with the examples of FIPS 180-4", "[io][sha256]") {
+  // https://csrc.nist.gov/projects/cryptographic-standards-and-guidelines/example-values
+  CHECK(sha256_of_text("abc") ==
+        "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  CHECK(sha256_of_text("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  const test::ScratchFolder folder;
+  write_file(folder / "million", std::string(1'000'000, 'a'), false);
+  CHECK(sha256_of_file(folder / "million") ==
+        "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+  CHECK(contains(error_text([&] { sha256_of_file(folder / "none"); }), "cannot open"));
+  CHECK(contains(error_text([&] { sha256_of_file(folder.path()); }), "cannot read"));
+}
+
+}  // namespace
+}  // namespace viscard

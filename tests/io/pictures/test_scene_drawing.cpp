@@ -1,0 +1,100 @@
+// Drawings of scenes: everything that is there is drawn, and nothing hides the electrodes.
+#include "io/pictures/scene_picture.h"
+#include "tests/io/scenes/scene_text.h"
+#include "tests/support/run_command.h"
+
+#include <algorithm>
+
+using namespace viscard;
+using namespace viscard::test;
+
+namespace {
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+const char* const kPillarFill = "fill=\"#bcd4e6\"";
+const char* const kElectrodeFill = "fill=\"#d55e00\"";
+const char* const kArrow = "stroke=\"#0072b2\"";
+
+ArrayScene row_of(int count) {
+  ArrayScene scene;
+  scene.geometry.count = count;
+  scene.film = isotropic_medium(2e9, 0.29, 1780.0);
+  scene.film.permittivity_F_m = 1e-10 * Eigen::Matrix3d::Identity();
+  scene.load_Pa = 1e3;
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a drawing of a row has its pillars, electrodes, loads and lengths", "[io][scene]") {
+  ArrayScene scene = row_of(5);
+  scene.loaded = {2, 3};
+  const std::string svg = svg_from_scene(scene, "row.toml");
+  CHECK(count_of(svg, kPillarFill) == 5);
+  CHECK(count_of(svg, kElectrodeFill) == 5);
+  CHECK(svg.find("1 kPa on pillars 2, 3") != std::string::npos);
+  CHECK(svg.find("d 40 um, l 120 um, s 60 um") != std::string::npos);
+  CHECK(svg.find(">5</text>") != std::string::npos);
+  const std::size_t arrows_of_two = count_of(svg, kArrow);
+  scene.loaded = {2};
+  CHECK(arrows_of_two == 2 * count_of(svg_from_scene(scene, ""), kArrow));
+  scene.film.permittivity_F_m.setZero();
+  CHECK(count_of(svg_from_scene(scene, ""), kElectrodeFill) == 0);
+}
+
+TEST_CASE("a drawing of a long row has its first and its last pillars", "[io][scene]") {
+  const std::string svg = svg_from_scene(row_of(400), "row.toml");
+  CHECK(count_of(svg, kPillarFill) == 16);
+  CHECK(svg.find(">8</text>") != std::string::npos);
+  CHECK(svg.find(">9</text>") == std::string::npos);
+  CHECK(svg.find(">393</text>") != std::string::npos);
+  CHECK(svg.find(">400</text>") != std::string::npos);
+}
+
+TEST_CASE("the electrode of a pillar is drawn over what stands on it", "[io][scene]") {
+  Scene scene;
+  scene.pressure_Pa = 1e4;
+  scene.geometry.film = FilmGeometry{25e-6, 60e-6};
+  scene.film = isotropic_medium(2e9, 0.29, 1780.0);
+  scene.electrodes = ElectrodeOptions{GENERATE(FilmFace::kTop, FilmFace::kBottom), 20e-6};
+  const std::string svg = svg_from_scene(scene, "a & b");
+  REQUIRE(count_of(svg, kElectrodeFill) == 1);
+  CHECK(svg.find(kElectrodeFill) > svg.find(kPillarFill));
+  CHECK(svg.find("10 kPa") != std::string::npos);
+  CHECK(svg.find("a &amp; b") != std::string::npos);
+  const std::size_t upright = count_of(svg, kArrow);
+  scene.direction = LoadDirection::kLateral;
+  CHECK(count_of(svg_from_scene(scene, ""), kArrow) < upright);  // one arrow sideways
+}
+
+TEST_CASE("scene check draws pillars and rows into a file, and overwrites none", "[cli][scene]") {
+  const std::string name = GENERATE(as<std::string>{}, "pillar_sweep.toml", "array_map.toml");
+  const SceneText folder("");
+  const std::string svg = folder.path() + ".svg";
+  const std::vector<std::string> words = {
+      "scene", "check", std::string(VISCARD_SOURCE_DIR) + "/data/scenes/" + name, "--svg", svg};
+  CHECK(run_command(words).status == 0);
+  CHECK(std::filesystem::file_size(svg) > 1000);
+  CHECK(run_command(words).status == 1);
+}
+
+TEST_CASE("a drawing hatches what is held and says what is free", "[io][scene]") {
+  Scene scene;
+  if (GENERATE(false, true)) {
+    scene.geometry.film = FilmGeometry{25e-6, 60e-6};
+    scene.film = isotropic_medium(2e9, 0.29, 1780.0);
+  }
+  const char* const hatch = "stroke=\"#444\" stroke-width=\"2\"";
+  CHECK(count_of(svg_from_scene(scene, ""), hatch) == 1);
+  CHECK(count_of(svg_from_scene(scene, ""), ">free</text>") == 0);
+  scene.fixed_bottom = false;
+  CHECK(count_of(svg_from_scene(scene, ""), hatch) == 0);
+  CHECK(count_of(svg_from_scene(scene, ""), ">free</text>") == 1);
+}

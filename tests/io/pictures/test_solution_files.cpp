@@ -1,0 +1,196 @@
+// Fields for ParaView, and pictures of them.
+#include "io/pictures/section_picture.h"
+#include "io/pictures/vtk_file.h"
+#include "io/scenes/scene_file.h"
+
+#include <catch2/catch.hpp>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+using namespace viscard;
+
+namespace {
+
+const Discretisation kMesh{.degree = 4, .layers = 2};
+
+Scene pressed_pillar() {
+  Scene scene;
+  scene.pillar.E0_Pa = 1.8e6;
+  scene.pillar.nu = 0.33;
+  scene.pillar.rho_kg_m3 = 965.0;
+  scene.pressure_Pa = 1e4;
+  return scene;
+}
+
+Scene sensor() {
+  Scene scene = pressed_pillar();
+  scene.geometry.film = FilmGeometry{25e-6, 60e-6};
+  PiezoMatrix d = PiezoMatrix::Zero();
+  d.row(2) << 23e-12, 23e-12, -33e-12, 0, 0, 0;
+  scene.film = piezo_medium(isotropic_moduli_Pa(2e9, 0.29), d,
+                            12.0 * kVacuumPermittivity_F_m * Eigen::Matrix3d::Identity(), 1780.0);
+  scene.film_charge_C_N = d;
+  scene.electrodes = ElectrodeOptions{FilmFace::kBottom, 20e-6};
+  return scene;
+}
+
+const SectionField& field_of(const SectionGrid& grid, const std::string& name) {
+  for (const SectionField& field : grid.fields) {
+    if (field.name == name) return field;
+  }
+  throw std::runtime_error("no field " + name);
+}
+
+// The numbers of one array of a .vtu file.
+std::vector<double> array_of(const std::string& vtu, const std::string& name) {
+  const std::size_t tag = vtu.find("Name=\"" + name + "\"");
+  REQUIRE(tag != std::string::npos);
+  const std::size_t from = vtu.find('>', tag) + 1;
+  std::istringstream text(vtu.substr(from, vtu.find('<', from) - from));
+  std::vector<double> values;
+  for (double value; text >> value;) values.push_back(value);
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("the field of a pressed pillar holds its top displacement and its equilibrium",
+          "[pillar][io]") {
+  const std::vector<SectionGrid> grids = solution_fields(pressed_pillar(), kMesh);
+  REQUIRE(grids.size() == 1);
+  const SectionGrid& grid = grids[0];
+  const SectionField& u = field_of(grid, "displacement_m");
+  double top = 0.0;
+  for (std::size_t i = 0; i < grid.x_m.size(); ++i) {
+    if (grid.z_m[i] > 119.999e-6) top = std::min(top, u.value[i][2]);
+    if (grid.z_m[i] == 0.0) CHECK(std::abs(u.value[i][2]) < 1e-15);
+  }
+  CHECK(top == Approx(-659.7e-9).epsilon(1e-3));  // of this mesh
+  const SectionField& stress = field_of(grid, "stress_zz_Pa");
+  for (std::size_t i = 0; i < grid.x_m.size(); ++i) {
+    const bool is_mid_height = std::abs(grid.z_m[i] - 100e-6) < 5e-6;
+    if (is_mid_height) CHECK(stress.value[i][0] == Approx(-1e4).epsilon(2e-3));  // Saint-Venant
+  }
+}
+
+TEST_CASE(
+    "the potential of the field is the electrode's voltage on the electrode and zero on "
+    "ground",
+    "[pillar][io]") {
+  Scene scene = sensor();
+  const bool is_driven = GENERATE(false, true);
+  if (is_driven) scene.drive_V = 2.0;
+  const SectionGrid grid = solution_fields(scene, kMesh).front();
+  const SectionField& phi = field_of(grid, "potential_V");
+  const double wanted_V = is_driven ? 2.0 : phi.value[0][0];
+  for (std::size_t i = 0; i < grid.x_m.size(); ++i) {
+    const bool in_film = grid.z_m[i] <= 0.0 && phi.value[i][0] != 0.0;
+    if (grid.z_m[i] < -24.999e-6) CHECK(std::abs(phi.value[i][0]) < 1e-12);
+    if (in_film && grid.z_m[i] == 0.0 && grid.x_m[i] < 19.9e-6 && is_driven) {
+      CHECK(phi.value[i][0] == Approx(wanted_V).epsilon(1e-6));
+    }
+  }
+}
+
+TEST_CASE("mode shapes turn with their harmonic", "[pillar][io]") {
+  Scene scene = pressed_pillar();
+  scene.kind = AnalysisKind::kModal;
+  scene.pressure_Pa = 0.0;
+  scene.modes = 2;
+  const std::vector<SectionGrid> grids = solution_fields(scene, kMesh);
+  REQUIRE(grids.size() == 4);
+  const double pi = std::numbers::pi;
+  const auto top = [](const SectionGrid& grid) {
+    return static_cast<std::size_t>(std::max_element(grid.z_m.begin(), grid.z_m.end()) -
+                                    grid.z_m.begin());
+  };
+  // The axis of the top moves sideways as a whole in the lateral mode, one direction on all sides.
+  const SectionGrid& lateral = grids[0];
+  const auto here = displacement_at(lateral, lateral.fields[0], top(lateral), 0.0);
+  const auto behind = displacement_at(lateral, lateral.fields[0], top(lateral), 0.5 * pi);
+  CHECK(std::abs(here[0]) > 0.9);
+  CHECK(behind[0] == Approx(here[0]).epsilon(1e-9));
+  CHECK(behind[1] == Approx(0.0).margin(1e-9));
+  // Torsion: around the axis, whatever the angle.
+  const SectionGrid& torsion = grids[2];
+  for (std::size_t i = 0; i < torsion.x_m.size(); ++i) {
+    const auto u = displacement_at(torsion, torsion.fields[0], i, 1.0);
+    CHECK(u[2] == 0.0);
+    CHECK(u[0] * std::cos(1.0) + u[1] * std::sin(1.0) == Approx(0.0).margin(1e-12));
+  }
+  // Ovalling: out at 0 where it is in at 90 degrees.
+  const SectionGrid& ovalling = grids[3];
+  double largest = 0.0;
+  for (std::size_t i = 0; i < ovalling.x_m.size(); ++i) {
+    const double out = displacement_at(ovalling, ovalling.fields[0], i, 0.0)[0];
+    const double in = displacement_at(ovalling, ovalling.fields[0], i, 0.5 * pi)[1];
+    CHECK(out == Approx(-in).margin(1e-12));
+    largest = std::max(largest, std::abs(out));
+  }
+  CHECK(largest > 0.5);
+}
+
+TEST_CASE("a .vtu file has as many points and cells as it says, and corners that exist",
+          "[pillar][io]") {
+  Scene scene = pressed_pillar();
+  const bool is_strip = GENERATE(false, true);
+  if (is_strip) scene.plane = PlaneState::kStress;
+  const SectionGrid grid = solution_fields(scene, kMesh).front();
+  const std::string vtu = vtu_from_grid(grid);
+  const std::size_t copies = is_strip ? 2 : 24;
+  const std::vector<double> points = array_of(vtu, "Points");
+  CHECK(points.size() == 3 * copies * grid.x_m.size());
+  CHECK(array_of(vtu, "displacement_m").size() == points.size());
+  CHECK(array_of(vtu, "stress_zz_Pa").size() == points.size() / 3);
+  const std::vector<double> corners = array_of(vtu, "connectivity");
+  const std::size_t per_cell = is_strip ? 4 : 8;
+  CHECK(corners.size() == per_cell * copies * grid.quads.size());
+  CHECK(*std::max_element(corners.begin(), corners.end()) < static_cast<double>(points.size() / 3));
+  const std::vector<double> offsets = array_of(vtu, "offsets");
+  CHECK(offsets.back() == static_cast<double>(corners.size()));
+  for (const double type : array_of(vtu, "types")) CHECK(type == (is_strip ? 9.0 : 12.0));
+}
+
+TEST_CASE("every field has a picture with its name, scale and unit", "[pillar][io]") {
+  const SectionGrid grid = solution_fields(sensor(), kMesh).front();
+  const auto pictures = pictures_from_grid(grid);
+  REQUIRE(pictures.size() == 3);
+  CHECK(pictures[2].first == "static_potential_V");
+  CHECK_THAT(pictures[2].second, Catch::Contains("static potential (V)"));
+  CHECK_THAT(pictures[0].second, Catch::Contains("displacement drawn"));
+  for (const auto& [name, svg] : pictures) {
+    CHECK(svg.find("nan") == std::string::npos);
+    CHECK(svg.find("<polygon") != std::string::npos);
+  }
+}
+
+TEST_CASE("a scene file's length between quotes needs a unit, and a tolerance is told as written",
+          "[pillar][io]") {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("viscard_scene_" + std::to_string(getpid()));
+  const auto refusal = [&](const std::string& diameter, const std::string& tolerance) {
+    std::ofstream(path) << "tolerance = " << tolerance << "\n[geometry]\ndiameter = " << diameter
+                        << "\nlength = \"120 um\"\n[materials]\npillar = { E = \"1.8 MPa\" }\n"
+                        << "[analysis]\nload = { pressure = \"10 kPa\", on = \"top\" }\n";
+    std::string message;
+    try {
+      read_scene(path);
+    } catch (const std::runtime_error& error) {
+      message = error.what();
+    }
+    std::filesystem::remove(path);
+    return message;
+  };
+  CHECK_THAT(refusal("\"40\"", "1e-3"),
+             Catch::Contains(":3: geometry.diameter") && Catch::Contains("has no unit"));
+  CHECK_THAT(refusal("\"40 um\"", "1e-14"), Catch::Contains("the tolerance is 1e-14"));
+  CHECK(refusal("\"40 um\"", "1e-3") == "");
+  CHECK(refusal("40e-6", "1e-3") == "");  // SI without quotes
+}

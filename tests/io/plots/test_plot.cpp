@@ -1,0 +1,176 @@
+#include "io/plots/plot.h"
+#include "io/plots/plot_gnuplot.h"
+#include "io/plots/plot_svg.h"
+#include "tests/io/plots/markup.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <set>
+
+using namespace viscard;
+using namespace viscard::test;
+
+namespace {
+
+Plot small_plot() {
+  PlotPanel panel;
+  panel.x.label = "time (s)";
+  panel.y.label = "force (N)";
+  panel.series = {{.label = "fit", .x = {1.0, 2.0, 3.0}, .y = {1.0, 4.0, 9.0}}};
+  return {.title = "Small", .description = "A parabola.", .panels = {panel}};
+}
+
+// Puts an environment variable back when the test ends.
+class WithPath {
+ public:
+  explicit WithPath(const std::string& path) : before_(std::getenv("PATH")) {
+    ::setenv("PATH", path.c_str(), 1);
+  }
+  ~WithPath() { ::setenv("PATH", before_.c_str(), 1); }
+
+ private:
+  std::string before_;
+};
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+}  // namespace
+
+TEST_CASE("a plot is well-formed SVG that says what it shows", "[io][report]") {
+  const std::string svg = svg_from_plot(small_plot(), "fig-1");
+  CHECK(first_fault(svg) == "");
+  CHECK(svg.rfind("<svg ", 0) == 0);
+  CHECK(svg.find("<title id=\"fig-1-title\">Small</title>") != std::string::npos);
+  CHECK(svg.find("<desc id=\"fig-1-desc\">A parabola.</desc>") != std::string::npos);
+  CHECK(svg.find("aria-labelledby=\"fig-1-title fig-1-desc\"") != std::string::npos);
+  for (const char* text : {"time (s)", "force (N)", "fit"}) {
+    CHECK(svg.find(std::string(">") + text + "<") != std::string::npos);
+  }
+}
+
+TEST_CASE("a line passes through its points at the scale of the axes", "[io][report]") {
+  Plot plot = small_plot();
+  plot.width_px = 500;
+  plot.height_px = 300;
+  plot.panels[0].x.min = plot.panels[0].y.min = 0.0;
+  plot.panels[0].x.max = 4.0;
+  plot.panels[0].y.max = 10.0;
+  plot.panels[0].series[0].label = "";
+  // margins: 68 left, 18 right, 10 above, 46 below: the data area is 414 x 244 px
+  const std::string svg = svg_from_plot(plot, "f");
+  const std::size_t path = svg.find("d='M", svg.find("stroke='rgb(  0, 114, 178)'"));
+  REQUIRE(path != std::string::npos);
+  double x[3] = {}, y[3] = {};
+  REQUIRE(std::sscanf(svg.c_str() + path, "d='M%lf,%lf L%lf,%lf L%lf,%lf", &x[0], &y[0], &x[1],
+                      &y[1], &x[2], &y[2]) == 6);
+  for (int i = 0; i < 3; ++i) {
+    const double value = i + 1.0;
+    CHECK(x[i] == Approx(68.0 + 414.0 * value / 4.0).margin(0.02));  // gnuplot rounds to .01 px
+    CHECK(y[i] == Approx(254.0 - 244.0 * value * value / 10.0).margin(0.02));
+  }
+}
+
+TEST_CASE("two figures on one page share no id and refer only to their own", "[io][report]") {
+  const std::string page = svg_from_plot(small_plot(), "a") + svg_from_plot(small_plot(), "b");
+  const std::vector<std::string> ids = ids_of(page);
+  REQUIRE(ids.size() > 4);
+  CHECK(std::set<std::string>(ids.begin(), ids.end()).size() == ids.size());
+  for (const std::string& id : ids) CHECK((id.rfind("a-", 0) == 0 || id.rfind("b-", 0) == 0));
+  CHECK(page.find("href='#gp") == std::string::npos);
+  CHECK(page.find("url(#") == std::string::npos);
+}
+
+TEST_CASE("names of any spelling stay text in a plot", "[io][report]") {
+  const std::string nasty = "</text><script>alert('1')</script> & \"q\" _a^b {x} @ ~ `date` \\n";
+  Plot plot = small_plot();
+  plot.title = plot.description = nasty;
+  plot.panels[0].title = plot.panels[0].x.label = plot.panels[0].series[0].label = nasty;
+  plot.panels[0].notes = {{1.5, nasty.substr(0, 20)}};
+  const std::string svg = svg_from_plot(plot, "n");
+  CHECK(first_fault(svg) == "");
+  CHECK(svg.find("<script") == std::string::npos);
+  CHECK(count_of(text_of(svg), nasty) == 5);
+}
+
+TEST_CASE("what is not finite never reaches the picture", "[io][report]") {
+  Plot plot = small_plot();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  PlotSeries& series = plot.panels[0].series[0];
+  series.x = {1.0, nan, 2.0, 3.0, INFINITY};
+  series.y = {1.0, 2.0, nan, 4.0, 5.0};
+  const std::string svg = svg_from_plot(plot, "n");
+  CHECK(first_fault(svg) == "");
+  for (const char* bad : {"nan", "NaN", "inf", "Inf"}) CHECK(svg.find(bad) == std::string::npos);
+}
+
+TEST_CASE("all marks, several panels and a logarithmic axis make one picture", "[io][report]") {
+  Plot plot = small_plot();
+  PlotPanel panel = plot.panels[0];
+  panel.x.is_log = panel.y.is_log = true;
+  const std::vector<double> x{0.1, 1.0, 10.0}, low{0.5, 1.5, 2.5}, y{1.0, 2.0, 3.0},
+      high{2.0, 3.0, 4.0};
+  panel.series = {
+      {.mark = Mark::kBand, .label = "band", .x = x, .y_low = low, .y_high = high},
+      {.mark = Mark::kPoints, .label = "dots", .x = x, .y = y, .is_hollow = true},
+      {.mark = Mark::kErrorBars, .label = "bars", .x = x, .y = y, .y_low = low, .y_high = high},
+      {.mark = Mark::kLine, .label = "dashes", .x = x, .y = y, .is_dashed = true}};
+  plot.panels = {panel, plot.panels[0], panel};
+  plot.columns = 2;
+  plot.height_px = 600;
+  const std::string svg = svg_from_plot(plot, "m");
+  CHECK(first_fault(svg) == "");
+  CHECK(count_of(svg, "<polygon") >= 2);
+  CHECK(svg.find("stroke-dasharray") != std::string::npos);
+}
+
+TEST_CASE("a plot of nothing, of no size or without a proper id is refused", "[io][report]") {
+  Plot plot = small_plot();
+  CHECK_THROWS_AS(svg_from_plot(plot, "a b"), std::invalid_argument);
+  CHECK_THROWS_AS(svg_from_plot(plot, ""), std::invalid_argument);
+  plot.height_px = 50;
+  CHECK_THROWS_WITH(svg_from_plot(plot, "a"), Catch::Contains("too small"));
+  plot = small_plot();
+  plot.panels[0].x.is_log = true;
+  plot.panels[0].series[0].x = {-1.0, 0.0, -3.0};
+  CHECK_THROWS_WITH(svg_from_plot(plot, "a"), Catch::Contains("nothing to draw"));
+}
+
+TEST_CASE("without gnuplot the message says how to get it", "[io][report]") {
+  const WithPath nowhere("/nonexistent");
+  CHECK_THROWS_WITH(svg_from_plot(small_plot(), "a"),
+                    Catch::Contains("apt-get install gnuplot-nox"));
+}
+
+TEST_CASE("an error of gnuplot comes back as one line with its reason", "[io][report]") {
+  CHECK_THROWS_WITH(
+      run_gnuplot("set terminal svg\nplot nothing_of_that_name\n"),
+      Catch::Contains("undefined variable: nothing_of_that_name") && !Catch::Contains("\n"));
+}
+
+TEST_CASE("a script and an output larger than any pipe go through", "[io][report]") {
+  std::string script = "set terminal svg\n$d << EOD\n";
+  for (int i = 0; i < 60000; ++i) script += std::to_string(i) + " " + std::to_string(i % 97) + "\n";
+  script += "EOD\nplot $d with lines\n";
+  const std::string svg = run_gnuplot(script);
+  CHECK(script.size() > 400000);
+  CHECK(svg.size() > 400000);
+  CHECK(svg.find("</svg>") != std::string::npos);
+}
+
+TEST_CASE("text becomes safe markup, whatever bytes it holds", "[io][report]") {
+  CHECK(escaped_markup("a<b>&\"'") == "a&lt;b&gt;&amp;&quot;&#39;");
+  CHECK(escaped_markup("E₀ = 1·10⁶ 𝛼") == "E₀ = 1·10⁶ 𝛼");
+  CHECK(escaped_markup(std::string("x\0y\x1b", 4)) == "x y ");
+  CHECK(escaped_markup("\xff\xc0\xaf\xed\xa0\x80") ==
+        "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");
+  CHECK(escaped_markup("cut \xe2\x82") == "cut \xEF\xBF\xBD\xEF\xBF\xBD");
+}

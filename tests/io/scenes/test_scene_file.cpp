@@ -1,0 +1,140 @@
+#include "io/basics/atomic_file.h"
+#include "io/materials/piezo_file.h"
+#include "io/scenes/scene_file.h"
+#include "tests/support/error_text.h"
+#include "tests/support/scratch_folder.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <filesystem>
+
+namespace viscard {
+namespace {
+
+using test::error_text;
+
+const char* const kGeometry =
+    "[geometry]\ndiameter = \"40 um\"\nlength = \"120 um\"\n"
+    "[materials]\npillar = { E = \"1.8 MPa\", nu = 0.33, rho = \"965 kg/m3\" }\n";
+
+struct Files {
+  test::ScratchFolder folder;
+  SceneFile read(const std::string& rest, const std::string& before = kGeometry) {
+    const std::filesystem::path path = folder.path() / "scene.toml";
+    write_file(path, before + rest, true);
+    return read_scene(path);
+  }
+  std::string error(const std::string& rest, const std::string& before = kGeometry) {
+    return error_text([&] { read(rest, before); });
+  }
+  std::string medium_error(const std::string& json) {
+    const std::filesystem::path path = folder.path() / "medium.json";
+    write_file(path, json, true);
+    return error_text([&] { read_medium(path); });
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a sweep is read with its frequencies, load and direction", "[io]") {
+  Files files;
+  const Scene scene = files
+                          .read(
+                              "[analysis]\nkind = \"harmonic\"\n"
+                              "load = { acceleration = \"2 m/s2\", on = \"base\", direction = "
+                              "\"lateral\" }\n"
+                              "frequencies = { from = \"1 Hz\", to = \"10 kHz\", count = 5 }\n")
+                          .scene;
+  CHECK(scene.kind == AnalysisKind::kHarmonic);
+  CHECK(scene.load_place == LoadPlace::kBase);
+  CHECK(scene.direction == LoadDirection::kLateral);
+  CHECK(scene.base_acceleration_m_s2 == 2.0);
+  REQUIRE(scene.frequencies_Hz.size() == 5);
+  CHECK(scene.frequencies_Hz[0] == 1.0);
+  CHECK(scene.frequencies_Hz[2] == Approx(100.0).epsilon(1e-14));  // rounding
+  CHECK(scene.frequencies_Hz[4] == Approx(1e4).epsilon(1e-14));
+}
+
+TEST_CASE("a pulse becomes half a sine", "[io]") {
+  Files files;
+  const Scene scene = files
+                          .read(
+                              "[analysis]\nkind = \"transient\"\nend_time = \"50 us\"\n"
+                              "pulse = { height = \"1 kPa\", duration = \"10 us\" }\n")
+                          .scene;
+  REQUIRE(scene.history.size() > 100);
+  CHECK(scene.history.front().value == 0.0);
+  CHECK(scene.history.back().time_s == Approx(1e-5).epsilon(1e-14));  // rounding
+  CHECK(scene.history[scene.history.size() / 2].value == Approx(1e3).epsilon(1e-12));
+  CHECK(scene.end_time_s == Approx(5e-5).epsilon(1e-14));
+}
+
+TEST_CASE("mistakes in how a pillar is driven are told with their key", "[io]") {
+  Files files;
+  struct Case {
+    const char* rest;
+    const char* expected;
+  };
+  const auto c = GENERATE(
+      Case{"[analysis]\nkind = \"harmonics\"\n", "did you mean 'harmonic'"},
+      Case{"[analysis]\nkind = \"harmonic\"\nload = { pressure = \"1 kPa\", on = \"top\" }\n",
+           "frequencies"},
+      Case{"[analysis]\nkind = \"harmonic\"\nload = { pressure = \"1 kPa\", on = \"base\" }\n",
+           "analysis.load.pressure"},
+      Case{"[analysis]\nkind = \"static\"\nload = { acceleration = \"1 m/s2\", on = \"base\" }\n",
+           "analysis.load.on"},
+      Case{"[analysis]\nkind = \"static\"\nload = { pressure = \"1 kPa\" }\n", "no place"},
+      Case{"[analysis]\nkind = \"static\"\nload = { voltage = \"1 V\" }\n", "electrode"},
+      Case{"[analysis]\nkind = \"static\"\nload = { pressure = \"1 s\", on = \"top\" }\n",
+           "scene.toml:8"},
+      Case{"[analysis]\nkind = \"transient\"\nend_time = \"1 ms\"\n", "history"},
+      Case{"[analysis]\nkind = \"transient\"\nhistory = [[\"0 s\", \"1 Pa\"], [\"1 s\", \"1 "
+           "Pa\"]]\n",
+           "end_time"},
+      Case{"[analysis]\nkind = \"static\"\nload = { pressure = \"1 kPa\", on = \"top\" }\n"
+           "[readout]\nkind = \"voltage\"\n",
+           "electrode"},
+      Case{"[analysis]\nkind = \"harmonic\"\nload = { pressure = \"1 kPa\", on = \"top\" }\n"
+           "frequencies = { from = \"10 Hz\", to = \"1 Hz\", count = 3 }\n",
+           "above"});
+  CAPTURE(c.rest);
+  CHECK_THAT(files.error(c.rest), Catch::Contains(c.expected));
+}
+
+TEST_CASE("impossible geometry is refused with the length that is wrong", "[io]") {
+  Files files;
+  const std::string load =
+      "[analysis]\nkind = \"static\"\nload = { pressure = \"1 kPa\", on = \"top\" }\n";
+  const std::string material = "[materials]\npillar = { E = \"1.8 MPa\", nu = 0.33 }\n";
+  CHECK_THAT(
+      files.error(load, "[geometry]\ndiameter = \"-40 um\"\nlength = \"120 um\"\n" + material),
+      Catch::Contains("diameter"));
+  CHECK_THAT(files.error(load, "[geometry]\ndiameter = \"40 um\"\n" + material),
+             Catch::Contains("length"));
+  CHECK_THAT(files.error(load,
+                         "[geometry]\ndiameter = \"40 um\"\nlength = \"120 um\"\n"
+                         "[materials]\npillar = { E = \"1.8 MPa\", nu = 0.6 }\n"),
+             Catch::Contains("oisson"));
+  CHECK_THAT(files.error("", "[geometry\n"), Catch::Contains("scene.toml:1"));
+}
+
+TEST_CASE("a medium file is refused with the key that is wrong", "[io]") {
+  Files files;
+  CHECK_THAT(files.medium_error("{"), Catch::Contains("not a medium file"));
+  CHECK_THAT(files.medium_error("{}"), Catch::Contains("schema"));
+  const std::string head = "{\"schema\": \"viscard-medium/1\", \"rho_kg_m3\": 1780, ";
+  CHECK_THAT(files.medium_error(head + "\"x\": 1}"), Catch::Contains("'x'"));
+  const std::string elastic = head + "\"elastic\": {\"E_Pa\": 2e9, \"nu\": 0.29}";
+  CHECK_THAT(files.medium_error(head + "\"elastic\": {\"E_Pa\": 2e9}}"), Catch::Contains("nu"));
+  CHECK_THAT(files.medium_error(elastic + ", \"charge_C_N\": {\"d31\": 1e-12}}"),
+             Catch::Contains("d33"));
+  CHECK_THAT(files.medium_error(elastic + ", \"charge_C_N\": {\"d31\": 1e-12, \"d33\": 1e-12}, "
+                                          "\"relative_permittivity\": [12]}"),
+             Catch::Contains("three numbers"));
+  CHECK_THAT(files.medium_error(elastic + ", \"charge_C_N\": {\"d31\": 1e-9, \"d33\": -3e-9}, "
+                                          "\"relative_permittivity\": [12, 12, 12]}"),
+             Catch::Contains("permittivity"));
+}
+
+}  // namespace viscard

@@ -1,0 +1,90 @@
+#include "models/array/plane/array_modes.h"
+#include "models/pillar/body/pillar_modes.h"
+#include "tests/models/array/plane/seed_array.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace viscard;
+using namespace viscard::test;
+
+namespace {
+
+std::vector<ArrayMode> modes_of(const ArrayGeometry& geometry, int clusters, PlaneState plane,
+                                bool is_lateral) {
+  ArrayMedia media = seed_media(plane);
+  const ArrayModel model(geometry, {}, media, {.degree = 6, .layers = 2},
+                         inertia_ports_for(clusters));
+  std::vector<ArrayMode> modes = array_modes(model, clusters);
+  CHECK(film_inertia_error(model, media, modes) < 1e-6);
+  std::erase_if(modes, [&](const ArrayMode& m) { return m.is_lateral != is_lateral; });
+  return modes;
+}
+
+}  // namespace
+
+TEST_CASE("modes of a row of one pillar equal those of the pillar solver", "[array]") {
+  const PlaneState plane = GENERATE(PlaneState::kStress, PlaneState::kStrain);
+  const bool is_lateral = GENERATE(true, false);
+  const std::vector<ArrayMode> row =
+      modes_of({.count = 1, .film_edge_m = 40e-6}, 4, plane, is_lateral);
+  const ArrayMedia media = seed_media(plane);
+  Medium film = isotropic_medium(2e9, 0.29, 1780.0);
+  const PillarModel pillar(
+      {40e-6, 120e-6, FilmGeometry{25e-6, 60e-6}}, {.degree = 6, .layers = 2}, {media.pillar, film},
+      {.motion = is_lateral ? Motion::kPlaneAntisymmetric : Motion::kPlaneSymmetric,
+       .plane = plane});
+  const std::vector<PillarMode> single = lowest_modes(pillar, 4);
+  REQUIRE(row.size() == 4);
+  for (std::size_t k = 0; k < 4; ++k) {
+    CAPTURE(k);
+    // Meshes of one degree, and a film stiffened by its charge: some 1e-5 of the film's 2e-4.
+    CHECK(row[k].frequency_Hz == Approx(single[k].frequency_Hz).epsilon(2e-5));
+  }
+}
+
+TEST_CASE("modes of the seed's row come in clusters of eight", "[array]") {
+  const ArrayGeometry eight{.count = 8};
+  const std::vector<double> printed_Hz = {17962.0, 82045.0};
+  const std::vector<ArrayMode> lateral = modes_of(eight, 2, PlaneState::kStress, true);
+  REQUIRE(lateral.size() == 16);
+  for (std::size_t cluster = 0; cluster < 2; ++cluster) {
+    const double low = lateral[8 * cluster].frequency_Hz;
+    const double high = lateral[8 * cluster + 7].frequency_Hz;
+    CAPTURE(cluster, low, high);
+    CHECK(high / low - 1.0 < 1e-5);
+    CHECK(low == Approx(printed_Hz[cluster]).epsilon(6e-4));  // the thesis' mesh is stiffer
+  }
+  const std::vector<ArrayMode> axial = modes_of(eight, 2, PlaneState::kStress, false);
+  CHECK(axial[7].frequency_Hz / axial[0].frequency_Hz - 1.0 < 1e-5);
+  CHECK(axial[0].frequency_Hz == Approx(90321.0).epsilon(2e-4));
+  CHECK(axial[8].frequency_Hz == Approx(2.68e5).epsilon(2e-3));  // printed with three digits
+}
+
+TEST_CASE("neighbours at 20 um split the clusters as an independent code has it", "[array]") {
+  // Reference: plane p-elements of the whole array, film elastic, 10 um of film beyond the ends.
+  ArrayMedia media = seed_media();
+  media.film = isotropic_medium(2e9, 0.29, 1780.0);
+  const ArrayModel model({.count = 8, .spacing_m = 20e-6, .film_edge_m = 10e-6}, {}, media,
+                         {.degree = 6, .layers = 2}, inertia_ports_for(2));
+  std::vector<ArrayMode> modes = array_modes(model, 2);
+  const auto is_axial = std::stable_partition(modes.begin(), modes.end(),
+                                              [](const ArrayMode& m) { return m.is_lateral; });
+  CHECK(modes[0].frequency_Hz == Approx(17952.8).epsilon(2e-5));
+  CHECK(modes[7].frequency_Hz - modes[0].frequency_Hz < 0.3);  // prints one decimal
+  CHECK(modes[8].frequency_Hz == Approx(82000.5).epsilon(2e-5));
+  CHECK(modes[15].frequency_Hz == Approx(82003.9).epsilon(2e-5));
+  CHECK(is_axial->frequency_Hz == Approx(90306.3).epsilon(2e-5));
+  CHECK((is_axial + 7)->frequency_Hz == Approx(90306.8).epsilon(2e-5));
+}
+
+TEST_CASE("shapes of a cluster share the row between the pillars", "[array]") {
+  const std::vector<ArrayMode> modes = modes_of({.count = 5}, 1, PlaneState::kStress, true);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(5);
+  for (const ArrayMode& mode : modes) {
+    CHECK(mode.share.sum() == Approx(1.0).epsilon(1e-12));
+    sum += mode.share;
+  }
+  for (int i = 0; i < 5; ++i) CHECK(sum[i] == Approx(1.0).margin(1e-3));  // other modes take part
+}

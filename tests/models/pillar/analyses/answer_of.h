@@ -1,0 +1,25 @@
+#pragma once
+
+// What a scene's answer says under a name. Throws std::runtime_error if there is nothing.
+#include "models/pillar/scene/scene.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace viscard::test {
+
+inline const SceneCurve& curve_of(const SceneAnswer& answer, const std::string& name) {
+  for (const SceneCurve& curve : answer.curves) {
+    if (curve.name == name) return curve;
+  }
+  throw std::runtime_error("no curve " + name);
+}
+
+inline double value_of(const SceneAnswer& answer, const std::string& name) {
+  for (const SceneResult& result : answer.results) {
+    if (result.name == name) return result.value;
+  }
+  throw std::runtime_error("no result " + name);
+}
+
+}  // namespace viscard::test

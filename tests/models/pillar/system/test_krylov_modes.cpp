@@ -1,0 +1,103 @@
+// The eigensolver by itself, on diagonal pencils whose eigenvalues are known.
+#include "models/pillar/system/krylov_modes.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+using namespace viscard;
+
+namespace {
+
+// op = B^-1 A with diagonal A and B: self-adjoint in x'By.
+struct Diagonal {
+  Eigen::VectorXd value;  // eigenvalues of op
+  Eigen::VectorXd B;
+
+  EigenPairs largest(int count, const KrylovOptions& options) const {
+    const LinearMap op = [this](const Eigen::VectorXd& x) {
+      return Eigen::VectorXd(value.cwiseProduct(x));
+    };
+    const LinearMap times_B = [this](const Eigen::VectorXd& x) {
+      return Eigen::VectorXd(B.cwiseProduct(x));
+    };
+    return largest_eigenpairs(op, times_B, static_cast<int>(value.size()), count, options);
+  }
+  // The largest ||op v - mu v|| over mu, in the norm of B.
+  double residual(const EigenPairs& pairs) const {
+    double largest = 0.0;
+    for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
+      const Eigen::VectorXd v = pairs.vectors.col(i);
+      const Eigen::VectorXd left = value.cwiseProduct(v) - pairs.values[i] * v;
+      largest = std::max(largest, std::sqrt(left.dot(B.cwiseProduct(left))) / pairs.values[i]);
+    }
+    return largest;
+  }
+};
+
+// Eigenvalues 1, 1/4, 1/9 ... as those of a string, and a B of very unequal entries.
+Diagonal string_like(int size) {
+  Diagonal body{Eigen::VectorXd(size), Eigen::VectorXd(size)};
+  for (int i = 0; i < size; ++i) {
+    body.value[i] = 1.0 / ((i + 1.0) * (i + 1.0));
+    body.B[i] = std::pow(10.0, 4.0 * std::sin(i));
+  }
+  return body;
+}
+
+}  // namespace
+
+TEST_CASE("the residual that the eigensolver reports is the true one", "[pillar]") {
+  const Diagonal body = string_like(300);
+  for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+    const EigenPairs pairs = body.largest(6, {.tolerance = tolerance});
+    CAPTURE(tolerance, pairs.residual);
+    REQUIRE(pairs.converged);
+    CHECK(pairs.residual <= tolerance);
+    CHECK(body.residual(pairs) == Approx(pairs.residual).epsilon(1e-4).margin(1e-13));
+    for (int i = 0; i < 6; ++i) {  // the values' own error is the square of the residual, over gaps
+      CHECK(pairs.values[i] == Approx(body.value[i]).epsilon(30.0 * tolerance * tolerance + 1e-13));
+    }
+    const Eigen::MatrixXd gram = pairs.vectors.transpose() * body.B.asDiagonal() * pairs.vectors;
+    CHECK((gram - Eigen::MatrixXd::Identity(6, 6)).cwiseAbs().maxCoeff() < 1e-12);
+  }
+}
+
+TEST_CASE("a block of the eigensolver finds as many equal eigenvalues as it has vectors",
+          "[pillar]") {
+  for (const int block : {2, 3, 8}) {
+    Diagonal body = string_like(200);
+    for (int i = 1; i < block; ++i) body.value[i] = body.value[0];
+    const EigenPairs pairs = body.largest(block + 1, {.block = block});
+    CAPTURE(block);
+    REQUIRE(pairs.converged);
+    for (int i = 0; i < block; ++i) CHECK(pairs.values[i] == Approx(1.0).epsilon(1e-12));
+    CHECK(pairs.values[block] == Approx(body.value[block]).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("the eigensolver exhausts a small space and says when a limit stops it", "[pillar]") {
+  const Diagonal small = string_like(7);
+  const EigenPairs all = small.largest(7, {});
+  REQUIRE(all.converged);
+  for (int i = 0; i < 7; ++i) CHECK(all.values[i] == Approx(small.value[i]).epsilon(1e-10));
+
+  const Diagonal body = string_like(300);
+  for (const int limit : {9, 10, 11}) {  // not, and just, a multiple of the block
+    const EigenPairs stopped = body.largest(5, {.tolerance = 1e-12, .largest_space = limit});
+    CAPTURE(limit);
+    CHECK_FALSE(stopped.converged);
+    CHECK(body.residual(stopped) == Approx(stopped.residual).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("an operator of low rank leaves the eigensolver nothing to grow with", "[pillar]") {
+  Diagonal body = string_like(120);
+  body.value.tail(117).setZero();  // all starts lie in a space of three
+  const EigenPairs pairs = body.largest(3, {});
+  REQUIRE(pairs.converged);
+  for (int i = 0; i < 3; ++i) CHECK(pairs.values[i] == Approx(body.value[i]).epsilon(1e-12));
+}

@@ -1,0 +1,82 @@
+#include "rig/protocols/grbl_protocol.h"
+
+#include <catch2/catch.hpp>
+
+#include <string>
+
+namespace viscard {
+
+TEST_CASE("A status report is read with its fields in any order", "[rig]") {
+  const auto status = parse_grbl_status(
+      "<Jog|WCO:1.000,2.000,3.000|FS:30,0|TLR:0|A:|MPos:0.000,0.000,-0.252|Bf:15,128|Pn:Z>\r\n");
+  REQUIRE(status);
+  CHECK(status->state == "Jog");
+  CHECK(status->substate == -1);
+  CHECK(status->machine_mm == std::vector<double>{0.0, 0.0, -0.252});
+  CHECK(status->work_offset_mm == std::vector<double>{1.0, 2.0, 3.0});
+  CHECK(status->planner_blocks_free == 15);
+  CHECK(status->feed_mm_min == 30.0);
+  CHECK(status->pins == "Z");
+}
+
+TEST_CASE("Work positions, sub-states and more axes than three are read", "[rig]") {
+  const auto held = parse_grbl_status("<Hold:1|WPos:1.5,2.5,3.5,4.5|F:0>");
+  REQUIRE(held);
+  CHECK(held->state == "Hold");
+  CHECK(held->substate == 1);
+  CHECK(held->machine_mm.empty());
+  CHECK(held->work_mm.size() == 4);
+}
+
+TEST_CASE("What is no status report is not taken for one", "[rig]") {
+  const std::string line =
+      GENERATE("", "<>", "<Idle>", "<Idle|MPos:1,2,3", "Idle|MPos:1,2,3>", "<Id1e|MPos:1,2,3>",
+               "<Idle|MPos:1,2,x>", "<Idle|MPos:0.000,0.0<Idle|MPos:0,0,0>", "ok");
+  INFO(line);
+  CHECK_FALSE(parse_grbl_status(line));
+}
+
+TEST_CASE("Answers, alarms and welcomes of both dialects are told apart", "[rig]") {
+  CHECK(is_grbl_ok("ok\r"));
+  CHECK_FALSE(is_grbl_ok("[MSG:ok]"));
+  CHECK_FALSE(is_grbl_ok(">G54:ok"));
+  CHECK(parse_grbl_error("error:15").value() == 15);
+  CHECK_FALSE(parse_grbl_error("error:"));
+  CHECK(parse_grbl_alarm("ALARM:1").value() == 1);
+  const auto grbl = parse_grbl_welcome("Grbl 1.1h ['$' for help]");
+  REQUIRE(grbl);
+  CHECK_FALSE(grbl->is_hal);
+  CHECK(grbl->version == "1.1h");
+  const auto hal = parse_grbl_welcome("GrblHAL 1.1f ['$' or '$HELP' for help]");
+  REQUIRE(hal);
+  CHECK(hal->is_hal);
+  CHECK_FALSE(parse_grbl_welcome("Grblx"));
+}
+
+TEST_CASE("News that answers no line is told from answers", "[rig]") {
+  for (const char* push :
+       {"<Idle|MPos:0,0,0>", "[MSG:Caution: Unlocked]", "[GC:G0 G54]", "[PRB:0,0,0:1]", "$0=10",
+        "ALARM:3", ">G54:ok", "", "\r", "Grbl 1.1h ['$' for help]"}) {
+    INFO(push);
+    CHECK(is_grbl_push(push));
+  }
+  CHECK_FALSE(is_grbl_push("ok"));
+  CHECK_FALSE(is_grbl_push("error:9"));
+}
+
+TEST_CASE("Settings and build options are read", "[rig]") {
+  const auto setting = parse_grbl_setting("$102=3200.000");
+  REQUIRE(setting);
+  CHECK(setting->number == 102);
+  CHECK(setting->value == 3200.0);
+  CHECK(parse_grbl_setting("$1=25 (step idle delay, msec)")->value == 25.0);
+  CHECK_FALSE(parse_grbl_setting("$N0=G54"));
+  CHECK(parse_grbl_message("[MSG:Reset to continue]").value() == "Reset to continue");
+}
+
+TEST_CASE("A jog fits GRBL's line buffer and carries no locale", "[rig]") {
+  CHECK(format_grbl_jog('Z', -1.23456, 7.8) == "$J=G53G90G21Z-1.23456F7.800");
+  CHECK(format_grbl_jog('X', -123.456789, 12345.678).size() < 80);
+}
+
+}  // namespace viscard

@@ -1,0 +1,50 @@
+#include "rig/run/contact_estimate.h"
+
+#include <catch2/catch.hpp>
+
+using namespace viscard;
+
+namespace {
+
+constexpr double kNoise_N = 0.5e-3;
+constexpr double kStep_m = 0.3e-6;
+constexpr double kSurface_m = 700e-6;
+
+JogEnd stop_at(double position_m, double stiffness_N_m) {
+  return {position_m, position_m > kSurface_m ? stiffness_N_m * (position_m - kSurface_m) : 0.0};
+}
+
+}  // namespace
+
+TEST_CASE("A stiffness guessed right puts the contact where it is", "[rig]") {
+  const ContactEstimate contact =
+      contact_from_stops(stop_at(690e-6, 8e3), stop_at(705e-6, 8e3), kNoise_N, kStep_m, 8e3);
+  CHECK(contact.position_m == Approx(kSurface_m).margin(1e-9));  // exact readings
+  CHECK(contact.least_stiffness_N_m < 8e3);
+  CHECK(contact.least_stiffness_N_m > 1e3);
+}
+
+TEST_CASE("A specimen stiffer than guessed is not taken to lie before a stop that felt nothing",
+          "[rig]") {
+  // 60 N/mm guessed as 8.7: the guess alone would say 82 um too early.
+  const ContactEstimate contact =
+      contact_from_stops(stop_at(700e-6, 60e3), stop_at(714e-6, 60e3), kNoise_N, kStep_m, 8.7e3);
+  CHECK(contact.position_m == Approx(kSurface_m).margin(1e-9));
+  CHECK(contact.least_stiffness_N_m == Approx(60e3).epsilon(0.03));  // less noise and one step
+  CHECK(contact.least_stiffness_N_m < 60e3);
+}
+
+TEST_CASE("Two stops in contact need no guess", "[rig]") {
+  for (const double guess_N_m : {2e3, 50e3}) {
+    const ContactEstimate contact = contact_from_stops(stop_at(701e-6, 10e3), stop_at(706e-6, 10e3),
+                                                       kNoise_N, kStep_m, guess_N_m);
+    CHECK(contact.position_m == Approx(kSurface_m).margin(1e-9));
+  }
+}
+
+TEST_CASE("Without a way between the stops the guess decides", "[rig]") {
+  const JogEnd touched = stop_at(705e-6, 8e3);
+  const ContactEstimate contact = contact_from_stops(touched, touched, kNoise_N, kStep_m, 16e3);
+  CHECK(contact.position_m == Approx(702.5e-6).margin(1e-9));
+  CHECK(contact.least_stiffness_N_m == Approx(0.0).margin(1e-12));
+}

@@ -1,0 +1,292 @@
+// What real controllers do besides what is documented: each habit of the emulator on its own.
+#include "rig/stages/travel_limit.h"
+#include "tests/rig/rig_fixture.h"
+
+#include <catch2/catch.hpp>
+
+namespace viscard {
+namespace {
+
+using Catch::Matchers::Contains;
+
+bool stands_where_it_says(const RigFixture& rig) {
+  const EmulatedOutcome bench = rig.emulated.outcome();
+  return !bench.is_moving && std::abs(bench.final_position_m - rig.stage.position_m()) < 0.6e-6;
+}
+
+}  // namespace
+
+TEST_CASE("Start-up blocks and an empty memory's dump are no answers", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.grbl.has_startup_block = true;
+  options.grbl.has_empty_eeprom = true;
+  options.grbl.is_hal = GENERATE(false, true);
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  move_and_wait(rig, 0.1e-3, 1e-3);
+  CHECK(stands_where_it_says(rig));
+  CHECK(rig.all<CommandedMove>().size() == 1);
+}
+
+TEST_CASE("Reports in inches give the same metres", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.grbl.reports_inches = true;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  move_and_wait(rig, 0.3e-3, 1e-3);
+  CHECK(rig.stage.position_m() == Approx(0.3e-3).margin(0.5 / 3200e3));
+  CHECK(rig.emulated.outcome().final_position_m == Approx(0.3e-3).margin(0.5 / 3200e3));
+}
+
+TEST_CASE("A speed below what the firmware can do is recorded as what it does", "[rig][pty]") {
+  // 30.5 steps/s at 250 steps/mm is .1221 mm/s (gnea/grbl stepper.c), whatever is asked.
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.steps_per_m = 250e3;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  CHECK(rig.stage.dynamics().min_speed_m_s == Approx(30.518 / 250e3).epsilon(1e-4));
+  move_and_wait(rig, 0.2e-3, 0.05e-3);
+  REQUIRE(rig.all<CommandedMove>().size() == 1);
+  CHECK(rig.all<CommandedMove>()[0].move.speed_m_s == Approx(30.518 / 250e3).epsilon(1e-3));
+  CHECK_FALSE(rig.has_event("move_doubtful", "test"));
+  CHECK(stands_where_it_says(rig));
+}
+
+TEST_CASE("grblHAL and fine steps are held to 1 mm/min at most", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.grbl.is_hal = GENERATE(false, true);
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  const double expected_m_s = options.grbl.is_hal ? 0.0 : 1e-3 / 60.0;
+  CHECK(rig.stage.dynamics().min_speed_m_s == Approx(expected_m_s).margin(1e-12));
+}
+
+TEST_CASE("With soft limits a lift ends where the controller's travel does", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.grbl.soft_limit_mm = 3.0;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  move_and_wait(rig, 0.2e-3, 1e-3);
+  move_and_wait(rig, -0.5e-3, 1e-3);  // refused as it is: error 15
+  CHECK(rig.stage.position_m() == Approx(0.0).margin(1e-9));
+  CHECK(stands_where_it_says(rig));
+  CHECK_THROWS_WITH(move_and_wait(rig, 3.1e-3, 1e-3), Contains("$130"));
+  move_and_wait(rig, 0.1e-3, 1e-3);
+  CHECK(stands_where_it_says(rig));
+}
+
+TEST_CASE("A stage outside of its own travel is told to be homed", "[rig]") {
+  const StageDynamics dynamics{1600e3, 0.2, 5e-3, 0.0, 0.0, 3e-3};
+  CHECK_THROWS_WITH(within_travel_m(-0.3e-3, 0.1e-3, dynamics), Contains("home = true"));
+  CHECK_THROWS_WITH(within_travel_m(3.1e-3, 3.0e-3, dynamics), Contains("home = true"));
+  CHECK(within_travel_m(0.0, 0.1e-3, dynamics) == 0.1e-3);
+  // A limit between two steps: the lift ends on the step inside.
+  const StageDynamics odd{1600e3, 0.2, 5e-3, 0.0, 0.3 / 1600e3, 3e-3};
+  CHECK(within_travel_m(1e-3, -1e-3, odd) == Approx(1.0 / 1600e3).epsilon(1e-9));
+}
+
+TEST_CASE("A run with soft limits retracts as far as it may and finishes", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.surface_position_m = 0.1e-3;
+  options.grbl.soft_limit_mm = 3.0;
+  RigFixture rig(options);
+  const RunOutcome outcome = rig.run(short_plan());
+  INFO(outcome.reason);
+  CHECK(outcome.status == "finished");
+  CHECK(rig.emulated.outcome().final_position_m == Approx(0.0).margin(1e-6));
+}
+
+TEST_CASE("A question answered by two lines, or later than the next question, ends no move early",
+          "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(5.0);
+  SECTION("two lines") {
+    options.grbl.reports_twice = true;
+  }
+  SECTION("350 ms late, on the wall") {
+    options.grbl.status_delay_s = 0.35 * options.config.clock_speed;
+  }
+  SECTION("every third lost") {
+    options.grbl.lose_status_every = 3;
+  }
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  for (const double to_m : {0.3e-3, 0.1e-3, 0.4e-3}) {
+    move_and_wait(rig, to_m, 0.5e-3);
+    CHECK(stands_where_it_says(rig));
+    CHECK(rig.stage.position_m() == Approx(to_m).margin(0.5 / 3200e3));
+  }
+  // What the late reports say must not contradict the moves as they were.
+  for (const CommandedMove& move : rig.all<CommandedMove>()) CHECK(move.start_uncertainty_s > 0.0);
+  CHECK_FALSE(rig.has_event("move_doubtful", "test"));
+}
+
+TEST_CASE("A missing ok ends the move with an error that says so", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.grbl.lose_ok_number = 4;  // $$ and $$ of the connection, one jog, this jog
+  RigFixture rig(options, std::nullopt, 0.2);
+  rig.stage.connect(rig.pump());
+  move_and_wait(rig, 0.1e-3, 1e-3);
+  CHECK_THROWS_WITH(move_and_wait(rig, 0.2e-3, 1e-3), Contains("did not answer a move"));
+  rig.stage.recover(rig.pump());
+  move_and_wait(rig, 0.15e-3, 1e-3);
+  CHECK(stands_where_it_says(rig));
+}
+
+TEST_CASE("A jog that is refused ends with the reason, and the next one works", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.grbl.refuse_jog_number = 2;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  move_and_wait(rig, 0.1e-3, 1e-3);
+  CHECK_THROWS_WITH(move_and_wait(rig, 0.2e-3, 1e-3), Contains("error 15"));
+  CHECK_FALSE(rig.stage.is_moving());
+  move_and_wait(rig, 0.15e-3, 1e-3);
+  CHECK(stands_where_it_says(rig));
+}
+
+TEST_CASE("A line held back at Idle is freed by telling the stage to go on", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(1.0);
+  options.grbl.holds_after_cancel = true;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  rig.stage.begin_move(1e-3, 0.5e-3, "test");
+  pump_for(rig, 0.2);
+  rig.stage.stop_soft();
+  while (rig.stage.is_moving()) pump_for(rig, 0.01);
+  move_and_wait(rig, 0.05e-3, 1e-3);
+  CHECK(rig.has_event("stage_nudged", ""));
+  CHECK(stands_where_it_says(rig));
+}
+
+TEST_CASE("A hold at rest, pressed by somebody, is an error when a move is asked for",
+          "[rig][pty]") {
+  RigFixture rig(RigFixture::options(20.0));
+  rig.stage.connect(rig.pump());
+  rig.stage_line.write("!", 0.5);
+  pump_for(rig, 0.05);
+  CHECK_THROWS_WITH(move_and_wait(rig, 0.1e-3, 1e-3), Contains("'Hold'"));
+  rig.stage.recover(rig.pump());
+  CHECK(rig.stage.state() == "Idle");
+}
+
+TEST_CASE("A stage that says Jog for ever is given up", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.grbl.never_rests = true;
+  RigFixture rig(options, std::nullopt, 0.2);
+  rig.stage.connect(rig.pump());
+  CHECK_THROWS_WITH(move_and_wait(rig, 0.1e-3, 1e-3), Contains("should have come to rest"));
+}
+
+TEST_CASE("A stage sent elsewhere by a garbled line is stopped at once", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(1.0);
+  options.grbl.misread_jog_number = 1;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  CHECK_THROWS_WITH(move_and_wait(rig, 0.05e-3, 0.2e-3), Contains("outside its way"));
+  rig.stage.recover(rig.pump());
+  CHECK(rig.emulated.outcome().final_position_m < 0.3e-3);  // of the 1.05 mm it was heard to ask
+  CHECK(stands_where_it_says(rig));
+}
+
+TEST_CASE("A stage slower than its settings promise is waited for, and the move is marked",
+          "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(5.0);
+  options.grbl.true_speed = GENERATE(1.0, 0.4);
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  move_and_wait(rig, 0.5e-3, 0.25e-3);
+  CHECK(stands_where_it_says(rig));
+  CHECK(rig.has_event("move_doubtful", "test") == (options.grbl.true_speed < 1.0));
+}
+
+TEST_CASE("A limit switch that alarms again when it opens still ends lifted", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(10.0);
+  options.grbl.alarms_again = true;
+  RigFixture rig(options);
+  rig.sink = [&rig](const RunRecord& record) {
+    rig.records.push_back(record);
+    const auto* event = std::get_if<RunEvent>(&record);
+    if (event != nullptr && event->value == "ramp") rig.emulated.hit_limit_switch();
+  };
+  const RunOutcome outcome = rig.run(short_plan());
+  INFO(outcome.reason);
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("alarm 1") && !Contains("And:"));
+  CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
+}
+
+TEST_CASE("A stage that refuses to be unlocked is named as such", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.grbl.is_homing_enabled = true;
+  options.grbl.refuses_unlock = true;
+  RigFixture rig(options);
+  CHECK_THROWS_WITH(rig.stage.connect(rig.pump()), Contains("refused '$X'") && Contains("door"));
+}
+
+TEST_CASE("A board that resets late, in the middle of the conversation, is asked again",
+          "[rig][pty]") {
+  RigFixture rig(RigFixture::options(5.0));
+  bool has_restarted = false;
+  const Pump pump = rig.pump();
+  rig.stage.connect([&] {
+    pump();
+    if (!has_restarted && rig.all<StageReport>().size() == 1) {
+      rig.emulated.restart_stage();
+      has_restarted = true;
+    }
+  });
+  REQUIRE(has_restarted);
+  CHECK(rig.stage.dynamics().steps_per_m == Approx(3200e3).epsilon(1e-12));
+  move_and_wait(rig, 0.1e-3, 1e-3);
+  CHECK(stands_where_it_says(rig));
+}
+
+TEST_CASE("Coarse steps: the record says where the stage really went", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.steps_per_m = 250e3;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  move_and_wait(rig, 0.25e-3, 1e-3);
+  REQUIRE(rig.all<CommandedMove>().size() == 1);
+  CHECK(rig.all<CommandedMove>()[0].move.to_m == Approx(0.252e-3).epsilon(1e-9));  // 63 steps
+  CHECK(rig.emulated.outcome().final_position_m == Approx(0.252e-3).epsilon(1e-9));
+}
+
+TEST_CASE("A stage that stands at another place than it was sent to is not believed",
+          "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.grbl.ends_short_number = 1;
+  RigFixture rig(options);
+  rig.stage.connect(rig.pump());
+  CHECK_THROWS_WITH(move_and_wait(rig, 0.3e-3, 1e-3), Contains("did not reach 0.300 mm"));
+}
+
+TEST_CASE("A force that stays flat at full depth is doubted: steps may be lost", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.material.E0_Pa *= 0.05;  // what lost steps look like from the force
+  RigFixture rig(options);
+  const RunOutcome outcome = rig.run(short_plan());
+  INFO(outcome.reason);
+  REQUIRE(outcome.status == "finished");
+  REQUIRE(outcome.doubts.size() == 1);
+  CHECK_THAT(outcome.doubts[0], Contains("lose steps"));
+  CHECK(rig.has_event("doubt", "force_flat"));
+}
+
+TEST_CASE("A controller that restarts while the punch presses is lifted from where it then counts",
+          "[rig][pty]") {
+  RigFixture rig(RigFixture::options(20.0));
+  rig.sink = [&rig](const RunRecord& record) {
+    rig.records.push_back(record);
+    const auto* event = std::get_if<RunEvent>(&record);
+    if (event != nullptr && event->value == "hold") rig.emulated.restart_stage();
+  };
+  const RunOutcome outcome = rig.run(short_plan());
+  INFO(outcome.reason);
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("restarted") && !Contains("And:"));
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+  CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
+}
+
+}  // namespace viscard
