@@ -1,5 +1,6 @@
 #include "io/cli/command.h"
 
+#include "io/basics/nearest_word.h"
 #include "io/cli/card/command_card.h"
 #include "io/cli/fit/command_fit.h"
 #include "io/cli/report/command_demo.h"

@@ -1,7 +1,5 @@
 #include "io/tables/column_names.h"
 
-#include "io/tables/column_map.h"
-
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>

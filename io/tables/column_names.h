@@ -9,7 +9,7 @@
 
 namespace viscard {
 
-// Parts of column_map.cpp: which headers mean which quantity.
+// Which headers of a table mean which quantity.
 struct Quantity {
   const char* name;                  // "force_N"
   const char* base;                  // "force"
@@ -19,6 +19,9 @@ struct Quantity {
 };
 
 const std::vector<Quantity>& quantities();
+
+// The names of all quantities, in the order of the table.
+const std::vector<std::string>& column_names();
 
 // Throws std::invalid_argument when there is none of that name.
 const Quantity& quantity_named(const std::string& name);

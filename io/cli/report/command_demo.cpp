@@ -4,7 +4,7 @@
 #include "io/cli/words/command_line.h"
 #include "io/config/config_file.h"
 #include "io/materials/material_file.h"
-#include "rig/preflight.h"
+#include "rig/run/preflight.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

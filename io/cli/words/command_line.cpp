@@ -1,3 +1,4 @@
+#include "io/basics/nearest_word.h"
 #include "io/cli/words/command_line.h"
 
 #include "io/cli/words/output_paths.h"

@@ -3,6 +3,7 @@
 #include "models/pillar/mesh/number_text.h"
 #include "models/pillar/mesh/scene_mistake.h"
 #include "models/pillar/time/inertial_stepper.h"
+#include "models/pillar/time/model_reduction.h"
 
 #include <Eigen/Cholesky>
 

@@ -1,4 +1,5 @@
 #include "models/pillar/time/harmonic_response.h"
+#include "models/pillar/time/model_reduction.h"
 #include "models/pillar/time/reduced_span.h"
 #include "models/pillar/time/relative_modulus.h"
 

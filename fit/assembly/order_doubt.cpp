@@ -1,4 +1,4 @@
-#include "fit/intervals/order_doubt.h"
+#include "fit/assembly/order_doubt.h"
 
 #include "fit/curves/model_variant.h"
 #include "fit/search/quick_search.h"
