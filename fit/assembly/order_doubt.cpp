@@ -13,8 +13,6 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double kNormal95 = 1.959963984540054;
-
 void widen(Interval& interval, double value, double error) {
   interval.low = std::min(interval.low, value - kNormal95 * error);
   interval.high = std::max(interval.high, value + kNormal95 * error);

@@ -7,10 +7,6 @@
 namespace viscard {
 namespace {
 
-bool is_stated(const std::string& unit) {
-  return !unit.empty() && unit != "-";
-}
-
 // Lower case, with one blank for any run of blanks, underscores and hyphens.
 std::string plain(const std::string& text) {
   std::string out;
@@ -121,6 +117,10 @@ std::optional<HeaderMatch> match_header(const CsvColumn& column, const Quantity&
   const auto scale = scale_if_fits(column, column.name.substr(head.size()), quantity);
   if (!scale) return std::nullopt;
   return HeaderMatch{2, *scale};
+}
+
+bool is_stated(const std::string& unit) {
+  return !unit.empty() && unit != "-";
 }
 
 const std::vector<std::string>& column_names() {

@@ -17,7 +17,7 @@ struct RelativeModuli {
   double shear = 1.0, bulk = 1.0;
 };
 
-RelativeModuli moduli_at(const ViscoelasticSystem& body, double s) {
+RelativeModuli laplace_moduli_at(const ViscoelasticSystem& body, double s) {
   return {std::real(relative_modulus(body.terms, &MaterialTerm::g, s)),
           body.incompressible ? 1.0 : std::real(relative_modulus(body.terms, &MaterialTerm::k, s))};
 }
@@ -41,7 +41,7 @@ std::vector<double> laplace_points(const std::vector<MaterialTerm>& terms) {
 // Error of the restricted answer at one s in the energy norm, relative; `answer` is its
 // coefficients.
 double error_at(const ReducedSpan& span, const ViscoelasticSystem& body, double s) {
-  const RelativeModuli m = moduli_at(body, s);
+  const RelativeModuli m = laplace_moduli_at(body, s);
   const Eigen::MatrixXd image = span.image(m.shear, m.bulk);
   const Eigen::MatrixXd small = span.basis().transpose() * image;
   const Eigen::VectorXd c = small.ldlt().solve(span.basis().transpose() * body.load);
@@ -69,7 +69,7 @@ ReducedBody reduce_quasi_static(const ViscoelasticSystem& system, double toleran
       }
     }
     if (error <= tolerance) break;
-    const RelativeModuli m = moduli_at(system, worst_s);
+    const RelativeModuli m = laplace_moduli_at(system, worst_s);
     StiffnessFactor factor;
     span.factor(m.shear, m.bulk, factor);
     if (!span.add(factor.solve(system.load))) break;  // rounding: no better answer exists
