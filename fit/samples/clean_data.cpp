@@ -19,7 +19,7 @@ bool is_ready(const std::vector<std::span<const double>>& columns) {
          step_range(columns[0]).shortest >= 0.0;
 }
 
-// Numbers of the rows that can be used, in order of time.
+// Indices of the usable rows in order of time.
 std::vector<std::size_t> usable_rows(const std::vector<std::span<const double>>& columns) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < columns[0].size(); ++i) {
@@ -63,7 +63,7 @@ CleanViews::CleanViews(const std::vector<std::span<const double>>& columns, std:
     std::vector<double>& target = copies_.emplace_back();
     target.reserve(order.size());
     for (const std::size_t i : order) target.push_back(view[i]);
-    view = target;  // keeps its memory when copies_ grows
+    view = target;  // the view stays valid when copies_ grows
   }
 }
 
