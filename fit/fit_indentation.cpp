@@ -42,7 +42,7 @@ void check_force(const Column& force_N) {
   }
 }
 
-// The depth must grow while the force does.
+// Throws unless the depth grows with the force.
 void check_depth(const Column& force_N, const Column& depth_m) {
   const auto peak =
       static_cast<std::size_t>(std::max_element(force_N.begin(), force_N.end()) - force_N.begin());
@@ -54,7 +54,8 @@ void check_depth(const Column& force_N, const Column& depth_m) {
   }
 }
 
-// The longest run of samples standing exactly at the highest value: a converter at its end.
+// Saturation is a long run of samples exactly at the largest value: the end of the converter's
+// range.
 void flag_saturation(const Column& force_N, FitResult& result) {
   const double top = *std::max_element(force_N.begin(), force_N.end());
   std::size_t run = 0;
@@ -100,11 +101,12 @@ HistoryInput history_input(const CleanColumns& clean, const TableContact& contac
     input.contact_half_width = 0.25 * (*high - contact.depth_m);
     input.with_offset = true;
   }
-  // Beyond the loss of contact after loading the force no longer follows the depth.
+  // Once the punch loses contact after loading, the force no longer follows the depth.
   const std::size_t loaded = end_of_loading(input.input);
   const double limit_m = contact.is_fitted ? contact.depth_m : 0.0;
   std::size_t end = loaded;
-  // A sphere's or cone's contact must not shrink, or the integral no longer holds.
+  // The contact of a sphere or cone must not shrink, because the hereditary integral does not hold
+  // then.
   const double least_m =
       law.power == 1.0 ? limit_m : limit_m + 0.98 * (input.input[loaded] - limit_m);
   while (end < input.time_s.size() && input.input[end] > least_m) ++end;
@@ -141,12 +143,12 @@ void flag_table_misfit(const HistoryInput& input, const TableContact& contact, F
               result);
 }
 
-// A table made ready: spikes, an earlier touch and the frame's share of the depth taken out.
+// A table after preparation: spikes, an earlier touch and the frame's part of the depth removed.
 struct ContactTable {
   CleanColumns clean;
   DepthLaw law{1.0, 1.0};
   TableContact contact;
-  std::size_t loaded = 0;  // where loading ends
+  std::size_t loaded = 0;  // index of the end of loading
   std::size_t n_spikes = 0;
 };
 
@@ -180,7 +182,7 @@ ContactTable contact_table(const IndentationData& data) {
   return table;
 }
 
-// The seed's method on the loading part.
+// The two-point modulus of the loading part.
 std::optional<TwoPointModulus> two_points(const HistoryInput& input, std::size_t first,
                                           std::size_t end, const PunchContact& contact,
                                           const FitResult& result) {
@@ -194,7 +196,7 @@ std::optional<TwoPointModulus> two_points(const HistoryInput& input, std::size_t
                            result.noise.sigma);
 }
 
-// Window, flags and the two-point modulus.
+// Fills window, flags and the two-point modulus.
 void report_table(const IndentationData& data, const ContactTable& table, const HistoryInput& input,
                   const HistoryModel& model, const SpectralFit& fit, FitResult& result) {
   const TableContact& contact = table.contact;
@@ -243,9 +245,8 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
   return result;
 }
 
-// Relative change of E0 when the frame is as much stiffer as its uncertainty says, and the other
-// known inputs beside it. The depth that the frame leaves is what it is blamed on, so both grow
-// with its share.
+// Relative systematic uncertainty of E0 from frame stiffness, force gain and geometry. The frame's
+// deflection is subtracted from the depth, so the errors of frame and gain grow with its share.
 double systematic_share(const IndentationData& data, const FitResult& result) {
   double square = std::pow(data.force_relative_u, 2);
   if (data.contact) square += std::pow(relative_uncertainty(*data.contact), 2);

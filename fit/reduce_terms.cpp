@@ -12,11 +12,11 @@
 namespace viscard {
 namespace {
 
-// Parameters: ln E_inf, then ln E_i, ln tau_i in pairs. Logarithms keep all positive.
+// Parameters: ln E_inf, then pairs of ln E_i and ln tau_i. The logarithms keep all values positive.
 using Parameters = Eigen::VectorXd;
 
 constexpr double kFarLog = 1.2;         // times stay within a factor e^1.2 of the window
-constexpr double kSmallestRest = 1e-6;  // of E_0, so that the reduced series stays a solid
+constexpr double kSmallestRest = 1e-6;  // relative to E_0, so that the reduced series stays a solid
 
 struct Problem {
   Eigen::VectorXd time_s, modulus_Pa;  // logarithmic grid
@@ -38,7 +38,7 @@ Problem make_problem(const PronySeries& series, double t_min_s, double t_max_s) 
   return problem;
 }
 
-// r_j = E'(t_j)/E(t_j) - 1 and, if asked, dr/dp.
+// r_j = E'(t_j)/E(t_j) - 1 and, unless jacobian is nullptr, dr/dp.
 Eigen::VectorXd residuals(const Problem& problem, const Parameters& p, Eigen::MatrixXd* jacobian) {
   const Eigen::Index n = (p.size() - 1) / 2;
   const Eigen::ArrayXd scale = 1.0 / problem.modulus_Pa.array();
@@ -69,7 +69,7 @@ double largest(const Problem& problem, const Parameters& p) {
   return residuals(problem, p, nullptr).lpNorm<Eigen::Infinity>();
 }
 
-// Levenberg-Marquardt on sum w r^2; weights are fixed inside.
+// Levenberg-Marquardt on sum w r^2 with fixed weights.
 Parameters least_squares(const Problem& problem, Parameters p, const Eigen::VectorXd& weights,
                          int iterations) {
   Eigen::MatrixXd jacobian;
@@ -100,14 +100,15 @@ Parameters least_squares(const Problem& problem, Parameters p, const Eigen::Vect
   return p;
 }
 
-// Iteratively reweighted towards the p-norm for p = 4, 8, ... 64; keeps the best maximum seen.
+// Iterative reweighting towards the p-norm for p = 4, 8, ... 64; returns the parameters with the
+// smallest maximum error.
 Parameters sharpen(const Problem& problem, Parameters p) {
   Parameters best = p;
   double best_error = largest(problem, p);
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(problem.time_s.size());
   for (int round = 0; round < 30; ++round) {
     const Eigen::ArrayXd r = residuals(problem, p, nullptr).array().abs();
-    // Lawson's rule with a square root: weight grows where the error is large.
+    // Lawson's rule with a square root: the weight grows where the error is large.
     weights = (weights.array() * (r / r.maxCoeff() + 1e-3).sqrt()).matrix();
     weights /= weights.maxCoeff();
     p = least_squares(problem, p, weights, 8);
@@ -133,7 +134,8 @@ std::vector<Eigen::Index> peaks_of(const Eigen::VectorXd& r) {
   return peaks;
 }
 
-// Remez exchange: Newton steps that make the 2n + 2 alternating peaks equal. Returns the best seen.
+// Remez exchange: Newton steps that make the 2n + 2 alternating peaks equal. Returns the best
+// parameters found.
 Parameters equalise(const Problem& problem, Parameters p) {
   Parameters best = p;
   double best_error = largest(problem, p);
@@ -143,7 +145,8 @@ Parameters equalise(const Problem& problem, Parameters p) {
     std::vector<Eigen::Index> peaks = peaks_of(r);
     const auto wanted = static_cast<std::size_t>(p.size()) + 1;
     if (peaks.size() < wanted) break;
-    while (peaks.size() > wanted) {  // drop the lower end; inner pairs never appear in practice
+    while (peaks.size() > wanted) {  // remove the smaller end peak; inner pairs never occur in
+                                     // practice
       peaks.erase(std::abs(r[peaks.front()]) < std::abs(r[peaks.back()]) ? peaks.begin()
                                                                          : peaks.end() - 1);
     }
@@ -170,7 +173,8 @@ Parameters equalise(const Problem& problem, Parameters p) {
   return best;
 }
 
-// n times spread evenly over the logarithm of [from, to], the moduli as the series loses them.
+// Start values at the given times: E_inf is E at the end of the window, and the terms share equally
+// what the series loses over the window.
 Parameters start_from(const Problem& problem, const std::vector<double>& ln_tau) {
   const Eigen::Index last = problem.modulus_Pa.size() - 1;
   Parameters p(1 + 2 * static_cast<Eigen::Index>(ln_tau.size()));
@@ -186,7 +190,7 @@ Parameters start_from(const Problem& problem, const std::vector<double>& ln_tau)
 }
 
 Parameters best_parameters(const Problem& problem, int n_terms) {
-  std::mt19937 random(20240607);  // the same answer every time
+  std::mt19937 random(20240607);  // fixed seed: the same result every time
   std::uniform_real_distribution<double> jitter(-0.45, 0.45);
   const double ln_from = std::log(problem.time_s[0]);
   const double ln_to = std::log(problem.time_s[problem.time_s.size() - 1]);
@@ -228,7 +232,7 @@ PronySeries series_from(const Parameters& p) {
   return series;
 }
 
-// Over a grid four times as fine as the one the series was made on.
+// On a grid four times as fine as the one used for the reduction.
 double largest_error(const PronySeries& one, const PronySeries& reference, double t_min_s,
                      double t_max_s) {
   const int count = std::max(800, static_cast<int>(160.0 * std::log10(t_max_s / t_min_s)));

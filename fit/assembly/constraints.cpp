@@ -58,7 +58,8 @@ Box box_of(const Parametrisation& form, const std::vector<ParameterConstraint>& 
     const ParameterName name = name_of(one.name);
     const Index at = form.position(name);
     const bool is_time = name.stem == Stem::kTime;
-    // A bound reaches no further than signs allow; a share's or time's upper end is the user's.
+    // A lower bound is raised to what the signs allow; the upper bound of a share or time is the
+    // user's.
     const double low = is_time ? std::log(one.low) : one.low;
     box.low[at] = is_time || one.low == one.high ? low : std::max(box.low[at], low);
     box.high[at] = is_time ? std::log(one.high) : one.high;
@@ -76,7 +77,8 @@ std::string range_text(const ParameterConstraint& one) {
   return text;
 }
 
-// A time that the record cannot show leaves its modulus open to any size, unless that is held too.
+// A time that the record cannot show leaves its modulus undetermined, unless the modulus is held
+// too.
 void check_times(const SpectralModel& model, const std::vector<ParameterConstraint>& constraints) {
   for (const ParameterConstraint& one : constraints) {
     const ParameterName name = name_of(one.name);
@@ -103,7 +105,7 @@ void check_times(const SpectralModel& model, const std::vector<ParameterConstrai
   }
 }
 
-// What no data could mend.
+// Refuses solutions that no data could make possible.
 void check_solution(const SpectralState& state, const std::vector<ParameterConstraint>& constraints,
                     bool may_be_negative) {
   std::string all;
@@ -128,14 +130,16 @@ void check_solution(const SpectralState& state, const std::vector<ParameterConst
   }
 }
 
-// How much worse the constraints make the description, beside the free fit of the same data.
+// Compares the residual of the constrained fit with that of the free fit and adds a note if it is
+// larger.
 void flag_contradiction(double free_rss, double free_variance, double inflation, int n_held,
                         SpectralFit& fit) {
   const double rise = (fit.rss - free_rss) / std::max(free_variance * inflation, 1e-300);
-  // By chance a held true value raises it by n_held +- sqrt(2 n_held).
+  // Holding n_held true values raises the residual sum by n_held +- sqrt(2 n_held) variances by
+  // chance.
   const double by_chance = n_held + 5.0 * std::sqrt(2.0 * n_held);
   if (!(rise > by_chance)) return;
-  constexpr double kPlain = 2.0;  // seen without statistics
+  constexpr double kPlain = 2.0;  // a factor that is visible without statistics
   char text[200];
   std::snprintf(text, sizeof text,
                 "the constraints contradict the data: the residual sum of squares is %.4g times "
@@ -145,8 +149,8 @@ void flag_contradiction(double free_rss, double free_variance, double inflation,
       {fit.rss > kPlain * free_rss ? kContradictsData : "constraints-strained", 0, text});
 }
 
-// Times to start from: the constrained ones where they must be, the others spread over the range
-// or, where there are as many, those of a smaller free fit.
+// Times to start from: the constrained times, with the others spread over the range or taken from a
+// smaller free fit that has as many.
 SpectralState spread_start(const SpectralModel& model, const Parametrisation& form, const Box& box,
                            const SpectralFit& fit, Index n_terms) {
   Eigen::VectorXd ln_tau(n_terms);
@@ -171,7 +175,7 @@ SpectralState spread_start(const SpectralModel& model, const Parametrisation& fo
   return solve_coefficients(model, ln_tau, fit.state.nuisance);
 }
 
-// Covariance of the parameters left free, carried to all: fixed ones and those on a bound have
+// Covariance of the free parameters, extended to all: fixed parameters and those on a bound have
 // none.
 Eigen::MatrixXd free_covariance(const Parametrisation& form, const Box& box,
                                 const SpectralState& state, double variance) {
@@ -182,7 +186,7 @@ Eigen::MatrixXd free_covariance(const Parametrisation& form, const Box& box,
     const double reach = 1e-9 * (1.0 + std::abs(theta[i]));
     if (theta[i] > box.low[i] + reach && theta[i] < box.high[i] - reach) free.push_back(i);
   }
-  if (free.empty()) return Eigen::MatrixXd::Zero(slopes.rows(), slopes.rows());  // all at a bound
+  if (free.empty()) return Eigen::MatrixXd::Zero(slopes.rows(), slopes.rows());  // all on a bound
   const Eigen::MatrixXd chosen = slopes(Eigen::all, free);
   const Eigen::MatrixXd jacobian = full_jacobian(form.model(), state) * chosen;
   const Eigen::VectorXd scale = jacobian.colwise().norm().transpose().cwiseMax(1e-300);

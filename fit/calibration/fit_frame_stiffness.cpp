@@ -12,7 +12,8 @@
 namespace viscard {
 namespace {
 
-constexpr double kFirstPart = 0.25;  // of a hold left out: the last of the motion and its ringing
+constexpr double kFirstPart = 0.25;  // part of each hold to leave out: the end of the motion and
+                                     // its ringing
 
 }  // namespace
 

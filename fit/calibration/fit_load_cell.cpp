@@ -13,10 +13,10 @@
 namespace viscard {
 namespace {
 
-constexpr double kSame = 1e-6;  // loads that differ by less of the largest are one
+constexpr double kSame = 1e-6;  // relative to the largest load; loads that differ by less are equal
 
 struct Point {
-  int load = 0;  // number of the load step, 0: none
+  int load = 0;  // index of the load step, 0: no load
   bool is_up = true;
   int series = 0;
 };
@@ -34,8 +34,7 @@ void check(const WeightReadings& data) {
   }
 }
 
-// Which of the different loads each reading belongs to, in which direction it was reached, and in
-// which series.
+// Load step, direction and series of each reading.
 std::vector<Point> points_of(const WeightReadings& data, double largest_N) {
   std::vector<double> loads = data.force_N;
   std::sort(loads.begin(), loads.end());
@@ -50,7 +49,7 @@ std::vector<Point> points_of(const WeightReadings& data, double largest_N) {
   std::vector<Point> points;
   int series = 0;
   bool has_load = false;
-  bool is_over = false;  // the load came back to none: whatever follows is the next series
+  bool is_over = false;  // the load returned to zero: the next reading begins a new series
   for (std::size_t i = 0; i < data.force_N.size(); ++i) {
     if (is_over) {
       ++series;
@@ -128,14 +127,14 @@ void describe(const Groups& groups, LoadCellFit& fit) {
   }
   fit.nonlinearity = worst / std::abs(fit.full_reading);
   fit.hysteresis = loop / std::abs(fit.full_reading);
-  // The zero at both ends of one series says nothing of the loads between.
+  // The zeros at the ends of one series give no repeatability of the loads in between.
   fit.has_repeatability = freedom > 0 && fit.n_series > 1;
   if (fit.has_repeatability)
     fit.repeatability = std::sqrt(scatter / freedom) / std::abs(fit.full_reading);
 }
 
-// Standard error of one mean reading: by repetition or, failing that, by its own noise or what the
-// line leaves.
+// Standard error of one mean reading: from the repeatability or, without it, from its own noise or
+// the residual of the line.
 double reading_u(const WeightReadings& data, const LoadCellFit& fit) {
   double noise = 0.0;
   for (const double se : data.reading_se) {
@@ -197,7 +196,7 @@ LoadCellFit fit_load_cell(const WeightReadings& data) {
     group.squares += residual * residual;
     ++group.n;
   }
-  // The largest load is reached from below only; it has no pair and closes the loop.
+  // The largest load is reached from below only, so it has no pair for the hysteresis.
   describe(groups, fit);
   add_budget(data, line.sum_xx, fit);
   return fit;

@@ -74,7 +74,7 @@ class Likelihood {
   bool restricted_;
 };
 
-// Best spread of one kind, the others held: a scan in its logarithm, zero included, sharpened by
+// Best spread of one kind with the others held: a scan of its logarithm and of zero, refined by
 // golden section. The likelihood may have its maximum at zero.
 double best_spread(const Likelihood& likelihood, Spreads spreads, std::size_t kind) {
   const auto at = [&](double spread) {
@@ -136,7 +136,8 @@ RatioModel fitted_form(const std::vector<RatioEstimate>& estimates, const RatioF
     if (change < 1e-4) break;
   }
   if (kinds == 1) spreads[1] = spreads[2] = 0.0;
-  for (std::size_t kind = 0; kind < kinds; ++kind) {  // as many values as specimens: no scatter
+  for (std::size_t kind = 0; kind < kinds; ++kind) {  // no scatter if there are as many values as
+                                                      // specimens
     const int first = kind == 0 ? 0 : 1 + (kind == 2 ? model.n_terms : 0);
     if (!has_known_spread(model, first)) spreads[kind] = 0.0;
   }
@@ -167,7 +168,7 @@ void check_shared(const std::vector<std::string>& names, int n_terms) {
   }
 }
 
-// All forms that these data can tell apart; named ones first, so that they win ties.
+// All forms that these data can distinguish. The named ones come first, so that they win ties.
 std::vector<RatioForm> forms_to_try(std::size_t n_ratios, int n_terms,
                                     const MixingOptions& options) {
   constexpr auto kAny = RatioVariable::kLogRatio;

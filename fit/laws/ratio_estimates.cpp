@@ -53,7 +53,7 @@ RatioEstimate estimate_of(const Material& material) {
     slopes(n + i, n + i) = 1.0;
   }
   out.covariance = slopes * material.uncertainty->covariance * slopes.transpose();
-  // Noise-free data would leave it singular.
+  // Keeps the covariance of noise-free data from being singular.
   out.covariance.diagonal().array() += 1e-16 + 1e-12 * out.covariance.diagonal().array();
   return out;
 }
