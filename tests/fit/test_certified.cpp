@@ -13,10 +13,10 @@ using namespace viscard;
 namespace {
 
 struct Certified {
-  const char* format;  // Lanczos data are the same sum printed to 13, 6 and 5 digits
-  double b[6];         // amplitude, rate, slowest first
+  const char* format;  // the Lanczos data are the same sum printed to 13, 6 and 5 digits
+  double b[6];         // amplitude, rate; slowest first
   double rss;
-  double parameter_error;  // relative, allowed
+  double parameter_error;  // allowed relative error
 };
 
 // 0.0951 exp(-x) + 0.8607 exp(-3x) + 1.5576 exp(-5x)
@@ -64,7 +64,7 @@ TEST_CASE("Lanczos problems: nine digits of every certified parameter from no st
     CHECK(term.modulus_Pa == Approx(problem.b[2 * i]).epsilon(problem.parameter_error));
     CHECK(1.0 / term.tau_s == Approx(problem.b[2 * i + 1]).epsilon(problem.parameter_error));
   }
-  // The residual of Lanczos1 is at the rounding of the data themselves.
+  // The residual of Lanczos1 is the rounding error of the data themselves.
   CHECK(fit.rss == Approx(problem.rss).epsilon(problem.rss < 1e-20 ? 2e-3 : 1e-9));
 }
 

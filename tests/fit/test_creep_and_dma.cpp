@@ -76,7 +76,7 @@ TEST_CASE("storage and loss give back the series they came from", "[fit]") {
 }
 
 TEST_CASE("a spectrum wider than the terms allowed gets them all", "[fit]") {
-  // The misfit of three terms must not be taken for noise with a long memory.
+  // The misfit of three terms must not be mistaken for autocorrelated noise.
   DmaData data;
   for (int i = 0; i <= 120; ++i) {
     const double f = std::pow(10.0, -5.0 + 7.0 * i / 120.0);

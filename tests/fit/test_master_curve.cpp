@@ -20,7 +20,7 @@ const TemperatureShift kWlf{.law = ShiftLaw::kWlf, .T_ref_C = 20.0, .C1 = 8.86, 
 const TemperatureShift kArrhenius{
     .law = ShiftLaw::kArrhenius, .T_ref_C = 20.0, .activation_J_mol = 9e4};
 
-// Steps of 1 to 100 s at each temperature, noise relative to the value.
+// Steps of 1 to 100 s at each temperature; the noise is relative to the value.
 MasterData relaxation_data(const TemperatureShift& shift, double noise, std::uint64_t seed) {
   std::mt19937_64 dice(seed);
   std::normal_distribution<double> normal;
@@ -51,7 +51,7 @@ TEST_CASE("WLF and Arrhenius factors are those of their formulas", "[models]") {
   const TemperatureShift moved = with_reference(kWlf, 45.0);
   CHECK(ln_shift_factor(moved, 70.0) ==
         Approx(ln_shift_factor(kWlf, 70.0) - ln_shift_factor(kWlf, 45.0))
-            .epsilon(1e-13));  // rounding
+            .epsilon(1e-13));  // rounding errors
   CHECK(error_text([] { ln_shift_factor(kWlf, -90.0); }).find("pole") != std::string::npos);
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("the master model's slopes are its finite differences", "[fit][gradien
     const Eigen::VectorXd slope = (model.columns(up, nuisance, false).values.col(1 + i) -
                                    model.columns(down, nuisance, false).values.col(1 + i)) /
                                   (2.0 * kStep);
-    // Central differences: step^2 and rounding/step, of columns of size 1e-6.
+    // Central differences have errors of step^2 and rounding/step, for columns of size 1e-6.
     CHECK((slope - at.term_slopes.col(i)).norm() <= 1e-8 * slope.norm());
   }
   Eigen::VectorXd up = nuisance, down = nuisance;
@@ -87,7 +87,7 @@ TEST_CASE("segments without noise shift onto the truth they were made from", "[f
   const MasterCurve curve = fit_master_curve(relaxation_data(kWlf, 0.0, 1), {.n_terms = 4});
   REQUIRE(curve.laws.wlf);
   CHECK(curve.laws.wlf_is_better);
-  // The search for the best times stops at 1e-12 of the residual's own size.
+  // The search for the best times stops at 1e-12 of the residual sum.
   CHECK(curve.laws.wlf->C1 == Approx(8.86).epsilon(1e-4));
   CHECK(curve.laws.wlf->C2_K == Approx(101.6).epsilon(1e-4));
   CHECK(curve.fit.E_inf_Pa == Approx(2e6).epsilon(1e-4));
@@ -108,7 +108,7 @@ TEST_CASE("noisy segments give WLF constants within their intervals, and WLF is 
     if (factor.ln_a == 0.0) continue;
     CAPTURE(factor.temperature_C);
     CHECK(factor.ln_a == Approx(ln_shift_factor(kWlf, factor.temperature_C))
-                             .margin(4.0 * factor.ln_a_se + 0.03));  // .1 K of scatter: .02
+                             .margin(4.0 * factor.ln_a_se + 0.03));  // 0.1 K of scatter gives 0.02
   }
 }
 

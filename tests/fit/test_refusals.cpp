@@ -69,7 +69,7 @@ TEST_CASE("creep, oscillation and strain histories of no sense are refused with 
 }
 
 TEST_CASE("as many parameters as samples are not fitted: nothing would tell the noise", "[fit]") {
-  // Five noisy samples once gave two terms with intervals of no width at all.
+  // Regression: five noisy samples once gave two terms with intervals of zero width.
   FitOptions options;
   options.n_terms = 4;
   RelaxationData data;
@@ -99,7 +99,7 @@ TEST_CASE("held parameters leave as many free as the samples can tell, or the fi
   options.n_terms = 1;
   options.constraints = {{"tau_1", 3.0, 3.0}};
   const FitResult fit = fit_relaxation(data, options);
-  // E_inf and E_1 are free: three of the five values are left for the noise.
+  // E_inf and E_1 are fitted, and three of the five values remain to estimate the noise.
   CHECK(fit.noise.sigma == Approx(std::sqrt(fit.rss / 3.0)).epsilon(1e-12));
 }
 

@@ -18,7 +18,7 @@ using Catch::Contains;
 
 namespace {
 
-// 1.6 + .12 exp(-t/.8) + .08 exp(-t/40), noise .002.
+// 1.6 + 0.12 exp(-t/0.8) + 0.08 exp(-t/40), noise 0.002.
 RelaxationData two_terms() {
   std::mt19937_64 dice(9);
   std::normal_distribution<double> normal;
@@ -48,7 +48,7 @@ TEST_CASE("a fixed time stays, has no error, and the rest is refitted around it"
   CHECK(fit.terms[1].tau_s != free.terms[1].tau_s);
   CHECK(fit.rss > free.rss);
   CHECK(fit.rss < 1.05 * free.rss);
-  // Knowing a time makes its modulus surer.
+  // A known time reduces the error of its modulus.
   CHECK(fit.terms[0].modulus_se_Pa < free.terms[0].modulus_se_Pa);
   REQUIRE_FALSE(fit.flags.empty());
   CHECK(fit.flags.front().name == "constrained");
@@ -64,7 +64,7 @@ TEST_CASE("a constraint that the free fit keeps anyway changes nothing", "[fit]"
 
 TEST_CASE("shares, moduli and ends can be fixed or bounded", "[fit]") {
   CHECK(fit_with({"g_2=0.03"}).terms[1].g == Approx(0.03).epsilon(1e-10));
-  CHECK(fit_with({"g_2=0:0.03"}).terms[1].g == Approx(0.03).epsilon(1e-6));  // pushed to the end
+  CHECK(fit_with({"g_2=0:0.03"}).terms[1].g == Approx(0.03).epsilon(1e-6));  // ends on its bound
   CHECK(fit_with({"E0=1.81"}).E0_Pa == Approx(1.81).epsilon(1e-10));
   const FitResult fit = fit_with({"E_inf=1.59", "E_1=0.1:0.11"});
   CHECK(fit.E_inf_Pa == Approx(1.59).epsilon(1e-12));
@@ -105,11 +105,12 @@ TEST_CASE("constraints that the data contradict make the result untrustworthy", 
     CHECK(fit.E_inf_Pa >= 0.0);
     CHECK(fit.sum_g <= 1.0);
   }
-  const FitResult near = fit_with({"E0=1.8"});  // the truth
+  const FitResult near = fit_with({"E0=1.8"});  // the true value
   CHECK(near.is_trustworthy);
   CHECK_FALSE(flag_of(near, "contradicts-data"));
   CHECK_FALSE(flag_of(near, "constraints-strained"));
-  const FitResult beside = fit_with({"tau_1=0.9"});  // seven standard errors off, hardly seen
+  const FitResult beside = fit_with({"tau_1=0.9"});  // seven standard errors off, but hardly
+                                                     // visible in the residual
   CHECK(beside.is_trustworthy);
   CHECK(flag_of(beside, "constraints-strained"));
 }

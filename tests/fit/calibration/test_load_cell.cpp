@@ -12,7 +12,7 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-// Up and down n_series times over loads 0, 1/4, 1/2, 3/4, 1 of 2 N.
+// n_series times up and down over loads of 0, 1/4, 1/2, 3/4 and 1 times 2 N.
 WeightReadings cell_readings(int n_series, double gain, double hysteresis, double bow,
                              double noise_V, unsigned seed) {
   std::mt19937 random(seed);
@@ -38,7 +38,7 @@ TEST_CASE("A perfect cell gives its gain, with nothing in the budget but the wei
   data.force_relative_u = 2e-4;
   const LoadCellFit fit = fit_load_cell(data);
   CHECK(fit.gain == Approx(0.7255).epsilon(1e-12));
-  CHECK(fit.zero == Approx(0.1005).epsilon(1e-12));  // mean of .1 and .101
+  CHECK(fit.zero == Approx(0.1005).epsilon(1e-12));  // mean of 0.1 and 0.101
   CHECK(fit.n_series == 2);
   CHECK(fit.gain_u == Approx(2e-4 * 0.7255).epsilon(1e-6));
   CHECK(fit.nonlinearity < 1e-12);
@@ -47,9 +47,9 @@ TEST_CASE("A perfect cell gives its gain, with nothing in the budget but the wei
 
 TEST_CASE("Hysteresis and nonlinearity are found as they were put in", "[fit]") {
   const LoadCellFit loop = fit_load_cell(cell_readings(3, 0.7255, 0.004, 0.0, 0.0, 1));
-  CHECK(loop.hysteresis == Approx(0.004).epsilon(1e-9));  // at half load, of full scale
+  CHECK(loop.hysteresis == Approx(0.004).epsilon(1e-9));  // at half load, relative to full scale
   CHECK(loop.has_hysteresis);
-  CHECK(loop.gain == Approx(0.7255).epsilon(1e-9));  // up and down balance
+  CHECK(loop.gain == Approx(0.7255).epsilon(1e-9));  // the errors on the way up and down cancel
   // A bow of 4 b s (1 - s) over s = 0, 1/4, 1/2, 3/4 (twice each) and 1: the least-squares line is
   // b (5/9 + 2/7 (s - 4/9)), farthest from it, by 5/7 b, at full load; the gain takes 2/7 b.
   const LoadCellFit bow = fit_load_cell(cell_readings(3, 0.7255, 0.0, 0.003, 0.0, 1));
@@ -61,7 +61,7 @@ TEST_CASE("The interval of the gain holds the truth in at least 95 of 100 calibr
   int n_inside = 0;
   const int n = 400;
   for (unsigned seed = 1; seed <= n; ++seed) {
-    // Weights wrong by as much as they are said to be uncertain.
+    // The errors of the weights have the size of their stated uncertainty.
     std::mt19937 random(seed + 5000);
     const double wrong = 1.0 + std::normal_distribution<double>(0.0, 3e-4)(random);
     WeightReadings data = cell_readings(3, 0.7255 * wrong, 0.002, 0.001, 5e-4, seed);
@@ -75,7 +75,7 @@ TEST_CASE("The interval of the gain holds the truth in at least 95 of 100 calibr
 TEST_CASE("Repeatability is the pooled scatter of the same load again", "[fit]") {
   const LoadCellFit fit = fit_load_cell(cell_readings(200, 0.7255, 0.0, 0.0, 1e-3, 3));
   CHECK(fit.has_repeatability);
-  // 1 mV of 1.451 V; the zeros of each series take one degree of freedom of nine.
+  // 1 mV of 1.451 V; the zeros of the series take one of nine degrees of freedom.
   CHECK(fit.repeatability == Approx(1e-3 / 1.451 * std::sqrt(8.0 / 9.0)).epsilon(0.05));
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("The frame's stiffness comes from the slope of position on force", "[f
   }
   const FrameStiffnessFit exact = fit_frame_stiffness(points, 0.002);
   CHECK(exact.stiffness_N_m == Approx(10e3).epsilon(1e-9));
-  CHECK(exact.relative_u == Approx(0.002).epsilon(1e-6));  // only the gain's
+  CHECK(exact.relative_u == Approx(0.002).epsilon(1e-6));  // the gain's uncertainty only
   CHECK(exact.low_N_m == Approx(10e3 * 0.996).epsilon(1e-6));
   points.position_m[3] += 2e-6;
   CHECK(fit_frame_stiffness(points, 0.0).curvature_m > 1e-6);
@@ -130,7 +130,8 @@ TEST_CASE("A calibration counts for a year, or as long as it says", "[fit]") {
 
 TEST_CASE("A date of a calibration is a day of the calendar", "[fit]") {
   LoadCellCalibration calibration;
-  CHECK_NOTHROW(validate_dates(calibration));  // none at all: said when it is used
+  CHECK_NOTHROW(validate_dates(calibration));  // no date at all: reported when the calibration is
+                                               // used
   calibration.date = GENERATE("2026-11-21", "2024-02-29", "2026-11-21T10:00:00Z");
   CHECK_NOTHROW(validate_dates(calibration));
   calibration.date =

@@ -14,14 +14,14 @@ using viscard::test::error_text;
 
 namespace {
 
-// ln E0 = ln(20 MPa) - ln r, one decimal of spectrum; what a campaign is made from.
+// The truth behind a campaign: ln E0 = ln(20 MPa) - ln r, and two terms.
 struct Campaign {
   std::vector<double> ratios{10.0, 13.0, 20.0};
   int specimens_per_ratio = 3;
   double exponent = -1.0;
-  double g_slope = 0.0;  // of ln g in ln(ratio)
+  double g_slope = 0.0;  // slope of ln g over ln(ratio)
   double spread_ln_E0 = 0.05, spread_ln_g = 0.05, spread_ln_tau = 0.05;
-  double fit_se = 0.01;  // of every ln parameter
+  double fit_se = 0.01;  // standard error of every ln parameter
 };
 
 // theta of the law: (ln E0, ln g_1, ln g_2, ln tau_1, ln tau_2).
@@ -42,7 +42,8 @@ Eigen::VectorXd with_spread(const Campaign& campaign, Eigen::VectorXd theta,
   return theta;
 }
 
-// A fitted specimen: independent errors of the logarithms, as covariance of (E_inf, E_i, ln tau).
+// A fitted specimen with independent errors of the logarithms, as a covariance of (E_inf, E_i, ln
+// tau).
 Material material_of(const Eigen::VectorXd& theta, double ratio, double se) {
   Material material;
   material.name = "specimen";
@@ -80,7 +81,7 @@ struct Coverage {
   int E0 = 0, g_1 = 0, tau_1 = 0, E_inf = 0, runs = 0;
 };
 
-// How often the interval at a ratio never measured holds the truth of a new specimen.
+// How often the interval at an unmeasured ratio holds the truth of a new specimen.
 Coverage coverage_of(const Campaign& campaign, double ratio, int runs, std::uint64_t seed) {
   std::mt19937_64 dice(seed);
   Coverage count;
@@ -133,10 +134,12 @@ TEST_CASE("a joint fit finds the power law a campaign was made from", "[fit][joi
   CHECK(fit.best.form.E0_degree == 1);
   CHECK(fit.best.form.g_degree == 0);
   CHECK(fit.best.form.tau_degree == 0);
-  // Exponent: spread .05 over 30 specimens with sd(ln r) = .6 gives a standard error of .015.
+  // Exponent: a spread of 0.05 over 30 specimens with sd(ln r) = 0.6 gives a standard error of
+  // 0.015.
   const double slope = fit.law.coefficients[1] / (0.5 * std::log(30.0 / 5.0));
   CHECK(slope == Approx(-1.0).margin(0.05));
-  // sd of a standard deviation from 28 degrees of freedom is 13 %; three of these.
+  // The relative standard deviation of a standard deviation with 28 degrees of freedom is 13 %;
+  // allow three.
   CHECK(fit.law.spread_ln_E0 == Approx(0.05).epsilon(0.4));
   CHECK(fit.forms.front().bic <= fit.forms.back().bic);
 }
@@ -186,7 +189,7 @@ TEST_CASE("a non-monotone modulus is not forced into a law, and the misfit is fl
   CHECK_FALSE(is_law(fit.best.form));
   REQUIRE_FALSE(fit.flags.empty());
   CHECK(fit.flags.back().name == "law-misfits");
-  // Measured ratios are then answered by their own specimens.
+  // Measured ratios then use the values of their own specimens.
   CHECK(material_at_ratio(fit, 13.0).E0_Pa == Approx(3.0 * 20e6 / 13.0).epsilon(0.1));
 }
 
@@ -217,7 +220,7 @@ TEST_CASE("a ratio outside the measured range is refused unless asked for, then 
   const Material beyond = material_at_ratio(fit, 25.0, /*may_extrapolate=*/true);
   REQUIRE_FALSE(beyond.flags.empty());
   CHECK(beyond.flags.back().name == "extrapolated-ratio");
-  // Less is known there than inside.
+  // The interval is wider outside the measured range.
   const auto width = [](const Material& at) {
     return std::log(at.uncertainty->E0_Pa_95.high / at.uncertainty->E0_Pa_95.low);
   };
@@ -252,16 +255,16 @@ TEST_CASE("specimens that cannot be joined are named", "[fit][joint]") {
 }
 
 TEST_CASE("prediction intervals at a ratio never measured hold new specimens", "[fit][joint]") {
-  // 60 campaigns: 95 % means 57 +- 1.7.
+  // 60 campaigns: 95 % is 57 +- 1.7.
   check_coverage(coverage_of({}, 12.5, 60, 7), 0.87, 1.0);
 }
 
-// 500 campaigns: 95 % means 475 +- 5.
+// 500 campaigns: 95 % is 475 +- 5.
 TEST_CASE("prediction intervals at a ratio never measured hold 95 % of many new specimens",
           "[fit][joint][slow]") {
   check_coverage(coverage_of({}, 12.5, 500, 77), 0.92, 0.985);
-  // Where the error of each specimen's own fit hides the spread, the spread is often estimated as
-  // zero and the interval falls short: 85 to 90 % were measured.
+  // If the errors of the fits are as large as the spread, the spread is often estimated as zero and
+  // the interval is too narrow: 85 to 90 % were measured.
   check_coverage(coverage_of({.fit_se = 0.06}, 12.5, 500, 78), 0.83, 0.985);
   check_coverage(coverage_of({.spread_ln_E0 = 0.2}, 16.0, 500, 79), 0.92, 0.985);
 }
@@ -287,7 +290,8 @@ TEST_CASE("specimens fitted from records join into the law they were made from",
   }
   const RatioFit fit = fit_mixing_ratio(specimens);
   const Material at = material_at_ratio(fit, 12.5);
-  // Spread .05 over six specimens: .02 of E0, .03 of each of the others (one g and tau pooled).
+  // Spread 0.05 over six specimens: 0.02 for E0, 0.03 for each of the others (one g and one tau,
+  // pooled).
   CHECK(at.E0_Pa == Approx(20e6 / 12.5).epsilon(0.07));
   CHECK(at.terms[0].g == Approx(0.10).epsilon(0.12));
   CHECK(at.terms[1].tau_s == Approx(40.0).epsilon(0.12));

@@ -32,8 +32,8 @@ TEST_CASE("autoregression of white noise is of order zero", "[fit]") {
 TEST_CASE("autoregression finds the memory of noise", "[fit]") {
   const double rho = GENERATE(0.5, 0.9, 0.97);
   const Autoregression noise = autoregression(ar1(rho, 100000, 4));
-  // Standard error of rho from 1e5 values: sqrt((1 - rho^2)/1e5) < .003; of the inflation 2/(1 -
-  // rho^2) times that, at most 10 %.
+  // The standard error of rho from 1e5 values is sqrt((1 - rho^2)/1e5) < 0.003; that of the
+  // inflation is 2/(1 - rho^2) times that, at most 10 %.
   CHECK(noise.autocorrelation()[1] == Approx(rho).margin(0.01));
   CHECK(noise.inflation() == Approx((1.0 + rho) / (1.0 - rho)).epsilon(0.25));
 }
@@ -100,7 +100,7 @@ TEST_CASE("95 % intervals hold the truth in 90 to 99 % of runs, whatever the mem
   const double rho = GENERATE(0.0, 0.5, 0.9, 0.97);
   CAPTURE(rho);
   const Coverage share = coverage(rho, 400);
-  // 400 runs: the share itself is known to about +-1.1 %.
+  // 400 runs determine the share to about +-1.1 %.
   for (const double value : {share.E_inf, share.E_1, share.tau_2}) {
     CHECK(value >= 0.90);
     CHECK(value <= 0.99);
@@ -111,7 +111,7 @@ TEST_CASE("intervals widen with the memory of the noise", "[fit]") {
   const double rho = GENERATE(0.0, 0.9);
   CAPTURE(rho);
   const Coverage share = coverage(rho, 40);
-  // 40 runs at 95 %: fewer than 33 hold with a chance below one in a thousand.
+  // 40 runs at 95 %: fewer than 33 hold with a probability below one in a thousand.
   CHECK(share.E_inf >= 0.82);
   CHECK(share.E_1 >= 0.82);
   CHECK(share.tau_2 >= 0.82);

@@ -16,8 +16,8 @@ TEST_CASE("non-negative least squares meets its optimality conditions", "[fit]")
   is_free[3] = true;
   const Eigen::VectorXd x = least_squares_with_signs(a, y, is_free);
   const Eigen::VectorXd gradient = a.transpose() * (y - a * x);
-  // Karush-Kuhn-Tucker: gradient zero where a column is in use, not positive where it is held at
-  // zero.
+  // Karush-Kuhn-Tucker: the gradient is zero for columns in use and not positive for columns held
+  // at zero.
   for (Eigen::Index j = 0; j < 15; ++j) {
     if (j == 3 || x[j] > 0.0) {
       CHECK(gradient[j] == Approx(0.0).margin(1e-11));

@@ -15,8 +15,8 @@ using namespace viscard::test;
 
 namespace {
 
-// A master curve in the manner of a glassy polymer: 31 decades, a broad spectrum (as of
-// Kohlrausch's function, each segment measured with its own small error), 481 points.
+// A master curve like that of a glassy polymer: 31 decades, 481 points, a broad spectrum
+// (Kohlrausch's function), and a small error of its own for each segment.
 RelaxationData broad_master_curve() {
   std::mt19937_64 random(17);
   std::normal_distribution<double> normal;
@@ -73,7 +73,7 @@ TEST_CASE("no random start finds a better fit of few terms than the path", "[fit
     for (int start = 0; start < 20; ++start) {
       SpectralState state;
       state.ln_tau = Eigen::VectorXd::NullaryExpr(n_terms, [&] { return anywhere(random); });
-      // The path's fits are converged to 1e-7 per step.
+      // The fits of the path are converged to 1e-7 per step.
       CHECK(found.rss <= quick_search(model, state, {.max_iterations = 60}).rss * (1.0 + 1e-4));
     }
   }
@@ -82,7 +82,7 @@ TEST_CASE("no random start finds a better fit of few terms than the path", "[fit
 TEST_CASE("normal equations and QR project alike", "[fit][identity]") {
   const RelaxationData data = relaxation_of(s2(), 400, 1000.0, 0.01, 7);
   const StepModel model(data.time_s, data.value, StepShape::kRelaxation, {});
-  // The second pair is so close that only QR can tell it apart.
+  // The columns of the second pair are so close that only QR can separate them.
   const double gap = GENERATE(2.0, 1.0 + 1e-7);
   const SpectralState at = from_times({0.8, 40.0, 40.0 * gap});
   const Projection fast = project(model, at.ln_tau);

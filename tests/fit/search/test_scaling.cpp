@@ -24,8 +24,8 @@ TEST_CASE("units of modulus and time change nothing but the units", "[fit][stabi
   const FitResult b = fit_relaxation(scaled);
   REQUIRE(a.terms.size() == 2);
   REQUIRE(b.terms.size() == 2);
-  // Powers of ten round the data themselves by 1e-16; the condition of the problem is about 100
-  // (measured: 8e-15). Slopes for the standard error are differences of logarithms (4e-11).
+  // Powers of ten round the data by 1e-16, and the condition number of the problem is about 100
+  // (measured: 8e-15). Standard errors use differences of logarithms for the slopes (4e-11).
   CHECK(b.E_inf_Pa == Approx(a.E_inf_Pa * modulus_scale).epsilon(1e-13));
   for (std::size_t i = 0; i < 2; ++i) {
     CHECK(b.terms[i].tau_s == Approx(a.terms[i].tau_s * time_scale).epsilon(1e-13));
