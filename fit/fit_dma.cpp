@@ -43,11 +43,12 @@ void flag_contradiction(const DmaModel& model, FitResult& result) {
   constexpr double kMuch = 3.0, kVisible = 0.01;
   if (result.noise.sigma < kVisible || result.noise.sigma < kMuch * std::max(storage, loss)) return;
   char text[240];
-  std::snprintf(text, sizeof text,
-                "storage alone can be fitted to %.2g %%, loss alone to %.2g %%, both together only "
-                "to %.2g %%: they do not belong to one linear material (Kramers-Kronig). Check the "
-                "shift factors and the instrument's own loss",
-                100.0 * storage, 100.0 * loss, 100.0 * result.noise.sigma);
+  std::snprintf(
+      text, sizeof text,
+      "storage alone can be fitted to %.2g %%, loss alone to %.2g %%, but both together only "
+      "to %.2g %%: they do not belong to one linear material (Kramers-Kronig). Check the "
+      "shift factors and the instrument's own loss",
+      100.0 * storage, 100.0 * loss, 100.0 * result.noise.sigma);
   result.flags.push_back({"storage-loss-contradict", 0, text});
 }
 
@@ -65,11 +66,11 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
   for (std::size_t i = 0; i < frequency_Hz.size(); ++i) {
     if (clean.columns[1][i] != 0.0 || clean.columns[2][i] != 0.0) continue;
     char text[120];
-    std::snprintf(
-        text, sizeof text,
-        "storage and loss modulus are both zero at %.6g Hz: no measurement. Leave the row "
-        "out",
-        frequency_Hz[i]);
+    std::snprintf(text, sizeof text,
+                  "storage and loss modulus are both zero at %.6g Hz: this is not a measurement. "
+                  "Remove the row "
+                  "out",
+                  frequency_Hz[i]);
     throw std::runtime_error(text);
   }
   check_sign(clean.columns[1], "a storage modulus", "storage_modulus_Pa");

@@ -31,14 +31,13 @@ void check_force(const Column& force_N) {
   if (*low == *high) {
     throw std::runtime_error(
         "the force is constant (" + text_of(*low) +
-        " N in all samples): nothing was pressed, or the column is not the force");
+        " N in all samples): there was no contact, or the column is not the force");
   }
   const double mean = std::accumulate(force_N.begin(), force_N.end(), 0.0);
   if (mean < 0.0 && -*low > *high) {
     throw std::runtime_error(
-        "the force is negative where it is largest: pressing must count positive. Map the column "
-        "with "
-        "a minus: --column force_N=-NAME");
+        "the force is negative at its largest magnitude, but compression must be positive. Flip "
+        "the sign of the column: --column force_N=-NAME");
   }
 }
 
@@ -48,8 +47,7 @@ void check_depth(const Column& force_N, const Column& depth_m) {
       static_cast<std::size_t>(std::max_element(force_N.begin(), force_N.end()) - force_N.begin());
   if (peak > 0 && depth_m[peak] < depth_m[0]) {
     throw std::runtime_error(
-        "the depth falls while the force rises. If it is counted the other way, map it with a "
-        "minus: "
+        "the depth falls while the force rises. If the depth has the other sign, flip the column: "
         "--column depth_m=-NAME");
   }
 }
@@ -68,7 +66,8 @@ void flag_saturation(const Column& force_N, FitResult& result) {
   if (longest >= kSuspicious) {
     add_defect(result, "saturated",
                std::to_string(longest) + " samples in a row stand exactly at the largest force (" +
-                   text_of(top) + " N): the load cell or its converter was at its end");
+                   text_of(top) +
+                   " N): the load cell or its converter reached the end of its range");
   }
 }
 
@@ -81,7 +80,7 @@ void flag_gap(const Column& time_s, std::size_t contact, std::size_t loaded, Fit
     if (step_s <= 3.5 * usual_s || step_s < 0.1 * ramp_s) continue;
     add_defect(result, "gap-in-ramp",
                "no samples for " + text_of(step_s) + " s from t = " + text_of(time_s[i - 1]) +
-                   " s on, while the load rose: the depth there is a guess");
+                   " s on, while the load rose: the depth in between is unknown");
     return;
   }
 }
@@ -228,7 +227,7 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
   const HistoryInput input = history_input(table.clean, table.contact, table.law);
   if (input.time_s.size() < kLeastRows) {
     throw std::runtime_error("only " + counted(input.time_s.size(), "sample") +
-                             " between contact and its loss; a fit takes at least " +
+                             " between contact and its loss; a fit needs at least " +
                              std::to_string(kLeastRows));
   }
   const HistoryModel model(input, options);

@@ -76,13 +76,13 @@ std::vector<MasterSegment> segments_of(const MasterData& data, std::size_t& n_le
     constexpr std::size_t kLeastRows = 3;
     if (rows.size() < kLeastRows) {
       throw std::runtime_error("only " + counted(rows.size(), "row") + " at " +
-                               celsius(segment.temperature_C) + "; a segment takes at least three");
+                               celsius(segment.temperature_C) + "; a segment needs at least three");
     }
     segments.push_back(std::move(segment));
   }
   if (segments.size() < 2) {
     throw std::runtime_error(
-        "a master curve takes segments at two temperatures or more (1 K apart)");
+        "a master curve needs segments at two or more temperatures (1 K apart)");
   }
   return segments;
 }
@@ -94,7 +94,7 @@ void check_moduli(const MasterSegment& segment) {
     if (segment.value[i] != 0.0 || (is_dma && segment.loss[i] != 0.0)) continue;
     throw std::runtime_error("the modulus at " + celsius(segment.temperature_C) + " and " +
                              text_of(segment.argument[i]) + (is_dma ? " Hz" : " s") +
-                             " is zero: no measurement. Leave the row out");
+                             " is zero: this is not a measurement. Remove the row");
   }
   check_sign(segment.value, is_dma ? "a storage modulus" : "a relaxation modulus",
              is_dma ? "storage_modulus_Pa" : "modulus_Pa");
@@ -137,7 +137,7 @@ std::vector<double> start_shifts(const std::vector<MasterSegment>& segments,
       throw std::runtime_error("the moduli at " + celsius(segments[k - 1].temperature_C) + " and " +
                                celsius(segments[k].temperature_C) +
                                " have no value in common, so they cannot be shifted onto each "
-                               "other; measure a temperature between, or longer");
+                               "other; measure a temperature in between, or longer records");
     }
     const double later = offset.sum / offset.weight;  // of segment k, at the same modulus
     ln_a[k] = ln_a[k - 1] + (segments[k].loss.empty() ? later : -later);

@@ -33,7 +33,8 @@ FitResult fit_strain_history(const CleanViews& clean, const FitOptions& options)
     ++input.contact;  // the strain begins to differ from zero after this sample
   }
   if (input.contact + 1 == input.input.size() && input.input.front() == 0.0) {
-    throw std::runtime_error("the strain is zero in every row: nothing was strained");
+    throw std::runtime_error(
+        "the strain is zero in every row: no strain was applied, or the column is not the strain");
   }
   const HistoryModel model(input, options);
   const SpectralFit fit = fit_spectrum(
@@ -107,11 +108,12 @@ void check_values(std::span<const double> time_s, std::span<const double> value,
   constexpr std::size_t kLeastRows = 4;
   if (time_s.size() < kLeastRows) {
     throw std::runtime_error("only " + std::to_string(time_s.size()) +
-                             " rows lie at or after t = 0; a fit takes at least " +
-                             std::to_string(kLeastRows) + ". Set the step's time with --time-zero");
+                             " rows lie at or after t = 0; a fit needs at least " +
+                             std::to_string(kLeastRows) +
+                             ". Set the time of the step with --time-zero");
   }
   if (!(time_s.back() > time_s.front())) {
-    throw std::runtime_error("all rows have the same time; nothing can be said of relaxation");
+    throw std::runtime_error("all rows have the same time, so no relaxation can be fitted");
   }
   if (is_step) check_sign(value, "a relaxation modulus", "modulus_Pa");
 }

@@ -137,7 +137,7 @@ PronySeries specimen_series(const PronySeries& stage_series_N_m, double frame_st
   compliance.instantaneous_compliance_1_Pa -= 1.0 / frame_stiffness_N_m;
   if (!(compliance.instantaneous_compliance_1_Pa > 0.0)) {
     throw std::runtime_error("the frame stiffness of " + text_of(frame_stiffness_N_m) +
-                             " N/m is below the stiffness seen (" +
+                             " N/m is below the measured stiffness (" +
                              text_of(instantaneous_modulus_Pa(stage_series_N_m)) +
                              " N/m): nothing is left for the specimen. Measure it again: viscard "
                              "calibrate --compliance");
@@ -186,8 +186,9 @@ void report_stage_fit(const StageModel& model, const IndentationData& data, cons
   if (!model.has_drift()) {
     result.flags.push_back(
         {"drift-unseen", 0,
-         "no readings out of contact after the test: drift of the load cell cannot be told from "
-         "slow relaxation; E_inf and the slowest term may carry it, and no interval holds it"});
+         "no readings out of contact after the test: drift of the load cell cannot be separated "
+         "from slow relaxation; E_inf and the slowest term may include it, their intervals do "
+         "not"});
   }
 }
 
@@ -279,7 +280,9 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
     fit.result.flags.push_back(
         {"unloading-left-out", 0,
          "move " + std::to_string(kept.moves.size() + 1) +
-             " of the test lifted the punch off the specimen; it and what follows were left out. "
+             " of the test lifted the punch off the specimen; this move and all later ones were "
+             "left "
+             "out. "
              "Unload to a larger share of the depth, and check modulus_guess of the specimen"});
   }
   return fit.result;

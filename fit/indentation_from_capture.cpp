@@ -23,7 +23,7 @@ double force_of(const LoadSample& sample, const RigConfig& rig) {
   const std::optional<double> force_N = force_N_from_sample(sample, rig);
   if (!force_N) {
     throw std::runtime_error(
-        "the capture holds raw counts, but its rig says no volts_per_count. Add "
+        "the capture holds raw counts, but its rig has no volts_per_count. Add "
         "it under [load_cell] in the rig file");
   }
   return *force_N;

@@ -250,7 +250,9 @@ double largest_error(const PronySeries& one, const PronySeries& reference, doubl
 
 ReducedSeries reduce_terms(const PronySeries& series, int n_terms, double t_min_s, double t_max_s) {
   validate(series);
-  if (n_terms < 1) throw std::invalid_argument("a series is reduced to one term or more");
+  if (n_terms < 1)
+    throw std::invalid_argument("a series can be reduced to one term or more, not to " +
+                                std::to_string(n_terms));
   if (!(t_min_s > 0.0) || !(t_max_s > t_min_s)) {
     throw std::invalid_argument("the window of a reduction must be 0 < t_min < t_max");
   }
@@ -269,9 +271,8 @@ ReducedMaterial reduce_material(const Material& material, int n_terms) {
   for (const MaterialTerm& term : material.terms) {
     if (!is_constant_poisson && term.k != 0.0) {
       throw std::invalid_argument(
-          "terms can be reduced when the bulk modulus is constant (k = 0) or relaxes with the "
-          "shear "
-          "(k = g); this material has bulk terms of their own");
+          "terms can be reduced if the bulk modulus is constant (k = 0) or relaxes like the shear "
+          "modulus (k = g); this material has bulk terms of their own");
     }
     fastest_s = std::min(fastest_s, term.tau_s);
     slowest_s = std::max(slowest_s, term.tau_s);

@@ -48,8 +48,8 @@ std::vector<SpectralState> wished_path(const SpectralModel& model, const FitOpti
   }
   if (path.empty()) {
     throw std::runtime_error(
-        "no model fits these data: every modulus comes out zero. Check the sign "
-        "of the fitted column");
+        "no model fits these data: every fitted modulus is zero. Check the sign of the fitted "
+        "column");
   }
   return path;
 }
@@ -68,12 +68,12 @@ void note_fewer_terms(const SpectralModel& model, SpectralFit& fit) {
   const int most = most_terms(model);
   const std::string why =
       found == most
-          ? counted(static_cast<std::size_t>(model.n_rows()), "value") + " cannot tell more than " +
-                std::to_string(most)
-          : "no fit with more than " + std::to_string(found) + " describes these data any better";
+          ? counted(static_cast<std::size_t>(model.n_rows()), "value") +
+                " cannot determine more than " + std::to_string(most)
+          : "no fit with more than " + std::to_string(found) + " describes these data better";
   fit.notes.push_back({"fewer-terms", 0,
                        counted(static_cast<std::size_t>(wanted), "term") +
-                           (wanted == 1 ? " was" : " were") + " asked for; " + why});
+                           (wanted == 1 ? " was" : " were") + " requested; " + why});
 }
 
 double full_rss(const SpectralModel& model, const SpectralState& state) {
@@ -163,13 +163,13 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
   if (fit.scores.wants_faster) {
     result.flags.push_back(
         {"faster-relaxation", 0,
-         "something relaxes faster than the first samples can show: E0 is that of "
-         "the first sample, and a lower bound"});
+         "part of the relaxation is faster than the first samples can show: E0 is the modulus at "
+         "the first sample, a lower bound"});
   }
   if (fit.scores.wants_slower) {
     result.flags.push_back(
         {"slower-relaxation", 0,
-         "something still relaxes when the record ends: E_inf is an upper bound"});
+         "the material still relaxes at the end of the record: E_inf is an upper bound"});
   }
   result.rss = fit.rss;
   const Eigen::VectorXd sigma = model.row_sigma();

@@ -33,9 +33,10 @@ ParameterName name_of(const std::string& text) {
     const long term = std::strtol(text.c_str() + std::strlen(prefix), &end, 10);
     if (*end == '\0' && term >= 1 && term <= 1000) return {stem, static_cast<int>(term)};
   }
-  throw std::invalid_argument("'" + text +
-                              "' is no parameter; there are E0, E_inf, and E_1, g_1, tau_1 ... for "
-                              "each term");
+  throw std::invalid_argument(
+      "'" + text +
+      "' is not a parameter; there are E0, E_inf, and E_1, g_1, tau_1 ... for "
+      "each term");
 }
 
 double number_of(const std::string& text, const std::string& whole) {
@@ -120,13 +121,13 @@ void check_solution(const SpectralState& state, const std::vector<ParameterConst
   }
   if (!may_be_negative && state.coefficients[0] < 0.0) {
     refuse(
-        "the data ask for shares that sum to more than one (a negative E_inf); loosen the "
+        "the fitted shares sum to more than one (a negative E_inf); loosen the "
         "constraints, or use --liquid");
   }
   for (Index i = 1; i < state.n_terms(); ++i) {
     if (state.ln_tau[i] >= state.ln_tau[i - 1]) continue;
     refuse("term " + std::to_string(i + 1) + " comes out faster than term " + std::to_string(i) +
-           "; terms are numbered by ascending time, so name them the other way round");
+           "; terms are numbered by ascending time, so swap their numbers");
   }
 }
 
@@ -232,10 +233,11 @@ void validate(const std::vector<ParameterConstraint>& constraints, int n_terms,
       throw std::invalid_argument(range_text(one) + why);
     };
     if (!seen.insert(one.name).second) {
-      throw std::invalid_argument(one.name + " is constrained twice; say it once");
+      throw std::invalid_argument(one.name + " is constrained twice; name it once");
     }
     if (name.term > n_terms) {
-      throw std::invalid_argument(one.name + " is of a term that is not there; the fit has " +
+      throw std::invalid_argument(one.name +
+                                  " belongs to a term that does not exist; the fit has " +
                                   counted(static_cast<std::size_t>(n_terms), "term"));
     }
     if (!(one.low <= one.high) || (name.stem == Stem::kTime && !(one.low > 0.0))) {
@@ -245,17 +247,18 @@ void validate(const std::vector<ParameterConstraint>& constraints, int n_terms,
     if (name.stem == Stem::kE0 && !(one.high > 0.0)) refuse(": E0 must be positive");
     const bool has_sign = name.stem != Stem::kE0 && name.stem != Stem::kTime;
     if (has_sign && !may_be_negative && one.low < 0.0) {
-      refuse(": moduli and shares are not negative (--allow-negative lets them)");
+      refuse(": moduli and shares must not be negative unless --allow-negative is given");
     }
     if (name.stem == Stem::kShare) {
-      if (one.low >= 1.0) refuse(": a share of E0 is below 1");
+      if (one.low >= 1.0) refuse(": a share of E0 must be below 1");
       least_shares += one.low;
     }
     has_moduli = has_moduli || name.stem == Stem::kModulus || name.stem == Stem::kEInf;
   }
   if (least_shares >= 1.0) {
     throw std::invalid_argument(
-        "the shares held sum to 1 or more; nothing is left for E_inf. For a liquid use --liquid");
+        "the shares held sum to 1 or more, which leaves nothing for E_inf. For a liquid use "
+        "--liquid");
   }
   if (has_moduli && speaks_of_shares(constraints)) {
     throw std::invalid_argument(
@@ -276,9 +279,9 @@ void constrain(const SpectralModel& model, const FitOptions& options, SpectralFi
   const Index n_free = (box.high.array() > box.low.array()).count();
   if (n_free >= model.n_rows()) {
     throw std::invalid_argument(counted(static_cast<std::size_t>(model.n_rows()), "value") +
-                                " cannot tell " +
+                                " cannot determine " +
                                 counted(static_cast<std::size_t>(n_free), "free parameter") +
-                                " and the noise; hold more of them, or ask for fewer terms");
+                                " and the noise; hold more of them, or use fewer terms");
   }
   SpectralState best =
       solve_in_box(form, box.low, box.high, spread_start(model, form, box, fit, n_terms));
@@ -302,7 +305,8 @@ void constrain(const SpectralModel& model, const FitOptions& options, SpectralFi
   fit.covariance = free_covariance(form, box, best, fit.variance * inflation);
   for (const ParameterConstraint& one : options.constraints) {
     fit.notes.push_back(
-        {"constrained", 0, range_text(one) + (one.low == one.high ? " was held" : " was kept")});
+        {"constrained", 0,
+         range_text(one) + (one.low == one.high ? " was held" : " limited the parameter")});
   }
   flag_contradiction(free_rss, free_variance, free_inflation,
                      static_cast<int>(options.constraints.size()), fit);

@@ -80,7 +80,7 @@ void carry_order_doubt(const SpectralModel& model, const SpectralFit& fit,
     result.flags.push_back({"order-uncertain", 0,
                             "fits with " + others + (last == 1 ? " term" : " terms") +
                                 " describe the data about as well; the intervals of E0 and E_inf "
-                                "hold theirs too"});
+                                "include their values"});
   }
   // From a tenth of the record on; ln_tau_max() is three times the record.
   const double late = model.ln_tau_max() - std::log(30.0);

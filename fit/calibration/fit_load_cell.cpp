@@ -30,7 +30,7 @@ void check(const WeightReadings& data) {
         "a calibration needs one reading for each weight, all finite numbers");
   }
   if (!data.reading_se.empty() && data.reading_se.size() != data.reading.size()) {
-    throw std::invalid_argument("there are not as many standard errors as readings");
+    throw std::invalid_argument("the numbers of standard errors and readings differ");
   }
 }
 
@@ -41,10 +41,11 @@ std::vector<Point> points_of(const WeightReadings& data, double largest_N) {
   const auto is_same = [&](double a, double b) { return std::abs(a - b) <= kSame * largest_N; };
   loads.erase(std::unique(loads.begin(), loads.end(), is_same), loads.end());
   if (loads.size() < 3 || !is_same(loads.front(), 0.0)) {
-    throw std::invalid_argument(
-        std::string("a calibration needs no load and at least two different weights, and there ") +
-        (loads.size() == 1 ? "is " : "are ") + counted(loads.size(), "load") +
-        ". Add weights, and begin with none");
+    throw std::invalid_argument(std::string("a calibration needs readings without load and with at "
+                                            "least two different weights, but there ") +
+                                (loads.size() == 1 ? "is " : "are ") +
+                                counted(loads.size(), "load") +
+                                ". Add weights, and begin without load");
   }
   std::vector<Point> points;
   int series = 0;
@@ -156,10 +157,10 @@ void add_budget(const WeightReadings& data, double sum_xx, LoadCellFit& fit) {
       {"regression", u / std::sqrt(sum_xx) / std::abs(fit.gain),
        fit.has_repeatability ? "repeatability of the readings through the line"
                              : "scatter about the line; one series shows no repeatability"},
-      {"nonlinearity", fit.nonlinearity / std::sqrt(3.0), "largest departure, rectangular"},
+      {"nonlinearity", fit.nonlinearity / std::sqrt(3.0), "largest deviation, rectangular"},
       {"hysteresis", 0.5 * fit.hysteresis / std::sqrt(3.0),
        fit.has_hysteresis ? "half the largest difference, rectangular"
-                          : "not measured: no weight was taken off"},
+                          : "not measured: no weight was removed"},
       {"resolution", data.resolution / full / std::sqrt(12.0), "one digit of a reading"}};
   double squares = 0.0;
   for (const UncertaintyRow& row : fit.budget) squares += row.relative_u * row.relative_u;

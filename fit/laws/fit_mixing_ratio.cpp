@@ -233,16 +233,16 @@ Material common_of(const std::vector<Material>& specimens) {
 void add_flags(const std::vector<RatioEstimate>& estimates, RatioFit& fit) {
   if (estimates.size() == fit.law.ratios.size()) {
     fit.flags.push_back({"one-specimen-per-ratio", 0,
-                         "every ratio was measured once: scatter between specimens cannot be told "
-                         "from a misfit of the law, and both are in the interval"});
+                         "every ratio was measured once: scatter between specimens cannot be "
+                         "separated from a misfit of the law, and the interval includes both"});
   }
   constexpr double kStrong = 10.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
   if (!is_law(fit.best.form) && fit.law.bic - fit.best.bic > kStrong) {
     fit.flags.push_back({"law-misfits", 0,
-                         "the law describes the measured ratios much worse than values of their "
-                         "own do (BIC " +
+                         "the law describes the measured ratios much worse than separate values "
+                         "for each ratio do (BIC " +
                              std::to_string(static_cast<int>(fit.law.bic - fit.best.bic)) +
-                             " higher): what lies between them is a guess"});
+                             " higher): predictions between them are not reliable"});
   }
 }
 
@@ -255,7 +255,7 @@ RatioModel fit_ratio_form(const std::vector<Material>& specimens, const RatioFor
 
 RatioFit fit_mixing_ratio(const std::vector<Material>& specimens, const MixingOptions& options) {
   if (specimens.size() < 3) {
-    throw std::invalid_argument("a joint fit takes at least three specimens; there " +
+    throw std::invalid_argument("a joint fit needs at least three specimens; there " +
                                 std::string(specimens.size() == 1 ? "is " : "are ") +
                                 std::to_string(specimens.size()));
   }
@@ -263,7 +263,7 @@ RatioFit fit_mixing_ratio(const std::vector<Material>& specimens, const MixingOp
   const std::size_t n_ratios = distinct_ratios(estimates).size();
   if (n_ratios < 2) {
     throw std::invalid_argument(
-        "all specimens have the same mixing ratio; a law in the ratio takes at least two");
+        "all specimens have the same mixing ratio; a law in the ratio needs at least two");
   }
   RatioFit fit;
   for (std::size_t s = 0; s < specimens.size(); ++s) {

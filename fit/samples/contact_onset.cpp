@@ -163,7 +163,7 @@ ContactOnset contact_onset(const IndentationData& data) {
   const Stretch peak = stretch(data, end_s, end_s + margin_s);
   const double peak_N = peak.size() > 0 ? median(peak.force_N) - quiet.before_N : 0.0;
   if (!(peak_N > 3.0 * quiet.sigma_N)) {
-    throw std::runtime_error("no force rises with the ramp (peak " + text_of(peak_N) +
+    throw std::runtime_error("the force does not rise with the ramp (peak " + text_of(peak_N) +
                              " N). Check the sign of the load cell and that the punch touched");
   }
   const double way_m = std::abs(ramp.to_m - ramp.from_m);

@@ -79,9 +79,9 @@ struct FitOptions {
   bool allow_negative = false;  // of single terms: moduli may be negative
   bool white_noise = false;     // no inflation for autocorrelation; sigma^2 = rss/(n - p)
   bool full_data = false;       // fit every sample instead of averages in log time
-  bool with_drift = true;   // indentation: fit a force drift linear in time, if the data can
-                            // determine it
-  bool with_curves = true;  // fill FitResult::curves
+  bool with_drift = true;       // indentation: fit a force drift linear in time, if the data can
+                                // determine it
+  bool with_curves = true;      // fill FitResult::curves
   // Profile likelihoods replace the intervals of E_inf and of the times.
   bool with_profiles = false;
   int n_bootstrap = 0;  // resamples for all intervals (0: intervals from the covariance)

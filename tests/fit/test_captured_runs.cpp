@@ -57,7 +57,7 @@ Recovery recover(int seeds, const RunConditions& conditions = {}) {
   return recovery;
 }
 
-}  // half-width of the interval of g_1 + g_2, relative to it
+}  // namespace
 
 TEST_CASE("captured runs give back the truth they were made with", "[fit]") {
   const Recovery recovery = recover(3);

@@ -81,7 +81,7 @@ TEST_CASE("as many parameters as samples are not fitted: nothing would tell the 
   CHECK(fit.terms.size() == 1);
   CHECK(fit.E0_se_Pa > 1e3);
   REQUIRE_FALSE(fit.flags.empty());
-  CHECK_THAT(fit.flags.front().text, Contains("5 values cannot tell more than 1"));
+  CHECK_THAT(fit.flags.front().text, Contains("5 values cannot determine more than 1"));
 }
 
 TEST_CASE("held parameters leave as many free as the samples can tell, or the fit is refused",
@@ -95,7 +95,7 @@ TEST_CASE("held parameters leave as many free as the samples can tell, or the fi
   options.n_terms = 3;
   options.constraints = {{"tau_1", 0.5, 0.5}};
   CHECK_THROWS_WITH(fit_relaxation(data, options),
-                    Contains("5 values cannot tell 6 free parameters"));
+                    Contains("5 values cannot determine 6 free parameters"));
   options.n_terms = 1;
   options.constraints = {{"tau_1", 3.0, 3.0}};
   const FitResult fit = fit_relaxation(data, options);

@@ -76,15 +76,15 @@ TEST_CASE("constraints that make no sense are refused by name", "[fit]") {
   const auto text_of = [](const std::vector<std::string>& texts) {
     return error_text([&] { fit_with(texts); });
   };
-  CHECK_THAT(text_of({"tau=1"}), Contains("'tau' is no parameter"));
-  CHECK_THAT(text_of({"tau_3=1"}), Contains("tau_3 is of a term that is not there"));
+  CHECK_THAT(text_of({"tau=1"}), Contains("'tau' is not a parameter"));
+  CHECK_THAT(text_of({"tau_3=1"}), Contains("tau_3 belongs to a term that does not exist"));
   CHECK_THAT(text_of({"tau_1=2:1"}), Contains("must ascend"));
   CHECK_THAT(text_of({"tau_1=fast"}), Contains("'fast' is not a number"));
   CHECK_THAT(text_of({"g_1=.1", "E_inf=1"}), Contains("not both"));
   CHECK_THAT(text_of({"tau_1=1", "tau_1=2"}), Contains("tau_1 is constrained twice"));
   CHECK_THAT(text_of({"E0=0"}), Contains("E0 must be positive"));
   CHECK_THAT(text_of({"E0=-2:-1"}), Contains("E0 must be positive"));
-  CHECK_THAT(text_of({"E_inf=-1"}), Contains("not negative"));
+  CHECK_THAT(text_of({"E_inf=-1"}), Contains("not be negative"));
   CHECK_THAT(text_of({"g_1=0.6", "g_2=0.5"}), Contains("sum to 1 or more"));
   CHECK_THAT(text_of({"g_1=1.5:2"}), Contains("below 1"));
   CHECK_THAT(text_of({"tau_1=1e-9"}), Contains("outside the times that the record can show"));

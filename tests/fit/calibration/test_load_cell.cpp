@@ -86,7 +86,7 @@ TEST_CASE("A calibration that cannot be one is refused", "[fit]") {
   CHECK_THROWS_WITH(fit_load_cell(data), Contains("two different weights"));
   data.force_N = {1.0, 2.0, 3.0};
   data.reading = {0.1, 0.8, 0.9};
-  CHECK_THROWS_WITH(fit_load_cell(data), Contains("begin with none"));
+  CHECK_THROWS_WITH(fit_load_cell(data), Contains("begin without load"));
   data.force_N = {0.0, 1.0, 2.0};
   data.reading = {0.1, 0.1, 0.1};
   CHECK_THROWS_WITH(fit_load_cell(data), Contains("do not change"));

@@ -66,7 +66,7 @@ SpectralState state_of(const SpectralModel& model, std::vector<double> tau_s) {
   return state;
 }
 
-}  // Every column gets the same weight, so that none hides the differences of another.
+}  // namespace
 
 // Central differences with a step of 1e-5 are accurate to about 1e-10 of the function and 1e-8 of
 // the slope.

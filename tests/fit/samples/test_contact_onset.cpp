@@ -80,7 +80,7 @@ TEST_CASE("a single sample of the ramp under load is enough for a start", "[fit]
 
 TEST_CASE("a ramp that meets nothing is refused", "[fit]") {
   CHECK_THROWS_WITH(contact_onset(record({.contact_m = 130e-6, .noise_N = 5e-4})),
-                    Catch::Contains("no force rises with the ramp"));
+                    Catch::Contains("the force does not rise with the ramp"));
 }
 
 TEST_CASE("the move that lifts the punch off is found by its force", "[fit]") {
