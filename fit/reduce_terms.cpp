@@ -145,8 +145,8 @@ Parameters equalise(const Problem& problem, Parameters p) {
     std::vector<Eigen::Index> peaks = peaks_of(r);
     const auto wanted = static_cast<std::size_t>(p.size()) + 1;
     if (peaks.size() < wanted) break;
-    while (peaks.size() > wanted) {  // remove the smaller end peak; inner pairs never occur in
-                                     // practice
+    // Remove the smaller end peak; inner pairs never occur in practice.
+    while (peaks.size() > wanted) {
       peaks.erase(std::abs(r[peaks.front()]) < std::abs(r[peaks.back()]) ? peaks.begin()
                                                                          : peaks.end() - 1);
     }

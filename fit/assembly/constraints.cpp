@@ -306,7 +306,7 @@ void constrain(const SpectralModel& model, const FitOptions& options, SpectralFi
   for (const ParameterConstraint& one : options.constraints) {
     fit.notes.push_back(
         {"constrained", 0,
-         range_text(one) + (one.low == one.high ? " was held" : " limited the parameter")});
+         range_text(one) + (one.low == one.high ? " was held" : " was applied")});
   }
   flag_contradiction(free_rss, free_variance, free_inflation,
                      static_cast<int>(options.constraints.size()), fit);

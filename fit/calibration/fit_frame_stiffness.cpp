@@ -12,8 +12,7 @@
 namespace viscard {
 namespace {
 
-constexpr double kFirstPart = 0.25;  // part of each hold to leave out: the end of the motion and
-                                     // its ringing
+constexpr double kFirstPart = 0.25;  // share of each hold to leave out: motion ends, frame rings
 
 }  // namespace
 

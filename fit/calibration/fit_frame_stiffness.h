@@ -15,8 +15,7 @@ struct BlockPoints {
 
 struct FrameStiffnessFit {
   double stiffness_N_m = 0.0;
-  double relative_u = 0.0;  // standard uncertainty from the regression and the gain of the load
-                            // cell
+  double relative_u = 0.0;  // standard uncertainty: regression and gain of the load cell
   double low_N_m = 0.0, high_N_m = 0.0;  // k = 2
   double curvature_m = 0.0;              // largest deviation of the position from the line
   int n_points = 0;

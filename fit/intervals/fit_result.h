@@ -92,8 +92,7 @@ struct FitResult {
   bool is_trustworthy =
       true;  // false: not converged, saturated, gap in the ramp ... (the flags name the cause)
   std::vector<ProfileCurve> profiles;  // if FitOptions::with_profiles
-  int n_bootstrap = 0;                 // resamples used for the intervals; 0: intervals from the
-                                       // covariance
+  int n_bootstrap = 0;                 // resamples for the intervals; 0: from the covariance
   FitCurves curves;
 };
 

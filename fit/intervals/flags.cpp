@@ -66,8 +66,7 @@ void add_defect(FitResult& result, const std::string& name, const std::string& t
 
 void flag_misfit(double sigma, double quiet_sigma, std::size_t n_quiet, double peak,
                  FitResult& result) {
-  constexpr double kTimes = 10.0;        // the noise of a load cell under load is never this much
-                                         // larger
+  constexpr double kTimes = 10.0;        // a cell's noise under load is never this much larger
   constexpr double kShareOfPeak = 1e-3;  // steps and backlash of a good stage leave less than this
   constexpr std::size_t kFewest = 10;
   if (n_quiet < kFewest || sigma <= kTimes * quiet_sigma || sigma <= kShareOfPeak * peak) return;

@@ -136,8 +136,8 @@ RatioModel fitted_form(const std::vector<RatioEstimate>& estimates, const RatioF
     if (change < 1e-4) break;
   }
   if (kinds == 1) spreads[1] = spreads[2] = 0.0;
-  for (std::size_t kind = 0; kind < kinds; ++kind) {  // no scatter if there are as many values as
-                                                      // specimens
+  // With as many values as specimens there is no scatter to estimate.
+  for (std::size_t kind = 0; kind < kinds; ++kind) {
     const int first = kind == 0 ? 0 : 1 + (kind == 2 ? model.n_terms : 0);
     if (!has_known_spread(model, first)) spreads[kind] = 0.0;
   }

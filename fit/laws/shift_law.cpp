@@ -54,7 +54,7 @@ void fit_wlf(const Whitened& data, const Eigen::VectorXd& warmer_K, double T_ref
              ShiftLaws& laws) {
   const Index n = warmer_K.size();
   if (n < 3) return;
-  // C1 is linear: scan ln C2 above the pole and refine by golden section.
+  // C1 is linear: scan ln C2 above the pole, then narrow the interval by thirds.
   const double least_K = std::max(0.0, -warmer_K.minCoeff());
   const auto chi2_at = [&](double ln_over) {
     return fit_line(data, wlf_column(warmer_K, least_K + std::exp(ln_over))).chi2;

@@ -167,8 +167,7 @@ ContactOnset contact_onset(const IndentationData& data) {
                              " N). Check the sign of the load cell and that the punch touched");
   }
   const double way_m = std::abs(ramp.to_m - ramp.from_m);
-  constexpr double kLatest = 0.99;  // share of the move; contact at its very end would leave no
-                                    // ramp
+  constexpr double kLatest = 0.99;  // share of the move; contact at its end leaves no ramp
   GapSearch search(ramp, std::move(part));
   return search.best_in(
       {-data.start_early_s - margin_s, data.start_late_s + margin_s, 0.0, kLatest * way_m});

@@ -14,9 +14,9 @@ namespace viscard {
 struct QuietForce {
   double before_N = 0.0;  // median before the first move
   double after_N = 0.0;   // median after the last move; before_N if nothing was recorded then
-  double sigma_N = 0.0;   // standard deviation of one sample about a straight line through its
-                          // stretch; not below the converter's step/sqrt(12) if readings differ at
-                          // all
+  // Standard deviation of one sample about a straight line through its stretch; not below the
+  // converter's step/sqrt(12) if readings differ at all.
+  double sigma_N = 0.0;
   std::size_t n = 0;      // number of samples used
 };
 QuietForce quiet_force(const IndentationData& data);

@@ -36,11 +36,9 @@ struct IndentationData {
   std::vector<StageMove> moves;
   double start_early_s = 0.0;
   double start_late_s = 0.0;
-  double first_reading_s = 0.0;  // first reading of the whole run; the gain still equals the
-                                 // calibrated gain then
+  double first_reading_s = 0.0;  // of the whole run; the gain is still the calibrated one
   double contact_from_s = 0.0;   // samples from here ...
-  double contact_to_s = 0.0;     // ... to here belong to the ramp and the holds; the others are out
-                                 // of contact
+  double contact_to_s = 0.0;     // ... to here belong to ramp and holds; others: no contact
   double frame_stiffness_N_m = 0.0;  // 0: rigid
   double frame_stiffness_relative_u = 0.0;
   double force_relative_u = 0.0;  // relative standard uncertainty of the calibration
@@ -79,8 +77,7 @@ struct FitOptions {
   bool allow_negative = false;  // of single terms: moduli may be negative
   bool white_noise = false;     // no inflation for autocorrelation; sigma^2 = rss/(n - p)
   bool full_data = false;       // fit every sample instead of averages in log time
-  bool with_drift = true;       // indentation: fit a force drift linear in time, if the data can
-                                // determine it
+  bool with_drift = true;       // indentation: fit a linear force drift, if the data allow
   bool with_curves = true;      // fill FitResult::curves
   // Profile likelihoods replace the intervals of E_inf and of the times.
   bool with_profiles = false;

@@ -44,8 +44,7 @@ std::vector<std::size_t> isolated_spikes(std::span<const double> time_s,
   if (!is_evenly_sampled(time_s)) return spikes;
   const double sigma = noise_of(values);
   if (!(sigma > 0.0)) return spikes;
-  const double far = 8.0 * std::sqrt(1.5) * sigma;  // e = value - mean of the neighbours has a
-                                                    // variance of 1.5 sigma^2
+  const double far = 8.0 * std::sqrt(1.5) * sigma;  // the variance of e below is 1.5 sigma^2
   for (const std::size_t i : far_from_neighbours(values, far)) {
     const double e = std::abs(values[i] - 0.5 * (values[i - 1] + values[i + 1]));
     if (e >= 2.0 * std::abs(values[i + 1] - values[i - 1])) spikes.push_back(i);

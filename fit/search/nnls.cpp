@@ -56,8 +56,7 @@ Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
 
   std::vector<bool> in_use = is_free;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(count);
-  const auto settle = [&] {  // inner loop: solve, step back to the first bound crossed, remove that
-                             // column
+  const auto settle = [&] {  // inner loop: solve, go back to the first bound, drop its column
     for (int step = 0; step < 3 * static_cast<int>(count) + 10; ++step) {
       const std::vector<Index> list = chosen(in_use);
       if (list.empty()) return;

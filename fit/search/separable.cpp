@@ -195,8 +195,8 @@ SpectralState polish(const SpectralModel& model, const SpectralState& start) {
   const Index linear = start.coefficients.size();
   const Index n_terms = start.n_terms();
   if (!is_allowed(model, start))
-    return start;  // on a sign bound a Gauss-Newton step has no
-                   // interior
+    // On a sign bound a Gauss-Newton step has no interior.
+    return start;
   SpectralState state = start;
   FullSystem now = full_system(model, state);
   for (int step = 0; step < kMaxSteps; ++step) {

@@ -109,8 +109,8 @@ TEST_CASE("constraints that the data contradict make the result untrustworthy", 
   CHECK(near.is_trustworthy);
   CHECK_FALSE(flag_of(near, "contradicts-data"));
   CHECK_FALSE(flag_of(near, "constraints-strained"));
-  const FitResult beside = fit_with({"tau_1=0.9"});  // seven standard errors off, but hardly
-                                                     // visible in the residual
+  // Seven standard errors off, but hardly visible in the residual.
+  const FitResult beside = fit_with({"tau_1=0.9"});
   CHECK(beside.is_trustworthy);
   CHECK(flag_of(beside, "constraints-strained"));
 }

@@ -130,8 +130,7 @@ TEST_CASE("A calibration counts for a year, or as long as it says", "[fit]") {
 
 TEST_CASE("A date of a calibration is a day of the calendar", "[fit]") {
   LoadCellCalibration calibration;
-  CHECK_NOTHROW(validate_dates(calibration));  // no date at all: reported when the calibration is
-                                               // used
+  CHECK_NOTHROW(validate_dates(calibration));  // no date: reported when it is used
   calibration.date = GENERATE("2026-11-21", "2024-02-29", "2026-11-21T10:00:00Z");
   CHECK_NOTHROW(validate_dates(calibration));
   calibration.date =

@@ -61,8 +61,7 @@ TEST_CASE("noise and drift move the onset by less than a sample", "[fit][stabili
   for (const double contact_m : {20e-6, 102e-6}) {
     CAPTURE(contact_m);
     const ContactOnset noisy =
-        contact_onset(record({.contact_m = contact_m, .noise_N = 5e-3}));  // ten times the noise of
-                                                                           // the demo
+        contact_onset(record({.contact_m = contact_m, .noise_N = 5e-3}));  // 10 times the demo's
     CHECK(noisy.contact_m == Approx(contact_m).margin(3e-6));
     const ContactOnset drifting =
         contact_onset(record({.contact_m = contact_m, .drift_N_s = 2e-3}));

@@ -154,6 +154,5 @@ TEST_CASE("averages and what they hide give the residual sum of all samples", "[
   ln_tau << std::log(0.8), std::log(40.0);
   const SpectralState state = solve_coefficients(model, ln_tau, {});
   const double sum = state.rss + model.hidden_rss(ln_tau, {}, state.coefficients);
-  CHECK(sum == Approx(residual_sum(data, state)).epsilon(3e-10));  // neglected terms: see
-                                                                   // bin_arrays.h
+  CHECK(sum == Approx(residual_sum(data, state)).epsilon(3e-10));  // see bin_arrays.h
 }
