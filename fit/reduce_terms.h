@@ -5,13 +5,10 @@
 
 namespace viscard {
 
-// The series of n_terms whose largest relative error |E'(t)/E(t) - 1| over t_min_s <= t <= t_max_s
-// is smallest (a Chebyshev problem), with non-negative moduli and relaxation times within a factor
-// of e^1.2 (about half a decade) of the window. The error is not limited outside the window, and
-// the instantaneous modulus becomes about E(t_min). Method: least squares in the logarithms of
-// moduli and times (Levenberg-Marquardt) from several starts, then iterative reweighting towards
-// the maximum norm, then Remez exchange to equal peaks (Braess, Nonlinear Approximation Theory
-// (1986), ch. VI: sums of exponentials).
+// The series of n_terms with the smallest largest relative error over t_min_s <= t <= t_max_s
+// (fit/chebyshev_series.h). The error is not limited outside the window, and the instantaneous
+// modulus becomes about E(t_min). Throws std::invalid_argument for an invalid series or window, or
+// n_terms < 1.
 struct ReducedSeries {
   PronySeries series;  // ascending relaxation times
   double largest_error = 0.0;

@@ -1,6 +1,6 @@
 #include "fit/assembly/assemble_result.h"
 
-#include "fit/assembly/constraints.h"
+#include "fit/assembly/constrained_fit.h"
 #include "fit/assembly/order_doubt.h"
 #include "fit/intervals/bootstrap.h"
 #include "fit/intervals/flags.h"

@@ -1,6 +1,7 @@
 #include "fit/assembly/order_doubt.h"
 
 #include "fit/curves/model_variant.h"
+#include "fit/intervals/profile_likelihood.h"
 #include "fit/search/quick_search.h"
 
 #include <algorithm>
@@ -30,7 +31,6 @@ double lowest_equilibrium(const SpectralModel& fine, const SpectralFit& fit, dou
   const SpectralModel& model = coarse ? *coarse : fine;
   const double least_rss =
       coarse ? solve_coefficients(model, fit.state.ln_tau, fit.state.nuisance).rss : fit.state.rss;
-  constexpr double kChiSquare95 = 3.841458820694124;
   SpectralState slower = fit.state;
   slower.ln_tau.conservativeResize(slower.n_terms() + 1);
   slower.ln_tau[slower.ln_tau.size() - 1] = model.ln_tau_max();

@@ -1,18 +1,11 @@
 #pragma once
 
+#include "fit/assembly/constraints.h"
 #include "fit/search/separable.h"
 
 #include <Eigen/Core>
 
 namespace viscard {
-
-// The parameters that constraints can name (fit/assembly/constraints.h).
-enum class ParameterStem { kE0, kEInf, kModulus, kShare, kTime };
-
-struct ParameterName {
-  ParameterStem stem = ParameterStem::kE0;
-  int term = 0;  // from 1; 0: parameter of no single term
-};
 
 // theta = (E_inf, E_i | E0, g_i; ln tau_i; the others), and the state that follows from it.
 class Parametrisation {

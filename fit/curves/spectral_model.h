@@ -52,6 +52,9 @@ class SpectralModel {
   // Range of relaxation times that the data can determine, ln s.
   double ln_tau_min() const { return ln_tau_min_; }
   double ln_tau_max() const { return ln_tau_max_; }
+  // True at either end of that range, where a time is not determined.
+  bool is_shortest(double ln_tau) const { return ln_tau <= ln_tau_min_ + kTouch; }
+  bool is_longest(double ln_tau) const { return ln_tau >= ln_tau_max_ - kTouch; }
 
   // Columns at these times (ln s) and nuisances (in their own units); slopes only on request.
   virtual ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
@@ -92,6 +95,7 @@ class SpectralModel {
   std::vector<CommonColumn> common_;
   std::vector<Nuisance> nuisances_;
   bool may_be_negative_ = false;
+  static constexpr double kTouch = 1e-6;
   double ln_tau_min_ = 0.0;
   double ln_tau_max_ = 0.0;
 };

@@ -98,8 +98,7 @@ void add_identifiability_flags(const SpectralModel& model, const SpectralState& 
   for (Index i = 0; i < n_terms; ++i) {
     const int n = static_cast<int>(i) + 1;
     const double ln_tau = state.ln_tau[i];
-    constexpr double kTouch = 1e-6;
-    if (ln_tau < model.ln_tau_min() + kTouch || ln_tau > model.ln_tau_max() - kTouch) {
+    if (model.is_shortest(ln_tau) || model.is_longest(ln_tau)) {
       result.flags.push_back(
           {"on-bound", n,
            "term " + std::to_string(n) +

@@ -13,7 +13,6 @@ namespace viscard {
 namespace {
 
 using Index = Eigen::Index;
-constexpr double kChiSquare95 = 3.841458820694124;
 constexpr double kPinned = 1e4;  // see fit/curves/model_variant.h
 constexpr int kMostSteps = 16;   // half standard errors on either side
 

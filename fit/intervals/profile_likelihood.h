@@ -8,6 +8,9 @@
 
 namespace viscard {
 
+// 95 % quantile of chi-square with one degree of freedom: the rise that ends an interval.
+inline constexpr double kChiSquare95 = 3.841458820694124;
+
 // Profile likelihood of E_inf and of every relaxation time. The parameter is held at values around
 // its estimate, all others are fitted again, and the rise of the sum of squares over the variance
 // of the noise is compared with 3.84 (Venzon & Moolgavkar, Appl. Statist. 37 (1988) 87). The

@@ -248,11 +248,6 @@ void add_flags(const std::vector<RatioEstimate>& estimates, RatioFit& fit) {
 
 }  // namespace
 
-RatioModel fit_ratio_form(const std::vector<Material>& specimens, const RatioForm& form,
-                          bool restricted) {
-  return fitted_form(ratio_estimates_of(specimens), form, restricted);
-}
-
 RatioFit fit_mixing_ratio(const std::vector<Material>& specimens, const MixingOptions& options) {
   if (specimens.size() < 3) {
     throw std::invalid_argument("a joint fit needs at least three specimens; there " +

@@ -29,8 +29,4 @@ struct MixingOptions {
 RatioFit fit_mixing_ratio(const std::vector<Material>& specimens,
                           const MixingOptions& options = {});
 
-// Fits one form. `restricted`: REML instead of maximum likelihood.
-RatioModel fit_ratio_form(const std::vector<Material>& specimens, const RatioForm& form,
-                          bool restricted = true);
-
 }  // namespace viscard

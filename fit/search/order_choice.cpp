@@ -67,7 +67,7 @@ template <typename Matrix, typename Vector>
 LeftOut left_out_error(const Eigen::Ref<const Eigen::MatrixXd>& q,
                        const Eigen::Ref<const Eigen::VectorXd>& r) {
   LeftOut out;
-  out.squared_residual = out.squared_error = r.squaredNorm();
+  out.squared_error = r.squaredNorm();
   if (q.cols() == 0) return out;
   const bool is_short = q.rows() <= q.cols();
   const Matrix leverage =
@@ -141,9 +141,8 @@ std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralS
 }
 
 bool is_within_range(const SpectralModel& model, const SpectralState& state) {
-  constexpr double kTouch = 1e-6;
-  return state.n_terms() == 0 || (state.ln_tau.minCoeff() > model.ln_tau_min() + kTouch &&
-                                  state.ln_tau.maxCoeff() < model.ln_tau_max() - kTouch);
+  return state.n_terms() == 0 || !(model.is_shortest(state.ln_tau.minCoeff()) ||
+                                   model.is_longest(state.ln_tau.maxCoeff()));
 }
 
 namespace {
@@ -244,8 +243,8 @@ OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralS
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool better = scores.rows[i].bic < scores.rows[scores.chosen].bic - kVeryStrong;
     if (all.is_eligible[i] || !better) continue;
-    scores.wants_faster |= path[i].ln_tau.minCoeff() <= model.ln_tau_min() + 1e-6;
-    scores.wants_slower |= path[i].ln_tau.maxCoeff() >= model.ln_tau_max() - 1e-6;
+    scores.wants_faster |= model.is_shortest(path[i].ln_tau.minCoeff());
+    scores.wants_slower |= model.is_longest(path[i].ln_tau.maxCoeff());
   }
   return scores;
 }

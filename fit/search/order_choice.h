@@ -43,7 +43,6 @@ bool is_within_range(const SpectralModel& model, const SpectralState& state);
 // combination of parameters cannot be predicted by any fit; its plain residual is used.
 struct LeftOut {
   double squared_error = 0.0;  // weighted
-  double squared_residual = 0.0;
   bool is_predictable = true;
 };
 std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralState& state,

@@ -194,9 +194,8 @@ SpectralState polish(const SpectralModel& model, const SpectralState& start) {
   double last_moved = 1.0;
   const Index linear = start.coefficients.size();
   const Index n_terms = start.n_terms();
-  if (!is_allowed(model, start))
-    // On a sign bound a Gauss-Newton step has no interior.
-    return start;
+  // On a sign bound a Gauss-Newton step has no interior.
+  if (!is_allowed(model, start)) return start;
   SpectralState state = start;
   FullSystem now = full_system(model, state);
   for (int step = 0; step < kMaxSteps; ++step) {
