@@ -59,7 +59,7 @@ Recovery recover(int seeds, const RunConditions& conditions = {}) {
 
 }  // namespace
 
-TEST_CASE("captured runs give back the truth they were made with", "[fit]") {
+TEST_CASE("captured runs give the truth behind them", "[fit]") {
   const Recovery recovery = recover(3);
   CHECK(recovery.always_two_terms);
   CHECK(recovery.worst_E0 < 0.01);
@@ -80,7 +80,7 @@ TEST_CASE("120 captured runs: E0 within 1 %, 90 to 99 % of 600 intervals hold", 
   CHECK(share <= 0.99);
 }
 
-TEST_CASE("late messages and an amplifier clock that runs wrong do not become data", "[fit]") {
+TEST_CASE("late messages and a wrong amplifier clock do not change the fit", "[fit]") {
   RunConditions conditions;
   conditions.clock_rate = 1.003;  // a ceramic resonator
   conditions.message_delay_s = 0.03;
@@ -90,7 +90,7 @@ TEST_CASE("late messages and an amplifier clock that runs wrong do not become da
   CHECK(recovery.worst_E0 < 0.01);
 }
 
-TEST_CASE("without the quick unloading the fast term is uncertain, and the interval says so",
+TEST_CASE("without the quick unloading the fast term is uncertain, and its interval shows that",
           "[fit]") {
   TestPlan plan;
   plan.recovery_s = 0.0;
@@ -110,7 +110,7 @@ TEST_CASE("readings lost in the ramp make the result untrustworthy", "[fit]") {
   CHECK(has_flag(fit, "gap-in-ramp"));
 }
 
-TEST_CASE("the systematic part holds the share of the frame", "[fit]") {
+TEST_CASE("the systematic uncertainty includes that of the frame", "[fit]") {
   const EmulatedTruth truth = demo_truth(10, 3);
   const FitResult fit = fit_indentation(indentation_from_capture(in_memory_run(truth, {})));
   // The specimen is 1.40 times as stiff as the frame; 2 % of the frame is 2.8 % of the modulus.
@@ -130,7 +130,7 @@ TEST_CASE("the clock line touches the receive times from below", "[fit]") {
   CHECK(line.at(2.0) == Approx(7.002).epsilon(1e-9));
 }
 
-TEST_CASE("one quick message in the middle does not tilt the clock line", "[fit][stability]") {
+TEST_CASE("one fast message in the middle does not tilt the clock line", "[fit][stability]") {
   std::vector<double> x, y;
   for (int i = 0; i < 8000; ++i) {
     x.push_back(0.0125 * i);
@@ -144,7 +144,7 @@ TEST_CASE("one quick message in the middle does not tilt the clock line", "[fit]
   CHECK(line.at(100.0) == Approx(100.0).margin(0.02));
 }
 
-TEST_CASE("without readings after contact drift is said to be unseen", "[fit]") {
+TEST_CASE("without readings after contact the drift is flagged as unseen", "[fit]") {
   const EmulatedTruth truth = demo_truth(20, 5);
   CapturedRun run = in_memory_run(truth, {});
   CHECK_FALSE(has_flag(fit_indentation(indentation_from_capture(run)), "drift-unseen"));
@@ -157,7 +157,7 @@ TEST_CASE("without readings after contact drift is said to be unseen", "[fit]") 
   CHECK(fit.gain_drift_relative == 0.0);
 }
 
-TEST_CASE("a gain that drifts before contact is in the intervals of the moduli", "[fit]") {
+TEST_CASE("the intervals of the moduli include a drift of the gain before contact", "[fit]") {
   // The cell gains 2e-6 of the force each second for 100 s before contact: 0.02 %, times 1 +
   // specimen over frame stiffness for the modulus. That is several random errors of E_inf.
   EmulatedTruth truth = demo_truth(20, 5);
@@ -185,7 +185,7 @@ TEST_CASE("a gain that drifts before contact is in the intervals of the moduli",
   CHECK(blind.terms[0].ln_tau_se == fit.terms[0].ln_tau_se);
 }
 
-TEST_CASE("profiles of a captured run are the parabolas that its covariance says", "[fit]") {
+TEST_CASE("profiles of a captured run are the parabolas of its covariance", "[fit]") {
   // Two well-determined terms. E_inf is held while starts and contact follow; at one and at two
   // standard errors the profile must be near 1 and 4.
   FitOptions options;
@@ -211,7 +211,7 @@ TEST_CASE("profiles of a captured run are the parabolas that its covariance says
   }
 }
 
-TEST_CASE("stamps that jitter by 20 ms are not blamed on the frame or the specimen", "[fit]") {
+TEST_CASE("time stamps that jitter by 20 ms do not change frame or specimen", "[fit]") {
   // Readings come every 12.5 ms. Half of their stamps are off by up to 20 ms, so some readings
   // change places. The kinks of the ramp, and the stiffness read from it, must not suffer.
   EmulatedTruth truth = demo_truth(GENERATE(10, 20), 4);

@@ -13,7 +13,7 @@
 using namespace viscard;
 using namespace viscard::test;
 
-TEST_CASE("a slow ramp biases a step fit, and not the fit of the history", "[fit]") {
+TEST_CASE("a slow ramp biases a step fit, but not a fit of the history", "[fit]") {
   const double ramp_s = GENERATE(1.0, 5.0);
   CAPTURE(ramp_s);
   const IndentationData data =
@@ -41,7 +41,7 @@ TEST_CASE("a slow ramp biases a step fit, and not the fit of the history", "[fit
   CHECK(biased.terms[0].modulus_Pa == Approx(0.12 * left).epsilon(0.1));
 }
 
-TEST_CASE("ramp and hold gives the printed effective moduli", "[fit]") {
+TEST_CASE("the fit of a ramp and hold gives the known effective moduli", "[fit]") {
   // E0 1.88 MPa, g 0.008206 and 0.01386, tau 0.1945 and 2.403 s: force over depth is 1.847789124
   // MPa at 3 s after a ramp of 1 s, and 1.843283901 MPa at 7 s after a ramp of 5 s. The fit of
   // noise-free data must reproduce these values.
@@ -64,7 +64,7 @@ TEST_CASE("ramp and hold gives the printed effective moduli", "[fit]") {
   CHECK(effective == Approx(ramp_s == 1.0 ? 1.847789124 : 1.843283901).epsilon(3e-10));
 }
 
-TEST_CASE("contact before the record's zero of depth is found", "[fit]") {
+TEST_CASE("contact that differs from the table's zero of depth is found", "[fit]") {
   // The stage first moves 20 um in air; depth in the table counts from the start of the stage.
   auto depth = [](double t) { return 1e-4 * std::min(t, 1.2) - 2e-5; };
   IndentationData data = indentation_of(s2(), even_times(60.0, 0.01), depth, 1e-3, 22);
@@ -79,7 +79,8 @@ TEST_CASE("contact before the record's zero of depth is found", "[fit]") {
   CHECK(fit.is_stiffness);
 }
 
-TEST_CASE("geometry turns stiffness into modulus, and its uncertainty stands apart", "[fit]") {
+TEST_CASE("geometry converts stiffness to modulus, and its uncertainty is reported separately",
+          "[fit]") {
   IndentationData data = indentation_of(s2(), even_times(60.0, 0.02), ramp_and_hold(1.0), 1e-3, 23);
   const double stiffness = fit_indentation(data).E0_Pa;
   data.contact = PunchContact{.punch_radius_m = 2.2e-3,
@@ -102,7 +103,7 @@ TEST_CASE("geometry turns stiffness into modulus, and its uncertainty stands apa
         Approx(fit.two_point->modulus_Pa * layer_factor(*data.contact)).epsilon(1e-12));
 }
 
-TEST_CASE("a frame in series is taken out exactly", "[fit]") {
+TEST_CASE("a frame in series is removed exactly", "[fit]") {
   const PronySeries specimen{14000.0, {{150.0, 0.2}, {200.0, 2.4}}};
   // Put the spring in by adding compliances, remove it by the function.
   RetardationSpectrum compliance = retardation_from_relaxation(specimen);
@@ -115,7 +116,7 @@ TEST_CASE("a frame in series is taken out exactly", "[fit]") {
   CHECK_THROWS_WITH(specimen_series({20e3, {}}, 10e3), Catch::Contains("frame stiffness"));
 }
 
-TEST_CASE("a gap in the ramp and a converter at its end are said", "[fit]") {
+TEST_CASE("a gap in the ramp and a saturated converter are flagged", "[fit]") {
   IndentationData data = indentation_of(s2(), even_times(60.0, 0.02), ramp_and_hold(1.0), 1e-3, 24);
   SECTION("gap") {
     IndentationData gap;

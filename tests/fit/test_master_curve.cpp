@@ -55,7 +55,7 @@ TEST_CASE("WLF and Arrhenius factors are those of their formulas", "[models]") {
   CHECK(error_text([] { ln_shift_factor(kWlf, -90.0); }).find("pole") != std::string::npos);
 }
 
-TEST_CASE("the master model's slopes are its finite differences", "[fit][gradient]") {
+TEST_CASE("the slopes of the master model equal finite differences", "[fit][gradient]") {
   MasterSegment cold{0.0, {0.1, 1.0, 10.0}, {3e6, 2e6, 1e6}, {}};
   MasterSegment sweep{30.0, {0.1, 1.0, 10.0}, {1e6, 2e6, 3e6}, {2e5, 3e5, 2e5}};
   const MasterModel model({cold, sweep}, 0, {0.0, -1.0}, {});
@@ -83,7 +83,7 @@ TEST_CASE("the master model's slopes are its finite differences", "[fit][gradien
   CHECK((slope - at.nuisance_slopes[0]).norm() <= 1e-8 * slope.norm());
 }
 
-TEST_CASE("segments without noise shift onto the truth they were made from", "[fit][master]") {
+TEST_CASE("noise-free segments shift onto the truth behind them", "[fit][master]") {
   const MasterCurve curve = fit_master_curve(relaxation_data(kWlf, 0.0, 1), {.n_terms = 4});
   REQUIRE(curve.laws.wlf);
   CHECK(curve.laws.wlf_is_better);
@@ -96,7 +96,7 @@ TEST_CASE("segments without noise shift onto the truth they were made from", "[f
   CHECK(curve.factors[2].ln_a == 0.0);
 }
 
-TEST_CASE("noisy segments give WLF constants within their intervals, and WLF is named",
+TEST_CASE("noisy segments give WLF constants within their intervals, and WLF is selected",
           "[fit][master]") {
   const MasterCurve curve = fit_master_curve(relaxation_data(kWlf, 0.005, 7));
   REQUIRE(curve.laws.wlf);
@@ -112,7 +112,7 @@ TEST_CASE("noisy segments give WLF constants within their intervals, and WLF is 
   }
 }
 
-TEST_CASE("Arrhenius segments are named so, with the activation energy in its interval",
+TEST_CASE("Arrhenius segments select the Arrhenius law, with the activation energy in its interval",
           "[fit][master]") {
   const MasterCurve curve = fit_master_curve(relaxation_data(kArrhenius, 0.005, 3));
   REQUIRE(curve.laws.arrhenius);
@@ -120,7 +120,7 @@ TEST_CASE("Arrhenius segments are named so, with the activation energy in its in
   CHECK(holds(curve.laws.arrhenius->activation_J_mol_95, 9e4));
 }
 
-TEST_CASE("frequency sweeps at several temperatures make a master curve too", "[fit][master]") {
+TEST_CASE("frequency sweeps at several temperatures give a master curve", "[fit][master]") {
   MasterData data;
   for (const double T_C : {0.0, 15.0, 30.0, 45.0}) {
     const double a = std::exp(ln_shift_factor(kArrhenius, T_C));
@@ -146,7 +146,8 @@ TEST_CASE("frequency sweeps at several temperatures make a master curve too", "[
   CHECK(curve.laws.arrhenius->activation_J_mol == Approx(9e4).epsilon(1e-4));  // no noise
 }
 
-TEST_CASE("segments that share no modulus are refused by name", "[fit][master]") {
+TEST_CASE("segments without a common modulus are refused with their temperatures",
+          "[fit][master]") {
   MasterData data;
   for (int i = 0; i < 10; ++i) {
     for (const double T_C : {0.0, 50.0}) {
@@ -162,7 +163,8 @@ TEST_CASE("segments that share no modulus are refused by name", "[fit][master]")
         std::string::npos);
 }
 
-TEST_CASE("a row of zero and moduli of the wrong sign are refused by name", "[fit][master]") {
+TEST_CASE("a zero modulus and moduli of the wrong sign are refused with their place",
+          "[fit][master]") {
   MasterData data = relaxation_data(kWlf, 0.0, 1);
   const double kept = data.modulus_Pa[50];
   data.modulus_Pa[50] = 0.0;

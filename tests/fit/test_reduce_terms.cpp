@@ -56,7 +56,7 @@ double error_of(const PronySeries& one, const PronySeries& reference) {
 
 }  // namespace
 
-TEST_CASE("thirty terms become six with 14 alternating equal peaks, so none can be better",
+TEST_CASE("thirty terms reduce to six with 14 alternating equal peaks, so none can be better",
           "[cards][fit]") {
   for (const unsigned seed : {1U, 2U, 3U, 4U, 5U}) {
     CAPTURE(seed);
@@ -99,7 +99,7 @@ TEST_CASE("a random search around the reduced series finds nothing better", "[ca
   CHECK(best_error >= 0.95 * found);
 }
 
-TEST_CASE("a series that has no more terms than asked stays as it is", "[cards][fit]") {
+TEST_CASE("a series with no more terms than requested stays as it is", "[cards][fit]") {
   const PronySeries series = thirty_terms(3);
   const ReducedSeries same = reduce_terms(series, 30, kFrom_s, kTo_s);
   CHECK(same.largest_error == 0.0);
@@ -108,7 +108,7 @@ TEST_CASE("a series that has no more terms than asked stays as it is", "[cards][
   CHECK_THROWS_WITH(reduce_terms(series, 3, 1.0, 0.5), Catch::Contains("t_min < t_max"));
 }
 
-TEST_CASE("six terms hidden among thirty come back to rounding", "[cards][fit][reduction]") {
+TEST_CASE("six terms split into thirty are recovered up to rounding", "[cards][fit][reduction]") {
   PronySeries series{2e5, {}};
   for (int i = 0; i < 6; ++i) {
     // Each term split into five equal parts with the same time: a 30-term series that equals a

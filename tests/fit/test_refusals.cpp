@@ -44,8 +44,7 @@ TEST_CASE("data that cannot be fitted are refused with the reason", "[fit]") {
   }
 }
 
-TEST_CASE("creep, oscillation and strain histories of no sense are refused with the reason",
-          "[fit]") {
+TEST_CASE("invalid creep, oscillation and strain histories are refused with the reason", "[fit]") {
   const std::vector<double> arguments{0.1, 0.3, 1.0, 3.0, 10.0, 30.0};
   SECTION("negative compliance") {
     CHECK_THROWS_WITH(fit_creep({arguments, {-1.0, -1.1, -1.2, -1.3, -1.4, -1.5}}),
@@ -68,7 +67,8 @@ TEST_CASE("creep, oscillation and strain histories of no sense are refused with 
   }
 }
 
-TEST_CASE("as many parameters as samples are not fitted: nothing would tell the noise", "[fit]") {
+TEST_CASE("as many parameters as samples are not fitted, because nothing would determine the noise",
+          "[fit]") {
   // Regression: five noisy samples once gave two terms with intervals of zero width.
   FitOptions options;
   options.n_terms = 4;
@@ -84,8 +84,7 @@ TEST_CASE("as many parameters as samples are not fitted: nothing would tell the 
   CHECK_THAT(fit.flags.front().text, Contains("5 values cannot determine more than 1"));
 }
 
-TEST_CASE("held parameters leave as many free as the samples can tell, or the fit is refused",
-          "[fit]") {
+TEST_CASE("a fit is refused unless the samples can determine the parameters left free", "[fit]") {
   RelaxationData data;
   for (const double t : {0.1, 0.6, 4.0, 25.0, 160.0}) {
     data.time_s.push_back(t);
@@ -103,7 +102,7 @@ TEST_CASE("held parameters leave as many free as the samples can tell, or the fi
   CHECK(fit.noise.sigma == Approx(std::sqrt(fit.rss / 3.0)).epsilon(1e-12));
 }
 
-TEST_CASE("rows that are not numbers are left out and counted", "[fit]") {
+TEST_CASE("rows without numbers are left out and counted", "[fit]") {
   RelaxationData data = relaxation_of(s2(), 400, 1000.0, 0.001, 1);
   data.value[7] = std::numeric_limits<double>::infinity();
   data.time_s[9] = std::numeric_limits<double>::quiet_NaN();
@@ -112,7 +111,7 @@ TEST_CASE("rows that are not numbers are left out and counted", "[fit]") {
   CHECK(fit.n_samples == 398);
 }
 
-TEST_CASE("an indentation without a force that follows is refused", "[fit]") {
+TEST_CASE("an indentation whose force does not follow the depth is refused", "[fit]") {
   IndentationData data = indentation_of(s2(), even_times(20.0, 0.02), ramp_and_hold(1.0), 1e-3, 2);
   SECTION("constant force") {
     data.force_N.assign(data.force_N.size(), 0.5);

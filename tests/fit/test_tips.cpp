@@ -49,7 +49,7 @@ void check_truth(const FitResult& fit, double tolerance) {
 
 }  // namespace
 
-TEST_CASE("a sphere pressed into a viscoelastic half-space gives its modulus back", "[fit]") {
+TEST_CASE("a sphere on a viscoelastic half-space gives the true modulus", "[fit]") {
   const PunchContact sphere{
       .punch_radius_m = 2e-3, .poisson_ratio = 0.495, .shape = TipShape::kSphere};
   const double peak_N = depth_law(sphere).factor * std::pow(5e-5, 1.5) * 1.7e6;
@@ -58,7 +58,7 @@ TEST_CASE("a sphere pressed into a viscoelastic half-space gives its modulus bac
   check_truth(fit_indentation(pressed(sphere, 1e-4 * peak_N, 3e-6), {.n_terms = 2}), 0.01);
 }
 
-TEST_CASE("a cone pressed into a viscoelastic half-space gives its modulus back", "[fit]") {
+TEST_CASE("a cone on a viscoelastic half-space gives the true modulus", "[fit]") {
   const PunchContact cone{.poisson_ratio = 0.495,
                           .shape = TipShape::kCone,
                           .half_angle_rad = 70.0 * std::numbers::pi / 180.0};
@@ -66,7 +66,7 @@ TEST_CASE("a cone pressed into a viscoelastic half-space gives its modulus back"
   check_truth(fit_indentation(pressed(cone, 1e-4 * peak_N, 3e-6), {.n_terms = 2}), 0.01);
 }
 
-TEST_CASE("a sphere taken for a flat punch is far off: the shape matters", "[fit]") {
+TEST_CASE("a sphere fitted as a flat punch gives a wrong modulus", "[fit]") {
   const PunchContact sphere{
       .punch_radius_m = 2e-3, .poisson_ratio = 0.495, .shape = TipShape::kSphere};
   IndentationData data = pressed(sphere, 1e-5, 0.0);

@@ -15,7 +15,8 @@ using namespace viscard;
 using namespace viscard::test;
 
 // Data that mislead a simple fit: in each case the truth is known and the plain method misses it.
-TEST_CASE("one sample in a hundred twenty standard deviations off does not move the fit", "[fit]") {
+TEST_CASE("a spike of twenty standard deviations in every hundredth sample does not change the fit",
+          "[fit]") {
   RelaxationData data = relaxation_of(s2(), 10000, 1000.0, 0.01, 31);
   const FitResult clean = fit_relaxation(data);
   std::mt19937_64 random(5);
@@ -36,8 +37,7 @@ TEST_CASE("one sample in a hundred twenty standard deviations off does not move 
   CHECK(fit.noise.sigma == Approx(0.018).epsilon(0.05));
 }
 
-TEST_CASE("one-sided spikes anywhere, also side by side, leave every interval holding the truth",
-          "[fit]") {
+TEST_CASE("every interval holds the truth despite one-sided spikes, single or in groups", "[fit]") {
   // One sample in a hundred, at random, is 20 standard deviations too high. In the second record
   // the time steps are uneven, so that the comparison with neighbours cannot be used.
   const bool is_even = GENERATE(true, false);
@@ -76,7 +76,7 @@ TEST_CASE("one-sided spikes anywhere, also side by side, leave every interval ho
   CHECK(std::abs(fit.E_inf_Pa - clean.E_inf_Pa) < 0.5 * clean.E_inf_se_Pa);
 }
 
-TEST_CASE("a fast term at the start of a record is no group of spikes", "[fit]") {
+TEST_CASE("a fast term at the start of a record is not removed as spikes", "[fit]") {
   // Five samples of a fast term, then 500 of a slower term at uneven times.
   RelaxationData data;
   std::mt19937_64 random(7);
@@ -90,7 +90,7 @@ TEST_CASE("a fast term at the start of a record is no group of spikes", "[fit]")
   CHECK(fit.n_spikes == 0);
 }
 
-TEST_CASE("spikes of a creep record do not move its fit", "[fit]") {
+TEST_CASE("spikes in a creep record do not change the fit", "[fit]") {
   CreepData data;
   std::mt19937_64 random(8);
   std::normal_distribution<double> normal;
@@ -106,7 +106,7 @@ TEST_CASE("spikes of a creep record do not move its fit", "[fit]") {
   CHECK(std::abs(fit.E_inf_Pa - clean.E_inf_Pa) < 0.5 * clean.E_inf_se_Pa);
 }
 
-TEST_CASE("steep, noiseless or logarithmic records hold no spikes", "[fit][stability]") {
+TEST_CASE("steep, noise-free or logarithmic records have no spikes", "[fit][stability]") {
   const RelaxationData clean = relaxation_of(s2(), 5000, 1000.0, 0.0, 1);
   CHECK(isolated_spikes(clean.time_s, clean.value).empty());
   const RelaxationData noisy = relaxation_of(s6(), 20000, 1e4, 0.01, 2);
@@ -121,7 +121,7 @@ TEST_CASE("steep, noiseless or logarithmic records hold no spikes", "[fit][stabi
   CHECK(isolated_spikes(time_s, value).empty());
 }
 
-TEST_CASE("a load cell that reads in steps of a thousandth costs no accuracy", "[fit]") {
+TEST_CASE("a load cell with a resolution of a thousandth costs no accuracy", "[fit]") {
   RelaxationData data = relaxation_of(s2(), 10000, 1000.0, 0.001, 32);
   for (double& value : data.value) value = 0.0018 * std::round(value / 0.0018);
   const FitResult fit = fit_relaxation(data);
@@ -131,7 +131,7 @@ TEST_CASE("a load cell that reads in steps of a thousandth costs no accuracy", "
   CHECK(fit.terms[1].tau_s == Approx(40.0).epsilon(0.05));
 }
 
-TEST_CASE("drift of a thousandth in the record is not told from a slow term, and that is said",
+TEST_CASE("drift of a thousandth in the record cannot be separated from a slow term and is flagged",
           "[fit]") {
   RelaxationData data = relaxation_of(s2(), 10000, 1000.0, 0.001, 33);
   for (std::size_t i = 0; i < data.value.size(); ++i) {
@@ -145,7 +145,7 @@ TEST_CASE("drift of a thousandth in the record is not told from a slow term, and
   CHECK(fit.terms.front().modulus_Pa == Approx(0.12).epsilon(0.05));
 }
 
-TEST_CASE("a contact one sample late is found from the record", "[fit]") {
+TEST_CASE("contact between two samples is found from the record", "[fit]") {
   const double step_s = 0.02;
   // Contact half-way between two samples; depth in the table counts from the start of the stage.
   const auto depth = [](double t) { return 1e-4 * std::clamp(t - 0.51, 0.0, 1.0); };
@@ -179,7 +179,7 @@ TEST_CASE("the interval of E_inf holds a plateau that the record hardly reaches"
   CHECK(fit.E_inf_interval_95.high - fit.E_inf_interval_95.low < 1.0);
 }
 
-TEST_CASE("the ramp table: a step fit is biased by the ramp, the history is not", "[fit][slow]") {
+TEST_CASE("a ramp biases the step fit of a table, but not the fit of the history", "[fit][slow]") {
   // Mean over seeds of holds of 1000 s after ramps of 1 s and 5 s, noise 0.1 %. The step fit loses
   // 43 % and 83 % of E_1, and 2.9 % and 5.8 % of E0.
   const double ramp_s = GENERATE(1.0, 5.0);

@@ -40,7 +40,8 @@ FitResult fit_with(const std::vector<std::string>& texts) {
 
 }  // namespace
 
-TEST_CASE("a fixed time stays, has no error, and the rest is refitted around it", "[fit]") {
+TEST_CASE("a fixed time keeps its value without error, and the other parameters are fitted",
+          "[fit]") {
   const FitResult free = fit_with({});
   const FitResult fit = fit_with({"tau_1=0.81"});
   CHECK(fit.terms[0].tau_s == Approx(0.81).epsilon(1e-12));
@@ -54,7 +55,7 @@ TEST_CASE("a fixed time stays, has no error, and the rest is refitted around it"
   CHECK(fit.flags.front().name == "constrained");
 }
 
-TEST_CASE("a constraint that the free fit keeps anyway changes nothing", "[fit]") {
+TEST_CASE("a constraint that the free fit satisfies changes nothing", "[fit]") {
   const FitResult free = fit_with({});
   const FitResult fit = fit_with({"g_2=0:0.5", "tau_2=1:1000"});
   CHECK(fit.E0_Pa == Approx(free.E0_Pa).epsilon(1e-7));  // both at the optimum
@@ -72,7 +73,7 @@ TEST_CASE("shares, moduli and ends can be fixed or bounded", "[fit]") {
   CHECK(fit.terms[0].modulus_Pa >= 0.1 * (1.0 - 1e-9));
 }
 
-TEST_CASE("constraints that make no sense are refused by name", "[fit]") {
+TEST_CASE("invalid constraints are refused by name", "[fit]") {
   const auto text_of = [](const std::vector<std::string>& texts) {
     return error_text([&] { fit_with(texts); });
   };
@@ -115,7 +116,7 @@ TEST_CASE("constraints that the data contradict make the result untrustworthy", 
   CHECK(flag_of(beside, "constraints-strained"));
 }
 
-TEST_CASE("terms that the data do not hold leave E0 finite, or say that it is unknown", "[fit]") {
+TEST_CASE("terms that the data do not support leave E0 finite, or flag it as unknown", "[fit]") {
   const int n_terms = GENERATE(3, 4, 6, 100);
   const FitResult fit = fit_relaxation(two_terms(), {.n_terms = n_terms});
   CAPTURE(n_terms, fit.E0_Pa, fit.E0_se_Pa, fit.terms.size());

@@ -7,7 +7,7 @@
 
 using namespace viscard;
 
-TEST_CASE("response of a branch to a trapezoid equals fine stepping", "[fit]") {
+TEST_CASE("the response of a branch to a trapezoid equals that of fine steps", "[fit]") {
   const StageMove move{0.3, 0.0, 2e-4, 5e-4, 5e-3};
   const double tau_s = GENERATE(1e-3, 0.2, 30.0);
   const double from_s = GENERATE(0.0, 0.45);
@@ -28,7 +28,7 @@ TEST_CASE("response of a branch to a trapezoid equals fine stepping", "[fit]") {
   CHECK(response.at(branch, 0.2).value_m == 0.0);
 }
 
-TEST_CASE("a branch that never relaxes follows the stage, and after the move decays as exp(-t/tau)",
+TEST_CASE("a slow branch follows the stage, and after the move decays as exp(-t/tau)",
           "[fit][reduction]") {
   const StageMove move{1.0, 1e-3, 1.2e-3, 1e-3, 0.2};
   const StageResponse response(move, 0.0);

@@ -20,7 +20,7 @@ double width(const Interval& interval) {
 
 }  // namespace
 
-TEST_CASE("where the data are plenty, profile likelihoods end where the covariance says",
+TEST_CASE("with plenty of data, profile likelihoods give the intervals of the covariance",
           "[fit][reduction]") {
   const RelaxationData data = relaxation_of(s2(), 20000, 1000.0, 0.002, 41);
   FitOptions options;
@@ -43,7 +43,7 @@ TEST_CASE("where the data are plenty, profile likelihoods end where the covarian
   }
 }
 
-TEST_CASE("a profile is lopsided where the record ends before the term does", "[fit]") {
+TEST_CASE("a profile is asymmetric if the record ends before the term has relaxed", "[fit]") {
   const PronySeries truth{1.0, {{0.3, 1.0}, {0.2, 100.0}}};
   const RelaxationData data = relaxation_of(truth, 4000, 100.0, 0.01, 42);
   FitOptions options;
@@ -59,7 +59,7 @@ TEST_CASE("a profile is lopsided where the record ends before the term does", "[
   CHECK(fit.E_inf_interval_95.low >= 0.0);
 }
 
-TEST_CASE("the bootstrap agrees with the covariance, with and without memory of the noise",
+TEST_CASE("the bootstrap agrees with the covariance, with and without autocorrelation of the noise",
           "[fit]") {
   const double rho = GENERATE(0.0, 0.8);
   CAPTURE(rho);
@@ -77,7 +77,7 @@ TEST_CASE("the bootstrap agrees with the covariance, with and without memory of 
   CHECK(fit_relaxation(data, options).E0_interval_95.low == fit.E0_interval_95.low);  // fixed seed
 }
 
-TEST_CASE("storage and loss that belong to no one material are said to contradict", "[fit]") {
+TEST_CASE("storage and loss moduli that contradict each other are flagged", "[fit]") {
   DmaData data;
   for (int i = 0; i < 80; ++i) {
     const double f = std::pow(10.0, -4.0 + 0.1 * i);

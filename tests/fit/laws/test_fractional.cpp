@@ -48,7 +48,7 @@ TEST_CASE("two separate terms are not taken for a power law", "[fit]") {
   CHECK(diagnosis->bic_difference > 6.0);
 }
 
-TEST_CASE("one term is the power law with the power one", "[fit]") {
+TEST_CASE("one term is the power law with exponent one", "[fit]") {
   const FitResult fit = fit_relaxation(relaxation_of({1.0, {{0.5, 3.0}}}, 1500, 100.0, 0.005, 6));
   REQUIRE(fit.terms.size() == 1);
   const auto diagnosis = diagnose_fractional(fit);
@@ -58,7 +58,7 @@ TEST_CASE("one term is the power law with the power one", "[fit]") {
   CHECK(std::abs(diagnosis->bic_difference) < 12.0);  // ln(1500) for the exponent alone
 }
 
-TEST_CASE("what is no relaxation after a step is not diagnosed", "[fit]") {
+TEST_CASE("only relaxation after a step is diagnosed", "[fit]") {
   FitResult fit;
   fit.kind = FitKind::kDma;
   CHECK_FALSE(diagnose_fractional(fit));

@@ -46,7 +46,8 @@ IndentationData record(const Bench& bench) {
 
 }  // namespace
 
-TEST_CASE("the onset of force gives contact and start of a ramp wherever contact lies", "[fit]") {
+TEST_CASE("the onset of force gives contact and start of a ramp for any contact position",
+          "[fit]") {
   for (const double contact_m : {0.0, 20e-6, 60e-6, 102e-6, 112e-6}) {
     CAPTURE(contact_m);
     const ContactOnset onset = contact_onset(record({.contact_m = contact_m}));
@@ -57,7 +58,7 @@ TEST_CASE("the onset of force gives contact and start of a ramp wherever contact
   }
 }
 
-TEST_CASE("noise and drift move the onset by less than a sample", "[fit][stability]") {
+TEST_CASE("noise and drift move the onset by less than one sample", "[fit][stability]") {
   for (const double contact_m : {20e-6, 102e-6}) {
     CAPTURE(contact_m);
     const ContactOnset noisy =
@@ -69,7 +70,7 @@ TEST_CASE("noise and drift move the onset by less than a sample", "[fit][stabili
   }
 }
 
-TEST_CASE("a single sample of the ramp under load is enough for a start", "[fit][stability]") {
+TEST_CASE("a single sample of the ramp under load is enough for start values", "[fit][stability]") {
   // One sample during the indentation determines only a combination of contact and start: contact
   // is as uncertain as the start, 20 ms at 0.24 mm/s.
   const double contact_m = 118e-6;
@@ -77,12 +78,12 @@ TEST_CASE("a single sample of the ramp under load is enough for a start", "[fit]
   CHECK(onset.contact_m == Approx(contact_m).margin(4.8e-6));
 }
 
-TEST_CASE("a ramp that meets nothing is refused", "[fit]") {
+TEST_CASE("a ramp without contact is refused", "[fit]") {
   CHECK_THROWS_WITH(contact_onset(record({.contact_m = 130e-6, .noise_N = 5e-4})),
                     Catch::Contains("the force does not rise with the ramp"));
 }
 
-TEST_CASE("the move that lifts the punch off is found by its force", "[fit]") {
+TEST_CASE("the move that lifts the punch off is found from the force", "[fit]") {
   IndentationData data = record({.noise_N = 5e-4});
   data.moves.push_back({5.0, 120e-6, 40e-6, 4e-3, 0.2});
   CHECK_FALSE(first_lifting_move(data).has_value());  // the force stays above zero
@@ -98,7 +99,8 @@ TEST_CASE("the move that lifts the punch off is found by its force", "[fit]") {
   CHECK(kept.time_s.size() == kept.force_N.size());
 }
 
-TEST_CASE("a guess of the modulus five times too low or too high does not reach the fit", "[fit]") {
+TEST_CASE("a guess of the modulus five times too low or too high does not affect the fit",
+          "[fit]") {
   for (const double guess : {0.2, 1.0, 5.0}) {
     CAPTURE(guess);
     EmulatedTruth truth = demo_truth(10, 11);
@@ -124,7 +126,7 @@ TEST_CASE("a guess of the modulus five times too low or too high does not reach 
   }
 }
 
-TEST_CASE("a fit that leaves many times the noise out of contact is a misfit", "[fit]") {
+TEST_CASE("a residual of many times the noise out of contact is a misfit", "[fit]") {
   CapturedRun run = in_memory_run(demo_truth(10, 4), {});
   const FitResult good = fit_indentation(indentation_from_capture(run));
   CHECK_FALSE(has_flag(good, "misfit"));
@@ -138,7 +140,7 @@ TEST_CASE("a fit that leaves many times the noise out of contact is a misfit", "
   CHECK_FALSE(slipped.is_trustworthy);
 }
 
-TEST_CASE("a misfit is many times the noise and visible beside the force", "[fit]") {
+TEST_CASE("a misfit is many times the noise and not small compared with the force", "[fit]") {
   const auto flagged = [](double sigma, double quiet_sigma, std::size_t n_quiet, double peak) {
     FitResult fit;
     flag_misfit(sigma, quiet_sigma, n_quiet, peak, fit);

@@ -25,11 +25,11 @@ Eigen::VectorXd ar1(double rho, Eigen::Index n, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("autoregression of white noise is of order zero", "[fit]") {
+TEST_CASE("the autoregression of white noise has order zero", "[fit]") {
   CHECK(autoregression(ar1(0.0, 4000, GENERATE(1U, 2U, 3U))).inflation() == 1.0);
 }
 
-TEST_CASE("autoregression finds the memory of noise", "[fit]") {
+TEST_CASE("the autoregression finds the correlation of the noise", "[fit]") {
   const double rho = GENERATE(0.5, 0.9, 0.97);
   const Autoregression noise = autoregression(ar1(rho, 100000, 4));
   // The standard error of rho from 1e5 values is sqrt((1 - rho^2)/1e5) < 0.003; that of the
@@ -56,7 +56,7 @@ TEST_CASE("sums over pairs of stretches equal the double sum", "[fit]") {
   CHECK(sums.over(300, 200, 310) == Approx(direct(300, 200, 310)).epsilon(1e-6));
 }
 
-TEST_CASE("scatter from differences ignores trends and spikes", "[fit]") {
+TEST_CASE("the scatter from differences ignores trends and spikes", "[fit]") {
   const Eigen::VectorXd noise = ar1(0.0, 10000, 5);
   std::vector<double> values;
   for (Eigen::Index i = 0; i < noise.size(); ++i) {
@@ -95,8 +95,9 @@ Coverage coverage(double rho, int runs) {
 
 }  // namespace
 
-TEST_CASE("95 % intervals hold the truth in 90 to 99 % of runs, whatever the memory of the noise",
-          "[fit][slow]") {
+TEST_CASE(
+    "95 % intervals hold the truth in 90 to 99 % of runs for any autocorrelation of the noise",
+    "[fit][slow]") {
   const double rho = GENERATE(0.0, 0.5, 0.9, 0.97);
   CAPTURE(rho);
   const Coverage share = coverage(rho, 400);
@@ -107,7 +108,7 @@ TEST_CASE("95 % intervals hold the truth in 90 to 99 % of runs, whatever the mem
   }
 }
 
-TEST_CASE("intervals widen with the memory of the noise", "[fit]") {
+TEST_CASE("intervals widen with the autocorrelation of the noise", "[fit]") {
   const double rho = GENERATE(0.0, 0.9);
   CAPTURE(rho);
   const Coverage share = coverage(rho, 40);

@@ -44,7 +44,7 @@ double residual_sum(const RelaxationData& data, const SpectralState& state) {
 
 }  // namespace
 
-TEST_CASE("decays of whole arrays are those of the library", "[fit]") {
+TEST_CASE("exponentials of whole arrays equal those of the library", "[fit]") {
   std::vector<double> time_s, weight;
   for (double t = 1e-20; t < 79.9; t = 1.0007 * t + 1e-3) {
     time_s.push_back(t);
@@ -67,7 +67,7 @@ TEST_CASE("decays of whole arrays are those of the library", "[fit]") {
   CHECK(value.front() == 1.0);
 }
 
-TEST_CASE("passes over records agree with sums one by one", "[fit]") {
+TEST_CASE("passes over records agree with sums of single samples", "[fit]") {
   const std::size_t count = GENERATE(1, 2, 3, 5, 17, 64, 1001);
   const std::vector<double> a = random_values(count, 3), b = random_values(count, 4);
   double sum = 0.0, dot = 0.0;
@@ -99,7 +99,7 @@ TEST_CASE("passes over records agree with sums one by one", "[fit]") {
   CHECK(far_from_neighbours(a, 2.0) == far);
 }
 
-TEST_CASE("moments of a bin are those of its samples, also when bins are put together", "[fit]") {
+TEST_CASE("moments of a bin equal those of its samples, also for merged bins", "[fit]") {
   std::vector<double> times = random_values(3000, 7);  // uneven
   for (double& t : times) t = 100.0 + 10.0 * std::abs(t);
   std::sort(times.begin(), times.end());
@@ -137,7 +137,7 @@ TEST_CASE("moments of a bin are those of its samples, also when bins are put tog
   }
 }
 
-TEST_CASE("averages and what they hide give the residual sum of all samples", "[fit]") {
+TEST_CASE("averages and the sums within them give the residual sum of all samples", "[fit]") {
   const bool is_even = GENERATE(true, false);
   RelaxationData data = relaxation_of(s2(), 75000, 1000.0, 0.01, 5);
   if (!is_even) {  // every third sample is missing

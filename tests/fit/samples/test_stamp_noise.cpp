@@ -56,8 +56,7 @@ CapturedRun run_with_jitter(const EmulatedTruth& truth, double most_s, std::uint
 
 }  // namespace
 
-TEST_CASE("scatter of stamps is told from noise and from shaking by the rate of the force",
-          "[fit]") {
+TEST_CASE("the force rate separates scatter of the stamps from noise and shaking", "[fit]") {
   // The 80 readings of the ramp determine only the sum of both, to 8 %. The eight readings of the
   // unloading separate them, to 25 %. Allow three times that.
   constexpr double kShaking_N = 2e-3;
@@ -74,7 +73,8 @@ TEST_CASE("scatter of stamps is told from noise and from shaking by the rate of 
   }
 }
 
-TEST_CASE("where stamps do not scatter the noise at rest and in motion stays as it was", "[fit]") {
+TEST_CASE("without scatter of the stamps the noise at rest and in motion does not change",
+          "[fit]") {
   for (const double shaking_N : {0.0, 2e-3}) {
     const StageNoise noise = stage_noise(ramps_with(0.0, shaking_N));
     CAPTURE(shaking_N);
@@ -85,7 +85,7 @@ TEST_CASE("where stamps do not scatter the noise at rest and in motion stays as 
   }
 }
 
-TEST_CASE("scattered stamps about a quick unloading do not become a stiff fast term", "[fit]") {
+TEST_CASE("scattered stamps around a quick unloading do not give a stiff fast term", "[fit]") {
   // Regression: this run was once refused, because the stage stiffness seemed to exceed the
   // frame's.
   const EmulatedTruth truth = demo_truth(10, 527);

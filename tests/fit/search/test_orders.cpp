@@ -27,7 +27,7 @@ TEST_CASE("S2 gives two terms that lie in their intervals", "[fit]") {
   CHECK(fit.noise.inflation == 1.0);
 }
 
-TEST_CASE("rounding of data without noise is not described by a term", "[fit]") {
+TEST_CASE("rounding of noise-free data does not give a term", "[fit]") {
   RelaxationData data;
   for (int k = -8; k < 17; ++k) {
     const double t = std::pow(10.0, k / 8.0);
@@ -41,7 +41,8 @@ TEST_CASE("rounding of data without noise is not described by a term", "[fit]") 
   CHECK(fit.terms[0].tau_s == Approx(3.0).epsilon(1e-12));  // a few rounding errors of the data
 }
 
-TEST_CASE("two negative terms that nearly cancel do not make E0 certain", "[fit][stability]") {
+TEST_CASE("two terms of opposite sign that nearly cancel do not make E0 certain",
+          "[fit][stability]") {
   // Regression: nine samples, terms of 174 and -174 times E0. The covariance has entries of 1e16,
   // and rounding once made their sum negative, which was reported as a zero error.
   FitOptions options;
@@ -95,7 +96,7 @@ TEST_CASE("a time ten times the record is flagged", "[fit]") {
   CHECK(flagged);
 }
 
-TEST_CASE("no relaxation at all gives no term", "[fit]") {
+TEST_CASE("a constant modulus gives no term", "[fit]") {
   const auto seed = GENERATE(1U, 2U, 3U, 4U, 5U, 6U);
   const FitResult fit = fit_relaxation(relaxation_of({1.0, {}}, 3000, 100.0, 0.01, seed));
   CHECK(fit.terms.empty());
@@ -103,7 +104,7 @@ TEST_CASE("no relaxation at all gives no term", "[fit]") {
   CHECK(fit.sum_g == Approx(0.0).margin(1e-12));
 }
 
-TEST_CASE("averages in log time give the fit of all samples", "[fit]") {
+TEST_CASE("averages in log time give the same fit as all samples", "[fit]") {
   const RelaxationData data = relaxation_of(s2(), 20000, 1000.0, 0.01, 8);
   FitOptions all;
   all.full_data = true;
@@ -127,7 +128,7 @@ TEST_CASE("averages in log time give the fit of all samples", "[fit]") {
   CHECK(b.rss == Approx(rss).epsilon(1e-7));
 }
 
-TEST_CASE("the average of an exponential over a bin is that of its samples", "[fit]") {
+TEST_CASE("the average of an exponential over a bin equals that of its samples", "[fit]") {
   const std::vector<double> times = even_times(100.0, 0.01);
   const std::vector<LogBin> bins = log_bins(times, times, 60.0);
   const BinArrays arrays(bins);
@@ -148,7 +149,8 @@ TEST_CASE("the average of an exponential over a bin is that of its samples", "[f
   }
 }
 
-TEST_CASE("left-out errors of a linear model are those of really leaving blocks out", "[fit]") {
+TEST_CASE("prediction errors of left-out blocks of a linear model equal those of separate fits",
+          "[fit]") {
   const RelaxationData data = relaxation_of(s2(), 60, 1000.0, 0.01, 9);
   const StepModel model(data.time_s, data.value, StepShape::kRelaxation, {});
   const SpectralState state = solve_coefficients(model, Eigen::VectorXd(0), {});
@@ -170,7 +172,7 @@ TEST_CASE("left-out errors of a linear model are those of really leaving blocks 
   }
 }
 
-TEST_CASE("a term that outlasts the record takes strong evidence", "[fit]") {
+TEST_CASE("a term that is slower than the record needs strong evidence", "[fit]") {
   // A term of 0.8 s and, in a record of 30 s, one of 20 s with a modulus from zero to clearly
   // visible.
   int withstood = 0, found = 0;

@@ -43,7 +43,7 @@ SpectralState from_times(const std::vector<double>& tau_s) {
 
 }  // namespace
 
-TEST_CASE("more terms never fit worse, and an order that was wished for is that of the free choice",
+TEST_CASE("more terms never fit worse, and a requested order equals that of the free choice",
           "[fit]") {
   const RelaxationData data = broad_master_curve();
   const FitResult free = fit_relaxation(data);
@@ -79,7 +79,7 @@ TEST_CASE("no random start finds a better fit of few terms than the path", "[fit
   }
 }
 
-TEST_CASE("normal equations and QR project alike", "[fit][identity]") {
+TEST_CASE("projections by normal equations and by QR agree", "[fit][identity]") {
   const RelaxationData data = relaxation_of(s2(), 400, 1000.0, 0.01, 7);
   const StepModel model(data.time_s, data.value, StepShape::kRelaxation, {});
   // The columns of the second pair are so close that only QR can separate them.
@@ -101,7 +101,7 @@ TEST_CASE("normal equations and QR project alike", "[fit][identity]") {
   }
 }
 
-TEST_CASE("the quick search ends where the thorough one ends", "[fit]") {
+TEST_CASE("the quick search and the thorough search find the same optimum", "[fit]") {
   const RelaxationData data = relaxation_of(s6(), 3000, 1e4, 0.01, 8);
   const StepModel model(data.time_s, data.value, StepShape::kRelaxation, {});
   const SpectralState start = from_times({5.0, 50.0, 500.0, 2000.0});
@@ -111,7 +111,7 @@ TEST_CASE("the quick search ends where the thorough one ends", "[fit]") {
   CHECK((quick.ln_tau - thorough.ln_tau).cwiseAbs().maxCoeff() < 1e-3);
 }
 
-TEST_CASE("a time that is held stays where it is", "[fit]") {
+TEST_CASE("a time that is held keeps its value", "[fit]") {
   const RelaxationData data = relaxation_of(s2(), 1000, 1000.0, 0.01, 9);
   const StepModel model(data.time_s, data.value, StepShape::kRelaxation, {});
   const SpectralState start = from_times({2.0, 60.0});

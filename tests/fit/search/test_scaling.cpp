@@ -13,7 +13,7 @@
 using namespace viscard;
 using namespace viscard::test;
 
-TEST_CASE("units of modulus and time change nothing but the units", "[fit][stability]") {
+TEST_CASE("the units of modulus and time change only the unit of the result", "[fit][stability]") {
   const double modulus_scale = GENERATE(1e-3, 1e6, 1e12);
   const double time_scale = GENERATE(1e-9, 1.0, 1e9);
   const RelaxationData data = relaxation_of(s2(), 3000, 1000.0, 0.01, 11);
@@ -34,7 +34,7 @@ TEST_CASE("units of modulus and time change nothing but the units", "[fit][stabi
   }
 }
 
-TEST_CASE("samples out of order or repeated are as good as sorted ones", "[fit][stability]") {
+TEST_CASE("samples out of order or repeated give the same fit as sorted ones", "[fit][stability]") {
   const RelaxationData data = relaxation_of(s2(), 500, 1000.0, 0.005, 12);
   std::vector<std::size_t> order(500);
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
