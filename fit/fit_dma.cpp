@@ -68,8 +68,7 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
     char text[120];
     std::snprintf(text, sizeof text,
                   "storage and loss modulus are both zero at %.6g Hz: this is not a measurement. "
-                  "Remove the row "
-                  "out",
+                  "Remove the row",
                   frequency_Hz[i]);
     throw std::runtime_error(text);
   }

@@ -82,15 +82,15 @@ struct FitResult {
   // drift before contact according to the record itself. The errors and intervals above include it.
   double gain_drift_relative = 0.0;
   double fit_from_s = 0.0, fit_to_s = 0.0;
-  double fastest_s =
-      0.0;  // duration of the fastest loading; the modulus before that time is extrapolated
+  // Duration of the fastest loading; the modulus before that time is extrapolated.
+  double fastest_s = 0.0;
   std::optional<TwoPointModulus> two_point;
   std::optional<double> contact_position_m;
   std::size_t n_spikes = 0;    // samples left out as spikes
   std::size_t n_left_out = 0;  // rows left out because a value is not a finite number
   bool is_converged = true;    // of the chosen order
-  bool is_trustworthy =
-      true;  // false: not converged, saturated, gap in the ramp ... (the flags name the cause)
+  // False: not converged, saturated, gap in the ramp ... (the flags name the cause).
+  bool is_trustworthy = true;
   std::vector<ProfileCurve> profiles;  // if FitOptions::with_profiles
   int n_bootstrap = 0;                 // resamples for the intervals; 0: from the covariance
   FitCurves curves;

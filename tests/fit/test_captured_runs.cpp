@@ -21,7 +21,7 @@ struct Recovery {
   int intervals = 0;
   int holding = 0;
   double worst_E0 = 0.0;          // relative error
-  double worst_half_width = 0.0;  // of the interval of g_1 + g_2, over it
+  double worst_half_width = 0.0;  // of the interval of g_1 + g_2, relative to it
   bool always_two_terms = true;
 };
 

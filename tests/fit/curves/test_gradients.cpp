@@ -59,7 +59,7 @@ SpectralState state_of(const SpectralModel& model, std::vector<double> tau_s) {
     state.ln_tau[static_cast<Eigen::Index>(i)] = std::log(tau_s[i]);
   }
   state.nuisance = model.nuisance_start();
-  // Every column weighs the same, so that none drowns the differences of another.
+  // Every column gets the same weight, so that none hides the differences of another.
   state.coefficients = Eigen::VectorXd::Ones(model.n_common() + state.n_terms());
   const Eigen::MatrixXd values = model.columns(state.ln_tau, state.nuisance, false).values;
   state.coefficients = values.colwise().norm().cwiseInverse().transpose();
