@@ -187,8 +187,8 @@ void report_stage_fit(const StageModel& model, const IndentationData& data, cons
     result.flags.push_back(
         {"drift-unseen", 0,
          "no readings out of contact after the test: drift of the load cell cannot be separated "
-         "from slow relaxation; E_inf and the slowest term may include it, their intervals do "
-         "not"});
+         "from slow relaxation; E_inf and the slowest term may include it, their intervals "
+         "do not"});
   }
 }
 
@@ -280,9 +280,8 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
     fit.result.flags.push_back(
         {"unloading-left-out", 0,
          "move " + std::to_string(kept.moves.size() + 1) +
-             " of the test lifted the punch off the specimen; this move and all later ones were "
-             "left "
-             "out. "
+             " of the test lifted the punch off the specimen; this move and all later "
+             "ones were left out. "
              "Unload to a larger share of the depth, and check modulus_guess of the specimen"});
   }
   return fit.result;

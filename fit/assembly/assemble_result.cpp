@@ -48,8 +48,8 @@ std::vector<SpectralState> wished_path(const SpectralModel& model, const FitOpti
   }
   if (path.empty()) {
     throw std::runtime_error(
-        "no model fits these data: every fitted modulus is zero. Check the sign of the fitted "
-        "column");
+        "no model fits these data: every fitted modulus is zero. Check the sign of the "
+        "fitted column");
   }
   return path;
 }
