@@ -15,7 +15,7 @@ struct TestWindow {
   double from_s = 0.0, to_s = 0.0;  // since the start of loading
 };
 
-// Adds the identifiability flags of FitResult (fit/README.md, sect. 6): tau-below-sampling,
+// Adds the identifiability flags of FitResult (fit/intervals/README.md): tau-below-sampling,
 // tau-below-ramp, tau-beyond-window, modulus-may-be-zero, terms-correlated, on-bound,
 // confused-with-drift, not-converged. Only the last makes a result untrustworthy.
 void add_identifiability_flags(const SpectralModel& model, const SpectralState& state,

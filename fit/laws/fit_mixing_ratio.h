@@ -18,9 +18,9 @@ struct MixingOptions {
 };
 
 // Law of a material in its mixing ratio, from fitted specimens with their covariances and ratios
-// (fit/README.md, sect. 8): theta_s = X(r_s) beta + u_s + e_s, where u_s is the scatter between
-// specimens and e_s the known error of each specimen's own fit. Forms are compared by BIC at
-// maximum likelihood. The coefficients and spreads of the best form are restricted maximum
+// (fit/laws/README.md, eq. 8.1): theta_s = X(r_s) beta + u_s + e_s, where u_s is the scatter
+// between specimens and e_s the known error of each specimen's own fit. Forms are compared by BIC
+// at maximum likelihood. The coefficients and spreads of the best form are restricted maximum
 // likelihood (REML) estimates. A multivariate meta-regression: van Houwelingen, Arends & Stijnen,
 // Statistics in Medicine 21 (2002) 589.
 //

@@ -20,7 +20,7 @@ struct LogBin {
 };
 
 // At this many bins per decade the neglected orders are below 3e-10 of an exponential's initial
-// value (fit/README.md, sect. 2).
+// value (fit/samples/README.md).
 inline constexpr double kBinsPerDecade = 60.0;
 // A record of up to this many samples is fitted sample by sample.
 inline constexpr std::size_t kSmallRecord = 2000;

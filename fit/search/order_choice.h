@@ -7,7 +7,7 @@
 
 namespace viscard {
 
-// Scores of every order of a path and the choice among them (fit/README.md, sect. 4). Chosen is the
+// Scores of every order of a path and the choice among them (fit/search/README.md). Chosen is the
 // smallest order whose cross-validation error is within one standard error (of the paired
 // difference) of the best, but never more terms than BIC selects. An order with a time at the end
 // of the range is not eligible. An order with a time above a third of the record is replaced by a
