@@ -27,7 +27,7 @@ int most_terms(const SpectralModel& model) {
 }
 
 // Fits all orders, so that a requested order is as good as the same order in a free choice.
-std::vector<SpectralState> wished_path(const SpectralModel& model, const FitOptions& options) {
+std::vector<SpectralState> path_for(const SpectralModel& model, const FitOptions& options) {
   OrderPathOptions path_options;
   path_options.max_terms =
       std::min(std::max(options.n_terms.value_or(0), options.max_terms), most_terms(model));
@@ -120,7 +120,7 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
                          const FitOptions& options) {
   SpectralFit fit;
   fit.options = options;
-  fit.path = wished_path(model, options);
+  fit.path = path_for(model, options);
   ChoiceInput choice;
   choice.n_samples = model.n_samples();
   choice.blocks = blocks;
