@@ -24,7 +24,7 @@ namespace {
 
 using Index = Eigen::Index;
 using Column = std::vector<double>;
-constexpr std::size_t kLeastRows = 6;
+constexpr std::size_t kLeastContactRows = 6;
 
 void check_force(const Column& force_N) {
   const auto [low, high] = std::minmax_element(force_N.begin(), force_N.end());
@@ -72,7 +72,7 @@ void flag_saturation(const Column& force_N, FitResult& result) {
 }
 
 void flag_gap(const Column& time_s, std::size_t contact, std::size_t loaded, FitResult& result) {
-  if (time_s.size() < contact + 1 + kLeastRows || loaded <= contact) return;
+  if (time_s.size() < contact + 1 + kLeastContactRows || loaded <= contact) return;
   const double usual_s = usual_step_s({time_s.data() + contact, time_s.size() - contact});
   const double ramp_s = time_s[loaded] - time_s[contact];
   for (std::size_t i = contact + 1; i <= loaded; ++i) {
@@ -153,7 +153,7 @@ struct ContactTable {
 
 ContactTable contact_table(const IndentationData& data) {
   ContactTable table;
-  table.clean = clean_columns({data.time_s, data.force_N, data.depth_m}, kLeastRows);
+  table.clean = clean_columns({data.time_s, data.force_N, data.depth_m}, kLeastContactRows);
   std::vector<Column>& columns = table.clean.columns;
   check_force(columns[1]);
   const std::vector<std::size_t> spikes = isolated_spikes(columns[0], columns[1]);
@@ -225,10 +225,10 @@ void report_table(const IndentationData& data, const ContactTable& table, const 
 FitResult fit_measured_depth(const IndentationData& data, const FitOptions& options) {
   const ContactTable table = contact_table(data);
   const HistoryInput input = history_input(table.clean, table.contact, table.law);
-  if (input.time_s.size() < kLeastRows) {
+  if (input.time_s.size() < kLeastContactRows) {
     throw std::runtime_error("only " + counted(input.time_s.size(), "sample") +
                              " between contact and its loss; a fit needs at least " +
-                             std::to_string(kLeastRows));
+                             std::to_string(kLeastContactRows));
   }
   const HistoryModel model(input, options);
   const double zero_s = input.time_s[std::min(table.contact.first, input.time_s.size() - 1)];

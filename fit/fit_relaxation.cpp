@@ -20,6 +20,8 @@
 namespace viscard {
 namespace {
 
+constexpr std::size_t kLeastStepRows = 4;
+
 std::vector<double> copy_of(std::span<const double> column) {
   return {column.begin(), column.end()};
 }
@@ -105,11 +107,10 @@ FitResult fit_robustly(CleanViews& clean, const FitOptions& options) {
 }
 
 void check_values(std::span<const double> time_s, std::span<const double> value, bool is_step) {
-  constexpr std::size_t kLeastRows = 4;
-  if (time_s.size() < kLeastRows) {
+  if (time_s.size() < kLeastStepRows) {
     throw std::runtime_error("only " + std::to_string(time_s.size()) +
                              " rows lie at or after t = 0; a fit needs at least " +
-                             std::to_string(kLeastRows) +
+                             std::to_string(kLeastStepRows) +
                              ". Set the time of the step with --time-zero");
   }
   if (!(time_s.back() > time_s.front())) {
@@ -124,7 +125,7 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
   const bool is_step = data.strain.empty();
   std::vector<std::span<const double>> columns{data.time_s, data.value};
   if (!is_step) columns.emplace_back(data.strain);
-  CleanViews clean(columns, kLeastRows);
+  CleanViews clean(columns, kLeastStepRows);
   std::size_t n_early = 0;
   if (is_step) {  // rows before the step carry no information about relaxation
     const auto time_s = clean.column(0);
