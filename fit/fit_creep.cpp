@@ -47,12 +47,12 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
                              " s; t = 0 must be the step of stress (set it with --time-zero)");
   }
   if (!(time_s.back() > time_s.front())) {
-    throw std::runtime_error("all rows have the same time; nothing can be said of creep");
+    throw std::runtime_error("all rows have the same time, so no creep can be fitted");
   }
   check_sign(clean.columns[1], "a creep compliance", "compliance_1_Pa");
   if (options.allow_negative) {
     throw std::invalid_argument(
-        "creep terms cannot be negative: the compliance of a solid only grows");
+        "creep terms cannot be negative: the compliance of a solid only increases");
   }
   const StepModel model(time_s, clean.columns[1], StepShape::kCreep, options);
   std::vector<double> row_time_s;
@@ -61,8 +61,7 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
   if (!(fit.state.coefficients[0] > 0.0)) {
     throw std::runtime_error(
         "the record shows no instantaneous compliance (it begins at zero), so E0 would be "
-        "infinite. "
-        "Start the record earlier after the step, or give fewer terms with --terms");
+        "infinite. Start the record earlier after the step, or give fewer terms with --terms");
   }
   FitResult result;
   result.kind = FitKind::kCreep;

@@ -19,8 +19,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Root mean square of the relative misfit of one half of the rows (E' or E'') by the best spectrum
-// of non-negative moduli on a dense grid of times: what no Prony series can do better.
+// Root mean square relative misfit of one half of the rows (E' or E'') for the best non-negative
+// spectrum on a dense grid of times. No Prony series can have a smaller one.
 double misfit_alone(const DmaModel& model, Index begin, Index count) {
   const double decades = (model.ln_tau_max() - model.ln_tau_min()) / std::log(10.0);
   const Index n = std::max<Index>(4, static_cast<Index>(6.0 * decades));
@@ -34,8 +34,8 @@ double misfit_alone(const DmaModel& model, Index begin, Index count) {
   return (columns * x - data).norm() / std::sqrt(static_cast<double>(count));
 }
 
-// Storage and loss of a linear material follow from each other (Kramers-Kronig); says so where the
-// data do not obey.
+// Storage and loss modulus of a linear material determine each other (Kramers-Kronig). Adds a flag
+// if the data contradict that.
 void flag_contradiction(const DmaModel& model, FitResult& result) {
   const Index count = model.n_rows() / 2;
   const double storage = misfit_alone(model, 0, count);
@@ -43,11 +43,12 @@ void flag_contradiction(const DmaModel& model, FitResult& result) {
   constexpr double kMuch = 3.0, kVisible = 0.01;
   if (result.noise.sigma < kVisible || result.noise.sigma < kMuch * std::max(storage, loss)) return;
   char text[240];
-  std::snprintf(text, sizeof text,
-                "storage alone can be fitted to %.2g %%, loss alone to %.2g %%, both together only "
-                "to %.2g %%: they do not belong to one linear material (Kramers-Kronig). Check the "
-                "shift factors and the instrument's own loss",
-                100.0 * storage, 100.0 * loss, 100.0 * result.noise.sigma);
+  std::snprintf(
+      text, sizeof text,
+      "storage alone can be fitted to %.2g %%, loss alone to %.2g %%, but both together only "
+      "to %.2g %%: they do not belong to one linear material (Kramers-Kronig). Check the "
+      "shift factors and the instrument's own loss",
+      100.0 * storage, 100.0 * loss, 100.0 * result.noise.sigma);
   result.flags.push_back({"storage-loss-contradict", 0, text});
 }
 
@@ -65,16 +66,16 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
   for (std::size_t i = 0; i < frequency_Hz.size(); ++i) {
     if (clean.columns[1][i] != 0.0 || clean.columns[2][i] != 0.0) continue;
     char text[120];
-    std::snprintf(
-        text, sizeof text,
-        "storage and loss modulus are both zero at %.6g Hz: no measurement. Leave the row "
-        "out",
-        frequency_Hz[i]);
+    std::snprintf(text, sizeof text,
+                  "storage and loss modulus are both zero at %.6g Hz: this is not a measurement. "
+                  "Remove the row",
+                  frequency_Hz[i]);
     throw std::runtime_error(text);
   }
   check_sign(clean.columns[1], "a storage modulus", "storage_modulus_Pa");
   const DmaModel model(frequency_Hz, clean.columns[1], clean.columns[2], options);
-  // Blocks are runs of neighbouring frequencies; E' and E'' of one frequency go together.
+  // A block is a run of neighbouring frequencies; E' and E'' of one frequency belong to the same
+  // block.
   std::vector<int> blocks = log_time_blocks(frequency_Hz, 0.0, 1);
   blocks.insert(blocks.end(), blocks.begin(), blocks.end());
   const SpectralFit fit = fit_spectrum(model, blocks, options);

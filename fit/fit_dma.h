@@ -5,9 +5,9 @@
 
 namespace viscard {
 
-// Prony series from storage and loss modulus together, with equal relative errors. rss is that of
-// both columns in Pa^2; noise.sigma is relative. curves hold E' over frequency. Throws as
-// fit_relaxation() does, and std::runtime_error on a frequency that is not positive.
+// Prony series from storage and loss modulus together, with equal relative errors. rss is the sum
+// over both columns in Pa^2; noise.sigma is relative; curves hold E' over frequency. Throws as
+// fit_relaxation() does, and std::runtime_error for a frequency that is not positive.
 FitResult fit_dma(const DmaData& data, const FitOptions& options = {});
 
 }  // namespace viscard

@@ -24,37 +24,36 @@ namespace {
 
 using Index = Eigen::Index;
 using Column = std::vector<double>;
-constexpr std::size_t kLeastRows = 6;
+constexpr std::size_t kLeastContactRows = 6;
 
 void check_force(const Column& force_N) {
   const auto [low, high] = std::minmax_element(force_N.begin(), force_N.end());
   if (*low == *high) {
     throw std::runtime_error(
         "the force is constant (" + text_of(*low) +
-        " N in all samples): nothing was pressed, or the column is not the force");
+        " N in all samples): there was no contact, or the column is not the force");
   }
   const double mean = std::accumulate(force_N.begin(), force_N.end(), 0.0);
   if (mean < 0.0 && -*low > *high) {
     throw std::runtime_error(
-        "the force is negative where it is largest: pressing must count positive. Map the column "
-        "with "
-        "a minus: --column force_N=-NAME");
+        "the force is negative at its largest magnitude, but compression must be positive. Flip "
+        "the sign of the column: --column force_N=-NAME");
   }
 }
 
-// The depth must grow while the force does.
+// Throws unless the depth grows with the force.
 void check_depth(const Column& force_N, const Column& depth_m) {
   const auto peak =
       static_cast<std::size_t>(std::max_element(force_N.begin(), force_N.end()) - force_N.begin());
   if (peak > 0 && depth_m[peak] < depth_m[0]) {
     throw std::runtime_error(
-        "the depth falls while the force rises. If it is counted the other way, map it with a "
-        "minus: "
+        "the depth falls while the force rises. If the depth has the other sign, flip the column: "
         "--column depth_m=-NAME");
   }
 }
 
-// The longest run of samples standing exactly at the highest value: a converter at its end.
+// Saturation is a long run of samples exactly at the largest value: the end of the converter's
+// range.
 void flag_saturation(const Column& force_N, FitResult& result) {
   const double top = *std::max_element(force_N.begin(), force_N.end());
   std::size_t run = 0;
@@ -67,12 +66,13 @@ void flag_saturation(const Column& force_N, FitResult& result) {
   if (longest >= kSuspicious) {
     add_defect(result, "saturated",
                std::to_string(longest) + " samples in a row stand exactly at the largest force (" +
-                   text_of(top) + " N): the load cell or its converter was at its end");
+                   text_of(top) +
+                   " N): the load cell or its converter reached the end of its range");
   }
 }
 
 void flag_gap(const Column& time_s, std::size_t contact, std::size_t loaded, FitResult& result) {
-  if (time_s.size() < contact + 1 + kLeastRows || loaded <= contact) return;
+  if (time_s.size() < contact + 1 + kLeastContactRows || loaded <= contact) return;
   const double usual_s = usual_step_s({time_s.data() + contact, time_s.size() - contact});
   const double ramp_s = time_s[loaded] - time_s[contact];
   for (std::size_t i = contact + 1; i <= loaded; ++i) {
@@ -80,7 +80,7 @@ void flag_gap(const Column& time_s, std::size_t contact, std::size_t loaded, Fit
     if (step_s <= 3.5 * usual_s || step_s < 0.1 * ramp_s) continue;
     add_defect(result, "gap-in-ramp",
                "no samples for " + text_of(step_s) + " s from t = " + text_of(time_s[i - 1]) +
-                   " s on, while the load rose: the depth there is a guess");
+                   " s on, while the load rose: the depth in between is unknown");
     return;
   }
 }
@@ -100,11 +100,12 @@ HistoryInput history_input(const CleanColumns& clean, const TableContact& contac
     input.contact_half_width = 0.25 * (*high - contact.depth_m);
     input.with_offset = true;
   }
-  // Beyond the loss of contact after loading the force no longer follows the depth.
+  // Once the punch loses contact after loading, the force no longer follows the depth.
   const std::size_t loaded = end_of_loading(input.input);
   const double limit_m = contact.is_fitted ? contact.depth_m : 0.0;
   std::size_t end = loaded;
-  // A sphere's or cone's contact must not shrink, or the integral no longer holds.
+  // The contact of a sphere or cone must not shrink, because the hereditary integral does not hold
+  // then.
   const double least_m =
       law.power == 1.0 ? limit_m : limit_m + 0.98 * (input.input[loaded] - limit_m);
   while (end < input.time_s.size() && input.input[end] > least_m) ++end;
@@ -141,18 +142,18 @@ void flag_table_misfit(const HistoryInput& input, const TableContact& contact, F
               result);
 }
 
-// A table made ready: spikes, an earlier touch and the frame's share of the depth taken out.
+// A table after preparation: spikes, an earlier touch and the frame's part of the depth removed.
 struct ContactTable {
   CleanColumns clean;
   DepthLaw law{1.0, 1.0};
   TableContact contact;
-  std::size_t loaded = 0;  // where loading ends
+  std::size_t loaded = 0;  // index of the end of loading
   std::size_t n_spikes = 0;
 };
 
 ContactTable contact_table(const IndentationData& data) {
   ContactTable table;
-  table.clean = clean_columns({data.time_s, data.force_N, data.depth_m}, kLeastRows);
+  table.clean = clean_columns({data.time_s, data.force_N, data.depth_m}, kLeastContactRows);
   std::vector<Column>& columns = table.clean.columns;
   check_force(columns[1]);
   const std::vector<std::size_t> spikes = isolated_spikes(columns[0], columns[1]);
@@ -180,7 +181,7 @@ ContactTable contact_table(const IndentationData& data) {
   return table;
 }
 
-// The seed's method on the loading part.
+// The two-point modulus of the loading part.
 std::optional<TwoPointModulus> two_points(const HistoryInput& input, std::size_t first,
                                           std::size_t end, const PunchContact& contact,
                                           const FitResult& result) {
@@ -194,7 +195,7 @@ std::optional<TwoPointModulus> two_points(const HistoryInput& input, std::size_t
                            result.noise.sigma);
 }
 
-// Window, flags and the two-point modulus.
+// Fills window, flags and the two-point modulus.
 void report_table(const IndentationData& data, const ContactTable& table, const HistoryInput& input,
                   const HistoryModel& model, const SpectralFit& fit, FitResult& result) {
   const TableContact& contact = table.contact;
@@ -224,10 +225,10 @@ void report_table(const IndentationData& data, const ContactTable& table, const 
 FitResult fit_measured_depth(const IndentationData& data, const FitOptions& options) {
   const ContactTable table = contact_table(data);
   const HistoryInput input = history_input(table.clean, table.contact, table.law);
-  if (input.time_s.size() < kLeastRows) {
+  if (input.time_s.size() < kLeastContactRows) {
     throw std::runtime_error("only " + counted(input.time_s.size(), "sample") +
-                             " between contact and its loss; a fit takes at least " +
-                             std::to_string(kLeastRows));
+                             " between contact and its loss; a fit needs at least " +
+                             std::to_string(kLeastContactRows));
   }
   const HistoryModel model(input, options);
   const double zero_s = input.time_s[std::min(table.contact.first, input.time_s.size() - 1)];
@@ -243,9 +244,8 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
   return result;
 }
 
-// Relative change of E0 when the frame is as much stiffer as its uncertainty says, and the other
-// known inputs beside it. The depth that the frame leaves is what it is blamed on, so both grow
-// with its share.
+// Relative systematic uncertainty of E0 from frame stiffness, force gain and geometry. The frame's
+// deflection is subtracted from the depth, so the errors of frame and gain grow with its share.
 double systematic_share(const IndentationData& data, const FitResult& result) {
   double square = std::pow(data.force_relative_u, 2);
   if (data.contact) square += std::pow(relative_uncertainty(*data.contact), 2);

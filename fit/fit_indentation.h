@@ -5,10 +5,10 @@
 
 namespace viscard {
 
-// Young's relaxation modulus from an indentation: hereditary integral on the measured depth, or on
-// the stage moves of a capture with the frame in series   (fit/README.md, eq. 2 and 4). Without a
-// contact the moduli are stiffnesses in N/m. Throws std::invalid_argument (columns unequal) or
-// std::runtime_error (nothing that can be fitted).
+// Young's relaxation modulus from an indentation: hereditary integral of the measured depth, or of
+// the stage moves of a capture with the frame in series (fit/README.md, eq. 2 and 4). Without a
+// contact the moduli are stiffnesses in N/m. Throws std::invalid_argument if the columns differ in
+// length, and std::runtime_error if the data cannot be fitted.
 FitResult fit_indentation(const IndentationData& data, const FitOptions& options = {});
 
 }  // namespace viscard

@@ -26,7 +26,8 @@ std::string celsius(double temperature_C) {
   return text;
 }
 
-// Rows sorted by temperature, cut where the step is more than the width of a segment.
+// Rows sorted by temperature and split where the temperature rises by more than the width of a
+// segment.
 std::vector<std::vector<std::size_t>> rows_by_temperature(
     const std::vector<double>& temperature_C) {
   std::vector<std::size_t> order;
@@ -75,32 +76,32 @@ std::vector<MasterSegment> segments_of(const MasterData& data, std::size_t& n_le
     constexpr std::size_t kLeastRows = 3;
     if (rows.size() < kLeastRows) {
       throw std::runtime_error("only " + counted(rows.size(), "row") + " at " +
-                               celsius(segment.temperature_C) + "; a segment takes at least three");
+                               celsius(segment.temperature_C) + "; a segment needs at least three");
     }
     segments.push_back(std::move(segment));
   }
   if (segments.size() < 2) {
     throw std::runtime_error(
-        "a master curve takes segments at two temperatures or more (1 K apart)");
+        "a master curve needs segments at two or more temperatures (1 K apart)");
   }
   return segments;
 }
 
-// Rows count relative to their own value, so that a zero among them would outweigh all others.
+// The weights of rows are relative to their values, so a zero would outweigh all other rows.
 void check_moduli(const MasterSegment& segment) {
   const bool is_dma = !segment.loss.empty();
   for (std::size_t i = 0; i < segment.value.size(); ++i) {
     if (segment.value[i] != 0.0 || (is_dma && segment.loss[i] != 0.0)) continue;
     throw std::runtime_error("the modulus at " + celsius(segment.temperature_C) + " and " +
                              text_of(segment.argument[i]) + (is_dma ? " Hz" : " s") +
-                             " is zero: no measurement. Leave the row out");
+                             " is zero: this is not a measurement. Remove the row");
   }
   check_sign(segment.value, is_dma ? "a storage modulus" : "a relaxation modulus",
              is_dma ? "storage_modulus_Pa" : "modulus_Pa");
 }
 
-// By how much ln(argument) of `to` exceeds that of `from` at the same values: average over
-// crossings, the steep ones counting most. Weight 0: the values do not overlap.
+// Difference of ln(argument) between `to` and `from` at equal values: the average over crossings,
+// with more weight for steep ones. Weight 0: the values do not overlap.
 struct Offset {
   double sum = 0.0, weight = 0.0;
 };
@@ -111,7 +112,7 @@ void add_crossings(const MasterSegment& from, const MasterSegment& to, double si
       const double before = from.value[i - 1] - to.value[j];
       const double after = from.value[i] - to.value[j];
       if (before * after > 0.0 || before == after) continue;
-      // Noise about zero has no logarithm to compare.
+      // Noise around zero has no logarithm to compare.
       if (!(from.value[i - 1] > 0.0 && from.value[i] > 0.0)) continue;
       const double ln_before = std::log(from.argument[i - 1]);
       const double step = std::log(from.argument[i]) - ln_before;
@@ -124,7 +125,7 @@ void add_crossings(const MasterSegment& from, const MasterSegment& to, double si
   }
 }
 
-// ln a of every segment from its neighbours, reference 0.
+// ln a of every segment from its neighbours; the reference has 0.
 std::vector<double> start_shifts(const std::vector<MasterSegment>& segments,
                                  std::size_t reference) {
   std::vector<double> ln_a(segments.size(), 0.0);
@@ -136,9 +137,9 @@ std::vector<double> start_shifts(const std::vector<MasterSegment>& segments,
       throw std::runtime_error("the moduli at " + celsius(segments[k - 1].temperature_C) + " and " +
                                celsius(segments[k].temperature_C) +
                                " have no value in common, so they cannot be shifted onto each "
-                               "other; measure a temperature between, or longer");
+                               "other; measure a temperature in between, or longer records");
     }
-    const double later = offset.sum / offset.weight;  // of k, at the same modulus
+    const double later = offset.sum / offset.weight;  // of segment k, at the same modulus
     ln_a[k] = ln_a[k - 1] + (segments[k].loss.empty() ? later : -later);
   }
   const double zero = ln_a[reference];
@@ -158,7 +159,7 @@ std::size_t reference_of(const std::vector<MasterSegment>& segments,
                            there);
 }
 
-// Rows of neighbouring arguments at one temperature are left out together.
+// Rows of neighbouring arguments at one temperature form a block and are left out together.
 std::vector<int> blocks_of(const std::vector<MasterSegment>& segments) {
   std::vector<int> blocks;
   int block = 0;

@@ -10,31 +10,32 @@
 
 namespace viscard {
 
-// Rows at several temperatures: relaxation (time_s and modulus_Pa) or storage and loss moduli over
-// frequency. Rows whose temperatures lie within 1 K of each other are one segment.
+// Rows at several temperatures: relaxation modulus over time, or storage and loss moduli over
+// frequency. Rows whose temperatures lie within 1 K of each other form one segment.
 struct MasterData {
   std::vector<double> temperature_C;
-  std::vector<double> argument;    // s, or Hz when loss_Pa is there
+  std::vector<double> argument;    // s, or Hz if loss_Pa is given
   std::vector<double> modulus_Pa;  // relaxation or storage modulus
   std::vector<double> loss_Pa;
-  std::optional<double> T_ref_C;  // that of a segment; none: the middle one
+  std::optional<double> T_ref_C;  // temperature of a segment; none: the middle one
 };
 
-// The spectrum at the reference temperature, and how time shifts with temperature.
+// The spectrum at the reference temperature, and the shift of time with temperature.
 struct MasterCurve {
   FitResult fit;
   double T_ref_C = 0.0;
-  std::vector<ShiftFactor> factors;  // ascending temperature, the reference with 0
+  std::vector<ShiftFactor> factors;  // ascending temperature; the reference has 0
   ShiftLaws laws;
 };
 
-// All segments together: one spectrum and one factor on time for each temperature, estimated
-// jointly; no vertical shift. Starts come from where neighbouring segments take the same values, so
-// they must overlap. Throws std::runtime_error naming the temperatures that do not, or when there
-// are fewer than two segments of three rows, or no segment at the reference.
+// Fits all segments together: one spectrum and one factor on time for each temperature, estimated
+// jointly, without vertical shift. The start values of the factors come from equal moduli of
+// neighbouring segments, so these must overlap. Throws std::runtime_error that names the
+// temperatures that do not overlap, and for fewer than two segments of three rows or no segment at
+// the reference.
 MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options = {});
 
-// True if the temperatures make more than one segment.
+// True if the temperatures form more than one segment.
 bool has_several_temperatures(const std::vector<double>& temperature_C);
 
 }  // namespace viscard

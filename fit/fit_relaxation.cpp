@@ -20,6 +20,8 @@
 namespace viscard {
 namespace {
 
+constexpr std::size_t kLeastStepRows = 4;
+
 std::vector<double> copy_of(std::span<const double> column) {
   return {column.begin(), column.end()};
 }
@@ -30,10 +32,11 @@ FitResult fit_strain_history(const CleanViews& clean, const FitOptions& options)
   input.output = copy_of(clean.column(1));
   input.input = copy_of(clean.column(2));
   while (input.contact + 1 < input.input.size() && input.input[input.contact + 1] == 0.0) {
-    ++input.contact;  // strain begins to differ from zero after this sample
+    ++input.contact;  // the strain begins to differ from zero after this sample
   }
   if (input.contact + 1 == input.input.size() && input.input.front() == 0.0) {
-    throw std::runtime_error("the strain is zero in every row: nothing was strained");
+    throw std::runtime_error(
+        "the strain is zero in every row: no strain was applied, or the column is not the strain");
   }
   const HistoryModel model(input, options);
   const SpectralFit fit = fit_spectrum(
@@ -68,7 +71,7 @@ FitResult fit_step(std::span<const double> time_s, std::span<const double> value
   return result;
 }
 
-// What the fit of a step leaves of each sample.
+// Residual of a step fit at each sample.
 std::vector<double> residual_of(const FitResult& fit, std::span<const double> time_s,
                                 std::span<const double> value) {
   std::vector<double> residual = copy_of(value);
@@ -80,8 +83,8 @@ std::vector<double> residual_of(const FitResult& fit, std::span<const double> ti
   return residual;
 }
 
-// Fits, and once more without what the first fit shows to be spikes: where neighbours have shown
-// some already, or could not show any.
+// Fits, then fits again without the spikes that show in the residual. The second fit is made if the
+// comparison with neighbours found spikes or could not be applied.
 FitResult fit_robustly(CleanViews& clean, const FitOptions& options) {
   const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
   clean.drop(spikes);
@@ -104,14 +107,14 @@ FitResult fit_robustly(CleanViews& clean, const FitOptions& options) {
 }
 
 void check_values(std::span<const double> time_s, std::span<const double> value, bool is_step) {
-  constexpr std::size_t kLeastRows = 4;
-  if (time_s.size() < kLeastRows) {
+  if (time_s.size() < kLeastStepRows) {
     throw std::runtime_error("only " + std::to_string(time_s.size()) +
-                             " rows lie at or after t = 0; a fit takes at least " +
-                             std::to_string(kLeastRows) + ". Set the step's time with --time-zero");
+                             " rows lie at or after t = 0; a fit needs at least " +
+                             std::to_string(kLeastStepRows) +
+                             ". Set the time of the step with --time-zero");
   }
   if (!(time_s.back() > time_s.front())) {
-    throw std::runtime_error("all rows have the same time; nothing can be said of relaxation");
+    throw std::runtime_error("all rows have the same time, so no relaxation can be fitted");
   }
   if (is_step) check_sign(value, "a relaxation modulus", "modulus_Pa");
 }
@@ -122,9 +125,9 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
   const bool is_step = data.strain.empty();
   std::vector<std::span<const double>> columns{data.time_s, data.value};
   if (!is_step) columns.emplace_back(data.strain);
-  CleanViews clean(columns, kLeastRows);
+  CleanViews clean(columns, kLeastStepRows);
   std::size_t n_early = 0;
-  if (is_step) {  // rows before the step tell nothing about relaxation
+  if (is_step) {  // rows before the step carry no information about relaxation
     const auto time_s = clean.column(0);
     n_early = static_cast<std::size_t>(std::lower_bound(time_s.begin(), time_s.end(), 0.0) -
                                        time_s.begin());

@@ -5,13 +5,13 @@
 
 namespace viscard {
 
-// Prony series from a relaxation modulus (or a stress after a step, or a stress with its strain
-// history)   (fit/README.md, eq. 2 and 5). Example:
+// Prony series from a relaxation modulus, a stress after a step, or a stress with its strain
+// history (fit/README.md, eq. 2 and 5). Example:
 //   RelaxationData data{.time_s = t, .value = E};
 //   FitResult fit = fit_relaxation(data);
 //   fit.E0_Pa, fit.terms[0].tau_s_95.low, fit.orders ...
-// Throws std::invalid_argument (columns of unequal length) or std::runtime_error (no data that
-// could be fitted: what is wrong and where).
+// Throws std::invalid_argument if the columns differ in length, and std::runtime_error if the data
+// cannot be fitted; the message names the cause and the place.
 FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options = {});
 
 }  // namespace viscard

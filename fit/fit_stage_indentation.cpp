@@ -23,8 +23,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Averages of measured and fitted force for plots, in log time from the start of each motion; rows
-// of contact only.
+// Averages of measured and fitted force for plots, in log time from the start of each motion; only
+// rows in contact.
 void fill_curves(const StageModel& model, const IndentationData& data, const SpectralState& state,
                  const Eigen::VectorXd& residual_N, FitResult& result) {
   FitCurves& curves = result.curves;
@@ -66,7 +66,8 @@ void fill_curves(const StageModel& model, const IndentationData& data, const Spe
   curves.unit = "N";
 }
 
-// The seed's method on the loading part, depth from the stage with the frame taken off.
+// The two-point modulus of the loading part, with the depth from the stage minus the frame's
+// deflection.
 std::optional<TwoPointModulus> two_points(const IndentationData& data, const SpectralState& state,
                                           double offset_N, double sigma_N) {
   if (!data.contact) return std::nullopt;
@@ -89,7 +90,7 @@ std::optional<TwoPointModulus> two_points(const IndentationData& data, const Spe
   return two_point_modulus(time_s, force_N, depth_m, *data.contact, sigma_N);
 }
 
-// Samples missing where the force changes fast: during the ramp and just after it.
+// Flags missing samples where the force changes fast: during the ramp and just after it.
 void flag_gap_in_ramp(const IndentationData& data, const SpectralState& state, FitResult& result) {
   const StageMove& ramp = data.moves.front();
   const double from_s = ramp.start_time_s + state.nuisance[0];
@@ -108,8 +109,8 @@ void flag_gap_in_ramp(const IndentationData& data, const SpectralState& state, F
   }
 }
 
-// The move in or after which the fitted force falls below zero: a punch cannot pull, so it hung
-// free.
+// The move during or after which the fitted force falls below zero. A punch cannot pull, so it was
+// out of contact.
 std::optional<std::size_t> move_losing_contact(const IndentationData& data,
                                                const SpectralState& state, double offset_N,
                                                const Eigen::VectorXd& residual_N, double sigma_N) {
@@ -136,7 +137,7 @@ PronySeries specimen_series(const PronySeries& stage_series_N_m, double frame_st
   compliance.instantaneous_compliance_1_Pa -= 1.0 / frame_stiffness_N_m;
   if (!(compliance.instantaneous_compliance_1_Pa > 0.0)) {
     throw std::runtime_error("the frame stiffness of " + text_of(frame_stiffness_N_m) +
-                             " N/m is below the stiffness seen (" +
+                             " N/m is below the measured stiffness (" +
                              text_of(instantaneous_modulus_Pa(stage_series_N_m)) +
                              " N/m): nothing is left for the specimen. Measure it again: viscard "
                              "calibrate --compliance");
@@ -146,7 +147,7 @@ PronySeries specimen_series(const PronySeries& stage_series_N_m, double frame_st
 
 namespace {
 
-// A fit of a run that stays in contact, and where it did not.
+// A fit of a run in contact, and the move that loses contact, if any.
 struct ContactFit {
   FitResult result;
   std::optional<std::size_t> lost_by_move;
@@ -159,7 +160,7 @@ void flag_stage_misfit(const IndentationData& data, FitResult& result) {
   flag_misfit(result.noise.sigma, quiet.sigma_N, quiet.n, peak_N, result);
 }
 
-// Window, flags and the two-point modulus.
+// Fills window, flags and the two-point modulus.
 void report_stage_fit(const StageModel& model, const IndentationData& data, const SpectralFit& fit,
                       const Eigen::VectorXd& residual_N, ContactFit& out) {
   FitResult& result = out.result;
@@ -185,13 +186,14 @@ void report_stage_fit(const StageModel& model, const IndentationData& data, cons
   if (!model.has_drift()) {
     result.flags.push_back(
         {"drift-unseen", 0,
-         "no readings out of contact after the test: drift of the load cell cannot be told from "
-         "slow relaxation; E_inf and the slowest term may carry it, and no interval holds it"});
+         "no readings out of contact after the test: drift of the load cell cannot be separated "
+         "from slow relaxation; E_inf and the slowest term may include it, their intervals "
+         "do not"});
   }
 }
 
-// Start values, and what the noise is like, from passes with a few terms: the first with equal
-// weights, a second where stamps scatter, whose errors spoil the first.
+// Start values and noise from preliminary fits with a few terms: the first with equal weights, and
+// a second one if the stamps scatter, because their errors distort the first.
 struct Preparation {
   Eigen::VectorXd start;
   StageNoise noise;
@@ -239,7 +241,7 @@ ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options
   fill_result(model, fit, series_from_state, result);
   const double share = data.frame_stiffness_N_m > 0.0
                            ? factor_m * result.E0_Pa / data.frame_stiffness_N_m
-                           : 0.0;  // what an error of the force costs beyond itself
+                           : 0.0;  // stiffness of the specimen over that of the frame
   result.gain_drift_relative = (1.0 + share) * gain_drift_relative_u(model, fit, data);
   add_common_uncertainty(result.gain_drift_relative, result);
   result.noise.sigma = prepared_for.noise.resting_N;
@@ -263,7 +265,8 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
   IndentationData kept = data;
   std::optional<std::size_t> lifting = first_lifting_move(kept);
   ContactFit fit;
-  // Seldom more than one round: what the force itself does not show, the fit may.
+  // Usually one round. The fit may detect a loss of contact that the force record alone does not
+  // show.
   while (true) {
     if (lifting) kept = before_move(std::move(kept), *lifting);
     fit = fit_in_contact(kept, options);
@@ -277,7 +280,8 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
     fit.result.flags.push_back(
         {"unloading-left-out", 0,
          "move " + std::to_string(kept.moves.size() + 1) +
-             " of the test lifted the punch off the specimen; it and what follows were left out. "
+             " of the test lifted the punch off the specimen; this move and all later "
+             "ones were left out. "
              "Unload to a larger share of the depth, and check modulus_guess of the specimen"});
   }
   return fit.result;

@@ -23,7 +23,7 @@ double force_of(const LoadSample& sample, const RigConfig& rig) {
   const std::optional<double> force_N = force_N_from_sample(sample, rig);
   if (!force_N) {
     throw std::runtime_error(
-        "the capture holds raw counts, but its rig says no volts_per_count. Add "
+        "the capture holds raw counts, but its rig has no volts_per_count. Add "
         "it under [load_cell] in the rig file");
   }
   return *force_N;
@@ -33,8 +33,9 @@ struct Reading {
   double clock_s = 0.0, host_s = 0.0, force_N = 0.0;
 };
 
-// In the order of their stamps. Stamps that scatter may change places; one that lies further back
-// than a few readings is of a clock that began again, and an equal one of a reading sent twice.
+// Readings in the order of their time stamps. Scatter of the stamps may swap neighbours. A stamp
+// that lies back by more than a few readings comes from a clock that restarted; an equal stamp is a
+// reading that was sent twice.
 std::vector<Reading> in_order(const std::vector<Reading>& received) {
   constexpr double kFewReadings = 5.0;
   std::vector<double> steps;
@@ -85,8 +86,7 @@ Readings good_readings(const CapturedRun& run, IndentationData& data) {
   return readings;
 }
 
-// Of the approach and whatever went before: nothing moves from then on until the punch is driven
-// in.
+// Time at which the last move before `first` has settled.
 double still_since_s(const CapturedRun& run, const CommandedMove& first) {
   constexpr double kRinging_s = 0.1;
   double since_s = -1e300;
@@ -98,12 +98,13 @@ double still_since_s(const CapturedRun& run, const CommandedMove& first) {
   return since_s;
 }
 
-// The end of contact, and when the force is zero again; without a retraction it never is.
+// End of contact, and the time from which the force is zero again; without a retraction that never
+// happens.
 double free_again_s(const CapturedRun& run, IndentationData& data) {
   const CommandedMove* retract = first_move(run, "retract");
   if (retract == nullptr) return 1e300;
   data.contact_to_s = std::min(data.contact_to_s, retract->move.start_time_s - data.start_early_s);
-  // Recovery of the surface and the last of the motion are not zero force: leave half a second.
+  // Recovery of the surface and the end of the motion leave some force: allow half a second.
   return retract->move.start_time_s + duration_s(retract->move) + retract->start_uncertainty_s +
          data.start_early_s + 0.5;
 }
@@ -122,8 +123,9 @@ void take_moves_in_contact(const CapturedRun& run, IndentationData& data) {
 
 ClockLine line_from_below(const std::vector<double>& x, const std::vector<double>& y) {
   if (x.size() < 2 || !(x.back() > x.front())) return {x.empty() ? 0.0 : y[0] - x[0], 1.0};
-  // The least delayed message of each end gives the slope. A few rounds, because which message that
-  // is depends on the slope; an edge of the whole lower hull may be short and tilt the line.
+  // The least delayed message near each end gives the slope. Which message that is depends on the
+  // slope, so a few rounds are needed. An edge of the lower convex hull may be short and tilt the
+  // line.
   const std::size_t count = x.size();
   const std::size_t third = std::max<std::size_t>(1, count / 3);
   ClockLine line{0.0, (y.back() - y.front()) / (x.back() - x.front())};
@@ -147,7 +149,7 @@ ClockLine line_from_below(const std::vector<double>& x, const std::vector<double
 IndentationData indentation_from_capture(const CapturedRun& run) {
   IndentationData data;
   validate(run.rig.calibration);
-  // A preload is the first contact, where there is one.
+  // A preload, if there is one, is the first contact.
   const CommandedMove* preload = first_move(run, "preload");
   const CommandedMove* ramp = preload != nullptr ? preload : first_move(run, "ramp");
   if (ramp == nullptr) {
@@ -163,8 +165,9 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   }
   const ClockLine clock = line_from_below(readings.clock_s, readings.host_s);
 
-  // The clock line lies early by the smallest delay of a message and may be tilted by its spread:
-  // both unknown, but short. Samples this near to a motion that is not modelled are left out.
+  // The clock line is early by the smallest delay of a message and may be tilted by the spread of
+  // the delays. Both are unknown but short. Samples this close to a motion that is not modelled are
+  // left out.
   data.start_early_s = 0.02 * std::max(1.0, run.rig.clock_speed);
   data.contact_from_s = ramp->move.start_time_s;
   data.first_reading_s = clock.at(readings.clock_s.front());

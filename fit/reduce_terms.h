@@ -5,12 +5,10 @@
 
 namespace viscard {
 
-// The series of n_terms whose largest relative error |E'(t)/E(t) - 1| over t_min_s <= t <= t_max_s
-// is smallest (a Chebyshev problem): non-negative moduli, free relaxation times within half a
-// decade of the window. Outside the window nothing is promised; the instantaneous modulus becomes
-// about E(t_min). Method: least squares in the logarithms of moduli and times (Levenberg-Marquardt)
-// from several starts, sharpened to the maximum norm by growing powers, then Remez exchange to
-// equal peaks (Braess, Nonlinear Approximation Theory (1986), ch. VI: sums of exponentials).
+// The series of n_terms with the smallest largest relative error over t_min_s <= t <= t_max_s
+// (fit/chebyshev_series.h). The error is not limited outside the window, and the instantaneous
+// modulus becomes about E(t_min). Throws std::invalid_argument for an invalid series or window, or
+// n_terms < 1.
 struct ReducedSeries {
   PronySeries series;  // ascending relaxation times
   double largest_error = 0.0;
@@ -18,10 +16,10 @@ struct ReducedSeries {
 ReducedSeries reduce_terms(const PronySeries& series, int n_terms, double t_min_s, double t_max_s);
 
 // The same for a material with constant Poisson ratio or constant bulk modulus, over its validity
-// window; where that is unknown, from a tenth of the shortest to ten times the longest relaxation
+// window; if that is unknown, from a tenth of the shortest to ten times the longest relaxation
 // time. Bulk rule, density and provenance are kept; uncertainties of the old terms are dropped.
-// Throws std::invalid_argument when n_terms is not positive or bulk terms of their own stand in the
-// way.
+// Throws std::invalid_argument if n_terms is not positive or the material has bulk terms of its
+// own.
 struct ReducedMaterial {
   Material material;
   double largest_error = 0.0;  // of E(t) over the window

@@ -1,6 +1,6 @@
 #include "fit/assembly/assemble_result.h"
 
-#include "fit/assembly/constraints.h"
+#include "fit/assembly/constrained_fit.h"
 #include "fit/assembly/order_doubt.h"
 #include "fit/intervals/bootstrap.h"
 #include "fit/intervals/flags.h"
@@ -19,15 +19,15 @@
 namespace viscard {
 namespace {
 
-// The most terms whose parameters leave a row over: with as many parameters as rows the fit goes
-// through every one, and nothing is left to say what the noise is.
+// The largest number of terms that leaves one row more than parameters. With as many parameters as
+// rows the fit passes through every row, and nothing is left to estimate the noise.
 int most_terms(const SpectralModel& model) {
   const Eigen::Index spare = model.n_rows() - 1 - model.n_common() - model.n_nuisances();
   return static_cast<int>(std::max<Eigen::Index>(0, spare / 2));
 }
 
-// All orders: one that was wished for is no worse than the same in a free choice.
-std::vector<SpectralState> wished_path(const SpectralModel& model, const FitOptions& options) {
+// Fits all orders, so that a requested order is as good as the same order in a free choice.
+std::vector<SpectralState> path_for(const SpectralModel& model, const FitOptions& options) {
   OrderPathOptions path_options;
   path_options.max_terms =
       std::min(std::max(options.n_terms.value_or(0), options.max_terms), most_terms(model));
@@ -48,13 +48,13 @@ std::vector<SpectralState> wished_path(const SpectralModel& model, const FitOpti
   }
   if (path.empty()) {
     throw std::runtime_error(
-        "no model fits these data: every modulus comes out zero. Check the sign "
-        "of the fitted column");
+        "no model fits these data: every fitted modulus is zero. Check the sign of the "
+        "fitted column");
   }
   return path;
 }
 
-// The order wished for, or the next smaller one that the data can carry.
+// The requested order, or the next smaller one that the data can support.
 std::size_t position_of(const std::vector<SpectralState>& path, int n_terms) {
   std::size_t position = 0;
   while (position + 1 < path.size() && path[position + 1].n_terms() <= n_terms) ++position;
@@ -68,12 +68,12 @@ void note_fewer_terms(const SpectralModel& model, SpectralFit& fit) {
   const int most = most_terms(model);
   const std::string why =
       found == most
-          ? counted(static_cast<std::size_t>(model.n_rows()), "value") + " cannot tell more than " +
-                std::to_string(most)
-          : "no fit with more than " + std::to_string(found) + " describes these data any better";
+          ? counted(static_cast<std::size_t>(model.n_rows()), "value") +
+                " cannot determine more than " + std::to_string(most)
+          : "no fit with more than " + std::to_string(found) + " describes these data better";
   fit.notes.push_back({"fewer-terms", 0,
                        counted(static_cast<std::size_t>(wanted), "term") +
-                           (wanted == 1 ? " was" : " were") + " asked for; " + why});
+                           (wanted == 1 ? " was" : " were") + " requested; " + why});
 }
 
 double full_rss(const SpectralModel& model, const SpectralState& state) {
@@ -90,9 +90,9 @@ Autoregression noise_of(const SpectralModel& model, const SpectralState& state) 
   return autoregression(model.residual_series(state.ln_tau, state.nuisance, state.coefficients));
 }
 
-// Where the times of the state are the material's own, profiles replace their intervals; with a
-// frame in series only that of E_inf, which is a function of the stage's alone. In creep the
-// covariance stands.
+// Profiles replace the intervals of the times if the times of the state are the material's own.
+// With a frame in series they replace that of E_inf only, which is a function of the stage's E_inf
+// alone. In creep the intervals from the covariance stay.
 void add_profiles(const SpectralModel& model, const SpectralFit& fit,
                   const SeriesFromState& series_from_state, FitResult& result) {
   const PronySeries series = series_from_state(fit.state);
@@ -120,7 +120,7 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
                          const FitOptions& options) {
   SpectralFit fit;
   fit.options = options;
-  fit.path = wished_path(model, options);
+  fit.path = path_for(model, options);
   ChoiceInput choice;
   choice.n_samples = model.n_samples();
   choice.blocks = blocks;
@@ -133,7 +133,7 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
     fit.scores.rows[fit.scores.chosen].is_chosen = true;
     note_fewer_terms(model, fit);
   }
-  // Near the optimum by the quicker search, so that little is left to do for the slower ones.
+  // The quick search comes near the optimum and leaves little work for the slower ones.
   const SpectralState near = quick_search(model, fit.path[fit.scores.chosen], {.tolerance = 1e-10});
   fit.state = polish(model, refine(model, near));
   fit.rss = full_rss(model, fit.state);
@@ -163,17 +163,17 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
   if (fit.scores.wants_faster) {
     result.flags.push_back(
         {"faster-relaxation", 0,
-         "something relaxes faster than the first samples can show: E0 is that of "
-         "the first sample, and a lower bound"});
+         "part of the relaxation is faster than the first samples can show: E0 is the modulus at "
+         "the first sample, a lower bound"});
   }
   if (fit.scores.wants_slower) {
     result.flags.push_back(
         {"slower-relaxation", 0,
-         "something still relaxes when the record ends: E_inf is an upper bound"});
+         "the material still relaxes at the end of the record: E_inf is an upper bound"});
   }
   result.rss = fit.rss;
   const Eigen::VectorXd sigma = model.row_sigma();
-  if (sigma.size() > 0) {  // every rss in the unit of the data
+  if (sigma.size() > 0) {  // convert every rss to the unit of the data
     const auto in_unit = [&](const SpectralState& state) {
       return (model.columns(state.ln_tau, state.nuisance, false).values * state.coefficients -
               model.data())

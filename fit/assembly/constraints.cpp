@@ -1,10 +1,6 @@
 #include "fit/assembly/constraints.h"
 
-#include "fit/assembly/parametrisation.h"
-#include "fit/intervals/flags.h"
 #include "models/maths/text_of_number.h"
-
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -17,26 +13,10 @@
 #include <utility>
 
 namespace viscard {
+
 namespace {
 
-using Index = Eigen::Index;
 using Stem = ParameterStem;
-
-ParameterName name_of(const std::string& text) {
-  if (text == "E0") return {Stem::kE0, 0};
-  if (text == "E_inf") return {Stem::kEInf, 0};
-  const std::pair<const char*, Stem> kinds[] = {
-      {"E_", Stem::kModulus}, {"g_", Stem::kShare}, {"tau_", Stem::kTime}};
-  for (const auto& [prefix, stem] : kinds) {
-    if (!text.starts_with(prefix)) continue;
-    char* end = nullptr;
-    const long term = std::strtol(text.c_str() + std::strlen(prefix), &end, 10);
-    if (*end == '\0' && term >= 1 && term <= 1000) return {stem, static_cast<int>(term)};
-  }
-  throw std::invalid_argument("'" + text +
-                              "' is no parameter; there are E0, E_inf, and E_1, g_1, tau_1 ... for "
-                              "each term");
-}
 
 double number_of(const std::string& text, const std::string& whole) {
   char* end = nullptr;
@@ -48,22 +28,23 @@ double number_of(const std::string& text, const std::string& whole) {
   return value;
 }
 
-struct Box {
-  Eigen::VectorXd low, high;
-};
+}  // namespace
 
-Box box_of(const Parametrisation& form, const std::vector<ParameterConstraint>& constraints) {
-  Box box{form.lower(), form.upper()};
-  for (const ParameterConstraint& one : constraints) {
-    const ParameterName name = name_of(one.name);
-    const Index at = form.position(name);
-    const bool is_time = name.stem == Stem::kTime;
-    // A bound reaches no further than signs allow; a share's or time's upper end is the user's.
-    const double low = is_time ? std::log(one.low) : one.low;
-    box.low[at] = is_time || one.low == one.high ? low : std::max(box.low[at], low);
-    box.high[at] = is_time ? std::log(one.high) : one.high;
+ParameterName parameter_name(const std::string& text) {
+  if (text == "E0") return {Stem::kE0, 0};
+  if (text == "E_inf") return {Stem::kEInf, 0};
+  const std::pair<const char*, Stem> kinds[] = {
+      {"E_", Stem::kModulus}, {"g_", Stem::kShare}, {"tau_", Stem::kTime}};
+  for (const auto& [prefix, stem] : kinds) {
+    if (!text.starts_with(prefix)) continue;
+    char* end = nullptr;
+    const long term = std::strtol(text.c_str() + std::strlen(prefix), &end, 10);
+    if (*end == '\0' && term >= 1 && term <= 1000) return {stem, static_cast<int>(term)};
   }
-  return box;
+  throw std::invalid_argument(
+      "'" + text +
+      "' is not a parameter; there are E0, E_inf, and E_1, g_1, tau_1 ... for "
+      "each term");
 }
 
 std::string range_text(const ParameterConstraint& one) {
@@ -76,132 +57,12 @@ std::string range_text(const ParameterConstraint& one) {
   return text;
 }
 
-// A time that the record cannot show leaves its modulus open to any size, unless that is held too.
-void check_times(const SpectralModel& model, const std::vector<ParameterConstraint>& constraints) {
-  for (const ParameterConstraint& one : constraints) {
-    const ParameterName name = name_of(one.name);
-    if (name.stem != Stem::kTime) continue;
-    const bool is_held =
-        std::any_of(constraints.begin(), constraints.end(), [&](const ParameterConstraint& other) {
-          const ParameterName of_other = name_of(other.name);
-          return of_other.term == name.term && of_other.stem != Stem::kTime &&
-                 other.low == other.high;
-        });
-    const double shortest_s = std::exp(model.ln_tau_min()),
-                 longest_s = std::exp(model.ln_tau_max());
-    constexpr double kRounding = 1e-9;
-    if (is_held ||
-        (one.high > shortest_s * (1.0 - kRounding) && one.low < longest_s * (1.0 + kRounding))) {
-      continue;
-    }
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  " is outside the times that the record can show (%.3g to %.3g s); hold the "
-                  "modulus of the term too",
-                  shortest_s, longest_s);
-    throw std::invalid_argument(range_text(one) + text);
-  }
-}
-
-// What no data could mend.
-void check_solution(const SpectralState& state, const std::vector<ParameterConstraint>& constraints,
-                    bool may_be_negative) {
-  std::string all;
-  for (const ParameterConstraint& one : constraints) {
-    all += (all.empty() ? "" : ", ") + range_text(one);
-  }
-  const auto refuse = [&](const std::string& why) {
-    throw std::invalid_argument("with " + all + " " + why);
-  };
-  if (!state.coefficients.allFinite() || !state.ln_tau.allFinite() || !std::isfinite(state.rss)) {
-    refuse("no finite fit exists; loosen the constraints");
-  }
-  if (!may_be_negative && state.coefficients[0] < 0.0) {
-    refuse(
-        "the data ask for shares that sum to more than one (a negative E_inf); loosen the "
-        "constraints, or use --liquid");
-  }
-  for (Index i = 1; i < state.n_terms(); ++i) {
-    if (state.ln_tau[i] >= state.ln_tau[i - 1]) continue;
-    refuse("term " + std::to_string(i + 1) + " comes out faster than term " + std::to_string(i) +
-           "; terms are numbered by ascending time, so name them the other way round");
-  }
-}
-
-// How much worse the constraints make the description, beside the free fit of the same data.
-void flag_contradiction(double free_rss, double free_variance, double inflation, int n_held,
-                        SpectralFit& fit) {
-  const double rise = (fit.rss - free_rss) / std::max(free_variance * inflation, 1e-300);
-  // By chance a held true value raises it by n_held +- sqrt(2 n_held).
-  const double by_chance = n_held + 5.0 * std::sqrt(2.0 * n_held);
-  if (!(rise > by_chance)) return;
-  constexpr double kPlain = 2.0;  // seen without statistics
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "the constraints contradict the data: the residual sum of squares is %.4g times "
-                "that of the free fit, %.3g variances of the noise more",
-                fit.rss / std::max(free_rss, 1e-300), rise);
-  fit.notes.push_back(
-      {fit.rss > kPlain * free_rss ? kContradictsData : "constraints-strained", 0, text});
-}
-
-// Times to start from: the constrained ones where they must be, the others spread over the range
-// or, where there are as many, those of a smaller free fit.
-SpectralState spread_start(const SpectralModel& model, const Parametrisation& form, const Box& box,
-                           const SpectralFit& fit, Index n_terms) {
-  Eigen::VectorXd ln_tau(n_terms);
-  std::vector<Index> open;
-  for (Index i = 0; i < n_terms; ++i) {
-    const Index at = form.position({Stem::kTime, static_cast<int>(i) + 1});
-    const bool is_pinned = box.high[at] - box.low[at] < 1e-12;
-    ln_tau[i] = 0.5 * (box.low[at] + box.high[at]);
-    if (!is_pinned) open.push_back(i);
-  }
-  const auto n_open = static_cast<Index>(open.size());
-  const auto smaller = std::find_if(fit.path.begin(), fit.path.end(),
-                                    [&](const SpectralState& s) { return s.n_terms() == n_open; });
-  for (Index k = 0; k < n_open; ++k) {
-    const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(n_open);
-    const double spread = model.ln_tau_min() + share * (model.ln_tau_max() - model.ln_tau_min());
-    const Index at =
-        form.position({Stem::kTime, static_cast<int>(open[static_cast<std::size_t>(k)]) + 1});
-    const double wanted = smaller != fit.path.end() ? smaller->ln_tau[k] : spread;
-    ln_tau[open[static_cast<std::size_t>(k)]] = std::clamp(wanted, box.low[at], box.high[at]);
-  }
-  return solve_coefficients(model, ln_tau, fit.state.nuisance);
-}
-
-// Covariance of the parameters left free, carried to all: fixed ones and those on a bound have
-// none.
-Eigen::MatrixXd free_covariance(const Parametrisation& form, const Box& box,
-                                const SpectralState& state, double variance) {
-  const Eigen::VectorXd theta = form.theta_of(state);
-  const Eigen::MatrixXd slopes = form.slopes(theta);
-  std::vector<Index> free;
-  for (Index i = 0; i < theta.size(); ++i) {
-    const double reach = 1e-9 * (1.0 + std::abs(theta[i]));
-    if (theta[i] > box.low[i] + reach && theta[i] < box.high[i] - reach) free.push_back(i);
-  }
-  if (free.empty()) return Eigen::MatrixXd::Zero(slopes.rows(), slopes.rows());  // all at a bound
-  const Eigen::MatrixXd chosen = slopes(Eigen::all, free);
-  const Eigen::MatrixXd jacobian = full_jacobian(form.model(), state) * chosen;
-  const Eigen::VectorXd scale = jacobian.colwise().norm().transpose().cwiseMax(1e-300);
-  const Eigen::MatrixXd scaled = jacobian * scale.cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd inverse =
-      (scaled.transpose() * scaled).completeOrthogonalDecomposition().pseudoInverse();
-  const Eigen::MatrixXd of_free =
-      scale.cwiseInverse().asDiagonal() * inverse * scale.cwiseInverse().asDiagonal();
-  return variance * chosen * of_free * chosen.transpose();
-}
-
-bool speaks_of_shares(const std::vector<ParameterConstraint>& constraints) {
+bool uses_shares(const std::vector<ParameterConstraint>& constraints) {
   return std::any_of(constraints.begin(), constraints.end(), [](const ParameterConstraint& one) {
-    const Stem stem = name_of(one.name).stem;
+    const Stem stem = parameter_name(one.name).stem;
     return stem == Stem::kShare || stem == Stem::kE0;
   });
 }
-
-}  // namespace
 
 ParameterConstraint constraint_from_text(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -209,7 +70,7 @@ ParameterConstraint constraint_from_text(const std::string& text) {
     throw std::invalid_argument("'" + text + "': write NAME=VALUE or NAME=LOW:HIGH in SI");
   }
   ParameterConstraint out{text.substr(0, equals), 0.0, 0.0};
-  name_of(out.name);
+  parameter_name(out.name);  // throws for an unknown name
   const std::string value = text.substr(equals + 1);
   const std::size_t colon = value.find(':');
   out.low = number_of(value.substr(0, colon), text);
@@ -223,15 +84,16 @@ void validate(const std::vector<ParameterConstraint>& constraints, int n_terms,
   double least_shares = 0.0;
   std::set<std::string> seen;
   for (const ParameterConstraint& one : constraints) {
-    const ParameterName name = name_of(one.name);
+    const ParameterName name = parameter_name(one.name);
     const auto refuse = [&](const std::string& why) {
       throw std::invalid_argument(range_text(one) + why);
     };
     if (!seen.insert(one.name).second) {
-      throw std::invalid_argument(one.name + " is constrained twice; say it once");
+      throw std::invalid_argument(one.name + " is constrained twice; name it once");
     }
     if (name.term > n_terms) {
-      throw std::invalid_argument(one.name + " is of a term that is not there; the fit has " +
+      throw std::invalid_argument(one.name +
+                                  " belongs to a term that does not exist; the fit has " +
                                   counted(static_cast<std::size_t>(n_terms), "term"));
     }
     if (!(one.low <= one.high) || (name.stem == Stem::kTime && !(one.low > 0.0))) {
@@ -241,67 +103,23 @@ void validate(const std::vector<ParameterConstraint>& constraints, int n_terms,
     if (name.stem == Stem::kE0 && !(one.high > 0.0)) refuse(": E0 must be positive");
     const bool has_sign = name.stem != Stem::kE0 && name.stem != Stem::kTime;
     if (has_sign && !may_be_negative && one.low < 0.0) {
-      refuse(": moduli and shares are not negative (--allow-negative lets them)");
+      refuse(": moduli and shares must not be negative unless --allow-negative is given");
     }
     if (name.stem == Stem::kShare) {
-      if (one.low >= 1.0) refuse(": a share of E0 is below 1");
+      if (one.low >= 1.0) refuse(": a share of E0 must be below 1");
       least_shares += one.low;
     }
     has_moduli = has_moduli || name.stem == Stem::kModulus || name.stem == Stem::kEInf;
   }
   if (least_shares >= 1.0) {
     throw std::invalid_argument(
-        "the shares held sum to 1 or more; nothing is left for E_inf. For a liquid use --liquid");
+        "the shares held sum to 1 or more, which leaves nothing for E_inf. For a liquid use "
+        "--liquid");
   }
-  if (has_moduli && speaks_of_shares(constraints)) {
+  if (has_moduli && uses_shares(constraints)) {
     throw std::invalid_argument(
         "constrain either moduli (E_inf, E_i) or E0 and shares (g_i), not both at once");
   }
-}
-
-void constrain(const SpectralModel& model, const FitOptions& options, SpectralFit& fit) {
-  const Index n_terms = options.n_terms.value_or(static_cast<int>(fit.state.n_terms()));
-  validate(options.constraints, static_cast<int>(n_terms), options.allow_negative);
-  const bool by_shares = speaks_of_shares(options.constraints);
-  if (model.n_common() == 0 || model.common()[0].is_free) {
-    throw std::invalid_argument("parameters of a liquid cannot be constrained");
-  }
-  check_times(model, options.constraints);
-  const Parametrisation form(model, n_terms, by_shares);
-  const Box box = box_of(form, options.constraints);
-  const Index n_free = (box.high.array() > box.low.array()).count();
-  if (n_free >= model.n_rows()) {
-    throw std::invalid_argument(counted(static_cast<std::size_t>(model.n_rows()), "value") +
-                                " cannot tell " +
-                                counted(static_cast<std::size_t>(n_free), "free parameter") +
-                                " and the noise; hold more of them, or ask for fewer terms");
-  }
-  SpectralState best =
-      solve_in_box(form, box.low, box.high, spread_start(model, form, box, fit, n_terms));
-  if (fit.state.n_terms() == n_terms) {
-    const SpectralState other = solve_in_box(form, box.low, box.high, fit.state);
-    if (other.rss < best.rss) best = other;
-  }
-  check_solution(best, options.constraints, options.allow_negative);
-  const double free_rss = fit.rss, free_variance = fit.variance;
-  const double free_inflation = fit.noise.inflation();
-  fit.state = best;
-  fit.rss = best.rss + model.hidden_rss(best.ln_tau, best.nuisance, best.coefficients);
-  fit.variance = fit.rss / std::max(1.0, model.n_samples() - static_cast<double>(n_free));
-  fit.noise = {};
-  double inflation = 1.0;
-  if (!options.white_noise) {
-    fit.noise =
-        autoregression(model.residual_series(best.ln_tau, best.nuisance, best.coefficients));
-    inflation = fit.noise.inflation();
-  }
-  fit.covariance = free_covariance(form, box, best, fit.variance * inflation);
-  for (const ParameterConstraint& one : options.constraints) {
-    fit.notes.push_back(
-        {"constrained", 0, range_text(one) + (one.low == one.high ? " was held" : " was kept")});
-  }
-  flag_contradiction(free_rss, free_variance, free_inflation,
-                     static_cast<int>(options.constraints.size()), fit);
 }
 
 }  // namespace viscard

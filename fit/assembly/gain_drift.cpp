@@ -13,7 +13,7 @@ double gain_drift_relative_u(const SpectralModel& model, const SpectralFit& fit,
                              const IndentationData& data) {
   const double before_s = data.contact_from_s - data.first_reading_s;
   double stiffness_N_m = fit.state.coefficients.tail(fit.state.n_terms()).sum();
-  double rate_square = -1.0;  // of the product of rate and stiffness
+  double rate_square = -1.0;  // of rate times stiffness, plus its variance; -1: no creep
   for (Index j = 0; j < model.n_common(); ++j) {
     const std::string& name = model.common()[static_cast<std::size_t>(j)].name;
     if (name == "E_inf") stiffness_N_m += fit.state.coefficients[j];

@@ -1,6 +1,7 @@
 #include "fit/assembly/order_doubt.h"
 
 #include "fit/curves/model_variant.h"
+#include "fit/intervals/profile_likelihood.h"
 #include "fit/search/quick_search.h"
 
 #include <algorithm>
@@ -22,14 +23,14 @@ double width(const Interval& interval) {
   return interval.high - interval.low;
 }
 
-// How low E_inf can be when one more term at the end of the range may take its place, until the sum
-// of squares rises by 3.84 variances: steps that double, the root of the rise taken as linear.
+// The lowest E_inf for which the sum of squares rises by at most 3.84 variances when one more term
+// at the end of the range replaces part of E_inf. The steps double; the root of the rise is
+// interpolated linearly.
 double lowest_equilibrium(const SpectralModel& fine, const SpectralFit& fit, double step) {
   const std::unique_ptr<SpectralModel> coarse = fine.coarse();
   const SpectralModel& model = coarse ? *coarse : fine;
   const double least_rss =
       coarse ? solve_coefficients(model, fit.state.ln_tau, fit.state.nuisance).rss : fit.state.rss;
-  constexpr double kChiSquare95 = 3.841458820694124;
   SpectralState slower = fit.state;
   slower.ln_tau.conservativeResize(slower.n_terms() + 1);
   slower.ln_tau[slower.ln_tau.size() - 1] = model.ln_tau_max();
@@ -58,7 +59,7 @@ double lowest_equilibrium(const SpectralModel& fine, const SpectralFit& fit, dou
 
 void carry_order_doubt(const SpectralModel& model, const SpectralFit& fit,
                        const SeriesFromState& series_from_state, FitResult& result) {
-  if (fit.options.n_terms) return;  // the order is given, not doubted
+  if (fit.options.n_terms) return;  // a requested order is not uncertain
   constexpr double kStrong = 6.0;
   const Interval E0 = result.E0_interval_95;
   const Interval E_inf = result.E_inf_interval_95;
@@ -79,12 +80,13 @@ void carry_order_doubt(const SpectralModel& model, const SpectralFit& fit,
     result.flags.push_back({"order-uncertain", 0,
                             "fits with " + others + (last == 1 ? " term" : " terms") +
                                 " describe the data about as well; the intervals of E0 and E_inf "
-                                "hold theirs too"});
+                                "include their values"});
   }
-  // From a tenth of the record on (the range ends at three records).
+  // From a tenth of the record on; ln_tau_max() is three times the record.
   const double late = model.ln_tau_max() - std::log(30.0);
   if (fit.state.n_terms() == 0 || fit.state.ln_tau.maxCoeff() < late) return;
-  // Only where the parameter of the state is the material's own (no frame, no creep), and not free.
+  // Only if the state's parameter is the material's own (no frame, no creep) and its sign is
+  // constrained.
   const bool is_own =
       model.n_common() > 0 && !model.common()[0].is_free &&
       series_from_state(fit.state).equilibrium_modulus_Pa == fit.state.coefficients[0] &&

@@ -13,8 +13,8 @@ namespace {
 using Index = Eigen::Index;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Residuals in all parameters; scaled so that the solver's absolute thresholds do not know the
-// unit.
+// Residuals as a function of all parameters, scaled so that the solver's absolute thresholds do not
+// depend on the unit.
 class FullCost final : public ceres::CostFunction {
  public:
   explicit FullCost(const Parametrisation& form)

@@ -1,25 +1,18 @@
 #pragma once
 
+#include "fit/assembly/constraints.h"
 #include "fit/search/separable.h"
 
 #include <Eigen/Core>
 
 namespace viscard {
 
-// The parameters that constraints speak of (fit/constraints.h).
-enum class ParameterStem { kE0, kEInf, kModulus, kShare, kTime };
-
-struct ParameterName {
-  ParameterStem stem = ParameterStem::kE0;
-  int term = 0;  // from 1; 0: not of a term
-};
-
-// theta = (E_inf, E_i | E0, g_i; ln tau_i; the rest) and how a state follows from it.
+// theta = (E_inf, E_i | E0, g_i; ln tau_i; the others), and the state that follows from it.
 class Parametrisation {
  public:
   Parametrisation(const SpectralModel& model, Eigen::Index n_terms, bool by_shares);
 
-  // Where a parameter stands.
+  // Index of a parameter in theta.
   Eigen::Index position(const ParameterName& name) const;
   Eigen::Index size() const;
   const SpectralModel& model() const { return model_; }
@@ -29,8 +22,8 @@ class Parametrisation {
   // d(coefficients, ln tau, nuisance)/d theta.
   Eigen::MatrixXd slopes(const Eigen::VectorXd& theta) const;
 
-  // What the model itself allows: signs, the range of times, bounds of nuisances. That shares sum
-  // to less than one is no box and not in it.
+  // Bounds of the model itself: signs, range of times, bounds of nuisances. The condition that
+  // shares sum to less than one is not a bound and is not included.
   Eigen::VectorXd lower() const;
   Eigen::VectorXd upper() const;
 
@@ -40,8 +33,8 @@ class Parametrisation {
   bool by_shares_;
 };
 
-// Least squares in all parameters within low <= theta <= high, from the start moved into the box
-// (trust region of Ceres). Where both ends are equal the parameter is held.
+// Least squares in all parameters within low <= theta <= high (trust region of Ceres). The start is
+// moved into the bounds. A parameter with low == high is held.
 SpectralState solve_in_box(const Parametrisation& form, const Eigen::VectorXd& low,
                            const Eigen::VectorXd& high, const SpectralState& start);
 

@@ -9,17 +9,17 @@
 
 namespace viscard {
 
-// The spectrum that was fitted to a model: the path of orders, the choice, noise and covariance.
+// A spectrum fitted to a model: the path of orders, the choice, noise and covariance.
 struct SpectralFit {
   FitOptions options;
   std::vector<SpectralState> path;
   OrderScores scores;
-  SpectralState state;    // the chosen one, polished
+  SpectralState state;    // of the chosen order, polished
   double rss = 0.0;       // weighted, over all samples
   double variance = 1.0;  // of one weighted sample
   Autoregression noise;
   Eigen::MatrixXd covariance;       // of all parameters of the state
-  std::vector<MaterialFlag> notes;  // constraints that were kept
+  std::vector<MaterialFlag> notes;  // about the constraints that were applied
 };
 
 }  // namespace viscard

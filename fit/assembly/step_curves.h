@@ -7,7 +7,7 @@
 
 namespace viscard {
 
-// Fills FitResult::curves with the averages of a step fit.
+// Fills FitResult::curves with the bin averages of a step fit.
 void fill_step_curves(const StepModel& model, const SpectralFit& fit, const std::string& unit,
                       FitResult& result);
 

@@ -11,7 +11,7 @@ struct Point {
   double time_s = 0.0, force_N = 0.0, depth_m = 0.0, count = 0.0;
 };
 
-// Mean of the readings near a depth, or the nearest one if none lies there.
+// Mean of the readings near a depth, or the nearest reading if there are none.
 Point point_near(const std::vector<double>& time_s, const std::vector<double>& force_N,
                  const std::vector<double>& depth_m, double wanted_m, double reach_m) {
   Point point;

@@ -12,7 +12,7 @@
 namespace viscard {
 namespace {
 
-constexpr double kFirstPart = 0.25;  // of a hold left out: the last of the motion and its ringing
+constexpr double kFirstPart = 0.25;  // share of each hold to leave out: motion ends, frame rings
 
 }  // namespace
 
@@ -21,7 +21,7 @@ FrameStiffnessFit fit_frame_stiffness(const BlockPoints& points, double gain_rel
   if (n < 3 || points.position_m.size() != n) {
     throw std::invalid_argument(
         "a frame stiffness needs at least three points of position and "
-        "force in contact, and there are " +
+        "force in contact, but there are " +
         std::to_string(n));
   }
   const auto count = static_cast<double>(n);
@@ -95,7 +95,7 @@ BlockPoints block_points_from_capture(const CapturedRun& run) {
   }
   if (points.force_N.empty()) {
     throw std::runtime_error(
-        "the run holds no phases 'hold' with readings: it is no compliance run");
+        "the run has no 'hold' phases with readings, so it is not a compliance run");
   }
   return points;
 }

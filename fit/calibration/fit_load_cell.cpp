@@ -13,10 +13,10 @@
 namespace viscard {
 namespace {
 
-constexpr double kSame = 1e-6;  // loads that differ by less of the largest are one
+constexpr double kSame = 1e-6;  // relative to the largest load; loads that differ by less are equal
 
 struct Point {
-  int load = 0;  // number of the load step, 0: none
+  int load = 0;  // index of the load step, 0: no load
   bool is_up = true;
   int series = 0;
 };
@@ -30,27 +30,27 @@ void check(const WeightReadings& data) {
         "a calibration needs one reading for each weight, all finite numbers");
   }
   if (!data.reading_se.empty() && data.reading_se.size() != data.reading.size()) {
-    throw std::invalid_argument("there are not as many standard errors as readings");
+    throw std::invalid_argument("the numbers of standard errors and readings differ");
   }
 }
 
-// Which of the different loads each reading belongs to, in which direction it was reached, and in
-// which series.
+// Load step, direction and series of each reading.
 std::vector<Point> points_of(const WeightReadings& data, double largest_N) {
   std::vector<double> loads = data.force_N;
   std::sort(loads.begin(), loads.end());
   const auto is_same = [&](double a, double b) { return std::abs(a - b) <= kSame * largest_N; };
   loads.erase(std::unique(loads.begin(), loads.end(), is_same), loads.end());
   if (loads.size() < 3 || !is_same(loads.front(), 0.0)) {
-    throw std::invalid_argument(
-        std::string("a calibration needs no load and at least two different weights, and there ") +
-        (loads.size() == 1 ? "is " : "are ") + counted(loads.size(), "load") +
-        ". Add weights, and begin with none");
+    throw std::invalid_argument(std::string("a calibration needs readings without load and with at "
+                                            "least two different weights, but there ") +
+                                (loads.size() == 1 ? "is " : "are ") +
+                                counted(loads.size(), "load") +
+                                ". Add weights, and begin without load");
   }
   std::vector<Point> points;
   int series = 0;
   bool has_load = false;
-  bool is_over = false;  // the load came back to none: whatever follows is the next series
+  bool is_over = false;  // the load returned to zero: the next reading begins a new series
   for (std::size_t i = 0; i < data.force_N.size(); ++i) {
     if (is_over) {
       ++series;
@@ -128,14 +128,14 @@ void describe(const Groups& groups, LoadCellFit& fit) {
   }
   fit.nonlinearity = worst / std::abs(fit.full_reading);
   fit.hysteresis = loop / std::abs(fit.full_reading);
-  // The zero at both ends of one series says nothing of the loads between.
+  // The zeros at the ends of one series give no repeatability of the loads in between.
   fit.has_repeatability = freedom > 0 && fit.n_series > 1;
   if (fit.has_repeatability)
     fit.repeatability = std::sqrt(scatter / freedom) / std::abs(fit.full_reading);
 }
 
-// Standard error of one mean reading: by repetition or, failing that, by its own noise or what the
-// line leaves.
+// Standard error of one mean reading: from the repeatability or, without it, from its own noise or
+// the residual of the line.
 double reading_u(const WeightReadings& data, const LoadCellFit& fit) {
   double noise = 0.0;
   for (const double se : data.reading_se) {
@@ -157,10 +157,10 @@ void add_budget(const WeightReadings& data, double sum_xx, LoadCellFit& fit) {
       {"regression", u / std::sqrt(sum_xx) / std::abs(fit.gain),
        fit.has_repeatability ? "repeatability of the readings through the line"
                              : "scatter about the line; one series shows no repeatability"},
-      {"nonlinearity", fit.nonlinearity / std::sqrt(3.0), "largest departure, rectangular"},
+      {"nonlinearity", fit.nonlinearity / std::sqrt(3.0), "largest deviation, rectangular"},
       {"hysteresis", 0.5 * fit.hysteresis / std::sqrt(3.0),
        fit.has_hysteresis ? "half the largest difference, rectangular"
-                          : "not measured: no weight was taken off"},
+                          : "not measured: no weight was removed"},
       {"resolution", data.resolution / full / std::sqrt(12.0), "one digit of a reading"}};
   double squares = 0.0;
   for (const UncertaintyRow& row : fit.budget) squares += row.relative_u * row.relative_u;
@@ -197,7 +197,7 @@ LoadCellFit fit_load_cell(const WeightReadings& data) {
     group.squares += residual * residual;
     ++group.n;
   }
-  // The largest load is reached from below only; it has no pair and closes the loop.
+  // The largest load is reached from below only, so it has no pair for the hysteresis.
   describe(groups, fit);
   add_budget(data, line.sum_xx, fit);
   return fit;

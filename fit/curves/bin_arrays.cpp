@@ -8,15 +8,15 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Lengths of the second and third orthogonal polynomial of a bin and their products with its data.
-// Two samples have no second, three no third.
+// Norms of the second and third orthogonal polynomial of a bin and their products with its data.
+// Bins of two samples have no second polynomial, bins of three no third.
 struct BinBends {
   double n2 = 0.0, n3 = 0.0;
   double data2 = 0.0, data3 = 0.0;
 };
 
 BinBends bends_of(const LogBin& bin) {
-  constexpr double kNoMore = 1e-9;  // of the power's own mean square
+  constexpr double kNoMore = 1e-9;  // relative to the mean square of the power itself
   BinBends bends;
   const double skew = bin.m3 / bin.m2;
   const double square2 = bin.m4 - bin.m2 * bin.m2 - bin.m3 * skew;
@@ -104,7 +104,7 @@ void BinShapes::decay(double rate_1_s, Eigen::Ref<Eigen::VectorXd> value,
   value.segment(n, n) = (e * n2_ * (0.5 * u * u)).matrix();
   value.tail(n) = (e * n3_ * (-u * u * u / 6.0)).matrix();
   if (slope == nullptr) return;
-  // d/d ln tau = -u d/du: x from the exponential, minus the power of u of each part.
+  // d/d ln tau = -u d/du: the exponential contributes a factor x, each part minus its power of u.
   const auto x = u * time_s_;
   slope->resize(3 * n);
   slope->head(n) =

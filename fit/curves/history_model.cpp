@@ -12,13 +12,13 @@ namespace {
 using Index = Eigen::Index;
 constexpr Index kLongHistory = 16384;
 
-// The factors of a step, kept while the step stays the same.
+// Coefficients of one time step, kept while the step stays the same.
 struct StepFactors {
   double dt_s = -1.0;
   double x = 0.0, decay = 1.0, p1 = 1.0, slope = 0.0;
 
   void set(double next_dt_s, double tau_s) {
-    // Times read from text differ by rounding; that is the same step.
+    // Times read from text differ by rounding; treat such steps as equal.
     if (std::abs(next_dt_s - dt_s) <= 1e-10 * std::abs(dt_s)) return;
     dt_s = next_dt_s;
     x = dt_s / tau_s;
@@ -28,7 +28,7 @@ struct StepFactors {
   }
 };
 
-// Depth counted from contact, to the power of the tip.
+// Depth from contact, to the power of the tip.
 double powered(double depth, double power) {
   if (power == 1.0) return depth;
   return depth > 0.0 ? std::pow(depth, power) : 0.0;
@@ -55,7 +55,7 @@ HistoryModel::HistoryModel(HistoryInput input, const FitOptions& options) : in_(
   const bool is_small = count <= kSmallRecord || options.full_data;
   const double ratio = std::pow(10.0, 1.0 / kBinsPerDecade);
   const double zero_s = in_.time_s[in_.contact];
-  // Loading and the first of what follows stay as they are.
+  // Samples of loading, and the first ones after it, are rows of their own.
   const double loaded_s = zero_s + 1.5 * (in_.time_s[end_of_loading(in_.input)] - zero_s);
   for (std::size_t begin = 0; begin < count;) {
     std::size_t end = begin + 1;
@@ -100,7 +100,7 @@ HistoryModel::HistoryModel(HistoryInput input, const FitOptions& options) : in_(
 
 HistoryModel::Onset HistoryModel::onset_at(double contact_input) const {
   if (!in_.contact_input) return {in_.contact, in_.time_s[in_.contact], 0.0};
-  // The last passage of the contact position before the input rises for good.
+  // The last crossing of the contact position before the input stays above it.
   Onset onset{end_of_loading(in_.input), 0.0, contact_input};
   while (onset.first > 0 && in_.input[onset.first - 1] > contact_input) --onset.first;
   const std::size_t first = onset.first;
@@ -123,12 +123,13 @@ void HistoryModel::fill_equilibrium(const Onset& onset, Column into) const {
   }
 }
 
-// Step by step, with the derivatives by ln tau and by the contact position where they are wanted.
+// Recursion over the samples, with the derivatives by ln tau and by the contact position on
+// request.
 void HistoryModel::fill_term(const Onset& onset, double tau_s, Column into) const {
   const double c = in_.factor;
   StepFactors step;
   double q = 0.0, slope = 0.0;
-  double q_by_contact = 0.0;  // for other tips than flat
+  double q_by_contact = 0.0;  // used for spheres and cones
   double previous_s = onset.time_s, previous = 0.0, previous_slope = 0.0;
   for (std::size_t k = onset.first; k < in_.time_s.size(); ++k) {
     step.set(in_.time_s[k] - previous_s, tau_s);

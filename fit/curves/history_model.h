@@ -10,30 +10,29 @@
 
 namespace viscard {
 
-// Response to a measured history of depth or strain, linear between samples   (fit/README.md, eq.
-// 2):
+// Response to a measured history of depth or strain, linear between samples (fit/README.md, eq. 2):
 //   y(t) = c int E(t - s) d(input^power) + offset [+ drift t]
-// by the exact recursion of models/hereditary.h, one pass over all samples for each relaxation
-// time. Every sample up to the end of loading is a row; later ones are averaged in log time, the
-// data and the basis alike.
+// The recursion of models/material/hereditary.h is exact and takes one pass over all samples for
+// each relaxation time. Every sample up to the end of loading is a row. Later samples are averaged
+// in log time, the data and the basis alike.
 struct HistoryInput {
   std::vector<double> time_s;  // sorted
   std::vector<double> input;   // depth in m, or strain
   std::vector<double> output;  // force in N, or stress in Pa
-  double factor = 1.0;         // c; moduli come out in output/(c input^power)
+  double factor = 1.0;         // c; moduli have the unit output/(c input^power)
   // 1.5 for a sphere, 2 for a cone. input^power is then taken as linear between samples, and the
-  // input must not fall: Lee & Radok (models/punch_contact.h).
+  // input must not fall: Lee & Radok (models/contact/punch_contact.h).
   double power = 1.0;
   std::size_t contact = 0;  // first sample that may be in contact; before it the input counts as 0
-  // Contact position as a nuisance, counted in the input; none: contact at input 0.
+  // Contact position as a nuisance, in the unit of the input; none: contact at input 0.
   std::optional<double> contact_input;
   double contact_half_width = 0.0;
   bool with_offset = false;
   bool with_drift = false;
 };
 
-// First sample within two hundredths of the largest input: where loading ends, whatever drifts
-// later.
+// First sample whose input is at least 98 % of the largest: the end of loading, even if the input
+// drifts later.
 std::size_t end_of_loading(const std::vector<double>& input);
 
 class HistoryModel final : public SpectralModel {
@@ -60,14 +59,14 @@ class HistoryModel final : public SpectralModel {
   ModelColumns sample_columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                               bool with_slopes) const;
   Eigen::MatrixXd averaged(const Eigen::MatrixXd& samples) const;
-  // The first sample in contact, the time between samples at which contact falls, and the input
-  // there: the history counts from 0 at that time.
+  // The first sample in contact, the time between samples at which contact begins, and the input
+  // there. The history counts from 0 at that time.
   struct Onset {
     std::size_t first = 0;
     double time_s = 0.0, input = 0.0;
   };
   Onset onset_at(double contact_input) const;
-  // One number per sample each; derivatives that are not wanted: nullptr.
+  // One number per sample each; nullptr for derivatives that are not needed.
   struct Column {
     double *value, *by_ln_tau, *by_contact;
   };

@@ -10,7 +10,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// A term's value and its derivative by ln tau, at u = ln(t/(a tau)) or -ln(w a tau): the derivative
+// A term's value and its derivative by ln tau, at u = ln(t/(a tau)) or -ln(w a tau). The derivative
 // by ln a is the same.
 struct Response {
   double value = 0.0, slope = 0.0;
@@ -53,7 +53,7 @@ MasterModel::MasterModel(const std::vector<MasterSegment>& segments, std::size_t
     const bool is_dma = !segment.loss.empty();
     Index shift = -1;
     if (k != reference) {
-      constexpr double kReach = 9.0;  // four decades about the start
+      constexpr double kReach = 9.0;  // four decades on either side of the start value
       shift = n_nuisances();
       nuisances_.push_back(
           {"ln_a_" + std::to_string(k + 1), start[k], start[k] - kReach, start[k] + kReach, 1.0});

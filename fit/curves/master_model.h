@@ -9,8 +9,8 @@
 
 namespace viscard {
 
-// One temperature's worth of rows of a master curve. argument: time in s since the step, or
-// frequency in Hz with `loss` beside `value` (storage modulus).
+// Rows of a master curve at one temperature. argument: time in s since the step, or frequency in Hz
+// if `loss` is given beside `value` (storage modulus).
 struct MasterSegment {
   double temperature_C = 0.0;
   std::vector<double> argument;
@@ -18,10 +18,12 @@ struct MasterSegment {
   std::vector<double> loss;  // empty: relaxation
 };
 
-// All segments under one spectrum, each with its own factor on time (fit/README.md, sect. 9):
-//   E_k(t) = E(t/a_k),   E'_k, E''_k(w) = E', E''(w a_k)
-// The ln a_k of every segment but the reference are nuisances. Rows are relative to their own
-// value, but to no less than 1e-3 of the largest: master curves span decades of modulus.
+// All segments share one spectrum, and each has its own factor on time (fit/README.md,
+// "Temperatures"):
+//   E_k(t) = E(t/a_k),   E'_k(w) = E'(w a_k),   E''_k(w) = E''(w a_k)
+// The ln a_k of every segment but the reference are nuisances. The weight of a row is relative to
+// its own value, but to at least 1e-3 of the largest, because master curves span decades of
+// modulus.
 class MasterModel final : public SpectralModel {
  public:
   // start: ln a_k of all segments, 0 for the reference.
@@ -37,7 +39,7 @@ class MasterModel final : public SpectralModel {
   struct Row {
     Kind kind = Kind::kRelaxation;
     double ln_argument = 0.0;  // ln t, or -ln(2 pi f)
-    Eigen::Index shift = -1;   // which nuisance; -1: the reference
+    Eigen::Index shift = -1;   // index of the nuisance; -1: the reference
   };
   std::vector<Row> rows_;
   Eigen::VectorXd sigma_;

@@ -8,7 +8,7 @@
 
 namespace viscard {
 
-// The same model of other data. The base must outlive it.
+// The same model with other data. The base must outlive it.
 class ModelVariant : public SpectralModel {
  public:
   ModelVariant(const SpectralModel& base, Eigen::VectorXd data) : base_(base) {
@@ -32,9 +32,9 @@ class ModelVariant : public SpectralModel {
 };
 
 // The same model with one more row, weight (E_inf - value) = 0, that holds the first common column
-// (the equilibrium modulus) at a value: a weight of 1e4 over its standard error, in units of the
-// rows' noise, leaves it free by less than 1e-8 of a change. The row's own part of the sum of
-// squares is as small.
+// (the equilibrium modulus) at a value. With a weight of 1e4 over its standard error, in units of
+// the rows' noise, E_inf departs from the value by less than 1e-8 of the change. The row's own
+// contribution to the sum of squares is as small.
 class PinnedEquilibrium final : public ModelVariant {
  public:
   PinnedEquilibrium(const SpectralModel& base, double value, double weight)

@@ -28,7 +28,8 @@ double median_force_N(const IndentationData& data, double from_s, double to_s, d
   return values.empty() ? otherwise : median(std::move(values));
 }
 
-// First time after from_s at which the force passes a level, between samples by straight line.
+// First time after from_s at which the force crosses a level, interpolated linearly between
+// samples.
 double crossing_s(const IndentationData& data, double from_s, double level_N, bool rising) {
   for (std::size_t i = 1; i < data.time_s.size(); ++i) {
     if (data.time_s[i] < from_s) continue;
@@ -99,7 +100,7 @@ StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start
 
   if (with_equilibrium_) common_.push_back({"E_inf", false});
   common_.push_back({"offset_N", true});
-  // Without a stretch out of contact after the test, drift and slow relaxation are one.
+  // Without samples out of contact after the test, drift and slow relaxation cannot be separated.
   with_drift_ = options.with_drift && !time_s_.empty() && time_s_.back() > data.contact_to_s;
   if (with_drift_) common_.push_back({"drift_N_s", true});
   if (with_drift_) common_.push_back({"creep_N_m_s", true});
@@ -112,8 +113,8 @@ StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start
   const StageMove& ramp = moves_.front();
   const double way_m = ramp.to_m - ramp.from_m;
   const double step_m = std::min(std::abs(way_m), ramp.speed_m_s * dt_s);
-  // Anywhere on the ramp's way, whatever the rig took for the surface; at its very end there would
-  // be no ramp.
+  // Contact may lie anywhere on the ramp, independent of the surface position that the rig assumed,
+  // but not at its very end, which would leave no ramp.
   const double last_m = ramp.to_m - 1e-3 * way_m;
   nuisances_.push_back({"contact_m", start[n_moves], std::min(ramp.from_m, last_m),
                         std::max(ramp.from_m, last_m), step_m});
@@ -122,7 +123,7 @@ StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start
   ln_tau_max_ = std::log(3.0 * (data.contact_to_s - data.contact_from_s));
 }
 
-// The moves as the nuisances put them, and what each does to each branch.
+// The moves with the nuisances applied, and the response of each branch to each move.
 struct StageModel::Drive {
   std::vector<StageMove> moves;
   std::vector<StageResponse> responses;
@@ -150,7 +151,7 @@ StageModel::Drive StageModel::drive(const Eigen::VectorXd& ln_tau,
   return drive;
 }
 
-// The part of the way z in one row of the columns that go with it.
+// Adds a depth to the columns that are proportional to it: E_inf and creep.
 void StageModel::add_depth(Eigen::MatrixXd& matrix, Index row, double depth_m) const {
   const Index offset = with_equilibrium_ ? 1 : 0;
   if (with_equilibrium_) matrix(row, 0) += depth_m;
@@ -159,7 +160,7 @@ void StageModel::add_depth(Eigen::MatrixXd& matrix, Index row, double depth_m) c
   }
 }
 
-// What one move, begun before the sample, adds to its row.
+// Adds the effect of one move, which began before the sample, to the sample's row.
 void StageModel::add_move(const Drive& drive, std::size_t m, Index row, bool with_slopes,
                           ModelColumns& out) const {
   const double t = time_s_[static_cast<std::size_t>(row)];

@@ -12,25 +12,26 @@
 namespace viscard {
 
 // Force of a punch driven by known stage moves through a frame spring. Specimen and frame in series
-// are again a generalised Maxwell solid, so the force follows the *stage* by
+// are again a generalised Maxwell solid, so the force follows the position of the *stage*:
 //   F(t) = int R(t - s) dz(s) + offset + drift t + creep t z,   z counted from contact
-// (fit/README.md, eq. 4) with stiffnesses R_inf, R_i in N/m; specimen_series() takes the frame out
-// afterwards. The input z is free of noise, and the residual is the force noise itself. Drift of
-// the zero is seen out of contact, creep of the cell under load (a share of the force) in the long
-// hold.
+// (fit/README.md, eq. 4) with stiffnesses R_inf, R_i in N/m. specimen_series() removes the frame
+// afterwards. The input z has no noise, so the residual is the force noise itself. The samples out
+// of contact determine the drift of the zero; the long hold determines the creep of the load cell
+// under load (a share of the force).
 //
-// Nuisances: one start time per move (known only roughly on the amplifier's clock) and the contact
-// position; all are sharply seen in the kinks of the force. Out of contact the force is zero.
+// Nuisances: one start time per move (only roughly known on the amplifier's clock) and the contact
+// position. The kinks of the force determine all of them sharply. Out of contact the force is zero.
 class StageModel final : public SpectralModel {
  public:
-  // start: of the nuisances, shifts first, in s and m; half-widths of their bounds from the data.
+  // nuisance_start: shifts of the starts first (s), then the contact position (m). The half-widths
+  // of their bounds come from the data.
   StageModel(const IndentationData& data, const Eigen::VectorXd& nuisance_start,
              const StageNoise& noise, const FitOptions& options);
 
   ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                        bool with_slopes) const override;
 
-  // True for samples while the stage moves (by the start values).
+  // True for samples taken while the stage moves, according to the start values.
   const std::vector<bool>& is_moving() const { return is_moving_; }
   bool has_drift() const { return with_drift_; }
   const std::vector<bool>& is_out_of_contact() const { return is_out_of_contact_; }
@@ -49,13 +50,13 @@ class StageModel final : public SpectralModel {
   std::vector<bool> is_moving_;
   std::vector<bool> is_out_of_contact_;
   Eigen::VectorXd sigma_N_;
-  double ramp_s_ = 0.0;  // drifts count from here
+  double ramp_s_ = 0.0;  // time from which drift and creep count
   bool with_drift_ = false;
   bool with_equilibrium_ = true;
 };
 
-// Start values of StageModel's nuisances from the force curve alone: where contact_onset() sees the
-// ramp begin and touch, and when each later move passes half its change of force.
+// Start values of StageModel's nuisances from the force curve alone: ramp start and contact from
+// contact_onset(); each later move starts where the force passes half of its change.
 Eigen::VectorXd nuisance_start(const IndentationData& data);
 
 }  // namespace viscard

@@ -13,8 +13,8 @@ struct Memory {
   double slope_m = 0.0;
 };
 
-// One step with velocity linear from v0 to v1, and its derivative: d phi_1/d ln tau = x (phi_1 -
-// phi_2), d phi_2/d ln tau = 2 phi_2 - phi_1.
+// One step with velocity linear from v0 to v1, and its derivative. Uses d phi_1/d ln tau = x (phi_1
+// - phi_2), d phi_2/d ln tau = 2 phi_2 - phi_1.
 Memory stepped(const Memory& start, double dt_s, double v0, double v1, double tau_s) {
   const double x = dt_s / tau_s;
   const double decay = std::exp(-x);
@@ -70,7 +70,7 @@ BranchResponse StageResponse::at(const Branch& branch, double time_s) const {
 }
 
 double time_at_position_s(const StageMove& move, double position) {
-  // Position is monotonic during the move; bisection to the last bit.
+  // Position is monotonic during the move; bisect to the last bit.
   const std::vector<double> knots = knots_s(move);
   double low = knots.front();
   double high = knots.back();

@@ -6,23 +6,23 @@
 
 namespace viscard {
 
-// What one move of a stage does to one Maxwell branch: q(t) = int exp(-(t - s)/tau) v(s) ds over
-// the part of the move after `from_s`, in closed form at any time, with its derivatives.
+// Response of one Maxwell branch to one stage move: q(t) = int exp(-(t - s)/tau) v(s) ds over the
+// part of the move after `from_s`, in closed form at any time, with its derivatives.
 struct BranchResponse {
   double value_m = 0.0;   // q
   double slope_m = 0.0;   // dq/d ln tau
   double rate_m_s = 0.0;  // dq/dt
 };
 
-// The velocity of a move is linear between its knots, so that a step of length dt from velocity v_0
-// to v_1 takes q to exp(-x) q + dt [v_0 phi_1(x) + (v_1 - v_0) phi_2(x)], x = dt/tau
-// (fit/README.md, eq. 3).
+// The velocity of a move is linear between its knots. A step of length dt from velocity v_0 to v_1
+// takes q to exp(-x) q + dt [v_0 phi_1(x) + (v_1 - v_0) phi_2(x)], x = dt/tau (fit/README.md, eq.
+// 3).
 class StageResponse {
  public:
-  // The move as it is, but pressing only from time from_s on (the contact).
+  // The same move, but it presses only from time from_s on (the contact).
   StageResponse(const StageMove& move, double from_s);
 
-  // Branch memory at the knots for one relaxation time.
+  // Response of the branch at the knots, for one relaxation time.
   struct Branch {
     double tau_s = 0.0;
     std::vector<double> value_m, slope_m;
@@ -39,7 +39,7 @@ class StageResponse {
   std::vector<double> velocity_m_s_;
 };
 
-// The time at which a move passes a position between its ends.
+// Time at which a move passes a position between its ends.
 double time_at_position_s(const StageMove& move, double position_m);
 
 }  // namespace viscard

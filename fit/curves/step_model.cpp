@@ -11,10 +11,9 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Below this many samples averaging gains nothing.
-// Autocorrelation is taken from at most this many consecutive samples.
+// The autocorrelation is estimated from at most this many consecutive samples.
 constexpr std::size_t kLongSeries = 8192;
-// Enough rows for the samples: averages in log time, or each for itself.
+// Averages in log time for long records, otherwise one bin per sample.
 std::vector<LogBin> bins_for(std::span<const double> time_s, std::span<const double> value,
                              const FitOptions& options) {
   const bool is_alone = time_s.size() <= kSmallRecord || options.full_data;
@@ -39,14 +38,14 @@ StepModel::StepModel(std::span<const double> time_s, std::span<const double> val
   if (shape == StepShape::kCreep && is_liquid_) common_.push_back({"fluidity", false});
   may_be_negative_ = options.allow_negative;
 
-  // Times below the sampling or beyond the record are still allowed by a factor of three, but none
-  // of which less than exp(-3) is left at the first sample: its modulus could be anything.
+  // Times may lie outside sampling and record by a factor of three. The lower end keeps exp(-3) of
+  // a term at the first sample; the modulus of a faster term would be undetermined.
   sampling_s_ = shortest_step_s(time_s_);
   ln_tau_min_ = std::log(std::max(time_s_.front(), sampling_s_) / 3.0);
   ln_tau_max_ = std::log(time_s_.back() * 3.0);
 }
 
-// The same model of wider bins; nothing of what those hide.
+// The same model with wider bins. The information within these bins is dropped.
 StepModel::StepModel(const StepModel& fine, double bins_per_decade)
     : SpectralModel(fine),
       time_s_(fine.time_s_),
@@ -103,7 +102,7 @@ double StepModel::hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorX
   for (const LogBin& bin : bins_) within += bin.count * bin.value_m2;
   const Index n = shapes_.n_rows();
   if (n == 0) return within;
-  // What is in the shapes that are known goes by its residual, the rest as it is.
+  // The known shapes contribute their residual; the rest of the variation within bins is unchanged.
   Eigen::VectorXd residual = shapes_.data(), column(n);
   const bool is_creep = shape_ == StepShape::kCreep;
   if (is_creep && is_liquid_) residual -= coefficients[1] * shapes_.line();
@@ -144,7 +143,7 @@ std::unique_ptr<SpectralModel> StepModel::coarse() const {
 Eigen::VectorXd StepModel::residual_series(const Eigen::VectorXd& ln_tau,
                                            const Eigen::VectorXd& /*nuisance*/,
                                            const Eigen::VectorXd& coefficients) const {
-  // The end of a long record, where the model is smooth and the sampling even.
+  // The end of a long record, where the model is smooth and the sampling is even.
   const std::size_t count = std::min(time_s_.size(), kLongSeries);
   const std::size_t first = time_s_.size() - count;
   const double* time_s = time_s_.data() + first;

@@ -15,12 +15,12 @@ namespace viscard {
 
 enum class StepShape { kRelaxation, kCreep };
 
-// Response to a step at t = 0: relaxation, value = E_inf + sum E_i exp(-t/tau_i), or creep,
-// value = J_g + sum J_j (1 - exp(-t/lambda_j)) [+ t/eta of a liquid]   (fit/README.md, eq. 5).
-// Long records are averaged in log time, the data and the model alike.
+// Response to a step at t = 0: relaxation, value = E_inf + sum E_i exp(-t/tau_i), or creep, value =
+// J_g + sum J_j (1 - exp(-t/lambda_j)) [+ t/eta for a liquid] (fit/README.md, eq. 5). Long records
+// are averaged in log time, the data and the model alike.
 class StepModel final : public SpectralModel {
  public:
-  // Times must be sorted, all values finite; both must outlive the model, which does not copy them.
+  // Times must be sorted and all values finite. The model does not copy them; both must outlive it.
   StepModel(std::span<const double> time_s, std::span<const double> value, StepShape shape,
             const FitOptions& options);
 

@@ -32,7 +32,7 @@ Interval middle_95(std::vector<double> values) {
   return {at(0.025), at(0.975)};
 }
 
-// What was drawn, one list per quantity.
+// The drawn values, one list per quantity.
 struct Drawn {
   std::vector<double> E0, E_inf, sum_g;
   std::vector<std::vector<double>> modulus, g, tau;
@@ -61,7 +61,7 @@ void bootstrap_intervals(const SpectralModel& model, const SpectralState& state,
       model.columns(state.ln_tau, state.nuisance, false).values * state.coefficients;
   const Index rows = model.n_rows();
   const Index n_parameters = state.coefficients.size() + state.n_terms() + model.n_nuisances();
-  // Residuals of a fit are smaller than the noise by what its parameters took.
+  // The residuals of a fit are smaller than the noise; correct for the degrees of freedom used.
   const double grow = std::sqrt(static_cast<double>(rows) /
                                 static_cast<double>(std::max<Index>(1, rows - n_parameters)));
   const Eigen::VectorXd residual = grow * (model.data() - fitted);
@@ -81,7 +81,7 @@ void bootstrap_intervals(const SpectralModel& model, const SpectralState& state,
     const PronySeries series = series_from_state(refitted);
     if (series.terms.size() == result.terms.size()) drawn.add(series);
   }
-  if (drawn.E0.size() < 20) return;  // no percentiles of so few
+  if (drawn.E0.size() < 20) return;  // too few values for percentiles
   result.E0_interval_95 = middle_95(drawn.E0);
   result.E_inf_interval_95 = middle_95(drawn.E_inf);
   result.sum_g_95 = middle_95(drawn.sum_g);

@@ -10,7 +10,7 @@ Interval combined_95(const Interval& interval, double value, double relative_u) 
   const double part = kNormal95 * relative_u * std::abs(value);
   const Interval wide{value - std::hypot(std::max(0.0, value - interval.low), part),
                       value + std::hypot(std::max(0.0, interval.high - value), part)};
-  // What could not be negative before cannot be now.
+  // A lower end that was not negative stays so.
   return interval.low >= 0.0 ? Interval{std::max(0.0, wide.low), wide.high} : wide;
 }
 

@@ -26,34 +26,34 @@ struct FittedTerm {
 };
 
 struct NoiseEstimate {
-  double sigma = 0.0;      // standard deviation of one sample, unit of the fitted column
+  double sigma = 0.0;      // standard deviation of one sample, in the unit of the fitted column
   double inflation = 1.0;  // variance factor for autocorrelation and misfit
 };
 
-// Modulus from two points of the loading line, P = E d h/(1 - nu^2) as in the seed's method:
-// ignores relaxation during the ramp, and the layer unless contact carries it. A cross-check that
-// names its bias, beside the fit.
+// Modulus from two points of the loading curve, P = E d h/(1 - nu^2). It ignores relaxation during
+// the ramp, and the layer's thickness unless the contact includes it. A cross-check with a known
+// bias, reported beside the fit.
 struct TwoPointModulus {
   double modulus_Pa = 0.0;
   double se_Pa = 0.0;
-  double half_space_modulus_Pa = 0.0;  // the same without layer correction: "apparent"
+  double half_space_modulus_Pa = 0.0;  // without layer correction: "apparent"
   std::string bias;                    // one sentence
 };
 
-// For plots: data and fit at the same (possibly binned) times.
+// Data and fit for plots, at the same (possibly averaged) times.
 struct FitCurves {
   std::vector<double> time_s;    // frequency_Hz for kDma
   std::vector<double> measured;  // unit of the fitted column
   std::vector<double> fitted;
   std::vector<double> sigma;  // standard deviation of each binned value
   std::string unit;           // "N", "Pa", "1/Pa"
-  // Where time_s a new motion begins (contact, unloading ...): a logarithmic time axis starts anew
-  // there. Empty: at 0 only. All times lie after the first of them.
+  // Times at which a new motion begins (contact, unloading ...); a logarithmic time axis restarts
+  // there. Empty: at 0 only. All time_s lie after the first of them.
   std::vector<double> motion_start_s;
 };
 
-// How much worse the data are described when one parameter is held at a value and all others are
-// fitted again: rise of the sum of squares over the variance of the noise (3.84 ends the interval).
+// How much worse the fit becomes if one parameter is held at a value and all others are fitted
+// again: rise of the sum of squares over the variance of the noise (3.84 ends the interval).
 struct ProfileCurve {
   std::string parameter;      // "E_inf", "ln_tau_1" ...
   std::vector<double> value;  // ascending; Pa, or ln s
@@ -67,7 +67,7 @@ struct FitResult {
   double E0_Pa = 0.0, E_inf_Pa = 0.0;
   double E0_se_Pa = 0.0, E_inf_se_Pa = 0.0;
   Interval E0_interval_95, E_inf_interval_95;
-  double sum_g = 0.0;  // 1 - E_inf/E0: the share of the modulus that relaxes
+  double sum_g = 0.0;  // 1 - E_inf/E0, the share of the modulus that relaxes
   Interval sum_g_95;
   std::vector<FittedTerm> terms;
   double rss = 0.0;
@@ -77,30 +77,31 @@ struct FitResult {
   NoiseEstimate noise;
   std::vector<std::string> covariance_parameters;  // e.g. "E_inf_Pa", "E_1_Pa", ..., "ln_tau_1"
   Eigen::MatrixXd covariance;
-  double systematic_relative = 0.0;  // of all moduli together: geometry, calibration, frame
-  // Standard uncertainty of all moduli together from the load cell's gain, as it may have drifted
-  // before contact by the record's own evidence; the errors and intervals above hold it already.
+  double systematic_relative = 0.0;  // common to all moduli: geometry, calibration, frame
+  // Relative standard uncertainty, common to all moduli, of the load cell's gain: its possible
+  // drift before contact according to the record itself. The errors and intervals above include it.
   double gain_drift_relative = 0.0;
   double fit_from_s = 0.0, fit_to_s = 0.0;
-  double fastest_s =
-      0.0;  // duration of the quickest loading; the modulus before it is extrapolated
+  // Duration of the fastest loading; the modulus before that time is extrapolated.
+  double fastest_s = 0.0;
   std::optional<TwoPointModulus> two_point;
   std::optional<double> contact_position_m;
   std::size_t n_spikes = 0;    // samples left out as spikes
-  std::size_t n_left_out = 0;  // samples left out because they were not numbers
+  std::size_t n_left_out = 0;  // rows left out because a value is not a finite number
   bool is_converged = true;    // of the chosen order
-  bool is_trustworthy =
-      true;  // false: not converged, saturated, a gap in the ramp (flags say which)
-  std::vector<ProfileCurve> profiles;  // with FitOptions::with_profiles
-  int n_bootstrap = 0;                 // resamples behind the intervals; 0: from the covariance
+  // False: not converged, saturated, gap in the ramp ... (the flags name the cause).
+  bool is_trustworthy = true;
+  std::vector<ProfileCurve> profiles;  // if FitOptions::with_profiles
+  int n_bootstrap = 0;                 // resamples for the intervals; 0: from the covariance
   FitCurves curves;
 };
 
-// An interval about a value with a relative standard uncertainty added to both sides in quadrature.
+// An interval about a value, with a relative standard uncertainty added to both sides in
+// quadrature.
 Interval combined_95(const Interval& interval, double value, double relative_u);
 
-// The material a fit describes, without provenance. Throws std::invalid_argument if the fit is of
-// stiffnesses (no geometry was given).
+// The material that a fit describes, without provenance. Throws std::invalid_argument if the fit is
+// of stiffnesses (no geometry was given).
 Material material_from_fit(const FitResult& fit, double nu, double rho_kg_m3);
 
 }  // namespace viscard

@@ -25,7 +25,7 @@ void flag_time(const FittedTerm& term, int n, const TestWindow& window, FitResul
   if (window.sampling_s > 0.0 && term.tau_s < 3.0 * window.sampling_s) {
     add("tau-below-sampling", tau + "is below three sampling intervals (" +
                                   number(3.0 * window.sampling_s) +
-                                  " s): time and modulus are a guess");
+                                  " s): time and modulus are not reliable");
   }
   if (window.ramp_s > 0.0 && term.tau_s < 0.2 * window.ramp_s) {
     add("tau-below-ramp", tau + "is below a fifth of the ramp (" + number(0.2 * window.ramp_s) +
@@ -52,7 +52,7 @@ void judge(FitResult& result) {
     add_defect(result, "E0-unknown",
                "the 95 % interval of E0 (" + number(result.E0_interval_95.low) + " to " +
                    number(result.E0_interval_95.high) +
-                   ") reaches zero: the data do not tell what it is. Ask for fewer terms");
+                   ") reaches zero: the data do not determine E0. Use fewer terms");
   }
   for (const MaterialFlag& flag : result.flags) {
     if (is_defect(flag.name)) result.is_trustworthy = false;
@@ -66,23 +66,24 @@ void add_defect(FitResult& result, const std::string& name, const std::string& t
 
 void flag_misfit(double sigma, double quiet_sigma, std::size_t n_quiet, double peak,
                  FitResult& result) {
-  constexpr double kTimes = 10.0;        // noise of the cell under load is never that much larger
-  constexpr double kShareOfPeak = 1e-3;  // steps and backlash of a good stage leave less than that
+  constexpr double kTimes = 10.0;        // a cell's noise under load is never this much larger
+  constexpr double kShareOfPeak = 1e-3;  // steps and backlash of a good stage leave less than this
   constexpr std::size_t kFewest = 10;
   if (n_quiet < kFewest || sigma <= kTimes * quiet_sigma || sigma <= kShareOfPeak * peak) return;
   add_defect(result, "misfit",
-             "the fit leaves " + number(sigma) + " N at each sample, the noise out of contact is " +
-                 number(quiet_sigma) +
-                 " N: something happened that the model does not know (lost steps, slip, a wrong "
-                 "depth). Look at the curve, then repeat the run");
+             "the residual is " + number(sigma) +
+                 " N per sample, but the noise out of contact is " + number(quiet_sigma) +
+                 " N: the record contains something that the model does not describe (lost steps, "
+                 "slip, a wrong depth). Look at the curve, then repeat the run");
 }
 
 void add_spikes(FitResult& result, std::size_t count) {
   result.n_spikes = count;
   if (count == 0) return;
-  result.flags.push_back({"spikes-left-out", 0,
-                          counted(count, "sample") + " far from both neighbours left out as " +
-                              (count == 1 ? "a spike" : "spikes")});
+  result.flags.push_back(
+      {"spikes-left-out", 0,
+       counted(count, "sample") + " far from both neighbours " +
+           (count == 1 ? "was left out as a spike" : "were left out as spikes")});
 }
 
 void add_identifiability_flags(const SpectralModel& model, const SpectralState& state,
@@ -97,13 +98,12 @@ void add_identifiability_flags(const SpectralModel& model, const SpectralState& 
   for (Index i = 0; i < n_terms; ++i) {
     const int n = static_cast<int>(i) + 1;
     const double ln_tau = state.ln_tau[i];
-    constexpr double kTouch = 1e-6;
-    if (ln_tau < model.ln_tau_min() + kTouch || ln_tau > model.ln_tau_max() - kTouch) {
+    if (model.is_shortest(ln_tau) || model.is_longest(ln_tau)) {
       result.flags.push_back(
           {"on-bound", n,
            "term " + std::to_string(n) +
-               ": its time went to the end of the range "
-               "that the record allows; the modulus there has no time of its own"});
+               ": its time is at the end of the range that the record can show, so neither time "
+               "nor modulus is determined"});
     }
     for (Index j = i + 1; j < n_terms; ++j) {
       const bool strong = std::abs(correlation(covariance, first + i, first + j)) > kStrong;
@@ -111,7 +111,7 @@ void add_identifiability_flags(const SpectralModel& model, const SpectralState& 
       result.flags.push_back(
           {"terms-correlated", n,
            "terms " + std::to_string(n) + " and " + std::to_string(j + 1) +
-               ": their moduli are known only together (correlation above 0.99)"});
+               ": only their moduli together are determined (correlation above 0.99)"});
     }
     for (Index c = 0; c < first; ++c) {
       const std::string& name = model.common()[static_cast<std::size_t>(c)].name;
@@ -119,12 +119,12 @@ void add_identifiability_flags(const SpectralModel& model, const SpectralState& 
       if (!is_drift || std::abs(correlation(covariance, first + i, c)) <= kStrong) continue;
       result.flags.push_back(
           {"confused-with-drift", n,
-           "term " + std::to_string(n) + ": cannot be told from drift of the force"});
+           "term " + std::to_string(n) + ": cannot be separated from drift of the force"});
     }
   }
   if (!result.is_converged) {
     add_defect(result, "not-converged",
-               "the search for the best times did not settle; try fewer terms with --terms");
+               "the search for the best times did not converge; try fewer terms with --terms");
   }
 }
 

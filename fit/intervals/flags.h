@@ -8,36 +8,37 @@
 
 namespace viscard {
 
-// What the test could show at all, for judging each term.
+// Limits of what the test can show, for judging each term.
 struct TestWindow {
   double sampling_s = 0.0;          // shortest interval between samples; 0: unknown
   double ramp_s = 0.0;              // duration of loading; 0: a step
-  double from_s = 0.0, to_s = 0.0;  // since loading began
+  double from_s = 0.0, to_s = 0.0;  // since the start of loading
 };
 
-// Adds the identifiability flags of FitResult (fit/README.md, sect. 6): tau-below-sampling,
+// Adds the identifiability flags of FitResult (fit/intervals/README.md): tau-below-sampling,
 // tau-below-ramp, tau-beyond-window, modulus-may-be-zero, terms-correlated, on-bound,
 // confused-with-drift, not-converged. Only the last makes a result untrustworthy.
 void add_identifiability_flags(const SpectralModel& model, const SpectralState& state,
                                const Eigen::MatrixXd& covariance, const TestWindow& window,
                                FitResult& result);
 
-// What holds of every kind of fit: E0 whose interval reaches zero is no result (E0-unknown), and
-// notes that are defects count.
+// Checks that apply to every kind of fit: an interval of E0 that reaches zero makes the result
+// untrustworthy (E0-unknown), and so do notes that are defects.
 void judge(FitResult& result);
 
-// Says how many samples were left out as spikes, if any.
+// Adds the flag with the number of samples left out as spikes, if there are any.
 void add_spikes(FitResult& result, std::size_t count);
 
-// One of the flags that make the whole result untrustworthy (models/fit_defects.h).
+// One of the flags that make the whole result untrustworthy (models/material/fit_defects.h).
 inline constexpr const char* kContradictsData = "contradicts-data";
 
-// A flag of that kind.
+// Adds a flag that makes the whole result untrustworthy.
 void add_defect(FitResult& result, const std::string& name, const std::string& text);
 
-// The model does not describe the record: what it leaves is many times the noise seen out of
-// contact, and no longer small beside the force (misfit, a defect). sigma: of what is left, of one
-// sample; quiet_sigma: out of contact, from n_quiet samples; peak: largest force. In one unit.
+// Adds the defect misfit if the model does not describe the record: its residual is many times the
+// noise out of contact and not small compared with the force. sigma: residual of one sample;
+// quiet_sigma: noise out of contact, from n_quiet samples; peak: largest force. All in the same
+// unit.
 void flag_misfit(double sigma, double quiet_sigma, std::size_t n_quiet, double peak,
                  FitResult& result);
 

@@ -13,22 +13,23 @@ namespace viscard {
 namespace {
 
 using Index = Eigen::Index;
-constexpr double kChiSquare95 = 3.841458820694124;
-constexpr double kPinned = 1e4;  // fit/model_variant.h
-constexpr int kMostSteps = 16;   // of half a standard error, on either side
+constexpr double kPinned = 1e4;  // see fit/curves/model_variant.h
+constexpr int kMostSteps = 16;   // half standard errors on either side
 
 struct Axis {
   double best = 0.0, step = 0.0, low = 0.0, high = 0.0;
 };
 
-// What holding the parameter at a value costs, and what the material's own parameter is there.
+// Rise of the sum of squares with the parameter held at a value, and the material's own parameter
+// there.
 struct Point {
   double rise = 0.0, shown = 0.0;
 };
 using Hold = std::function<Point(double)>;
 
-// Walks from the estimate to one side until the rise is passed or the bound reached. `hold` fits
-// all others with the parameter held, starting where its last call ended.
+// Steps from the estimate to one side until the rise exceeds its limit or the bound is reached.
+// `hold` fits all other parameters with this one held, starting from the result of its previous
+// call.
 double walk(const Axis& axis, double sign, double shown_best, const Hold& hold,
             ProfileCurve& curve) {
   double last = shown_best;
@@ -41,7 +42,7 @@ double walk(const Axis& axis, double sign, double shown_best, const Hold& hold,
     const double root = std::sqrt(std::max(0.0, at.rise));
     curve.value.push_back(at.shown);
     curve.rise.push_back(root * root);
-    if (root >= wanted) {  // its square root is nearly linear
+    if (root >= wanted) {  // interpolate the square root, which is nearly linear
       return last + (at.shown - last) * (wanted - last_root) / std::max(root - last_root, 1e-300);
     }
     if (value == bound) return at.shown;

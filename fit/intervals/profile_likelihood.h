@@ -8,16 +8,20 @@
 
 namespace viscard {
 
-// Profile likelihood of E_inf and of every relaxation time: the parameter is held at values around
-// its estimate, all others are fitted again, and what the sum of squares rises by, over the
-// variance of the noise, is compared with 3.84 (Venzon & Moolgavkar, Appl. Statist. 37 (1988) 87).
-// Asymmetric where the covariance is not to be trusted, and aware of bounds: an interval that
-// reaches one ends there. For noise with memory the rise is divided by the ratio of the parameter's
-// variance with and without it.
-//   covariance, white: of the parameters of the state, with the memory of the noise and without.
-//   series_from_state: curves are drawn over the material's own E_inf and ln tau_i, which must be
-// as many as the state's. With a frame in series E_inf is a function of the stage's alone and its
-// curve is exact; for a time it is the stage's that is held.
+// 95 % quantile of chi-square with one degree of freedom: the rise that ends an interval.
+inline constexpr double kChiSquare95 = 3.841458820694124;
+
+// Profile likelihood of E_inf and of every relaxation time. The parameter is held at values around
+// its estimate, all others are fitted again, and the rise of the sum of squares over the variance
+// of the noise is compared with 3.84 (Venzon & Moolgavkar, Appl. Statist. 37 (1988) 87). The
+// intervals are asymmetric where a quadratic approximation fails, and they end at a bound that they
+// reach. For autocorrelated noise the rise is divided by the ratio of the parameter's variance with
+// and without autocorrelation.
+//   covariance, white: of the parameters of the state, with and without autocorrelation.
+//   series_from_state: gives the material's own E_inf and ln tau_i, the abscissa of the curves;
+//   the numbers of terms must agree.
+// With a frame in series E_inf is a function of the stage's E_inf alone, so its curve is exact. For
+// a time, the stage's time is held.
 std::vector<ProfileCurve> profile_likelihoods(const SpectralModel& model,
                                               const SpectralState& state, double variance,
                                               const Eigen::MatrixXd& covariance,

@@ -36,12 +36,12 @@ Eigen::MatrixXd series_slopes(const SpectralModel& model, const SpectralState& s
   constexpr double kStep = 1e-5;
   for (Index j = 0; j < linear + n_terms; ++j) {
     if (j < model.n_common() && model.common()[static_cast<std::size_t>(j)].is_free) {
-      continue;  // offset, drift: no part of the material
+      continue;  // offset and drift are not parameters of the material
     }
     SpectralState up = state;
     SpectralState down = state;
     double step = kStep;
-    if (j < linear && state.coefficients[j] == 0.0) {  // on its bound: one-sided
+    if (j < linear && state.coefficients[j] == 0.0) {  // on its bound: one-sided difference
       step = 0.5 * kStep * state.coefficients.cwiseAbs().maxCoeff();
       if (!(step > 0.0)) continue;
       up.coefficients[j] = 2.0 * step;
@@ -59,8 +59,8 @@ Eigen::MatrixXd series_slopes(const SpectralModel& model, const SpectralState& s
   return slopes;
 }
 
-// C x for every column x: C holds the correlations between rows, each sqrt(n) times a mean of
-// samples.
+// C x for every column x. C holds the correlations between rows; each row is sqrt(n) times a mean
+// of samples.
 Eigen::MatrixXd correlated(const Eigen::MatrixXd& x, const std::vector<std::size_t>& begins,
                            const Autoregression& noise) {
   const PairSums sums(noise);
@@ -81,8 +81,8 @@ Eigen::MatrixXd correlated(const Eigen::MatrixXd& x, const std::vector<std::size
   return out;
 }
 
-// Of two nearly equal terms the covariance has huge entries whose sums should cancel: what rounding
-// leaves of them is an error too, and never none.
+// For two nearly equal terms the covariance has huge entries that should cancel in the sum. The
+// rounding error that remains counts as part of the error, so the error is never zero.
 double error_of(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& gradient) {
   constexpr double kRounding = 1e-15;
   const Eigen::VectorXd size = gradient.cwiseAbs();
@@ -156,7 +156,7 @@ KnownSeries known_series(const SpectralModel& model, const SpectralState& state,
                          const Eigen::MatrixXd& covariance,
                          const SeriesFromState& series_from_state) {
   const Eigen::MatrixXd slopes = series_slopes(model, state, series_from_state);
-  // Products of an unreached parameter with no influence are 0 * inf: take them as 0.
+  // The product of an infinite variance with no influence would be 0 * inf; set such entries to 0.
   Eigen::MatrixXd finite = covariance;
   for (Index j = 0; j < finite.rows(); ++j) {
     if (!std::isfinite(finite(j, j))) finite(j, j) = 0.0;

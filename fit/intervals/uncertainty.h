@@ -11,22 +11,22 @@
 
 namespace viscard {
 
-// Covariance of all parameters of a state, in full_jacobian()'s order. White noise of that
-// variance: variance * (J^T J)^-1. Noise with memory: variance * (J^T J)^-1 J^T C J (J^T J)^-1 with
-// the autocorrelation C that the autoregression implies between rows, averages or not; exact for
-// least squares with such noise, for fast terms and slow ones alike. By QR of scaled columns.
-// Parameters that the data do not reach (a zero column, a modulus at zero) get an infinite
-// variance.
+// Covariance of all parameters of a state, in the order of full_jacobian(). White noise of the
+// given variance: variance * (J^T J)^-1. Autocorrelated noise: variance * (J^T J)^-1 J^T C J (J^T
+// J)^-1, where C is the autocorrelation between rows (averages or samples) that the autoregression
+// implies. This is exact for least squares with such noise, for fast and slow terms. Computed by QR
+// of scaled columns. Parameters that do not influence the data (a zero column, a modulus at zero)
+// get an infinite variance.
 Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralState& state,
                                      double variance, const Autoregression& noise = {});
 
-// What a state means for the material: its series, terms in the state's order.
+// The material's series for a state, terms in the order of the state.
 using SeriesFromState = std::function<PronySeries(const SpectralState&)>;
 
 // Fills terms, E0, E_inf, their standard errors, 95 % intervals and covariance of a result from a
-// state and the covariance of its parameters. Relaxation times get symmetric intervals of their
-// logarithm; g_i follows from the joint covariance. First-order propagation through
-// series_from_state.
+// state and the covariance of its parameters, by first-order propagation through series_from_state.
+// Intervals of relaxation times are symmetric in the logarithm; the errors of g_i use the joint
+// covariance.
 void fill_parameters(const SpectralModel& model, const SpectralState& state,
                      const Eigen::MatrixXd& covariance, const SeriesFromState& series_from_state,
                      FitResult& result);

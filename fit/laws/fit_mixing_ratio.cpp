@@ -74,7 +74,7 @@ class Likelihood {
   bool restricted_;
 };
 
-// Best spread of one kind, the others held: a scan in its logarithm, zero included, sharpened by
+// Best spread of one kind with the others held: a scan of its logarithm and of zero, refined by
 // golden section. The likelihood may have its maximum at zero.
 double best_spread(const Likelihood& likelihood, Spreads spreads, std::size_t kind) {
   const auto at = [&](double spread) {
@@ -136,7 +136,8 @@ RatioModel fitted_form(const std::vector<RatioEstimate>& estimates, const RatioF
     if (change < 1e-4) break;
   }
   if (kinds == 1) spreads[1] = spreads[2] = 0.0;
-  for (std::size_t kind = 0; kind < kinds; ++kind) {  // as many values as specimens: no scatter
+  // With as many values as specimens there is no scatter to estimate.
+  for (std::size_t kind = 0; kind < kinds; ++kind) {
     const int first = kind == 0 ? 0 : 1 + (kind == 2 ? model.n_terms : 0);
     if (!has_known_spread(model, first)) spreads[kind] = 0.0;
   }
@@ -167,7 +168,7 @@ void check_shared(const std::vector<std::string>& names, int n_terms) {
   }
 }
 
-// All forms that these data can tell apart; named ones first, so that they win ties.
+// All forms that these data can distinguish. The named ones come first, so that they win ties.
 std::vector<RatioForm> forms_to_try(std::size_t n_ratios, int n_terms,
                                     const MixingOptions& options) {
   constexpr auto kAny = RatioVariable::kLogRatio;
@@ -232,29 +233,24 @@ Material common_of(const std::vector<Material>& specimens) {
 void add_flags(const std::vector<RatioEstimate>& estimates, RatioFit& fit) {
   if (estimates.size() == fit.law.ratios.size()) {
     fit.flags.push_back({"one-specimen-per-ratio", 0,
-                         "every ratio was measured once: scatter between specimens cannot be told "
-                         "from a misfit of the law, and both are in the interval"});
+                         "every ratio was measured once: scatter between specimens cannot be "
+                         "separated from a misfit of the law, and the interval includes both"});
   }
   constexpr double kStrong = 10.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
   if (!is_law(fit.best.form) && fit.law.bic - fit.best.bic > kStrong) {
     fit.flags.push_back({"law-misfits", 0,
-                         "the law describes the measured ratios much worse than values of their "
-                         "own do (BIC " +
+                         "the law describes the measured ratios much worse than separate values "
+                         "for each ratio do (BIC " +
                              std::to_string(static_cast<int>(fit.law.bic - fit.best.bic)) +
-                             " higher): what lies between them is a guess"});
+                             " higher): predictions between them are not reliable"});
   }
 }
 
 }  // namespace
 
-RatioModel fit_ratio_form(const std::vector<Material>& specimens, const RatioForm& form,
-                          bool restricted) {
-  return fitted_form(ratio_estimates_of(specimens), form, restricted);
-}
-
 RatioFit fit_mixing_ratio(const std::vector<Material>& specimens, const MixingOptions& options) {
   if (specimens.size() < 3) {
-    throw std::invalid_argument("a joint fit takes at least three specimens; there " +
+    throw std::invalid_argument("a joint fit needs at least three specimens; there " +
                                 std::string(specimens.size() == 1 ? "is " : "are ") +
                                 std::to_string(specimens.size()));
   }
@@ -262,7 +258,7 @@ RatioFit fit_mixing_ratio(const std::vector<Material>& specimens, const MixingOp
   const std::size_t n_ratios = distinct_ratios(estimates).size();
   if (n_ratios < 2) {
     throw std::invalid_argument(
-        "all specimens have the same mixing ratio; a law in the ratio takes at least two");
+        "all specimens have the same mixing ratio; a law in the ratio needs at least two");
   }
   RatioFit fit;
   for (std::size_t s = 0; s < specimens.size(); ++s) {

@@ -22,11 +22,11 @@ struct Candidate {
   double chi_square = std::numeric_limits<double>::infinity();
 };
 
-// Averages of a fit, and exponentials at times spaced evenly in logarithm (column j: time
-// exp(ln_first + j kStep)), of which the fractional decay is a sum:
+// Averages of a fit, and exponentials at times evenly spaced in ln t (column j: time exp(ln_first +
+// j kStep)). The fractional decay is a weighted sum of them:
 //   E_alpha(-(t/tau)^alpha) = int K(ln T - ln tau) exp(-t/T) d ln T   (Cole & Cole's distribution)
-// with the share up to s = ln T - ln tau of 1/2 + atan(tan(pi alpha/2) tanh(alpha s/2))/(pi alpha)
-// (Gorenflo & Mainardi (1997), p. 223, integrated).
+// The cumulative weight up to s = ln T - ln tau is 1/2 + atan(tan(pi alpha/2) tanh(alpha s/2))/(pi
+// alpha) (Gorenflo & Mainardi (1997), p. 223, integrated).
 class Averages {
  public:
   explicit Averages(const FitCurves& curves)
@@ -47,13 +47,13 @@ class Averages {
   double ln_from() const { return ln_from_; }
   double ln_to() const { return ln_to_; }
 
-  // Both moduli by least squares, neither below zero; the decay from the sum.
+  // Both moduli by non-negative least squares, with the decay from the weighted sum.
   Candidate with_moduli(double ln_tau, double alpha) const {
     if (!(alpha > 0.02 && alpha <= 1.0)) return {};
     return solved(ln_tau, alpha, (decays_ * shares(ln_tau, alpha)).array());
   }
-  // The same with the decay to thirteen digits; just below alpha = 1, where its integral is slow,
-  // the sum's four digits stand.
+  // The same with the decay accurate to thirteen digits. Just below alpha = 1 its integral
+  // converges slowly, and the weighted sum, accurate to four digits, is used.
   Candidate exactly(double ln_tau, double alpha) const {
     if (alpha > 0.9 && alpha < 1.0) return with_moduli(ln_tau, alpha);
     Eigen::ArrayXd decay(time_s_.size());
@@ -72,7 +72,8 @@ class Averages {
     return Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Index>(values.size()));
   }
 
-  // Of each column; what lies between two is split by distance, what lies beyond goes to the ends.
+  // Weight of each column. A weight between two columns is split by distance; weights beyond the
+  // range go to the first and last column.
   Eigen::VectorXd shares(double ln_tau, double alpha) const {
     constexpr int kParts = 8;
     const Index count = decays_.cols();
@@ -123,7 +124,7 @@ class Averages {
   Eigen::MatrixXd decays_;
 };
 
-// The lowest point of a coarse grid over time and power.
+// The best point of a coarse grid over time and exponent.
 Candidate best_on_grid(const Averages& data) {
   Candidate best;
   const double ln_from = data.ln_from(), ln_to = data.ln_to();

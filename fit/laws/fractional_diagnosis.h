@@ -7,12 +7,12 @@
 
 namespace viscard {
 
-// Whether a power law between two plateaus, E(t) = E_inf + E_1 E_alpha(-(t/tau)^alpha) (fractional
-// Zener; Mainardi, Fractional Calculus and Waves in Linear Viscoelasticity (2010), ch. 3), tells in
-// four parameters what the series tells in 1 + 2N. Both are compared on the averages in
-// FitResult::curves, whose noise is known from the fit:
-//   BIC difference = (chi^2 - chi^2_series)/inflation + (4 - 1 - 2N) ln(n/inflation),
-// negative where the fractional model is the better description.
+// Compares the series (1 + 2N parameters) with a power law between two plateaus (four parameters),
+// E(t) = E_inf + E_1 E_alpha(-(t/tau)^alpha), the fractional Zener model (Mainardi, Fractional
+// Calculus and Waves in Linear Viscoelasticity (2010), ch. 3). Both are evaluated on the averages
+// in FitResult::curves, whose noise is known from the fit:
+//   BIC difference = (chi^2 - chi^2_series)/inflation + (4 - 1 - 2N) ln(n/inflation)
+// It is negative if the fractional model is the better description.
 struct FractionalDiagnosis {
   FractionalZenerModel model;  // moduli in the unit of the fitted column
   double chi_square = 0.0;
@@ -20,7 +20,8 @@ struct FractionalDiagnosis {
   double bic_difference = 0.0;
 };
 
-// Nothing for other kinds than relaxation after a step, and below five averages.
+// Returns nothing for kinds of test other than relaxation after a step, and for fewer than five
+// averages.
 std::optional<FractionalDiagnosis> diagnose_fractional(const FitResult& fit);
 
 }  // namespace viscard

@@ -31,8 +31,8 @@ void check_specimen(const Material& material, std::size_t number) {
                               material.uncertainty->covariance.allFinite();
   if (!has_covariance) {
     throw std::invalid_argument(name +
-                                " states no covariance of its parameters, so its weight is not "
-                                "known; fit it from data with viscard fit");
+                                " has no covariance of its parameters, so its weight is unknown; "
+                                "fit it from data with viscard fit");
   }
 }
 
@@ -53,7 +53,7 @@ RatioEstimate estimate_of(const Material& material) {
     slopes(n + i, n + i) = 1.0;
   }
   out.covariance = slopes * material.uncertainty->covariance * slopes.transpose();
-  // Noise-free data would leave it singular.
+  // Keeps the covariance of noise-free data from being singular.
   out.covariance.diagonal().array() += 1e-16 + 1e-12 * out.covariance.diagonal().array();
   return out;
 }
@@ -69,7 +69,7 @@ std::vector<RatioEstimate> ratio_estimates_of(const std::vector<Material>& speci
       throw std::invalid_argument(
           name_of(specimens[s], s + 1) + " has " + counted(n, "term") + " and " +
           name_of(specimens.front(), 1) + " " + std::to_string(specimens.front().terms.size()) +
-          ": terms are compared one by one. Fit all with the same --terms N");
+          ": all specimens need the same number of terms. Fit them with the same --terms N");
     }
     for (std::size_t i = 0; i < n; ++i) {
       if (specimens[s].terms[i].g > 0.0) continue;

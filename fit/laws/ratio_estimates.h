@@ -8,16 +8,16 @@
 
 namespace viscard {
 
-// One specimen as the joint fit sees it: (ln E0, ln g_i, ln tau_i) with the covariance of its own
-// fit's errors.
+// One specimen in the joint fit: (ln E0, ln g_i, ln tau_i) with the covariance of the errors of its
+// own fit.
 struct RatioEstimate {
   double ratio = 0.0;
   Eigen::VectorXd theta;
   Eigen::MatrixXd covariance;
 };
 
-// Throws std::invalid_argument naming the specimen: no ratio, no covariance, a number of terms that
-// differs from the first specimen's, a share of zero.
+// Throws std::invalid_argument that names the specimen: no ratio, no covariance, a number of terms
+// that differs from the first specimen's, a share of zero.
 std::vector<RatioEstimate> ratio_estimates_of(const std::vector<Material>& specimens);
 
 std::vector<double> distinct_ratios(const std::vector<RatioEstimate>& estimates);  // ascending

@@ -15,7 +15,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// y and columns whitened by the covariance: ordinary least squares from here on.
+// y and the columns whitened by the covariance, so that ordinary least squares apply.
 struct Whitened {
   Eigen::LLT<Eigen::MatrixXd> factor;
   Eigen::VectorXd y;
@@ -42,7 +42,8 @@ Interval around(double value, double half) {
   return {value - half, value + half};
 }
 
-// Variance widened by what the scatter exceeds it, and Student's t for it.
+// Half-width of the 95 % interval: the variance is scaled up if the scatter exceeds it, with
+// Student's t for the degrees of freedom.
 double half_width(double variance, double chi2, Index dof) {
   const double excess = dof > 0 ? std::max(1.0, chi2 / static_cast<double>(dof)) : 1.0;
   const double quantile = dof > 0 ? student_t_975(static_cast<int>(dof)) : 1.959963984540054;
@@ -53,7 +54,7 @@ void fit_wlf(const Whitened& data, const Eigen::VectorXd& warmer_K, double T_ref
              ShiftLaws& laws) {
   const Index n = warmer_K.size();
   if (n < 3) return;
-  // C1 is linear: a scan of ln C2 above the pole, sharpened by golden section.
+  // C1 is linear: scan ln C2 above the pole, then narrow the interval by thirds.
   const double least_K = std::max(0.0, -warmer_K.minCoeff());
   const auto chi2_at = [&](double ln_over) {
     return fit_line(data, wlf_column(warmer_K, least_K + std::exp(ln_over))).chi2;
@@ -63,7 +64,7 @@ void fit_wlf(const Whitened& data, const Eigen::VectorXd& warmer_K, double T_ref
   for (double ln = kLow; ln <= kHigh; ln += kStep) {
     if (chi2_at(ln) < chi2_at(best)) best = ln;
   }
-  if (best > kHigh - 2.0 * kStep) return;  // a straight line in temperature
+  if (best > kHigh - 2.0 * kStep) return;  // equivalent to a straight line in temperature
   double low = best - kStep, high = best + kStep;
   while (high - low > 1e-9) {
     const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
@@ -136,7 +137,8 @@ ShiftLaws fit_shift_laws(const std::vector<ShiftFactor>& factors, const Eigen::M
     (*shift)->T_min_C = std::min(T_ref_C, temperature_C.minCoeff());
     (*shift)->T_max_C = std::max(T_ref_C, temperature_C.maxCoeff());
   }
-  // BIC in units of the scatter about the better law, which is no less than the factors' own.
+  // BIC in units of the scatter about the better law, which is at least that of the factors' own
+  // errors.
   double scale = std::max(1.0, laws.arrhenius_chi2 / std::max(1.0, static_cast<double>(n) - 1.0));
   if (laws.wlf && n > 2) {
     scale = std::min(scale, std::max(1.0, laws.wlf_chi2 / (static_cast<double>(n) - 2.0)));

@@ -9,7 +9,7 @@
 
 namespace viscard {
 
-// ln a_T against temperature, from a master curve.
+// ln a_T at a temperature, from a master curve.
 struct ShiftFactor {
   double temperature_C = 0.0;
   double ln_a = 0.0;
@@ -18,16 +18,16 @@ struct ShiftFactor {
 
 struct ShiftLaws {
   std::optional<TemperatureShift> wlf, arrhenius;  // with 95 % intervals; none: not determined
-  double wlf_chi2 = 0.0, arrhenius_chi2 = 0.0;     // weighted by the factors' own covariance
-  double wlf_bic = 0.0, arrhenius_bic = 0.0;       // of the scatter about the better of the two
+  double wlf_chi2 = 0.0, arrhenius_chi2 = 0.0;     // weighted by the covariance of the factors
+  double wlf_bic = 0.0, arrhenius_bic = 0.0;       // in units of the scatter about the better law
   bool wlf_is_better = false;
   const TemperatureShift* better() const;
 };
 
-// WLF and Arrhenius laws through the factors by generalised least squares with their covariance
-// (reference left out of both), widened where the scatter about the law exceeds it. WLF needs at
-// least three temperatures beside the reference; it is left out when its constants run away, which
-// says that a straight line does as well.
+// Fits the WLF and Arrhenius laws to the factors by generalised least squares with their covariance
+// (without the reference). The covariance is scaled up if the scatter about the law exceeds it. WLF
+// needs at least three temperatures besides the reference. It is omitted if its constants diverge,
+// which means that a straight line describes the data as well.
 ShiftLaws fit_shift_laws(const std::vector<ShiftFactor>& factors, const Eigen::MatrixXd& covariance,
                          double T_ref_C);
 

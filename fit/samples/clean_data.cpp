@@ -19,7 +19,7 @@ bool is_ready(const std::vector<std::span<const double>>& columns) {
          step_range(columns[0]).shortest >= 0.0;
 }
 
-// Numbers of the rows that can be used, in order of time.
+// Indices of the usable rows in order of time.
 std::vector<std::size_t> usable_rows(const std::vector<std::span<const double>>& columns) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < columns[0].size(); ++i) {
@@ -37,7 +37,7 @@ std::vector<std::size_t> usable_rows(const std::vector<std::span<const double>>&
 void check_count(std::size_t usable, std::size_t rows, std::size_t least) {
   if (usable >= least) return;
   throw std::runtime_error("only " + std::to_string(usable) + " of " + std::to_string(rows) +
-                           " rows hold numbers in every column needed; a fit takes at least " +
+                           " rows have a number in every column needed; a fit needs at least " +
                            std::to_string(least));
 }
 
@@ -49,7 +49,8 @@ CleanViews::CleanViews(const std::vector<std::span<const double>>& columns, std:
   for (const std::span<const double> column : columns) {
     if (column.size() != rows) {
       throw std::invalid_argument("columns of " + std::to_string(rows) + " and " +
-                                  std::to_string(column.size()) + " values belong to no one table");
+                                  std::to_string(column.size()) +
+                                  " values do not belong to one table");
     }
   }
   if (is_ready(columns)) {
@@ -63,7 +64,7 @@ CleanViews::CleanViews(const std::vector<std::span<const double>>& columns, std:
     std::vector<double>& target = copies_.emplace_back();
     target.reserve(order.size());
     for (const std::size_t i : order) target.push_back(view[i]);
-    view = target;  // keeps its memory when copies_ grows
+    view = target;  // the view stays valid when copies_ grows
   }
 }
 
@@ -92,9 +93,9 @@ CleanColumns clean_columns(const std::vector<std::span<const double>>& columns, 
 void check_sign(std::span<const double> values, const std::string& what,
                 const std::string& column) {
   if (sum_of(values) > 0.0) return;
-  throw std::runtime_error("the fitted column is negative or zero on the whole: " + what +
-                           " is positive. If the sign of the instrument is the other way, map the "
-                           "column with a minus: --column " +
+  throw std::runtime_error("the sum of the fitted column is negative or zero, but " + what +
+                           " is positive. If the instrument has the other sign, flip the column: "
+                           "--column " +
                            column + "=-NAME");
 }
 

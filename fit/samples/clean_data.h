@@ -7,15 +7,15 @@
 
 namespace viscard {
 
-// Columns made fit for fitting: rows with a value that is not finite are left out, the rest sorted
-// by time (rows of equal time keep their order). columns[0] is time.
+// Columns ready for a fit: rows with a value that is not finite are removed and the others are
+// sorted by time (rows of equal time keep their order). columns[0] is time.
 struct CleanColumns {
   std::vector<std::vector<double>> columns;
   std::size_t n_left_out = 0;
 };
 
-// The same without copying where nothing had to be done, as with most long records. The columns
-// live as long as the input and this object.
+// The same as views of the input. A record that is already finite and sorted, as most long ones
+// are, is not copied. The input and this object must outlive the columns.
 class CleanViews {
  public:
   CleanViews(const std::vector<std::span<const double>>& columns, std::size_t least);
@@ -33,16 +33,17 @@ class CleanViews {
   std::size_t n_left_out_ = 0;
 };
 
-// Both throw std::invalid_argument if the columns differ in length, std::runtime_error if fewer
-// than `least` usable rows are left.
+// Both throw std::invalid_argument if the columns differ in length, and std::runtime_error if fewer
+// than `least` usable rows remain.
 CleanColumns clean_columns(const std::vector<std::span<const double>>& columns, std::size_t least);
 
-// Throws std::runtime_error, saying how to turn the column round, unless its values are positive on
-// the whole. `what` must be positive ("a relaxation modulus"), `column` is its name in a table.
+// Throws std::runtime_error if the sum of the values is not positive; the message explains how to
+// flip the sign of the column. `what` names the quantity that must be positive ("a relaxation
+// modulus"), `column` is its name in a table.
 void check_sign(std::span<const double> values, const std::string& what, const std::string& column);
 
-// Shortest positive difference of sorted times, and the usual one (their median, so that a gap does
-// not matter); 0 if there is none.
+// Shortest positive difference of sorted times, and their median difference, which a gap does not
+// change. Both return 0 if there is none.
 double shortest_step_s(std::span<const double> time_s);
 double usual_step_s(std::span<const double> time_s);
 

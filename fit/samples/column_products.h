@@ -6,8 +6,8 @@
 
 namespace viscard {
 
-// A^T B and A^T A of tall matrices, each product one long dot; quicker than general products of
-// matrices where columns are few (up to some hundred) and rows many.
+// A^T B and A^T A of tall matrices, computed as long dot products. Faster than general matrix
+// products for few columns (up to some hundred) and many rows.
 inline Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   Eigen::MatrixXd product(a.cols(), b.cols());
   if (product.size() == 0) return product;

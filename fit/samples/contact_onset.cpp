@@ -48,7 +48,7 @@ double scatter_about_line(const Stretch& part) {
   return tt > 0.0 ? std::max(0.0, ff - tf * tf / tt) : 0.0;
 }
 
-// Smallest difference between neighbours that is one: the converter's step, or below it.
+// Smallest non-zero difference between neighbours: at most the converter's step.
 double smallest_step_N(const std::vector<double>& force_N) {
   double step_N = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < force_N.size(); ++i) {
@@ -58,7 +58,7 @@ double smallest_step_N(const std::vector<double>& force_N) {
   return std::isfinite(step_N) ? step_N : 0.0;
 }
 
-// Samples near the first move, thinned out to a few hundred, forces from zero.
+// Samples near the first move, thinned to a few hundred, with the forces as recorded.
 Stretch around_first_move(const IndentationData& data, double margin_s) {
   const StageMove& ramp = data.moves.front();
   const double from_s = ramp.start_time_s - data.start_early_s - margin_s;
@@ -84,7 +84,7 @@ class GapSearch {
     double shift_low_s, shift_high_s, gap_low_m, gap_high_m;
   };
 
-  // Best of a grid over the box, then of ever smaller boxes about it.
+  // The best point of a grid over the box, then of ever smaller boxes around it.
   ContactOnset best_in(const Box& whole) {
     Box box = whole;
     for (int round = 0; round < kRounds; ++round) {
@@ -116,7 +116,7 @@ class GapSearch {
         dd += depth_m * depth_m;
         df += depth_m * part_.force_N[i];
       }
-      // What the spring explains of the sum of squares.
+      // Part of the sum of squares that the spring explains.
       const double gain = dd > 0.0 && df > 0.0 ? df * df / dd : 0.0;
       if (!(gain > best_gain_)) continue;
       best_gain_ = gain;
@@ -163,20 +163,20 @@ ContactOnset contact_onset(const IndentationData& data) {
   const Stretch peak = stretch(data, end_s, end_s + margin_s);
   const double peak_N = peak.size() > 0 ? median(peak.force_N) - quiet.before_N : 0.0;
   if (!(peak_N > 3.0 * quiet.sigma_N)) {
-    throw std::runtime_error("no force rises with the ramp (peak " + text_of(peak_N) +
+    throw std::runtime_error("the force does not rise with the ramp (peak " + text_of(peak_N) +
                              " N). Check the sign of the load cell and that the punch touched");
   }
   const double way_m = std::abs(ramp.to_m - ramp.from_m);
-  constexpr double kLatest = 0.99;  // of the way: contact at its very end would be no ramp
+  constexpr double kLatest = 0.99;  // share of the move; contact at its end leaves no ramp
   GapSearch search(ramp, std::move(part));
   return search.best_in(
       {-data.start_early_s - margin_s, data.start_late_s + margin_s, 0.0, kLatest * way_m});
 }
 
 std::optional<std::size_t> first_lifting_move(const IndentationData& data) {
-  constexpr std::size_t kBlock = 8;      // readings: a mean that is worth a comparison
-  constexpr double kSigmas = 3.0;        // of that mean
-  constexpr double kShareOfPeak = 5e-3;  // what drift and creep of the cell may leave
+  constexpr std::size_t kBlock = 8;      // readings; enough for a mean to compare
+  constexpr double kSigmas = 3.0;        // standard errors of that mean
+  constexpr double kShareOfPeak = 5e-3;  // allowance for drift and creep of the load cell
   const QuietForce quiet = quiet_force(data);
   if (quiet.n == 0) return std::nullopt;
   double peak_N = 0.0;

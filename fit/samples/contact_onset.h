@@ -7,36 +7,39 @@
 
 namespace viscard {
 
-// What the force record of a captured run says about contact by itself. The position the rig took
-// for the surface while it ran is no part of it: that one leans on a guess of the modulus.
+// Contact as seen in the force record of a captured run alone. The surface position that the rig
+// assumed during the run is not used, because it depends on a guess of the modulus.
 
 // Force out of contact.
 struct QuietForce {
   double before_N = 0.0;  // median before the first move
-  double after_N = 0.0;   // median after the last; before_N where nothing was recorded then
-  double sigma_N = 0.0;   // of one sample about a straight line through its stretch; never 0 where
-                          // readings differ at all (then at least the converter's step/sqrt(12))
-  std::size_t n = 0;      // samples it was taken from
+  double after_N = 0.0;   // median after the last move; before_N if nothing was recorded then
+  // Standard deviation of one sample about a straight line through its stretch; not below the
+  // converter's step/sqrt(12) if readings differ at all.
+  double sigma_N = 0.0;
+  std::size_t n = 0;      // number of samples used
 };
 QuietForce quiet_force(const IndentationData& data);
 
-// When the first move began and where on its way the punch touched.
+// Start of the first move and the stage position at first contact.
 struct ContactOnset {
-  double shift_s = 0.0;    // of the move's start, against its command
+  double shift_s = 0.0;    // actual minus commanded start of the move
   double contact_m = 0.0;  // stage position
 };
 
-// Least squares of a spring behind a gap, F = k max(0, z(t - shift) - contact), over baseline and
-// first move: every shift the clocks allow by every position on the way, then finer about the best.
-// Needs one sample under load only, and drift or noise move it little, as the force's two kinks
-// (contact, end of the move) both count. Throws std::runtime_error if no force rises with the move.
+// Least-squares fit of a spring behind a gap, F = k max(0, z(t - shift) - contact), to the baseline
+// and the first move: a grid search over all shifts that the clocks allow and all positions along
+// the move, then finer grids around the best point. One sample under load is enough. Drift and
+// noise change the result little, because both kinks of the force (contact, end of the move) count.
+// Throws std::runtime_error if the force does not rise with the move.
 ContactOnset contact_onset(const IndentationData& data);
 
-// First move after which the punch hangs free, though the run meant to stay in contact: the force
-// stands at its zero. Number of the move in data.moves, at least 1; nothing if contact was kept.
+// First move after which the punch is out of contact although the run meant to keep it: the force
+// is back at its zero. Returns the index of the move in data.moves (at least 1), or nothing if
+// contact was kept.
 std::optional<std::size_t> first_lifting_move(const IndentationData& data);
 
-// The same run up to that move; samples out of contact stay.
+// The same run without the samples in contact from that move on; samples out of contact stay.
 IndentationData before_move(IndentationData data, std::size_t move);
 
 }  // namespace viscard

@@ -9,9 +9,9 @@
 namespace viscard {
 namespace {
 
-// exp(-x) for 0 <= x < 700 without a branch or a table, so that compilers take several at once:
-// -x = n ln 2 + r with ln 2 in two parts (Cody & Waite, Software Manual for the Elementary
-// Functions (1980), ch. 6), Taylor's series to r^13, and n put into the exponent's bits.
+// exp(-x) for 0 <= x < 700 without branches or tables, so that the compiler can vectorise it: -x =
+// n ln 2 + r with ln 2 in two parts (Cody & Waite, Software Manual for the Elementary Functions
+// (1980), ch. 6), Taylor's series to r^13, and n added to the exponent bits.
 inline double decay(double x) {
   constexpr double kPerLn2 = 1.4426950408889634;
   constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52: adding it leaves an integer
@@ -21,7 +21,7 @@ inline double decay(double x) {
   const double n = shifted - kRound;
   const double r = (-x - n * kLn2High) - n * kLn2Low;
   const double rr = r * r;
-  // Even and odd powers apart, so that one need not wait for the other.
+  // Even and odd powers separately, so that the two sums do not wait for each other.
   const double even =
       1.0 + rr * (1.0 / 2 +
                   rr * (1.0 / 24 +
@@ -38,7 +38,7 @@ inline double decay(double x) {
   return (even + r * odd) * std::bit_cast<double>(exponent);
 }
 
-// Into the loop that calls it, whose processor it is compiled for.
+// Inlined into its caller, so that it is compiled for the caller's processor.
 template <bool kWithSlope>
 [[gnu::always_inline]] inline void average_decay(const DecayPlaces& at, double u,
                                                  double* __restrict value,
@@ -62,7 +62,7 @@ template <bool kWithSlope>
 
 }  // namespace
 
-// The loops, each for one stretch of places where something is left of the decay.
+// The loops. Each handles the places where the decay is above zero.
 VISCARD_WIDE_LOOP void decay_of_samples(const double* __restrict time_s,
                                         const double* __restrict weight, std::size_t count,
                                         double rate_1_s, double* __restrict value) {

@@ -19,8 +19,8 @@ LogBin make_bin(std::span<const double> time_s, std::span<const double> value, s
     bin.value = value[begin];
     return bin;
   }
-  // Sums about the middle of the bin and its first value, so that no digit is lost on a long
-  // record, then moved to the means.
+  // Sums are taken about the middle of the bin and its first value, to keep all digits on a long
+  // record, and then moved to the means.
   const double centre = 0.5 * (time_s[begin] + time_s[end - 1]);
   const double level = value[begin];
   const double n = bin.count;
@@ -43,7 +43,7 @@ LogBin make_bin(std::span<const double> time_s, std::span<const double> value, s
   return bin;
 }
 
-// Moments about the common mean from those about each bin's own.
+// Moments about the common mean from the moments about each bin's own mean.
 LogBin put_together(std::span<const LogBin> parts) {
   LogBin sum;
   sum.begin = parts.front().begin;
@@ -80,7 +80,7 @@ LogBin put_together(std::span<const LogBin> parts) {
   return sum;
 }
 
-// First sample from `begin` on at or after a time; steps that double, then halve.
+// First sample from `begin` on that is not before `limit`: steps that double, then bisection.
 std::size_t first_not_below(std::span<const double> time_s, std::size_t begin, double limit) {
   std::size_t step = 1, end = begin;
   while (end < time_s.size() && time_s[end] < limit) {

@@ -6,7 +6,7 @@
 
 namespace viscard {
 
-// The middle one of the sorted values, of an even number the upper; 0 of none.
+// Median; the upper of the two middle values if their number is even, 0 if there are none.
 inline double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -14,7 +14,7 @@ inline double median(std::vector<double> values) {
   return *middle;
 }
 
-// Of |x| over the standard deviation, for normal x.
+// Median of |x| over the standard deviation, for normally distributed x.
 inline constexpr double kMedianOfNormal = 0.6744897501960817;
 
 }  // namespace viscard

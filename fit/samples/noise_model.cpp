@@ -34,7 +34,7 @@ Autoregression autoregression(const Eigen::VectorXd& series) {
   if (max_order < 1) return best;
   const std::vector<double> gamma = autocovariances(series, max_order);
   if (!(gamma[0] > 0.0)) return best;
-  double best_score = 0.0;  // BIC against white noise
+  double best_score = 0.0;  // BIC relative to white noise
   std::vector<double> phi;
   double error = gamma[0];
   for (int order = 1; order <= max_order; ++order) {
@@ -64,7 +64,7 @@ Autoregression autoregression(const Eigen::VectorXd& series) {
 std::vector<double> Autoregression::autocorrelation() const {
   const std::size_t order = phi.size();
   if (order == 0) return {1.0};
-  // rho_1 ... rho_p from the Yule-Walker equations, later ones by the recursion itself.
+  // rho_1 ... rho_p from the Yule-Walker equations, later lags from the recursion itself.
   const auto size = static_cast<Eigen::Index>(order);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(size, size);
   Eigen::VectorXd right(size);
@@ -128,7 +128,7 @@ double sigma_from_differences(const std::vector<double>& values) {
     differences.push_back(
         std::abs(values[i] - 3.0 * values[i - 1] + 3.0 * values[i - 2] - values[i - 3]));
   }
-  // Variance of a third difference of white noise is 1 + 9 + 9 + 1.
+  // The third difference of white noise has 1 + 9 + 9 + 1 = 20 times its variance.
   return median(std::move(differences)) / (kMedianOfNormal * std::sqrt(20.0));
 }
 

@@ -6,28 +6,28 @@
 
 namespace viscard {
 
-// Noise with memory, e_t = sum phi_k e_{t-k} + white: the autoregression that the residuals of a
-// fit ask for. Order by BIC, so that white noise comes out as order 0. Coefficients from the
+// Autocorrelated noise, e_t = sum phi_k e_{t-k} + white: an autoregression fitted to the residuals
+// of a fit. BIC selects the order, so white noise gets order 0. The coefficients come from the
 // autocovariances by Levinson's recursion (Brockwell & Davis, Time Series (1991), sect. 8.2).
 struct Autoregression {
-  std::vector<double> phi;  // empty: white
+  std::vector<double> phi;  // empty: white noise
 
-  // Factor by which memory widens the variance of a mean over many samples: spectral density at
-  // frequency 0 over variance. At least 1.
+  // Factor by which autocorrelation increases the variance of a mean over many samples: spectral
+  // density at frequency 0 over the variance. At least 1.
   double inflation() const;
-  // Autocorrelation at lags 0, 1, ... until it has died away.
+  // Autocorrelation at lags 0, 1, ... until it has decayed.
   std::vector<double> autocorrelation() const;
 };
 Autoregression autoregression(const Eigen::VectorXd& series);
 
-// Sums of the autocorrelation over pairs of stretches of samples, each pair in constant time.
+// Sums of the autocorrelation over pairs of stretches of samples, in constant time per pair.
 class PairSums {
  public:
   explicit PairSums(const Autoregression& noise);
   // sum over i < p, j < q of rho(distance + j - i): two stretches of p and q samples whose first
   // samples are `distance` >= 0 apart (0: the same stretch).
   double over(double p, double q, double distance) const;
-  // Stretches further apart than this do not know of each other.
+  // Stretches further apart than this are uncorrelated.
   double reach() const { return static_cast<double>(twice_summed_.size()); }
 
  private:
@@ -35,8 +35,8 @@ class PairSums {
   std::vector<double> twice_summed_;  // T(m), whose second difference is rho(m)
 };
 
-// Scatter of a series with trends of any kind in it: from third differences, median-based so that a
-// spike does not count.
+// Standard deviation of the noise of a series with a smooth trend: from third differences, and by
+// their median, so that spikes do not count.
 double sigma_from_differences(const std::vector<double>& values);
 
 }  // namespace viscard

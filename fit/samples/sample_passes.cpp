@@ -9,7 +9,8 @@
 namespace viscard {
 namespace {
 
-// Sums in four lanes, so that one addition need not wait for the last; summed up at the end.
+// Sums in four lanes, so that an addition does not wait for the previous one; the lanes are added
+// at the end.
 constexpr std::size_t kLanes = 4;
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double)), aligned(8), may_alias));
 using Flags = long long __attribute__((vector_size(kLanes * sizeof(double))));
@@ -48,7 +49,7 @@ VISCARD_WIDE_LOOP double dot_of_samples(const double* a, const double* b, std::s
   return sum;
 }
 
-// Four columns by two at a time, so that each number read enters several products.
+// Four columns by two at a time, so that each number read from memory enters several products.
 VISCARD_WIDE_LOOP void products_of_4_by_2(const double* a, const double* b, std::size_t rows,
                                           std::size_t n_a, double* out) {
   Lanes sums[8] = {};
@@ -73,7 +74,7 @@ VISCARD_WIDE_LOOP void products_of_4_by_2(const double* a, const double* b, std:
 }
 
 VISCARD_WIDE_LOOP bool all_samples_finite(const double* values, std::size_t count) {
-  // A finite number times 0 is 0; anything else makes the sum NaN.
+  // A finite number times 0 is 0; any other value makes the sum NaN.
   Lanes sums[4] = {};
   std::size_t i = 0;
   for (; i + 4 * kLanes <= count; i += 4 * kLanes) {
@@ -104,7 +105,8 @@ VISCARD_WIDE_LOOP StepRange steps_of_samples(const double* times, std::size_t co
   return {low, high};
 }
 
-// Whether any sample of a stretch, which has a neighbour at either end, is far from both.
+// True if any sample of a stretch is far from the mean of its neighbours. Every sample must have a
+// neighbour on either side.
 VISCARD_WIDE_LOOP bool has_far_sample(const double* values, std::size_t count, double far) {
   Flags any = {};
   std::size_t i = 0;

@@ -6,26 +6,26 @@
 
 namespace viscard {
 
-// What is asked of whole records, each in one pass at the speed of memory.
+// Operations on whole records, each in one pass at memory speed.
 
 bool all_finite(std::span<const double> values);
 double sum_of(std::span<const double> values);
-double dot_of(std::span<const double> a, std::span<const double> b);  // of equal length
+double dot_of(std::span<const double> a, std::span<const double> b);  // equal length
 
-// The products a_i . b_j of columns of `rows` numbers, one column after the other, into
-// out[i + j n_a]. With b == nullptr those of a with itself, i >= j only.
+// Products a_i . b_j of columns of `rows` numbers, stored one column after the other, into out[i +
+// j n_a]. With b == nullptr: products of a with itself, i >= j only.
 void column_products(const double* a, std::size_t n_a, const double* b, std::size_t n_b,
                      std::size_t rows, double* out);
 
-// Smallest and largest difference of neighbours; 0 and 0 with fewer than two. Times are sorted
-// where the smallest is not below zero.
+// Smallest and largest difference of neighbours; both 0 for fewer than two times. Times are sorted
+// if the smallest difference is not negative.
 struct StepRange {
   double shortest = 0.0, longest = 0.0;
 };
 StepRange step_range(std::span<const double> times);
 
-// Numbers of the samples (neither first nor last) further than `far` from the mean of their
-// neighbours.
+// Indices of the samples (neither first nor last) that differ from the mean of their neighbours by
+// more than `far`.
 std::vector<std::size_t> far_from_neighbours(std::span<const double> values, double far);
 
 // Sums over a stretch of samples of d^k, y d^k and y^2, with d = t - centre, y = value - level.

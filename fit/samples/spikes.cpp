@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kLeastRecord = 200;
 
-// Of stretches across the record; a few thousand differences tell a median well enough.
+// Noise from several stretches of the record; a few thousand differences determine the median well
+// enough.
 double noise_of(std::span<const double> values) {
   constexpr std::size_t kStretches = 16;
   constexpr std::size_t kLength = 128;
@@ -43,7 +44,7 @@ std::vector<std::size_t> isolated_spikes(std::span<const double> time_s,
   if (!is_evenly_sampled(time_s)) return spikes;
   const double sigma = noise_of(values);
   if (!(sigma > 0.0)) return spikes;
-  const double far = 8.0 * std::sqrt(1.5) * sigma;  // variance of e is 1.5 sigma^2
+  const double far = 8.0 * std::sqrt(1.5) * sigma;  // the variance of e below is 1.5 sigma^2
   for (const std::size_t i : far_from_neighbours(values, far)) {
     const double e = std::abs(values[i] - 0.5 * (values[i - 1] + values[i + 1]));
     if (e >= 2.0 * std::abs(values[i + 1] - values[i - 1])) spikes.push_back(i);

@@ -6,25 +6,26 @@
 
 namespace viscard {
 
-// Numbers of samples that stand alone: further from the mean of their two neighbours than eight
-// standard deviations of the noise (median of third differences, which spikes do not move), and
-// than twice the difference of the neighbours, so that no steep part of a curve is taken for one.
-// Only in records of at least 200 samples that are sampled evenly: elsewhere a neighbour says
-// nothing. A local form of Hampel's identifier (J. Am. Stat. Assoc. 69 (1974) 383).
+// Indices of isolated spikes: samples that differ from the mean of their two neighbours by more
+// than eight standard deviations of the noise (median of third differences, which spikes do not
+// change), and by more than twice the difference of the neighbours, so that a steep part of a curve
+// is not taken for a spike. Only for evenly sampled records of at least 200 samples; elsewhere the
+// neighbours give no estimate. A local form of Hampel's identifier (J. Am. Stat. Assoc. 69 (1974)
+// 383).
 std::vector<std::size_t> isolated_spikes(std::span<const double> time_s,
                                          std::span<const double> values);
 
-// Whether isolated_spikes() can say anything of such a record.
+// True if isolated_spikes() can be applied to such a record.
 bool is_evenly_sampled(std::span<const double> time_s);
 
-// A second look, at what a fit leaves: samples beyond 5.5 standard deviations (from the median of
-// |residual|), in groups of at most three with good ones on either side, so that neither a fast
-// term at the start nor a misfit is taken for spikes. None in records of fewer than 1000
-// samples (a point far from a curve may be all that is known there), where more than 3 % would go,
-// or where all is below 1e-6 of the largest value.
+// Outliers among the residuals of a fit: samples beyond 5.5 standard deviations (from the median of
+// |residual|), in groups of at most three with good samples on either side, so that neither a fast
+// term at the start nor a misfit is taken for spikes. Returns none for records of fewer than 1000
+// samples (a point far from the curve may be the only information there), if more than 3 % would be
+// removed, or if all residuals are below 1e-6 of the largest value.
 std::vector<std::size_t> outlying_samples(std::span<const double> residual, double largest_value);
 
-// The column without these rows (ascending).
+// The column without these rows (ascending indices).
 std::vector<double> without_rows(std::span<const double> column,
                                  const std::vector<std::size_t>& rows);
 

@@ -13,7 +13,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// The fitted force at any time of contact, straight between readings.
+// The fitted force at any time in contact, linear between readings.
 class ForceCurve {
  public:
   explicit ForceCurve(const StageResidual& left) {
@@ -37,7 +37,8 @@ class ForceCurve {
   std::vector<double> time_s_, force_N_;
 };
 
-// Mean square of F(t + d) - F(t) for normal d, by the three points of Gauss and Hermite.
+// Mean square of F(t + d) - F(t) for normally distributed d, by three-point Gauss-Hermite
+// quadrature.
 Eigen::VectorXd squares_of_stamps(const StageResidual& left, const ForceCurve& curve,
                                   double stamp_s) {
   const double reach_s = std::sqrt(3.0) * stamp_s;
@@ -52,7 +53,7 @@ Eigen::VectorXd squares_of_stamps(const StageResidual& left, const ForceCurve& c
   return squares;
 }
 
-// Root mean squares at rest and in motion, nothing known of stamps.
+// Root mean square residuals at rest and in motion, without scatter of the stamps.
 StageNoise plain_noise(const StageResidual& left) {
   double sums[2] = {0.0, 0.0};
   double counts[2] = {0.0, 0.0};
@@ -63,15 +64,16 @@ StageNoise plain_noise(const StageResidual& left) {
   }
   StageNoise noise;
   noise.resting_N = std::sqrt(sums[0] / std::max(1.0, counts[0]));
-  // Too few samples in motion say nothing of their own.
+  // A few samples in motion give no reliable estimate.
   noise.moving_N = counts[1] > 10.0 ? std::sqrt(sums[1] / counts[1]) : noise.resting_N;
   noise.moving_N = std::max(noise.moving_N, noise.resting_N);
   return noise;
 }
 
-// Of the readings that no stamp of the largest scatter could spoil.
+// Root mean square residual of the readings that even the largest scatter of the stamps would not
+// change.
 double quiet_N(const StageResidual& left, const Eigen::VectorXd& largest_squares, double usual_N) {
-  constexpr double kNothing = 1e-2;  // of the variance
+  constexpr double kNothing = 1e-2;  // share of the variance
   double sum = 0.0, count = 0.0;
   for (Index i = 0; i < left.residual_N.size(); ++i) {
     if (left.is_moving[static_cast<std::size_t>(i)]) continue;
@@ -82,14 +84,14 @@ double quiet_N(const StageResidual& left, const Eigen::VectorXd& largest_squares
   return count > 10.0 ? std::sqrt(sum / count) : usual_N;
 }
 
-// Standard deviation that a few far ones do not move.
+// Standard deviation from the median, which a few outliers do not change.
 double usual_size(const Eigen::VectorXd& residual) {
   std::vector<double> sizes;
   for (const double one : residual) sizes.push_back(std::abs(one));
   return median(std::move(sizes)) / kMedianOfNormal;
 }
 
-// Logarithm of the likelihood but for a constant, at the best of some sizes of shaking.
+// Log likelihood up to a constant, at the best of a series of shaking amplitudes (which it sets).
 double log_likelihood(const StageResidual& left, const Eigen::VectorXd& squares,
                       StageNoise& noise) {
   constexpr int kSizes = 16;
@@ -137,7 +139,7 @@ StageNoise stage_noise(const StageResidual& left) {
   }
   if (best < without + kEnough) return plain;
   const Eigen::VectorXd squares = squares_of_stamps(left, curve, noise.stamp_s);
-  log_likelihood(left, squares, noise);  // the shaking that belongs to it
+  log_likelihood(left, squares, noise);  // sets the shaking that belongs to this scatter
   noise.of_stamps_N = squares.cwiseSqrt();
   return noise;
 }

@@ -7,26 +7,26 @@
 namespace viscard {
 
 // Standard deviations of the readings of a captured run: while the stage rests, while it moves (its
-// steps shake it), and what scatter of the time stamps adds to each.
+// steps shake the force), and the contribution of the scatter of the time stamps to each reading.
 struct StageNoise {
   double resting_N = 1.0;
   double moving_N = 1.0;
-  double stamp_s = 0.0;         // standard deviation of a stamp; 0: not seen
+  double stamp_s = 0.0;         // standard deviation of a time stamp; 0: not detected
   Eigen::VectorXd of_stamps_N;  // of each reading; empty: none
 };
 
-// What a first fit leaves of each reading, and what it says of the force there.
+// Residual of a first fit at each reading, and the fitted force there.
 struct StageResidual {
   std::vector<double> time_s;  // ascending
   std::vector<bool> is_moving, is_out_of_contact;
   Eigen::VectorXd fitted_N, residual_N;
 };
 
-// A stamp that is off by d makes of a reading F(t + d) where F(t) was meant: nothing at rest, and
-// an error of d times the rate in motion, some tens of times the noise in a quick unloading. The
-// scatter of stamps is the one that makes the residuals likeliest (normal, variances of shaking and
-// stamps added); it counts only where it raises the logarithm of the likelihood by six, as much as
-// a term needs (Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773).
+// A time stamp that is off by d records F(t + d) instead of F(t). That is no error at rest and an
+// error of d times the force rate in motion: tens of times the noise in a quick unloading. The
+// scatter of the stamps is the one that maximises the likelihood of the residuals (normal; the
+// variances of shaking and stamps add). It is used only if it raises the log likelihood by six, the
+// same evidence that a term needs (Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773).
 StageNoise stage_noise(const StageResidual& left);
 
 }  // namespace viscard

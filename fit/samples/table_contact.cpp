@@ -8,8 +8,9 @@ namespace {
 
 using Column = std::vector<double>;
 
-// Whether the force rises over the first samples as it does in contact: then the record has no
-// stretch out of contact, and what lies before the line's zero is the bend of a relaxing material.
+// True if the force rises over the first samples as it does in contact. Then the record has no
+// stretch out of contact, and the offset of the line's zero is the curvature of a relaxing
+// material.
 bool rises_like_contact(const Column& force_N, const Column& depth_m, std::size_t count,
                         double slope) {
   const auto n = static_cast<double>(count);
@@ -35,7 +36,7 @@ bool rises_like_contact(const Column& force_N, const Column& depth_m, std::size_
 TableContact find_contact(const Column& force_N, const Column& depth_m, std::size_t loaded,
                           double power) {
   TableContact contact;
-  // Force at no load: the lowest tenth of what comes before the end of loading.
+  // Force at no load: the tenth percentile of the samples up to the end of loading.
   Column before(force_N.begin(), force_N.begin() + static_cast<std::ptrdiff_t>(loaded) + 1);
   std::sort(before.begin(), before.end());
   const double zero_N = before[before.size() / 10];
@@ -66,10 +67,10 @@ TableContact find_contact(const Column& force_N, const Column& depth_m, std::siz
 }
 
 std::size_t end_of_earlier_touch(const Column& depth_m, std::size_t loaded, double contact_m) {
-  constexpr double kDeep = 0.05;  // of the depth: less is noise about the contact
+  constexpr double kDeep = 0.05;  // share of the depth; smaller excursions are noise around contact
   const double deep_m = contact_m + kDeep * (depth_m[loaded] - contact_m);
   std::size_t i = loaded;
-  while (i > 0 && depth_m[i - 1] > contact_m) --i;  // the ramp itself
+  while (i > 0 && depth_m[i - 1] > contact_m) --i;  // skip the ramp itself
   while (i > 0 && depth_m[i - 1] <= deep_m) --i;
   if (i == 0) return 0;
   while (depth_m[i] > contact_m) ++i;

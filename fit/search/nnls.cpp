@@ -11,8 +11,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Solves the normal equations of the columns in use, scaled to a unit diagonal; a touch of ridge
-// keeps columns that are equal to rounding from failing.
+// Solves the normal equations of the columns in use. A small ridge keeps columns that are equal up
+// to rounding from failing.
 Eigen::VectorXd solve_passive(const Eigen::MatrixXd& gram, const Eigen::VectorXd& right,
                               const std::vector<Index>& in_use) {
   const auto count = static_cast<Index>(in_use.size());
@@ -44,7 +44,7 @@ Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
                                                   const Eigen::VectorXd& right,
                                                   const std::vector<bool>& is_free) {
   const Index count = right.size();
-  // Unit diagonal: makes the test of a gradient independent of the columns' units.
+  // A unit diagonal makes the test of the gradient independent of the units of the columns.
   Eigen::VectorXd scale = gram.diagonal().cwiseSqrt();
   for (Index j = 0; j < count; ++j) {
     if (!(scale[j] > 0.0)) scale[j] = 1.0;
@@ -56,7 +56,7 @@ Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
 
   std::vector<bool> in_use = is_free;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(count);
-  const auto settle = [&] {  // inner loop: solve, step back to the first bound crossed, drop it
+  const auto settle = [&] {  // inner loop: solve, go back to the first bound, drop its column
     for (int step = 0; step < 3 * static_cast<int>(count) + 10; ++step) {
       const std::vector<Index> list = chosen(in_use);
       if (list.empty()) return;
@@ -93,7 +93,7 @@ Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
     if (best < 0) break;
     in_use[static_cast<std::size_t>(best)] = true;
     settle();
-    // A column that rounding lets in and out again would cycle.
+    // Skip a column that rounding adds and removes again; it would cycle.
     last_dropped = in_use[static_cast<std::size_t>(best)] ? -1 : best;
   }
   return x.cwiseQuotient(scale);
@@ -134,7 +134,8 @@ SignedLeastSquares::SignedLeastSquares(const Eigen::MatrixXd& columns, const Eig
   for (std::size_t j = 0; j < in_use_.size(); ++j) {
     in_use_[j] = is_free[j] || guess[static_cast<Index>(j)] > 0.0;
   }
-  // The QR may see by rounding a sign that the normal equations did not: drop and solve again.
+  // QR may find a wrong sign that rounding hid in the normal equations: remove the column, solve
+  // again.
   while (!solve(columns, data, is_free)) {
     for (std::size_t j = 0; j < in_use_.size(); ++j) {
       if (!is_free[j] && x_[static_cast<Index>(j)] < 0.0) in_use_[j] = false;

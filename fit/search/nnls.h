@@ -7,17 +7,17 @@
 
 namespace viscard {
 
-// Minimises |A x - y|^2 with x_j >= 0 for every j that is not free, from the normal equations
-// gram = A^T A, right = A^T y. Active-set method of Lawson & Hanson, Solving Least Squares Problems
-// (1974), ch. 23, in the normal-equation form of Bro & de Jong, J. Chemometrics 11 (1997) 393.
-// Accurate to about the square root of the rounding unit: a start, or a choice of active columns,
-// for least_squares_with_signs().
+// Minimises |A x - y|^2 with x_j >= 0 for every j that is not free, from the normal equations gram
+// = A^T A, right = A^T y. Active-set method of Lawson & Hanson, Solving Least Squares Problems
+// (1974), ch. 23, in the normal-equation form of Bro & de Jong, J. Chemometrics 11 (1997) 393. The
+// relative accuracy is only about the square root of the rounding unit: good enough as a start, or
+// to choose the active columns for least_squares_with_signs().
 Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
                                                   const Eigen::VectorXd& right,
                                                   const std::vector<bool>& is_free);
 
-// The same from A itself by QR of scaled columns, to full accuracy. Columns held at zero come back
-// as exact zeros.
+// The same problem solved from A itself by QR of scaled columns, to full accuracy. Columns held at
+// zero get exact zeros.
 class SignedLeastSquares {
  public:
   SignedLeastSquares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& data,
@@ -25,12 +25,12 @@ class SignedLeastSquares {
 
   const Eigen::VectorXd& x() const { return x_; }
 
-  // Part of other vectors outside the space of the columns in use, in rotated coordinates (one row
-  // for each dimension left): lengths and products of columns are kept.
+  // Component of other vectors orthogonal to the columns in use, in rotated coordinates (one row
+  // for each remaining dimension). Rotation preserves lengths and inner products.
   Eigen::MatrixXd outside(const Eigen::MatrixXd& vectors) const;
 
  private:
-  // Solves with the columns in use; true if all signs are as they must be.
+  // Solves with the columns in use; returns true if all signs are allowed.
   bool solve(const Eigen::MatrixXd& columns, const Eigen::VectorXd& data,
              const std::vector<bool>& is_free);
 

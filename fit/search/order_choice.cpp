@@ -20,8 +20,8 @@ double n_parameters(const SpectralModel& model, const SpectralState& state) {
   return static_cast<double>(model.n_common() + 2 * state.n_terms() + model.n_nuisances());
 }
 
-// Whether the paired differences of block errors are above zero by more than so many standard
-// errors, over the blocks that both orders can predict.
+// True if the mean paired difference of the block errors exceeds zero by this many standard errors,
+// over the blocks that both orders can predict.
 bool is_worse(const std::vector<LeftOut>& a, const std::vector<LeftOut>& best,
               double standard_errors = 1.0) {
   std::vector<double> differences;
@@ -38,8 +38,8 @@ bool is_worse(const std::vector<LeftOut>& a, const std::vector<LeftOut>& best,
   return mean > standard_errors * std::sqrt(square / (count * (count - 1.0)));
 }
 
-// Of the space of these columns (of unit length): by their Gram matrix where none hides among the
-// others, else by QR, pivoted where one hardly leaves them.
+// Orthonormal basis of the span of the columns (of unit length): from the Gram matrix if it is well
+// conditioned, otherwise by QR, with pivoting if the columns are nearly dependent.
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
   constexpr double kHidden = 1e-5, kNearlyDependent = 1e-9;
   const Eigen::LLT<Eigen::MatrixXd> gram(gram_of(columns));
@@ -56,24 +56,24 @@ Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
 }
 
-// Of few rows or columns the smaller matrix lives on the stack.
+// A matrix with at most this many rows or columns is stored on the stack.
 constexpr Index kSmall = 12;
 using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kSmall, kSmall>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kSmall, 1>;
 
-// Error of predicting the rows r from all others, whose part of an orthonormal basis of the model
-// is q: (1 - q q^T)^-1 r, by the smaller of q q^T and q^T q.
+// Error of predicting the rows r from all others, (1 - q q^T)^-1 r, where q holds these rows of an
+// orthonormal basis of the model. Uses the smaller of q q^T and q^T q.
 template <typename Matrix, typename Vector>
 LeftOut left_out_error(const Eigen::Ref<const Eigen::MatrixXd>& q,
                        const Eigen::Ref<const Eigen::VectorXd>& r) {
   LeftOut out;
-  out.squared_residual = out.squared_error = r.squaredNorm();
+  out.squared_error = r.squaredNorm();
   if (q.cols() == 0) return out;
   const bool is_short = q.rows() <= q.cols();
   const Matrix leverage =
       is_short ? Matrix(q.lazyProduct(q.transpose())) : Matrix(q.transpose().lazyProduct(q));
   constexpr double kAlone = 0.9;
-  if (q.squaredNorm() < kAlone) {  // the trace: no eigenvalue can reach it
+  if (q.squaredNorm() < kAlone) {  // the trace is an upper bound of the eigenvalues
     const Eigen::LLT<Matrix> rest(Matrix::Identity(leverage.rows(), leverage.cols()) - leverage);
     if (is_short) {
       out.squared_error = Vector(rest.solve(r)).squaredNorm();
@@ -108,8 +108,8 @@ LeftOut left_out_error(const Eigen::Ref<const Eigen::MatrixXd>& q,
 
 std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralState& state,
                                      const std::vector<int>& blocks) {
-  // Nuisances stay as they are: a single block may hold all that is known of one (the unloading and
-  // its start), which says nothing for or against a term.
+  // Nuisances stay fixed: one block may hold all information about one of them (the unloading and
+  // its start), and that is no evidence for or against a term.
   Eigen::MatrixXd jacobian = full_jacobian(model, state);
   jacobian.conservativeResize(Eigen::NoChange, jacobian.cols() - model.n_nuisances());
   const Index linear = state.coefficients.size();
@@ -129,7 +129,7 @@ std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralS
   for (const std::vector<Index>& block : rows) {
     if (block.empty()) continue;
     const auto count = static_cast<Index>(block.size());
-    if (block.back() - block.front() + 1 == count) {  // in one piece: no copy
+    if (block.back() - block.front() + 1 == count) {  // contiguous block: no copy
       errors.push_back(left_out_error(basis.middleRows(block.front(), count),
                                       residual.segment(block.front(), count)));
     } else {
@@ -141,19 +141,18 @@ std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralS
 }
 
 bool is_within_range(const SpectralModel& model, const SpectralState& state) {
-  constexpr double kTouch = 1e-6;
-  return state.n_terms() == 0 || (state.ln_tau.minCoeff() > model.ln_tau_min() + kTouch &&
-                                  state.ln_tau.maxCoeff() < model.ln_tau_max() - kTouch);
+  return state.n_terms() == 0 || !(model.is_shortest(state.ln_tau.minCoeff()) ||
+                                   model.is_longest(state.ln_tau.maxCoeff()));
 }
 
 namespace {
 
-// The range of times ends at three records.
+// A time above a third of the record. ln_tau_max() is three times the record.
 bool outlasts_record(const SpectralModel& model, const SpectralState& state) {
   return state.n_terms() > 0 && state.ln_tau.maxCoeff() > model.ln_tau_max() - std::log(9.0);
 }
 
-// What the choice knows of every order of the path.
+// Scores of every order of the path.
 struct Candidates {
   std::vector<OrderRow> rows;
   std::vector<std::vector<LeftOut>> errors;
@@ -178,8 +177,9 @@ OrderRow scored(const SpectralModel& model, const SpectralState& state, double r
 Candidates candidates_of(const SpectralModel& model, const std::vector<SpectralState>& path,
                          const ChoiceInput& input) {
   Candidates all;
-  // When even the fullest order misfits, its residual is no noise and its memory no measure of how
-  // much was seen: at least five values for each of its parameters are granted.
+  // If even the largest order does not describe the data, its residual is not noise and its
+  // autocorrelation does not measure the amount of information. So assume at least five independent
+  // values per parameter.
   const double granted = std::min(input.n_samples, 5.0 * n_parameters(model, path.back()));
   const double n_effective = std::max(granted, input.n_samples / input.inflation);
   for (const SpectralState& state : path) {
@@ -188,7 +188,7 @@ Candidates candidates_of(const SpectralModel& model, const std::vector<SpectralS
   if (std::find(all.is_eligible.begin(), all.is_eligible.end(), true) == all.is_eligible.end()) {
     all.is_eligible.assign(path.size(), true);
   }
-  // What rounding of the data makes of a sum of squares: below it no order is better than another.
+  // Rounding of the data limits the sum of squares: below this value all orders are equally good.
   constexpr double kRounding = 2.2e-16;
   const double least_rss = std::max(kRounding * kRounding * model.data().squaredNorm(), 1e-300);
   const double noise = std::max(input.rss.back(), least_rss);
@@ -196,7 +196,7 @@ Candidates candidates_of(const SpectralModel& model, const std::vector<SpectralS
   for (std::size_t i = 0; i < path.size(); ++i) {
     OrderRow row = scored(model, path[i], input.rss[i], least_rss, input.n_samples, n_effective);
     all.errors.push_back(left_out_errors(model, path[i], input.blocks));
-    row.cv = row.rss - path[i].rss;  // what averages hide
+    row.cv = row.rss - path[i].rss;  // the part within averages
     for (const LeftOut& block : all.errors.back()) row.cv += block.squared_error;
     row.cv /= noise;
     all.rows.push_back(row);
@@ -209,8 +209,8 @@ Candidates candidates_of(const SpectralModel& model, const std::vector<SpectralS
   return all;
 }
 
-// A term slower than a third of the record is what drift of the force and memory of the noise look
-// like: it takes strong evidence, or the next smaller order without one stands in for this.
+// Drift of the force and autocorrelated noise look like a term slower than a third of the record.
+// Such a term needs strong evidence; otherwise the next smaller order without one replaces it.
 std::size_t without_lasting_term(const SpectralModel& model, const std::vector<SpectralState>& path,
                                  const Candidates& all, std::size_t chosen) {
   if (!outlasts_record(model, path[chosen])) return chosen;
@@ -238,13 +238,13 @@ OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralS
   scores.chosen = without_lasting_term(model, path, all, std::min(choice, all.best_bic));
   scores.rows = std::move(all.rows);
   scores.rows[scores.chosen].is_chosen = true;
-  // Orders that were left aside although they describe the data better by far.
+  // Orders that are not eligible although they describe the data much better.
   constexpr double kVeryStrong = 10.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool better = scores.rows[i].bic < scores.rows[scores.chosen].bic - kVeryStrong;
     if (all.is_eligible[i] || !better) continue;
-    scores.wants_faster |= path[i].ln_tau.minCoeff() <= model.ln_tau_min() + 1e-6;
-    scores.wants_slower |= path[i].ln_tau.maxCoeff() >= model.ln_tau_max() - 1e-6;
+    scores.wants_faster |= model.is_shortest(path[i].ln_tau.minCoeff());
+    scores.wants_slower |= model.is_longest(path[i].ln_tau.maxCoeff());
   }
   return scores;
 }

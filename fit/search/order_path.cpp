@@ -29,7 +29,7 @@ Eigen::VectorXd with(const Eigen::VectorXd& values, double added) {
   return more;
 }
 
-// Terms whose modulus came out zero say nothing.
+// Terms with zero modulus carry no information; remove them.
 SpectralState without_zero_terms(const SpectralModel& model, SpectralState state) {
   if (model.may_be_negative()) return state;
   for (Index i = state.n_terms(); i-- > 0;) {
@@ -40,8 +40,8 @@ SpectralState without_zero_terms(const SpectralModel& model, SpectralState state
   return state;
 }
 
-// Non-negative spectrum on a grid; peaks on neighbouring grid points become one term at their mean
-// time weighted by what they carry.
+// Non-negative spectrum on a grid. Adjacent non-zero grid points become one term at their mean
+// time, weighted by their contribution to the data.
 Eigen::VectorXd spectrum_peaks(const SpectralModel& model, const Eigen::VectorXd& nuisance,
                                double per_decade) {
   const Eigen::VectorXd grid = grid_of_times(model, per_decade);
@@ -66,8 +66,8 @@ Eigen::VectorXd spectrum_peaks(const SpectralModel& model, const Eigen::VectorXd
   return Eigen::Map<Eigen::VectorXd>(peaks.data(), static_cast<Index>(peaks.size()));
 }
 
-// One term fewer: the cheapest way, refined. With few terms, where each leads to another valley and
-// the search costs little, the best of some ways.
+// One term fewer: the cheapest candidate, refined. For few terms the search is cheap and the
+// candidates lead to different local minima, so the best of several is taken.
 SpectralState with_one_less_term(const SpectralModel& model, const SpectralState& state,
                                  RefineOptions options) {
   constexpr Index kFew = 12;
@@ -85,7 +85,7 @@ SpectralState with_one_less_term(const SpectralModel& model, const SpectralState
     if (!(less.rss < best.rss)) continue;
     options.target = std::min(options.target, less.rss);
     best = std::move(less);
-    // Nothing was lost that the noise would not hide: other ways lead no lower.
+    // The increase is below the noise level, so stop trying other removals.
     if (best.rss - state.rss < kHidden * model.sample_variance()) break;
   }
   return best;
@@ -117,7 +117,7 @@ RefineOptions better_than(RefineOptions options, const std::vector<SpectralState
   return options;
 }
 
-// Upwards, as far as it helps. Returns the orders that were known and became better.
+// Upward pass. Returns the previously known orders whose fit improved.
 std::vector<std::size_t> ascend(const SpectralModel& model, const Eigen::VectorXd& nuisance,
                                 const OrderPathOptions& options, std::vector<SpectralState>& path) {
   std::vector<std::size_t> improved;
@@ -132,7 +132,7 @@ std::vector<std::size_t> ascend(const SpectralModel& model, const Eigen::VectorX
     targeted.refine = better_than(options.refine, path, n + 1);
     SpectralState above = without_zero_terms(model, with_one_more_term(model, below, targeted));
     const bool is_new = above.n_terms() == below.n_terms() + 1;
-    // Beyond the order the spectrum asked for, only while the fit still gets visibly better.
+    // Beyond the largest order of the start spectrum, continue only while the fit improves visibly.
     if (!is_new || (n + 1 >= known && above.rss >= below.rss * (1.0 - 1e-3))) continue;
     constexpr double kVisible = 1e-6;
     if (above.rss < targeted.refine.target * (1.0 - kVisible)) improved.push_back(n + 1);
@@ -141,7 +141,7 @@ std::vector<std::size_t> ascend(const SpectralModel& model, const Eigen::VectorX
   return improved;
 }
 
-// Down from an order that has become better, while that makes the next ones better too.
+// Downward pass from an order that improved, as long as the smaller orders improve too.
 void descend_again(const SpectralModel& model, std::size_t from, const OrderPathOptions& options,
                    std::vector<SpectralState>& path) {
   for (std::size_t n = from; n > 1 && is_filled(path[n]); --n) {
@@ -165,7 +165,7 @@ SpectralState with_one_more_term(const SpectralModel& model, const SpectralState
   Index best = -1;
   double best_gain = 0.0;
   for (Index i = 0; i < grid.size(); ++i) {
-    constexpr double kNothingNew = 1e-14;  // the column lies among those in use
+    constexpr double kNothingNew = 1e-14;  // the column is linearly dependent on those in use
     if (!(offers.length[i] > kNothingNew * offered.col(i).squaredNorm())) continue;
     if (offers.product[i] <= 0.0 && !model.may_be_negative()) continue;
     const double gain = offers.product[i] * offers.product[i] / offers.length[i];
@@ -174,7 +174,7 @@ SpectralState with_one_more_term(const SpectralModel& model, const SpectralState
       best = i;
     }
   }
-  constexpr double kChance = 1.0;  // variances: nothing, or less than chance, to be had
+  constexpr double kChance = 1.0;  // in variances: no gain, or less than chance would give
   if (best < 0 || best_gain < kChance * model.sample_variance()) return state;
   const SpectralState start =
       solve_coefficients(model, with(state.ln_tau, grid[best]), state.nuisance);
@@ -207,7 +207,7 @@ std::vector<SpectralState> order_path(const SpectralModel& model, const OrderPat
   const std::vector<std::size_t> improved = ascend(model, nuisance, options, path);
   for (auto n = improved.rbegin(); n != improved.rend(); ++n)
     descend_again(model, *n, options, path);
-  // An order that no search could bring below a smaller one has nothing to say.
+  // Drop orders whose residual is not lower than that of a smaller order.
   double lowest = std::numeric_limits<double>::infinity();
   std::erase_if(path, [&](const SpectralState& state) {
     if (!is_filled(state) || !(state.rss < lowest)) return true;

@@ -16,7 +16,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Below this share of its length that a column has outside the others, squares of columns hide it.
+// Columns closer than this (relative) to the span of the others lose all digits in the normal
+// equations; use QR instead.
 constexpr double kNearlyDependent = 1e-5;
 
 std::vector<Index> used_columns(const Eigen::VectorXd& x, const std::vector<bool>& is_free) {
@@ -34,7 +35,7 @@ bool has_wrong_sign(const Eigen::VectorXd& x, const std::vector<bool>& is_free) 
   return false;
 }
 
-// Least squares by the normal equations of scaled columns in use.
+// Least squares by the normal equations of the scaled columns in use.
 class NormalSolution {
  public:
   NormalSolution(const Eigen::MatrixXd& values, const Eigen::MatrixXd& gram,
@@ -51,7 +52,8 @@ class NormalSolution {
   const Eigen::VectorXd& x() const { return x_; }
   // One step of iterative refinement with the residual y - V x.
   void refine(const Eigen::VectorXd& right) { x_(used_) += solve(right); }
-  // What columns with these products V^T D have in common with the columns in use.
+  // Gram matrix of the projections of other columns D onto the columns in use, from products = V^T
+  // D.
   Eigen::MatrixXd shared(const Eigen::MatrixXd& products) const {
     if (used_.empty() || products.cols() == 0) {
       return Eigen::MatrixXd::Zero(products.cols(), products.cols());
@@ -122,7 +124,7 @@ Eigen::MatrixXd nonlinear_slopes(const SpectralModel& model, const ModelColumns&
 
 namespace {
 
-// By normal equations with one step of refinement; none where they cannot be trusted.
+// Solution by normal equations with one refinement step; none if they are ill-conditioned.
 std::optional<NormalSolution> normal_solution(const SpectralModel& model,
                                               const Eigen::MatrixXd& values,
                                               const std::vector<bool>& is_free) {

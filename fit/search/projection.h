@@ -6,18 +6,18 @@
 
 namespace viscard {
 
-// A SpectralModel at one choice of times and nuisances with the coefficients that are best there:
-// what variable projection needs to know of it (Golub & Pereyra, SIAM J. Numer. Anal. 10 (1973)
-// 413), with the Jacobian of Kaufman, BIT 15 (1975) 49.
+// A SpectralModel at given times and nuisances with its best coefficients, and the quantities that
+// variable projection needs (Golub & Pereyra, SIAM J. Numer. Anal. 10 (1973) 413), with the
+// Jacobian of Kaufman, BIT 15 (1975) 49.
 struct Projection {
   Eigen::VectorXd coefficients;
-  double rss = 0.0;          // weighted; infinite where the model is not finite
-  Eigen::MatrixXd normal;    // J^T J by p
+  double rss = 0.0;          // weighted; infinite if the model is not finite
+  Eigen::MatrixXd normal;    // J^T J, derivatives by p
   Eigen::VectorXd gradient;  // J^T r
 };
 
-// The non-linear parameters as the searches see them: p = ln tau, then nuisances divided by their
-// scale; and back.
+// The non-linear parameters of the searches, p = ln tau, then nuisances divided by their scale; and
+// the way back.
 Eigen::VectorXd search_parameters(const SpectralModel& model, const Eigen::VectorXd& ln_tau,
                                   const Eigen::VectorXd& nuisance);
 Eigen::VectorXd nuisance_from(const SpectralModel& model, const Eigen::VectorXd& p);
@@ -26,12 +26,13 @@ Eigen::VectorXd nuisance_from(const SpectralModel& model, const Eigen::VectorXd&
 Eigen::MatrixXd nonlinear_slopes(const SpectralModel& model, const ModelColumns& columns,
                                  const Eigen::VectorXd& coefficients);
 
-// By normal equations with one step of iterative refinement, which is as good as QR while columns
-// are no nearer to each other than 1e-5 of their length; by QR where they are. The gradient is
-// formed from the residual itself and does not lose digits either way.
+// Uses the normal equations with one step of iterative refinement, which is as accurate as QR
+// unless a column is closer than 1e-5 (relative) to the span of the others; then QR is used. The
+// gradient is computed from the residual itself and keeps its digits in both cases.
 Projection project(const SpectralModel& model, const Eigen::VectorXd& p);
 
-// The coefficients alone, with their sum of squares; by normal equations or QR alike.
+// The coefficients and their residual sum of squares only, by normal equations or QR in the same
+// way.
 struct Coefficients {
   Eigen::VectorXd x;
   double rss = 0.0;

@@ -13,7 +13,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Parameters that can move: not held at a bound by the gradient, and with some influence.
+// Indices of the parameters that can move: the gradient does not push them against a bound, and
+// they influence the model.
 std::vector<Index> movable(const Projection& at, const Eigen::VectorXd& p, const Box& box) {
   std::vector<Index> list;
   for (Index i = 0; i < p.size(); ++i) {
@@ -70,7 +71,8 @@ SpectralState quick_search(const SpectralModel& model, const SpectralState& star
     const double little = std::max(options.tolerance * at.rss, unseen);
     is_converged = std::max(std::abs(gain), step.predicted) <= little;
     if (gain > 0.0) {
-      // Convergence is linear at worst: what a step gains, the next ten do not multiply by more.
+      // Convergence is at least linear, so the next ten steps gain at most ten times what this one
+      // gained.
       constexpr double kStepsLeft = 10.0;
       if (i > 2 && next.rss - kStepsLeft * gain > options.target) i = options.max_iterations;
       const double ratio = gain / std::max(step.predicted, 1e-300);

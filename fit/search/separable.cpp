@@ -17,7 +17,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-// L of N = L L^T for a matrix that may be singular: a direction without length gets a zero column.
+// Factor L of N = L L^T for a matrix that may be singular: a direction of zero length gets a zero
+// column.
 Eigen::MatrixXd lower_factor(Eigen::MatrixXd n) {
   Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(n.rows(), n.cols());
   const Eigen::VectorXd length = n.diagonal();
@@ -32,11 +33,12 @@ Eigen::MatrixXd lower_factor(Eigen::MatrixXd n) {
   return lower;
 }
 
-// Residual of variable projection. Only |r|, J^T r and J^T J matter to the solver, so it is handed
-// the smallest problem with the same three.
+// Residual of variable projection. The solver uses only |r|, J^T r and J^T J, so this passes the
+// smallest problem that has the same three.
 class ProjectedCost final : public ceres::CostFunction {
  public:
-  // The solver has absolute thresholds; scaled like this they mean the same for data of any unit.
+  // The solver's thresholds are absolute; this scaling makes them independent of the unit of the
+  // data.
   ProjectedCost(const SpectralModel& model, Index n_terms)
       : model_(model), scale_(1e6 / std::max(model.data().norm(), 1e-280)) {
     const int size = static_cast<int>(n_terms + model.n_nuisances());
@@ -134,7 +136,7 @@ Eigen::MatrixXd full_jacobian(const SpectralModel& model, const SpectralState& s
 
 namespace {
 
-// Jacobian and residual of all rows, those hidden in averages too.
+// Jacobian and residual of all rows, including those within averages.
 struct FullSystem {
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd residual;
@@ -159,8 +161,8 @@ FullSystem full_system(const SpectralModel& model, const SpectralState& state) {
   return all;
 }
 
-// By normal equations where no column hides among the others: the step, not its target, is all that
-// they make less exact. Else by QR.
+// Normal equations if they are well conditioned, otherwise QR. Normal equations reduce the accuracy
+// of the step only, not that of the optimum it converges to.
 Eigen::VectorXd gauss_newton_step(const FullSystem& at) {
   constexpr double kHidden = 1e-3;
   const Eigen::VectorXd scale = at.jacobian.colwise().norm().transpose().cwiseMax(1e-300);
@@ -192,7 +194,8 @@ SpectralState polish(const SpectralModel& model, const SpectralState& start) {
   double last_moved = 1.0;
   const Index linear = start.coefficients.size();
   const Index n_terms = start.n_terms();
-  if (!is_allowed(model, start)) return start;  // on a sign bound there is no interior to step in
+  // On a sign bound a Gauss-Newton step has no interior.
+  if (!is_allowed(model, start)) return start;
   SpectralState state = start;
   FullSystem now = full_system(model, state);
   for (int step = 0; step < kMaxSteps; ++step) {
@@ -204,7 +207,7 @@ SpectralState polish(const SpectralModel& model, const SpectralState& start) {
     next.nuisance += change.tail(model.n_nuisances());
     if (!is_allowed(model, next)) return state;
     FullSystem then = full_system(model, next);
-    // Rounding may raise the sum by a few units in the last place near the optimum.
+    // Near the optimum, rounding may increase the sum by a few units in the last place.
     if (!(then.residual.squaredNorm() <= now.residual.squaredNorm() * (1.0 + 1e-9) + 1e-300)) {
       return state;
     }
@@ -212,7 +215,7 @@ SpectralState polish(const SpectralModel& model, const SpectralState& start) {
     state = std::move(next);
     now = std::move(then);
     const double moved = n_terms == 0 ? 0.0 : change.segment(linear, n_terms).cwiseAbs().maxCoeff();
-    // Steps that no longer shrink are rounding.
+    // Steps that no longer shrink are rounding errors.
     if (moved < kSmallStep || (moved < kNearly && moved > 0.5 * last_moved)) break;
     last_moved = moved;
   }

@@ -8,7 +8,7 @@
 
 namespace viscard {
 
-// A point of a SpectralModel: what all its parameters are.
+// Values of all parameters of a SpectralModel.
 struct SpectralState {
   Eigen::VectorXd ln_tau;  // ln s, ascending after refine()
   Eigen::VectorXd nuisance;
@@ -19,10 +19,11 @@ struct SpectralState {
   Eigen::Index n_terms() const { return ln_tau.size(); }
 };
 
-// The same state with its terms in ascending order of time.
+// The same state with its terms sorted by ascending time.
 SpectralState sorted_by_time(SpectralState state, Eigen::Index n_common);
 
-// Which columns may have either sign: free common ones, and terms if the model allows it.
+// The columns whose coefficient may have either sign: free common ones, and terms if the model
+// allows it.
 std::vector<bool> free_columns(const SpectralModel& model, Eigen::Index n_terms);
 
 }  // namespace viscard

@@ -17,7 +17,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// The pair (i, i + 1) merged at its mean time by modulus.
+// Time of the merged pair (i, i + 1): the mean of ln tau weighted by the moduli.
 double merged_ln_tau(const SpectralModel& model, const SpectralState& state, Index i) {
   const double a = std::abs(state.coefficients[model.n_common() + i]);
   const double b = std::abs(state.coefficients[model.n_common() + i + 1]);
@@ -25,9 +25,9 @@ double merged_ln_tau(const SpectralModel& model, const SpectralState& state, Ind
   return (a * state.ln_tau[i] + b * state.ln_tau[i + 1]) / (a + b);
 }
 
-// What the sum of squares grows by when terms go or are replaced, the others following freely: for
-// A = (V^T V)^-1 and coefficients x, dropping the columns R costs x_R^T (A_RR)^-1 x_R; a new column
-// m then takes back (m^T r)^2/|m outside the rest|^2.
+// Increase of the sum of squares when terms are removed or replaced and the other coefficients are
+// solved again. With A = (V^T V)^-1 and coefficients x, removing the columns R costs x_R^T
+// (A_RR)^-1 x_R. A new column m then recovers (m^T r)^2/|m outside the rest|^2.
 class ReductionCosts {
  public:
   ReductionCosts(const SpectralModel& model, const SpectralState& state)
@@ -71,9 +71,9 @@ class ReductionCosts {
   Index first_;
   Eigen::VectorXd x_;
   Eigen::MatrixXd inverse_gram_;
-  Eigen::MatrixXd shares_;   // coefficients of each merged column in those present
-  Eigen::VectorXd outside_;  // squared length of what is outside them
-  Eigen::VectorXd left_;     // its product with the residual
+  Eigen::MatrixXd shares_;   // coefficients of each merged column in terms of the present ones
+  Eigen::VectorXd outside_;  // squared length of their components orthogonal to the present ones
+  Eigen::VectorXd left_;     // their products with the residual
 };
 
 Offers offers_by_qr(const SpectralModel& model, const Eigen::MatrixXd& present,
@@ -103,7 +103,7 @@ std::vector<Eigen::VectorXd> reductions(const SpectralModel& model, const Spectr
     merged[i] = merged_ln_tau(model, state, i);
     ways.emplace_back(costs.of_merging(i), merged);
   }
-  for (auto& way : ways) {  // what rounding made of a nearly dependent pair comes last
+  for (auto& way : ways) {  // a nearly dependent pair, whose cost is lost to rounding, comes last
     if (!std::isfinite(way.first)) way.first = std::numeric_limits<double>::max();
   }
   std::stable_sort(ways.begin(), ways.end(),
@@ -113,7 +113,7 @@ std::vector<Eigen::VectorXd> reductions(const SpectralModel& model, const Spectr
   return times;
 }
 
-// By the squares of columns; by QR where they hide what matters.
+// From the Gram matrix if it is well conditioned, otherwise by QR.
 Offers offers_of(const SpectralModel& model, const Eigen::MatrixXd& present,
                  const Eigen::MatrixXd& offered, const std::vector<bool>& is_free) {
   constexpr double kHidden = 1e-4;
@@ -124,7 +124,7 @@ Offers offers_of(const SpectralModel& model, const Eigen::MatrixXd& present,
                         (columns.cols() == 0 || gram.matrixLLT().diagonal().minCoeff() > kHidden);
   if (!is_clear) return offers_by_qr(model, present, offered, is_free);
   const Eigen::VectorXd x = gram.solve(transposed_product(columns, model.data()));
-  for (Index j = 0; j < x.size(); ++j) {  // a column held at zero is not in use
+  for (Index j = 0; j < x.size(); ++j) {  // a coefficient of zero would need the sign constraint
     if (!is_free[static_cast<std::size_t>(j)] && !(x[j] > 0.0)) {
       return offers_by_qr(model, present, offered, is_free);
     }

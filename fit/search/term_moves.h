@@ -9,18 +9,20 @@
 
 namespace viscard {
 
-// Steps from one order to the next, judged before any search by the exact update of the linear
-// part.
+// Steps from one order to the next, ranked before any search by the exact update of the linear
+// least-squares problem.
 
+// The vector without one entry.
 Eigen::VectorXd without(const Eigen::VectorXd& values, Eigen::Index leave_out);
 
-// Times of all ways to have one term fewer, dropping one or merging two neighbours at their mean
-// time, cheapest in the sum of squares first.
+// Relaxation times of all candidates with one term fewer (one term removed, or two neighbours
+// merged at their mean time), sorted by the resulting sum of squares.
 std::vector<Eigen::VectorXd> reductions(const SpectralModel& model, const SpectralState& state);
 
-// Of columns offered beside those present: product with the residual, and squared length, both
-// outside the columns in use. product^2/length is what one would take off the sum of squares, the
-// others following freely.
+// For each column offered beside the present ones: its product with the residual and its squared
+// length, both after projection onto the orthogonal complement of the columns in use.
+// product^2/length is the decrease of the sum of squares if the column is added and the other
+// coefficients are solved again.
 struct Offers {
   Eigen::VectorXd product, length;
 };

@@ -21,7 +21,7 @@ struct Recovery {
   int intervals = 0;
   int holding = 0;
   double worst_E0 = 0.0;          // relative error
-  double worst_half_width = 0.0;  // of the interval of g_1 + g_2, over it
+  double worst_half_width = 0.0;  // of the interval of g_1 + g_2, relative to it
   bool always_two_terms = true;
 };
 
@@ -59,12 +59,13 @@ Recovery recover(int seeds, const RunConditions& conditions = {}) {
 
 }  // namespace
 
-TEST_CASE("captured runs give back the truth they were made with", "[fit]") {
+TEST_CASE("captured runs give the truth behind them", "[fit]") {
   const Recovery recovery = recover(3);
   CHECK(recovery.always_two_terms);
   CHECK(recovery.worst_E0 < 0.01);
   CHECK(recovery.worst_half_width < 0.10);
-  // 45 intervals at 95 %: fewer than 36 hold with a chance below one in ten thousand.
+  // With 45 intervals at 95 %, fewer than 36 hold the truth with a probability below one in ten
+  // thousand.
   CHECK(recovery.holding >= 36);
 }
 
@@ -79,7 +80,7 @@ TEST_CASE("120 captured runs: E0 within 1 %, 90 to 99 % of 600 intervals hold", 
   CHECK(share <= 0.99);
 }
 
-TEST_CASE("late messages and an amplifier clock that runs wrong do not become data", "[fit]") {
+TEST_CASE("late messages and a wrong amplifier clock do not change the fit", "[fit]") {
   RunConditions conditions;
   conditions.clock_rate = 1.003;  // a ceramic resonator
   conditions.message_delay_s = 0.03;
@@ -89,7 +90,7 @@ TEST_CASE("late messages and an amplifier clock that runs wrong do not become da
   CHECK(recovery.worst_E0 < 0.01);
 }
 
-TEST_CASE("without the quick unloading the fast term is uncertain, and the interval says so",
+TEST_CASE("without the quick unloading the fast term is uncertain, and its interval shows that",
           "[fit]") {
   TestPlan plan;
   plan.recovery_s = 0.0;
@@ -109,10 +110,10 @@ TEST_CASE("readings lost in the ramp make the result untrustworthy", "[fit]") {
   CHECK(has_flag(fit, "gap-in-ramp"));
 }
 
-TEST_CASE("the systematic part holds the share of the frame", "[fit]") {
+TEST_CASE("the systematic uncertainty includes that of the frame", "[fit]") {
   const EmulatedTruth truth = demo_truth(10, 3);
   const FitResult fit = fit_indentation(indentation_from_capture(in_memory_run(truth, {})));
-  // Specimen over frame stiffness is 1.40; two per cent of the frame is 2.8 % of the modulus.
+  // The specimen is 1.40 times as stiff as the frame; 2 % of the frame is 2.8 % of the modulus.
   const double share = force_per_modulus_and_depth_m(truth.contact) * truth.material.E0_Pa /
                        truth.frame_stiffness_N_m;
   CHECK(fit.systematic_relative == Approx(0.02 * share).epsilon(0.01));
@@ -129,7 +130,7 @@ TEST_CASE("the clock line touches the receive times from below", "[fit]") {
   CHECK(line.at(2.0) == Approx(7.002).epsilon(1e-9));
 }
 
-TEST_CASE("one quick message in the middle does not tilt the clock line", "[fit][stability]") {
+TEST_CASE("one fast message in the middle does not tilt the clock line", "[fit][stability]") {
   std::vector<double> x, y;
   for (int i = 0; i < 8000; ++i) {
     x.push_back(0.0125 * i);
@@ -138,12 +139,12 @@ TEST_CASE("one quick message in the middle does not tilt the clock line", "[fit]
     y.push_back(x.back() + 0.05 + 0.001 * (i % 11) + stall_s - (i == 4100 ? 0.04 : 0.0));
   }
   const ClockLine line = line_from_below(x, y);
-  CHECK(line.slope == Approx(1.0).margin(1e-5));  // not 40 ms over a part of the run
+  CHECK(line.slope == Approx(1.0).margin(1e-5));  // 40 ms over a part of the run would be far more
   CHECK(line.at(0.0) == Approx(0.0).margin(0.02));
   CHECK(line.at(100.0) == Approx(100.0).margin(0.02));
 }
 
-TEST_CASE("without readings after contact drift is said to be unseen", "[fit]") {
+TEST_CASE("without readings after contact the drift is flagged as unseen", "[fit]") {
   const EmulatedTruth truth = demo_truth(20, 5);
   CapturedRun run = in_memory_run(truth, {});
   CHECK_FALSE(has_flag(fit_indentation(indentation_from_capture(run)), "drift-unseen"));
@@ -156,9 +157,9 @@ TEST_CASE("without readings after contact drift is said to be unseen", "[fit]") 
   CHECK(fit.gain_drift_relative == 0.0);
 }
 
-TEST_CASE("a gain that drifts before contact is in the intervals of the moduli", "[fit]") {
-  // The cell gains 2e-6 of the force each second for 100 s before contact: .02 %, and (1 + share of
-  // the frame) times as much of the modulus, several random errors of E_inf.
+TEST_CASE("the intervals of the moduli include a drift of the gain before contact", "[fit]") {
+  // The cell gains 2e-6 of the force each second for 100 s before contact: 0.02 %, times 1 +
+  // specimen over frame stiffness for the modulus. That is several random errors of E_inf.
   EmulatedTruth truth = demo_truth(20, 5);
   truth.drift_relative_per_s = 2e-6;
   TestPlan plan;
@@ -175,7 +176,7 @@ TEST_CASE("a gain that drifts before contact is in the intervals of the moduli",
   double E_inf = truth.material.E0_Pa;
   for (const MaterialTerm& term : truth.material.terms) E_inf -= term.g * truth.material.E0_Pa;
   CHECK(holds(fit.E_inf_interval_95, E_inf));
-  // Without it the truth lies outside.
+  // Without this uncertainty the truth lies outside the interval.
   data.first_reading_s = data.contact_from_s;
   const FitResult blind = fit_indentation(data);
   CHECK(blind.gain_drift_relative == 0.0);
@@ -184,13 +185,13 @@ TEST_CASE("a gain that drifts before contact is in the intervals of the moduli",
   CHECK(blind.terms[0].ln_tau_se == fit.terms[0].ln_tau_se);
 }
 
-TEST_CASE("profiles of a captured run are the parabolas that its covariance says", "[fit]") {
-  // Two well-seen terms: E_inf is held while starts and contact follow; over its own standard error
-  // the curve passes 1 and 4.
+TEST_CASE("profiles of a captured run are the parabolas of its covariance", "[fit]") {
+  // Two well-determined terms. E_inf is held while starts and contact follow; at one and at two
+  // standard errors the profile must be near 1 and 4.
   FitOptions options;
   options.with_profiles = true;
   IndentationData data = indentation_from_capture(in_memory_run(demo_truth(20, 7), {}));
-  data.first_reading_s = data.contact_from_s;  // the gain's drift is no part of a profile
+  data.first_reading_s = data.contact_from_s;  // a profile does not include the drift of the gain
   const FitResult fit = fit_indentation(data, options);
   REQUIRE(fit.profiles.size() == fit.terms.size() + 1);
   for (const ProfileCurve& curve : fit.profiles) {
@@ -200,7 +201,8 @@ TEST_CASE("profiles of a captured run are the parabolas that its covariance says
     const double se = is_time ? fit.terms[term].ln_tau_se : fit.E_inf_se_Pa;
     const double best = is_time ? std::log(fit.terms[term].tau_s) : fit.E_inf_Pa;
     const double width = curve.interval_95.high - curve.interval_95.low;
-    // The stage's time is held, not the specimen's, and a fast term is not quite linear.
+    // The stage's time is held, not the specimen's, and the dependence on a fast term is not quite
+    // linear.
     CHECK(width == Approx(2.0 * 1.96 * se).epsilon(is_time ? 0.25 : 0.03));
     for (std::size_t i = 0; i < curve.value.size() && !is_time; ++i) {
       const double z = (curve.value[i] - best) / se;
@@ -209,9 +211,9 @@ TEST_CASE("profiles of a captured run are the parabolas that its covariance says
   }
 }
 
-TEST_CASE("stamps that jitter by 20 ms are not blamed on the frame or the specimen", "[fit]") {
-  // Readings come every 12.5 ms; half of their stamps are off by up to 20 ms, so that some even
-  // change places. The ramp's kinks and the stiffness read from it must not suffer.
+TEST_CASE("time stamps that jitter by 20 ms do not change frame or specimen", "[fit]") {
+  // Readings come every 12.5 ms. Half of their stamps are off by up to 20 ms, so some readings
+  // change places. The kinks of the ramp, and the stiffness read from it, must not suffer.
   EmulatedTruth truth = demo_truth(GENERATE(10, 20), 4);
   CapturedRun run = in_memory_run(truth, {});
   std::mt19937_64 random(9);

@@ -13,10 +13,10 @@ using namespace viscard;
 namespace {
 
 struct Certified {
-  const char* format;  // Lanczos data are the same sum printed to 13, 6 and 5 digits
-  double b[6];         // amplitude, rate, slowest first
+  const char* format;  // the Lanczos data are the same sum printed to 13, 6 and 5 digits
+  double b[6];         // amplitude, rate; slowest first
   double rss;
-  double parameter_error;  // relative, allowed
+  double parameter_error;  // allowed relative error
 };
 
 // 0.0951 exp(-x) + 0.8607 exp(-3x) + 1.5576 exp(-5x)
@@ -49,7 +49,8 @@ RelaxationData lanczos_data(const char* format) {
 
 }  // namespace
 
-TEST_CASE("Lanczos problems: nine digits of every certified parameter from no start", "[fit]") {
+TEST_CASE("Lanczos problems give nine digits of every certified parameter without start values",
+          "[fit]") {
   const auto& problem = kLanczos[GENERATE(0, 1, 2)];
   FitOptions options;
   options.is_liquid = true;
@@ -64,11 +65,11 @@ TEST_CASE("Lanczos problems: nine digits of every certified parameter from no st
     CHECK(term.modulus_Pa == Approx(problem.b[2 * i]).epsilon(problem.parameter_error));
     CHECK(1.0 / term.tau_s == Approx(problem.b[2 * i + 1]).epsilon(problem.parameter_error));
   }
-  // The residual of Lanczos1 is at the rounding of the data themselves.
+  // The residual of Lanczos1 is the rounding error of the data themselves.
   CHECK(fit.rss == Approx(problem.rss).epsilon(problem.rss < 1e-20 ? 2e-3 : 1e-9));
 }
 
-TEST_CASE("Lanczos3: six digits of every certified standard deviation", "[fit]") {
+TEST_CASE("Lanczos3 gives six digits of every certified standard deviation", "[fit]") {
   FitOptions options;
   options.is_liquid = true;
   options.n_terms = 3;
@@ -83,14 +84,14 @@ TEST_CASE("Lanczos3: six digits of every certified standard deviation", "[fit]")
   }
 }
 
-TEST_CASE("the number of Lanczos terms is found without being told", "[fit]") {
+TEST_CASE("the number of Lanczos terms is found from the data", "[fit]") {
   FitOptions options;
   options.is_liquid = true;
   const FitResult fit = fit_relaxation(lanczos_data("%.12E"), options);
   CHECK(fit.terms.size() == 3);
 }
 
-TEST_CASE("MGH17 is fitted once negative terms are allowed", "[fit]") {
+TEST_CASE("MGH17 can be fitted with negative terms", "[fit]") {
   const double y[] = {.844, .908, .932, .936, .925, .908, .881, .850, .818, .784, .751,
                       .718, .685, .658, .628, .603, .580, .558, .538, .522, .506, .490,
                       .478, .467, .457, .448, .438, .431, .424, .420, .414, .411, .406};

@@ -12,7 +12,7 @@
 using namespace viscard;
 using namespace viscard::test;
 
-TEST_CASE("creep of a material gives back its relaxation series", "[fit]") {
+TEST_CASE("the creep of a material gives its relaxation series", "[fit]") {
   const PronySeries truth = s2();
   const RetardationSpectrum spectrum = retardation_from_relaxation(truth);
   CreepData data;
@@ -36,7 +36,8 @@ TEST_CASE("creep of a material gives back its relaxation series", "[fit]") {
   }
 }
 
-TEST_CASE("creep of a liquid gives E_inf = 0 and one term more than it has retardations", "[fit]") {
+TEST_CASE("the creep of a liquid gives E_inf = 0 and one term more than it has retardations",
+          "[fit]") {
   RetardationSpectrum spectrum{1.0, {{0.5, 3.0}}, 0.01};
   CreepData data;
   for (int i = 0; i <= 200; ++i) {
@@ -55,7 +56,7 @@ TEST_CASE("creep of a liquid gives E_inf = 0 and one term more than it has retar
   CHECK(fit.E0_Pa == Approx(1.0).epsilon(1e-8));
 }
 
-TEST_CASE("storage and loss give back the series they came from", "[fit]") {
+TEST_CASE("storage and loss moduli give the series behind them", "[fit]") {
   DmaData data;
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
@@ -75,8 +76,8 @@ TEST_CASE("storage and loss give back the series they came from", "[fit]") {
   CHECK(fit.noise.sigma == Approx(2e-3).epsilon(0.2));
 }
 
-TEST_CASE("a spectrum wider than the terms allowed gets them all", "[fit]") {
-  // The misfit of three terms must not be taken for noise with a long memory.
+TEST_CASE("a spectrum wider than the maximum number of terms uses all of them", "[fit]") {
+  // The misfit of three terms must not be mistaken for autocorrelated noise.
   DmaData data;
   for (int i = 0; i <= 120; ++i) {
     const double f = std::pow(10.0, -5.0 + 7.0 * i / 120.0);

@@ -1,4 +1,4 @@
-// The worked example of fit/README.md, as it stands there.
+// The worked example of fit/README.md, compiled and run.
 #include "fit/fit_relaxation.h"
 #include "models/material/prony_series.h"
 
@@ -8,7 +8,7 @@
 #include <cstdio>
 
 TEST_CASE("the worked example of the C++ interface", "[fit]") {
-  // A strip held at constant strain for 200 s, ten readings a second, noise of .2 %.
+  // A strip held at constant strain for 200 s, ten readings a second, noise of 0.2 %.
   viscard::RelaxationData data;
   for (int i = 1; i <= 2000; ++i) {
     const double t = 0.1 * i;

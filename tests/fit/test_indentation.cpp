@@ -13,7 +13,7 @@
 using namespace viscard;
 using namespace viscard::test;
 
-TEST_CASE("a slow ramp biases a step fit, and not the fit of the history", "[fit]") {
+TEST_CASE("a slow ramp biases a step fit, but not a fit of the history", "[fit]") {
   const double ramp_s = GENERATE(1.0, 5.0);
   CAPTURE(ramp_s);
   const IndentationData data =
@@ -22,8 +22,8 @@ TEST_CASE("a slow ramp biases a step fit, and not the fit of the history", "[fit
   options.n_terms = 2;
   const FitResult exact = fit_indentation(data, options);
   REQUIRE(exact.terms.size() == 2);
-  // Three standard errors; the seed is fixed. After a slow ramp little is left to see of E_1, and
-  // the interval says so.
+  // Three standard errors; the seed is fixed. After a slow ramp little of E_1 is left to see, and
+  // the interval shows that.
   CHECK(std::abs(exact.E0_Pa - 1.8) < 3.0 * exact.E0_se_Pa);
   CHECK(std::abs(exact.terms[0].modulus_Pa - 0.12) < 3.0 * exact.terms[0].modulus_se_Pa);
   CHECK(exact.E0_se_Pa < 0.02);
@@ -35,16 +35,16 @@ TEST_CASE("a slow ramp biases a step fit, and not the fit of the history", "[fit
     step.value.push_back(data.force_N[i] / 1e-4);
   }
   const FitResult biased = fit_relaxation(step, options);
-  // What relaxes of E_1 while the ramp lasts: (tau/t_R)(1 - exp(-t_R/tau)) of it is left, 57 % and
-  // 16 % for tau = .8 s (Oyen, Phil. Mag. 86 (2006) 5625).
+  // The part of E_1 left after relaxation during the ramp is (tau/t_R)(1 - exp(-t_R/tau)): 57 % and
+  // 16 % for tau = 0.8 s (Oyen, Phil. Mag. 86 (2006) 5625).
   const double left = 0.8 / ramp_s * (1.0 - std::exp(-ramp_s / 0.8));
   CHECK(biased.terms[0].modulus_Pa == Approx(0.12 * left).epsilon(0.1));
 }
 
-TEST_CASE("ramp and hold gives the printed effective moduli", "[fit]") {
-  // E0 1.88 MPa, g .008206 and .01386, tau .1945 and 2.403 s: force over depth 1.847789124 MPa at 3
-  // s after a ramp of 1 s, 1.843283901 at 7 s after one of 5 s. The fit of noiseless data must
-  // carry them.
+TEST_CASE("the fit of a ramp and hold gives the known effective moduli", "[fit]") {
+  // E0 1.88 MPa, g 0.008206 and 0.01386, tau 0.1945 and 2.403 s: force over depth is 1.847789124
+  // MPa at 3 s after a ramp of 1 s, and 1.843283901 MPa at 7 s after a ramp of 5 s. The fit of
+  // noise-free data must reproduce these values.
   const double E0 = 1.88;
   const PronySeries truth{E0 * (1 - 0.008206 - 0.01386),
                           {{E0 * 0.008206, 0.1945}, {E0 * 0.01386, 2.403}}};
@@ -64,12 +64,12 @@ TEST_CASE("ramp and hold gives the printed effective moduli", "[fit]") {
   CHECK(effective == Approx(ramp_s == 1.0 ? 1.847789124 : 1.843283901).epsilon(3e-10));
 }
 
-TEST_CASE("contact before the record's zero of depth is found", "[fit]") {
-  // The stage moves 20 um in air first; depth in the table counts from where the stage started.
+TEST_CASE("contact that differs from the table's zero of depth is found", "[fit]") {
+  // The stage first moves 20 um in air; depth in the table counts from the start of the stage.
   auto depth = [](double t) { return 1e-4 * std::min(t, 1.2) - 2e-5; };
   IndentationData data = indentation_of(s2(), even_times(60.0, 0.01), depth, 1e-3, 22);
   for (double& d : data.depth_m) d += 2e-5;
-  for (double& force : data.force_N) force += 3e-5;  // zero of the load cell
+  for (double& force : data.force_N) force += 3e-5;  // zero offset of the load cell
   FitOptions options;
   options.n_terms = 2;
   const FitResult fit = fit_indentation(data, options);
@@ -79,7 +79,8 @@ TEST_CASE("contact before the record's zero of depth is found", "[fit]") {
   CHECK(fit.is_stiffness);
 }
 
-TEST_CASE("geometry turns stiffness into modulus, and its uncertainty stands apart", "[fit]") {
+TEST_CASE("geometry converts stiffness to modulus, and its uncertainty is reported separately",
+          "[fit]") {
   IndentationData data = indentation_of(s2(), even_times(60.0, 0.02), ramp_and_hold(1.0), 1e-3, 23);
   const double stiffness = fit_indentation(data).E0_Pa;
   data.contact = PunchContact{.punch_radius_m = 2.2e-3,
@@ -90,20 +91,21 @@ TEST_CASE("geometry turns stiffness into modulus, and its uncertainty stands apa
   CHECK_FALSE(fit.is_stiffness);
   CHECK(fit.E0_Pa * force_per_modulus_and_depth_m(*data.contact) ==
         Approx(stiffness).epsilon(1e-9));
-  // 1 % of the radius, and kappa grows with it besides.
+  // 1 % for the radius, and kappa grows with the radius too.
   CHECK(fit.systematic_relative > 0.01);
   CHECK(fit.systematic_relative < 0.02);
   REQUIRE(fit.two_point);
-  // Between E_inf and E0; the half-space value overlooks kappa = 1.277 (frictionless, a/H = .2).
+  // Between E_inf and E0. The half-space value lacks the factor kappa = 1.277 (frictionless, a/H =
+  // 0.2).
   CHECK(fit.two_point->modulus_Pa < fit.E0_Pa);
   CHECK(fit.two_point->modulus_Pa > fit.E_inf_Pa);
   CHECK(fit.two_point->half_space_modulus_Pa ==
         Approx(fit.two_point->modulus_Pa * layer_factor(*data.contact)).epsilon(1e-12));
 }
 
-TEST_CASE("a frame in series is taken out exactly", "[fit]") {
+TEST_CASE("a frame in series is removed exactly", "[fit]") {
   const PronySeries specimen{14000.0, {{150.0, 0.2}, {200.0, 2.4}}};
-  // Put it in by compliances, take it out by the function.
+  // Put the spring in by adding compliances, remove it by the function.
   RetardationSpectrum compliance = retardation_from_relaxation(specimen);
   compliance.instantaneous_compliance_1_Pa += 1.0 / 10e3;
   const PronySeries back = specimen_series(relaxation_from_retardation(compliance), 10e3);
@@ -114,7 +116,7 @@ TEST_CASE("a frame in series is taken out exactly", "[fit]") {
   CHECK_THROWS_WITH(specimen_series({20e3, {}}, 10e3), Catch::Contains("frame stiffness"));
 }
 
-TEST_CASE("a gap in the ramp and a converter at its end are said", "[fit]") {
+TEST_CASE("a gap in the ramp and a saturated converter are flagged", "[fit]") {
   IndentationData data = indentation_of(s2(), even_times(60.0, 0.02), ramp_and_hold(1.0), 1e-3, 24);
   SECTION("gap") {
     IndentationData gap;

@@ -20,7 +20,7 @@ const TemperatureShift kWlf{.law = ShiftLaw::kWlf, .T_ref_C = 20.0, .C1 = 8.86, 
 const TemperatureShift kArrhenius{
     .law = ShiftLaw::kArrhenius, .T_ref_C = 20.0, .activation_J_mol = 9e4};
 
-// Steps of 1 to 100 s at each temperature, noise relative to the value.
+// Steps of 1 to 100 s at each temperature; the noise is relative to the value.
 MasterData relaxation_data(const TemperatureShift& shift, double noise, std::uint64_t seed) {
   std::mt19937_64 dice(seed);
   std::normal_distribution<double> normal;
@@ -51,7 +51,7 @@ TEST_CASE("WLF and Arrhenius factors are those of their formulas", "[models]") {
   CHECK(error_text([] { ln_shift_factor(kWlf, -90.0); }).find("pole") != std::string::npos);
 }
 
-TEST_CASE("the master model's slopes are its finite differences", "[fit][gradient]") {
+TEST_CASE("the slopes of the master model equal finite differences", "[fit][gradient]") {
   MasterSegment cold{0.0, {0.1, 1.0, 10.0}, {3e6, 2e6, 1e6}, {}};
   MasterSegment sweep{30.0, {0.1, 1.0, 10.0}, {1e6, 2e6, 3e6}, {2e5, 3e5, 2e5}};
   const MasterModel model({cold, sweep}, 0, {0.0, -1.0}, {});
@@ -67,7 +67,7 @@ TEST_CASE("the master model's slopes are its finite differences", "[fit][gradien
     const Eigen::VectorXd slope = (model.columns(up, nuisance, false).values.col(1 + i) -
                                    model.columns(down, nuisance, false).values.col(1 + i)) /
                                   (2.0 * kStep);
-    // Central differences: step^2 and rounding/step, of columns of size 1e-6.
+    // Central differences have errors of step^2 and rounding/step, for columns of size 1e-6.
     CHECK((slope - at.term_slopes.col(i)).norm() <= 1e-8 * slope.norm());
   }
   Eigen::VectorXd up = nuisance, down = nuisance;
@@ -79,11 +79,11 @@ TEST_CASE("the master model's slopes are its finite differences", "[fit][gradien
   CHECK((slope - at.nuisance_slopes[0]).norm() <= 1e-8 * slope.norm());
 }
 
-TEST_CASE("segments without noise shift onto the truth they were made from", "[fit][master]") {
+TEST_CASE("noise-free segments shift onto the truth behind them", "[fit][master]") {
   const MasterCurve curve = fit_master_curve(relaxation_data(kWlf, 0.0, 1), {.n_terms = 4});
   REQUIRE(curve.laws.wlf);
   CHECK(curve.laws.wlf_is_better);
-  // The search for the best times stops at 1e-12 of the residual's own size.
+  // The search for the best times stops at 1e-12 of the residual sum.
   CHECK(curve.laws.wlf->C1 == Approx(8.86).epsilon(1e-4));
   CHECK(curve.laws.wlf->C2_K == Approx(101.6).epsilon(1e-4));
   CHECK(curve.fit.E_inf_Pa == Approx(2e6).epsilon(1e-4));
@@ -92,7 +92,7 @@ TEST_CASE("segments without noise shift onto the truth they were made from", "[f
   CHECK(curve.factors[2].ln_a == 0.0);
 }
 
-TEST_CASE("noisy segments give WLF constants within their intervals, and WLF is named",
+TEST_CASE("noisy segments give WLF constants within their intervals, and WLF is selected",
           "[fit][master]") {
   const MasterCurve curve = fit_master_curve(relaxation_data(kWlf, 0.005, 7));
   REQUIRE(curve.laws.wlf);
@@ -104,11 +104,11 @@ TEST_CASE("noisy segments give WLF constants within their intervals, and WLF is 
     if (factor.ln_a == 0.0) continue;
     CAPTURE(factor.temperature_C);
     CHECK(factor.ln_a == Approx(ln_shift_factor(kWlf, factor.temperature_C))
-                             .margin(4.0 * factor.ln_a_se + 0.03));  // .1 K of scatter: .02
+                             .margin(4.0 * factor.ln_a_se + 0.03));  // 0.1 K of scatter gives 0.02
   }
 }
 
-TEST_CASE("Arrhenius segments are named so, with the activation energy in its interval",
+TEST_CASE("Arrhenius segments select the Arrhenius law, with the activation energy in its interval",
           "[fit][master]") {
   const MasterCurve curve = fit_master_curve(relaxation_data(kArrhenius, 0.005, 3));
   REQUIRE(curve.laws.arrhenius);
@@ -116,7 +116,7 @@ TEST_CASE("Arrhenius segments are named so, with the activation energy in its in
   CHECK(holds(curve.laws.arrhenius->activation_J_mol_95, 9e4));
 }
 
-TEST_CASE("frequency sweeps at several temperatures make a master curve too", "[fit][master]") {
+TEST_CASE("frequency sweeps at several temperatures give a master curve", "[fit][master]") {
   MasterData data;
   for (const double T_C : {0.0, 15.0, 30.0, 45.0}) {
     const double a = std::exp(ln_shift_factor(kArrhenius, T_C));
@@ -142,7 +142,8 @@ TEST_CASE("frequency sweeps at several temperatures make a master curve too", "[
   CHECK(curve.laws.arrhenius->activation_J_mol == Approx(9e4).epsilon(1e-4));  // no noise
 }
 
-TEST_CASE("segments that share no modulus are refused by name", "[fit][master]") {
+TEST_CASE("segments without a common modulus are refused with their temperatures",
+          "[fit][master]") {
   MasterData data;
   for (int i = 0; i < 10; ++i) {
     for (const double T_C : {0.0, 50.0}) {
@@ -158,7 +159,8 @@ TEST_CASE("segments that share no modulus are refused by name", "[fit][master]")
         std::string::npos);
 }
 
-TEST_CASE("a row of zero and moduli of the wrong sign are refused by name", "[fit][master]") {
+TEST_CASE("a zero modulus and moduli of the wrong sign are refused with their place",
+          "[fit][master]") {
   MasterData data = relaxation_data(kWlf, 0.0, 1);
   const double kept = data.modulus_Pa[50];
   data.modulus_Pa[50] = 0.0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kFrom_s = 1e-4, kTo_s = 1e6;
 
-// Thirty terms over ten decades, bell-shaped and uneven.
+// Thirty terms over ten decades, with a bell-shaped, uneven spectrum.
 PronySeries thirty_terms(unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -56,7 +56,7 @@ double error_of(const PronySeries& one, const PronySeries& reference) {
 
 }  // namespace
 
-TEST_CASE("thirty terms become six with 14 alternating equal peaks, so none can be better",
+TEST_CASE("thirty terms reduce to six with 14 alternating equal peaks, so none can be better",
           "[cards][fit]") {
   for (const unsigned seed : {1U, 2U, 3U, 4U, 5U}) {
     CAPTURE(seed);
@@ -65,11 +65,11 @@ TEST_CASE("thirty terms become six with 14 alternating equal peaks, so none can 
     REQUIRE(reduced.series.terms.size() == 6);
     const std::vector<double> peaks = peak_heights(reduced.series, series);
     CAPTURE(peaks);
-    // de la Vallee-Poussin: the best error lies between the smallest and the largest of 2n + 2
+    // de la Vallee-Poussin: the best error lies between the smallest and the largest of the 2n + 2
     // peaks.
     REQUIRE(peaks.size() >= 14);
     const double lowest = *std::min_element(peaks.begin(), peaks.end());
-    CHECK(reduced.largest_error <= 1.02 * lowest);  // the grid of the exchange
+    CHECK(reduced.largest_error <= 1.02 * lowest);  // 2 % for the grid of the exchange
     CHECK(reduced.largest_error == Approx(error_of(reduced.series, series)).epsilon(0.01));
   }
 }
@@ -99,7 +99,7 @@ TEST_CASE("a random search around the reduced series finds nothing better", "[ca
   CHECK(best_error >= 0.95 * found);
 }
 
-TEST_CASE("a series that has no more terms than asked stays as it is", "[cards][fit]") {
+TEST_CASE("a series with no more terms than requested stays as it is", "[cards][fit]") {
   const PronySeries series = thirty_terms(3);
   const ReducedSeries same = reduce_terms(series, 30, kFrom_s, kTo_s);
   CHECK(same.largest_error == 0.0);
@@ -108,10 +108,11 @@ TEST_CASE("a series that has no more terms than asked stays as it is", "[cards][
   CHECK_THROWS_WITH(reduce_terms(series, 3, 1.0, 0.5), Catch::Contains("t_min < t_max"));
 }
 
-TEST_CASE("six terms hidden among thirty come back to rounding", "[cards][fit][reduction]") {
+TEST_CASE("six terms split into thirty are recovered up to rounding", "[cards][fit][reduction]") {
   PronySeries series{2e5, {}};
   for (int i = 0; i < 6; ++i) {
-    // Each split into five equal parts of the same time: a 30-term series that is a 6-term one.
+    // Each term split into five equal parts with the same time: a 30-term series that equals a
+    // 6-term one.
     for (int part = 0; part < 5; ++part) {
       series.terms.push_back({2e4 * (1.0 + i), 1e-3 * std::pow(10.0, 1.4 * i)});
     }

@@ -44,8 +44,7 @@ TEST_CASE("data that cannot be fitted are refused with the reason", "[fit]") {
   }
 }
 
-TEST_CASE("creep, oscillation and strain histories of no sense are refused with the reason",
-          "[fit]") {
+TEST_CASE("invalid creep, oscillation and strain histories are refused with the reason", "[fit]") {
   const std::vector<double> arguments{0.1, 0.3, 1.0, 3.0, 10.0, 30.0};
   SECTION("negative compliance") {
     CHECK_THROWS_WITH(fit_creep({arguments, {-1.0, -1.1, -1.2, -1.3, -1.4, -1.5}}),
@@ -68,8 +67,9 @@ TEST_CASE("creep, oscillation and strain histories of no sense are refused with 
   }
 }
 
-TEST_CASE("as many parameters as samples are not fitted: nothing would tell the noise", "[fit]") {
-  // Five noisy samples once gave two terms with intervals of no width at all.
+TEST_CASE("as many parameters as samples are not fitted, because nothing would determine the noise",
+          "[fit]") {
+  // Regression: five noisy samples once gave two terms with intervals of zero width.
   FitOptions options;
   options.n_terms = 4;
   RelaxationData data;
@@ -81,11 +81,10 @@ TEST_CASE("as many parameters as samples are not fitted: nothing would tell the 
   CHECK(fit.terms.size() == 1);
   CHECK(fit.E0_se_Pa > 1e3);
   REQUIRE_FALSE(fit.flags.empty());
-  CHECK_THAT(fit.flags.front().text, Contains("5 values cannot tell more than 1"));
+  CHECK_THAT(fit.flags.front().text, Contains("5 values cannot determine more than 1"));
 }
 
-TEST_CASE("held parameters leave as many free as the samples can tell, or the fit is refused",
-          "[fit]") {
+TEST_CASE("a fit is refused unless the samples can determine the parameters left free", "[fit]") {
   RelaxationData data;
   for (const double t : {0.1, 0.6, 4.0, 25.0, 160.0}) {
     data.time_s.push_back(t);
@@ -95,15 +94,15 @@ TEST_CASE("held parameters leave as many free as the samples can tell, or the fi
   options.n_terms = 3;
   options.constraints = {{"tau_1", 0.5, 0.5}};
   CHECK_THROWS_WITH(fit_relaxation(data, options),
-                    Contains("5 values cannot tell 6 free parameters"));
+                    Contains("5 values cannot determine 6 free parameters"));
   options.n_terms = 1;
   options.constraints = {{"tau_1", 3.0, 3.0}};
   const FitResult fit = fit_relaxation(data, options);
-  // E_inf and E_1 are free: three of the five values are left for the noise.
+  // E_inf and E_1 are fitted, and three of the five values remain to estimate the noise.
   CHECK(fit.noise.sigma == Approx(std::sqrt(fit.rss / 3.0)).epsilon(1e-12));
 }
 
-TEST_CASE("rows that are not numbers are left out and counted", "[fit]") {
+TEST_CASE("rows without numbers are left out and counted", "[fit]") {
   RelaxationData data = relaxation_of(s2(), 400, 1000.0, 0.001, 1);
   data.value[7] = std::numeric_limits<double>::infinity();
   data.time_s[9] = std::numeric_limits<double>::quiet_NaN();
@@ -112,7 +111,7 @@ TEST_CASE("rows that are not numbers are left out and counted", "[fit]") {
   CHECK(fit.n_samples == 398);
 }
 
-TEST_CASE("an indentation without a force that follows is refused", "[fit]") {
+TEST_CASE("an indentation whose force does not follow the depth is refused", "[fit]") {
   IndentationData data = indentation_of(s2(), even_times(20.0, 0.02), ramp_and_hold(1.0), 1e-3, 2);
   SECTION("constant force") {
     data.force_N.assign(data.force_N.size(), 0.5);

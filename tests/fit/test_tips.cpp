@@ -16,8 +16,8 @@ namespace {
 
 const PronySeries kTruth{1.6e6, {{1.2e5, 0.8}, {8e4, 40.0}}};
 
-// Ramp of 1 s to 50 um and a hold, recorded at 100 Hz from before contact; the force from steps of
-// a tenth of that.
+// Ramp of 1 s to 50 um and a hold, recorded at 100 Hz from before contact. The force is computed
+// with a tenth of that step.
 IndentationData pressed(const PunchContact& contact, double noise_N, double contact_at_m) {
   std::mt19937_64 dice(4);
   std::normal_distribution<double> normal;
@@ -49,15 +49,16 @@ void check_truth(const FitResult& fit, double tolerance) {
 
 }  // namespace
 
-TEST_CASE("a sphere pressed into a viscoelastic half-space gives its modulus back", "[fit]") {
+TEST_CASE("a sphere on a viscoelastic half-space gives the true modulus", "[fit]") {
   const PunchContact sphere{
       .punch_radius_m = 2e-3, .poisson_ratio = 0.495, .shape = TipShape::kSphere};
   const double peak_N = depth_law(sphere).factor * std::pow(5e-5, 1.5) * 1.7e6;
-  // depth^1.5 is taken as linear between samples: an error of (dt/ramp)^2 and the contact's.
+  // depth^1.5 is taken as linear between samples: an error of (dt/ramp)^2, plus that of the
+  // contact.
   check_truth(fit_indentation(pressed(sphere, 1e-4 * peak_N, 3e-6), {.n_terms = 2}), 0.01);
 }
 
-TEST_CASE("a cone pressed into a viscoelastic half-space gives its modulus back", "[fit]") {
+TEST_CASE("a cone on a viscoelastic half-space gives the true modulus", "[fit]") {
   const PunchContact cone{.poisson_ratio = 0.495,
                           .shape = TipShape::kCone,
                           .half_angle_rad = 70.0 * std::numbers::pi / 180.0};
@@ -65,7 +66,7 @@ TEST_CASE("a cone pressed into a viscoelastic half-space gives its modulus back"
   check_truth(fit_indentation(pressed(cone, 1e-4 * peak_N, 3e-6), {.n_terms = 2}), 0.01);
 }
 
-TEST_CASE("a sphere taken for a flat punch is far off: the shape matters", "[fit]") {
+TEST_CASE("a sphere fitted as a flat punch gives a wrong modulus", "[fit]") {
   const PunchContact sphere{
       .punch_radius_m = 2e-3, .poisson_ratio = 0.495, .shape = TipShape::kSphere};
   IndentationData data = pressed(sphere, 1e-5, 0.0);

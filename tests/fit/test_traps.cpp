@@ -14,8 +14,9 @@
 using namespace viscard;
 using namespace viscard::test;
 
-// What misleads a fit: each case has a truth that the plain method misses.
-TEST_CASE("one sample in a hundred twenty standard deviations off does not move the fit", "[fit]") {
+// Data that mislead a simple fit: in each case the truth is known and the plain method misses it.
+TEST_CASE("a spike of twenty standard deviations in every hundredth sample does not change the fit",
+          "[fit]") {
   RelaxationData data = relaxation_of(s2(), 10000, 1000.0, 0.01, 31);
   const FitResult clean = fit_relaxation(data);
   std::mt19937_64 random(5);
@@ -26,20 +27,19 @@ TEST_CASE("one sample in a hundred twenty standard deviations off does not move 
   }
   const FitResult fit = fit_relaxation(data);
   CHECK(has_flag(fit, "spikes-left-out"));
-  CHECK(fit.n_spikes >= count - 2);  // one beside another noise peak may stay
+  CHECK(fit.n_spikes >= count - 2);  // a spike beside another noise peak may stay
   CHECK(fit.n_spikes <= count);
   REQUIRE(fit.terms.size() == 2);
-  // A hundredth of the samples is gone: a tenth of a standard error or so.
+  // One hundredth of the samples is missing: about a tenth of a standard error.
   CHECK(std::abs(fit.E_inf_Pa - clean.E_inf_Pa) < 0.5 * clean.E_inf_se_Pa);
   CHECK(std::abs(fit.terms[0].modulus_Pa - clean.terms[0].modulus_Pa) <
         0.5 * clean.terms[0].modulus_se_Pa);
   CHECK(fit.noise.sigma == Approx(0.018).epsilon(0.05));
 }
 
-TEST_CASE("one-sided spikes anywhere, also side by side, leave every interval holding the truth",
-          "[fit]") {
-  // One sample in a hundred, at random, is 20 standard deviations too high; in the second record
-  // the stamps are uneven, so that neighbours tell nothing.
+TEST_CASE("every interval holds the truth despite one-sided spikes, single or in groups", "[fit]") {
+  // One sample in a hundred, at random, is 20 standard deviations too high. In the second record
+  // the time steps are uneven, so that the comparison with neighbours cannot be used.
   const bool is_even = GENERATE(true, false);
   CAPTURE(is_even);
   RelaxationData data = relaxation_of(s2(), 20000, 1000.0, 0.01, 41);
@@ -65,7 +65,7 @@ TEST_CASE("one-sided spikes anywhere, also side by side, leave every interval ho
   }
   const FitResult fit = fit_relaxation(data);
   CHECK(fit.n_spikes >= count - 3);  // the very first or last sample, or a group of four, may stay
-  CHECK(fit.n_spikes <= count + 4);  // a good one between two spikes goes too
+  CHECK(fit.n_spikes <= count + 4);  // a good sample between two spikes is removed too
   REQUIRE(fit.terms.size() == 2);
   CHECK(holds(fit.E_inf_interval_95, 1.6));
   CHECK(holds(fit.terms[0].modulus_Pa_95, 0.12));
@@ -76,8 +76,8 @@ TEST_CASE("one-sided spikes anywhere, also side by side, leave every interval ho
   CHECK(std::abs(fit.E_inf_Pa - clean.E_inf_Pa) < 0.5 * clean.E_inf_se_Pa);
 }
 
-TEST_CASE("a fast term at the start of a record is no group of spikes", "[fit]") {
-  // Five samples of something quick, then 500 of a slower term on uneven stamps.
+TEST_CASE("a fast term at the start of a record is not removed as spikes", "[fit]") {
+  // Five samples of a fast term, then 500 of a slower term at uneven times.
   RelaxationData data;
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
@@ -90,7 +90,7 @@ TEST_CASE("a fast term at the start of a record is no group of spikes", "[fit]")
   CHECK(fit.n_spikes == 0);
 }
 
-TEST_CASE("spikes of a creep record do not move its fit", "[fit]") {
+TEST_CASE("spikes in a creep record do not change the fit", "[fit]") {
   CreepData data;
   std::mt19937_64 random(8);
   std::normal_distribution<double> normal;
@@ -106,7 +106,7 @@ TEST_CASE("spikes of a creep record do not move its fit", "[fit]") {
   CHECK(std::abs(fit.E_inf_Pa - clean.E_inf_Pa) < 0.5 * clean.E_inf_se_Pa);
 }
 
-TEST_CASE("steep, noiseless or logarithmic records hold no spikes", "[fit][stability]") {
+TEST_CASE("steep, noise-free or logarithmic records have no spikes", "[fit][stability]") {
   const RelaxationData clean = relaxation_of(s2(), 5000, 1000.0, 0.0, 1);
   CHECK(isolated_spikes(clean.time_s, clean.value).empty());
   const RelaxationData noisy = relaxation_of(s6(), 20000, 1e4, 0.01, 2);
@@ -121,7 +121,7 @@ TEST_CASE("steep, noiseless or logarithmic records hold no spikes", "[fit][stabi
   CHECK(isolated_spikes(time_s, value).empty());
 }
 
-TEST_CASE("a load cell that reads in steps of a thousandth costs no accuracy", "[fit]") {
+TEST_CASE("a load cell with a resolution of a thousandth costs no accuracy", "[fit]") {
   RelaxationData data = relaxation_of(s2(), 10000, 1000.0, 0.001, 32);
   for (double& value : data.value) value = 0.0018 * std::round(value / 0.0018);
   const FitResult fit = fit_relaxation(data);
@@ -131,23 +131,23 @@ TEST_CASE("a load cell that reads in steps of a thousandth costs no accuracy", "
   CHECK(fit.terms[1].tau_s == Approx(40.0).epsilon(0.05));
 }
 
-TEST_CASE("drift of a thousandth in the record is not told from a slow term, and that is said",
+TEST_CASE("drift of a thousandth in the record cannot be separated from a slow term and is flagged",
           "[fit]") {
   RelaxationData data = relaxation_of(s2(), 10000, 1000.0, 0.001, 33);
   for (std::size_t i = 0; i < data.value.size(); ++i) {
     data.value[i] -= 0.001 * 1.8 * data.time_s[i] / 1000.0;
   }
   const FitResult fit = fit_relaxation(data);
-  // Either the drift is a term of its own, flagged as slower than the record, or it has moved E_inf
-  // by no more than itself.
+  // Either the drift becomes a term of its own, flagged as slower than the record, or it moves
+  // E_inf by no more than its own size.
   const bool is_said = has_flag(fit, "tau-beyond-window") || has_flag(fit, "slower-relaxation");
   if (!is_said) CHECK(fit.E_inf_Pa == Approx(1.6).epsilon(1.2e-3));
   CHECK(fit.terms.front().modulus_Pa == Approx(0.12).epsilon(0.05));
 }
 
-TEST_CASE("a contact one sample late is found from the record", "[fit]") {
+TEST_CASE("contact between two samples is found from the record", "[fit]") {
   const double step_s = 0.02;
-  // Contact half-way between samples, counted in the table from where the stage started.
+  // Contact half-way between two samples; depth in the table counts from the start of the stage.
   const auto depth = [](double t) { return 1e-4 * std::clamp(t - 0.51, 0.0, 1.0); };
   IndentationData data = indentation_of(s2(), even_times(200.0, step_s), depth, 1e-3, 34);
   for (std::size_t i = 0; i < data.time_s.size(); ++i) {
@@ -161,7 +161,7 @@ TEST_CASE("a contact one sample late is found from the record", "[fit]") {
 
 TEST_CASE("the interval of E_inf holds a plateau that the record hardly reaches", "[fit]") {
   // Terms down to the end of the record above a plateau, exact to six digits: a discrete series of
-  // a continuous spectrum, whose order is never quite enough.
+  // a continuous spectrum, which no order describes completely.
   RelaxationData data;
   for (int i = 0; i < 200; ++i) {
     const double t = std::pow(10.0, -4.0 + 8.0 * i / 199.0);
@@ -179,9 +179,9 @@ TEST_CASE("the interval of E_inf holds a plateau that the record hardly reaches"
   CHECK(fit.E_inf_interval_95.high - fit.E_inf_interval_95.low < 1.0);
 }
 
-TEST_CASE("the ramp table: a step fit is biased by the ramp, the history is not", "[fit][slow]") {
-  // Mean over seeds of 1000 s holds after ramps of 1 s and 5 s, noise .1 %: the step fit loses 43 %
-  // and 83 % of E_1 and 2.9 % and 5.8 % of E0.
+TEST_CASE("a ramp biases the step fit of a table, but not the fit of the history", "[fit][slow]") {
+  // Mean over seeds of holds of 1000 s after ramps of 1 s and 5 s, noise 0.1 %. The step fit loses
+  // 43 % and 83 % of E_1, and 2.9 % and 5.8 % of E0.
   const double ramp_s = GENERATE(1.0, 5.0);
   CAPTURE(ramp_s);
   constexpr int kSeeds = 24;
@@ -208,8 +208,8 @@ TEST_CASE("the ramp table: a step fit is biased by the ramp, the history is not"
     step_E0 += biased.E0_Pa / 1.8 / kSeeds;
     step_E1 += biased.terms.at(0).modulus_Pa / 0.12 / kSeeds;
   }
-  // A record of a 5 s ramp tells E_1 to 3.3 % (the bound of Cramer and Rao); the mean of 24 to .7
-  // %.
+  // The Cramer-Rao bound for E_1 is 3.3 % for one record with a ramp of 5 s, and 0.7 % for the mean
+  // of 24 records.
   CHECK(exact_E0 == Approx(1.0).margin(0.001));
   CHECK(exact_E1 == Approx(1.0).margin(0.015));
   CHECK(E0_se < (ramp_s == 1.0 ? 0.0005 : 0.002));

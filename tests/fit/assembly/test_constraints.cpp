@@ -18,7 +18,7 @@ using Catch::Contains;
 
 namespace {
 
-// 1.6 + .12 exp(-t/.8) + .08 exp(-t/40), noise .002.
+// 1.6 + 0.12 exp(-t/0.8) + 0.08 exp(-t/40), noise 0.002.
 RelaxationData two_terms() {
   std::mt19937_64 dice(9);
   std::normal_distribution<double> normal;
@@ -40,7 +40,8 @@ FitResult fit_with(const std::vector<std::string>& texts) {
 
 }  // namespace
 
-TEST_CASE("a fixed time stays, has no error, and the rest is refitted around it", "[fit]") {
+TEST_CASE("a fixed time keeps its value without error, and the other parameters are fitted",
+          "[fit]") {
   const FitResult free = fit_with({});
   const FitResult fit = fit_with({"tau_1=0.81"});
   CHECK(fit.terms[0].tau_s == Approx(0.81).epsilon(1e-12));
@@ -48,13 +49,13 @@ TEST_CASE("a fixed time stays, has no error, and the rest is refitted around it"
   CHECK(fit.terms[1].tau_s != free.terms[1].tau_s);
   CHECK(fit.rss > free.rss);
   CHECK(fit.rss < 1.05 * free.rss);
-  // Knowing a time makes its modulus surer.
+  // A known time reduces the error of its modulus.
   CHECK(fit.terms[0].modulus_se_Pa < free.terms[0].modulus_se_Pa);
   REQUIRE_FALSE(fit.flags.empty());
   CHECK(fit.flags.front().name == "constrained");
 }
 
-TEST_CASE("a constraint that the free fit keeps anyway changes nothing", "[fit]") {
+TEST_CASE("a constraint that the free fit satisfies changes nothing", "[fit]") {
   const FitResult free = fit_with({});
   const FitResult fit = fit_with({"g_2=0:0.5", "tau_2=1:1000"});
   CHECK(fit.E0_Pa == Approx(free.E0_Pa).epsilon(1e-7));  // both at the optimum
@@ -64,7 +65,7 @@ TEST_CASE("a constraint that the free fit keeps anyway changes nothing", "[fit]"
 
 TEST_CASE("shares, moduli and ends can be fixed or bounded", "[fit]") {
   CHECK(fit_with({"g_2=0.03"}).terms[1].g == Approx(0.03).epsilon(1e-10));
-  CHECK(fit_with({"g_2=0:0.03"}).terms[1].g == Approx(0.03).epsilon(1e-6));  // pushed to the end
+  CHECK(fit_with({"g_2=0:0.03"}).terms[1].g == Approx(0.03).epsilon(1e-6));  // ends on its bound
   CHECK(fit_with({"E0=1.81"}).E0_Pa == Approx(1.81).epsilon(1e-10));
   const FitResult fit = fit_with({"E_inf=1.59", "E_1=0.1:0.11"});
   CHECK(fit.E_inf_Pa == Approx(1.59).epsilon(1e-12));
@@ -72,19 +73,19 @@ TEST_CASE("shares, moduli and ends can be fixed or bounded", "[fit]") {
   CHECK(fit.terms[0].modulus_Pa >= 0.1 * (1.0 - 1e-9));
 }
 
-TEST_CASE("constraints that make no sense are refused by name", "[fit]") {
+TEST_CASE("invalid constraints are refused by name", "[fit]") {
   const auto text_of = [](const std::vector<std::string>& texts) {
     return error_text([&] { fit_with(texts); });
   };
-  CHECK_THAT(text_of({"tau=1"}), Contains("'tau' is no parameter"));
-  CHECK_THAT(text_of({"tau_3=1"}), Contains("tau_3 is of a term that is not there"));
+  CHECK_THAT(text_of({"tau=1"}), Contains("'tau' is not a parameter"));
+  CHECK_THAT(text_of({"tau_3=1"}), Contains("tau_3 belongs to a term that does not exist"));
   CHECK_THAT(text_of({"tau_1=2:1"}), Contains("must ascend"));
   CHECK_THAT(text_of({"tau_1=fast"}), Contains("'fast' is not a number"));
   CHECK_THAT(text_of({"g_1=.1", "E_inf=1"}), Contains("not both"));
   CHECK_THAT(text_of({"tau_1=1", "tau_1=2"}), Contains("tau_1 is constrained twice"));
   CHECK_THAT(text_of({"E0=0"}), Contains("E0 must be positive"));
   CHECK_THAT(text_of({"E0=-2:-1"}), Contains("E0 must be positive"));
-  CHECK_THAT(text_of({"E_inf=-1"}), Contains("not negative"));
+  CHECK_THAT(text_of({"E_inf=-1"}), Contains("not be negative"));
   CHECK_THAT(text_of({"g_1=0.6", "g_2=0.5"}), Contains("sum to 1 or more"));
   CHECK_THAT(text_of({"g_1=1.5:2"}), Contains("below 1"));
   CHECK_THAT(text_of({"tau_1=1e-9"}), Contains("outside the times that the record can show"));
@@ -105,16 +106,17 @@ TEST_CASE("constraints that the data contradict make the result untrustworthy", 
     CHECK(fit.E_inf_Pa >= 0.0);
     CHECK(fit.sum_g <= 1.0);
   }
-  const FitResult near = fit_with({"E0=1.8"});  // the truth
+  const FitResult near = fit_with({"E0=1.8"});  // the true value
   CHECK(near.is_trustworthy);
   CHECK_FALSE(flag_of(near, "contradicts-data"));
   CHECK_FALSE(flag_of(near, "constraints-strained"));
-  const FitResult beside = fit_with({"tau_1=0.9"});  // seven standard errors off, hardly seen
+  // Seven standard errors off, but hardly visible in the residual.
+  const FitResult beside = fit_with({"tau_1=0.9"});
   CHECK(beside.is_trustworthy);
   CHECK(flag_of(beside, "constraints-strained"));
 }
 
-TEST_CASE("terms that the data do not hold leave E0 finite, or say that it is unknown", "[fit]") {
+TEST_CASE("terms that the data do not support leave E0 finite, or flag it as unknown", "[fit]") {
   const int n_terms = GENERATE(3, 4, 6, 100);
   const FitResult fit = fit_relaxation(two_terms(), {.n_terms = n_terms});
   CAPTURE(n_terms, fit.E0_Pa, fit.E0_se_Pa, fit.terms.size());

@@ -12,7 +12,7 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-// Up and down n_series times over loads 0, 1/4, 1/2, 3/4, 1 of 2 N.
+// n_series times up and down over loads of 0, 1/4, 1/2, 3/4 and 1 times 2 N.
 WeightReadings cell_readings(int n_series, double gain, double hysteresis, double bow,
                              double noise_V, unsigned seed) {
   std::mt19937 random(seed);
@@ -33,23 +33,23 @@ WeightReadings cell_readings(int n_series, double gain, double hysteresis, doubl
 
 }  // namespace
 
-TEST_CASE("A perfect cell gives its gain, with nothing in the budget but the weights", "[fit]") {
+TEST_CASE("a perfect cell gives its gain, and the budget holds only the weights", "[fit]") {
   WeightReadings data = cell_readings(2, 0.7255, 0.0, 0.0, 0.0, 1);
   data.force_relative_u = 2e-4;
   const LoadCellFit fit = fit_load_cell(data);
   CHECK(fit.gain == Approx(0.7255).epsilon(1e-12));
-  CHECK(fit.zero == Approx(0.1005).epsilon(1e-12));  // mean of .1 and .101
+  CHECK(fit.zero == Approx(0.1005).epsilon(1e-12));  // mean of 0.1 and 0.101
   CHECK(fit.n_series == 2);
   CHECK(fit.gain_u == Approx(2e-4 * 0.7255).epsilon(1e-6));
   CHECK(fit.nonlinearity < 1e-12);
   CHECK(fit.hysteresis < 1e-12);
 }
 
-TEST_CASE("Hysteresis and nonlinearity are found as they were put in", "[fit]") {
+TEST_CASE("hysteresis and nonlinearity are found with their true values", "[fit]") {
   const LoadCellFit loop = fit_load_cell(cell_readings(3, 0.7255, 0.004, 0.0, 0.0, 1));
-  CHECK(loop.hysteresis == Approx(0.004).epsilon(1e-9));  // at half load, of full scale
+  CHECK(loop.hysteresis == Approx(0.004).epsilon(1e-9));  // at half load, relative to full scale
   CHECK(loop.has_hysteresis);
-  CHECK(loop.gain == Approx(0.7255).epsilon(1e-9));  // up and down balance
+  CHECK(loop.gain == Approx(0.7255).epsilon(1e-9));  // the errors on the way up and down cancel
   // A bow of 4 b s (1 - s) over s = 0, 1/4, 1/2, 3/4 (twice each) and 1: the least-squares line is
   // b (5/9 + 2/7 (s - 4/9)), farthest from it, by 5/7 b, at full load; the gain takes 2/7 b.
   const LoadCellFit bow = fit_load_cell(cell_readings(3, 0.7255, 0.0, 0.003, 0.0, 1));
@@ -57,11 +57,11 @@ TEST_CASE("Hysteresis and nonlinearity are found as they were put in", "[fit]") 
   CHECK(bow.nonlinearity == Approx(0.003 * 5.0 / 7.0 / (1.0 + 0.003 * 2.0 / 7.0)).epsilon(1e-6));
 }
 
-TEST_CASE("The interval of the gain holds the truth in at least 95 of 100 calibrations", "[fit]") {
+TEST_CASE("the interval of the gain holds the truth in at least 95 of 100 calibrations", "[fit]") {
   int n_inside = 0;
   const int n = 400;
   for (unsigned seed = 1; seed <= n; ++seed) {
-    // Weights wrong by as much as they are said to be uncertain.
+    // The errors of the weights have the size of their stated uncertainty.
     std::mt19937 random(seed + 5000);
     const double wrong = 1.0 + std::normal_distribution<double>(0.0, 3e-4)(random);
     WeightReadings data = cell_readings(3, 0.7255 * wrong, 0.002, 0.001, 5e-4, seed);
@@ -72,21 +72,21 @@ TEST_CASE("The interval of the gain holds the truth in at least 95 of 100 calibr
   CHECK(n_inside >= 380);
 }
 
-TEST_CASE("Repeatability is the pooled scatter of the same load again", "[fit]") {
+TEST_CASE("repeatability is the pooled scatter of repeated loads", "[fit]") {
   const LoadCellFit fit = fit_load_cell(cell_readings(200, 0.7255, 0.0, 0.0, 1e-3, 3));
   CHECK(fit.has_repeatability);
-  // 1 mV of 1.451 V; the zeros of each series take one degree of freedom of nine.
+  // 1 mV of 1.451 V; the zeros of the series take one of nine degrees of freedom.
   CHECK(fit.repeatability == Approx(1e-3 / 1.451 * std::sqrt(8.0 / 9.0)).epsilon(0.05));
 }
 
-TEST_CASE("A calibration that cannot be one is refused", "[fit]") {
+TEST_CASE("an invalid calibration is refused", "[fit]") {
   WeightReadings data;
   data.force_N = {0.0, 1.0};
   data.reading = {0.1, 0.8};
   CHECK_THROWS_WITH(fit_load_cell(data), Contains("two different weights"));
   data.force_N = {1.0, 2.0, 3.0};
   data.reading = {0.1, 0.8, 0.9};
-  CHECK_THROWS_WITH(fit_load_cell(data), Contains("begin with none"));
+  CHECK_THROWS_WITH(fit_load_cell(data), Contains("begin without load"));
   data.force_N = {0.0, 1.0, 2.0};
   data.reading = {0.1, 0.1, 0.1};
   CHECK_THROWS_WITH(fit_load_cell(data), Contains("do not change"));
@@ -94,11 +94,11 @@ TEST_CASE("A calibration that cannot be one is refused", "[fit]") {
   CHECK_THROWS_AS(fit_load_cell(data), std::invalid_argument);
 }
 
-TEST_CASE("Weights in air are lighter by their buoyancy", "[fit]") {
+TEST_CASE("weights in air are lighter by their buoyancy", "[fit]") {
   CHECK(weight_N_from_mass_kg(0.2, 9.80665) == Approx(0.2 * 9.80665 * 0.99985).epsilon(1e-12));
 }
 
-TEST_CASE("The frame's stiffness comes from the slope of position on force", "[fit]") {
+TEST_CASE("the stiffness of the frame comes from the slope of position over force", "[fit]") {
   BlockPoints points;
   for (int i = 1; i <= 6; ++i) {
     points.force_N.push_back(0.3 * i);
@@ -106,7 +106,7 @@ TEST_CASE("The frame's stiffness comes from the slope of position on force", "[f
   }
   const FrameStiffnessFit exact = fit_frame_stiffness(points, 0.002);
   CHECK(exact.stiffness_N_m == Approx(10e3).epsilon(1e-9));
-  CHECK(exact.relative_u == Approx(0.002).epsilon(1e-6));  // only the gain's
+  CHECK(exact.relative_u == Approx(0.002).epsilon(1e-6));  // the gain's uncertainty only
   CHECK(exact.low_N_m == Approx(10e3 * 0.996).epsilon(1e-6));
   points.position_m[3] += 2e-6;
   CHECK(fit_frame_stiffness(points, 0.0).curvature_m > 1e-6);
@@ -114,7 +114,7 @@ TEST_CASE("The frame's stiffness comes from the slope of position on force", "[f
   CHECK_THROWS_WITH(fit_frame_stiffness(points, 0.0), Contains("does not grow"));
 }
 
-TEST_CASE("A calibration counts for a year, or as long as it says", "[fit]") {
+TEST_CASE("a calibration is valid for a year, or until its own date", "[fit]") {
   LoadCellCalibration calibration;
   CHECK_THAT(calibration_trouble(calibration, "2026-11-21"), Contains("no date"));
   calibration.date = "2025-11-21";
@@ -128,9 +128,9 @@ TEST_CASE("A calibration counts for a year, or as long as it says", "[fit]") {
   CHECK_THAT(calibration_trouble(calibration, "2024-02-28"), Contains("later than today"));
 }
 
-TEST_CASE("A date of a calibration is a day of the calendar", "[fit]") {
+TEST_CASE("the date of a calibration is a day of the calendar", "[fit]") {
   LoadCellCalibration calibration;
-  CHECK_NOTHROW(validate_dates(calibration));  // none at all: said when it is used
+  CHECK_NOTHROW(validate_dates(calibration));  // no date: reported when it is used
   calibration.date = GENERATE("2026-11-21", "2024-02-29", "2026-11-21T10:00:00Z");
   CHECK_NOTHROW(validate_dates(calibration));
   calibration.date =

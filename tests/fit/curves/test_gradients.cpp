@@ -17,8 +17,8 @@ using namespace viscard::test;
 
 namespace {
 
-// Largest difference between the hand-written derivative and central differences, each column
-// relative to its largest entry.
+// Largest difference between the hand-written derivative and central differences, relative to the
+// largest entry of each column.
 double worst_gradient_error(const SpectralModel& model, const SpectralState& state) {
   const Eigen::MatrixXd exact = full_jacobian(model, state);
   const auto value = [&](const SpectralState& s) -> Eigen::VectorXd {
@@ -59,7 +59,7 @@ SpectralState state_of(const SpectralModel& model, std::vector<double> tau_s) {
     state.ln_tau[static_cast<Eigen::Index>(i)] = std::log(tau_s[i]);
   }
   state.nuisance = model.nuisance_start();
-  // Every column weighs the same, so that none drowns the differences of another.
+  // Every column gets the same weight, so that none hides the differences of another.
   state.coefficients = Eigen::VectorXd::Ones(model.n_common() + state.n_terms());
   const Eigen::MatrixXd values = model.columns(state.ln_tau, state.nuisance, false).values;
   state.coefficients = values.colwise().norm().cwiseInverse().transpose();
@@ -68,8 +68,8 @@ SpectralState state_of(const SpectralModel& model, std::vector<double> tau_s) {
 
 }  // namespace
 
-// Central differences with a step of 1e-5 are good to about 1e-10 of the function, 1e-8 of the
-// slope.
+// Central differences with a step of 1e-5 are accurate to about 1e-10 of the function and 1e-8 of
+// the slope.
 constexpr double kDifferences = 1e-7;
 
 TEST_CASE("slopes of the step models equal finite differences", "[fit][gradient]") {
@@ -114,6 +114,6 @@ TEST_CASE("slopes of the stage model equal finite differences in times, starts a
   const CapturedRun run = in_memory_run(demo_truth(10, 1), {});
   const IndentationData data = indentation_from_capture(run);
   const StageModel model(data, nuisance_start(data), {.resting_N = 5e-4, .moving_N = 7e-4}, {});
-  // A sample that lies within a step of a kink is not differentiable there; none does here.
+  // The model is not differentiable at a sample within one step of a kink; there are none here.
   CHECK(worst_gradient_error(model, state_of(model, {0.02, 0.2, 2.4, 80.0})) < 1e-5);
 }

@@ -7,7 +7,7 @@
 
 using namespace viscard;
 
-TEST_CASE("response of a branch to a trapezoid equals fine stepping", "[fit]") {
+TEST_CASE("the response of a branch to a trapezoid equals that of fine steps", "[fit]") {
   const StageMove move{0.3, 0.0, 2e-4, 5e-4, 5e-3};
   const double tau_s = GENERATE(1e-3, 0.2, 30.0);
   const double from_s = GENERATE(0.0, 0.45);
@@ -15,20 +15,20 @@ TEST_CASE("response of a branch to a trapezoid equals fine stepping", "[fit]") {
   const auto branch = response.branch(tau_s);
   const double start_s = std::max(from_s, 0.3);
   for (const double t : {0.5, 0.78, 0.9, 3.0}) {
-    // The recursion for linear pieces, on 200 000 of them.
+    // The recursion for linear pieces, with 200 000 of them.
     HereditaryStress fine({0.0, {{1.0, tau_s}}});
     constexpr int kSteps = 200000;
     for (int i = 1; i <= kSteps; ++i) {
       const double s = start_s + (t - start_s) * i / kSteps;
       fine.advance((t - start_s) / kSteps, position_m(move, s) - position_m(move, start_s));
     }
-    // Linear pieces of 4e-6 s miss the parabola by 1e-9 of the way.
+    // Linear pieces of 4e-6 s deviate from the parabola by 1e-9 of the displacement.
     CHECK(response.at(branch, t).value_m == Approx(fine.stress_Pa()).epsilon(1e-6).margin(1e-12));
   }
   CHECK(response.at(branch, 0.2).value_m == 0.0);
 }
 
-TEST_CASE("a branch that never relaxes follows the stage, and after the move decays as exp(-t/tau)",
+TEST_CASE("a slow branch follows the stage, and after the move decays as exp(-t/tau)",
           "[fit][reduction]") {
   const StageMove move{1.0, 1e-3, 1.2e-3, 1e-3, 0.2};
   const StageResponse response(move, 0.0);

@@ -20,7 +20,7 @@ double width(const Interval& interval) {
 
 }  // namespace
 
-TEST_CASE("where the data are plenty, profile likelihoods end where the covariance says",
+TEST_CASE("with plenty of data, profile likelihoods give the intervals of the covariance",
           "[fit][reduction]") {
   const RelaxationData data = relaxation_of(s2(), 20000, 1000.0, 0.002, 41);
   FitOptions options;
@@ -30,7 +30,7 @@ TEST_CASE("where the data are plenty, profile likelihoods end where the covarian
   options.with_profiles = true;
   const FitResult fit = fit_relaxation(data, options);
   REQUIRE(fit.profiles.size() == 3);
-  // A quadratic to a few per cent: the errors of times are below 2 %.
+  // The likelihood is quadratic to a few per cent: the errors of the times are below 2 %.
   CHECK(width(fit.E_inf_interval_95) == Approx(width(plain.E_inf_interval_95)).epsilon(0.03));
   for (std::size_t i = 0; i < 2; ++i) {
     CHECK(width(fit.terms[i].tau_s_95) == Approx(width(plain.terms[i].tau_s_95)).epsilon(0.03));
@@ -43,7 +43,7 @@ TEST_CASE("where the data are plenty, profile likelihoods end where the covarian
   }
 }
 
-TEST_CASE("a profile is lopsided where the record ends before the term does", "[fit]") {
+TEST_CASE("a profile is asymmetric if the record ends before the term has relaxed", "[fit]") {
   const PronySeries truth{1.0, {{0.3, 1.0}, {0.2, 100.0}}};
   const RelaxationData data = relaxation_of(truth, 4000, 100.0, 0.01, 42);
   FitOptions options;
@@ -54,12 +54,12 @@ TEST_CASE("a profile is lopsided where the record ends before the term does", "[
   const Interval tau = fit.terms[1].tau_s_95;
   const double best = fit.terms[1].tau_s;
   CHECK(std::log(tau.high / best) > std::log(best / tau.low));
-  // E_inf is bounded from above much better than from below, where only zero is a bound.
+  // E_inf is bounded from above much more closely than from below, where only zero is a bound.
   CHECK(fit.E_inf_interval_95.high - fit.E_inf_Pa < fit.E_inf_Pa - fit.E_inf_interval_95.low);
   CHECK(fit.E_inf_interval_95.low >= 0.0);
 }
 
-TEST_CASE("the bootstrap agrees with the covariance, with and without memory of the noise",
+TEST_CASE("the bootstrap agrees with the covariance, with and without autocorrelation of the noise",
           "[fit]") {
   const double rho = GENERATE(0.0, 0.8);
   CAPTURE(rho);
@@ -70,13 +70,14 @@ TEST_CASE("the bootstrap agrees with the covariance, with and without memory of 
   options.n_bootstrap = 200;
   const FitResult fit = fit_relaxation(data, options);
   CHECK(fit.n_bootstrap >= 190);
-  // 200 percentiles are good to about 10 %, and blocks miss some of the memory.
+  // Percentiles of 200 refits are accurate to about 10 %, and blocks lose part of the
+  // autocorrelation.
   CHECK(width(fit.E_inf_interval_95) == Approx(width(plain.E_inf_interval_95)).epsilon(0.35));
   CHECK(width(fit.terms[1].tau_s_95) == Approx(width(plain.terms[1].tau_s_95)).epsilon(0.35));
   CHECK(fit_relaxation(data, options).E0_interval_95.low == fit.E0_interval_95.low);  // fixed seed
 }
 
-TEST_CASE("storage and loss that belong to no one material are said to contradict", "[fit]") {
+TEST_CASE("storage and loss moduli that contradict each other are flagged", "[fit]") {
   DmaData data;
   for (int i = 0; i < 80; ++i) {
     const double f = std::pow(10.0, -4.0 + 0.1 * i);
@@ -86,6 +87,6 @@ TEST_CASE("storage and loss that belong to no one material are said to contradic
     data.loss_Pa.push_back(modulus.loss_Pa);
   }
   CHECK_FALSE(has_flag(fit_dma(data), "storage-loss-contradict"));
-  for (double& loss : data.loss_Pa) loss *= 1.5;  // an instrument's own friction, say
+  for (double& loss : data.loss_Pa) loss *= 1.5;  // for example friction of the instrument
   CHECK(has_flag(fit_dma(data), "storage-loss-contradict"));
 }

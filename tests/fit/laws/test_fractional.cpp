@@ -34,11 +34,11 @@ TEST_CASE("a power law between two plateaus is found, and preferred to its serie
   const auto diagnosis = diagnose_fractional(fit);
   REQUIRE(diagnosis);
   CHECK(diagnosis->bic_difference < -6.0);
-  // Noise .002 over 300 samples: about a hundredth of the power and of ln tau.
+  // Noise of 0.002 over 300 samples: about 0.01 for the exponent and for ln tau.
   CHECK(diagnosis->model.alpha == Approx(0.5).margin(0.02));
   CHECK(std::log(diagnosis->model.tau_s / 2.0) == Approx(0.0).margin(0.1));
   CHECK(diagnosis->model.equilibrium_Pa == Approx(1.0).epsilon(0.01));
-  CHECK(diagnosis->chi_square == Approx(300.0).epsilon(0.25));  // sqrt(2/300) is .08
+  CHECK(diagnosis->chi_square == Approx(300.0).epsilon(0.25));  // sqrt(2/300) = 0.08
 }
 
 TEST_CASE("two separate terms are not taken for a power law", "[fit]") {
@@ -48,17 +48,17 @@ TEST_CASE("two separate terms are not taken for a power law", "[fit]") {
   CHECK(diagnosis->bic_difference > 6.0);
 }
 
-TEST_CASE("one term is the power law with the power one", "[fit]") {
+TEST_CASE("one term is the power law with exponent one", "[fit]") {
   const FitResult fit = fit_relaxation(relaxation_of({1.0, {{0.5, 3.0}}}, 1500, 100.0, 0.005, 6));
   REQUIRE(fit.terms.size() == 1);
   const auto diagnosis = diagnose_fractional(fit);
   REQUIRE(diagnosis);
   CHECK(diagnosis->model.alpha == Approx(1.0).margin(0.03));
   CHECK(diagnosis->model.tau_s == Approx(fit.terms[0].tau_s).epsilon(0.05));
-  CHECK(std::abs(diagnosis->bic_difference) < 12.0);  // ln(1500) for the power alone
+  CHECK(std::abs(diagnosis->bic_difference) < 12.0);  // ln(1500) for the exponent alone
 }
 
-TEST_CASE("what is no relaxation after a step is not diagnosed", "[fit]") {
+TEST_CASE("only relaxation after a step is diagnosed", "[fit]") {
   FitResult fit;
   fit.kind = FitKind::kDma;
   CHECK_FALSE(diagnose_fractional(fit));

@@ -25,15 +25,15 @@ Eigen::VectorXd ar1(double rho, Eigen::Index n, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE("autoregression of white noise is of order zero", "[fit]") {
+TEST_CASE("the autoregression of white noise has order zero", "[fit]") {
   CHECK(autoregression(ar1(0.0, 4000, GENERATE(1U, 2U, 3U))).inflation() == 1.0);
 }
 
-TEST_CASE("autoregression finds the memory of noise", "[fit]") {
+TEST_CASE("the autoregression finds the correlation of the noise", "[fit]") {
   const double rho = GENERATE(0.5, 0.9, 0.97);
   const Autoregression noise = autoregression(ar1(rho, 100000, 4));
-  // Standard error of rho from 1e5 values: sqrt((1 - rho^2)/1e5) < .003; of the inflation 2/(1 -
-  // rho^2) times that, at most 10 %.
+  // The standard error of rho from 1e5 values is sqrt((1 - rho^2)/1e5) < 0.003; that of the
+  // inflation is 2/(1 - rho^2) times that, at most 10 %.
   CHECK(noise.autocorrelation()[1] == Approx(rho).margin(0.01));
   CHECK(noise.inflation() == Approx((1.0 + rho) / (1.0 - rho)).epsilon(0.25));
 }
@@ -56,7 +56,7 @@ TEST_CASE("sums over pairs of stretches equal the double sum", "[fit]") {
   CHECK(sums.over(300, 200, 310) == Approx(direct(300, 200, 310)).epsilon(1e-6));
 }
 
-TEST_CASE("scatter from differences ignores trends and spikes", "[fit]") {
+TEST_CASE("the scatter from differences ignores trends and spikes", "[fit]") {
   const Eigen::VectorXd noise = ar1(0.0, 10000, 5);
   std::vector<double> values;
   for (Eigen::Index i = 0; i < noise.size(); ++i) {
@@ -95,23 +95,24 @@ Coverage coverage(double rho, int runs) {
 
 }  // namespace
 
-TEST_CASE("95 % intervals hold the truth in 90 to 99 % of runs, whatever the memory of the noise",
-          "[fit][slow]") {
+TEST_CASE(
+    "95 % intervals hold the truth in 90 to 99 % of runs for any autocorrelation of the noise",
+    "[fit][slow]") {
   const double rho = GENERATE(0.0, 0.5, 0.9, 0.97);
   CAPTURE(rho);
   const Coverage share = coverage(rho, 400);
-  // 400 runs: the share itself is known to about +-1.1 %.
+  // 400 runs determine the share to about +-1.1 %.
   for (const double value : {share.E_inf, share.E_1, share.tau_2}) {
     CHECK(value >= 0.90);
     CHECK(value <= 0.99);
   }
 }
 
-TEST_CASE("intervals widen with the memory of the noise", "[fit]") {
+TEST_CASE("intervals widen with the autocorrelation of the noise", "[fit]") {
   const double rho = GENERATE(0.0, 0.9);
   CAPTURE(rho);
   const Coverage share = coverage(rho, 40);
-  // 40 runs at 95 %: fewer than 33 hold with a chance below one in a thousand.
+  // 40 runs at 95 %: fewer than 33 hold with a probability below one in a thousand.
   CHECK(share.E_inf >= 0.82);
   CHECK(share.E_1 >= 0.82);
   CHECK(share.tau_2 >= 0.82);

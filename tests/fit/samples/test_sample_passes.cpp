@@ -44,7 +44,7 @@ double residual_sum(const RelaxationData& data, const SpectralState& state) {
 
 }  // namespace
 
-TEST_CASE("decays of whole arrays are those of the library", "[fit]") {
+TEST_CASE("exponentials of whole arrays equal those of the library", "[fit]") {
   std::vector<double> time_s, weight;
   for (double t = 1e-20; t < 79.9; t = 1.0007 * t + 1e-3) {
     time_s.push_back(t);
@@ -58,7 +58,7 @@ TEST_CASE("decays of whole arrays are those of the library", "[fit]") {
   decay_column(at, 1.0, value.data(), slope.data());
   for (std::size_t i = 0; i < time_s.size(); ++i) {
     const double truth = std::exp(-time_s[i]);
-    // A few units in the last place; the argument's own rounding counts x of them.
+    // A few units in the last place; rounding of the argument adds x of them.
     CHECK(std::abs(value[i] - truth) <= 4e-16 * (1.0 + time_s[i] * 0.1) * truth);
     CHECK(slope[i] == Approx(time_s[i] * truth).epsilon(1e-14).margin(1e-300));
   }
@@ -67,7 +67,7 @@ TEST_CASE("decays of whole arrays are those of the library", "[fit]") {
   CHECK(value.front() == 1.0);
 }
 
-TEST_CASE("passes over records agree with sums one by one", "[fit]") {
+TEST_CASE("passes over records agree with sums of single samples", "[fit]") {
   const std::size_t count = GENERATE(1, 2, 3, 5, 17, 64, 1001);
   const std::vector<double> a = random_values(count, 3), b = random_values(count, 4);
   double sum = 0.0, dot = 0.0;
@@ -75,7 +75,7 @@ TEST_CASE("passes over records agree with sums one by one", "[fit]") {
     sum += a[i];
     dot += a[i] * b[i];
   }
-  // Another order of summation: rounding of count terms of size 1.
+  // A different order of summation: rounding of `count` terms of size 1.
   CHECK(sum_of(a) == Approx(sum).epsilon(0).margin(1e-12));
   CHECK(dot_of(a, b) == Approx(dot).epsilon(0).margin(1e-12));
   CHECK(all_finite(a));
@@ -99,7 +99,7 @@ TEST_CASE("passes over records agree with sums one by one", "[fit]") {
   CHECK(far_from_neighbours(a, 2.0) == far);
 }
 
-TEST_CASE("moments of a bin are those of its samples, also when bins are put together", "[fit]") {
+TEST_CASE("moments of a bin equal those of its samples, also for merged bins", "[fit]") {
   std::vector<double> times = random_values(3000, 7);  // uneven
   for (double& t : times) t = 100.0 + 10.0 * std::abs(t);
   std::sort(times.begin(), times.end());
@@ -122,7 +122,7 @@ TEST_CASE("moments of a bin are those of its samples, also when bins are put tog
       for (int k = 0; k < 4; ++k) with_value[k] += y * std::pow(d, k) / bin.count;
       square += y * y / bin.count;
     }
-    // Rounding of t - mean, 1e-14, beside widths of some seconds.
+    // Rounding of t - mean is 1e-14; the widths are some seconds.
     const double width = std::sqrt(powers[2]) + 1e-6;
     CHECK(bin.time_s == Approx(time).epsilon(1e-14));
     CHECK(bin.m2 == Approx(powers[2]).epsilon(1e-9).margin(1e-12 * width * width));
@@ -137,7 +137,7 @@ TEST_CASE("moments of a bin are those of its samples, also when bins are put tog
   }
 }
 
-TEST_CASE("averages and what they hide give the residual sum of all samples", "[fit]") {
+TEST_CASE("averages and the sums within them give the residual sum of all samples", "[fit]") {
   const bool is_even = GENERATE(true, false);
   RelaxationData data = relaxation_of(s2(), 75000, 1000.0, 0.01, 5);
   if (!is_even) {  // every third sample is missing
@@ -154,5 +154,5 @@ TEST_CASE("averages and what they hide give the residual sum of all samples", "[
   ln_tau << std::log(0.8), std::log(40.0);
   const SpectralState state = solve_coefficients(model, ln_tau, {});
   const double sum = state.rss + model.hidden_rss(ln_tau, {}, state.coefficients);
-  CHECK(sum == Approx(residual_sum(data, state)).epsilon(3e-10));  // what is left out: bin_arrays.h
+  CHECK(sum == Approx(residual_sum(data, state)).epsilon(3e-10));  // see bin_arrays.h
 }

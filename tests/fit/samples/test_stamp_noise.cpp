@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kNoise_N = 5e-4;
 
-// Readings 80 times a second of a ramp of 1 N/s, a hold, and an unloading ten times as quick, by
-// stamps that scatter so much.
+// Readings at 80 Hz of a ramp of 1 N/s, a hold, and an unloading ten times as fast, with this
+// scatter of the time stamps.
 StageResidual ramps_with(double stamp_s, double shaking_N) {
   const auto force_N = [](double t) {
     return std::clamp(t, 0.0, 1.0) - 0.9 * std::clamp((t - 20.0) / 0.09, 0.0, 1.0);
@@ -43,7 +43,7 @@ StageResidual ramps_with(double stamp_s, double shaking_N) {
   return left;
 }
 
-// Half of the stamps off by up to `most_s`.
+// Half of the time stamps are off by up to `most_s`.
 CapturedRun run_with_jitter(const EmulatedTruth& truth, double most_s, std::uint64_t seed) {
   CapturedRun run = in_memory_run(truth, {});
   std::mt19937_64 random(seed);
@@ -56,10 +56,9 @@ CapturedRun run_with_jitter(const EmulatedTruth& truth, double most_s, std::uint
 
 }  // namespace
 
-TEST_CASE("scatter of stamps is told from noise and from shaking by the rate of the force",
-          "[fit]") {
-  // On the ramp, 80 readings, only the sum of both is seen, to 8 %; the eight readings of the
-  // unloading tell one from the other, to 25 %. Three times that.
+TEST_CASE("the force rate separates scatter of the stamps from noise and shaking", "[fit]") {
+  // The 80 readings of the ramp determine only the sum of both, to 8 %. The eight readings of the
+  // unloading separate them, to 25 %. Allow three times that.
   constexpr double kShaking_N = 2e-3;
   for (const double stamp_s : {2e-3, 8e-3}) {
     const StageNoise noise = stage_noise(ramps_with(stamp_s, kShaking_N));
@@ -74,7 +73,8 @@ TEST_CASE("scatter of stamps is told from noise and from shaking by the rate of 
   }
 }
 
-TEST_CASE("where stamps do not scatter the noise at rest and in motion stays as it was", "[fit]") {
+TEST_CASE("without scatter of the stamps the noise at rest and in motion does not change",
+          "[fit]") {
   for (const double shaking_N : {0.0, 2e-3}) {
     const StageNoise noise = stage_noise(ramps_with(0.0, shaking_N));
     CAPTURE(shaking_N);
@@ -85,8 +85,9 @@ TEST_CASE("where stamps do not scatter the noise at rest and in motion stays as 
   }
 }
 
-TEST_CASE("scattered stamps about a quick unloading do not become a stiff fast term", "[fit]") {
-  // This run was once refused: the stage seemed to feel more than the frame's own stiffness.
+TEST_CASE("scattered stamps around a quick unloading do not give a stiff fast term", "[fit]") {
+  // Regression: this run was once refused, because the stage stiffness seemed to exceed the
+  // frame's.
   const EmulatedTruth truth = demo_truth(10, 527);
   const FitResult fit =
       fit_indentation(indentation_from_capture(run_with_jitter(truth, 0.02, 1901)));

@@ -7,7 +7,7 @@
 
 using namespace viscard;
 
-TEST_CASE("non-negative least squares meets its optimality conditions", "[fit]") {
+TEST_CASE("non-negative least squares satisfies its optimality conditions", "[fit]") {
   std::mt19937_64 random(GENERATE(1U, 2U, 3U, 4U));
   std::normal_distribution<double> normal;
   const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(60, 15, [&] { return normal(random); });
@@ -16,8 +16,8 @@ TEST_CASE("non-negative least squares meets its optimality conditions", "[fit]")
   is_free[3] = true;
   const Eigen::VectorXd x = least_squares_with_signs(a, y, is_free);
   const Eigen::VectorXd gradient = a.transpose() * (y - a * x);
-  // Karush-Kuhn-Tucker: gradient zero where a column is in use, not positive where it is held at
-  // zero.
+  // Karush-Kuhn-Tucker: the gradient is zero for columns in use and not positive for columns held
+  // at zero.
   for (Eigen::Index j = 0; j < 15; ++j) {
     if (j == 3 || x[j] > 0.0) {
       CHECK(gradient[j] == Approx(0.0).margin(1e-11));
@@ -30,7 +30,8 @@ TEST_CASE("non-negative least squares meets its optimality conditions", "[fit]")
             .norm() < 1e-10);
 }
 
-TEST_CASE("without active bounds it is plain least squares", "[fit][reduction]") {
+TEST_CASE("non-negative least squares without active bounds is plain least squares",
+          "[fit][reduction]") {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> unit(0.5, 1.5);
   const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(30, 4, [&] { return unit(random); });
@@ -39,7 +40,8 @@ TEST_CASE("without active bounds it is plain least squares", "[fit][reduction]")
   CHECK((x - truth).norm() < 1e-12);
 }
 
-TEST_CASE("columns that repeat or vanish do no harm", "[fit][stability]") {
+TEST_CASE("repeated and zero columns do no harm in non-negative least squares",
+          "[fit][stability]") {
   Eigen::MatrixXd a(5, 3);
   a.col(0) << 1, 2, 3, 4, 5;
   a.col(1) = a.col(0);

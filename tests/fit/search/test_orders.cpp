@@ -19,7 +19,7 @@ using namespace viscard::test;
 TEST_CASE("S2 gives two terms that lie in their intervals", "[fit]") {
   const FitResult fit = fit_relaxation(relaxation_of(s2(), 10000, 1000.0, 0.01, 1));
   REQUIRE(fit.terms.size() == 2);
-  // Four standard errors; the seed is fixed, so this can only fail when the fit changes.
+  // Four standard errors; the seed is fixed, so this fails only if the fit changes.
   CHECK(std::abs(fit.terms[0].modulus_Pa - 0.12) < 4.0 * fit.terms[0].modulus_se_Pa);
   CHECK(std::abs(std::log(fit.terms[1].tau_s / 40.0)) < 4.0 * fit.terms[1].ln_tau_se);
   CHECK(fit.E_inf_Pa == Approx(1.6).epsilon(2e-3));
@@ -27,7 +27,7 @@ TEST_CASE("S2 gives two terms that lie in their intervals", "[fit]") {
   CHECK(fit.noise.inflation == 1.0);
 }
 
-TEST_CASE("rounding of data without noise is not described by a term", "[fit]") {
+TEST_CASE("rounding of noise-free data does not give a term", "[fit]") {
   RelaxationData data;
   for (int k = -8; k < 17; ++k) {
     const double t = std::pow(10.0, k / 8.0);
@@ -38,12 +38,13 @@ TEST_CASE("rounding of data without noise is not described by a term", "[fit]") 
   }
   const FitResult fit = fit_relaxation(data);
   REQUIRE(fit.terms.size() == 1);
-  CHECK(fit.terms[0].tau_s == Approx(3.0).epsilon(1e-12));  // some roundings of the data
+  CHECK(fit.terms[0].tau_s == Approx(3.0).epsilon(1e-12));  // a few rounding errors of the data
 }
 
-TEST_CASE("two negative terms that nearly cancel do not make E0 certain", "[fit][stability]") {
-  // Nine samples, terms of 174 and -174 times E0: the covariance holds entries of 1e16 whose sum
-  // rounding once left below zero, which was reported as no error at all.
+TEST_CASE("two terms of opposite sign that nearly cancel do not make E0 certain",
+          "[fit][stability]") {
+  // Regression: nine samples, terms of 174 and -174 times E0. The covariance has entries of 1e16,
+  // and rounding once made their sum negative, which was reported as a zero error.
   FitOptions options;
   options.n_terms = 3;
   options.allow_negative = true;
@@ -58,7 +59,7 @@ TEST_CASE("two negative terms that nearly cancel do not make E0 certain", "[fit]
     }
     const FitResult fit = fit_relaxation(data, options);
     CAPTURE(draw, fit.terms.size());
-    CHECK(fit.E0_se_Pa > 1e2);  // noise of 2e4 Pa
+    CHECK(fit.E0_se_Pa > 1e2);  // the noise is 2e4 Pa
     CHECK(fit.E_inf_se_Pa > 1e2);
   }
 }
@@ -95,7 +96,7 @@ TEST_CASE("a time ten times the record is flagged", "[fit]") {
   CHECK(flagged);
 }
 
-TEST_CASE("no relaxation at all gives no term", "[fit]") {
+TEST_CASE("a constant modulus gives no term", "[fit]") {
   const auto seed = GENERATE(1U, 2U, 3U, 4U, 5U, 6U);
   const FitResult fit = fit_relaxation(relaxation_of({1.0, {}}, 3000, 100.0, 0.01, seed));
   CHECK(fit.terms.empty());
@@ -103,7 +104,7 @@ TEST_CASE("no relaxation at all gives no term", "[fit]") {
   CHECK(fit.sum_g == Approx(0.0).margin(1e-12));
 }
 
-TEST_CASE("averages in log time give the fit of all samples", "[fit]") {
+TEST_CASE("averages in log time give the same fit as all samples", "[fit]") {
   const RelaxationData data = relaxation_of(s2(), 20000, 1000.0, 0.01, 8);
   FitOptions all;
   all.full_data = true;
@@ -112,10 +113,10 @@ TEST_CASE("averages in log time give the fit of all samples", "[fit]") {
   averaged.full_data = false;
   const FitResult a = fit_relaxation(data, all);
   const FitResult b = fit_relaxation(data, averaged);
-  // Averaging costs a little of the information inside a bin: a few hundredths of a standard error.
+  // Averaging loses little of the information within a bin: a few hundredths of a standard error.
   CHECK(std::abs(a.E0_Pa - b.E0_Pa) < 0.1 * a.E0_se_Pa);
   CHECK(b.E0_se_Pa == Approx(a.E0_se_Pa).epsilon(0.02));
-  // And the residual sum that is reported is that of the samples.
+  // The reported residual sum is that of the samples.
   double rss = 0.0;
   for (std::size_t i = 0; i < data.time_s.size(); ++i) {
     double value = b.E_inf_Pa;
@@ -127,7 +128,7 @@ TEST_CASE("averages in log time give the fit of all samples", "[fit]") {
   CHECK(b.rss == Approx(rss).epsilon(1e-7));
 }
 
-TEST_CASE("the average of an exponential over a bin is that of its samples", "[fit]") {
+TEST_CASE("the average of an exponential over a bin equals that of its samples", "[fit]") {
   const std::vector<double> times = even_times(100.0, 0.01);
   const std::vector<LogBin> bins = log_bins(times, times, 60.0);
   const BinArrays arrays(bins);
@@ -148,7 +149,8 @@ TEST_CASE("the average of an exponential over a bin is that of its samples", "[f
   }
 }
 
-TEST_CASE("left-out errors of a linear model are those of really leaving blocks out", "[fit]") {
+TEST_CASE("prediction errors of left-out blocks of a linear model equal those of separate fits",
+          "[fit]") {
   const RelaxationData data = relaxation_of(s2(), 60, 1000.0, 0.01, 9);
   const StepModel model(data.time_s, data.value, StepShape::kRelaxation, {});
   const SpectralState state = solve_coefficients(model, Eigen::VectorXd(0), {});
@@ -170,8 +172,9 @@ TEST_CASE("left-out errors of a linear model are those of really leaving blocks 
   }
 }
 
-TEST_CASE("a term that outlasts the record takes strong evidence", "[fit]") {
-  // Beside a term of .8 s, one of 20 s in 30 s, from nothing to what cannot be overlooked.
+TEST_CASE("a term that is slower than the record needs strong evidence", "[fit]") {
+  // A term of 0.8 s and, in a record of 30 s, one of 20 s with a modulus from zero to clearly
+  // visible.
   int withstood = 0, found = 0;
   for (int step = 1; step <= 24; ++step) {
     const double modulus = 4e-4 * step;
@@ -187,6 +190,6 @@ TEST_CASE("a term that outlasts the record takes strong evidence", "[fit]") {
     if (fit.terms.size() == 2 && fit.terms[1].tau_s > 10.0) CHECK(gain >= 6.0);
     if (gain > 20.0) CHECK(fit.terms.size() >= 2);
   }
-  CHECK(withstood > 0);  // BIC alone would have taken it
+  CHECK(withstood > 0);  // BIC alone would have chosen the term
   CHECK(found > 0);
 }

@@ -15,8 +15,8 @@ using namespace viscard::test;
 
 namespace {
 
-// A master curve in the manner of a glassy polymer: 31 decades, a broad spectrum (as of
-// Kohlrausch's function, each segment measured with its own small error), 481 points.
+// A master curve like that of a glassy polymer: 31 decades, 481 points, a broad spectrum
+// (Kohlrausch's function), and a small error of its own for each segment.
 RelaxationData broad_master_curve() {
   std::mt19937_64 random(17);
   std::normal_distribution<double> normal;
@@ -43,7 +43,7 @@ SpectralState from_times(const std::vector<double>& tau_s) {
 
 }  // namespace
 
-TEST_CASE("more terms never fit worse, and an order that was wished for is that of the free choice",
+TEST_CASE("more terms never fit worse, and a requested order equals that of the free choice",
           "[fit]") {
   const RelaxationData data = broad_master_curve();
   const FitResult free = fit_relaxation(data);
@@ -73,16 +73,16 @@ TEST_CASE("no random start finds a better fit of few terms than the path", "[fit
     for (int start = 0; start < 20; ++start) {
       SpectralState state;
       state.ln_tau = Eigen::VectorXd::NullaryExpr(n_terms, [&] { return anywhere(random); });
-      // The path's fits are converged to 1e-7 per step.
+      // The fits of the path are converged to 1e-7 per step.
       CHECK(found.rss <= quick_search(model, state, {.max_iterations = 60}).rss * (1.0 + 1e-4));
     }
   }
 }
 
-TEST_CASE("normal equations and QR project alike", "[fit][identity]") {
+TEST_CASE("projections by normal equations and by QR agree", "[fit][identity]") {
   const RelaxationData data = relaxation_of(s2(), 400, 1000.0, 0.01, 7);
   const StepModel model(data.time_s, data.value, StepShape::kRelaxation, {});
-  // The second pair is so close that only QR can tell it apart.
+  // The columns of the second pair are so close that only QR can separate them.
   const double gap = GENERATE(2.0, 1.0 + 1e-7);
   const SpectralState at = from_times({0.8, 40.0, 40.0 * gap});
   const Projection fast = project(model, at.ln_tau);
@@ -101,7 +101,7 @@ TEST_CASE("normal equations and QR project alike", "[fit][identity]") {
   }
 }
 
-TEST_CASE("the quick search ends where the thorough one ends", "[fit]") {
+TEST_CASE("the quick search and the thorough search find the same optimum", "[fit]") {
   const RelaxationData data = relaxation_of(s6(), 3000, 1e4, 0.01, 8);
   const StepModel model(data.time_s, data.value, StepShape::kRelaxation, {});
   const SpectralState start = from_times({5.0, 50.0, 500.0, 2000.0});
@@ -111,7 +111,7 @@ TEST_CASE("the quick search ends where the thorough one ends", "[fit]") {
   CHECK((quick.ln_tau - thorough.ln_tau).cwiseAbs().maxCoeff() < 1e-3);
 }
 
-TEST_CASE("a time that is held stays where it is", "[fit]") {
+TEST_CASE("a time that is held keeps its value", "[fit]") {
   const RelaxationData data = relaxation_of(s2(), 1000, 1000.0, 0.01, 9);
   const StepModel model(data.time_s, data.value, StepShape::kRelaxation, {});
   const SpectralState start = from_times({2.0, 60.0});

@@ -13,7 +13,7 @@
 using namespace viscard;
 using namespace viscard::test;
 
-TEST_CASE("units of modulus and time change nothing but the units", "[fit][stability]") {
+TEST_CASE("the units of modulus and time change only the unit of the result", "[fit][stability]") {
   const double modulus_scale = GENERATE(1e-3, 1e6, 1e12);
   const double time_scale = GENERATE(1e-9, 1.0, 1e9);
   const RelaxationData data = relaxation_of(s2(), 3000, 1000.0, 0.01, 11);
@@ -24,8 +24,8 @@ TEST_CASE("units of modulus and time change nothing but the units", "[fit][stabi
   const FitResult b = fit_relaxation(scaled);
   REQUIRE(a.terms.size() == 2);
   REQUIRE(b.terms.size() == 2);
-  // Powers of ten round the data themselves by 1e-16; the condition of the problem is about 100
-  // (measured: 8e-15). Slopes for the standard error are differences of logarithms (4e-11).
+  // Powers of ten round the data by 1e-16, and the condition number of the problem is about 100
+  // (measured: 8e-15). Standard errors use differences of logarithms for the slopes (4e-11).
   CHECK(b.E_inf_Pa == Approx(a.E_inf_Pa * modulus_scale).epsilon(1e-13));
   for (std::size_t i = 0; i < 2; ++i) {
     CHECK(b.terms[i].tau_s == Approx(a.terms[i].tau_s * time_scale).epsilon(1e-13));
@@ -34,7 +34,7 @@ TEST_CASE("units of modulus and time change nothing but the units", "[fit][stabi
   }
 }
 
-TEST_CASE("samples out of order or repeated are as good as sorted ones", "[fit][stability]") {
+TEST_CASE("samples out of order or repeated give the same fit as sorted ones", "[fit][stability]") {
   const RelaxationData data = relaxation_of(s2(), 500, 1000.0, 0.005, 12);
   std::vector<std::size_t> order(500);
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
