@@ -9,8 +9,8 @@
 namespace viscard {
 namespace peers {
 
-Choice& choice() {
-  static Choice now;
+FactorKind& choice() {
+  static FactorKind now = FactorKind::kOurs;
   return now;
 }
 
@@ -41,13 +41,13 @@ class Clock {
 };
 
 std::unique_ptr<Factor> chosen_factor() {
-  switch (choice().factor) {
+  switch (choice()) {
     case FactorKind::kOurs:
       return our_factor();
     case FactorKind::kEigen:
       return eigen_factor();
     default:
-      return cholmod_factor(choice().factor);
+      return cholmod_factor(choice());
   }
 }
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-// Which factorisation and which mode search the pillar solver uses in this benchmark, and the
-// processor time that each of their parts takes.
+// Which factorisation the pillar solver uses in this benchmark, and the processor time that its
+// parts take.
 namespace viscard::peers {
 
 enum class FactorKind {
@@ -18,17 +18,11 @@ enum class FactorKind {
   kCholmodAuto,        // of these two, the one that CHOLMOD chooses by the work for each entry
   kEigen               // SimplicialLDLT, minimum degree
 };
-enum class SearchKind { kOurs, kSpectra };
+FactorKind& choice();
 
-struct Choice {
-  FactorKind factor = FactorKind::kOurs;
-  SearchKind search = SearchKind::kOurs;
-};
-Choice& choice();
-
-// Processor time in s. `modes` includes the solutions made during a search.
+// Processor time in s, and how often.
 struct Spent {
-  double analyse = 0.0, factor = 0.0, solve = 0.0, modes = 0.0;
+  double analyse = 0.0, factor = 0.0, solve = 0.0;
   int analyses = 0, factors = 0, solves = 0;
   int largest = 0;           // unknowns of the largest factored matrix
   Eigen::Index entries = 0;  // of its L
