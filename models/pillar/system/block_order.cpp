@@ -14,26 +14,25 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-// Share of zeros that merging two blocks may bring into them: small blocks cost more in handling
-// than in arithmetic.
+// Largest share of zeros in a merged block. It is higher for small blocks, which cost more in
+// handling than in arithmetic.
 constexpr int kSmallBlock = 12;
 constexpr double kZerosInSmall = 0.4;
 constexpr double kZerosInLarge = 0.08;
 
-// Unknowns with the same neighbours (the fields of a node, the inside of an element or of an edge)
-// form one group and are eliminated together.
+// Groups of unknowns with the same neighbours; each is eliminated as a whole.
 struct Groups {
   std::vector<int> of;                       // unknown -> group
   std::vector<int> size;                     // unknowns in each
   std::vector<std::vector<int>> neighbours;  // other groups
 };
 
-Groups groups_of(const Sparse& lower) {
-  const auto n = static_cast<std::size_t>(lower.rows());
-  std::vector<std::uint64_t> key(n);
+// A sum of random keys over each unknown and its neighbours: two sums are equal if and (but for a
+// chance of 2^-64) only if the two neighbourhoods are.
+std::vector<std::uint64_t> neighbourhood_sums(const Sparse& lower) {
+  std::vector<std::uint64_t> key(static_cast<std::size_t>(lower.rows()));
   std::mt19937_64 random(1);
   for (std::uint64_t& k : key) k = random();
-  // Equal sums over the closed neighbourhoods stand for equal neighbourhoods.
   std::vector<std::uint64_t> sum = key;
   for (int column = 0; column < lower.outerSize(); ++column) {
     for (Sparse::InnerIterator it(lower, column); it; ++it) {
@@ -42,10 +41,37 @@ Groups groups_of(const Sparse& lower) {
       sum[static_cast<std::size_t>(it.row())] += key[static_cast<std::size_t>(column)];
     }
   }
-  Groups groups{std::vector<int>(n), {}, {}};
+  return sum;
+}
+
+// Links every group with the groups of the neighbours of one of its unknowns.
+void find_neighbours(const Sparse& lower, const std::vector<int>& member, Groups& groups) {
+  groups.neighbours.resize(member.size());
+  std::vector<int> seen(member.size(), -1);  // the last group that was linked with this one
+  for (std::size_t g = 0; g < member.size(); ++g) {
+    const auto own = static_cast<int>(g);
+    for (Sparse::InnerIterator it(lower, member[g]); it; ++it) {
+      const int other = groups.of[static_cast<std::size_t>(it.row())];
+      int& mark = seen[static_cast<std::size_t>(other)];
+      if (mark == own) continue;
+      mark = own;
+      if (other == own) continue;
+      groups.neighbours[g].push_back(other);
+      groups.neighbours[static_cast<std::size_t>(other)].push_back(own);
+    }
+  }
+  for (std::vector<int>& list : groups.neighbours) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+}
+
+Groups groups_of(const Sparse& lower) {
+  const std::vector<std::uint64_t> sum = neighbourhood_sums(lower);
+  Groups groups{std::vector<int>(sum.size()), {}, {}};
   std::unordered_map<std::uint64_t, int> number;
-  std::vector<int> member;  // one of each group
-  for (std::size_t i = 0; i < n; ++i) {
+  std::vector<int> member;  // the first unknown of each group
+  for (std::size_t i = 0; i < sum.size(); ++i) {
     const auto [at, is_new] = number.try_emplace(sum[i], static_cast<int>(number.size()));
     groups.of[i] = at->second;
     if (is_new) {
@@ -54,29 +80,11 @@ Groups groups_of(const Sparse& lower) {
     }
     ++groups.size[static_cast<std::size_t>(at->second)];
   }
-  groups.neighbours.resize(groups.size.size());
-  std::vector<int> seen(groups.size.size(), -1);
-  const auto add = [&](int from, int to) {
-    if (from == to) return;
-    groups.neighbours[static_cast<std::size_t>(from)].push_back(to);
-    groups.neighbours[static_cast<std::size_t>(to)].push_back(from);
-  };
-  for (std::size_t g = 0; g < member.size(); ++g) {
-    for (Sparse::InnerIterator it(lower, member[g]); it; ++it) {
-      const int to = groups.of[static_cast<std::size_t>(it.row())];
-      int& mark = seen[static_cast<std::size_t>(to)];
-      if (mark == static_cast<int>(g)) continue;
-      mark = static_cast<int>(g);
-      add(static_cast<int>(g), to);
-    }
-  }
-  for (std::vector<int>& list : groups.neighbours) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
+  find_neighbours(lower, member, groups);
   return groups;
 }
 
+// The place of each group in the order of elimination.
 std::vector<int> minimum_degree_places(const Groups& groups) {
   const auto n = static_cast<int>(groups.size.size());
   std::vector<int> outer{0};
@@ -85,7 +93,7 @@ std::vector<int> minimum_degree_places(const Groups& groups) {
     inner.push_back(g);
     const auto& list = groups.neighbours[static_cast<std::size_t>(g)];
     inner.insert(inner.end(), list.begin(), list.end());
-    std::sort(inner.begin() + outer.back(), inner.end());  // as a sparse matrix wants it
+    std::sort(inner.begin() + outer.back(), inner.end());  // as Eigen's sparse matrices require
     outer.push_back(static_cast<int>(inner.size()));
   }
   const std::vector<double> ones(inner.size(), 1.0);
@@ -98,7 +106,7 @@ std::vector<int> minimum_degree_places(const Groups& groups) {
   return place;
 }
 
-// Neighbours of each group that are eliminated before it, as places.
+// For each place, the places of the neighbours that are eliminated earlier.
 std::vector<std::vector<int>> earlier_neighbours(const Groups& groups,
                                                  const std::vector<int>& place) {
   std::vector<std::vector<int>> earlier(place.size());
@@ -129,7 +137,7 @@ std::vector<int> elimination_tree(const std::vector<std::vector<int>>& earlier) 
   return parent;
 }
 
-// Order that visits children before parents and subtrees without a gap.
+// Postorder: children come before their parents, and every subtree is contiguous.
 std::vector<int> postorder(const std::vector<int>& parent) {
   const auto n = static_cast<int>(parent.size());
   std::vector<std::vector<int>> children(parent.size());
@@ -184,20 +192,20 @@ std::vector<std::vector<int>> factor_columns(const std::vector<std::vector<int>>
   return columns;
 }
 
-// A run of places that are eliminated together.
+// Consecutive places that are eliminated together.
 struct Run {
   int first = 0, count = 0;   // places
   std::vector<int> rows;      // places below
   double columns = 0.0;       // unknowns in it
   double below = 0.0;         // unknowns below it
-  double true_entries = 0.0;  // of L, merged zeros left out
+  double true_entries = 0.0;  // of L, without the zeros that merging stores
 };
 
 double entries_of(double columns, double below) {
   return columns * (0.5 * (columns + 1.0) + below);
 }
 
-// Whether a child that ends where its parent begins may join it.
+// Whether a child block may be merged with the parent block that follows it.
 bool may_join(const Run& child, const Run& up) {
   const bool is_child = !child.rows.empty() && child.rows.front() >= up.first &&
                         child.rows.front() < up.first + up.count;

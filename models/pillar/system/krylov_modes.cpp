@@ -1,148 +1,114 @@
 #include "models/pillar/system/krylov_modes.h"
 
 #include <Eigen/Eigenvalues>
+#include <Spectra/SymEigsBase.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace viscard {
 namespace {
 
+using ConstMap = Eigen::Map<const Eigen::VectorXd>;
+using Map = Eigen::Map<Eigen::VectorXd>;
+
 // Rounding in a stiff system (a slender body, a stiff volume) may hold residuals above the
-// tolerance. Values whose residual is below this, so that their own error is below its square, and
-// that have stopped moving, are taken.
+// tolerance. Values with residuals below this one, so that their own error is below its square,
+// are taken when a larger space leaves them where they were.
 constexpr double kSettledResidual = 1e-4;
 constexpr double kSettledChange = 1e-11;
 
-bool is_settled(const EigenPairs& now, const EigenPairs& before) {
-  return now.residual <= kSettledResidual && before.values.size() == now.values.size() &&
-         ((now.values - before.values).array().abs() <= kSettledChange * now.values.array().abs())
-             .all();
-}
+// The shapes in which Spectra wants y = B x and y = op x.
+struct InnerProduct {
+  using Scalar = double;
+  const LinearMap& B;
+  Eigen::Index size;
+  Eigen::Index rows() const { return size; }
+  void perform_op(const double* x, double* y) const { Map(y, size) = B(ConstMap(x, size)); }
+};
 
-// A B-orthonormal basis, op projected on it, and what op brought forth outside of it: the next
-// block. Residuals of Ritz pairs lie in that block alone, so that they cost no products.
-class KrylovSpace {
+struct ScaledOperator {
+  using Scalar = double;
+  const PencilMap& op;
+  const LinearMap& B;
+  Eigen::Index size;
+  double scale;
+  Eigen::Index rows() const { return size; }
+  void perform_op(const double* in, double* out) const {
+    const Eigen::VectorXd x = ConstMap(in, size);
+    Map(out, size) = op(x, B(x)) / scale;
+  }
+};
+
+// SymGEigsShiftSolver without its transformation of the values, and with a look at those that have
+// not converged.
+class Lanczos : public Spectra::SymEigsBase<ScaledOperator, InnerProduct> {
  public:
-  KrylovSpace(const PencilMap& op, const LinearMap& B, int size, int capacity)
-      : op_(op), B_(B), capacity_(capacity), basis_(size, 0), B_basis_(size, 0) {}
+  Lanczos(ScaledOperator op, const InnerProduct& B, int count, int space)
+      : SymEigsBase(std::move(op), B, count, space) {}
+  Eigen::VectorXd rough_values() const { return m_ritz_val.head(m_nev); }
+};
 
-  int count() const { return count_; }
-  bool has_room(int columns) const { return count_ + columns <= capacity_; }
-
-  // Takes the next block into the basis and applies op to it; false if nothing in it is new.
-  bool grow() {
-    const int before = count_;
-    for (Eigen::Index i = 0; i < outside_.cols(); ++i)
-      take(outside_.col(i), B_outside_.col(i), size_before_[i], before);
-    apply_from(before);
-    return count_ > before;
+class LanczosSearch {
+ public:
+  LanczosSearch(const PencilMap& op, const LinearMap& B, int size) : op_(op), B_{B, size} {
+    std::mt19937_64 random(1);  // a fixed start: the same answer every time
+    std::normal_distribution<double> normal;
+    Eigen::VectorXd start(size);
+    for (double& x : start) x = normal(random);
+    const Eigen::VectorXd B_start = B(start);
+    image_ = op(start, B_start);  // has no part outside op's range
+    // Spectra's tolerance is relative only for values above 4e-11, so op is scaled to about 1.
+    scale_ = std::abs(B_start.dot(image_)) / B_start.dot(start);
   }
-  // The same with vectors of one's own.
-  bool grow(const Eigen::MatrixXd& vectors) {
-    const int before = count_;
-    for (const auto& column : vectors.colwise()) {
-      Eigen::VectorXd v = column;
-      const double removed = orthogonalise(v);
-      const Eigen::VectorXd Bv = B_(v);
-      take(v, Bv, std::hypot(removed, norm(v, Bv)), before);
+
+  // `checks` of the residuals, with a restart between them.
+  EigenPairs in_space(int space, int checks, int count, double tolerance) const {
+    Lanczos lanczos({op_, B_.B, B_.size, scale_}, B_, count,
+                    std::clamp(space, count + 1, static_cast<int>(B_.size)));
+    lanczos.init(image_.data());
+    lanczos.compute(Spectra::SortRule::LargestAlge, checks, tolerance,
+                    Spectra::SortRule::LargestAlge);
+    if (lanczos.info() != Spectra::CompInfo::Successful) {
+      return {scale_ * lanczos.rough_values(), {}, false};
     }
-    apply_from(before);
-    return count_ > before;
-  }
-
-  // The `wanted` largest Ritz pairs; converged when every residual is small beside its value.
-  EigenPairs ritz(int wanted, double tolerance) const {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-        projected_.topLeftCorner(count_, count_));
-    const int n = std::min(wanted, count_);
-    EigenPairs pairs;
-    pairs.values = solver.eigenvalues().tail(n).reverse();
-    const Eigen::MatrixXd coefficient = solver.eigenvectors().rightCols(n).rowwise().reverse();
-    pairs.vectors = basis_.leftCols(count_) * coefficient;
-    if (n < wanted) return pairs;
-    const Eigen::MatrixXd gram = outside_.transpose() * B_outside_;
-    const auto last = coefficient.bottomRows(outside_.cols());
-    const Eigen::VectorXd square = (last.transpose() * gram * last).diagonal();
-    pairs.residual =
-        (square.cwiseAbs().cwiseSqrt().array() / pairs.values.array().abs()).maxCoeff();
-    pairs.converged = pairs.residual <= tolerance;
-    return pairs;
+    return {scale_ * lanczos.eigenvalues(), lanczos.eigenvectors(), true};
   }
 
  private:
-  static double norm(const Eigen::VectorXd& v, const Eigen::VectorXd& Bv) {
-    return std::sqrt(std::max(v.dot(Bv), 0.0));
-  }
-
-  // Removes what is known; returns its B norm.
-  double orthogonalise(Eigen::VectorXd& v) const {
-    double removed = 0.0;
-    for (int pass = 0; pass < 2; ++pass) {  // twice is enough (Kahan; Parlett 1980, 6.9)
-      const Eigen::VectorXd known = B_basis_.leftCols(count_).transpose() * v;
-      v.noalias() -= basis_.leftCols(count_) * known;
-      removed += known.squaredNorm();
-    }
-    return std::sqrt(removed);
-  }
-
-  // Adds the part of v that is new; v is orthogonal to the columns before its block. `size` is that
-  // of the vector v is a remainder of: what is left of it by rounding alone is nothing new.
-  void take(Eigen::VectorXd v, Eigen::VectorXd Bv, double size, int block_start) {
-    const double whole = norm(v, Bv);
-    const int in_block = count_ - block_start;
-    const Eigen::VectorXd known = B_basis_.middleCols(block_start, in_block).transpose() * v;
-    v -= basis_.middleCols(block_start, in_block) * known;
-    Bv -= B_basis_.middleCols(block_start, in_block) * known;
-    if (!(norm(v, Bv) > 1e-2 * whole)) {  // too much has cancelled for Bv to be B v still
-      orthogonalise(v);
-      Bv = B_(v);
-    }
-    const double left = norm(v, Bv);
-    if (!(left > 1e-12 * size) || !std::isfinite(left)) return;
-    if (count_ == basis_.cols()) reserve(std::max(16, 2 * count_));
-    basis_.col(count_) = v / left;
-    B_basis_.col(count_) = Bv / left;
-    ++count_;
-  }
-
-  void reserve(int columns) {
-    basis_.conservativeResize(Eigen::NoChange, columns);
-    B_basis_.conservativeResize(Eigen::NoChange, columns);
-    projected_.conservativeResize(columns, columns);
-  }
-
-  void apply_from(int first) {
-    const int added = count_ - first;
-    outside_.resize(basis_.rows(), added);
-    B_outside_.resize(basis_.rows(), added);
-    size_before_.resize(added);
-    for (int i = 0; i < added; ++i) {
-      Eigen::VectorXd image = op_(basis_.col(first + i), B_basis_.col(first + i));
-      const Eigen::VectorXd column = B_basis_.leftCols(count_).transpose() * image;
-      projected_.col(first + i).head(count_) = column;
-      projected_.row(first + i).head(count_) = column.transpose();
-      size_before_[i] = orthogonalise(image);
-      outside_.col(i) = image;
-      B_outside_.col(i) = B_(image);
-    }
-  }
-
   const PencilMap& op_;
-  const LinearMap& B_;
-  int capacity_;
-  Eigen::MatrixXd basis_;
-  Eigen::MatrixXd B_basis_;
-  Eigen::MatrixXd projected_;
-  Eigen::MatrixXd outside_,
-      B_outside_;                // images of the last block, without their part in the basis
-  Eigen::VectorXd size_before_;  // of each image
-  int count_ = 0;
+  InnerProduct B_;
+  Eigen::VectorXd image_;
+  double scale_ = 1.0;
 };
+
+// All eigenpairs of a small op, from its matrix: Lanczos' method cannot give as many as there are
+// unknowns.
+EigenPairs all_eigenpairs(const PencilMap& op, const LinearMap& B, int size) {
+  Eigen::MatrixXd matrix(size, size);
+  for (int i = 0; i < size; ++i) {
+    const Eigen::VectorXd unit = Eigen::VectorXd::Unit(size, i);
+    matrix.col(i) = op(unit, B(unit));
+  }
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
+  const Eigen::VectorXd values = solver.eigenvalues().real();
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(size));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](Eigen::Index a, Eigen::Index b) { return values[a] > values[b]; });
+  EigenPairs pairs{values(order), solver.eigenvectors().real()(Eigen::all, order), true};
+  for (auto v : pairs.vectors.colwise()) {
+    const double square = v.dot(B(v));
+    if (square > 0.0) v /= std::sqrt(square);
+  }
+  return pairs;
+}
 
 }  // namespace
 
@@ -160,34 +126,19 @@ EigenPairs largest_eigenpairs(const PencilMap& op, const LinearMap& B, int size,
     throw std::invalid_argument(std::to_string(count) + " modes asked of a system of " +
                                 std::to_string(size) + " unknowns");
   }
-  std::mt19937_64 random(1);  // a fixed start: the same answer every time
-  std::normal_distribution<double> normal;
-  // A space of all unknowns ends by itself.
-  const bool is_limited = options.largest_space < size;
-  KrylovSpace space(op, B, size, is_limited ? options.largest_space : size + options.block);
-  const auto random_vectors = [&](int columns) {
-    Eigen::MatrixXd vectors(size, columns);
-    for (int i = 0; i < columns; ++i) {
-      Eigen::VectorXd start(size);
-      for (double& x : start) x = normal(random);
-      vectors.col(i) = op(start, B(start));  // the start then has no part outside op's range
-    }
-    return vectors;
-  };
-  space.grow(random_vectors(options.block));
-  int next_check = 2 * count + 4;
-  EigenPairs pairs;
-  while (!pairs.converged) {
-    const bool is_full =
-        !space.has_room(options.block) || (!space.grow() && !space.grow(random_vectors(1)));
-    if (space.count() >= next_check || is_full) {
-      const EigenPairs before = std::move(pairs);
-      pairs = space.ritz(count, options.tolerance);
-      pairs.converged = pairs.converged || is_settled(pairs, before);
-      next_check = space.count() + std::max(options.block, count / 4);
-      if (is_full) break;
-    }
-  }
+  if (count == size) return all_eigenpairs(op, B, size);
+  const LanczosSearch search(op, B, size);
+  EigenPairs pairs = search.in_space(2 * count + 4, 6, count, options.tolerance);
+  if (pairs.converged) return pairs;
+  const int largest = options.largest_space;
+  pairs = search.in_space(largest, 1, count, options.tolerance);
+  if (pairs.converged) return pairs;
+  pairs = search.in_space(largest, 1, count, kSettledResidual);
+  if (!pairs.converged) return pairs;
+  const EigenPairs before = search.in_space(largest - largest / 4, 1, count, kSettledResidual);
+  pairs.converged = before.converged && ((pairs.values - before.values).array().abs() <=
+                                         kSettledChange * pairs.values.array().abs())
+                                            .all();
   return pairs;
 }
 

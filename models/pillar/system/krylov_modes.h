@@ -6,14 +6,13 @@
 
 namespace viscard {
 
-// The largest eigenvalues mu of op v = mu v, where op is self-adjoint in the inner product x'By, by
-// a block Krylov space with full reorthogonalisation and Rayleigh-Ritz. A block finds as many equal
-// eigenvalues as it has columns, so clusters are returned whole.
-// Source: Golub & Underwood, in Mathematical Software III (1977), 361.
+// The largest eigenvalues mu of op v = mu v, where op is self-adjoint in the inner product x'By,
+// by Spectra's Lanczos method with implicit restarts. Values that are equal to rounding may be
+// found once only: families of motion are solved apart so that symmetry makes no such pairs.
+// Source: Calvetti, Reichel & Sorensen, Electron. Trans. Numer. Anal. 2 (1994) 1.
 struct EigenPairs {
-  Eigen::VectorXd values;   // descending
-  Eigen::MatrixXd vectors;  // columns, v'Bv = 1
-  double residual = 1.0;    // largest, over its value
+  Eigen::VectorXd values;   // descending; rough without convergence
+  Eigen::MatrixXd vectors;  // columns, v'Bv = 1; none without convergence
   bool converged = false;
 };
 
@@ -23,9 +22,8 @@ using PencilMap =
     std::function<Eigen::VectorXd(const Eigen::VectorXd& x, const Eigen::VectorXd& Bx)>;
 
 struct KrylovOptions {
-  int block = 2;
   double tolerance = 1e-8;  // residual over eigenvalue; the value's own error is its square
-  int largest_space = 400;
+  int largest_space = 400;  // vectors at a time
 };
 
 // Throws std::invalid_argument for count < 1 or > size.

@@ -10,7 +10,8 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-// Unpivoted L D L^T of the leading `count` columns of a front, and what remains of the others.
+// L D L^T of the leading `count` columns of a front in place, without pivoting; the other columns
+// become the update (Schur complement). Returns false if a pivot is zero or not finite.
 bool eliminate(Eigen::Ref<Eigen::MatrixXd> front, Eigen::Index count,
                Eigen::Ref<Eigen::VectorXd> d) {
   constexpr Eigen::Index kPanel = 16;
@@ -67,7 +68,7 @@ void SupernodalFactor::analyse(const Sparse& lower) {
 void SupernodalFactor::find_parents() {
   for (Block& block : blocks_) {
     if (block.rows.empty()) continue;
-    // Blocks ascend by column: the parent is the one that holds the first row.
+    // Blocks are sorted by column: the parent is the block that holds the first row.
     const auto after =
         std::upper_bound(blocks_.begin(), blocks_.end(), block.rows.front(),
                          [](int row, const Block& other) { return row < other.first; });
@@ -102,7 +103,7 @@ void SupernodalFactor::place_entries(const Sparse& lower) {
   std::vector<std::size_t> next(first_entry_.begin(), first_entry_.end() - 1);
   entries_.resize(static_cast<std::size_t>(lower.nonZeros()));
   each([&](int value, std::size_t column, int row) { entries_[next[column]++] = {value, row}; });
-  std::vector<int> in_front(position_.size());  // of the rows of the block at hand
+  std::vector<int> in_front(position_.size());  // place of each row in the current block's front
   for (const Block& block : blocks_) {
     const auto first = static_cast<std::size_t>(block.first);
     std::iota(in_front.begin() + block.first, in_front.begin() + block.first + block.count, 0);
@@ -120,7 +121,7 @@ void SupernodalFactor::place_entries(const Sparse& lower) {
 
 bool SupernodalFactor::factor(const Sparse& lower) {
   pivots_.resize(lower.rows());
-  std::vector<Eigen::MatrixXd> updates(blocks_.size());  // what each block leaves to its parent
+  std::vector<Eigen::MatrixXd> updates(blocks_.size());  // of each block, for its parent
   std::vector<std::vector<std::size_t>> children(blocks_.size());
   std::vector<double> memory(static_cast<std::size_t>(largest_front_ * largest_front_));
   for (std::size_t b = 0; b < blocks_.size(); ++b) {

@@ -9,25 +9,26 @@
 
 namespace viscard {
 
-// L D L^T of a sparse symmetric matrix whose factors exist in any order of elimination (definite or
-// quasi-definite), by dense blocks: columns with the same rows below them are eliminated together,
-// and what a block leaves to its ancestors is handed up as one dense matrix. High-order elements
-// give large blocks, so that nearly all work is dense. Source: Duff & Reid, ACM Trans. Math. Softw.
-// 9 (1983) 302; the order and the blocks are those of block_order.h.
+// Multifrontal L D L^T without pivoting of a sparse symmetric matrix that is definite or
+// quasi-definite, so that the factors exist in any order of elimination. Columns with the same rows
+// below them are eliminated together as a dense block, and each block passes its update (Schur
+// complement) to its parent as one dense matrix. High-order elements give large blocks, so nearly
+// all work is dense. `./run bench pillar` times it beside CHOLMOD and Eigen (models/README.md).
+// Source: Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302; order and blocks: block_order.h.
 class SupernodalFactor {
  public:
-  // Order, blocks and places from the pattern of the lower triangle.
+  // Chooses the order and the blocks from the pattern of the lower triangle.
   void analyse(const Eigen::SparseMatrix<double>& lower);
-  // A matrix of the analysed pattern; false if a pivot is zero or not finite.
+  // Factors a matrix of the analysed pattern; returns false if a pivot is zero or not finite.
   bool factor(const Eigen::SparseMatrix<double>& lower);
   Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const;
 
-  // L^-1 P B for many right sides at once, rows in the order of elimination, that of pivots(): with
-  // X from B and Y from C, the sum X' D^-1 Y is B' A^-1 C.
+  // L^-1 P B for many right sides at once, with rows in the order of elimination, as pivots() has
+  // them. If X comes from B and Y from C, then X' D^-1 Y = B' A^-1 C.
   Eigen::MatrixXd forward(const Eigen::MatrixXd& right_sides) const;
 
   const Eigen::VectorXd& pivots() const { return pivots_; }
-  Eigen::Index entries() const;  // of L, zeros of merged blocks included
+  Eigen::Index entries() const;  // of L, including the zeros that merged blocks store
 
  private:
   struct Block : ColumnBlock {
@@ -37,8 +38,8 @@ class SupernodalFactor {
     int height() const { return count + static_cast<int>(rows.size()); }  // of its front
   };
   struct Entry {
-    int value;  // which stored value of the matrix
-    int place;  // in the front, column by column
+    int value;  // number of the stored value in the matrix
+    int place;  // in the front, column-major
   };
 
   void find_parents();

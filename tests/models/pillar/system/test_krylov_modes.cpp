@@ -1,12 +1,10 @@
-// The eigensolver by itself, on diagonal pencils whose eigenvalues are known.
+// The search for modes by itself, on diagonal pencils whose eigenvalues are known.
 #include "models/pillar/system/krylov_modes.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <vector>
 
 using namespace viscard;
 
@@ -38,11 +36,11 @@ struct Diagonal {
   }
 };
 
-// Eigenvalues 1, 1/4, 1/9 ... as those of a string, and a B of very unequal entries.
-Diagonal string_like(int size) {
+// Eigenvalues 1, 1/4, 1/9 ... as those of a string, times a scale, and a B of very unequal entries.
+Diagonal string_like(int size, double scale = 1.0) {
   Diagonal body{Eigen::VectorXd(size), Eigen::VectorXd(size)};
   for (int i = 0; i < size; ++i) {
-    body.value[i] = 1.0 / ((i + 1.0) * (i + 1.0));
+    body.value[i] = scale / ((i + 1.0) * (i + 1.0));
     body.B[i] = std::pow(10.0, 4.0 * std::sin(i));
   }
   return body;
@@ -50,14 +48,14 @@ Diagonal string_like(int size) {
 
 }  // namespace
 
-TEST_CASE("the residual that the eigensolver reports is the true one", "[pillar]") {
-  const Diagonal body = string_like(300);
+TEST_CASE("modes are found to the residual asked for, in any unit", "[pillar]") {
+  const double scale = GENERATE(1.0, 1e-13, 1e9);  // of 1/omega^2 in s^2
+  const Diagonal body = string_like(300, scale);
   for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
     const EigenPairs pairs = body.largest(6, {.tolerance = tolerance});
-    CAPTURE(tolerance, pairs.residual);
+    CAPTURE(scale, tolerance);
     REQUIRE(pairs.converged);
-    CHECK(pairs.residual <= tolerance);
-    CHECK(body.residual(pairs) == Approx(pairs.residual).epsilon(1e-4).margin(1e-13));
+    CHECK(body.residual(pairs) <= tolerance);
     for (int i = 0; i < 6; ++i) {  // the values' own error is the square of the residual, over gaps
       CHECK(pairs.values[i] == Approx(body.value[i]).epsilon(30.0 * tolerance * tolerance + 1e-13));
     }
@@ -66,35 +64,29 @@ TEST_CASE("the residual that the eigensolver reports is the true one", "[pillar]
   }
 }
 
-TEST_CASE("a block of the eigensolver finds as many equal eigenvalues as it has vectors",
-          "[pillar]") {
-  for (const int block : {2, 3, 8}) {
-    Diagonal body = string_like(200);
-    for (int i = 1; i < block; ++i) body.value[i] = body.value[0];
-    const EigenPairs pairs = body.largest(block + 1, {.block = block});
-    CAPTURE(block);
-    REQUIRE(pairs.converged);
-    for (int i = 0; i < block; ++i) CHECK(pairs.values[i] == Approx(1.0).epsilon(1e-12));
-    CHECK(pairs.values[block] == Approx(body.value[block]).epsilon(1e-12));
-  }
+TEST_CASE("modes that are nearly equal are all found", "[pillar]") {
+  Diagonal body = string_like(200);
+  for (int i = 1; i < 3; ++i) body.value[i] = (1.0 - 1e-6 * i) * body.value[0];
+  const EigenPairs pairs = body.largest(4, {});
+  REQUIRE(pairs.converged);
+  for (int i = 0; i < 4; ++i) CHECK(pairs.values[i] == Approx(body.value[i]).epsilon(1e-12));
 }
 
-TEST_CASE("the eigensolver exhausts a small space and says when a limit stops it", "[pillar]") {
+TEST_CASE("a small system gives all its modes, and a small space too few for many", "[pillar]") {
   const Diagonal small = string_like(7);
   const EigenPairs all = small.largest(7, {});
   REQUIRE(all.converged);
   for (int i = 0; i < 7; ++i) CHECK(all.values[i] == Approx(small.value[i]).epsilon(1e-10));
 
-  const Diagonal body = string_like(300);
-  for (const int limit : {9, 10, 11}) {  // not, and just, a multiple of the block
-    const EigenPairs stopped = body.largest(5, {.tolerance = 1e-12, .largest_space = limit});
-    CAPTURE(limit);
-    CHECK_FALSE(stopped.converged);
-    CHECK(body.residual(stopped) == Approx(stopped.residual).epsilon(1e-6));
-  }
+  Diagonal close = string_like(300);
+  for (int i = 0; i < 300; ++i) close.value[i] = 1.0 - 1e-6 * i;
+  const EigenPairs stopped = close.largest(5, {.tolerance = 1e-12, .largest_space = 20});
+  CHECK_FALSE(stopped.converged);
+  REQUIRE(stopped.values.size() == 5);
+  CHECK(stopped.values[0] == Approx(1.0).epsilon(1e-3));  // rough
 }
 
-TEST_CASE("an operator of low rank leaves the eigensolver nothing to grow with", "[pillar]") {
+TEST_CASE("an operator of low rank gives the few modes that it has", "[pillar]") {
   Diagonal body = string_like(120);
   body.value.tail(117).setZero();  // all starts lie in a space of three
   const EigenPairs pairs = body.largest(3, {});

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace viscard::peers {
+
+// Numbers of a whole answer, each with its error estimate (an absolute value).
+struct Answer {
+  std::vector<double> value;
+  std::vector<double> error;
+};
+
+// A question to the pillar solver: geometry and media in, numbers out. What is timed is all of it:
+// meshes, matrices, factorisations, solutions, and the error estimate where a scene asks for one.
+struct AnswerCase {
+  std::string name;
+  std::function<Answer()> run;
+};
+std::vector<AnswerCase> answer_cases();
+
+}  // namespace viscard::peers
