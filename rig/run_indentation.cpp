@@ -1,7 +1,7 @@
 #include "rig/run_indentation.h"
 
 #include "models/experiment/test_phases.h"
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 #include "rig/run/contact_estimate.h"
 #include "rig/run/force_control.h"
 #include "rig/run/run_conclusion.h"

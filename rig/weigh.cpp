@@ -1,8 +1,8 @@
 #include "rig/weigh.h"
 
 #include "models/experiment/sample_force.h"
+#include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
-#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cmath>

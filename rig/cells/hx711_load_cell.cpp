@@ -3,7 +3,6 @@
 #include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
 #include "rig/protocols/force_unit.h"
-#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cctype>

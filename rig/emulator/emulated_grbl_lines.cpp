@@ -1,7 +1,7 @@
 // The lines of EmulatedGrbl: what "$..." does and what a report says.
+#include "models/maths/text_of_number.h"
 #include "rig/emulator/emulated_grbl.h"
 #include "rig/protocols/grbl_protocol.h"
-#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "rig/emulator/emulated_zaber.h"
 
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 #include "rig/protocols/zaber_protocol.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include "rig/protocols/force_gauge_protocols.h"
 
+#include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
 #include "rig/protocols/force_unit.h"
 #include "rig/protocols/scpi_protocol.h"
-#include "rig/protocols/text_number.h"
 
 namespace viscard {
 namespace {

@@ -1,6 +1,6 @@
 #include "rig/protocols/hx711_protocol.h"
 
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <array>

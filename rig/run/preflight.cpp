@@ -1,7 +1,7 @@
 #include "rig/run/preflight.h"
 
 #include "models/experiment/test_phases.h"
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include "rig/run/run_conclusion.h"
 
 #include "models/maths/text_of_number.h"
-#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 
 #include "models/experiment/sample_force.h"
 #include "models/maths/text_of_number.h"
-#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // How a RunSession watches over the rig, and leaves it when something went wrong.
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 #include "rig/run/run_session.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // The conversations of GrblStage that wait for answers: opening, settings, recovery.
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 #include "rig/stages/grbl_stage.h"
 
 #include <cmath>

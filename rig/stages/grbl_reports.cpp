@@ -1,6 +1,6 @@
 // What GrblStage makes of position reports: when to ask, which question an answer belongs to, and
 // whether a move goes where it was told and ends.
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 #include "rig/stages/grbl_stage.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "rig/stages/travel_limit.h"
 
+#include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
-#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cmath>

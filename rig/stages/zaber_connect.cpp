@@ -1,5 +1,5 @@
 // The conversations of ZaberStage that wait for answers: opening, settings, recovery.
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 #include "rig/stages/zaber_stage.h"
 
 namespace viscard {

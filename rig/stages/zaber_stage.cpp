@@ -1,6 +1,6 @@
 #include "rig/stages/zaber_stage.h"
 
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 #include "rig/stages/travel_limit.h"
 
 #include <algorithm>

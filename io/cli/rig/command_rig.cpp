@@ -5,11 +5,11 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/progress.h"
 #include "io/config/config_file.h"
+#include "models/maths/text_of_number.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/lines/port_probe.h"
 #include "rig/open_devices.h"
-#include "rig/protocols/text_number.h"
 #include "rig/rig_check.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,4 @@
 #include "rig/lines/line_splitter.h"
-#include "rig/protocols/text_number.h"
 
 #include <catch2/catch.hpp>
 
@@ -64,17 +63,6 @@ TEST_CASE("NULs and bytes above 127 count as unprintable, text does not", "[rig]
   LineSplitter text;
   text.feed("123,\t456\r\n", 0.0);
   CHECK(text.unprintable_fraction() == 0.0);
-}
-
-TEST_CASE("Numbers on the wire are read and written whatever the locale", "[rig]") {
-  CHECK(number_from_text(" +1.25 ").value() == 1.25);
-  CHECK(number_from_text("-0.00").value() == 0.0);
-  for (const char* bad : {"", "1,25", "1.2.3", "nan", "inf", "0x10", "12a", "--1"}) {
-    INFO(bad);
-    CHECK_FALSE(number_from_text(bad));
-  }
-  CHECK(text_from_number(-0.0001, 3) == "0.000");
-  CHECK(text_from_number(-1.23456789, 5) == "-1.23457");
 }
 
 }  // namespace viscard

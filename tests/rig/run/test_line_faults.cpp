@@ -1,8 +1,8 @@
 // Short captures over lines that drop, double, split, delay, garble and add bytes, and hang up.
 // Each must end with a record that agrees with what the emulated amplifier said, or with a clear
 // error; never with the stage moving, the punch pressing unsaid, or a wrong reading unmarked.
+#include "models/maths/text_of_number.h"
 #include "rig/protocols/hx711_protocol.h"
-#include "rig/protocols/text_number.h"
 #include "tests/rig/rig_fixture.h"
 
 #include <catch2/catch.hpp>
