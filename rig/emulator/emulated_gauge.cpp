@@ -75,7 +75,7 @@ std::string EmulatedGauge::text_of(double reading_N, bool is_overload) const {
   const bool is_changed =
       habits_.changes_unit_after > 0 && n_readings_ > habits_.changes_unit_after;
   const std::string unit = is_changed ? "lbF" : habits_.unit;
-  // A gauge that is off by its gain shows so many newtons per newton.
+  // The gain of a force gauge is the newtons shown per newton.
   const double shown_N = volts_from_force_N(calibration_, reading_N);
   const double value = shown_N / newtons_per_unit(unit).value_or(1.0);
   if (driver_ == "sauter") {

@@ -12,20 +12,21 @@
 
 namespace viscard {
 
-// Habits of real instruments that a driver must live with. Times on the emulated clock.
+// Behaviour of real instruments that a driver must cope with. Times on the emulated clock.
 struct GaugeHabits {
   int lose_answer_every = 0;  // every n-th question gets no answer
-  int late_answer_every = 0;  // every n-th answer comes late_s late
+  int late_answer_every = 0;  // every n-th answer is late by late_s
   double late_s = 0.0;
-  bool echoes = false;         // sends back what it hears
+  bool echoes = false;         // sends every byte back
   bool hides_unit = false;     // Mark-10: unit switched off in its menu
   std::string unit = "N";      // Mark-10, Sauter
-  int changes_unit_after = 0;  // Mark-10: somebody presses its button after so many readings
-  bool refuses_setup = false;  // SCPI: an error waits in its queue
+  int changes_unit_after = 0;  // Mark-10: its unit changes after so many readings; 0: never
+  bool refuses_setup = false;  // SCPI: there is an error in its queue after the setup
 };
 
-// A multimeter behind the amplifier, or a force gauge, that answers when asked
-// (rig/scpi_protocol.h, rig/force_gauge_protocols.h). A reading takes 1/sample_rate of the truth.
+// A multimeter behind the amplifier, or a force gauge, that answers queries
+// (rig/protocols/scpi_protocol.h, rig/protocols/force_gauge_protocols.h). One reading takes
+// 1/sample_rate of the truth.
 class EmulatedGauge {
  public:
   // driver: "scpi", "mark10", "sauter".
@@ -33,9 +34,9 @@ class EmulatedGauge {
                 std::string driver, const GaugeHabits& habits);
 
   void receive(std::string_view bytes, double time_s);
-  // Time at which the next reading is made; infinity if none was asked for.
+  // Time at which the next reading is made; infinity without an open query.
   double next_sample_s() const;
-  // Makes it with the force acting then.
+  // Makes the next reading with the force that acts then.
   void convert(double force_N, bool is_cell_broken);
   std::string take_output(double time_s);
 

@@ -10,14 +10,13 @@ namespace {
 
 constexpr std::size_t kSauterLength = 7;
 
-// The unit of a gauge that does not send one; N unless the rig file says otherwise.
+// The unit of a gauge that does not send one; N unless the rig file has another.
 std::string checked_unit(const std::string& unit) {
   const std::string word = unit.empty() ? "N" : unit;
   if (newtons_per_unit(word)) return word;
   throw RigError(
       "unit '" + unit +
-      "' under [load_cell] of the rig file is unknown; there are N, mN, kN, gf, kgf, ozf, "
-      "lbf");
+      "' under [load_cell] of the rig file is unknown; choose N, mN, kN, gf, kgf, ozf or lbf");
 }
 
 }  // namespace
@@ -75,7 +74,7 @@ GaugeProtocol gauge_protocol(const LoadCellConfig& config) {
   if (config.driver == "mark10") return mark10_protocol(config.unit);
   if (config.driver == "sauter") return sauter_protocol(config.unit);
   throw RigError("driver '" + config.driver +
-                 "' under [load_cell] of the rig file is unknown; there are hx711, scpi, mark10, "
+                 "' under [load_cell] of the rig file is unknown; choose hx711, scpi, mark10 or "
                  "sauter");
 }
 

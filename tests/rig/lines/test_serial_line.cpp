@@ -3,6 +3,8 @@
 #include "rig/lines/rig_error.h"
 #include "rig/lines/serial_line.h"
 
+#include "tests/rig/read_line.h"
+
 #include <catch2/catch.hpp>
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,6 +1,7 @@
 // What ports and amplifiers do wrong, through real pseudo-terminals. The table in rig/README.md
 // says which test stands for which case.
 #include "rig/emulator/pty_port.h"
+#include "tests/rig/read_line.h"
 #include "tests/rig/rig_fixture.h"
 
 #include <catch2/catch.hpp>

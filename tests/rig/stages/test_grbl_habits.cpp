@@ -182,7 +182,7 @@ TEST_CASE("A stage sent elsewhere by a garbled line is stopped at once", "[rig][
   options.grbl.misread_jog_number = 1;
   RigFixture rig(options);
   rig.stage.connect(rig.pump());
-  CHECK_THROWS_WITH(move_and_wait(rig, 0.05e-3, 0.2e-3), Contains("outside its way"));
+  CHECK_THROWS_WITH(move_and_wait(rig, 0.05e-3, 0.2e-3), Contains("outside of its path"));
   rig.stage.recover(rig.pump());
   CHECK(rig.emulated.outcome().final_position_m < 0.3e-3);  // of the 1.05 mm it was heard to ask
   CHECK(stands_where_it_says(rig));
