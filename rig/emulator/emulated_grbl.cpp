@@ -103,7 +103,7 @@ void EmulatedGrbl::soft_reset(double time_s) {
   const bool was_moving = motion_.is_moving(time_s);
   answers_.clear();
   motion_.stop_at_once(time_s);
-  // A reset does not clear an alarm, and one in motion raises one.
+  // An alarm survives a reset, and a reset in motion raises one.
   state_ = was_moving || state_ == "Alarm" ? "Alarm" : "Idle";
   is_silent_ = false;
   if (!was_moving) return welcome();
