@@ -35,7 +35,11 @@ void LineSplitter::end_line(double time_s) {
   // Bytes that arrived faster than the wire carries them (from a pseudo-terminal or an adapter's
   // buffer) would otherwise seem older than bytes read before them.
   last_line_s_ = std::max(last_line_s_, time_s);
-  if (!is_overlong_) lines_.push_back({std::move(begun_), last_line_s_});
+  if (is_overlong_) {
+    ++n_overlong_;
+  } else {
+    lines_.push_back({std::move(begun_), last_line_s_});
+  }
   begun_.clear();
   is_overlong_ = false;
 }

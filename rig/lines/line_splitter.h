@@ -14,9 +14,9 @@ struct ReceivedLine {
 };
 
 // Cuts a byte stream into lines ended by CR, LF, CRLF or LFCR, however reads split it. A line
-// longer than max_length is dropped up to its terminator, so that a stream without terminators
-// cannot fill the memory. Empty lines are kept, because GRBL answers them; CRLF and LFCR end one
-// line, not two.
+// longer than max_length is dropped up to its terminator and counted, so that a stream without
+// terminators cannot fill the memory. Empty lines are kept, because GRBL answers them; CRLF and
+// LFCR end one line, not two.
 class LineSplitter {
  public:
   explicit LineSplitter(std::size_t max_length = 256) : max_length_(max_length) {}
@@ -27,6 +27,7 @@ class LineSplitter {
   std::optional<ReceivedLine> next();
 
   std::size_t n_bytes() const { return n_bytes_; }
+  std::size_t n_overlong() const { return n_overlong_; }  // lines that were dropped
   // Share of bytes that no text protocol sends; a large share means a wrong baud rate.
   double unprintable_fraction() const;
 
@@ -39,6 +40,7 @@ class LineSplitter {
   char last_terminator_ = '\0';  // the previous byte, if it was a terminator
   std::deque<ReceivedLine> lines_;
   double last_line_s_ = -1e300;
+  std::size_t n_overlong_ = 0;
   std::size_t n_bytes_ = 0;
   std::size_t n_unprintable_ = 0;
 };

@@ -16,7 +16,7 @@ std::vector<std::string> lines_of(LineSplitter& splitter) {
 
 }  // namespace
 
-TEST_CASE("A line ends at CR, LF, CRLF or LFCR, wherever the bytes are split", "[rig]") {
+TEST_CASE("a line ends at CR, LF, CRLF or LFCR, wherever the bytes are split", "[rig]") {
   const std::string terminator = GENERATE("\r", "\n", "\r\n", "\n\r");
   const std::string stream = "one" + terminator + "two" + terminator + "three" + terminator;
   for (std::size_t at = 0; at <= stream.size(); ++at) {
@@ -27,7 +27,7 @@ TEST_CASE("A line ends at CR, LF, CRLF or LFCR, wherever the bytes are split", "
   }
 }
 
-TEST_CASE("An empty line is a line, the second half of a terminator is none", "[rig]") {
+TEST_CASE("an empty line is a line, but the second character of a terminator makes none", "[rig]") {
   LineSplitter splitter;
   splitter.feed("\r\n\r\nok\r\n", 0.0);
   CHECK(lines_of(splitter) == std::vector<std::string>{"", "", "ok"});
@@ -36,15 +36,16 @@ TEST_CASE("An empty line is a line, the second half of a terminator is none", "[
   CHECK(lines_of(bare) == std::vector<std::string>{"a", "", "b"});
 }
 
-TEST_CASE("A mebibyte without an end is dropped, and the line after it read", "[rig]") {
+TEST_CASE("a mebibyte without a line end is dropped, and the line after it is read", "[rig]") {
   LineSplitter splitter(256);
   const std::string block(4096, 'x');
   for (int i = 0; i < 256; ++i) splitter.feed(block, 0.0);
   splitter.feed("\nnext\n", 0.0);
+  CHECK(splitter.n_overlong() == 1);
   CHECK(lines_of(splitter) == std::vector<std::string>{"next"});
 }
 
-TEST_CASE("Lines of one read arrived earlier by the wire time of what came behind", "[rig]") {
+TEST_CASE("lines of one read arrived earlier by the wire time of the bytes after them", "[rig]") {
   LineSplitter splitter;
   splitter.feed("12345678\nabcdefgh\n", 10.0, 1e-3);
   const auto first = splitter.next();
@@ -55,7 +56,7 @@ TEST_CASE("Lines of one read arrived earlier by the wire time of what came behin
   CHECK(second->time_s == 10.0);
 }
 
-TEST_CASE("NULs and bytes above 127 count as unprintable, text does not", "[rig]") {
+TEST_CASE("NULs and bytes above 127 count as unprintable, but text does not", "[rig]") {
   LineSplitter noise;
   noise.feed(std::string("\x00\xff\x80\xfe", 4), 0.0);
   CHECK(noise.unprintable_fraction() == 1.0);
