@@ -32,6 +32,7 @@ enum Incident : unsigned {
   kRestartStage = 32,
 };
 
+// The controller for config.stage.driver.
 std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions& options) {
   const StageConfig& stage = options.config.stage;
   if (stage.driver == "zaber") {

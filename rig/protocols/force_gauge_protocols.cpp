@@ -3,7 +3,6 @@
 #include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
 #include "rig/protocols/force_unit.h"
-#include "rig/protocols/scpi_protocol.h"
 
 namespace viscard {
 namespace {
@@ -67,15 +66,6 @@ GaugeProtocol sauter_protocol(const std::string& unit) {
   protocol.fixed_length = kSauterLength;
   protocol.parse = [word](std::string_view bytes) { return parse_sauter_reading(bytes, word); };
   return protocol;
-}
-
-GaugeProtocol gauge_protocol(const LoadCellConfig& config) {
-  if (config.driver == "scpi") return scpi_protocol(config.dialect);
-  if (config.driver == "mark10") return mark10_protocol(config.unit);
-  if (config.driver == "sauter") return sauter_protocol(config.unit);
-  throw RigError("driver '" + config.driver +
-                 "' under [load_cell] of the rig file is unknown; choose hx711, scpi, mark10 or "
-                 "sauter");
 }
 
 }  // namespace viscard
