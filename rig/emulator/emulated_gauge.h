@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <string>
 #include <string_view>
 
@@ -29,9 +28,9 @@ struct GaugeHabits {
 // 1/sample_rate of the truth.
 class EmulatedGauge {
  public:
-  // driver: "scpi", "mark10", "sauter".
+  // driver: of [load_cell] in the rig file.
   EmulatedGauge(const EmulatedTruth& truth, const LoadCellCalibration& calibration,
-                std::string driver, const GaugeHabits& habits);
+                const std::string& driver, const GaugeHabits& habits);
 
   void receive(std::string_view bytes, double time_s);
   // Time at which the next reading is made; infinity without an open query.
@@ -45,13 +44,22 @@ class EmulatedGauge {
     double due_s;
     std::string text;
   };
+  // A reading as the instrument shows it.
+  struct Shown {
+    double volts = 0.0;
+    double force = 0.0;  // in its unit
+    std::string unit;    // empty if it is not sent
+    bool is_overload = false;
+  };
+  struct Instrument;
+  static const Instrument& instrument_of(const std::string& driver);
   void take_command(const std::string& command, double time_s);
   std::string text_of(double reading_N, bool is_overload) const;
 
   EmulatedTruth truth_;
   EmulatedCell cell_;
   LoadCellCalibration calibration_;
-  std::string driver_;
+  const Instrument& instrument_;
   GaugeHabits habits_;
   std::string begun_;
   std::deque<double> due_s_;
