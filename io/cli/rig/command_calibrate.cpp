@@ -3,11 +3,9 @@
 #include "io/basics/units.h"
 #include "io/cli/rig/calibrate_words.h"
 #include "io/cli/words/command_line.h"
-#include "rig/emulator/demo_rig.h"
 
 #include <fmt/format.h>
 
-#include <ctime>
 #include <filesystem>
 #include <ostream>
 
@@ -159,29 +157,6 @@ void check_words(const CalibrateWords& words) {
 }
 
 }  // namespace
-
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[16];
-  return {text, std::strftime(text, sizeof text, "%Y-%m-%d", &utc)};
-}
-
-RigConfig calibrate_rig(const CalibrateWords& words) {
-  RigConfig rig = words.rig_file ? read_rig(*words.rig_file) : demo_rig();
-  if (words.is_emulated) {
-    rig.clock_speed = words.speed;
-    if (rig.load_cell.volts_per_count == 0.0) {
-      rig.load_cell.volts_per_count = demo_rig().load_cell.volts_per_count;
-    }
-  }
-  return rig;
-}
-
-EmulatedTruth calibrate_truth(const CalibrateWords& words) {
-  return words.truth_file ? read_truth(*words.truth_file) : demo_truth(10.0, 1);
-}
 
 int run_calibrate(const std::vector<std::string>& words, Streams& streams) {
   CommandSyntax syntax = calibrate_syntax();
