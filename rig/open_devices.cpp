@@ -6,14 +6,40 @@
 #include "rig/stages/grbl_stage.h"
 #include "rig/stages/zaber_stage.h"
 
+#include <string>
+
 namespace viscard {
+
+namespace {
+
+using MakeStage = std::unique_ptr<Stage> (*)(Transport&, const StageConfig&, const RigClock&,
+                                             const RecordSink&);
+
+template <class Driver>
+std::unique_ptr<Stage> made(Transport& transport, const StageConfig& config, const RigClock& clock,
+                            const RecordSink& sink) {
+  return std::make_unique<Driver>(transport, config, clock, sink);
+}
+
+struct StageDriver {
+  const char* name;
+  MakeStage make;
+};
+
+// One row per value of driver under [stage].
+constexpr StageDriver kStages[] = {{"grbl", made<GrblStage>}, {"zaber", made<ZaberStage>}};
+
+}  // namespace
 
 std::unique_ptr<Stage> make_stage(Transport& transport, const StageConfig& config,
                                   const RigClock& clock, const RecordSink& sink) {
-  if (config.driver == "grbl") return std::make_unique<GrblStage>(transport, config, clock, sink);
-  if (config.driver == "zaber") return std::make_unique<ZaberStage>(transport, config, clock, sink);
+  std::string known;
+  for (const StageDriver& driver : kStages) {
+    if (config.driver == driver.name) return driver.make(transport, config, clock, sink);
+    known += (known.empty() ? "" : ", ") + std::string(driver.name);
+  }
   throw RigError("driver '" + config.driver +
-                 "' under [stage] of the rig file is unknown; there are grbl, zaber");
+                 "' under [stage] of the rig file is unknown; known are " + known);
 }
 
 std::unique_ptr<LoadCell> make_load_cell(Transport& transport, const LoadCellConfig& config,

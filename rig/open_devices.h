@@ -11,23 +11,23 @@
 
 namespace viscard {
 
-// The driver that a rig file names, on a transport that is already open. Throws RigError naming the
-// drivers there are.
+// The driver that a rig file names, on an open transport. Throws RigError on an unknown driver; the
+// message lists the known ones.
 std::unique_ptr<Stage> make_stage(Transport& transport, const StageConfig& config,
                                   const RigClock& clock, const RecordSink& sink);
 std::unique_ptr<LoadCell> make_load_cell(Transport& transport, const LoadCellConfig& config,
                                          const RigClock& clock, const RecordSink& sink);
 
-// Both instruments of a rig with their ports, closed in the right order.
+// Both devices of a rig and their ports, destroyed in the right order.
 struct RigDevices {
   std::unique_ptr<SerialLine> stage_line, cell_line;
   std::unique_ptr<Stage> stage;
   std::unique_ptr<LoadCell> load_cell;
 };
 
-// Opens the ports alone (devices come with make_stage and make_load_cell, once there is a sink).
-// Throws RigError with the reason why a port cannot be opened, or on a driver that is not known.
+// Opens both ports. Throws RigError with the reason why a port cannot be opened.
 RigDevices open_ports(const RigConfig& rig, const RigClock& clock);
+// Adds the drivers to the open ports.
 void add_drivers(RigDevices& devices, const RigConfig& rig, const RigClock& clock,
                  const RecordSink& sink);
 

@@ -3,7 +3,6 @@
 #include "models/experiment/sample_force.h"
 #include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
-#include "rig/protocols/text_number.h"
 #include "rig/run/preflight.h"
 
 #include <algorithm>
@@ -48,13 +47,13 @@ void advise(const RigConfig& rig, RigCheck& check) {
   }
   if (check.reads_as == "volts" && rig.load_cell.line_format == "auto") {
     add(false,
-        "numbers with a decimal point and without a unit are taken for volts: set line_format = "
-        "\"volts\" of the load cell in the rig file if they are, or unit = \"g\" if they are "
+        "numbers with a decimal point and without a unit are read as volts: set line_format = "
+        "\"volts\" of the load cell in the rig file if they are volts, or unit = \"g\" if they are "
         "weights");
   }
   if (check.noise_N > 0.005 * capacity_N) {
     add(false, "noise of " + text_from_number(check.noise_N * 1e3, 2) +
-                   " mN is above .5 % of capacity: shield the cell's wires");
+                   " mN is above 0.5 % of capacity: shield the cell's wires");
   }
   if (std::abs(check.force_N) > 0.5 * capacity_N) {
     add(true, "the cell reads " + text_from_number(check.force_N, 3) +

@@ -10,24 +10,24 @@
 
 namespace viscard {
 
-// What a rig at rest says about itself.
+// What is measured and read from a rig at rest.
 struct RigCheck {
   std::string stage_identity;
   StageDynamics dynamics;
   double position_m = 0.0;
   ReportLatency latency;
   StreamCounts stream;
-  std::string reads_as;             // of its numbers: "counts", "volts", "g" ...
-  double rate_Hz = 0.0;             // of the readings, by the device's clock if it has one
-  double jitter_s = 0.0;            // wall: largest delay of a reading over the smallest
-  double force_N = 0.0;             // mean by the calibration, before any tare
+  std::string reads_as;             // assumed unit of the readings: "counts", "volts", "g" ...
+  double rate_Hz = 0.0;             // of readings, by the device's clock if it has one
+  double jitter_s = 0.0;            // largest minus smallest delay of a reading, wall time
+  double force_N = 0.0;             // mean by the calibration, without a tare
   double noise_N = 0.0;             // standard deviation of one reading
   std::vector<std::string> advice;  // what to change and why
-  bool is_usable = false;           // nothing among the advice forbids a run
+  bool is_usable = false;           // true if no piece of advice forbids a run
 };
 
-// Opens the conversation with both devices, listens for duration_s of rig time and moves nothing.
-// Throws RigError with the reason when a device does not answer.
+// Connects both devices and listens for duration_s of rig time; moves nothing. Throws RigError if a
+// device does not answer or fewer than ten usable readings arrive.
 RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, const RigClock& clock,
                    double duration_s);
 

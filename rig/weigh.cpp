@@ -1,8 +1,8 @@
 #include "rig/weigh.h"
 
 #include "models/experiment/sample_force.h"
+#include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
-#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace viscard {
 namespace {
 
 constexpr int kFewest = 10;
-constexpr double kMostDrift = 1e-3;  // of the largest load, between the halves of a mean
+constexpr double kMostDrift = 1e-3;  // of the largest load, between the two halves of a mean
 constexpr double kPatience_wall_s = 5.0;
 
 struct Collected {
@@ -48,8 +48,8 @@ WeighedLoad load_from(const Collected& collected, double force_N, double full_re
   const double noise = 2.0 * load.sd / std::sqrt(static_cast<double>(half));
   if (std::abs(drift) > kMostDrift * full_reading + 3.0 * noise) {
     throw RigError(which +
-                   "the reading still drifts. Let the weight hang still, or settle longer "
-                   "(--settle)");
+                   "the reading still drifts. Wait until the weight hangs still, or set a longer "
+                   "--settle");
   }
   return load;
 }

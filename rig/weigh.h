@@ -13,21 +13,21 @@ namespace viscard {
 // One weight on the load cell.
 struct WeighedLoad {
   double force_N = 0.0;
-  double reading = 0.0;  // mean, in the unit of the calibration (models/sample_force.h)
-  double sd = 0.0;       // of one reading
+  double reading = 0.0;  // mean, in the unit of models/experiment/sample_force.h
+  double sd = 0.0;       // standard deviation of one reading
   int n = 0;
 };
 
 struct WeighOptions {
-  double settle_s = 1.0;  // after a weight was put on, before its readings count
-  double mean_s = 3.0;
-  // Puts a weight on (or asks somebody to) and returns when it hangs; false ends the weighing.
+  double settle_s = 1.0;  // from the moment the weight hangs until its readings count
+  double mean_s = 3.0;    // length of the mean
+  // Puts a weight on, or asks a person to, and returns when it hangs; false ends the weighing.
   std::function<bool(double force_N)> put_on;
   const std::atomic<bool>* stop = nullptr;
 };
 
-// Weighs one load after another, times in rig seconds. Throws RigError when readings stop, are
-// saturated, or still drift by more than a thousandth of the largest load while the mean is taken.
+// Weighs one load after another; times in rig seconds. Throws RigError if readings stop or are
+// saturated, or if they still drift by more than a thousandth of the largest load during the mean.
 std::vector<WeighedLoad> weigh(LoadCell& load_cell, const RigConfig& rig, const RigClock& clock,
                                const std::vector<double>& forces_N, const WeighOptions& options);
 

@@ -57,7 +57,7 @@ void CaptureDatabase::write(const std::vector<RunRecord>& batch, bool is_synced)
     ++seq_;
     std::visit([this](const auto& one) { insert(one); }, record);
   }
-  // Also what makes a transaction of an empty batch, so that there is something to sync.
+  // With an empty batch this makes the transaction that is synced.
   if (is_synced) set("n_records_synced", std::to_string(seq_));
   database_.execute("COMMIT");
   if (is_synced) database_.execute("PRAGMA synchronous=NORMAL");
@@ -71,7 +71,7 @@ void CaptureDatabase::finish(const std::string& status) {
   set("finish_clock_monotonic_s", text_from_number(clock_s(CLOCK_MONOTONIC)));
   set("finish_clock_realtime_s", text_from_number(clock_s(CLOCK_REALTIME)));
   database_.execute("COMMIT");
-  // From here on the run is safe; a reader that has the file open only keeps the side files.
+  // From here on the run is safe. If a reader has the file open, only the side files stay.
   try {
     database_.execute("PRAGMA wal_checkpoint(TRUNCATE)");
     database_.text_of("PRAGMA journal_mode=DELETE");
@@ -80,8 +80,8 @@ void CaptureDatabase::finish(const std::string& status) {
   }
 }
 
-// Tables and what the run is are written before the switch to WAL, so that they stand in the main
-// file.
+// Tables and the description of the run are written before the switch to WAL, so that they are in
+// the main file.
 void CaptureDatabase::create(const std::filesystem::path& path, const CapturedRun& about) {
   database_.execute("PRAGMA synchronous=FULL");
   database_.execute("BEGIN");
@@ -103,7 +103,7 @@ void CaptureDatabase::create(const std::filesystem::path& path, const CapturedRu
   run_.reset();
   if (database_.text_of("PRAGMA journal_mode=WAL") != "wal") {
     throw std::runtime_error(path.string() +
-                             ": this disk cannot keep a write-ahead log (a network share?); "
+                             ": this disk cannot keep a write-ahead log (is it a network share?); "
                              "capture to a local disk");
   }
   database_.execute("PRAGMA synchronous=NORMAL");

@@ -12,18 +12,18 @@
 
 namespace viscard {
 
-// The tables of a capture being written: one connection and its prepared statements, used by one
-// thread at a time. All functions throw SqliteError.
+// The tables of a capture that is being written: one connection and its prepared statements, for
+// one thread at a time. All functions throw SqliteError.
 class CaptureDatabase {
  public:
-  // The file must exist and be empty. Of `about`: rig, plan, specimen, program, command,
-  // started_at.
+  // The file must exist and be empty. Stores rig, plan, specimen, program, command and started_at
+  // of `about`.
   CaptureDatabase(const std::filesystem::path& path, const CapturedRun& about);
 
-  // One transaction; with is_synced the medium has it when this returns.
+  // Writes one transaction; with is_synced it is on the medium when this returns.
   void write(const std::vector<RunRecord>& batch, bool is_synced);
 
-  // Notes the status and, unless a reader has the file open, merges the journal into the main file.
+  // Stores the status. Merges the journal into the main file unless a reader has the file open.
   void finish(const std::string& status);
 
  private:
@@ -35,7 +35,7 @@ class CaptureDatabase {
   void insert(const CommandedMove& commanded);
   void insert(const RunEvent& event);
 
-  Database database_;  // declared first: the statements must go before it
+  Database database_;  // declared first, so that the statements are destroyed before it
   std::optional<Statement> raw_, sample_, report_, move_, event_, run_;
   std::int64_t seq_ = 0;
 };

@@ -26,7 +26,7 @@ std::optional<double> number_of_event(const CapturedRun& run, const std::string&
     try {
       found = si_from_text(event.value, "1");
     } catch (const std::invalid_argument&) {
-      // An event without a number says nothing here.
+      // An event without a number is ignored here.
     }
   }
   return found;
@@ -74,7 +74,7 @@ std::string quoted_cell(const std::string& text) {
   return out + "\"";
 }
 
-// What is known of a sample besides the sample itself.
+// Turns samples into rows, with force, position, depth and phase at the time of the sample.
 class SampleRows {
  public:
   explicit SampleRows(const CapturedRun& run)
@@ -116,7 +116,7 @@ class SampleRows {
     const double frame_N_m = run_.rig.frame.stiffness_N_m;
     return stage_m - *contact_m_ - (frame_N_m > 0.0 ? *force_N / frame_N_m : 0.0);
   }
-  // Samples come in order, so that the events are gone through once.
+  // Samples are in order, so the events are read only once.
   const std::string& phase_at(double time_s) {
     while (next_event_ < run_.events.size() && run_.events[next_event_].host_time_s <= time_s) {
       const RunEvent& event = run_.events[next_event_++];

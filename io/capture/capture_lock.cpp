@@ -34,7 +34,7 @@ bool is_written_here(const std::string& key) {
   return written_here().count(key) > 0;
 }
 
-// True when another process holds the flock.
+// True if another process holds the flock.
 bool is_written_elsewhere(const std::filesystem::path& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (fd < 0) return false;

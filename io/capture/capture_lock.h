@@ -5,20 +5,21 @@
 
 namespace viscard {
 
-// Says that a live process is writing a capture: an flock on the file (independent of SQLite's own
-// locks, gone with the process) and a list within this process, because opening and closing the
-// file here would drop the fcntl locks that SQLite holds for its own connection.
+// Marks a capture as being written by a live process: by an flock on the file (independent of
+// SQLite's own locks, and released when the process ends) and by a list within this process. The
+// list is needed because opening and closing the file here would drop the fcntl locks of SQLite's
+// own connection.
 class CaptureLock {
  public:
-  // Creates the file, which must not exist unless overwrite is set; then the old one and its side
-  // files are removed. Throws std::runtime_error: exists, no folder, not a plain file, being
-  // written.
+  // Creates the file. With overwrite an old one and its side files are removed first. Throws
+  // std::runtime_error if the file exists and overwrite is false, if the folder does not exist, if
+  // it is not a plain file, or if it is being written.
   CaptureLock(const std::filesystem::path& path, bool overwrite);
   ~CaptureLock();
   CaptureLock(const CaptureLock&) = delete;
   CaptureLock& operator=(const CaptureLock&) = delete;
 
-  // Close SQLite's connection before this.
+  // Precondition: SQLite's connection is closed.
   void release();
 
  private:

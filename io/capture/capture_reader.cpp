@@ -36,7 +36,7 @@ std::uint32_t big_endian(const Header& header, std::size_t from, std::size_t siz
   throw std::runtime_error(path.string() + " " + what);
 }
 
-// Reads with read(2): a stream would say nothing about why it cannot.
+// Reads with read(2), because a stream does not report why it fails.
 std::size_t read_header(const fs::path& path, Header& header) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (fd < 0) throw std::runtime_error(path.string() + ": cannot open: " + std::strerror(errno));
@@ -55,16 +55,16 @@ bool has_journal(const fs::path& path) {
   return !ignored && size > 0;
 }
 
-// What the first bytes and the size can tell; SQLite's own messages would puzzle more than help.
+// Checks the first bytes and the size, because SQLite's own messages would not help a user.
 void check_header(const fs::path& path) {
   if (fs::is_directory(path)) fail(path, "is a folder; name the capture file in it");
   Header header{};
   const std::size_t size = read_header(path, header);
   if (size == 0)
-    fail(path, "is empty: the capture ended before it had begun; there is nothing to read");
-  if (!has_magic(header, size)) fail(path, "is not a capture (no *.viscap file begins like this)");
+    fail(path, "is empty: the capture ended before it wrote anything; there is nothing to read");
+  if (!has_magic(header, size)) fail(path, "is not a capture (a *.viscap file begins otherwise)");
   if (size < header.size())
-    fail(path, "is truncated: not even its header is whole; use a copy of it");
+    fail(path, "is truncated: its header is not complete; use a copy of it");
   if (big_endian(header, 68, 4) != kCaptureApplicationId) {
     fail(path, "is an SQLite database of another program, not a capture");
   }
@@ -74,7 +74,7 @@ void check_header(const fs::path& path) {
                    ", this one reads up to " + std::to_string(kCaptureSchemaVersion) +
                    "); update viscard");
   }
-  // With a journal beside it the main file may lag behind what its header says.
+  // With a journal beside it, the main file may be shorter than its header states.
   const std::uint64_t page = big_endian(header, 16, 2) == 1 ? 65536 : big_endian(header, 16, 2);
   const std::uint64_t expected = page * big_endian(header, 28, 4);
   if (!has_journal(path) && fs::file_size(path) < expected) {
@@ -85,8 +85,8 @@ void check_header(const fs::path& path) {
   }
 }
 
-// A capture opened for reading. A journal can only be read where SQLite may make a side file, so on
-// a read-only medium a copy is read.
+// A capture opened for reading. SQLite needs to create a side file to read a journal, so on a
+// read-only medium a copy is read.
 class OpenCapture {
  public:
   explicit OpenCapture(const fs::path& path) : path_(path) {
@@ -198,12 +198,12 @@ void read_status(OpenCapture& capture, const fs::path& path, CapturedRun& run) {
   if (capture.is_running() || has_journal(path)) return;
   run.events.push_back({run.events.empty() ? 0.0 : run.events.back().host_time_s, "gap", "",
                         "the run was interrupted and its side file " + path.string() +
-                            "-wal is not there; if only the main file was copied, the last "
-                            "seconds may be in the other one"});
+                            "-wal is missing; if only the main file was copied, the last "
+                            "seconds may be in that side file"});
 }
 
-// Readings that an event "implausible" names by index, told only after they had been recorded,
-// count as glitches.
+// Readings whose index an event "implausible" names count as glitches. The event comes after the
+// reading was recorded.
 void mark_implausible(CapturedRun& run) {
   std::unordered_set<std::string> indices;
   for (const RunEvent& event : run.events) {
@@ -222,7 +222,7 @@ CapturedRun read_capture(const std::filesystem::path& path) {
   Database& database = capture.database();
   CapturedRun run;
   try {
-    database.execute("BEGIN");  // one snapshot, also of a run that is still being written
+    database.execute("BEGIN");  // one snapshot, even of a run that is still being written
     if (database.text_of("PRAGMA quick_check(1)") != "ok") {
       throw SqliteError(path.string(), SQLITE_CORRUPT);
     }

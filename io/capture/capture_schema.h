@@ -4,8 +4,8 @@
 
 namespace viscard {
 
-// Tables of a capture file; io/README.md explains the columns. seq counts the records of all tables
-// in the order in which they were appended.
+// Tables of a capture file; io/capture/README.md explains the columns. seq counts the records of
+// all tables in the order of append().
 inline constexpr std::uint32_t kCaptureApplicationId = 0x56434150;  // "VCAP"
 inline constexpr std::uint32_t kCaptureSchemaVersion = 2;           // 2: load_samples.force_N
 

@@ -18,7 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMaxQueuedBytes = 64u << 20;  // of raw bytes waiting for the disk
+constexpr std::size_t kMaxQueuedBytes = 64u << 20;  // of raw bytes that wait for the disk
 
 double host_time_s(const RunRecord& record) {
   if (const auto* move = std::get_if<CommandedMove>(&record)) return move->move.start_time_s;
@@ -30,7 +30,7 @@ double host_time_s(const RunRecord& record) {
       record);
 }
 
-// Events are few and say what happened to the rest: they sync at once and are never dropped.
+// Events are few and explain the other records: they are synced at once and never dropped.
 bool is_event(const RunRecord& record) {
   return std::holds_alternative<RunEvent>(record);
 }
@@ -47,7 +47,7 @@ void refuse_full_disk(const std::filesystem::path& path, std::size_t needed_byte
   const auto free_bytes = static_cast<std::size_t>(disk.f_bavail) * disk.f_frsize;
   if (free_bytes >= needed_bytes) return;
   throw std::runtime_error(path.string() + ": only " + std::to_string(free_bytes >> 20) +
-                           " MiB are left on that disk; a capture wants at least " +
+                           " MiB are left on that disk; a capture needs at least " +
                            std::to_string(needed_bytes >> 20) + " MiB. Make room first");
 }
 
@@ -76,7 +76,7 @@ class CaptureWriter::Impl {
     try {
       finish("interrupted");
     } catch (const std::exception&) {
-      // The error was thrown to whoever appended; the file reads as interrupted without help.
+      // append() has thrown the error already; the file reads as interrupted.
     }
   }
 
@@ -150,7 +150,7 @@ class CaptureWriter::Impl {
     synced_.notify_all();
   }
 
-  // Takes what is queued and commits it; false when that was the last of a finished run.
+  // Commits the queued records; false after the last batch of a run that has ended.
   bool write_once() {
     bool is_synced = false, is_last = false;
     std::size_t appended = 0;
@@ -178,7 +178,7 @@ class CaptureWriter::Impl {
     return !is_last;
   }
 
-  // Call under the mutex.
+  // Precondition: the mutex is locked.
   RunEvent gap_event() {
     RunEvent event{gap_to_s_, "gap", std::to_string(gap_records_),
                    std::to_string(gap_records_) + " records between " +
@@ -190,12 +190,12 @@ class CaptureWriter::Impl {
 
   const std::filesystem::path path_;
   const CaptureOptions options_;
-  std::optional<CaptureLock> lock_;  // before the database: SQLite's descriptor must close first
+  std::optional<CaptureLock> lock_;  // before the database, which must be closed first
   std::optional<CaptureDatabase> database_;
   std::vector<RunRecord> batch_;
   Clock::time_point last_sync_ = Clock::now();
 
-  mutable std::mutex mutex_;  // of everything below
+  mutable std::mutex mutex_;  // guards everything below
   std::condition_variable wake_, synced_;
   std::vector<RunRecord> queue_;
   std::size_t queued_bytes_ = 0;

@@ -118,7 +118,7 @@ Database::Database(const std::filesystem::path& path, Access access) : file_(pat
   database_.reset(database);
   if (code != SQLITE_OK) fail(database, file_, code);
   sqlite3_busy_timeout(database, 2000);
-  // The file may come from anywhere: no code of it may run.
+  // The file may come from anywhere, so no code in it may run.
   sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
 }

@@ -13,7 +13,7 @@ struct sqlite3_stmt;
 
 namespace viscard {
 
-// The little of SQLite that captures need, with errors as exceptions.
+// The part of SQLite that captures need, with errors as exceptions.
 class SqliteError : public std::runtime_error {
  public:
   SqliteError(const std::string& what, int code) : std::runtime_error(what), code_(code) {}
@@ -27,7 +27,7 @@ class Statement {
  public:
   Statement(sqlite3* database, const char* sql, std::string file);
 
-  // Parameters from 1; a null for an empty optional.
+  // Parameters are counted from 1; an empty optional is stored as NULL.
   Statement& bind(int place, double value);
   Statement& bind(int place, std::int64_t value);
   Statement& bind(int place, bool value);
@@ -35,9 +35,9 @@ class Statement {
   Statement& bind(int place, const std::optional<double>& value);
   Statement& bind_blob(int place, std::string_view bytes);
 
-  // True while there is a row; columns from 0.
+  // True while there is a row; columns are counted from 0.
   bool step();
-  // Runs a statement that gives no rows and makes it ready for the next parameters.
+  // Runs a statement without rows and makes it ready for the next parameters.
   void run();
 
   double number(int column) const;
@@ -57,12 +57,12 @@ class Statement {
 class Database {
  public:
   enum class Access { kReadOnly, kReadWrite };
-  // The file must exist. Errors carry its name.
+  // The file must exist. The text of an error begins with its name.
   Database(const std::filesystem::path& path, Access access);
 
   void execute(const char* sql);
   Statement prepare(const char* sql);
-  // First column of the first row; "" when there is none.
+  // First column of the first row; "" without a row.
   std::string text_of(const char* sql);
 
  private:

@@ -14,8 +14,9 @@
 namespace viscard {
 namespace {
 
-// 1 - K(x): K is the compliance of the bonded layer in Hankel space over that of the half-space
-// (eq. 10), divided through by cosh 2x so that it never overflows.
+// 1 - K(x), where K is the compliance of the bonded layer in Hankel space over that of the
+// half-space (eq. 10). Numerator and denominator are divided by cosh 2x, so that they never
+// overflow.
 double missing_compliance(double x, double nu) {
   const double k = 3.0 - 4.0 * nu;
   const double e = std::exp(-2.0 * x);
@@ -39,7 +40,8 @@ double layer_factor(double radius_over_thickness, double poisson_ratio) {
   }
   if (radius_over_thickness == 0.0) return 1.0;
 
-  // Transform variable x from 0 to 30, where 1 - K is below 1e-20, in panels of one.
+  // Quadrature over the transform variable x from 0 to 30, beyond which 1 - K is below 1e-20, in
+  // panels of length 1.
   static const QuadratureRule panel = gauss_legendre(24);
   constexpr int kPanels = 30;
   std::vector<double> x;

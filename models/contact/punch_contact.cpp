@@ -22,14 +22,15 @@ void validate_tip(const PunchContact& contact) {
   }
   const std::string name = is_cone ? "cone" : "sphere";
   if (contact.layer_thickness_m > 0.0) {
-    throw std::invalid_argument("a " + name +
-                                " on a bonded layer has no correction here; for a specimen much "
-                                "thicker than the contact is wide give layer_thickness = "
-                                "\"half-space\"");
+    throw std::invalid_argument(
+        "a " + name +
+        " on a bonded layer has no correction here; if the specimen is much "
+        "thicker than the contact is wide, set layer_thickness = "
+        "\"half-space\"");
   }
   if (contact.is_sticking) {
     throw std::invalid_argument("a sticking " + name +
-                                " has no formula here; leave sticking away (at nu = 0.5 it makes "
+                                " has no formula here; remove sticking (at nu = 0.5 it makes "
                                 "no difference)");
   }
 }
@@ -87,7 +88,7 @@ double relative_uncertainty(const PunchContact& contact) {
   const double nominal_m = depth_law(contact).factor;
   const auto change = [&](double PunchContact::*member, double uncertainty, double largest) {
     if (!(uncertainty > 0.0)) return 0.0;
-    // A one-sided difference where the other side leaves the valid range.
+    // One-sided difference if the other side would leave the valid range.
     PunchContact up = contact;
     PunchContact down = contact;
     up.*member = std::min(contact.*member + uncertainty, largest);

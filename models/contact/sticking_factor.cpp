@@ -1,5 +1,5 @@
-// A punch that sticks: displacements, not tractions, are known under it, so pressure and radial
-// shear are found together.
+// The factor of a sticking punch. Both displacements are prescribed under the punch, so pressure
+// and radial shear are unknown and solved for together.
 #include "models/contact/layer_factor.h"
 #include "models/maths/gauss_legendre.h"
 #include "models/maths/text_of_number.h"
@@ -37,15 +37,15 @@ Eigen::VectorXd spherical_bessel(double z, Index count) {
     here *= 1e-250;
     values *= 1e-250;
   }
-  // Both are known; the larger one is free of cancellation.
+  // Normalised by j_0 or j_1, whichever is larger, because that one has no cancellation.
   const double j0 = std::sin(z) / z;
   const double j1 = (j0 - std::cos(z)) / z;
   const bool use_first = count < 2 || std::abs(values[0]) > std::abs(values[1]);
   return values * (use_first ? j0 / values[0] : j1 / values[1]);
 }
 
-// Surface compliance of the bonded layer in Hankel space times G xi, less its value on the
-// half-space, at x = xi H   (eq. 30). Divided through by exp(2x).
+// Surface compliance of the bonded layer in Hankel space times G xi, minus its value for the
+// half-space, at x = xi H   (eq. 30). Numerators and denominator are divided by exp(2x).
 struct Compliance {
   double normal = 0.0, shear = 0.0, coupling = 0.0;
 };
@@ -59,13 +59,13 @@ Compliance layer_less_half_space(double x, double nu) {
           (0.5 * (1.0 - 2.0 * nu) * q * (cosh - e) - x * x * e) / bottom - 0.5 * (1.0 - 2.0 * nu)};
 }
 
-// The half-space's own part: int_0^inf j_m j_n d xi in closed form.
+// The half-space's part of the system: int_0^inf j_m j_n d xi in closed form.
 Eigen::MatrixXd half_space_system(Index count, double nu) {
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(count, count);
   for (Index m = 0; m < count; ++m) {
     const auto a = static_cast<double>(m);
     system(m, m) = (1.0 - nu) * std::numbers::pi / (2.0 * (2.0 * a + 1.0));
-    for (Index n = (m + 1) % 2; n < count; n += 2) {  // of the other parity: coupling
+    for (Index n = (m + 1) % 2; n < count; n += 2) {  // n of the other parity: coupling
       const auto b = static_cast<double>(n);
       const double sine = (m - n - 1) % 4 == 0 ? 1.0 : -1.0;  // sin((m - n) pi/2)
       system(m, n) = 0.5 * (1.0 - 2.0 * nu) * sine / (a * (a + 1.0) - b * (b + 1.0));
@@ -74,8 +74,8 @@ Eigen::MatrixXd half_space_system(Index count, double nu) {
   return system;
 }
 
-// Galerkin solution with `pairs` functions for pressure and as many for shear: their Hankel
-// transforms are j_0, j_2 .. and j_1, j_3 .. .
+// Galerkin solution with `pairs` functions for the pressure and as many for the shear; their Hankel
+// transforms are j_0, j_2, ... and j_1, j_3, ...
 double galerkin_factor(double r, double nu, Index pairs) {
   const Index count = 2 * pairs;
   Eigen::MatrixXd system = half_space_system(count, nu);
@@ -118,7 +118,8 @@ double sticking_layer_factor(double radius_over_thickness, double poisson_ratio)
     throw std::invalid_argument("Poisson ratio is " + text_of(poisson_ratio) +
                                 "; the correction for a sticking punch holds from 0 to 0.5");
   }
-  // The stress oscillates at the edge unless nu = .5, so the error falls as pairs^-2: extrapolated.
+  // Unless nu = 0.5 the stress oscillates at the edge, so the error falls as pairs^-2. Richardson
+  // extrapolation removes that term.
   const double coarse = galerkin_factor(radius_over_thickness, poisson_ratio, 12);
   const double fine = galerkin_factor(radius_over_thickness, poisson_ratio, 24);
   return fine + (fine - coarse) / 3.0;

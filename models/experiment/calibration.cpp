@@ -20,7 +20,7 @@ void validate(const LoadCellCalibration& calibration) {
 
 namespace {
 
-// Gregorian.
+// Days of a month in the Gregorian calendar.
 int days_of(int month, int year) {
   if (month == 2) return (year % 4 == 0 && year % 100 != 0) || year % 400 == 0 ? 29 : 28;
   return month == 4 || month == 6 || month == 9 || month == 11 ? 30 : 31;
@@ -42,7 +42,7 @@ bool is_iso_day(const std::string& text) {
 void validate_date(const char* key, const std::string& text) {
   if (text.empty() || is_iso_day(text)) return;
   throw std::invalid_argument("calibration." + std::string(key) + " '" + text +
-                              "' is no day such as 2026-11-21");
+                              "' is not a day such as 2026-11-21");
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ std::string last_valid_day(const LoadCellCalibration& calibration) {
   const std::string& date = calibration.date;
   if (date.size() < 10 || date.find_first_not_of("0123456789") != 4) return {};
   const int year = std::stoi(date.substr(0, 4)) + 1;
-  // A year after a leap day there is none.
+  // The year after a leap day has no 29 February.
   const std::string day = date.substr(4, 6) == "-02-29" ? "-02-28" : date.substr(4, 6);
   return std::to_string(year) + day;
 }
@@ -67,10 +67,10 @@ std::string calibration_trouble(const LoadCellCalibration& calibration, const st
   const std::string name = calibration.id.empty() ? "" : " '" + calibration.id + "'";
   if (last.empty()) {
     return "the load cell's calibration" + name +
-           " has no date, so nobody can tell whether it still holds. Make one with: viscard "
+           " has no date, so it is unknown whether it is still valid. Make a new one with: viscard "
            "calibrate; or set date under [calibration] of the rig file";
   }
-  // ISO dates compare as text.
+  // ISO dates can be compared as text.
   if (calibration.date.substr(0, 10) > today.substr(0, 10)) {
     return "the load cell's calibration" + name + " is dated " + calibration.date +
            ", which is later than today, " + today.substr(0, 10) +

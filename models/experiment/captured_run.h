@@ -11,8 +11,8 @@
 
 namespace viscard {
 
-// One test run as read back from its capture file: what was asked for and what was received, each
-// list in the order of reception. Host times are s since the run began (run_record.h).
+// One test run as read from its capture file: what was asked for and what was received, each list
+// in the order of reception. Host times are in s since the run began (run_record.h).
 struct CapturedRun {
   RigConfig rig;
   TestPlan plan;

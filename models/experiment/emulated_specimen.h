@@ -8,27 +8,26 @@
 
 namespace viscard {
 
-// The truth an emulated rig is made with; written to a file beside the capture so that what a fit
-// recovers can be scored against it. SI.
+// The true properties of an emulated rig; SI. They are written to a file beside the capture, so
+// that the result of a fit can be compared with them.
 struct EmulatedTruth {
   Material material;
   PunchContact contact;
   double frame_stiffness_N_m = 10e3;
-  double surface_position_m = 1.0e-3;  // where the stage touches, on the axis toward the specimen
-  double force_noise_N = 0.0;          // standard deviation of white noise, per reading
+  double surface_position_m = 1.0e-3;  // stage position at contact, on the axis toward the specimen
+  double force_noise_N = 0.0;          // standard deviation of white noise of one reading
   double force_offset_N = 0.0;
-  double drift_relative_per_s = 0.0;  // of the force acting
-  // The cell itself: how it departs from its nominal calibration.
-  double cell_gain = 0.0;  // V/N (or N/N of a force gauge); 0: as the rig's calibration says
-  double cell_full_scale_N = 2.45;  // of the two shares that follow
-  double cell_nonlinearity =
-      0.0;                       // largest departure from the line through its ends, at half scale
-  double cell_hysteresis = 0.0;  // largest difference between falling and rising load
-  double overload_N = 0.0;       // the cell breaks above this (1.5 x capacity is usual)
-  double sample_rate_Hz = 80.0;  // true rate, on the emulated clock
-  double steps_per_m = 3200e3;   // GRBL $102
-  double acceleration_m_s2 = 0.2;  // GRBL $122
-  double max_rate_m_s = 10e-3;     // GRBL $112
+  double drift_relative_per_s = 0.0;  // of the force that acts
+  // How the cell differs from its nominal calibration.
+  double cell_gain = 0.0;  // V/N (or N/N of a force gauge); 0: that of the rig's calibration
+  double cell_full_scale_N = 2.45;  // to which the next two values are relative
+  double cell_nonlinearity = 0.0;   // departure from the line through the ends, at half scale
+  double cell_hysteresis = 0.0;     // largest difference between falling and rising load
+  double overload_N = 0.0;          // the cell breaks above it (usually 1.5 x capacity); 0: never
+  double sample_rate_Hz = 80.0;     // true rate on the emulated clock
+  double steps_per_m = 3200e3;      // GRBL $102
+  double acceleration_m_s2 = 0.2;   // GRBL $122
+  double max_rate_m_s = 10e-3;      // GRBL $112
   std::uint64_t seed = 1;
 };
 

@@ -6,7 +6,7 @@
 
 namespace viscard {
 
-// What rig.toml says (data/demo/01_rig.toml is the commented example). SI.
+// The contents of rig.toml (data/demo/01_rig.toml is the commented example). SI.
 
 struct StageConfig {
   std::string driver = "grbl";  // "grbl" | "zaber"
@@ -14,10 +14,11 @@ struct StageConfig {
   int baud = 115200;
   char axis = 'Z';
   int toward_specimen = -1;  // sign of machine motion that presses into the specimen
-  double travel_m = 10e-3;   // software limit of the way toward the specimen from where it starts
+  double travel_m = 10e-3;   // largest travel toward the specimen from the position at connection
   double backlash_m = 0.0;
   bool home = false;  // run the controller's homing cycle before a test
-  // Zaber only: what no controller tells. One microstep of the motor, from the maker's page.
+  // Zaber only: length of one microstep of the motor, from the maker's page. No controller knows
+  // it.
   double microstep_m = 0.0;
   int device = 1;  // address on the chain
   int axis_number = 1;
@@ -27,26 +28,26 @@ struct LoadCellConfig {
   std::string driver = "hx711";  // "hx711" | "scpi" | "mark10" | "sauter"
   std::string port;
   int baud = 115200;
-  std::string line_format =
-      "auto";  // "counts" | "micros,counts" | "millis,counts" | "volts" | "auto"
+  // "counts" | "micros,counts" | "millis,counts" | "volts" | "auto"
+  std::string line_format = "auto";
   double expected_rate_Hz = 80.0;
-  double volts_per_count = 0.0;  // V per count of the converter
+  double volts_per_count = 0.0;  // of the converter
   bool compression_is_positive = true;
-  std::string dialect = "34401a";  // of a SCPI multimeter (rig/scpi_protocol.h)
-  // Of forces that come without a unit: "N", "mN", "gf" ... Empty: hx711 numbers are counts or
-  // volts, and gauges are set to N.
+  std::string dialect = "34401a";  // of a SCPI multimeter (rig/protocols/scpi_protocol.h)
+  // Unit of forces that are sent without one: "N", "mN", "gf" ... Empty: numbers of an hx711 are
+  // counts or volts, and gauges are set to N.
   std::string unit;
   std::string framing = "8N1";  // data bits, parity (N E O), stop bits
 };
 
-// Compliance of everything between the stage's position and the punch tip (the load cell is one
-// spring of it): depth = stage position - contact position - force/frame_stiffness.
+// Compliance of everything between the stage and the punch tip, including the load cell:
+//   depth = stage position - contact position - force/stiffness.
 struct FrameConfig {
   double stiffness_N_m = 0.0;         // 0: rigid
   double stiffness_relative_u = 0.0;  // standard uncertainty, relative
-  std::string id;                     // names its record
+  std::string id;                     // name of the record
   std::string date;                   // ISO 8601
-  std::string file;                   // of the record that a rig file names; empty once read
+  std::string file;                   // of the record; empty after it has been read
 };
 
 struct SafetyConfig {
@@ -62,7 +63,7 @@ struct RigConfig {
   LoadCellCalibration calibration;
   FrameConfig frame;
   SafetyConfig safety;
-  double clock_speed = 1.0;  // > 1 only with an emulated rig: its clock over the wall clock
+  double clock_speed = 1.0;  // > 1 only for an emulated rig: its clock over the wall clock
 };
 
 }  // namespace viscard

@@ -7,15 +7,15 @@
 
 namespace viscard {
 
-// What the load cell said, in the unit in which its calibration takes it: volts (counts times
-// volts_per_count) or, from an instrument that gives a force by itself, newtons. Nothing if the
-// sample is no reading, or counts come without volts_per_count.
+// The reading in the unit of the calibration: volts (counts times volts_per_count) or, from an
+// instrument that sends forces, newtons. Nothing if the sample has no number, or counts without
+// volts_per_count.
 std::optional<double> reading_from_sample(const LoadSample& sample, const LoadCellConfig& cell);
 
 // Force in N, positive in compression, before any tare:
 //   force = +-(reading - zero)/gain
-// with zero and gain of the rig's calibration (models/calibration.h). Saturated readings and
-// glitches have a force too: the caller decides what they are worth.
+// with zero and gain of the rig's calibration (calibration.h). Saturated readings and glitches have
+// a force too; the caller decides whether to use it.
 std::optional<double> force_N_from_sample(const LoadSample& sample, const RigConfig& rig);
 
 }  // namespace viscard

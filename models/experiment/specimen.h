@@ -6,8 +6,8 @@
 
 namespace viscard {
 
-// What specimen.toml says (data/demo/03_pdms_1to10.toml is the commented example): what lies under
-// the punch. SI.
+// The contents of specimen.toml (data/demo/03_pdms_1to10.toml is the commented example): the
+// specimen and the punch that presses on it. SI.
 struct Specimen {
   std::string id;
   std::string material;       // "PDMS"

@@ -9,7 +9,7 @@ namespace {
 
 using Kind = TestPhase::Kind;
 
-constexpr double kPreload_s = 2.0;  // to reach it
+constexpr double kPreload_s = 2.0;  // to reach the preload
 constexpr double kTare_s = 1.0;
 constexpr double kRetract_s = 1.0;
 
@@ -17,7 +17,7 @@ void require(bool is_good, const std::string& text) {
   if (!is_good) throw std::invalid_argument("the test file: " + text);
 }
 
-// "ramp" alone or "ramp_2" of several.
+// "ramp", or "ramp_2" if there are several.
 std::string numbered(const std::string& name, std::size_t i, std::size_t n) {
   return n > 1 ? name + "_" + std::to_string(i + 1) : name;
 }
@@ -171,7 +171,7 @@ AddPhases protocol_named(const std::string& name) {
     if (name == word) return add;
     known += (known.empty() ? "" : ", ") + std::string(word);
   }
-  throw std::invalid_argument("protocol '" + name + "' of the test file is unknown; there are " +
+  throw std::invalid_argument("protocol '" + name + "' of the test file is unknown; known are " +
                               known);
 }
 

@@ -5,23 +5,23 @@
 
 namespace viscard {
 
-// One of several ramps with a hold behind each.
+// One of several ramps, each followed by a hold.
 struct DepthLevel {
   double depth_m = 0.0;  // indentation from contact, not from the level before
   double ramp_s = 1.0;
   double hold_s = 30.0;
 };
 
-// A force held by moving the stage after it: the specimen creeps.
+// A constant force, held by moving the stage while the specimen creeps.
 struct CreepPlan {
   double force_N = 0.0;
   double ramp_s = 1.0;
   double hold_s = 120.0;
-  double tolerance_N = 0.0;    // the stage stays while the force is this near; 0: half a percent
-  double depth_limit_m = 0.0;  // end the run beyond this; 0: twice the elastic depth expected
+  double tolerance_N = 0.0;    // the stage stays within it; 0: half a percent of the force
+  double depth_limit_m = 0.0;  // the run ends beyond it; 0: twice the expected elastic depth
 };
 
-// Loading and unloading, again and again.
+// Repeated loading and unloading.
 struct CyclePlan {
   int count = 5;
   double depth_m = 0.0;
@@ -31,7 +31,7 @@ struct CyclePlan {
   double unload_to_fraction = 0.1;
 };
 
-// Equal steps up to a depth and, if wanted, down again.
+// Equal steps up to a depth and, if is_down_too, down again.
 struct StaircasePlan {
   int steps = 5;
   double depth_m = 0.0;  // at the highest step
@@ -40,15 +40,15 @@ struct StaircasePlan {
   bool is_down_too = true;
 };
 
-// Equal steps of force on a rigid block, to measure how the frame gives way.
+// Equal steps of force on a rigid block, to measure the compliance of the frame.
 struct CompliancePlan {
   int steps = 6;
   double force_N = 0.0;  // at the highest step
   double hold_s = 2.0;
 };
 
-// What test.toml says (data/demo/02_test.toml and data/protocols/*.toml are commented examples).
-// SI. models/test_phases.h makes the list of phases of it that is carried out.
+// The contents of test.toml (data/demo/02_test.toml and data/protocols/*.toml are commented
+// examples). SI. test_phases.h turns it into the list of phases that is carried out.
 struct TestPlan {
   std::string name;
   // "ramp-hold" (depth_m ... recovery_s below) | "levels" | "creep" | "cycles" | "staircase" |
@@ -59,22 +59,22 @@ struct TestPlan {
   CyclePlan cycles;
   StaircasePlan staircase;
   CompliancePlan compliance;
-  // A small force held before the test itself, to seat the punch; 0 leaves it out.
+  // A small force that is held before the test to seat the punch; 0: no preload.
   double preload_N = 0.0;
   double preload_s = 10.0;
   // approach
   double approach_speed_m_s = 0.05e-3;
-  double approach_limit_m = 5e-3;  // give up if nothing is touched within this way
-  double contact_force_N = 0.01;   // force above the baseline that counts as touched
-  double gap_m = 20e-6;            // backed off to this distance from contact before the ramp
+  double approach_limit_m = 5e-3;  // the run ends if nothing is touched within this distance
+  double contact_force_N = 0.01;   // force above the baseline that counts as contact
+  double gap_m = 20e-6;            // distance from contact before the ramp
   double baseline_s = 10.0;        // recorded out of contact before the ramp, and after retract
   // ramp and hold (protocol "ramp-hold")
   double depth_m = 0.13e-3;  // indentation of the specimen at the ramp's end
   double ramp_s = 1.0;       // from contact to full depth
   double hold_s = 60.0;
-  // quick unloading to a share of the depth, still in contact, and a second hold: it shows the fast
-  // terms that a slow ramp hides. recovery_s = 0 leaves it out. With the other protocols only the
-  // speed counts, for any unloading without a duration of its own.
+  // Quick unloading to a share of the depth, still in contact, and a second hold: it shows fast
+  // terms that a slow ramp hides. recovery_s = 0: none of it. The other protocols use only the
+  // speed, for an unloading without a duration of its own.
   double unload_to_fraction = 0.10;
   double unload_speed_m_s = 4e-3;
   double recovery_s = 20.0;

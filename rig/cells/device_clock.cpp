@@ -6,18 +6,18 @@
 namespace viscard {
 namespace {
 
-constexpr double kWrap = 4294967296.0;  // of millis() and micros()
+constexpr double kWrap = 4294967296.0;  // at which millis() and micros() start again from 0
 constexpr std::size_t kRemembered = 64;
-constexpr double kWindow_s = 30.0;  // short enough that .1 % between the clocks stays below 30 ms
+constexpr double kWindow_s = 30.0;  // short, so that 0.1 % between the clocks stays below 30 ms
 
-// Modulo 2^32: a wrap is a small step forward, anything backward a huge one.
+// Modulo 2^32: a wrap is a small step forward, a step backward becomes a huge one.
 double step_s_between(double from_ticks, double to_ticks, double tick_s) {
   return std::fmod(to_ticks - from_ticks + kWrap, kWrap) * tick_s;
 }
 
 }  // namespace
 
-// A device's clock cannot have gone further than the host's, but for what a line may be late.
+// A device's clock cannot advance further than the host's, apart from the lateness of a line.
 bool DeviceClock::continues(const Accepted& from, double ticks, double host_time_s,
                             double period_s) const {
   const double host_step_s = host_time_s - from.host_s;
@@ -31,7 +31,7 @@ DeviceClock::Verdict DeviceClock::take(double ticks, double host_time_s, double 
     accept(ticks, 0.0, host_time_s);
     return Verdict::kGood;
   }
-  // A repeated stretch of the stream must not look like a clock that began anew.
+  // A repeated part of the stream must not look like a clock that restarted.
   if (std::find(recent_ticks_.begin(), recent_ticks_.end(), ticks) != recent_ticks_.end()) {
     return Verdict::kDuplicate;
   }

@@ -7,30 +7,29 @@
 
 namespace viscard {
 
-// Makes a time that only grows out of a processor's 32-bit millis() or micros(), tells duplicates
-// and restarts from wrapping, and relates it to the host's clock.
+// Turns a processor's 32-bit millis() or micros() into a time that only grows, distinguishes
+// duplicates and restarts from the counter's wrap, and relates the time to the host's clock.
 class DeviceClock {
  public:
   enum class Verdict {
     kGood,
-    kDuplicate,   // one of the last readings again
-    kSuspect,     // a time that does not fit: a garbled line, or the first after a restart
-    kRestarted,   // and the next one agreed with it: the device has started anew
-    kLastWasBad,  // good, and it shows that the good one before was garbled: that had come too
-                  // early
+    kDuplicate,   // repeats one of the last readings
+    kSuspect,     // does not fit: a garbled line, or the first one after a restart
+    kRestarted,   // agrees with the suspect before it: the device has restarted
+    kLastWasBad,  // good, and shows that the previous one was garbled: its time was too large
   };
 
-  // slack_s: how much a line can be late in arriving.
+  // tick_s: unit of the counter; slack_s: how late a line can arrive.
   DeviceClock(double tick_s, double slack_s) : tick_s_(tick_s), slack_s_(slack_s) {}
 
-  // ticks as sent, and when the line arrived on the host. After kGood and kLastWasBad time_s() is
-  // that of this reading.
+  // ticks as sent; host_time_s: arrival of the line. After kGood and kLastWasBad, time_s() is the
+  // time of this reading.
   Verdict take(double ticks, double host_time_s, double period_s);
 
   double time_s() const { return time_s_; }
-  // Time since the good reading before (after kLastWasBad: the one before that); 0 for the first.
+  // Time since the previous good reading (after kLastWasBad: the one before it); 0 for the first.
   double step_s() const { return step_s_; }
-  // Host time minus device time: the smallest of the last window, since delays are never negative.
+  // Host time minus device time: the smallest of the last window, because delays are not negative.
   double host_minus_device_s() const;
 
  private:

@@ -3,7 +3,6 @@
 #include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
 #include "rig/protocols/scpi_protocol.h"
-#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +11,14 @@
 namespace viscard {
 namespace {
 
-constexpr double kAnswer_wall_s = 0.5;  // longest wait for a reading at the rate declared
-constexpr double kQuiet_wall_s = 0.15;  // no byte for so long: whatever was late has come
-constexpr double kPause_wall_s = 0.05;  // between lines of the opening: no flow control
-constexpr double kText_wall_s = 2.0;    // identity and the like; a self-test takes that long
+constexpr double kAnswer_wall_s = 0.5;  // longest wait for a reading at the declared rate
+constexpr double kQuiet_wall_s = 0.15;  // without a byte: late answers have arrived by then
+constexpr double kPause_wall_s = 0.05;  // between lines of the setup, without flow control
+constexpr double kText_wall_s = 2.0;    // for identity and errors, even during a self-test
 constexpr int kFirstTries = 6;
 constexpr int kMostSilent = 10;
 constexpr int kMostRefused = 5;
-constexpr double kGapInPeriods = 2.5;  // answers jitter more than a stream does
+constexpr double kGapInPeriods = 2.5;  // answers jitter more than a stream
 
 }  // namespace
 
@@ -36,7 +35,7 @@ GaugeLoadCell::~GaugeLoadCell() {
   try {
     transport_.write(protocol_.closing);
   } catch (...) {
-    // Gone: nothing to give back.
+    // The instrument is gone.
   }
 }
 
@@ -74,7 +73,7 @@ void GaugeLoadCell::connect(const Pump& pump) {
     const auto error = text ? parse_scpi_error(*text) : std::nullopt;
     if (error && error->code != 0) {
       throw RigError("the instrument on '" + transport_.name() +
-                     "' refused its setup: " + error->text + " (" + std::to_string(error->code) +
+                     "' rejected its setup: " + error->text + " (" + std::to_string(error->code) +
                      "). Set another dialect under [load_cell] of the rig file");
     }
   }
@@ -88,7 +87,7 @@ void GaugeLoadCell::connect(const Pump& pump) {
   const std::string words = identity_.empty() ? "" : " (it calls itself '" + identity_ + "')";
   throw RigError("no reading came from the " + protocol_.name + " instrument on '" +
                  transport_.name() + "'" + words + ". " +
-                 (is_noise ? "What came is mostly unreadable: are baud and framing right?"
+                 (is_noise ? "The bytes received are mostly unreadable: are baud and framing right?"
                            : "Is this its port, is it switched on, and is its interface set to "
                              "RS-232 with the baud rate of the rig file?"));
 }
@@ -112,7 +111,7 @@ void GaugeLoadCell::feed(const Chunk& chunk) {
   begun_ += chunk.bytes;
   if (begun_.size() < protocol_.fixed_length) return;
   const std::string answer = std::exchange(begun_, "");
-  // More bytes than an answer has: out of step, so nothing of them can be told apart.
+  // With more bytes than one answer has, the parser refuses them and waits for a quiet line.
   take_answer(answer, chunk.time_s);
 }
 
@@ -122,7 +121,7 @@ void GaugeLoadCell::take_answer(const std::string& text, double time_s) {
     return;
   }
   if (!is_connected_) return;
-  if (trimmed(text) == trimmed(protocol_.query)) return;  // adapters that echo
+  if (trimmed(text) == trimmed(protocol_.query)) return;  // the echo of an adapter
   if (!asked_s_ || waits_for_quiet_) {
     ++counts_.duplicate;
     sink_(RunEvent{time_s, "load_cell_late", text.substr(0, 80),

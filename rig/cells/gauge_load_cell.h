@@ -11,17 +11,17 @@
 
 namespace viscard {
 
-// An instrument that is asked for each reading: a multimeter behind the amplifier, a force gauge.
-// One question is open at a time. When its answer does not come, nothing is asked until the line
-// has been quiet for a while, so that a late answer cannot pass for that to the next question.
+// An instrument that is polled for each reading: a multimeter behind the amplifier, or a force
+// gauge. Only one query is open at a time. If no answer arrives, the next query waits until the
+// line has been quiet for a while, so that a late answer cannot be taken for the answer to it.
 //
-// A sample's device_time_s is the time at which it was asked for (rig time): the reading was made
-// between that and its arrival.
+// A sample's device_time_s is the rig time of its query; the reading was made between that and its
+// arrival.
 class GaugeLoadCell final : public LoadCell {
  public:
   GaugeLoadCell(Transport& transport, const LoadCellConfig& config, const RigClock& clock,
                 RecordSink sink);
-  ~GaugeLoadCell() override;  // gives the instrument back to its own buttons
+  ~GaugeLoadCell() override;  // returns the instrument to control by its front panel
 
   Transport& transport() override { return transport_; }
   void connect(const Pump& pump) override;
@@ -30,8 +30,6 @@ class GaugeLoadCell final : public LoadCell {
   double period_s() const override { return period_s_; }
   double last_arrival_s() const override { return last_arrival_s_; }
   double made_at_s(const LoadSample& sample) const override;
-
-  const std::string& identity() const { return identity_; }
 
  private:
   void send(const std::string& words);
@@ -48,10 +46,10 @@ class GaugeLoadCell final : public LoadCell {
   const RigClock& clock_;
   RecordSink sink_;
   LineSplitter splitter_;
-  std::string begun_;  // of an answer without terminator
+  std::string begun_;  // the first bytes of an answer without terminator
   double period_s_;
 
-  bool is_connected_ = false;  // readings are asked for
+  bool is_connected_ = false;  // from here on readings are polled
   std::optional<std::string> text_answer_;
   bool awaits_text_ = false;
   std::optional<double> asked_s_;

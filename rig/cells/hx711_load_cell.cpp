@@ -1,71 +1,23 @@
 #include "rig/cells/hx711_load_cell.h"
 
 #include "models/maths/text_of_number.h"
+#include "rig/cells/hx711_format.h"
 #include "rig/lines/rig_error.h"
 #include "rig/protocols/force_unit.h"
-#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 namespace viscard {
 namespace {
 
-constexpr double kFirstReading_wall_s = 15.0;  // banner and tare chatter last up to 10 s
+constexpr double kFirstReading_wall_s = 15.0;  // banner and messages of a tare last up to 10 s
 constexpr std::size_t kLinesToLearn = 6;
-constexpr double kLateness_wall_s = 0.3;  // of a line, by stalls of either side
-constexpr double kGapInPeriods = 1.5;
-constexpr double kBurst = 0.5;  // of a period: readings closer together were held up
-constexpr double kLargest_V = 100.0;
-
-Hx711Format declared_format(const LoadCellConfig& config) {
-  const auto format = hx711_format_from_word(config.line_format);
-  if (!format) {
-    throw RigError("load cell line_format '" + config.line_format +
-                   "' is unknown; there are auto, counts, micros,counts, millis,counts, volts");
-  }
-  return *format;
-}
-
-// Counts printed as floating-point numbers, such as a mean "20386.0": no amplifier of a load cell
-// gives 100 V, and noise never makes whole volts.
-bool are_counts(const std::vector<double>& values) {
-  const auto is_large = [](double value) { return std::abs(value) > kLargest_V; };
-  const auto is_whole = [](double value) { return value == std::floor(value); };
-  const bool is_constant =
-      std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
-  return std::any_of(values.begin(), values.end(), is_large) ||
-         (!is_constant && std::all_of(values.begin(), values.end(), is_whole));
-}
-
-// The shape that all of these lines have, by how the first number grows; nothing if they have none.
-std::optional<Hx711Format> learnt_format(const std::vector<ReceivedLine>& lines, double rate_Hz) {
-  std::vector<double> ticks;
-  std::vector<double> values;
-  bool is_integer = true;
-  bool is_plain = true;
-  for (const ReceivedLine& line : lines) {
-    const auto timed = parse_hx711_line(line.text, true);
-    if (timed) ticks.push_back(*timed->ticks);
-    const auto plain = parse_hx711_line(line.text, false);
-    is_plain = is_plain && plain.has_value();
-    is_integer = is_integer && plain && plain->is_integer;
-    if (plain && plain->value) values.push_back(*plain->value);
-  }
-  if (ticks.size() == lines.size()) {
-    const double step = (ticks.back() - ticks.front()) / static_cast<double>(ticks.size() - 1);
-    const auto is_about = [&](double expected) {
-      return step > 0.3 * expected && step < 3.0 * expected;
-    };
-    if (is_about(1e6 / rate_Hz)) return Hx711Format::kMicrosCounts;
-    if (is_about(1e3 / rate_Hz)) return Hx711Format::kMillisCounts;
-  }
-  if (!is_plain) return std::nullopt;
-  return is_integer || are_counts(values) ? Hx711Format::kCounts : Hx711Format::kVolts;
-}
+constexpr double kLateness_wall_s = 0.3;  // of a line, if the device or this machine stalls
+constexpr double kGapPeriods = 1.5;
+constexpr double kBurst = 0.5;  // of a period: readings closer together were delayed before
 
 }  // namespace
 
@@ -75,12 +27,12 @@ Hx711LoadCell::Hx711LoadCell(Transport& transport, const LoadCellConfig& config,
       clock_(clock),
       sink_(std::move(sink)),
       patience_(patience),
-      format_(declared_format(config)),
+      format_(declared_hx711_format(config)),
       period_s_(1.0 / config.expected_rate_Hz),
       declared_unit_(config.unit) {
   if (!config.unit.empty() && !newtons_per_unit(config.unit)) {
     throw RigError("unit '" + config.unit +
-                   "' under [load_cell] of the rig file is unknown; there are N, mN, g, kg, lb");
+                   "' under [load_cell] of the rig file is unknown; choose N, mN, g, kg or lb");
   }
 }
 
@@ -94,13 +46,14 @@ void Hx711LoadCell::connect(const Pump& pump) {
                    ". Is this its port, and is the amplifier switched on?");
   }
   if (splitter_.unprintable_fraction() > 0.2) {
-    throw RigError("what comes from the load cell on " + where +
-                   " is mostly unreadable: is the baud rate of " +
+    throw RigError("the bytes from the load cell on " + where +
+                   " are mostly unreadable: is the baud rate of " +
                    std::to_string(transport_.baud()) + " right?");
   }
-  throw RigError("no readings could be made out on " + where + "; a line was '" +
+  throw RigError("no line on " + where + " could be read as a reading; the last one was '" +
                  (first_lines_.empty() ? std::string() : first_lines_.back().text.substr(0, 60)) +
-                 "'. Set line_format in the rig file: counts, micros,counts, millis,counts, volts");
+                 "'. Set line_format in the rig file to counts, micros,counts, millis,counts or "
+                 "volts");
 }
 
 void Hx711LoadCell::service() {
@@ -113,15 +66,15 @@ void Hx711LoadCell::service() {
 }
 
 void Hx711LoadCell::take_line(const ReceivedLine& line) {
-  // What came first may be the second half of a line.
+  // The first line may be the second half of one.
   if (!std::exchange(is_past_first_line_, true) || trimmed(line.text).empty()) return;
   if (is_hx711_fault(line.text)) {
-    throw RigError("the amplifier on '" + transport_.name() + "' says '" + line.text.substr(0, 60) +
-                   "'. Check the wires between it and its HX711");
+    throw RigError("the amplifier on '" + transport_.name() + "' reports '" +
+                   line.text.substr(0, 60) + "'. Check the wires between it and its HX711");
   }
   if (!is_connected_) return learn(line);
   const auto reading = parse_hx711_line(line.text, has_clock());
-  // A new unit has a shape of its own, and is told apart below; so has "ovf".
+  // A new unit, or "ovf", has another shape but is no garbled line; both are handled below.
   const bool is_judged = reading && reading->value && reading->unit == unit_;
   if (reading && (!is_judged || shape_.fits(line.text))) {
     take_reading(*reading, line.time_s);
@@ -141,14 +94,14 @@ void Hx711LoadCell::learn(const ReceivedLine& line) {
   if (is_declared) {
     if (!std::all_of(first_lines_.begin(), first_lines_.end(), fits)) return;
   } else {
-    const auto learnt = learnt_format(first_lines_, 1.0 / period_s_);
+    const auto learnt = learnt_hx711_format(first_lines_, 1.0 / period_s_);
     if (!learnt) return;
     format_ = *learnt;
   }
   if (has_clock()) {
     device_clock_.emplace(format_ == Hx711Format::kMicrosCounts ? 1e-6 : 1e-3,
                           clock_.from_wall_s(kLateness_wall_s));
-    // The last of them, so that a restart right after is noticed.
+    // Starts with the last of the lines, so that a restart right after them is noticed.
     const auto last = parse_hx711_line(line.text, true);
     if (last) device_clock_->take(*last->ticks, line.time_s, period_s_);
   }
@@ -156,7 +109,7 @@ void Hx711LoadCell::learn(const ReceivedLine& line) {
   is_connected_ = true;
 }
 
-// A sentence in the middle of a run is a banner if the readings had paused, and garbage otherwise.
+// Text in the middle of a run is the banner of a restart if the readings pause, otherwise garbage.
 void Hx711LoadCell::take_text(const ReceivedLine& line) {
   ++counts_.unreadable;
   const auto n_letters = std::count_if(line.text.begin(), line.text.end(),
@@ -169,8 +122,8 @@ void Hx711LoadCell::take_text(const ReceivedLine& line) {
                  "A line from the load cell is no reading"});
 }
 
-// A banner within a pause: the pause may come before it (it was switched off) or behind it (it
-// starts its converter and takes its tare).
+// A banner means a restart if there is a pause before it (the amplifier was switched off) or after
+// it (it starts its converter and takes its tare).
 void Hx711LoadCell::throw_if_restarted(double time_s) const {
   const double pause_s = clock_.from_wall_s(0.3) + 10 * period_s_;
   if (banner_.empty() || time_s - last_arrival_s_ <= pause_s) return;
@@ -195,8 +148,8 @@ void Hx711LoadCell::take_reading(const Hx711Line& reading, double time_s) {
   hand_out(reading, time_s);
 }
 
-// Of a stream without a clock. What comes in one burst behind a gap was not missing but held up: by
-// the machine, its adapter, or the amplifier's own buffer.
+// For a stream without a clock. Readings that arrive in a burst after a gap were not missing but
+// delayed, by the machine, the adapter or the amplifier's own buffer.
 void Hx711LoadCell::take_arrival(double time_s) {
   const double step_s = time_s - last_arrival_s_;
   if (n_owed_ > 0 && step_s < kBurst * period_s_) {
@@ -208,14 +161,14 @@ void Hx711LoadCell::take_arrival(double time_s) {
   if (n_late_ > 0) {
     sink_(RunEvent{time_s, "late", std::to_string(n_late_),
                    std::to_string(n_late_) +
-                       " readings said to be missing had only been held up: they came in a burst"});
+                       " readings reported missing were only delayed: they came in a burst"});
   }
   n_late_ = 0;
   note_gap(step_s, time_s);
   n_owed_ = last_missing_;
 }
 
-// False if the line is to be left out.
+// False if the line must be left out.
 bool Hx711LoadCell::take_clock(double ticks, double time_s) {
   switch (device_clock_->take(ticks, time_s, period_s_)) {
     case DeviceClock::Verdict::kDuplicate:
@@ -238,13 +191,13 @@ bool Hx711LoadCell::take_clock(double ticks, double time_s) {
   }
   const double step_s = device_clock_->step_s();
   if (counts_.received > 0) note_gap(step_s, time_s);
-  // The converter's own oscillator is several percent off: its period is followed.
+  // The converter's oscillator is off by several percent, so the measured period is tracked.
   if (step_s > 0.7 * period_s_ && step_s < 1.3 * period_s_)
     period_s_ += 0.02 * (step_s - period_s_);
   return true;
 }
 
-// The time of the reading before was garbled so that it seemed to follow a gap.
+// The time of the previous reading was garbled so that it seemed to follow a gap.
 void Hx711LoadCell::doubt_last(double time_s) {
   const std::int64_t index = counts_.received - 1;
   ++counts_.implausible;
@@ -260,10 +213,10 @@ void Hx711LoadCell::note_gap(double step_s, double time_s) {
     counts_.longest_gap_s = step_s;
     counts_.longest_gap_at_s = time_s;
   }
-  // Without a device clock a late line looks like a lost one: only a long silence counts.
+  // Without a device clock a late line looks like a lost one, so only a long silence counts.
   const double least_s =
-      device_clock_ ? kGapInPeriods * period_s_
-                    : std::max(kGapInPeriods * period_s_, 3 * period_s_ + clock_.from_wall_s(0.1));
+      device_clock_ ? kGapPeriods * period_s_
+                    : std::max(kGapPeriods * period_s_, 3 * period_s_ + clock_.from_wall_s(0.1));
   if (step_s <= least_s) return;
   const auto n_missing = static_cast<std::int64_t>(std::llround(step_s / period_s_)) - 1;
   counts_.missing += n_missing;
@@ -292,7 +245,7 @@ void Hx711LoadCell::hand_out(const Hx711Line& reading, double time_s) {
     sample.is_glitch = is_hx711_glitch(*sample.counts, previous_counts_);
     if (!sample.is_glitch) previous_counts_ = sample.counts;
   } else if (!sample.volts && !sample.force_N) {
-    sample.is_saturated = true;  // "ovf", "inf": it says itself that this is no reading
+    sample.is_saturated = true;  // "ovf", "inf": the device itself reports no reading
   }
   counts_.saturated += sample.is_saturated ? 1 : 0;
   counts_.glitch += sample.is_glitch ? 1 : 0;

@@ -14,12 +14,12 @@
 
 namespace viscard {
 
-// An HX711 (or any other) amplifier that sends text lines. Their shape is declared in the rig file
-// (line_format) or found out from the first readings: banners and chatter before them are skipped.
+// An HX711 (or any other) amplifier that sends text lines. Their format is declared in the rig file
+// (line_format) or learnt from the first readings; banners and messages before them are skipped.
 class Hx711LoadCell final : public LoadCell {
  public:
-  // patience shortens how long it waits for readings. Throws RigError on a line_format that is not
-  // known.
+  // patience: factor on the time that connect() waits for readings. Throws RigError on an unknown
+  // line_format or unit.
   Hx711LoadCell(Transport& transport, const LoadCellConfig& config, const RigClock& clock,
                 RecordSink sink, double patience = 1.0);
 
@@ -31,8 +31,6 @@ class Hx711LoadCell final : public LoadCell {
   double period_s() const override { return period_s_; }
   double last_arrival_s() const override { return last_arrival_s_; }
   double made_at_s(const LoadSample& sample) const override;
-
-  Hx711Format format() const { return format_; }
 
  private:
   void take_line(const ReceivedLine& line);
@@ -56,7 +54,7 @@ class Hx711LoadCell final : public LoadCell {
   LineSplitter splitter_;
   Hx711Format format_;
   double period_s_;
-  std::string declared_unit_;  // of numbers that carry none; empty: counts or volts
+  std::string declared_unit_;  // of numbers without a unit; empty: they are counts or volts
   bool is_connected_ = false;
   bool is_past_first_line_ = false;
   std::vector<ReceivedLine> first_lines_;
@@ -64,10 +62,10 @@ class Hx711LoadCell final : public LoadCell {
   std::optional<double> previous_counts_;
   std::string unit_;
   LineShape shape_;
-  std::string banner_;  // a sentence since the last reading
+  std::string banner_;  // text that arrived since the last reading
   StreamCounts counts_;
-  std::int64_t last_missing_ = 0;         // by the gap before the newest reading
-  std::int64_t n_owed_ = 0, n_late_ = 0;  // of the newest gap: not yet come, and come in its burst
+  std::int64_t last_missing_ = 0;         // in the gap before the newest reading
+  std::int64_t n_owed_ = 0, n_late_ = 0;  // of the newest gap: still missing, and arrived late
   double last_arrival_s_ = 0.0;
 };
 

@@ -5,8 +5,8 @@
 namespace viscard {
 namespace {
 
-// Long enough that lines which drop zeros at the end (one in ten of two decimals) have shown so:
-// all 64 of one shape has then a chance of .9^64, one in a thousand.
+// A device that drops trailing zeros (one line in ten with two decimals) must be noticed by then:
+// it sends 64 lines of one shape with probability 0.9^64, one in a thousand.
 constexpr std::size_t kToKnow = 64;
 
 bool is_digit(char c) {

@@ -6,17 +6,17 @@
 
 namespace viscard {
 
-// The shape of a line of text with numbers: "12.34 g" and "-7.00 g" are both "#.dd g". Digits
-// before a decimal point count as one, those behind it one by one; signs and blanks not at all.
+// The shape of a line of text with numbers: "12.34 g" and "-7.00 g" are both "#.ddg". All digits
+// before a decimal point become one mark, each digit after it one; signs and blanks are left out.
 std::string shape_of_line(std::string_view text);
 
-// Knows a stream's lines by their shape, once 64 in a row had the same one; a stream whose lines
-// differ among themselves by nature is not judged. What a disturbed line makes of a reading often
-// still is a number, but seldom in the shape of all others: a lost digit behind the point, a field
-// too many, a letter in the name before it.
+// Recognises garbled lines of a stream by their shape. A garbled reading is often still a number,
+// but seldom one of the usual shape: a digit after the point is lost, there is one field too many,
+// or the name before the number has another letter. The first 64 lines must have the same shape; a
+// stream whose lines differ from each other by nature is not judged.
 class LineShape {
  public:
-  // False for a line that has not the shape of all before.
+  // False for a line whose shape differs from that of all lines before.
   bool fits(std::string_view text);
 
  private:

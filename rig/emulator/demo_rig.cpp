@@ -31,7 +31,7 @@ const RatioRow& row_of(double mixing_ratio) {
     if (row.ratio == mixing_ratio) return row;
   }
   throw std::invalid_argument("no emulated PDMS of mixing ratio " + text_of(mixing_ratio) +
-                              ":1; there are 10, 13 and 20 (or give a truth file)");
+                              ":1; choose 10, 13 or 20, or give a truth file");
 }
 
 PunchContact demo_contact() {

@@ -1,7 +1,7 @@
 #include "rig/emulator/emulated_amplifier.h"
 
+#include "models/maths/text_of_number.h"
 #include "rig/protocols/hx711_protocol.h"
-#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 
 namespace viscard {
 
-// Words an amplifier may send per reading.
+// The line that an amplifier sends for each reading.
 enum class AmplifierFormat {
   kMicrosCounts,
   kMillisCounts,
@@ -22,27 +22,25 @@ enum class AmplifierFormat {
 struct AmplifierOptions {
   AmplifierFormat format = AmplifierFormat::kMicrosCounts;
   std::string line_end = "\r\n";
-  double clock_ppm = 0.0;             // how much its clock runs fast
+  double clock_ppm = 0.0;             // by this much its clock runs fast
   double boot_s = 0.0;                // from reset to the first conversion
-  std::uint32_t micros_at_reset = 0;  // to make the counter wrap soon
+  std::uint32_t micros_at_reset = 0;  // a large value makes the counter wrap soon
   int glitch_every = 0;               // every n-th reading is an interrupted conversion; 0: none
 };
 
-// An HX711 behind a small processor: 24-bit counts of the cell's voltage, one line per conversion,
-// with noise that depends only on the seed and the number of the reading.
+// An HX711 behind a small processor: 24-bit counts of the cell's voltage, one line per conversion.
+// The noise depends only on the seed and the number of the reading.
 class EmulatedAmplifier {
  public:
   EmulatedAmplifier(const EmulatedTruth& truth, const LoadCellCalibration& calibration,
                     double volts_per_count, const AmplifierOptions& options);
 
-  // Starts anew: returns the banner; conversions follow from time_s + boot_s on.
+  // Restarts and returns the banner; conversions follow from time_s + boot_s on.
   std::string reset(double time_s);
   // Emulated time of the next conversion.
   double next_sample_s() const;
-  // Converts the force acting now and returns the line; counts the reading.
+  // Converts the force that acts now and returns the line.
   std::string convert(double force_N, bool is_cell_broken);
-
-  std::int64_t n_converted() const { return index_; }
 
  private:
   std::string line(double counts, double time_s) const;
@@ -54,7 +52,7 @@ class EmulatedAmplifier {
   AmplifierOptions options_;
   double reset_s_ = 0.0;
   std::int64_t index_ = 0;        // readings since the last reset
-  std::int64_t noise_index_ = 0;  // readings ever
+  std::int64_t noise_index_ = 0;  // readings since the start
 };
 
 }  // namespace viscard

@@ -6,19 +6,19 @@
 
 namespace viscard {
 
-// What the elastic element of a load cell makes of a force: drift, offset, a bow (nonlinearity), a
-// loop between rising and falling load (hysteresis), and noise that depends on the seed and the
-// number of the reading alone. Bow and loop are parabolas that vanish at no load and at full scale.
+// The elastic element of a load cell: drift, offset, nonlinearity, hysteresis, and noise that
+// depends on the seed and the number of the reading only. Nonlinearity and hysteresis are parabolas
+// that vanish at no load and at full scale.
 class EmulatedCell {
  public:
   explicit EmulatedCell(const EmulatedTruth& truth) : truth_(truth) {}
 
-  // Signal as a force, N, for reading number `index` made at time_s.
+  // The signal, expressed as a force in N, of reading number `index` made at time_s.
   double signal_N(double force_N, double time_s, std::uint64_t index);
 
  private:
   EmulatedTruth truth_;
-  double turned_N_ = 0.0;  // force at which the direction was last sure
+  double turned_N_ = 0.0;  // the previous force, which shows whether the load rises or falls
   double direction_ = 1.0;
 };
 

@@ -9,8 +9,8 @@
 
 namespace viscard {
 
-// A motion controller as seen on its wire, with the stage it moves. Times on the emulated clock,
-// positions in m on the axis that grows toward the specimen, 0 at power-up.
+// A motion controller, as a host sees it on the wire, and the stage that it moves. Times on the
+// emulated clock; positions in m on the axis that grows toward the specimen, 0 at power-up.
 class EmulatedController {
  public:
   explicit EmulatedController(double steps_per_m) : motion_(steps_per_m, 0.0) {}
@@ -18,14 +18,14 @@ class EmulatedController {
   EmulatedController(const EmulatedController&) = delete;
   EmulatedController& operator=(const EmulatedController&) = delete;
 
-  // Power-up or opening of the port of a board that resets then.
+  // Power-up, or the opening of a port that resets the board.
   virtual void reset(double time_s) = 0;
-  // Bytes from the host, in order, and what they do at time_s.
+  // Takes bytes from the host in order; they act at time_s.
   virtual void receive(std::string_view bytes, double time_s) = 0;
-  // Lets queued moves and delayed answers happen up to time_s. Call before the position is asked
-  // for any time up to time_s.
+  // Carries out queued moves and sends delayed answers up to time_s. Call it before asking for the
+  // position at any time up to time_s.
   virtual void tick(double time_s) = 0;
-  // A limit switch closes now, or the motor stalls where there is none.
+  // A limit switch closes now; a controller without limit switches stalls.
   virtual void hit_limit(double time_s) = 0;
 
   std::string take_output() { return std::exchange(output_, {}); }
@@ -38,7 +38,7 @@ class EmulatedController {
     double due_s;
     std::string text;
   };
-  // Says what is due, in order.
+  // Sends the answers that are due, in order.
   void say_due(std::deque<Answer>& answers, double time_s) {
     while (!answers.empty() && answers.front().due_s <= time_s) {
       output_ += answers.front().text;

@@ -1,7 +1,7 @@
 #include "rig/emulator/emulated_gauge.h"
 
+#include "models/maths/text_of_number.h"
 #include "rig/protocols/force_unit.h"
-#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <array>
@@ -9,15 +9,62 @@
 #include <cstdio>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace viscard {
 
+struct EmulatedGauge::Instrument {
+  const char* driver;
+  std::vector<std::string_view> queries;  // each asks for one reading
+  bool has_line_ends;                     // false: every byte is a command
+  const char* refusal;                    // answer to an unknown command; empty: none
+  std::string (*reading)(const Shown& shown);
+};
+
+namespace {
+
+std::string formatted(const char* format, double value) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+}  // namespace
+
+// One row per polled instrument (rig/protocols/gauge_protocol.cpp).
+const EmulatedGauge::Instrument& EmulatedGauge::instrument_of(const std::string& driver) {
+  static const std::array<Instrument, 3> kInstruments{
+      {{"scpi",
+        {"READ?", "VAL1?", "MEAS1?"},
+        true,
+        "",
+        [](const Shown& shown) {
+          return formatted("%+.8E\r\n", shown.is_overload ? 9.9e37 : shown.volts);
+        }},
+       {"mark10",
+        {"?"},
+        true,
+        "*10\r\n",
+        [](const Shown& shown) {
+          return text_from_number(shown.force, 4) + (shown.unit.empty() ? "" : " " + shown.unit) +
+                 "\r\n";
+        }},
+       {"sauter", {"9"}, false, "", [](const Shown& shown) {
+          return (shown.force >= 0.0 ? "0" : "1") +
+                 formatted("%06.3f", std::min(std::abs(shown.force), 99.999));
+        }}}};
+  for (const Instrument& row : kInstruments) {
+    if (driver == row.driver) return row;
+  }
+  return kInstruments[0];  // an HX711: nothing is polled
+}
+
 EmulatedGauge::EmulatedGauge(const EmulatedTruth& truth, const LoadCellCalibration& calibration,
-                             std::string driver, const GaugeHabits& habits)
+                             const std::string& driver, const GaugeHabits& habits)
     : truth_(truth),
       cell_(truth),
       calibration_(calibration),
-      driver_(std::move(driver)),
+      instrument_(instrument_of(driver)),
       habits_(habits) {
   if (truth.cell_gain > 0.0) calibration_.volts_per_newton = truth.cell_gain;
 }
@@ -25,7 +72,7 @@ EmulatedGauge::EmulatedGauge(const EmulatedTruth& truth, const LoadCellCalibrati
 void EmulatedGauge::receive(std::string_view bytes, double time_s) {
   if (habits_.echoes) answers_.push_back({time_s, std::string(bytes)});
   for (const char c : bytes) {
-    if (driver_ == "sauter") {
+    if (!instrument_.has_line_ends) {
       take_command(std::string(1, c), time_s);
     } else if (c == '\r' || c == '\n') {
       take_command(std::exchange(begun_, ""), time_s);
@@ -36,17 +83,16 @@ void EmulatedGauge::receive(std::string_view bytes, double time_s) {
 }
 
 void EmulatedGauge::take_command(const std::string& command, double time_s) {
-  const bool is_question = command == "READ?" || command == "?" || command == "9" ||
-                           command == "VAL1?" || command == "MEAS1?";
-  if (is_question) {
+  const auto& queries = instrument_.queries;
+  if (std::find(queries.begin(), queries.end(), command) != queries.end()) {
     due_s_.push_back(time_s + 1.0 / truth_.sample_rate_Hz);
   } else if (command == "*IDN?") {
     answers_.push_back({time_s, "HEWLETT-PACKARD,34401A,0,10-5-2\r\n"});
   } else if (command == "SYST:ERR?") {
     answers_.push_back(
         {time_s, habits_.refuses_setup ? "-113,\"Undefined header\"\r\n" : "+0,\"No error\"\r\n"});
-  } else if (driver_ == "mark10" && !command.empty()) {
-    answers_.push_back({time_s, "*10\r\n"});
+  } else if (!command.empty() && *instrument_.refusal != '\0') {
+    answers_.push_back({time_s, instrument_.refusal});
   }
 }
 
@@ -66,24 +112,15 @@ void EmulatedGauge::convert(double force_N, bool is_cell_broken) {
 }
 
 std::string EmulatedGauge::text_of(double reading_N, bool is_overload) const {
-  std::array<char, 64> text{};
-  if (driver_ == "scpi") {
-    const double volts = is_overload ? 9.9e37 : volts_from_force_N(calibration_, reading_N);
-    std::snprintf(text.data(), text.size(), "%+.8E\r\n", volts);
-    return text.data();
-  }
   const bool is_changed =
       habits_.changes_unit_after > 0 && n_readings_ > habits_.changes_unit_after;
   const std::string unit = is_changed ? "lbF" : habits_.unit;
-  // A gauge that is off by its gain shows so many newtons per newton.
-  const double shown_N = volts_from_force_N(calibration_, reading_N);
-  const double value = shown_N / newtons_per_unit(unit).value_or(1.0);
-  if (driver_ == "sauter") {
-    std::snprintf(text.data(), text.size(), "%c%06.3f", value >= 0.0 ? '0' : '1',
-                  std::min(std::abs(value), 99.999));
-    return text.data();
-  }
-  return text_from_number(value, 4) + (habits_.hides_unit ? "" : " " + unit) + "\r\n";
+  // The gain of a multimeter's rig is V/N, that of a force gauge newtons shown per newton.
+  const double shown = volts_from_force_N(calibration_, reading_N);
+  return instrument_.reading({.volts = shown,
+                              .force = shown / newtons_per_unit(unit).value_or(1.0),
+                              .unit = habits_.hides_unit ? "" : unit,
+                              .is_overload = is_overload});
 }
 
 std::string EmulatedGauge::take_output(double time_s) {

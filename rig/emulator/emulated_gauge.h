@@ -6,36 +6,36 @@
 
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <string>
 #include <string_view>
 
 namespace viscard {
 
-// Habits of real instruments that a driver must live with. Times on the emulated clock.
+// Behaviour of real instruments that a driver must cope with. Times on the emulated clock.
 struct GaugeHabits {
   int lose_answer_every = 0;  // every n-th question gets no answer
-  int late_answer_every = 0;  // every n-th answer comes late_s late
+  int late_answer_every = 0;  // every n-th answer is late by late_s
   double late_s = 0.0;
-  bool echoes = false;         // sends back what it hears
+  bool echoes = false;         // sends every byte back
   bool hides_unit = false;     // Mark-10: unit switched off in its menu
   std::string unit = "N";      // Mark-10, Sauter
-  int changes_unit_after = 0;  // Mark-10: somebody presses its button after so many readings
-  bool refuses_setup = false;  // SCPI: an error waits in its queue
+  int changes_unit_after = 0;  // Mark-10: its unit changes after so many readings; 0: never
+  bool refuses_setup = false;  // SCPI: there is an error in its queue after the setup
 };
 
-// A multimeter behind the amplifier, or a force gauge, that answers when asked
-// (rig/scpi_protocol.h, rig/force_gauge_protocols.h). A reading takes 1/sample_rate of the truth.
+// A multimeter behind the amplifier, or a force gauge, that answers queries
+// (rig/protocols/scpi_protocol.h, rig/protocols/force_gauge_protocols.h). One reading takes
+// 1/sample_rate of the truth.
 class EmulatedGauge {
  public:
-  // driver: "scpi", "mark10", "sauter".
+  // driver: of [load_cell] in the rig file.
   EmulatedGauge(const EmulatedTruth& truth, const LoadCellCalibration& calibration,
-                std::string driver, const GaugeHabits& habits);
+                const std::string& driver, const GaugeHabits& habits);
 
   void receive(std::string_view bytes, double time_s);
-  // Time at which the next reading is made; infinity if none was asked for.
+  // Time at which the next reading is made; infinity without an open query.
   double next_sample_s() const;
-  // Makes it with the force acting then.
+  // Makes the next reading with the force that acts then.
   void convert(double force_N, bool is_cell_broken);
   std::string take_output(double time_s);
 
@@ -44,13 +44,22 @@ class EmulatedGauge {
     double due_s;
     std::string text;
   };
+  // A reading as the instrument shows it.
+  struct Shown {
+    double volts = 0.0;
+    double force = 0.0;  // in its unit
+    std::string unit;    // empty if it is not sent
+    bool is_overload = false;
+  };
+  struct Instrument;
+  static const Instrument& instrument_of(const std::string& driver);
   void take_command(const std::string& command, double time_s);
   std::string text_of(double reading_N, bool is_overload) const;
 
   EmulatedTruth truth_;
   EmulatedCell cell_;
   LoadCellCalibration calibration_;
-  std::string driver_;
+  const Instrument& instrument_;
   GaugeHabits habits_;
   std::string begun_;
   std::deque<double> due_s_;

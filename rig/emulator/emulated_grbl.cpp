@@ -1,7 +1,7 @@
 #include "rig/emulator/emulated_grbl.h"
 
+#include "models/maths/text_of_number.h"
 #include "rig/protocols/grbl_protocol.h"
-#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cctype>
@@ -71,7 +71,7 @@ double EmulatedGrbl::bench_m(double machine_mm) const {
 
 void EmulatedGrbl::reset(double time_s) {
   motion_.stop_at_once(time_s);
-  machine_origin_m_ = motion_.position_m(time_s);  // a power-up counts from where it stands
+  machine_origin_m_ = motion_.position_m(time_s);  // after power-up, zero is where it stands
   answers_.clear();
   late_reports_.clear();
   output_.clear();
@@ -87,7 +87,6 @@ void EmulatedGrbl::reset(double time_s) {
 
 void EmulatedGrbl::welcome() {
   queue_.clear();
-  held_target_m_.reset();
   held_lines_.clear();
   is_held_ = false;
   is_cancelling_ = false;
@@ -96,7 +95,7 @@ void EmulatedGrbl::welcome() {
                             : "\r\nGrbl 1.1h ['$' for help]\r\n";
   if (state_ == "Alarm") output_ += "[MSG:'$H'|'$X' to unlock]\r\n";
   if (habits_.has_startup_block) output_ += ">G54G21:ok\r\n";
-  // gnea/grbl: settings that had to be restored make the stored start-up lines unreadable too.
+  // gnea/grbl: if the settings had to be restored, the stored start-up lines are unreadable too.
   if (habits_.has_empty_eeprom) output_ += ">:error:7\r\n>:error:7\r\n";
 }
 
@@ -104,7 +103,7 @@ void EmulatedGrbl::soft_reset(double time_s) {
   const bool was_moving = motion_.is_moving(time_s);
   answers_.clear();
   motion_.stop_at_once(time_s);
-  // An alarm outlives the reset; at rest the state was kept, or is locked where homing is required.
+  // An alarm survives a reset, and a reset in motion raises one.
   state_ = was_moving || state_ == "Alarm" ? "Alarm" : "Idle";
   is_silent_ = false;
   if (!was_moving) return welcome();
@@ -112,8 +111,9 @@ void EmulatedGrbl::soft_reset(double time_s) {
   begin_alarm(time_s);
 }
 
-// Having told an alarm the firmware waits half a second, and what arrives meanwhile is lost, be it
-// a reset (gnea/grbl report.c, report_alarm_message; protocol.c clears EXEC_RESET behind it).
+// After reporting an alarm the firmware waits half a second, and all bytes that arrive meanwhile
+// are lost, even a reset (gnea/grbl report.c, report_alarm_message; protocol.c clears EXEC_RESET
+// after it).
 void EmulatedGrbl::begin_alarm(double time_s) {
   queue_.clear();
   begun_line_.clear();
@@ -169,7 +169,7 @@ void EmulatedGrbl::realtime(char c, double time_s) {
     motion_.stop_gently(time_s, acceleration_m_s2_);
     is_cancelling_ = true;
   } else if (c == grbl::kHold && (state_ == "Jog" || state_ == "Run" || state_ == "Idle")) {
-    // In a jog a hold is a cancel; at rest it blocks until '~' (both as the real firmware does).
+    // As in the real firmware, a hold cancels a jog, and at rest it blocks until '~'.
     if (state_ == "Idle") {
       state_ = "Hold";
     } else {
@@ -194,7 +194,7 @@ void EmulatedGrbl::report(double time_s) {
   tick(time_s);
 }
 
-// A controller on hold keeps lines in its buffer until it is told to go on.
+// A controller on hold keeps lines in its buffer until it is resumed.
 void EmulatedGrbl::take(std::string text, double time_s) {
   if (is_held_ || state_ == "Hold") {
     held_lines_.push_back(std::move(text));
@@ -236,7 +236,7 @@ void EmulatedGrbl::tick(double time_s) {
   if (deaf_until_s_ && time_s >= *deaf_until_s_) end_alarm();
   while (!motion_.is_moving(time_s)) {
     if (state_ == "Home") {
-      // The switch is machine zero; the axis stands pulled off from it by $27.
+      // The switch is machine zero; the axis stands at a distance of $27 from it.
       machine_origin_m_ = motion_.end_position_m() - toward_ * -settings_[27] * 1e-3;
       state_ = "Idle";
       ok(time_s);
@@ -250,10 +250,9 @@ void EmulatedGrbl::tick(double time_s) {
     }
     const QueuedMove move = queue_.front();
     queue_.pop_front();
-    move_speed_m_s_ = move.speed_m_s;
-    // Its predecessor's end, where there was one: the position has not been asked for beyond.
+    // Starts now, not at the end of the previous move: no position was asked for in between.
     motion_.start(time_s, move.to_m, move.speed_m_s * habits_.true_speed, acceleration_m_s2_);
-    // The switch is left at once, and its pin changes on the way back too.
+    // The stage leaves the switch at once, and the change of its pin raises another alarm.
     if (is_on_switch_ && habits_.alarms_again) return hit_limit(time_s);
   }
   say_due(answers_, time_s);

@@ -12,41 +12,40 @@
 
 namespace viscard {
 
-// Habits of real controllers that a driver must live with. Times on the emulated clock.
+// Behaviour of real controllers that a driver must cope with. Times on the emulated clock.
 struct GrblHabits {
   bool is_hal = false;                 // grblHAL's welcome and extra fields
-  bool has_empty_eeprom = false;       // dumps error:7 and the settings before its first welcome
+  bool has_empty_eeprom = false;       // sends error:7 and its settings before the first welcome
   bool is_homing_enabled = false;      // $22=1: boots into Alarm
   int lose_status_every = 0;           // every n-th '?' gets no answer
-  double ok_delay_s = 0.0;             // until the answer to a line is sent
-  bool answers_twice = false;          // every ok comes twice
+  double ok_delay_s = 0.0;             // from a line to its answer
+  bool answers_twice = false;          // every ok is sent twice
   bool reports_work_position = false;  // $10=0
   bool reports_inches = false;         // $13=1
-  double soft_limit_mm = 0.0;       // $20=1 and $130-132: refuses what goes beyond 0 to minus this
-  double status_delay_s = 0.0;      // until the answer to '?' is sent
-  bool reports_twice = false;       // every '?' is answered by two lines
-  bool has_startup_block = false;   // a block run at start: ">G54G21:ok" behind the welcome
-  int lose_ok_number = 0;           // the n-th ok is never sent
-  int refuse_jog_number = 0;        // the n-th jog is answered by error:15
-  int misread_jog_number = 0;       // the n-th jog goes 1 mm further than it says
-  int ends_short_number = 0;        // the n-th jog stops half way and says Idle
-  bool alarms_again = false;        // the move off a limit switch opens it, and that alarms too
-  bool holds_after_cancel = false;  // a jog cancel leaves it held at Idle until '~'
-  bool never_rests = false;         // says Jog long after a move has ended
-  bool refuses_unlock = false;      // $X is answered by error:13 (the safety door is open)
-  double true_speed = 1.0;          // speed of a move over what was asked for
+  double soft_limit_mm = 0.0;          // $20=1 and $130-132: jogs outside of 0 to minus this fail
+  double status_delay_s = 0.0;         // from '?' to its report
+  bool reports_twice = false;          // every '?' is answered by two lines
+  bool has_startup_block = false;      // ">G54G21:ok" after the welcome
+  int lose_ok_number = 0;              // the n-th ok is never sent
+  int refuse_jog_number = 0;           // the n-th jog is answered by error:15
+  int misread_jog_number = 0;          // the n-th jog goes 1 mm further than asked for
+  int ends_short_number = 0;           // the n-th jog stops half way and reports Idle
+  bool alarms_again = false;           // a limit switch that opens again raises another alarm
+  bool holds_after_cancel = false;     // after a jog cancel it takes no line at Idle until '~'
+  bool never_rests = false;            // reports Jog long after a move has ended
+  bool refuses_unlock = false;         // $X is answered by error:13 (the safety door is open)
+  double true_speed = 1.0;             // true speed of a move over the speed asked for
 };
 
-// The controller of the stage as seen on its wire: a character machine with the states, answers,
-// alarms and silences of GRBL 1.1 (gnea/grbl doc/markdown/interface.md). Moves queued one behind
-// another each end at rest (the real planner rounds corners of collinear moves; nothing here queues
-// more than one).
+// A GRBL controller as a host sees it on the wire, with the states, answers, alarms and silences of
+// GRBL 1.1 (gnea/grbl doc/markdown/interface.md). Each of several queued moves ends at rest. The
+// real planner does not stop between collinear moves, but no driver here queues more than one.
 class EmulatedGrbl final : public EmulatedController {
  public:
   EmulatedGrbl(const EmulatedTruth& truth, char axis, int toward_specimen,
                const GrblHabits& habits);
 
-  // Everything pending is dropped and the welcome prepared.
+  // Drops everything pending and prepares the welcome.
   void reset(double time_s) override;
   void receive(std::string_view bytes, double time_s) override;
   void tick(double time_s) override;
@@ -88,16 +87,14 @@ class EmulatedGrbl final : public EmulatedController {
   std::deque<QueuedMove> queue_;
   std::string state_ = "Idle";
   bool is_silent_ = false;              // after a critical alarm, until the reset
-  std::optional<double> deaf_until_s_;  // an alarm is being told
+  std::optional<double> deaf_until_s_;  // while an alarm is being reported, all bytes are lost
   bool is_cancelling_ = false;          // a jog that is being stopped
   bool is_eeprom_dumped_ = false;
-  std::optional<double> held_target_m_;
-  double move_speed_m_s_ = 0.0;
   std::string begun_line_;
   std::deque<Answer> late_reports_;
   std::deque<std::string> held_lines_;
-  bool is_held_ = false;       // takes no line although it says Idle
-  bool is_on_switch_ = false;  // a limit switch was hit and has not been left
+  bool is_held_ = false;       // takes no line although it reports Idle
+  bool is_on_switch_ = false;  // a limit switch was hit and has not opened again
   int n_status_ = 0, n_oks_ = 0, n_jogs_ = 0;
 };
 

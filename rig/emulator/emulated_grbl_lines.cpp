@@ -1,18 +1,19 @@
-// The lines of EmulatedGrbl: what "$..." does and what a report says.
+// The lines of EmulatedGrbl: commands that begin with "$", and status reports.
+#include "models/maths/text_of_number.h"
 #include "rig/emulator/emulated_grbl.h"
 #include "rig/protocols/grbl_protocol.h"
-#include "rig/protocols/text_number.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace viscard {
 namespace {
 
 constexpr int kPlannerBlocks = 15;
-constexpr double kHomeAt_m = -3e-3;  // of the switch, from where the stage was at power-up
+constexpr double kHomeAt_m = -3e-3;  // of the homing switch, from the position at power-up
 
-// The words behind "$J=", or the code of what is wrong with them.
+// The words after "$J=", or the error code for them.
 struct JogWords {
   int error = 0;
   double scale_mm = 1.0;
@@ -105,8 +106,8 @@ std::string EmulatedGrbl::settings_text() const {
   return text;
 }
 
-// 1 mm/min, and the longest time between steps that an AVR's timer makes (gnea/grbl config.h and
-// stepper.c, as rig/README.md tells).
+// The larger of 1 mm/min and the speed at the longest time between steps that an AVR's timer makes
+// (gnea/grbl config.h and stepper.c; rig/protocols/README.md).
 double EmulatedGrbl::least_speed_m_s() const {
   return habits_.is_hal ? 0.0 : std::max(1e-3 / 60.0, 16e6 / (8.0 * 65535.0) / steps_per_m_);
 }
@@ -122,7 +123,7 @@ void EmulatedGrbl::jog(std::string_view words, double time_s) {
     const double base_mm = asked.is_relative ? machine_mm(last_m) : 0.0;
     const bool is_misread = n_jogs_ == habits_.misread_jog_number;
     const double to_mm = base_mm + *asked.target * asked.scale_mm + (is_misread ? toward_ : 0.0);
-    // Homed or not (gnea/grbl jog.c).
+    // Checked whether the stage is homed or not (gnea/grbl jog.c).
     if (settings_[20] != 0.0 && (to_mm > 0.0 || to_mm < -settings_[130])) {
       return error(time_s, 15);
     }

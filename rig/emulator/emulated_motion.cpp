@@ -78,7 +78,7 @@ void EmulatedMotion::cut(double time_s) {
 
 void EmulatedMotion::stop_gently(double time_s, double acceleration_m_s2) {
   if (!is_moving(time_s)) return;
-  // What is queued runs on: to the later of 60 ms and 7.5 steps.
+  // The queued segments are still carried out, to the later of 60 ms and 7.5 steps.
   const double here_m = position_m(time_s);
   double low_s = time_s;
   double high_s = end_time_s();
@@ -94,7 +94,7 @@ void EmulatedMotion::stop_gently(double time_s, double acceleration_m_s2) {
   const double velocity = velocity_m_s(slow_s);
   const double direction = velocity >= 0.0 ? 1.0 : -1.0;
   const double way_m = 0.5 * velocity * velocity / acceleration_m_s2;
-  // Ends on the next whole step, but never beyond where the move was to end.
+  // Ends on the next whole step, but never beyond the end of the move.
   const double steps = (from_m + direction * way_m) * steps_per_m_ * direction;
   const double end_m =
       direction * std::min(std::ceil(steps - 1e-6) / steps_per_m_, direction * end_m_);

@@ -4,15 +4,14 @@
 
 namespace viscard {
 
-// Where a stage driven by GRBL stands at any time. Moves run from rest to rest with a trapezoid of
-// speed and end on whole steps; between its ends the position is smooth, because at the hundreds of
-// steps per second of a test the rotor's inertia smooths single (micro)steps. m, s; positions on
-// any one axis.
+// The position of a stage driven by GRBL at any time; m and s. Moves run from rest to rest with a
+// trapezoid of speed and end on whole steps. Within a move the position is smooth: at the hundreds
+// of steps per second of a test the inertia of the rotor smooths single (micro)steps.
 //
-// GRBL hands steps to its interrupt in a queue of six segments of at least 1.25 steps or 10 ms each
-// (gnea/grbl stepper.c: SEGMENT_BUFFER_SIZE, REQ_MM_INCREMENT_SCALAR, DT_SEGMENT), so a feed hold
-// or jog cancel begins to slow the motion only after max(7.5 steps, 60 ms); a reset stops it at
-// once.
+// GRBL passes steps to its interrupt in a queue of six segments of at least 1.25 steps or 10 ms
+// each (gnea/grbl stepper.c: SEGMENT_BUFFER_SIZE, REQ_MM_INCREMENT_SCALAR, DT_SEGMENT). So a feed
+// hold or jog cancel begins to slow the motion only after max(7.5 steps, 60 ms); a reset stops it
+// at once.
 class EmulatedMotion {
  public:
   EmulatedMotion(double steps_per_m, double position_m);
@@ -22,7 +21,7 @@ class EmulatedMotion {
   bool is_moving(double time_s) const { return time_s < end_time_s(); }
   double end_time_s() const;
   double end_position_m() const { return end_m_; }
-  // First time after time_s at which the acceleration changes; infinity if there is none.
+  // The first time after time_s at which the acceleration changes, or infinity.
   double next_knot_s(double time_s) const;
 
   // Precondition: not moving. The end is rounded to whole steps.

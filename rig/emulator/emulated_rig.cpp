@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kLargestStep_s = 1e-3;    // of the hereditary integral, emulated time
 constexpr double kShortestNap_s = 0.2e-3;  // wall
-constexpr double kLongestNap_s = 2e-3;  // wall: how soon an opened port or an incident is noticed
+constexpr double kLongestNap_s = 2e-3;     // wall; bounds the delay until an incident is noticed
 
 enum Incident : unsigned {
   kPullStage = 1,
@@ -32,14 +32,31 @@ enum Incident : unsigned {
   kRestartStage = 32,
 };
 
-std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions& options) {
+std::unique_ptr<EmulatedController> emulated_grbl(const EmulatedRigOptions& options) {
   const StageConfig& stage = options.config.stage;
-  if (stage.driver == "zaber") {
-    return std::make_unique<EmulatedZaber>(options.truth, stage.toward_specimen, stage.device,
-                                           options.zaber);
-  }
   return std::make_unique<EmulatedGrbl>(options.truth, stage.axis, stage.toward_specimen,
                                         options.grbl);
+}
+
+std::unique_ptr<EmulatedController> emulated_zaber(const EmulatedRigOptions& options) {
+  const StageConfig& stage = options.config.stage;
+  return std::make_unique<EmulatedZaber>(options.truth, stage.toward_specimen, stage.device,
+                                         options.zaber);
+}
+
+struct Controller {
+  const char* driver;
+  std::unique_ptr<EmulatedController> (*make)(const EmulatedRigOptions&);
+};
+
+// One row per value of driver under [stage] (rig/open_devices.cpp).
+constexpr Controller kControllers[] = {{"grbl", emulated_grbl}, {"zaber", emulated_zaber}};
+
+std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions& options) {
+  for (const Controller& controller : kControllers) {
+    if (options.config.stage.driver == controller.driver) return controller.make(options);
+  }
+  return emulated_grbl(options);  // the driver then refuses the rig file
 }
 
 }  // namespace
@@ -115,7 +132,7 @@ void EmulatedRig::Impl::watch_port(PtyPort& port, Board& board, double now_s) {
   board.is_open = is_open;
 }
 
-// Takes the mechanics to to_s in steps that end at the corners of the motion.
+// Advances the mechanics to to_s in steps that end where the acceleration changes.
 void EmulatedRig::Impl::advance_bench(double to_s) {
   while (bench_s_ < to_s) {
     const double next_s =
@@ -152,7 +169,7 @@ bool EmulatedRig::Impl::is_cell_broken() const {
   return outcome_.is_cell_broken;
 }
 
-// An instrument that is asked for each reading.
+// For an instrument that is polled.
 void EmulatedRig::Impl::serve_gauge(double now_s) {
   gauge_.receive(cell_port_.read_available(), now_s);
   while (gauge_.next_sample_s() <= now_s) {
@@ -165,7 +182,7 @@ void EmulatedRig::Impl::serve_gauge(double now_s) {
 
 void EmulatedRig::Impl::serve_cell(double now_s) {
   if (is_gauge()) return serve_gauge(now_s);
-  cell_port_.read_available();  // it listens to nobody
+  cell_port_.read_available();  // the amplifier ignores what the host sends
   if (!cell_board_.is_running && cell_board_.is_open && now_s >= cell_board_.boots_at_s) {
     cell_board_.is_running = true;
     cell_port_.write(amplifier_.reset(now_s));
@@ -206,13 +223,13 @@ void EmulatedRig::Impl::happen(double now_s) {
   if (stall_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(stall_s));
 }
 
-// Until the next conversion is due or the host says something.
+// Waits until the next conversion is due or the host sends bytes.
 void EmulatedRig::Impl::nap(double now_s) {
   double wall_s = kLongestNap_s;
   if (cell_board_.is_running || is_gauge()) {
     wall_s = std::clamp((next_sample_s() - now_s) / clock_.speed(), kShortestNap_s, kLongestNap_s);
   }
-  // A port without host reports a hang-up at once: poll would spin on it.
+  // A port that no host has open reports a hang-up at once, so poll would return immediately.
   pollfd entry{stage_board_.is_open ? stage_port_.descriptor() : -1, POLLIN, 0};
   timespec timeout{0, static_cast<long>(wall_s * 1e9)};
   ppoll(&entry, 1, &timeout, nullptr);
@@ -223,13 +240,13 @@ void EmulatedRig::Impl::run() {
     watch_port(stage_port_, stage_board_, clock_.now_s());
     watch_port(cell_port_, cell_board_, clock_.now_s());
     happen(clock_.now_s());
-    // Conversions up to now see the motion up to now; what the host says next acts from now on.
+    // Conversions up to now depend on the motion up to now; bytes from the host act from now on.
     const double now_s = clock_.now_s();
     stage_->tick(now_s);
     serve_cell(now_s);
     advance_bench(std::max(bench_s_, now_s));
     {
-      // Before a report of this very moment can reach the host.
+      // Set before a report of this moment can reach the host.
       const std::lock_guard lock(outcome_mutex_);
       outcome_.final_position_m = stage_->bench_position_m(now_s);
       outcome_.is_moving = stage_->is_moving(now_s);

@@ -14,7 +14,7 @@ EmulatedSpecimen::EmulatedSpecimen(const EmulatedTruth& truth)
 double EmulatedSpecimen::advance(double dt_s, double stage_position_m) {
   const double pressed_m = stage_position_m - surface_position_m_;
   if (!is_touched_ && pressed_m <= 0.0) return 0.0;
-  // At the end of the step, stress = modulus * depth + carried; free_m is the depth of no stress.
+  // At the end of the step, stress = modulus * depth + carried; at free_m the stress is zero.
   const double modulus_Pa = hereditary_.algorithmic_modulus_Pa(dt_s);
   const double free_m = -hereditary_.carried_Pa(dt_s) / modulus_Pa;
   double depth_m = free_m;

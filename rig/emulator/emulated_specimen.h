@@ -5,23 +5,23 @@
 
 namespace viscard {
 
-// A viscoelastic layer under a flat punch, pressed by a stage through a frame spring (the load cell
-// is part of it):
+// A viscoelastic layer under a flat punch that a stage presses through a frame spring (the load
+// cell is part of the frame):
 //   F(t) = c int E(t - s) d(depth)/ds ds,   depth = stage - surface - F/k_frame,   F >= 0
-// with c = 2 a kappa/(1 - nu^2) (models/punch_contact.h). Each step solves the pair exactly for a
-// depth that is linear in it, with the split of models/hereditary.h. Out of contact the free
-// surface recovers under no force, and the punch meets it where it then is.
+// with c = 2 a kappa/(1 - nu^2) (models/contact/punch_contact.h). Each step solves both equations
+// exactly for a depth that is linear in time, with the split of models/material/hereditary.h. Out
+// of contact the surface recovers without force, and the punch touches it where it is then.
 class EmulatedSpecimen {
  public:
   explicit EmulatedSpecimen(const EmulatedTruth& truth);
 
-  // Takes a step of dt_s >= 0 at whose end the stage stands at stage_position_m (grows toward the
-  // specimen, same origin as truth.surface_position_m). Returns the force then, N.
+  // Takes a step of dt_s >= 0 at the end of which the stage is at stage_position_m (growing toward
+  // the specimen, same origin as truth.surface_position_m). Returns the force at the end, N.
   double advance(double dt_s, double stage_position_m);
 
   double force_N() const { return force_N_; }
-  // How far the surface under the punch lies below where it was at first; not 0 out of contact
-  // while it recovers.
+  // How far the surface under the punch lies below its first position; out of contact it is not 0
+  // while the surface recovers.
   double depth_m() const { return hereditary_.strain(); }
   bool is_touched() const { return is_touched_; }
 

@@ -1,6 +1,6 @@
 #include "rig/emulator/emulated_zaber.h"
 
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 #include "rig/protocols/zaber_protocol.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace viscard {
 namespace {
 
 constexpr long long kLimit_microsteps = 1'000'000'000;
-constexpr double kEmergency = 10.0;  // times the acceleration: estop
+constexpr double kEmergency = 10.0;  // deceleration of estop over the acceleration
 
 std::string two_digits(int number) {
   return (number < 10 ? "0" : "") + std::to_string(number);
@@ -49,7 +49,7 @@ long long EmulatedZaber::microsteps(double time_s) const {
   return std::llround(toward_ * motion_.position_m(time_s) / microstep_m_);
 }
 
-// Opening its port does nothing to a Zaber controller; a power cut loses the reference.
+// Opening the port does not reset a Zaber controller.
 void EmulatedZaber::reset(double time_s) {
   motion_.stop_at_once(time_s);
   begun_.clear();

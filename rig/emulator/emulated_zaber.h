@@ -11,20 +11,20 @@
 
 namespace viscard {
 
-// Habits of real controllers that a driver must live with. Times on the emulated clock.
+// Behaviour of real controllers that a driver must cope with. Times on the emulated clock.
 struct ZaberHabits {
   bool sends_checksums = true;
-  bool sends_alerts = false;   // comm.alert = 1: tells when a move has ended
-  bool has_reference = true;   // false: switched on and not homed
+  bool sends_alerts = false;   // comm.alert = 1: sends an alert when a move has ended
+  bool has_reference = true;   // false: not homed since it was switched on
   bool knows_estop = true;     // older firmware does not
   int lose_reply_every = 0;    // every n-th reply is not sent
-  int garble_reply_every = 0;  // every n-th reply has a wrong digit (and a checksum that tells)
+  int garble_reply_every = 0;  // every n-th reply has a wrong digit, so its checksum is wrong
   double reply_delay_s = 0.0;
-  bool has_neighbour = false;  // device 2 on the chain talks in between
+  bool has_neighbour = false;  // device 2 on the chain sends replies in between
 };
 
-// A Zaber controller of one axis on its wire (rig/zaber_protocol.h gives the sources). One
-// microstep is one step of the truth.
+// A Zaber controller of one axis as a host sees it on the wire (rig/protocols/zaber_protocol.h
+// gives the sources). One microstep is one step of the truth.
 class EmulatedZaber final : public EmulatedController {
  public:
   EmulatedZaber(const EmulatedTruth& truth, int toward_specimen, int device,
@@ -37,7 +37,7 @@ class EmulatedZaber final : public EmulatedController {
 
  private:
   void line(std::string_view text, double time_s);
-  // Data of an OK reply; nothing and a reason in rejection_ otherwise.
+  // The data of an OK reply, or nothing with the reason in rejection_.
   std::optional<std::string> obey(const std::vector<std::string>& words, double time_s);
   std::optional<std::string> get(const std::string& setting, double time_s) const;
   std::optional<std::string> set(const std::string& setting, double value);

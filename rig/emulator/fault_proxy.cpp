@@ -1,5 +1,6 @@
 #include "rig/emulator/fault_proxy.h"
 
+#include "rig/emulator/faulty_lane.h"
 #include "rig/emulator/pty_port.h"
 #include "rig/lines/rig_clock.h"
 
@@ -7,13 +8,10 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <deque>
 #include <mutex>
-#include <random>
 #include <thread>
 #include <utility>
 
@@ -21,94 +19,6 @@ namespace viscard {
 namespace {
 
 constexpr int kNap_ms = 1;
-constexpr double kLongestSplit_s = 0.02;
-
-struct Piece {
-  double due_s;
-  std::string bytes;
-};
-
-// One direction of the line.
-class Lane {
- public:
-  Lane(const FaultRates& rates, double longest_delay_s, std::uint64_t seed)
-      : rates_(rates), longest_delay_s_(longest_delay_s), random_(seed) {}
-
-  void take(std::string bytes, double now_s, FaultCounts& counts);
-  std::string due(double now_s);
-  void clear() { pieces_.clear(); }
-  void heal() { rates_ = {}; }
-  bool wants_hang_up() const { return wants_hang_up_; }
-
- private:
-  bool happens(double chance, FaultCounts& counts) {
-    const bool does = std::bernoulli_distribution(chance)(random_);
-    counts.faults += does ? 1 : 0;
-    return does;
-  }
-  std::size_t below(std::size_t n) {
-    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_);
-  }
-  double upto(double most) { return std::uniform_real_distribution<double>(0.0, most)(random_); }
-  void corrupt(std::string& bytes, FaultCounts& counts);
-  void push(std::string bytes, double due_s);
-
-  FaultRates rates_;
-  double longest_delay_s_;
-  std::mt19937_64 random_;
-  std::deque<Piece> pieces_;
-  bool wants_hang_up_ = false;
-};
-
-void Lane::push(std::string bytes, double due_s) {
-  if (!pieces_.empty()) due_s = std::max(due_s, pieces_.back().due_s);
-  pieces_.push_back({due_s, std::move(bytes)});
-}
-
-void Lane::corrupt(std::string& bytes, FaultCounts& counts) {
-  if (happens(rates_.drop, counts)) {
-    const std::size_t at = below(bytes.size());
-    bytes.erase(at, 1 + below(8));
-    ++counts.corrupted;
-  }
-  if (!bytes.empty() && happens(rates_.garble, counts)) {
-    char& c = bytes[below(bytes.size())];
-    const bool is_digit = c >= '0' && c <= '9';
-    c = static_cast<char>(is_digit ? '0' + static_cast<char>(below(10)) : c ^ (1 << below(8)));
-    ++counts.corrupted;
-  }
-  if (happens(rates_.insert, counts)) {
-    std::string noise(1 + below(8), '\0');
-    for (char& c : noise) c = static_cast<char>(below(256));
-    bytes.insert(bytes.empty() ? 0 : below(bytes.size()), noise);
-    ++counts.corrupted;
-  }
-}
-
-void Lane::take(std::string bytes, double now_s, FaultCounts& counts) {
-  ++counts.pieces;
-  if (happens(rates_.hang_up, counts)) wants_hang_up_ = true;
-  corrupt(bytes, counts);
-  if (bytes.empty()) return;
-  if (happens(rates_.delay, counts)) now_s += upto(longest_delay_s_);
-  if (happens(rates_.split, counts) && bytes.size() > 1) {
-    const std::size_t at = 1 + below(bytes.size() - 1);
-    push(bytes.substr(0, at), now_s);
-    push(bytes.substr(at), now_s + upto(kLongestSplit_s));
-  } else {
-    push(bytes, now_s);
-  }
-  if (happens(rates_.duplicate, counts)) push(bytes, now_s);
-}
-
-std::string Lane::due(double now_s) {
-  std::string bytes;
-  while (!pieces_.empty() && pieces_.front().due_s <= now_s) {
-    bytes += pieces_.front().bytes;
-    pieces_.pop_front();
-  }
-  return bytes;
-}
 
 }  // namespace
 
@@ -196,7 +106,7 @@ class FaultProxy::Impl {
 
   std::string device_path_;
   int device_ = -1;
-  Lane to_host_, to_device_;
+  FaultyLane to_host_, to_device_;
   mutable std::mutex mutex_;  // of counts_
   FaultCounts counts_;
   std::atomic<bool> is_ending_{false};

@@ -6,15 +6,15 @@
 
 namespace viscard {
 
-// Chances, per piece of the stream that is passed on, that something happens to it.
+// Probabilities of faults, for each piece of the stream that is passed on.
 struct FaultRates {
   double drop = 0.0;       // a few of its bytes are lost
-  double duplicate = 0.0;  // it comes twice
-  double split = 0.0;      // its second half comes some milliseconds later
-  double delay = 0.0;      // it and all behind it come later
-  double garble = 0.0;     // one byte changes: any bit, or one digit into another
-  double insert = 0.0;     // a few bytes of noise come before it
-  double hang_up = 0.0;    // the line goes away for good
+  double duplicate = 0.0;  // it is passed on twice
+  double split = 0.0;      // its second half arrives some milliseconds later
+  double delay = 0.0;      // it and everything after it arrive later
+  double garble = 0.0;     // one digit becomes another, or one bit of another byte flips
+  double insert = 0.0;     // a few bytes of noise are inserted
+  double hang_up = 0.0;    // the line hangs up for good
 };
 
 struct FaultPlan {
@@ -24,15 +24,15 @@ struct FaultPlan {
 };
 
 struct FaultCounts {
-  int pieces = 0;     // passed on or not
-  int faults = 0;     // that happened, all kinds
-  int corrupted = 0;  // of these: garbled, inserted or dropped, which change what a line says
+  int pieces = 0;     // of the stream, passed on or not
+  int faults = 0;     // of all kinds
+  int corrupted = 0;  // faults that change a line: garbled, inserted or dropped bytes
   bool has_hung_up = false;
 };
 
-// Stands between a host and an emulated device, a pseudo-terminal toward each, and disturbs the
-// line in both directions. Bytes never overtake one another, as on a real line. The device's port
-// is opened when the host opens path(), and closed with it, so that boards reset as they would.
+// Connects a host to an emulated device and disturbs the line in both directions. Bytes never
+// overtake one another, as on a real line. The device's port is opened and closed when the host
+// opens and closes path(), so that boards reset as they would without the proxy.
 class FaultProxy {
  public:
   FaultProxy(const std::string& device_path, const FaultPlan& plan);
@@ -40,7 +40,7 @@ class FaultProxy {
 
   std::string path() const;
   FaultCounts counts() const;
-  // From now on the line is clean.
+  // From now on there are no more faults.
   void heal();
   void hang_up();
 

@@ -5,7 +5,7 @@
 namespace viscard {
 namespace {
 
-// A number of 64 well-mixed bits from any other (Steele, Lea & Flood, OOPSLA 2014: SplitMix64).
+// SplitMix64: turns any number into 64 well-mixed bits (Steele, Lea & Flood, OOPSLA 2014).
 std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -27,8 +27,8 @@ PtyPort::PtyPort() {
   path_ = name.data();
   fcntl(master_, F_SETFL, O_NONBLOCK);
   fcntl(master_, F_SETFD, FD_CLOEXEC);
-  // Once opened and closed, the master reports a hang-up until a host opens it: that is how a reset
-  // on opening is told.
+  // After the slave was opened and closed, the master reports a hang-up until a host opens it. That
+  // is how the opening of the port, and so a reset, is noticed.
   close(slave);
 }
 

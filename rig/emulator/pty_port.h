@@ -5,7 +5,7 @@
 
 namespace viscard {
 
-// The device's end of a pseudo-terminal: a host opens path() as if it were a serial port.
+// The device's end of a pseudo-terminal. A host opens path() as if it were a serial port.
 class PtyPort {
  public:
   // Throws std::runtime_error when the system has no pseudo-terminal left.
@@ -19,12 +19,12 @@ class PtyPort {
   bool is_open_by_host() const;
 
   std::string read_available();
-  // Queues the bytes and sends what the host's side has room for; the rest goes with later calls.
+  // Queues the bytes and sends as many as the host's side has room for; later calls send the rest.
   void write(std::string_view bytes);
   bool has_unsent() const { return !unsent_.empty(); }
-  // What the host wrote and has not been read, and what waits to be sent, is gone (as in a reset).
+  // Drops unread bytes from the host and unsent bytes, as a reset does.
   void discard();
-  // Pulls the cable: the host sees a hang-up. Nothing works any more afterwards.
+  // Pulls the cable: the host sees a hang-up. The port cannot be used afterwards.
   void hang_up();
 
  private:

@@ -21,7 +21,7 @@ void LineSplitter::feed(std::string_view bytes, double time_s, double byte_s) {
       }
       continue;
     }
-    // CRLF and LFCR are one end of line; CRCR and LFLF are two.
+    // CRLF and LFCR end one line; CRCR and LFLF end two.
     if (last_terminator_ != '\0' && last_terminator_ != c) {
       last_terminator_ = '\0';
       continue;
@@ -32,8 +32,8 @@ void LineSplitter::feed(std::string_view bytes, double time_s, double byte_s) {
 }
 
 void LineSplitter::end_line(double time_s) {
-  // Bytes that came faster than the wire could carry them (a pseudo-terminal, an adapter's buffer)
-  // would otherwise seem to have come before those read earlier.
+  // Bytes that arrived faster than the wire carries them (from a pseudo-terminal or an adapter's
+  // buffer) would otherwise seem older than bytes read before them.
   last_line_s_ = std::max(last_line_s_, time_s);
   if (is_overlong_) {
     ++n_overlong_;
@@ -49,12 +49,6 @@ std::optional<ReceivedLine> LineSplitter::next() {
   ReceivedLine line = std::move(lines_.front());
   lines_.pop_front();
   return line;
-}
-
-void LineSplitter::clear() {
-  begun_.clear();
-  is_overlong_ = false;
-  lines_.clear();
 }
 
 double LineSplitter::unprintable_fraction() const {

@@ -10,29 +10,25 @@ namespace viscard {
 
 struct ReceivedLine {
   std::string text;     // without its terminator
-  double time_s = 0.0;  // rig time at which its last byte can have arrived at the latest; never
-                        // before that of the line before
+  double time_s = 0.0;  // latest rig time at which its last byte can have arrived; ascending
 };
 
 // Cuts a byte stream into lines ended by CR, LF, CRLF or LFCR, however reads split it. A line
-// longer than max_length is dropped up to its terminator and counted, so that a stream without any
-// cannot fill the memory. Empty lines are kept (GRBL answers them); the second character of a pair
-// makes none.
+// longer than max_length is dropped up to its terminator and counted, so that a stream without
+// terminators cannot fill the memory. Empty lines are kept, because GRBL answers them; CRLF and
+// LFCR end one line, not two.
 class LineSplitter {
  public:
   explicit LineSplitter(std::size_t max_length = 256) : max_length_(max_length) {}
 
-  // byte_s is the time one byte takes on the wire (10/baud; 0 for none): bytes of one read share a
-  // stamp, and a line with n bytes behind it must have been complete n byte times before.
+  // time_s: when the bytes were read. byte_s: time of one byte on the wire (10/baud, or 0). A line
+  // with n bytes after it in the same read was complete n byte times earlier.
   void feed(std::string_view bytes, double time_s, double byte_s = 0.0);
   std::optional<ReceivedLine> next();
 
-  // Drops the line begun and what is queued: after opening, the first line may be half a line.
-  void clear();
-
-  std::size_t n_overlong() const { return n_overlong_; }
   std::size_t n_bytes() const { return n_bytes_; }
-  // Share of the bytes that no text protocol sends: many of them mean a wrong baud rate.
+  std::size_t n_overlong() const { return n_overlong_; }  // lines that were dropped
+  // Share of bytes that no text protocol sends; a large share means a wrong baud rate.
   double unprintable_fraction() const;
 
  private:
@@ -41,7 +37,7 @@ class LineSplitter {
   std::size_t max_length_;
   std::string begun_;
   bool is_overlong_ = false;
-  char last_terminator_ = '\0';  // if the byte before was one, which
+  char last_terminator_ = '\0';  // the previous byte, if it was a terminator
   std::deque<ReceivedLine> lines_;
   double last_line_s_ = -1e300;
   std::size_t n_overlong_ = 0;

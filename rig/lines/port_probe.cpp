@@ -55,14 +55,14 @@ bool holds(const fs::path& process, const fs::path& device) {
   std::error_code error;
   fs::directory_iterator entry(process / "fd", error);
   while (!error && entry != fs::directory_iterator()) {
-    std::error_code ignored;  // closed meanwhile
+    std::error_code ignored;  // it was closed meanwhile
     if (fs::read_symlink(entry->path(), ignored) == device) return true;
     entry.increment(error);
   }
   return false;
 }
 
-// A program that has the device open and lets us see that, or 0.
+// The process that has the device open, as far as this user may see it, or 0.
 long holder_of(const fs::path& device) {
   std::error_code error;
   fs::directory_iterator process("/proc", error);
@@ -87,7 +87,7 @@ const char* kind_of_file(mode_t mode) {
 
 std::vector<std::string> present_ports() {
   std::vector<std::string> ports;
-  std::vector<std::string> covered;  // devices that a stable name already stands for
+  std::vector<std::string> covered;  // devices that a stable name already names
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator("/dev/serial/by-id", ignored)) {
     ports.push_back(entry.path().string());

@@ -5,22 +5,23 @@
 
 namespace viscard {
 
-// Serial ports present now, by their stable names where there are any (/dev/serial/by-id), found by
-// looking at names only: opening a port resets many boards.
+// Serial ports that are present, by their stable names in /dev/serial/by-id if they have one. Only
+// names are read, because opening a port resets many boards.
 std::vector<std::string> present_ports();
 
-// What can be said of a port without opening it. trouble is empty if it should open; otherwise the
-// reason and the fix. Other users' programs cannot be seen by an ordinary user.
+// The state of a port as far as it is known without opening it.
 struct PortStatus {
   std::string path;
-  std::string device;  // what a stable name stands for: "/dev/ttyUSB0"
+  std::string device;  // the target of a stable name: "/dev/ttyUSB0"
+  // Why it cannot be used and what to do; empty if it should open. An ordinary user cannot see that
+  // another user's program has it open.
   std::string trouble;
 };
 PortStatus port_status(const std::string& path);
 
-// Opens the port just enough to tell why it cannot be used, and returns a descriptor that holds it
+// Opens the port to find out whether it can be used, and returns a descriptor that holds it
 // exclusively (flock); the caller closes it. Throws RigError with the true reason and the fix:
-// missing, not a terminal, no permission, busy. libserial reports all of these as "Bad file
+// missing, not a terminal, no permission, or busy. libserial reports all of these as "Bad file
 // descriptor".
 int open_exclusively(const std::string& path);
 

@@ -8,12 +8,13 @@
 
 namespace viscard {
 
-// Takes everything a run hands out, in order. It must return at once (queue and go): the force
-// limit is watched by the thread that calls it. What it throws stops the run safely.
+// Receives every record of a run, in order. It must return at once (for instance queue the record),
+// because the calling thread also watches the force limit. An exception from it stops the run
+// safely.
 using RecordSink = std::function<void(const RunRecord&)>;
 
-// The same sink, which after its first exception takes no more: the run that ends then still has to
-// stop the stage, and the devices go on reporting meanwhile.
+// The same sink, but after its first exception it ignores all records: the run that ends then still
+// has to stop the stage, and the devices report meanwhile.
 inline RecordSink failing_once(RecordSink sink) {
   auto has_failed = std::make_shared<bool>(false);
   return [sink = std::move(sink), has_failed](const RunRecord& record) {
@@ -27,8 +28,8 @@ inline RecordSink failing_once(RecordSink sink) {
   };
 }
 
-// Waits a moment and serves every device that has something to say; what device classes call while
-// they wait for an answer, so that the force is watched meanwhile.
+// Waits a moment and serves every device from which bytes have arrived. Device classes call it
+// while they wait for an answer, so that the force is watched meanwhile.
 using Pump = std::function<void()>;
 
 }  // namespace viscard

@@ -4,19 +4,19 @@
 
 namespace viscard {
 
-// What went wrong with an instrument, where, and what to do next, in one line.
+// One line: what went wrong with an instrument, where, and what to do next.
 class RigError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// The other end of a port is gone: cable pulled, device switched off, adapter vanished.
+// The other end of a port is gone: the cable was pulled, or the device or its adapter switched off.
 class PortHungUp : public RigError {
  public:
   using RigError::RigError;
 };
 
-// A device started anew in the middle of a run: its position, tare and clock are gone.
+// A device restarted in the middle of a run: its position, tare and clock are lost.
 class DeviceRestarted : public RigError {
  public:
   using RigError::RigError;

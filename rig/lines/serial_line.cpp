@@ -60,9 +60,10 @@ void check_framing(const std::string& framing) {
                         std::strchr("NEO", framing[1]) != nullptr &&
                         std::strchr("12", framing[2]) != nullptr;
   if (is_known) return;
-  throw RigError("framing '" + framing +
-                 "' of the rig file is unknown; it is data bits, parity and stop bits, such as 8N1 "
-                 "or 7E2");
+  throw RigError(
+      "framing '" + framing +
+      "' in the rig file is unknown. Set data bits, parity and stop bits, such as 8N1 or "
+      "7E2");
 }
 
 // Closing must not drop DTR: many boards reset when it rises again at the next opening.
@@ -73,7 +74,7 @@ void keep_dtr_on_close(int descriptor) {
   tcsetattr(descriptor, TCSANOW, &settings);
 }
 
-// Milliseconds for poll(), rounded up so that a wait never becomes a spin.
+// Milliseconds for poll(), rounded up so that a short wait does not become a busy loop.
 int poll_ms(double seconds) {
   if (!(seconds > 0.0)) return 0;
   return static_cast<int>(std::ceil(std::min(seconds, 3600.0) * 1e3));
@@ -86,14 +87,14 @@ void SerialLine::SafeClose::operator()(LibSerial::SerialPort* port) const noexce
   try {
     if (port->IsOpen()) {
       descriptor = port->GetFileDescriptor();
-      ioctl(descriptor, TIOCNXCL);     // 1.0.0 never gives up the exclusive mark
-      tcflush(descriptor, TCIOFLUSH);  // else closing waits for bytes nobody reads
+      ioctl(descriptor, TIOCNXCL);     // libserial 1.0.0 never releases its exclusive use
+      tcflush(descriptor, TCIOFLUSH);  // otherwise closing waits until the device has read all
       port->Close();
     }
     delete port;
     return;
   } catch (...) {
-    // After a hang-up Close() throws and leaves the port open. It gets a live terminal to close.
+    // After a hang-up Close() throws and leaves the port open. It gets another terminal to close.
   }
   int master = -1;
   int slave = -1;
@@ -111,7 +112,7 @@ void SerialLine::SafeClose::operator()(LibSerial::SerialPort* port) const noexce
     }
     ::close(master);
   }
-  // Leaking one object is better than the abort its destructor would bring.
+  // Leaking one object is better than the abort in its destructor.
   if (descriptor >= 0) ::close(descriptor);
 }
 
@@ -155,7 +156,7 @@ Chunk SerialLine::read_available() {
     return chunk;
   }
   if (n < 0 && (errno == EAGAIN || errno == EINTR)) return chunk;
-  // "Readable" and nothing there means hung up; without POLLHUP only if it stays so.
+  // "Readable" without bytes means a hang-up; without POLLHUP only if it happens three times.
   const bool is_hung_up = n < 0 || (entry.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0;
   if (is_hung_up || ++n_empty_reads_ >= 3) {
     throw PortHungUp("'" + path_ +
@@ -184,33 +185,6 @@ void SerialLine::write(std::string_view bytes, double timeout_s) {
     }
     pollfd entry{descriptor_, POLLOUT, 0};
     poll(&entry, 1, poll_ms(left_s));
-  }
-}
-
-void wait_readable(const std::vector<const Transport*>& transports, double timeout_s) {
-  std::array<pollfd, 8> entries{};
-  nfds_t n = 0;
-  for (const Transport* transport : transports) {
-    if (n < entries.size()) entries[n++] = {transport->descriptor(), POLLIN, 0};
-  }
-  timespec timeout{};
-  if (timeout_s > 0.0) {
-    timeout.tv_sec = static_cast<time_t>(timeout_s);
-    timeout.tv_nsec = static_cast<long>((timeout_s - std::floor(timeout_s)) * 1e9);
-  }
-  ppoll(entries.data(), n, &timeout, nullptr);
-}
-
-std::optional<ReceivedLine> read_line(Transport& transport, LineSplitter& splitter,
-                                      double timeout_s) {
-  const double deadline_s = monotonic_s() + timeout_s;
-  while (true) {
-    if (auto line = splitter.next()) return line;
-    const double left_s = deadline_s - monotonic_s();
-    if (left_s <= 0.0) return std::nullopt;
-    wait_readable({&transport}, left_s);
-    const Chunk chunk = transport.read_available();
-    splitter.feed(chunk.bytes, chunk.time_s, 10.0 / transport.baud());
   }
 }
 

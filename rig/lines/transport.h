@@ -6,14 +6,13 @@
 
 namespace viscard {
 
-// Bytes that arrived together; time_s is rig time, taken right after poll() said there was
-// something.
+// Bytes that arrived together; time_s is the rig time right after poll() reported them.
 struct Chunk {
   double time_s = 0.0;
   std::string bytes;
 };
 
-// A byte stream to one device: a serial line, or whatever a test puts in its place.
+// A byte stream to one device: a serial line, or a stand-in of a test.
 class Transport {
  public:
   virtual ~Transport() = default;
@@ -25,16 +24,16 @@ class Transport {
   virtual int baud() const = 0;
   // For poll().
   virtual int descriptor() const = 0;
-  // What has arrived, without waiting; no bytes if nothing has.
-  // Throws PortHungUp once the other end is gone and everything it sent has been read.
+  // The bytes that have arrived, without waiting. Throws PortHungUp once the other end is gone and
+  // all its bytes have been read.
   virtual Chunk read_available() = 0;
-  // Returns when all bytes are with the operating system. Throws PortHungUp, or RigError if that
-  // takes longer than timeout_s (wall).
+  // Returns when the operating system has taken all bytes. Throws PortHungUp, or RigError if that
+  // takes longer than timeout_s of wall time.
   virtual void write(std::string_view bytes, double timeout_s = 0.5) = 0;
 };
 
-// Sleeps until one of the transports has something to read (or hung up), a signal came, or
-// timeout_s (wall) is over.
+// Sleeps until one of the transports has bytes to read or hangs up, a signal arrives, or timeout_s
+// of wall time is over.
 void wait_readable(const std::vector<const Transport*>& transports, double timeout_s);
 
 }  // namespace viscard

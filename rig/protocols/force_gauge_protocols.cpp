@@ -1,23 +1,21 @@
 #include "rig/protocols/force_gauge_protocols.h"
 
+#include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
 #include "rig/protocols/force_unit.h"
-#include "rig/protocols/scpi_protocol.h"
-#include "rig/protocols/text_number.h"
 
 namespace viscard {
 namespace {
 
 constexpr std::size_t kSauterLength = 7;
 
-// The unit of a gauge that does not send one; N unless the rig file says otherwise.
+// The unit of a gauge that does not send one; N unless the rig file has another.
 std::string checked_unit(const std::string& unit) {
   const std::string word = unit.empty() ? "N" : unit;
   if (newtons_per_unit(word)) return word;
   throw RigError(
       "unit '" + unit +
-      "' under [load_cell] of the rig file is unknown; there are N, mN, kN, gf, kgf, ozf, "
-      "lbf");
+      "' under [load_cell] of the rig file is unknown; choose N, mN, kN, gf, kgf, ozf or lbf");
 }
 
 }  // namespace
@@ -68,15 +66,6 @@ GaugeProtocol sauter_protocol(const std::string& unit) {
   protocol.fixed_length = kSauterLength;
   protocol.parse = [word](std::string_view bytes) { return parse_sauter_reading(bytes, word); };
   return protocol;
-}
-
-GaugeProtocol gauge_protocol(const LoadCellConfig& config) {
-  if (config.driver == "scpi") return scpi_protocol(config.dialect);
-  if (config.driver == "mark10") return mark10_protocol(config.unit);
-  if (config.driver == "sauter") return sauter_protocol(config.unit);
-  throw RigError("driver '" + config.driver +
-                 "' under [load_cell] of the rig file is unknown; there are hx711, scpi, mark10, "
-                 "sauter");
 }
 
 }  // namespace viscard

@@ -1,6 +1,6 @@
 #include "rig/protocols/force_unit.h"
 
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <array>
@@ -28,7 +28,7 @@ std::optional<double> newtons_per_unit(std::string_view unit) {
        {"lbf", kPound_kg * kGravity},
        {"p", 1e-3 * kGravity}}};  // pond, on older gauges
   std::string word(trimmed(unit));
-  if (word == "MN") return std::nullopt;  // no gauge means meganewtons; better nothing than 1e9
+  if (word == "MN") return std::nullopt;  // no gauge has meganewtons, and mN would be off by 1e9
   std::transform(word.begin(), word.end(), word.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const auto& [name, newtons] : kRows) {

@@ -11,31 +11,31 @@
 
 namespace viscard {
 
-// What an instrument that is asked for each reading has answered.
+// One answer of an instrument that is polled.
 struct GaugeAnswer {
-  std::optional<double> volts;    // a multimeter's ...
-  std::optional<double> force_N;  // ... or a force gauge's reading, positive in compression
-  bool is_overload = false;       // it says itself that its range is exceeded
-  std::string unit;               // as written on the wire; empty if none was
-  std::string error;              // it refused: what it said
+  std::optional<double> volts;    // reading of a multimeter ...
+  std::optional<double> force_N;  // ... or of a force gauge, positive in compression
+  bool is_overload = false;       // the instrument reports that its range is exceeded
+  std::string unit;               // as sent; empty if none was sent
+  std::string error;              // the text of a refusal; empty otherwise
 };
 
-// How to talk to one kind of instrument, apart from any port; one row per instrument.
+// How to poll one kind of instrument; knows no port. There is one such row per instrument.
 struct GaugeProtocol {
   std::string name;
-  std::vector<std::string> opening;  // sent on connecting, one after another, never answered
-  std::string identity_query;        // empty: it cannot tell
+  std::vector<std::string> opening;  // sent one by one when connecting; none is answered
+  std::string identity_query;        // empty: the instrument has no identity
   std::string query;                 // asks for one reading
-  std::string error_query;           // asked once after the opening; empty: none
-  std::string closing;               // sent in the end
-  // Answers of so many bytes without any terminator; 0: answers are lines.
+  std::string error_query;           // sent once after the opening; empty: none
+  std::string closing;               // sent at the end
+  // Length of answers without a terminator, bytes; 0: answers are lines.
   std::size_t fixed_length = 0;
-  // Nothing for text that is no answer.
+  // Returns nothing for text that is no answer.
   std::function<std::optional<GaugeAnswer>(std::string_view)> parse;
 };
 
 // The row for a rig file's driver ("scpi", "mark10", "sauter") with its dialect and unit. Throws
-// RigError naming the words there are.
+// RigError on an unknown word; the message lists the known ones.
 GaugeProtocol gauge_protocol(const LoadCellConfig& config);
 
 }  // namespace viscard

@@ -1,6 +1,6 @@
 #include "rig/protocols/grbl_protocol.h"
 
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <array>
@@ -65,7 +65,7 @@ void read_field(std::string_view key, std::string_view value, GrblStatus& status
 std::optional<GrblStatus> parse_grbl_status(std::string_view line) {
   line = trimmed(line);
   if (line.size() < 3 || line.front() != '<' || line.back() != '>') return std::nullopt;
-  if (line.find('<', 1) != std::string_view::npos) return std::nullopt;  // two run into each other
+  if (line.find('<', 1) != std::string_view::npos) return std::nullopt;  // two reports in one line
   const std::vector<std::string_view> fields = split(line.substr(1, line.size() - 2), '|');
   GrblStatus status;
   const std::vector<std::string_view> state = split(fields[0], ':');
@@ -84,7 +84,7 @@ std::optional<GrblStatus> parse_grbl_status(std::string_view line) {
     if (colon == std::string_view::npos) continue;
     read_field(fields[i].substr(0, colon), fields[i].substr(colon + 1), status);
   }
-  // One cut short is no report.
+  // A report without a position was cut short.
   if (status.machine_mm.empty() && status.work_mm.empty()) return std::nullopt;
   return status;
 }
@@ -119,7 +119,7 @@ std::optional<GrblSetting> parse_grbl_setting(std::string_view line) {
   const std::size_t equals = line.find('=');
   if (line.empty() || line.front() != '$' || equals == std::string_view::npos) return std::nullopt;
   const auto number = integer_from_text(line.substr(1, equals - 1));
-  // GRBL 0.9 and some clones add "(text)" behind the value.
+  // GRBL 0.9 and some clones add "(text)" after the value.
   std::string_view value_text = line.substr(equals + 1);
   value_text = value_text.substr(0, value_text.find('('));
   const auto value = number_from_text(value_text);
@@ -149,18 +149,18 @@ std::string grbl_error_text(int code) {
       {{1, "a letter was expected"},
        {2, "a number could not be read"},
        {3, "the '$' command is unknown to this firmware"},
-       {4, "a negative value where none may be"},
+       {4, "a value must not be negative"},
        {5, "homing is switched off: set $22=1, or leave homing out of the rig file"},
        {7, "the settings memory was empty and has been filled with defaults: set it up again"},
-       {8, "the command needs the stage at rest"},
+       {8, "the command is allowed only at rest"},
        {9, "the stage is locked by an alarm: unlock it with $X after checking it"},
        {10, "soft limits need homing: set $22=1"},
        {11, "the line is too long"},
        {13, "the safety door is open: close it"},
        {14, "a settings line is too long"},
        {15, "the target is beyond the stage's travel ($130-132)"},
-       {16, "a word that jogging does not take"},
-       {20, "a word this firmware does not know"},
+       {16, "a word that is not allowed in a jog"},
+       {20, "a word that this firmware does not know"},
        {22, "the feed rate is missing"},
        {33, "the target is invalid"}}};
   for (const auto& [number, text] : kTexts) {

@@ -7,11 +7,11 @@
 
 namespace viscard {
 
-// The words of GRBL 1.1 and grblHAL, apart from any port.
+// Writes and reads lines of GRBL 1.1 and grblHAL; knows no port.
 // Source: gnea/grbl doc/markdown/{interface,commands,jogging,settings}.md and
 // grbl/{gcode,report}.c.
 
-// Realtime commands: single bytes, at any time, never counted as a line, never answered by "ok".
+// Realtime commands: single bytes that are accepted at any time and never answered by "ok".
 namespace grbl {
 inline constexpr char kStatus = '?';
 inline constexpr char kHold = '!';
@@ -20,17 +20,17 @@ inline constexpr char kSoftReset = '\x18';
 inline constexpr char kJogCancel = static_cast<char>(0x85);
 }  // namespace grbl
 
-// <State:sub|MPos:x,y,z|...>. Fields come in any order, unknown ones are ignored. Lengths are in
-// mm, or in inches where setting $13 = 1 says so: the caller knows.
+// <State:sub|MPos:x,y,z|...>. Fields come in any order; unknown ones are ignored. Lengths are in
+// mm, or in inches if setting $13 is 1, which the caller must know.
 struct GrblStatus {
   std::string state;                   // Idle Run Hold Jog Home Alarm Door Check Sleep Tool
-  int substate = -1;                   // of Hold and Door; -1: none given
+  int substate = -1;                   // of Hold and Door; -1: not given
   std::vector<double> machine_mm;      // empty if the report carries work positions
   std::vector<double> work_mm;         // empty if it carries machine positions
-  std::vector<double> work_offset_mm;  // WCO, sent now and then; WPos = MPos - WCO
+  std::vector<double> work_offset_mm;  // WCO, in some reports; WPos = MPos - WCO
   int planner_blocks_free = -1;        // Bf; -1: not given
   double feed_mm_min = -1.0;           // F or FS; negative: not given
-  std::string pins;                    // Pn: letters of the switches that are active
+  std::string pins;                    // Pn: letters of the active switches
 };
 std::optional<GrblStatus> parse_grbl_status(std::string_view line);
 
@@ -55,15 +55,15 @@ std::optional<GrblSetting> parse_grbl_setting(std::string_view line);
 // The text of "[MSG:Caution: Unlocked]".
 std::optional<std::string> parse_grbl_message(std::string_view line);
 
-// True for lines that the firmware sends of its own accord and that answer no command: messages,
-// settings, reports, blank lines, ">line:ok" of start-up blocks.
+// True for lines that answer no command: messages, settings, reports, alarms, welcomes, blank
+// lines, and ">line:ok" of start-up blocks.
 bool is_grbl_push(std::string_view line);
 
-// "$J=G53G90G21Z-1.23456F30.000": a jog to a place in machine coordinates, so that neither rounding
-// nor a line received twice adds up. Numbers do not depend on the locale.
+// "$J=G53G90G21Z-1.23456F30.000": a jog to an absolute machine position, so that neither rounding
+// errors nor a repeated line add up.
 std::string format_grbl_jog(char axis, double target_mm, double feed_mm_min);
 
-// What a code means, and what to do about it.
+// What a code means and what to do about it.
 std::string grbl_error_text(int code);
 std::string grbl_alarm_text(int code);
 

@@ -1,6 +1,6 @@
 #include "rig/protocols/hx711_protocol.h"
 
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ bool is_unit(std::string_view text) {
   return std::any_of(kUnits.begin(), kUnits.end(), [&](const char* unit) { return word == unit; });
 }
 
-// "12.34 g" or "12.34g" or "12,34" or "nan" into line; false if it is none of these.
+// Reads "12.34 g", "12.34g", "12,34" or "nan" into line; false for anything else.
 bool read_value(std::string_view text, bool allow_comma, Hx711Line& line) {
   text = trimmed(text);
   if (text.empty()) return false;
@@ -77,7 +77,7 @@ std::optional<Hx711Line> parse_hx711_line(std::string_view text, bool has_clock)
     if (parts.size() > 2 && is_unit(parts[2])) line.unit = std::string(trimmed(parts[2]));
     return line;
   }
-  // "one reading:\t12.3\t| average:\t12.4": the first of the two.
+  // Of "one reading:\t12.3\t| average:\t12.4" the first number is taken.
   std::string_view rest = text.substr(0, text.find('|'));
   const std::size_t colon = rest.rfind(':');
   if (colon != std::string_view::npos) rest = rest.substr(colon + 1);
@@ -92,7 +92,7 @@ bool is_hx711_fault(std::string_view text) {
 }
 
 bool is_hx711_glitch(double counts, std::optional<double> previous_counts) {
-  constexpr double kLeast = 1023.0;  // shorter runs of ones are within the noise of any reading
+  constexpr double kLeast = 1023.0;  // shorter runs of ones are within the noise of a reading
   constexpr double kJump = 1000.0;
   if (!previous_counts || std::abs(counts - *previous_counts) < kJump) return false;
   if (counts == -1.0) return true;

@@ -1,7 +1,7 @@
 #include "rig/protocols/scpi_protocol.h"
 
+#include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
-#include "rig/protocols/text_number.h"
 
 #include <array>
 #include <cmath>
@@ -10,11 +10,12 @@ namespace viscard {
 namespace {
 
 constexpr double kOverload = 9.9e37;
-constexpr const char* kClear = "\x03";  // device clear: drops a measurement that was begun
+constexpr const char* kClear = "\x03";  // device clear: aborts a measurement in progress
 
-// RS-232 needs remote control first. 10 V covers the amplifier without autoranging, 1 power line
-// cycle is the quickest that rejects hum; no autozero, which halves the rate; nothing that would
-// answer, so that answers stay in step with questions.
+// On RS-232 remote control must be switched on first. The range of 10 V covers the amplifier
+// without autoranging, one power line cycle is the shortest integration that rejects hum, and
+// autozero would halve the rate. No line of the opening is answered, so that answers stay in step
+// with queries.
 const std::array<GaugeProtocol, 3>& dialects() {
   static const std::array<GaugeProtocol, 3> kRows{
       {{.name = "34401a",
@@ -49,7 +50,7 @@ GaugeProtocol scpi_protocol(const std::string& dialect) {
     known += (known.empty() ? "" : ", ") + row.name;
   }
   throw RigError("dialect '" + dialect +
-                 "' under [load_cell] of the rig file is unknown; there are " + known);
+                 "' under [load_cell] of the rig file is unknown; known are " + known);
 }
 
 std::optional<GaugeAnswer> parse_scpi_reading(std::string_view line) {

@@ -1,6 +1,6 @@
 #include "rig/protocols/zaber_protocol.h"
 
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@ std::string two_digits(int number) {
   return (number < 10 ? "0" : "") + std::to_string(number);
 }
 
-// The next word, taken off the front; blanks and tabs separate.
+// Removes the next word from the front; blanks and tabs separate words.
 std::string_view take_word(std::string_view& text) {
   constexpr std::string_view kBlank = " \t";
   const std::size_t first = text.find_first_not_of(kBlank);
@@ -39,7 +39,7 @@ std::optional<int> small_number(std::string_view word) {
   return static_cast<int>(*integer_from_text(word));
 }
 
-// Removes ":CC" from the end; false if it is there and wrong. Data never holds a colon.
+// Removes ":CC" from the end; false if the checksum is wrong. Data never contains a colon.
 bool take_checksum(std::string_view& text) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos) return true;
@@ -85,7 +85,7 @@ std::string format_zaber_command(int device, int axis, int id, std::string_view 
 }
 
 std::optional<ZaberMessage> parse_zaber_message(std::string_view line) {
-  // What a bad line drops in front of a message does not spoil it.
+  // Noise in front of a message does not matter.
   const std::size_t start = line.find_first_of("@#!");
   if (start == std::string_view::npos) return std::nullopt;
   ZaberMessage message;
@@ -102,7 +102,7 @@ std::optional<ZaberMessage> parse_zaber_message(std::string_view line) {
   if (message.kind != ZaberMessage::Kind::kAlert) {
     std::string_view after = rest;
     const std::string_view word = take_word(after);
-    // Two digits right behind the axis are the id; the words of a reply have letters.
+    // Two digits right after the axis are the id; the words of a reply are letters.
     if (word.size() == 2 && (message.id = small_number(word))) rest = after;
   }
   if (message.kind == ZaberMessage::Kind::kReply) {
@@ -149,14 +149,14 @@ std::string zaber_flag_text(std::string_view flag) {
 std::string zaber_rejection_text(std::string_view reason) {
   static constexpr std::array<Row, 9> kRows{
       {{"BADDATA", "a number out of range; check travel and limits"},
-       {"BADCOMMAND", "the firmware does not know it"},
+       {"BADCOMMAND", "the firmware does not know this command"},
        {"BADAXIS", "there is no such axis; check axis_number in the rig file"},
-       {"AGAIN", "not now"},
+       {"AGAIN", "not possible now; try again"},
        {"STATUSBUSY", "it is still moving"},
        {"PARKED", "it is parked; unpark it"},
-       {"DRIVERDISABLED", "its driver is off"},
+       {"DRIVERDISABLED", "its motor driver is off"},
        {"FULL", "its queue is full"},
-       {"DEVICEONLY", "only for the whole device"}}};
+       {"DEVICEONLY", "allowed for the whole device only"}}};
   return text_of(kRows, reason);
 }
 

@@ -8,8 +8,7 @@ namespace viscard {
 namespace {
 
 constexpr double kShare = 0.7;
-constexpr double kSureSigmas =
-    6.0;  // a response this far above noise says something of the stiffness
+constexpr double kSureSigmas = 6.0;  // a response above this many sigmas shows the stiffness
 
 }  // namespace
 
@@ -23,7 +22,8 @@ ForceControl::ForceControl(const Options& options) : options_(options) {
 double ForceControl::step_m(double force_N) {
   if (last_force_N_ && last_step_m_ != 0.0) {
     const double response_N = force_N - *last_force_N_;
-    // Relaxation takes from a response upward and adds to one downward: only the first is believed.
+    // Relaxation makes the response to a step toward the specimen too small and to a step away from
+    // it too large, so only the former is a lower bound of the stiffness.
     if (last_step_m_ > 0.0 && response_N > kSureSigmas * options_.noise_N) {
       options_.stiffness_N_m = std::max(options_.stiffness_N_m, response_N / last_step_m_);
     }

@@ -18,7 +18,7 @@ ForceGuard::ForceGuard(const SafetyConfig& safety, double capacity_N)
       rise_N_(kRiseFraction * capacity_N) {}
 
 GuardAction ForceGuard::take(double force_N, bool is_doubtful, double time_s, double period_s) {
-  const double load_N = std::abs(force_N);  // pulling harms the cell as well
+  const double load_N = std::abs(force_N);  // tension harms the cell as well
   if (is_doubtful) {
     if (doubtful_until_s_) return GuardAction::kHardStop;
     doubtful_until_s_ = time_s + kDoubtPeriods * period_s;

@@ -1,7 +1,7 @@
 #include "rig/run/preflight.h"
 
 #include "models/experiment/test_phases.h"
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace viscard {
 namespace {
 
-constexpr double kLinkDelay_s = 0.010;  // reading a line, deciding, writing a byte
+constexpr double kLinkDelay_s = 0.010;  // to read a line, decide and write a byte
 constexpr int kFewestRampReadings = 10;
 constexpr double kSlowestRate_Hz = 20.0;
 
@@ -31,7 +31,7 @@ void check_force(const RigConfig& rig, const std::vector<TestPhase>& phases, Pre
       phases.begin(), phases.end(),
       [&](const TestPhase& a, const TestPhase& b) { return force_N(a) < force_N(b); });
   const bool is_by_force = highest.force_N > 0.0;
-  // Rounded down, so that what is named is itself accepted.
+  // Rounded down, so that the value in the message is itself accepted.
   const std::string remedy =
       is_by_force ? text_from_number(std::floor(result.limit_N * 1e3) * 1e-3, 3) + " N or less"
                   : text_from_number(std::floor(result.deepest_safe_depth_m * 1e6) * 1e-3, 3) +
@@ -64,11 +64,11 @@ void check_rates(const RigConfig& rig, const std::vector<TestPhase>& phases, Pre
                               " readings. Raise " + phase.speed_key +
                               " of the test file for a better "
                               "instantaneous modulus");
-    return;  // one such line says enough
+    return;  // one such warning is enough
   }
 }
 
-// Of the phases that go to a depth in a given time.
+// The moves to a depth in a given time must not need more than the largest speed.
 void check_speeds(const std::vector<TestPhase>& phases, const StageDynamics& dynamics,
                   Preflight& result) {
   double before_m = 0.0;
@@ -86,7 +86,7 @@ void check_speeds(const std::vector<TestPhase>& phases, const StageDynamics& dyn
   }
 }
 
-// The largest speed whose overshoot, which grows with it, is within the room. Bisection.
+// The largest speed whose overshoot is within the room, by bisection; overshoot grows with speed.
 double fastest_m_s(const std::function<double(double)>& overshoot_N, double too_fast_m_s,
                    double room_N) {
   double low_m_s = 0.0;
@@ -98,12 +98,12 @@ double fastest_m_s(const std::function<double(double)>& overshoot_N, double too_
   return low_m_s;
 }
 
-// Where the test asks for less than the controller can do, it does what it can.
+// Warns of speeds below the smallest one that the controller can make.
 void check_slowness(const TestPlan& plan, const std::vector<TestPhase>& phases,
                     const StageDynamics& dynamics, Preflight& result) {
   const auto warn = [&](const std::string& what, double asked_m_s) {
     result.warnings.push_back("the stage moves no slower than " + in_mm(dynamics.min_speed_m_s) +
-                              "/s: " + what + " goes at that, not at " + in_mm(asked_m_s) +
+                              "/s: " + what + " goes at that speed, not at " + in_mm(asked_m_s) +
                               "/s. Use microstepping");
   };
   if (plan.approach_speed_m_s < dynamics.min_speed_m_s)
@@ -163,10 +163,9 @@ void check_rig_and_specimen(const RigConfig& rig, const Specimen& specimen) {
   const auto require = [](bool is_good, const std::string& text) {
     if (!is_good) throw std::invalid_argument(text);
   };
-  require(
-      specimen.modulus_guess_Pa > 0.0,
-      "the specimen has no modulus_guess: without it nobody knows what the cell will bear. Give "
-      "one, rather too high than too low");
+  require(specimen.modulus_guess_Pa > 0.0,
+          "the specimen has no modulus_guess: without it the force cannot be predicted. Give "
+          "one, rather too high than too low");
   require(rig.load_cell.expected_rate_Hz > 0.0, "expected_rate of the load cell must be positive");
   require(rig.safety.warn_fraction > 0.0 && rig.safety.soft_fraction > 0.0 &&
               rig.safety.hard_fraction >= rig.safety.soft_fraction &&

@@ -1,7 +1,6 @@
 #include "rig/run/run_conclusion.h"
 
 #include "models/maths/text_of_number.h"
-#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +9,12 @@
 namespace viscard {
 namespace {
 
-constexpr double kFlatForce = 0.2;  // of the expected peak: less is no specimen of that kind
-constexpr double kLongGap_s = 1.0;  // wall, in a stream of readings
+constexpr double kFlatForce = 0.2;  // of the expected peak: below it the punch hardly pressed
+constexpr double kLongGap_s = 1.0;  // wall time without a reading
 constexpr double kLongGapPeriods = 20.0;
 
-// A stage that lost its steps reports the depth it was told; only the force shows that it is not
-// there.
+// A stage that has lost steps still reports the commanded depth; only the force shows that the
+// punch is not there.
 void doubt_flat_force(RunSession& session, RunOutcome& outcome) {
   const double expected_N = outcome.expected.peak_force_N;
   if (outcome.status != "finished" || outcome.peak_force_N > kFlatForce * expected_N) return;
@@ -26,10 +25,11 @@ void doubt_flat_force(RunSession& session, RunOutcome& outcome) {
   session.event("doubt", "force_flat", outcome.doubts.back());
 }
 
-// Bare counts do not tell whether the amplifier has lost its tare in a long pause.
+// A stream of bare counts does not show whether the amplifier restarted in a long pause, and lost
+// its tare.
 void doubt_gap(RunSession& session, RunOutcome& outcome, double most_s) {
   if (outcome.status != "finished" || outcome.stream.longest_gap_s < most_s) return;
-  // What was only held up has come since.
+  // Readings that were only delayed have arrived since.
   if (static_cast<double>(outcome.stream.missing) * session.load_cell().period_s() < 0.5 * most_s) {
     return;
   }
@@ -40,34 +40,34 @@ void doubt_gap(RunSession& session, RunOutcome& outcome, double most_s) {
   session.event("doubt", "gap", outcome.doubts.back());
 }
 
-// Text carries no check sum. Lines that are no reading show that the line is disturbed, and then
-// some that are one are wrong as well: of the 80 ways to flip one bit of a digit 30 make another
-// digit, so that for every line that could not be read .6 could; and of the digits of a count the
-// lower ones, about half, change it by less than stands out.
+// Text carries no checksum, so an unreadable line means that some readable ones are wrong as well.
+// A digit has 80 single-bit errors, of which 30 make another digit: for each unreadable line expect
+// 0.6 readable errors. For each marked reading expect one more error too small to stand out,
+// because about half of the digits of a count are below that threshold.
 void doubt_line(RunSession& session, RunOutcome& outcome) {
   constexpr double kReadableToNot = 30.0 / 50.0;
   const StreamCounts& stream = outcome.stream;
   if (stream.unreadable + stream.implausible == 0) return;
   const double n_hidden = std::ceil(kReadableToNot * static_cast<double>(stream.unreadable) +
                                     static_cast<double>(stream.implausible));
-  outcome.doubts.push_back(
-      counted(static_cast<std::size_t>(stream.unreadable), "line") +
-      " of the load cell could not be read and " +
-      counted(static_cast<std::size_t>(stream.implausible), "reading") +
-      " stood out of the neighbours (these are left out of a fit): about " +
-      text_from_number(n_hidden, 0) +
-      " more readings may be wrong by less than can be told, some 8 times the noise. Check its "
-      "cable and its ground");
+  outcome.doubts.push_back(counted(static_cast<std::size_t>(stream.unreadable), "line") +
+                           " of the load cell could not be read and " +
+                           counted(static_cast<std::size_t>(stream.implausible), "reading") +
+                           " stood out of the neighbours (these are left out of a fit): about " +
+                           text_from_number(n_hidden, 0) +
+                           " more readings may be wrong by less than can be detected, about 8 "
+                           "times the noise. Check its "
+                           "cable and its ground");
   session.event("doubt", "line_noise", outcome.doubts.back());
 }
 
-// Every record says how far its readings have been looked at, also where nothing spoke against it.
-void say_what_can_hide(RunSession& session, RunOutcome& outcome) {
+// Every record says which errors would have been detected, even if none was found.
+void record_hidden_error(RunSession& session, RunOutcome& outcome) {
   if (outcome.noise_N <= 0.0) return;  // ended before the noise was measured
   outcome.hidden_error_N = SpikeWatch::kSurelyFound * outcome.noise_N;
   session.event(
       "checked", text_from_number(outcome.hidden_error_N, 6),
-      "The line carries no check sum: readings were held against their neighbours, "
+      "The line carries no checksum: readings were compared with their neighbours, "
       "which shows errors above " +
           text_from_number(outcome.hidden_error_N * 1e3, 3) +
           " mN at rest, and above twice the step between readings on a ramp; of the first "
@@ -80,9 +80,9 @@ void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock) {
   outcome.peak_force_N = session.peak_force_N();
   outcome.stream = session.load_cell().counts();
   try {
-    session.finish_watching();
+    session.finish_marking();
     outcome.stream.implausible += session.n_implausible();
-    say_what_can_hide(session, outcome);
+    record_hidden_error(session, outcome);
     doubt_line(session, outcome);
     doubt_flat_force(session, outcome);
     doubt_gap(
@@ -96,10 +96,10 @@ void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock) {
   }
 }
 
-std::string what_was_done(double lifted_m) {
+std::string lift_text(double lifted_m) {
   return lifted_m > 0.0 ? ". The stage was stopped and lifted by " +
                               text_from_number(lifted_m * 1e3, 3) + " mm"
-                        : ". The stage was told to stop; it was not lifted";
+                        : ". The stage was stopped; it was not lifted";
 }
 
 }  // namespace viscard

@@ -8,11 +8,11 @@
 
 namespace viscard {
 
-// Fills in what the whole run amounts to, adds doubts about a finished one, and says how it ended,
-// without hiding the reason when even that cannot be written any more.
+// Fills in the totals of a run, adds the doubts about a finished one, and records how it ended. If
+// that cannot be recorded any more, the outcome still carries the reason for the early end.
 void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock);
 
-// A sentence on what was done to a stage whose run was ended by the force.
-std::string what_was_done(double lifted_m);
+// The sentence on how far the punch was lifted, for the reason of a run that a force ended.
+std::string lift_text(double lifted_m);
 
 }  // namespace viscard

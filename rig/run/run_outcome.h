@@ -9,23 +9,23 @@
 
 namespace viscard {
 
-// How a run ended and what it amounts to.
+// How a run ended and what it measured.
 struct RunOutcome {
-  std::string
-      status;  // "finished" | "interrupted" (asked to, or a device was lost) | "stopped" (a limit)
-  std::string reason;  // why it did not finish, and what next; empty if it did
+  // "finished" | "interrupted" (by a person or a lost device) | "stopped" (by a force limit)
+  std::string status;
+  std::string reason;  // why it did not finish and what to do; empty if it did
   Preflight expected;
-  double noise_N = 0.0;  // of one reading, out of contact
-  // A garbled digit that changes a reading by less than this can hide between its neighbours; on a
-  // ramp, by less than twice the step between readings too; in the first five and the last two, by
-  // up to twice as much.
+  double noise_N = 0.0;  // standard deviation of one reading out of contact
+  // A garbled digit that changes a reading by less than this is not detected at rest. On a ramp,
+  // errors below twice the step between readings are not detected either; in the first five and the
+  // last two readings the threshold is up to twice as high.
   double hidden_error_N = 0.0;
-  bool has_begun = false;  // anything was moved: else the record says nothing of the specimen
-  std::optional<double> contact_position_m;  // live estimate; the fit finds it better
+  bool has_begun = false;  // the stage was moved; otherwise nothing is known of the specimen
+  std::optional<double> contact_position_m;  // live estimate; the fit finds a better one
   double peak_force_N = 0.0;
-  double achieved_depth_m = 0.0;  // the deepest, by that estimate
+  double achieved_depth_m = 0.0;  // largest depth by the live estimate
   StreamCounts stream;
-  std::vector<std::string> doubts;  // what speaks against the record although the run finished
+  std::vector<std::string> doubts;  // reasons to distrust the record of a finished run
 };
 
 }  // namespace viscard

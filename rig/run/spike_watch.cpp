@@ -6,24 +6,24 @@
 namespace viscard {
 namespace {
 
-constexpr std::size_t kSide = 5;    // readings a line is laid through
+constexpr std::size_t kSide = 5;    // readings to which a line is fitted
 constexpr std::size_t kFirst = 32;  // readings judged together
-constexpr std::size_t kRing = 256;  // distances remembered
-constexpr std::size_t kRenew = 16;  // distances between two medians
+constexpr std::size_t kRing = 256;  // distances kept
+constexpr std::size_t kRenew = 16;  // new distances before the median is computed again
 constexpr double kSigmas = 6.3;
-constexpr double kFewMore = 40.0;      // added to them, shared by the readings known
+constexpr double kFewMore = 40.0;      // over the number of known distances: added to kSigmas
 constexpr double kPerMedian = 1.4826;  // standard deviation over median of |normal|
-// Standard deviations of the distance of a reading from its foretold value, in units of one
-// reading's: from the mean of ten neighbours (1 + 1/10), and from one line (1 + 1/5 + 9/10).
+// Standard deviation of the distance between a reading and its prediction, over that of one
+// reading: for the mean of ten neighbours sqrt(1 + 1/10), for one line sqrt(1 + 1/5 + 9/10).
 constexpr double kOfBoth = 1.049;
 constexpr double kOfOne = 1.449;
 constexpr double kRounded = 0.5;
 constexpr double kEarlyOrLate = 0.25;
-constexpr double kLikely = 3.0;      // times the noise: neighbours further off are left out
+constexpr double kLikely = 3.0;      // times the noise: neighbours further away are left out
 constexpr double kNoisySlope = 1.0;  // per reading, in units of one reading's noise
 constexpr double kStaircase = 2.0;   // times the scatter of the neighbours about their line
-constexpr double kAtTheEnd = 1.5;    // where only one side is known
-constexpr double kTurned = 2.5;      // of the slope there: a corner may lie between
+constexpr double kAtTheEnd = 1.5;    // if only one side is known
+constexpr double kTurned = 2.5;      // times the slope, for a corner that may lie between
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -66,8 +66,8 @@ std::vector<std::int64_t> SpikeWatch::judge_until(std::size_t end) {
   return found;
 }
 
-// What the readings on one side foretell for the one at `at`; spikes found before do not count.
-SpikeWatch::Line SpikeWatch::foretold(std::size_t at, int direction) const {
+// What the readings on one side predict for the one at `at`; spikes found before are left out.
+SpikeWatch::Line SpikeWatch::predicted(std::size_t at, int direction) const {
   std::array<std::size_t, kSide> side{};
   std::size_t n = 0;
   for (std::size_t k = 1; k <= kSide; ++k) {
@@ -95,7 +95,7 @@ SpikeWatch::Line SpikeWatch::foretold(std::size_t at, int direction) const {
   }
   line.value = median(numbers);
   for (double& number : numbers) number = std::abs(number - line.value);
-  // The largest but one: one spoilt reading must not count.
+  // The second largest, so that one bad reading does not count.
   std::nth_element(numbers.begin(), numbers.end() - 2, numbers.end());
   line.scatter = *(numbers.end() - 2);
   line.is_known = true;
@@ -113,8 +113,8 @@ bool SpikeWatch::lies_between(std::size_t at, double slack) const {
 }
 
 bool SpikeWatch::judge(std::size_t at) {
-  const Line before = foretold(at, -1);
-  const Line behind = foretold(at, 1);
+  const Line before = predicted(at, -1);
+  const Line behind = predicted(at, 1);
   if (!before.is_known && !behind.is_known) return false;
   const double sigmas =
       kSigmas + kFewMore / static_cast<double>(std::max(n_learnt_, std::size_t{1}));
@@ -125,19 +125,19 @@ bool SpikeWatch::judge(std::size_t at) {
     return std::abs(value - line.value) > kAtTheEnd * one + kTurned * std::abs(line.slope);
   }
   const double slope = std::max(std::abs(before.slope), std::abs(behind.slope));
-  // What noise alone makes of slopes asks for no allowance.
+  // Slopes that noise alone can make need no allowance.
   const double corner =
       std::max(0.0, std::abs(before.slope - behind.slope) - kNoisySlope * noise());
   const double ramp = std::max(0.0, slope - kNoisySlope * noise());
-  // The single steps of a coarse stage make a staircase of a ramp.
+  // The single steps of a coarse stage turn a ramp into a staircase.
   const double scatter =
       std::max(0.0, std::max(before.scatter, behind.scatter) - kLikely * noise());
   const double slack = kRounded * corner + kEarlyOrLate * ramp + kStaircase * scatter;
-  // On the way a reading between those beside it is none: a staircase never turns back.
+  // On a ramp a reading between its two neighbours is no spike: a staircase never turns back.
   if (slope > kLikely * noise() && lies_between(at, kLikely * noise())) return false;
   const double apart = std::abs(before.value - behind.value);
   const double middle = 0.5 * (before.value + behind.value);
-  // Two lines of pure noise are seldom further apart than this.
+  // Two lines through pure noise are seldom further apart than this.
   const bool do_agree = apart < 4.0 * noise();
   const double distance = std::abs(
       value - (do_agree ? mean_around(at, middle, 0.5 * (before.slope + behind.slope)) : middle));
@@ -147,7 +147,7 @@ bool SpikeWatch::judge(std::size_t at) {
   return is_spike;
 }
 
-// Of the neighbours on both sides, brought to the place of the one at `at` along the slope.
+// Mean of the neighbours on both sides, shifted along the slope to the place of the one at `at`.
 double SpikeWatch::mean_around(std::size_t at, double middle, double slope) const {
   double sum = 0.0;
   int n = 0;
@@ -161,7 +161,7 @@ double SpikeWatch::mean_around(std::size_t at, double middle, double slope) cons
   return n > 0 ? sum / n : middle;
 }
 
-// A ring of the last distances; its median is renewed now and then.
+// Keeps the last distances and computes their median again after every kRenew of them.
 void SpikeWatch::learn(double distance) {
   if (distances_.size() < kRing) {
     distances_.push_back(distance);
@@ -175,10 +175,10 @@ void SpikeWatch::learn(double distance) {
   usual_ = kPerMedian * median(sorted);
 }
 
-// Nothing is known yet: every reading's distance counts, and the median leaves out the spoilt ones.
+// At first every distance counts, because nothing is known yet; the median ignores the bad ones.
 void SpikeWatch::learn_first() {
   for (std::size_t at = kSide; at + kSide < readings_.size(); ++at) {
-    const double middle = 0.5 * (foretold(at, -1).value + foretold(at, 1).value);
+    const double middle = 0.5 * (predicted(at, -1).value + predicted(at, 1).value);
     distances_.push_back(std::abs(readings_[at].value - middle) / kOfBoth);
   }
   n_learnt_ = distances_.size();

@@ -8,33 +8,34 @@
 
 namespace viscard {
 
-// Finds readings that their neighbours contradict: a digit garbled on the wire that still makes a
-// number, which nothing else in a stream of bare counts can show.
+// Finds readings that their neighbours contradict, for instance because of a digit that was garbled
+// on the wire and still makes a number. Nothing else in a stream of bare counts can show that.
 //
-// A straight line is laid through the five readings before and another through the five behind
-// (median of slopes: Theil 1950, Sen, J. Am. Stat. Assoc. 63 (1968) 1379), so that one spoilt
-// reading on either side does not move it; a reading is a spike if it lies outside of what the two
-// lines foretell for it. A corner, a step and every reading on the way of a quick move lie between
-// the two. Where the lines agree, the mean of all ten is foretold, and 6.3 robust standard
-// deviations are allowed, 8 at the beginning; where they do not, a line's own uncertainty, half of
-// their difference in slope (a corner may be rounded), and a quarter of the slope itself (a reading
-// may have been made that much early or late), besides, and twice what neighbours lie off their
-// line beyond noise: a coarse stage makes a staircase of a ramp, on which a reading between the two
-// beside it is never a spike. The noise is the median distance of the
-// last 256 readings. Judged five readings later; the first 32 together.
+// One straight line is fitted to the five readings before and one to the five after (median of the
+// slopes: Theil 1950; Sen, J. Am. Stat. Assoc. 63 (1968) 1379), so that one bad reading on either
+// side does not move it. A reading is a spike if it lies outside the range that the two lines
+// predict; corners, steps and readings during a quick move lie within that range.
+// - If the lines agree, the prediction is the mean of all ten readings. Allowed are 6.3 robust
+//   standard deviations, 8 at the beginning of the stream.
+// - If they do not agree, the allowance also contains the uncertainty of one line, half of the
+//   difference in slope (a corner may be rounded), a quarter of the slope (a reading may have been
+//   made early or late), and twice the scatter of the neighbours about their line beyond noise. A
+//   coarse stage turns a ramp into a staircase; there a reading between its two neighbours is never
+//   a spike.
+// The noise is the median distance of the last 256 readings. A reading is judged five readings
+// later, the first 32 together.
 class SpikeWatch {
  public:
-  // An error of a reading this many times the noise is surely found at rest; at 10 times, 99 of
-  // 100.
+  // At rest an error of this many times the noise is always found; of 10 times, in 99 of 100 cases.
   static constexpr double kSurelyFound = 12.0;
 
-  // least: what noise counts as at least; without it half of the smallest step between readings.
+  // least: lower bound of the noise; 0 stands for half of the smallest step between readings.
   explicit SpikeWatch(double least = 0.0) : least_(least) {}
 
-  // Takes a reading in any unit at a place (its number, or its time in periods) that only grows;
-  // returns the indices of earlier ones that were spikes.
+  // value in any unit; place: the reading's number, or its time in periods, ascending. Returns the
+  // indices of earlier readings that turned out to be spikes.
   std::vector<std::int64_t> take(std::int64_t index, double place, double value);
-  // No reading follows: judges what is left, by fewer neighbours.
+  // Call after the last reading: judges the remaining ones by fewer neighbours.
   std::vector<std::int64_t> finish();
 
  private:
@@ -48,7 +49,7 @@ class SpikeWatch {
     double value = 0.0, slope = 0.0, scatter = 0.0;
     bool is_known = false;
   };
-  Line foretold(std::size_t at, int direction) const;
+  Line predicted(std::size_t at, int direction) const;
   double mean_around(std::size_t at, double middle, double slope) const;
   bool lies_between(std::size_t at, double slack) const;
   bool judge(std::size_t at);
@@ -58,13 +59,13 @@ class SpikeWatch {
   double noise() const;
 
   double least_;
-  double least_step_ = 0.0;          // smallest between two readings that is not 0
+  double least_step_ = 0.0;          // smallest difference between two readings that is not 0
   std::deque<Reading> readings_;     // oldest first
-  std::size_t next_ = 0;             // of them: not yet judged
-  std::vector<double> distances_{};  // the last of them, as a ring
+  std::size_t next_ = 0;             // the first reading that is not yet judged
+  std::vector<double> distances_{};  // ring buffer of the last ones
   std::size_t ring_at_ = 0;
   std::size_t n_learnt_ = 0;
-  double usual_ = 0.0;  // standard deviation of a distance, robust
+  double usual_ = 0.0;  // robust standard deviation of a distance
 };
 
 }  // namespace viscard

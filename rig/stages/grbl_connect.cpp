@@ -1,5 +1,5 @@
-// The conversations of GrblStage that wait for answers: opening, settings, recovery.
-#include "rig/protocols/text_number.h"
+// The exchanges of GrblStage that wait for answers: connecting, settings, recovery.
+#include "models/maths/text_of_number.h"
 #include "rig/stages/grbl_stage.h"
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 constexpr double kBoot_wall_s = 3.0;     // bootloader of an AVR board and the firmware's start
 constexpr double kSettle_wall_s = 0.05;  // messages that follow a welcome
 constexpr double kReset_wall_s = 1.5;    // from a soft reset to the welcome
-constexpr int kResets = 3;               // one is lost when an alarm is just being told
+constexpr int kResets = 3;               // one is lost while an alarm is being reported
 constexpr int kMostReadings = 4;         // of the settings, until two agree
 
 }  // namespace
@@ -38,8 +38,8 @@ void GrblStage::command(const std::string& line, const Pump& pump, double timeou
   }
 }
 
-// Many boards reset when their port is opened and say so within seconds; those that do not are
-// asked to by a soft reset, which at rest keeps the position.
+// Many boards reset when their port is opened and send a welcome within seconds. The others get a
+// soft reset, which at rest keeps the position.
 void GrblStage::await_welcome(const Pump& pump) {
   const auto is_there = [&] { return !awaits_welcome_; };
   bool is_welcome = wait_for(is_there, pump, kBoot_wall_s);
@@ -60,14 +60,14 @@ void GrblStage::ask_position(const Pump& pump) {
   const std::size_t before = n_reports_;
   polls_ = true;
   next_poll_s_ = clock_.now_s();
-  // Work positions come without their offset up to 30 times in a row.
+  // Up to 30 reports in a row have work positions without their offset.
   if (!wait_for([&] { return n_reports_ > before; }, pump, 8.0)) {
     throw RigError("the stage on '" + transport_.name() + "' does not report its position. " +
                    "Set $10=1 on it, and check its firmware is GRBL 1.1 or grblHAL");
   }
 }
 
-// Read until two readings agree: one garbled digit would spoil every move.
+// Reads the settings until two readings agree: one garbled digit would falsify every move.
 void GrblStage::read_settings(const Pump& pump) {
   std::map<int, double> before;
   for (int i = 0; i < kMostReadings; ++i) {
@@ -93,15 +93,15 @@ void GrblStage::unlock(const Pump& pump) {
        "The stage was unlocked without homing; positions count from where it stood");
 }
 
-// What follows a welcome: settings, homing or unlocking, position.
+// The exchange after a welcome: settings, homing or unlocking, position.
 void GrblStage::converse(const Pump& pump) {
   wait_for([] { return false; }, pump, kSettle_wall_s);
   ask_position(pump);
   if (state_ == "Hold") send_realtime(grbl::kResume);
   read_settings(pump);
-  ask_position(pump);  // in the unit that the settings name
+  ask_position(pump);  // again, in the unit that the settings name
   if (config_.home) {
-    polls_ = false;  // homing answers no '?'
+    polls_ = false;  // while homing, no '?' is answered
     forget_questions();
     command("$H", pump, 180.0);
     ask_position(pump);
@@ -112,9 +112,9 @@ void GrblStage::converse(const Pump& pump) {
 }
 
 void GrblStage::connect(const Pump& pump) {
-  is_recovering_ = true;  // a second welcome or an alarm left over surprises nobody yet
+  is_recovering_ = true;  // a second welcome, or an alarm from before, is no error yet
   await_welcome(pump);
-  // A board that resets late says so in the middle of the conversation, which then begins anew.
+  // A board that resets late sends another welcome during the exchange, which then starts again.
   for (int i = 0; i <= kResets; ++i) {
     const int n_welcomes = n_welcomes_;
     try {
@@ -135,13 +135,13 @@ void GrblStage::connect(const Pump& pump) {
   is_recovering_ = false;
 }
 
-// After a critical alarm nothing but a reset is heard; after stop_hard() one has been sent already.
+// After a critical alarm the controller accepts only a reset; stop_hard() has already sent one.
 void GrblStage::recover(const Pump& pump) {
   const bool has_reset = is_recovering_;
   is_recovering_ = true;
   polls_ = false;
   forget_questions();
-  const auto cut_short = std::exchange(active_, std::nullopt);  // not to be waited for any more
+  const auto cut_short = std::exchange(active_, std::nullopt);  // nothing waits for it any more
   const auto is_there = [&] { return !awaits_welcome_; };
   bool is_welcome = has_reset && wait_for(is_there, pump, kReset_wall_s);
   for (int i = 0; i < kResets && !is_welcome; ++i) {

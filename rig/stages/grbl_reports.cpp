@@ -1,6 +1,6 @@
-// What GrblStage makes of position reports: when to ask, which question an answer belongs to, and
-// whether a move goes where it was told and ends.
-#include "rig/protocols/text_number.h"
+// How GrblStage uses position reports: when to ask, which question a report answers, whether a move
+// stays on its path, and when it has ended.
+#include "models/maths/text_of_number.h"
 #include "rig/stages/grbl_stage.h"
 
 #include <algorithm>
@@ -11,13 +11,13 @@ namespace viscard {
 namespace {
 
 constexpr double kStatusTimeout_wall_s = 0.25;
-constexpr double kForgetQuestion_wall_s = 1.0;  // an answer later than that is none
-constexpr double kTimesPrompt = 4.0;            // the mean answer is that far below the timeout
-constexpr int kMostMisses = 20;                 // times 250 ms without any report: it is not there
-constexpr double kPollMoving_s = 0.1;  // rig time; the firmware asks for at most 5 to 10 Hz
+constexpr double kForgetQuestion_wall_s = 1.0;  // no answer is expected after this time
+constexpr double kTimesPrompt = 4.0;            // timeout over the mean time of prompt answers
+constexpr int kMostMisses = 20;                 // times 250 ms without any report: it is gone
+constexpr double kPollMoving_s = 0.1;  // rig time; the firmware recommends at most 5 to 10 Hz
 constexpr double kPollResting_s = 0.2;
 constexpr int kMostRestsElsewhere = 3;
-constexpr int kMostAstray = 2;  // one such report may be a garbled digit
+constexpr int kMostAstray = 2;  // a single one may have a garbled digit
 constexpr double kNudge_wall_s = 0.7;
 constexpr double kNoAnswer_wall_s = 5.0;
 constexpr double kNoProgress_wall_s = 5.0;
@@ -32,11 +32,11 @@ std::optional<double> GrblStage::reported_position_m(const GrblStatus& status) {
   if (i < status.work_mm.size() && i < work_offset_mm_.size()) {
     return toward_ * (status.work_mm[i] + work_offset_mm_[i]) * mm * 1e-3;
   }
-  return std::nullopt;  // work positions whose offset has not come yet
+  return std::nullopt;  // a work position whose offset is not known yet
 }
 
-// When the question that this report answers was asked: the oldest that is still open, since a
-// report cannot be older than that. Nothing for a report that nobody asked for.
+// The time of the question that this report answers: the oldest open one, because the report cannot
+// be older than that. Nothing for an unasked report.
 std::optional<double> GrblStage::question_answered(double time_s) {
   if (asked_s_.empty()) return std::nullopt;
   const double asked_s = asked_s_.front();
@@ -80,14 +80,14 @@ void GrblStage::follow_move(double asked_s, double received_s) {
   }
   if (!active.is_stopping) active.tracker.reported(asked_s, received_s, reported_m_);
   watch_way();
-  // An Idle that may be older than the ok says nothing about this move.
+  // An Idle that may be older than the ok is no proof that this move has ended.
   if (state_ != "Idle" || !active.has_ok || asked_s < active.ok_s) return;
   const double target_m = active.tracker.move().to_m;
   if (std::abs(reported_m_ - target_m) <= resolution_m()) return end_move(target_m);
   rest_elsewhere(asked_s);
 }
 
-// A line garbled on its way to the controller can be a valid one for another place.
+// A line garbled on its way to the controller can be a valid jog to another position.
 void GrblStage::watch_way() {
   const StageMove& move = active_->tracker.move();
   const double low_m = std::min(move.from_m, move.to_m) - 2.0 * resolution_m();
@@ -101,7 +101,7 @@ void GrblStage::watch_way() {
   stop_hard();
   throw StageAlarm("the stage was sent to " + text_from_number(move.to_m * 1e3, 3) +
                    " mm and is at " + text_from_number(reported_m_ * 1e3, 3) +
-                   " mm, outside its way: it was stopped at once. Check its cable for "
+                   " mm, outside of its path: it was stopped at once. Check its cable for "
                    "interference, then start the run again");
 }
 
@@ -109,7 +109,7 @@ void GrblStage::rest_elsewhere(double asked_s) {
   ActiveMove& active = *active_;
   if (active.is_stopping) {
     if (asked_s < active.stop_s) return;
-    // Twice the same: one report can be garbled, and this one is what is remembered.
+    // Two equal reports are wanted, because one can be garbled and this position is kept.
     const bool is_sure = active.stood_m && *active.stood_m == reported_m_;
     active.stood_m = reported_m_;
     next_poll_s_ = clock_.now_s();
@@ -120,10 +120,11 @@ void GrblStage::rest_elsewhere(double asked_s) {
   const double target_m = active.tracker.move().to_m;
   active_.reset();
   exact_m_.reset();
-  throw RigError("the stage stands at " + text_from_number(reported_m_ * 1e3, 3) +
-                 " mm and did not reach " + text_from_number(target_m * 1e3, 3) +
-                 " mm. Look for an obstacle or a limit; a hold button pressed in a move ends it "
-                 "likewise. Then start the run again");
+  throw RigError(
+      "the stage stands at " + text_from_number(reported_m_ * 1e3, 3) + " mm and did not reach " +
+      text_from_number(target_m * 1e3, 3) +
+      " mm. Look for an obstacle or a limit switch, or for somebody who pressed the hold "
+      "button. Then start the run again");
 }
 
 void GrblStage::end_move(double end_m) {
@@ -139,18 +140,18 @@ void GrblStage::hand_out(const ActiveMove& ended, double end_m) {
   if (const int n = ended.tracker.n_contradictions(); n >= 2) {
     note(clock_.now_s(), "move_doubtful", ended.purpose,
          std::to_string(n) +
-             " position reports do not agree with the speed and acceleration that "
-             "the controller's settings promise: the move was slower or faster");
+             " position reports do not agree with the speed and acceleration in "
+             "the controller's settings: the move was slower or faster");
   }
   sink_(commanded);
 }
 
-// True while the newest question may still be answered. One that was not in time is counted.
+// True while the newest question may still be answered; counts one that was not answered in time.
 bool GrblStage::awaits_report(double now_s) {
   if (asked_s_.empty()) return false;
   if (now_s - asked_s_.back() <= clock_.from_wall_s(kStatusTimeout_wall_s)) return true;
-  // As many answers as questions are missing from a line that answers promptly: the answer credited
-  // to an older question was this one's. From here on the two count in step again.
+  // On a line with prompt answers, the report that was taken for the answer to an older question
+  // answered this one, and the older one was lost. From here on questions and answers match again.
   const bool is_prompt = latency_.n > 0 && kTimesPrompt * latency_.mean_s < kStatusTimeout_wall_s;
   if (is_answered_since_ && is_prompt) {
     latency_.n_lost += static_cast<int>(asked_s_.size());
@@ -182,20 +183,20 @@ void GrblStage::poll_status() {
   is_answered_since_ = false;
   is_last_missed_ = false;
   next_poll_s_ = now_s + (active_ ? kPollMoving_s : kPollResting_s);
-  // Just after the expected end, so that standstill is noticed without delay.
+  // Asks just after the expected end, so that standstill is noticed without delay.
   if (active_ && expected_end_s_ > now_s) {
     next_poll_s_ = std::min(next_poll_s_, expected_end_s_ + 2e-3);
   }
 }
 
-// A jog cancel that arrives in the very moment a jog ends, or a disturbed line, can leave GRBL in
-// a hold although it says Idle: it then answers reports but takes no line until '~', which does
-// nothing otherwise (gnea/grbl protocol.c, protocol_exec_rt_system).
+// A jog cancel that arrives at the moment when a jog ends, or a disturbed line, can leave GRBL in a
+// hold although it reports Idle: it then answers '?' but no line until '~', which otherwise does
+// nothing (gnea/grbl protocol.c, protocol_exec_rt_system).
 void GrblStage::nudge(double now_s) {
   if (active_->is_nudged || state_ != "Idle") return;
   active_->is_nudged = true;
   send_realtime(grbl::kResume);
-  note(now_s, "stage_nudged", "", "A move stayed unanswered at Idle; the stage was told to go on");
+  note(now_s, "stage_nudged", "", "A move stayed unanswered at Idle; the stage was sent a resume");
 }
 
 void GrblStage::watch_deadlines(double now_s) {
@@ -211,7 +212,7 @@ void GrblStage::watch_deadlines(double now_s) {
   }
   const double due_s = expected_end_s_ + 0.5 * duration_s(active_->tracker.move());
   const double patience_s = clock_.from_wall_s(patience_ * kNoProgress_wall_s);
-  // A slow controller may take its time as long as it gets on.
+  // A slow controller is waited for as long as its position changes.
   if (now_s > due_s + patience_s && now_s > active_->progress_s + patience_s) {
     throw RigError("the stage should have come to rest " +
                    text_from_number(now_s - expected_end_s_, 1) +

@@ -1,6 +1,6 @@
 #include "rig/stages/grbl_stage.h"
 
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 #include "rig/stages/travel_limit.h"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ double GrblStage::setting(int number, double otherwise) const {
 
 // gnea/grbl moves no slower than 1 mm/min (config.h, MINIMUM_FEED_RATE), and no slower than one
 // step in 8 periods of a 16-bit timer at 16 MHz (stepper.c: cycles_per_tick at AMASS level 3).
-// grblHAL runs on other processors.
+// grblHAL runs on other processors and has no such limit.
 double GrblStage::least_speed_m_s() const {
   if (is_hal_) return 0.0;
   constexpr double kLeastFeed_m_s = 1e-3 / 60.0;
@@ -57,7 +57,7 @@ StageDynamics GrblStage::dynamics() const {
   StageDynamics found{setting(100 + axis_, 0.0) * 1e3, setting(120 + axis_, 0.0) * 1e-3,
                       setting(110 + axis_, 0.0) / 60e3, least_speed_m_s()};
   // With $20=1 a target outside of 0 to -$130 is refused (system.c, system_check_travel_limits).
-  // grblHAL can count from the other end.
+  // grblHAL may count from the other end, so it is not checked here.
   if (setting(20, 0.0) != 0.0 && !is_hal_) {
     const double far_m = -toward_ * setting(130 + axis_, 0.0) * 1e-3;
     found.lowest_m = std::min(0.0, far_m);
@@ -66,7 +66,7 @@ StageDynamics GrblStage::dynamics() const {
   return found;
 }
 
-// Reports carry three decimals of a mm ($13=1: four of an inch), and the motor stands within half a
+// Reports have three decimals of a mm ($13=1: four of an inch), and the motor stands within half a
 // step of its count.
 double GrblStage::resolution_m() const {
   const double decimals_m = setting(13, 0.0) != 0.0 ? 1.27e-6 : 0.5e-6;
@@ -92,7 +92,7 @@ void GrblStage::service() {
   const Chunk chunk = transport_.read_available();
   if (!chunk.bytes.empty()) {
     sink_(RawBytes{Device::kStage, false, chunk.time_s, chunk.bytes});
-    // No wire time is taken off: a report bounds a move's start, and the stamp is the sure bound.
+    // No wire time is subtracted: a report bounds the start of a move, and only the stamp is safe.
     splitter_.feed(chunk.bytes, chunk.time_s);
   }
   while (const auto line = splitter_.next()) take_line(*line);
@@ -103,7 +103,7 @@ void GrblStage::take_line(const ReceivedLine& line) {
   if (const auto welcome = parse_grbl_welcome(line.text)) {
     return take_welcome(*welcome, line.time_s);
   }
-  if (!is_connected_) return;  // the past of a controller that had not yet started
+  if (!is_connected_) return;  // sent before the controller started
   if (const auto status = parse_grbl_status(line.text)) return take_status(*status, line.time_s);
   if (is_grbl_ok(line.text)) return take_answer(std::nullopt, line.time_s);
   if (const auto error = parse_grbl_error(line.text)) return take_answer(*error, line.time_s);
@@ -113,14 +113,14 @@ void GrblStage::take_line(const ReceivedLine& line) {
   } else if (const auto message = parse_grbl_message(line.text)) {
     note(line.time_s, "stage_message", *message, "The stage says: " + *message);
   } else if (!is_grbl_push(line.text)) {
-    note(line.time_s, "stage_unreadable", line.text, "A line from the stage makes no sense");
+    note(line.time_s, "stage_unreadable", line.text, "A line from the stage could not be read");
   }
 }
 
 void GrblStage::take_answer(std::optional<int> error, double time_s) {
   if (pending_.empty()) {
     note(time_s, "stage_unexpected_answer", error ? std::to_string(*error) : "ok",
-         "An answer from the stage that no line had asked for was ignored");
+         "An answer from the stage to no open line was ignored");
     return;
   }
   const Pending answered = std::move(pending_.front());
@@ -130,7 +130,7 @@ void GrblStage::take_answer(std::optional<int> error, double time_s) {
     active_->ok_s = time_s;
     active_->tracker.acknowledged(time_s);
     expected_end_s_ = active_->tracker.latest_end_s();
-    // A cancel that overtook its jog on the wire was not heard.
+    // A cancel that arrived before its jog had no effect, so it is sent again.
     if (active_->is_stopping) stop_soft();
   }
   if (!error) return;
@@ -176,7 +176,7 @@ void GrblStage::begin_move(double to_m, double speed_m_s, const std::string& pur
   if (start_m_) check_travel(to_m, *start_m_, config_.travel_m);
   expected_end_s_ = clock_.now_s();
   if (std::abs(to_m - from_m) < 0.5 / limits.steps_per_m) return;
-  // No slower than it can: what is recorded must be what is done.
+  // Not below the smallest speed, so that the record states the true speed.
   const double held_m_s = std::max(std::min(speed_m_s, limits.max_speed_m_s), limits.min_speed_m_s);
   const double feed_mm_min = std::max(std::round(held_m_s * 60e6) * 1e-3, 0.001);
   const double written_s = clock_.now_s();

@@ -16,20 +16,20 @@
 
 namespace viscard {
 
-// A stage behind GRBL 1.1 or grblHAL. What it relies on, and no more (rig/README.md gives the
-// sources):
-// - a welcome after opening or a soft reset; everything before it is dropped;
-// - one "ok" or "error:N" per line, in order; all else is news and answers nothing;
-// - "ok" to a jog means queued: it has ended when a report that was asked for after the ok says
-//   Idle, at the target;
-// - reports may be lost, late, or come unasked: one '?' outstanding, 250 ms, then another, and an
-//   answer belongs to the oldest question that it can belong to; where answers have been prompt and
-//   one stays out for another 250 ms, the oldest was lost;
-// - a line that stays unanswered at Idle may be held back by a hold nobody asked for: '~' frees it;
-// - after an alarm it may say nothing at all until 0x18.
+// A stage behind GRBL 1.1 or grblHAL. The driver relies on these rules only
+// (rig/protocols/README.md and rig/stages/README.md give the sources):
+// - A welcome follows the opening of the port or a soft reset. Everything before it is dropped.
+// - Each line is answered by one "ok" or "error:N", in order. All other lines answer nothing.
+// - The "ok" to a jog means that it is queued. The jog has ended when a report that was asked for
+//   after the ok shows Idle at the target.
+// - Reports may be lost, late or unasked. One '?' is open at a time; after 250 ms another is sent,
+//   and a report answers the oldest open '?'. If answers have been prompt and one is still missing
+//   after another 250 ms, the oldest '?' was lost.
+// - A line that stays unanswered at Idle may be kept back by an unwanted hold, which '~' ends.
+// - After an alarm the controller may be silent until 0x18.
 class GrblStage final : public Stage {
  public:
-  // patience shortens (or lengthens) how long it waits for a controller that does not answer.
+  // patience: factor on the time that the driver waits for a controller that does not answer.
   GrblStage(Transport& transport, const StageConfig& config, const RigClock& clock, RecordSink sink,
             double patience = 1.0);
 
@@ -48,15 +48,14 @@ class GrblStage final : public Stage {
   void stop_hard() override;
   void recover(const Pump& pump) override;
 
-  // Sends one line and waits for its answer. Throws RigError on error:N or when none comes.
+  // Sends one line and waits for its answer. Throws RigError on error:N or if there is no answer.
   void command(const std::string& line, const Pump& pump, double timeout_wall_s = 3.0);
-  const std::map<int, double>& settings() const { return settings_; }
   const std::string& state() const { return state_; }
 
  private:
   struct Pending {
     std::string line;
-    bool is_awaited;  // command() looks at the answer; otherwise an error is thrown
+    bool is_awaited;  // command() handles an error; otherwise it is thrown
   };
   struct ActiveMove {
     MoveTracker tracker;
@@ -66,9 +65,9 @@ class GrblStage final : public Stage {
     bool is_stopping = false;
     double stop_s = 0.0;
     int n_rests_elsewhere = 0;
-    int n_astray = 0;               // reports in a row from outside its way
-    std::optional<double> stood_m;  // where the last report after a stop saw it at rest
-    double progress_s = 0.0;        // when a report last saw it elsewhere than the one before
+    int n_astray = 0;               // reports in a row from outside of its path
+    std::optional<double> stood_m;  // position at rest in the last report after a stop
+    double progress_s = 0.0;        // time of the last report with a changed position
     bool is_nudged = false;
   };
 
@@ -112,7 +111,7 @@ class GrblStage final : public Stage {
   int axis_;
   double toward_;
 
-  bool is_connected_ = false;  // past the welcome: lines count
+  bool is_connected_ = false;  // after the welcome; lines before it are dropped
   bool awaits_welcome_ = true;
   bool is_recovering_ = false;  // alarms are expected
   std::string version_;
@@ -121,18 +120,18 @@ class GrblStage final : public Stage {
   std::deque<Pending> pending_;
   std::optional<int> awaited_error_;
 
-  std::string state_;  // as last reported
+  std::string state_;  // as reported last
   double reported_m_ = 0.0;
-  std::optional<double> exact_m_;  // end of the last move, to the step
-  std::optional<double> start_m_;  // where it stood at connect(): travel counts from here
+  std::optional<double> exact_m_;  // end of the last move, on a whole step
+  std::optional<double> start_m_;  // position at connect(), from which travel is counted
   std::vector<double> work_offset_mm_;
   std::size_t n_reports_ = 0;
   int n_welcomes_ = 0;
 
   bool polls_ = false;
-  std::deque<double> asked_s_;  // times of the '?' not yet answered, oldest first
+  std::deque<double> asked_s_;  // times of the open '?', oldest first
   bool is_last_missed_ = false;
-  bool is_answered_since_ = false;  // an older question, after the newest was asked
+  bool is_answered_since_ = false;  // an older '?' was answered after the newest was sent
   int n_missed_ = 0;
   ReportLatency latency_;
   double next_poll_s_ = 0.0;

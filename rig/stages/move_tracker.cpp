@@ -7,7 +7,7 @@
 namespace viscard {
 namespace {
 
-// A controller that has said ok to a jog prepares its first steps within this time (gnea/grbl
+// After the ok to a jog the controller prepares its first steps within this time (gnea/grbl
 // stepper.c: one segment of 10 ms).
 constexpr double kFirstSegment_s = 0.010;
 
@@ -23,7 +23,7 @@ void MoveTracker::acknowledged(double time_s) {
   latest_s_ = std::min(latest_s_, time_s + kFirstSegment_s);
 }
 
-// Time after the start at which the move has gone that far; the position is monotonic in it.
+// Time after the start at which the move has covered way_m, by bisection.
 double MoveTracker::time_to_way_s(double way_m) const {
   double low_s = 0.0;
   double high_s = duration_s(move_);
@@ -47,7 +47,7 @@ void MoveTracker::reported(double asked_s, double received_s, double position_m)
   if (gone_m - resolution_m_ > 0.0) {
     latest_s = std::min(latest_s, received_s - time_to_way_s(gone_m - resolution_m_));
   }
-  // A report that contradicts the others (a late answer to an older question) changes nothing.
+  // A report that contradicts the others (a late answer to an older request) changes nothing.
   if (earliest_s > latest_s) {
     ++n_contradictions_;
     return;

@@ -4,26 +4,26 @@
 
 namespace viscard {
 
-// Narrows down when a move really began. All that is sure at first is that it was not before its
-// command was written nor after the controller had answered; each position report, asked for and
-// received at known times, bounds the time by which the trapezoid had got so far.
+// Narrows down when a move really began. At first it is only known that it began after its command
+// was written and soon after the controller answered. Each position report, with the known times of
+// its request and its arrival, then bounds the start through the trapezoid of the move.
 class MoveTracker {
  public:
-  // move.start_time_s is the time the command was written; resolution_m how far a reported position
-  // may be from the true one.
+  // move.start_time_s: when the command was written; resolution_m: largest error of a reported
+  // position.
   MoveTracker(const StageMove& move, double resolution_m);
 
   const StageMove& move() const { return move_; }
-  // The command was answered at that time.
+  // The controller answered the command at time_s.
   void acknowledged(double time_s);
-  // It stood at position_m at some time between the two.
+  // The stage was at position_m at some time between the two.
   void reported(double asked_s, double received_s, double position_m);
 
-  // The move with the earliest start that agrees with everything, and how much later it can have
-  // been. end_m replaces its end where it was stopped on the way.
+  // The move with the earliest start that agrees with all reports, and how much later the start can
+  // have been. end_m replaces the end of a move that was stopped on the way.
   CommandedMove best(double end_m) const;
   double latest_end_s() const;
-  // Reports that no start time can reconcile with the trapezoid.
+  // Number of reports that no start time can reconcile with the trapezoid.
   int n_contradictions() const { return n_contradictions_; }
 
  private:

@@ -10,24 +10,24 @@
 
 namespace viscard {
 
-// The stage locked itself (limit switch, reset in motion): it needs recover().
+// The stage locked itself (limit switch, reset in motion) and needs recover().
 class StageAlarm : public RigError {
  public:
   using RigError::RigError;
 };
 
-// How the controller moves, by its own settings.
+// How the controller moves according to its own settings.
 struct StageDynamics {
   double steps_per_m = 0.0;
   double acceleration_m_s2 = 0.0;
   double max_speed_m_s = 0.0;
-  double min_speed_m_s = 0.0;  // what is asked to go slower goes at this speed
-  // Positions beyond which the controller refuses to go, where it watches over its travel itself.
+  double min_speed_m_s = 0.0;  // slower moves are made at this speed
+  // The controller refuses positions beyond these, if it checks its travel itself.
   double lowest_m = -std::numeric_limits<double>::infinity();
   double highest_m = std::numeric_limits<double>::infinity();
 };
 
-// Time from a question for the position to its answer, wall seconds.
+// Time from a position request to its report, wall seconds.
 struct ReportLatency {
   int n = 0;
   int n_lost = 0;
@@ -35,10 +35,10 @@ struct ReportLatency {
   double longest_s = 0.0;
 };
 
-// One motorised axis that presses a punch into a specimen. Positions in m, growing toward the
-// specimen, from the controller's own zero. Nothing here waits by itself: where an answer is
-// needed, `pump` is called until it is there, so that the caller can watch the force meanwhile. All
-// calls throw PortHungUp, StageAlarm, DeviceRestarted or RigError.
+// One motorised axis that presses a punch into a specimen. Positions in m from the controller's own
+// zero, growing toward the specimen. No call blocks by itself: while it waits for an answer it
+// calls `pump`, so that the caller can watch the force. All calls throw PortHungUp, StageAlarm,
+// DeviceRestarted or RigError.
 class Stage {
  public:
   virtual ~Stage() = default;
@@ -48,37 +48,36 @@ class Stage {
 
   virtual Transport& transport() = 0;
 
-  // Waits for the controller, identifies it, reads its settings back, unlocks it, asks where it is.
+  // Waits for the controller, identifies it, reads its settings, unlocks it, asks for its position.
   virtual void connect(const Pump& pump) = 0;
-  // Reads and interprets what has arrived, asks for the position when that is due. Call often.
+  // Handles what has arrived and asks for the position when that is due. Call often.
   virtual void service() = 0;
 
   virtual StageDynamics dynamics() const = 0;
-  // What in its settings should be changed and why, one sentence each.
+  // Settings that should be changed and why, one sentence each.
   virtual std::vector<std::string> advice() const = 0;
 
   virtual ReportLatency report_latency() const = 0;
-  // Maker's name and version as the controller gives them.
+  // Name and version as the controller reports them.
   virtual std::string identity() const = 0;
 
-  // Where it is: the exact end of the last move at rest, the last report while moving.
+  // At rest the exact end of the last move, while moving the last reported position.
   virtual double position_m() const = 0;
 
-  // Begins a move; to_m is rounded to whole steps, and one away from the specimen ends where the
-  // controller's travel does. purpose names it in its CommandedMove record,
-  // which is handed out when the move has ended (its start is known best then). Precondition: at
-  // rest.
+  // Begins a move. to_m is rounded to whole steps; a move away from the specimen ends at the end of
+  // the controller's travel. purpose names the move in its CommandedMove record, which is passed to
+  // the sink when the move has ended, because its start is known best then. Precondition: at rest.
   virtual void begin_move(double to_m, double speed_m_s, const std::string& purpose) = 0;
   // From begin_move() until the controller has reported standstill.
   virtual bool is_moving() const = 0;
   // Rig time at which the current or last move should end.
   virtual double expected_end_s() const = 0;
 
-  // Decelerates to standstill; is_moving() tells when that is reached.
+  // Decelerates; is_moving() is true until standstill.
   virtual void stop_soft() = 0;
-  // Stops at once, whatever that costs in steps; recover() must follow.
+  // Stops at once even if steps are lost; recover() must follow.
   virtual void stop_hard() = 0;
-  // After stop_hard() or an alarm: unlocks, and asks where it is.
+  // After stop_hard() or an alarm: unlocks the stage and asks for its position.
   virtual void recover(const Pump& pump) = 0;
 };
 

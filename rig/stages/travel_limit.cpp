@@ -1,7 +1,7 @@
 #include "rig/stages/travel_limit.h"
 
+#include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
-#include "rig/protocols/text_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ double within_travel_m(double from_m, double to_m, const StageDynamics& dynamics
   const double slack_m = kSlack / dynamics.steps_per_m;
   if (from_m < dynamics.lowest_m - slack_m || from_m > dynamics.highest_m + slack_m) {
     throw RigError("the stage stands at " + text_from_number(from_m * 1e3, 3) +
-                   " mm, outside of what the controller takes for its travel ($20=1), and it "
+                   " mm, outside of the travel that the controller allows ($20=1), so it "
                    "refuses every move. Home it (home = true under [stage] of the rig file), or "
                    "switch its soft limits off ($20=0)");
   }

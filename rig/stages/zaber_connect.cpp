@@ -1,5 +1,5 @@
-// The conversations of ZaberStage that wait for answers: opening, settings, recovery.
-#include "rig/protocols/text_number.h"
+// The exchanges of ZaberStage that wait for answers: connecting, settings, recovery.
+#include "models/maths/text_of_number.h"
 #include "rig/stages/zaber_stage.h"
 
 namespace viscard {
@@ -11,7 +11,7 @@ constexpr double kRest_wall_s = 5.0;
 
 }  // namespace
 
-// Waits for the answer to one command; its data. Throws RigError when it is rejected.
+// Sends one command and returns the data of its answer. Throws RigError if it is rejected.
 std::string ZaberStage::ask(const std::string& words, const Pump& pump) {
   action_data_.reset();
   action_rejection_.clear();
@@ -56,7 +56,8 @@ void ZaberStage::ask_position(const Pump& pump) {
   const double deadline_s = monotonic_s() + kReply_wall_s;
   while (n_reports_ == before) {
     if (monotonic_s() > deadline_s) {
-      throw RigError("the stage on '" + transport_.name() + "' does not tell its position");
+      throw RigError("the stage on '" + transport_.name() +
+                     "' does not report its position. Check its cable and supply");
     }
     pump();
   }
@@ -112,7 +113,7 @@ void ZaberStage::recover(const Pump& pump) {
   ask_position(pump);
   if (active_) end_move(reported_m_);
   exact_m_ = reported_m_;
-  flag_.clear();  // a fault that is still there is told again
+  flag_.clear();  // so that a fault that is still there is reported again
   is_recovering_ = false;
 }
 

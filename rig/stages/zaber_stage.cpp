@@ -1,7 +1,6 @@
 #include "rig/stages/zaber_stage.h"
 
-#include "rig/protocols/text_number.h"
-#include "rig/stages/travel_limit.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +11,7 @@ namespace {
 
 constexpr double kAnswer_wall_s = 0.25;
 constexpr int kMostSends = 4;
-constexpr int kMostMisses = 20;
-constexpr double kPollMoving_s = 0.05;
-constexpr double kPollResting_s = 0.2;
-constexpr int kMostRestsElsewhere = 3;
-constexpr double kNoEnd_wall_s = 5.0;
+constexpr int kMostMissedAnswers = 20;
 constexpr const char* kAskPosition = "get pos";
 
 }  // namespace
@@ -30,7 +25,7 @@ ZaberStage::ZaberStage(Transport& transport, const StageConfig& config, const Ri
       toward_(config.toward_specimen < 0 ? -1.0 : 1.0) {
   if (!(config_.microstep_m > 0.0)) {
     throw RigError(
-        "a Zaber stage counts microsteps, and the rig file does not say how far one goes. Set "
+        "a Zaber stage counts microsteps, and the rig file does not give their length. Set "
         "microstep under [stage], such as \"0.047625 um\", from the maker's page of the stage");
   }
 }
@@ -40,7 +35,7 @@ ZaberStage::~ZaberStage() {
   try {
     send("set maxspeed " + text_from_number(max_speed_data_, 0));
   } catch (...) {
-    // A stage that is gone needs no setting.
+    // The stage is gone.
   }
 }
 
@@ -84,15 +79,15 @@ void ZaberStage::take_line(const ReceivedLine& line) {
   const auto message = parse_zaber_message(line.text);
   if (!message) {
     note(line.time_s, "stage_unreadable", line.text.substr(0, 80),
-         "A line from the stage makes no sense or has a wrong checksum");
+         "A line from the stage could not be read or has a wrong checksum");
     return;
   }
-  if (message->device != config_.device) return;  // a neighbour on the chain
+  if (message->device != config_.device) return;  // another device on the chain
   if (message->kind == ZaberMessage::Kind::kReply) return take_reply(*message, line.time_s);
   if (message->kind == ZaberMessage::Kind::kInfo) {
     note(line.time_s, "stage_message", message->data, "The stage says: " + message->data);
   } else {
-    next_poll_s_ = line.time_s;  // an alert: something has changed, so ask
+    next_poll_s_ = line.time_s;  // an alert: something has changed, so ask at once
   }
 }
 
@@ -138,7 +133,7 @@ void ZaberStage::take_action_reply(const Sent& action, const ZaberMessage& reply
   if (reply.is_rejected) {
     const std::string reason = zaber_rejection_text(reply.data);
     if (action.words == "estop" && reply.data == "BADCOMMAND") {
-      action_ = send("stop");  // firmware without it
+      action_ = send("stop");  // firmware without estop
       return;
     }
     if (is_asked_for) {
@@ -171,82 +166,13 @@ void ZaberStage::take_position(const Sent& question, const ZaberMessage& reply, 
   if (active_) follow_move(question.written_s, time_s, reply.is_busy);
 }
 
-void ZaberStage::follow_move(double asked_s, double received_s, bool is_busy) {
-  ActiveMove& active = *active_;
-  const bool has_begun = active.reply_s && asked_s >= *active.reply_s;
-  if (active.tracker && !active.is_stopping) {
-    active.tracker->reported(asked_s, received_s, reported_m_);
-  }
-  if (is_busy) return;
-  if (active.is_stopping) {
-    // Stopped, also when that came before the move itself had been sent.
-    if (!action_ && asked_s >= active.stop_s) end_move(reported_m_);
-    return;
-  }
-  if (!has_begun) return;
-  const double target_m = metres(static_cast<double>(active.target));
-  if (std::abs(reported_m_ - target_m) < 0.5 * config_.microstep_m) return end_move(target_m);
-  if (++active.n_rests_elsewhere < kMostRestsElsewhere) return;
-  active_.reset();
-  exact_m_.reset();
-  throw RigError("the stage stands at " + text_from_number(reported_m_ * 1e3, 4) +
-                 " mm and did not reach " + text_from_number(target_m * 1e3, 4) + " mm (" +
-                 zaber_flag_text(flag_) +
-                 "). Look for an obstacle or a turned knob, then start the run again");
-}
-
-void ZaberStage::end_move(double end_m) {
-  exact_m_ = end_m;
-  const ActiveMove ended = *std::exchange(active_, std::nullopt);
-  if (!ended.tracker) return;  // stopped before it was sent
-  CommandedMove commanded = ended.tracker->best(end_m);
-  commanded.purpose = ended.purpose;
-  sink_(commanded);
-}
-
-void ZaberStage::begin_move(double to_m, double speed_m_s, const std::string& purpose) {
-  if (active_) throw RigError("a move was asked for while the stage was still moving");
-  const StageDynamics limits = dynamics();
-  const double from_m = position_m();
-  const long long target = std::llround(toward_ * to_m / config_.microstep_m);
-  to_m = metres(static_cast<double>(target));
-  if (start_m_) check_travel(to_m, *start_m_, config_.travel_m);
-  const double now_s = clock_.now_s();
-  expected_end_s_ = now_s;
-  if (std::abs(to_m - from_m) < 0.5 * config_.microstep_m) return;
-  const double wanted_m_s = std::min(speed_m_s, limits.max_speed_m_s);
-  const long long speed_data = zaber_speed_data(wanted_m_s / config_.microstep_m);
-  const double real_m_s =
-      microsteps_s_from_zaber(static_cast<double>(speed_data)) * config_.microstep_m;
-  const StageMove move{now_s, from_m, to_m, real_m_s, limits.acceleration_m_s2};
-  validate(move);
-  active_ = ActiveMove{move, std::nullopt, purpose, target};
-  expected_end_s_ = now_s + duration_s(move);
-  next_poll_s_ = now_s + kPollMoving_s;
-  // The move only follows when the speed has been taken: never faster than asked for.
-  if (speed_data != speed_data_) actions_.push_back("set maxspeed " + std::to_string(speed_data));
-  speed_data_ = speed_data;
-  actions_.push_back("move abs " + std::to_string(target));
-  start_action();
-}
-
-void ZaberStage::start_action() {
-  if (action_ || actions_.empty()) return;
-  action_ = send(actions_.front());
-  actions_.pop_front();
-  if (!active_ || action_->words.rfind("move abs", 0) != 0) return;
-  active_->planned.start_time_s = action_->written_s;
-  active_->tracker.emplace(active_->planned, config_.microstep_m);
-  expected_end_s_ = action_->written_s + duration_s(active_->planned);
-}
-
 void ZaberStage::drive() {
   const double now_s = clock_.now_s();
   const double answer_s = clock_.from_wall_s(kAnswer_wall_s);
   if (question_ && now_s - question_->written_s > answer_s) {
-    question_.reset();  // its id tells its answer from the next one's, however late
+    question_.reset();  // a late answer is recognised by its id
     ++latency_.n_lost;
-    if (++n_missed_ >= kMostMisses) {
+    if (++n_missed_ >= kMostMissedAnswers) {
       throw RigError("the stage has stopped answering on '" + transport_.name() +
                      "'. Check its cable and supply; it may still be moving");
     }
@@ -268,35 +194,6 @@ void ZaberStage::drive() {
   if (active_ && expected_end_s_ > now_s) {
     next_poll_s_ = std::min(next_poll_s_, expected_end_s_ + 2e-3);
   }
-}
-
-void ZaberStage::watch_deadline(double now_s) {
-  if (!active_ || !active_->reply_s) return;
-  if (now_s <
-      expected_end_s_ + 0.5 * duration_s(active_->planned) + clock_.from_wall_s(kNoEnd_wall_s)) {
-    return;
-  }
-  throw RigError("the stage should have come to rest " +
-                 text_from_number(now_s - expected_end_s_, 1) +
-                 " s ago and still moves. Switch it off and on, home it, and start again");
-}
-
-void ZaberStage::stop(const std::string& words) {
-  actions_.clear();
-  action_ = send(words);
-  if (!active_) return;
-  active_->is_stopping = true;
-  active_->stop_s = clock_.now_s();
-  next_poll_s_ = active_->stop_s;
-}
-
-void ZaberStage::stop_soft() {
-  stop("stop");
-}
-
-void ZaberStage::stop_hard() {
-  is_recovering_ = true;
-  stop("estop");
 }
 
 }  // namespace viscard

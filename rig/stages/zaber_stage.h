@@ -15,20 +15,22 @@
 
 namespace viscard {
 
-// A Zaber stage that speaks the ASCII protocol (rig/zaber_protocol.h). What it relies on:
-// - every command carries a checksum and an id, and only a reply with that id answers it: late
-//   replies, replies of other devices on the chain and garbled ones are left alone;
-// - commands are only such as do no harm when sent twice (an absolute move, a setting, a stop), so
-//   one without answer is sent again;
-// - a move has ended when a question asked after its reply is answered IDLE, at the target;
-// - a fault flag means that the axis stopped by itself; no reference position (WR) means that no
-//   position is worth anything.
+// A Zaber stage with the ASCII protocol (rig/protocols/zaber_protocol.h). The driver relies on
+// these rules:
+// - Every command carries a checksum and an id, and only a reply with that id answers it. Late
+//   replies, replies of other devices on the chain and garbled ones are ignored.
+// - All commands can be repeated without harm (an absolute move, a setting, a stop), so a command
+//   without an answer is sent again.
+// - A move has ended when a question that was sent after the reply to it is answered IDLE at the
+//   target.
+// - A fault flag means that the axis stopped by itself. Without a reference position (WR) no
+//   position can be trusted.
 class ZaberStage final : public Stage {
  public:
-  // Throws RigError if the rig file does not say how far a microstep goes.
+  // Throws RigError if the rig file has no microstep.
   ZaberStage(Transport& transport, const StageConfig& config, const RigClock& clock,
              RecordSink sink);
-  ~ZaberStage() override;  // gives the controller its own largest speed back
+  ~ZaberStage() override;  // restores the largest speed of the controller
 
   Transport& transport() override { return transport_; }
   void connect(const Pump& pump) override;
@@ -46,6 +48,8 @@ class ZaberStage final : public Stage {
   void recover(const Pump& pump) override;
 
  private:
+  static constexpr double kPollMoving_s = 0.05;  // between questions for the position, rig time
+  static constexpr double kPollResting_s = 0.2;
   struct Sent {
     int id = 0;
     std::string words;
@@ -53,7 +57,7 @@ class ZaberStage final : public Stage {
     int n_sent = 0;
   };
   struct ActiveMove {
-    StageMove planned;  // of which the start is not known until its command is written
+    StageMove planned;  // its start is not known until the command is written
     std::optional<MoveTracker> tracker;
     std::string purpose;
     long long target = 0;  // microsteps
@@ -94,19 +98,19 @@ class ZaberStage final : public Stage {
   double toward_;
   int next_id_ = 0;
 
-  std::deque<std::string> actions_;  // to be sent one after another, each when the one before is OK
-  std::optional<Sent> action_;       // not yet answered
-  std::optional<Sent> question_;     // "get pos", not yet answered
+  std::deque<std::string> actions_;  // to be sent one by one, each after the OK to the one before
+  std::optional<Sent> action_;       // sent and not yet answered
+  std::optional<Sent> question_;     // "get pos", sent and not yet answered
   std::optional<std::string> action_data_;
   std::string action_rejection_;
-  std::optional<std::string> asked_words_;  // of ask(), which looks at rejections itself
+  std::optional<std::string> asked_words_;  // sent by ask(), which handles a rejection itself
 
   std::string identity_;
   double max_speed_data_ = 0.0;
-  long long speed_data_ = 0;  // as last set
+  long long speed_data_ = 0;  // as set last
   double acceleration_data_ = 0.0;
-  bool is_recovering_ = true;  // faults are expected; until connected as well
-  std::string flag_;           // as last reported
+  bool is_recovering_ = true;  // faults are expected, also until connected
+  std::string flag_;           // as reported last
   bool is_busy_ = false;
 
   double reported_m_ = 0.0;

@@ -55,7 +55,7 @@ double mean(const std::vector<double>& values) {
 
 }  // namespace
 
-TEST_CASE("Creep holds its force within the tolerance, without overshoot, however wrong the guess",
+TEST_CASE("creep holds its force within the tolerance without overshoot, even with a wrong guess",
           "[rig][pty]") {
   EmulatedRigOptions options = DeviceFixture::options(10.0);
   options.truth.material.E0_Pa *= GENERATE(0.6, 1.0, 1.4);
@@ -78,7 +78,7 @@ TEST_CASE("Creep holds its force within the tolerance, without overshoot, howeve
   CHECK(*highest < 0.8 + 4e-3 + 3e-3 + 4 * options.truth.force_noise_N);
 }
 
-TEST_CASE("A creep that goes beyond its depth ends the run and lifts the punch", "[rig][pty]") {
+TEST_CASE("a creep beyond its depth limit ends the run and lifts the punch", "[rig][pty]") {
   EmulatedRigOptions options = DeviceFixture::options(20.0);
   options.truth.material.E0_Pa *= 0.5;
   DeviceFixture rig(options);
@@ -90,7 +90,7 @@ TEST_CASE("A creep that goes beyond its depth ends the run and lifts the punch",
   CHECK(rig.emulated.outcome().final_position_m < options.truth.surface_position_m);
 }
 
-TEST_CASE("Levels reach each depth in turn", "[rig][pty]") {
+TEST_CASE("levels reach each depth in turn", "[rig][pty]") {
   DeviceFixture rig(DeviceFixture::options(20.0));
   TestPlan plan = quick_plan("levels");
   plan.levels = {{0.04e-3, 0.5, 2.0}, {0.1e-3, 0.5, 2.0}, {0.07e-3, 0.5, 2.0}};
@@ -106,7 +106,7 @@ TEST_CASE("Levels reach each depth in turn", "[rig][pty]") {
   CHECK(rig.emulated.outcome().peak_depth_m == Approx(0.1e-3).margin(4e-6));
 }
 
-TEST_CASE("Cycles come back to the same depths", "[rig][pty]") {
+TEST_CASE("cycles come back to the same depths", "[rig][pty]") {
   DeviceFixture rig(DeviceFixture::options(20.0));
   TestPlan plan = quick_plan("cycles");
   plan.cycles = {.count = 3, .depth_m = 0.1e-3, .ramp_s = 1.0, .hold_s = 0.5, .rest_s = 0.5};
@@ -127,7 +127,7 @@ TEST_CASE("Cycles come back to the same depths", "[rig][pty]") {
   }
 }
 
-TEST_CASE("A staircase holds on every step, up and down, after a preload", "[rig][pty]") {
+TEST_CASE("a staircase holds on every step, up and down, after a preload", "[rig][pty]") {
   DeviceFixture rig(DeviceFixture::options(20.0));
   TestPlan plan = quick_plan("staircase");
   plan.staircase = {.steps = 3, .depth_m = 0.09e-3, .step_s = 0.5, .hold_s = 1.5};
@@ -146,7 +146,7 @@ TEST_CASE("A staircase holds on every step, up and down, after a preload", "[rig
   }
 }
 
-TEST_CASE("The check before a run knows every protocol and names its key", "[rig]") {
+TEST_CASE("the pre-flight check knows every protocol and names its key", "[rig]") {
   const StageDynamics fine{3200e3, 0.2, 10e-3};
   const auto problem = [&](const TestPlan& plan) {
     const Preflight result = preflight(demo_rig(), plan, demo_specimen(10.0), fine);

@@ -10,7 +10,7 @@
 
 namespace viscard {
 
-TEST_CASE("A check measures rate and noise, reads settings back and moves nothing", "[rig][pty]") {
+TEST_CASE("a rig check measures rate and noise, reads settings and moves nothing", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.truth.sample_rate_Hz = 90.0;  // an HX711's own oscillator is off by more than a clock
   RigFixture rig(options);
@@ -31,7 +31,7 @@ TEST_CASE("A check measures rate and noise, reads settings back and moves nothin
   CHECK(names_rate);
 }
 
-TEST_CASE("A converter at 10 readings/s makes a rig unusable", "[rig][pty]") {
+TEST_CASE("a converter at 10 readings/s makes a rig unusable", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.truth.sample_rate_Hz = 10.0;
   options.config.load_cell.expected_rate_Hz = 10.0;
@@ -39,7 +39,7 @@ TEST_CASE("A converter at 10 readings/s makes a rig unusable", "[rig][pty]") {
   CHECK_FALSE(check_rig(rig.stage, rig.load_cell, rig.config, rig.clock, 10.0).is_usable);
 }
 
-TEST_CASE("Numbers with a decimal point and no unit are taken for volts, and that is said",
+TEST_CASE("numbers with a decimal point and no unit are read as volts, and the advice says so",
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.config.load_cell.line_format = "auto";
@@ -58,7 +58,7 @@ TEST_CASE("Numbers with a decimal point and no unit are taken for volts, and tha
   CHECK_FALSE(advised(check_rig(told.stage, told.load_cell, told.config, told.clock, 5.0)));
 }
 
-TEST_CASE("The state of a port is told without opening it", "[rig][pty]") {
+TEST_CASE("the state of a port is reported without opening it", "[rig][pty]") {
   PtyPort device;
   CHECK(port_status(device.path()).trouble.empty());
   CHECK_FALSE(device.is_open_by_host());

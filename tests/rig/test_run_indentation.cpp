@@ -22,7 +22,7 @@ bool is_at_rest_and_lifted(const RigFixture& rig) {
 
 }  // namespace
 
-TEST_CASE("A whole run reaches its depth, records every reading and leaves the specimen",
+TEST_CASE("a whole run reaches its depth, records every reading and leaves the specimen",
           "[rig][pty]") {
   RigFixture rig(RigFixture::options(20.0));
   const RunOutcome outcome = rig.run(short_plan());
@@ -46,7 +46,7 @@ TEST_CASE("A whole run reaches its depth, records every reading and leaves the s
   }
 }
 
-TEST_CASE("Ramp and unloading are one move each, from gap to depth and back in contact",
+TEST_CASE("ramp and unloading are one move each, from gap to depth and back in contact",
           "[rig][pty]") {
   RigFixture rig(RigFixture::options(20.0));
   const TestPlan plan = short_plan();
@@ -84,7 +84,7 @@ TEST_CASE("Ramp and unloading are one move each, from gap to depth and back in c
   CHECK(least_N > 0.05);
 }
 
-TEST_CASE("Readings follow the physics at the commanded moves' own times", "[rig][pty]") {
+TEST_CASE("readings follow the physics at the times of the commanded moves", "[rig][pty]") {
   RigFixture rig(RigFixture::options(10.0));
   const RunOutcome outcome = rig.run(short_plan());
   REQUIRE(outcome.status == "finished");
@@ -112,7 +112,7 @@ TEST_CASE("Readings follow the physics at the commanded moves' own times", "[rig
   CHECK(sum_N / n == Approx(expected_N / n).epsilon(2e-3));  // relaxation during the ramp, roughly
 }
 
-TEST_CASE("A specimen far stiffer than guessed stops the stage before the cell is harmed",
+TEST_CASE("a specimen far stiffer than guessed stops the stage before the cell is harmed",
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(2.0);
   options.truth.material.E0_Pa *= GENERATE(1.6, 20.0);
@@ -129,7 +129,7 @@ TEST_CASE("A specimen far stiffer than guessed stops the stage before the cell i
   CHECK(is_at_rest_and_lifted(rig));
 }
 
-TEST_CASE("A limit is answered gently first; a reset follows only where the force still rises",
+TEST_CASE("a limit first stops the stage gently; a reset follows only if the force still rises",
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.truth.material.E0_Pa *= 1.6;
@@ -148,7 +148,7 @@ TEST_CASE("A limit is answered gently first; a reset follows only where the forc
   CHECK(is_at_rest_and_lifted(rig));
 }
 
-TEST_CASE("Asked to stop, the run stops the stage, lifts the punch and keeps its records",
+TEST_CASE("a run that is asked to stop stops the stage, lifts the punch and keeps its records",
           "[rig][pty]") {
   const std::string phase = GENERATE("approach", "ramp", "hold", "recovery");
   RigFixture rig(RigFixture::options(20.0));
@@ -161,7 +161,7 @@ TEST_CASE("Asked to stop, the run stops the stage, lifts the punch and keeps its
   CHECK(rig.all<LoadSample>().size() > 20);
 }
 
-TEST_CASE("A load cell lost or silent in the ramp stops the stage", "[rig][pty]") {
+TEST_CASE("a load cell that is lost or silent in the ramp stops the stage", "[rig][pty]") {
   RigFixture rig(RigFixture::options(5.0));
   TestPlan plan = short_plan();
   plan.ramp_s = 8.0;
@@ -186,7 +186,8 @@ TEST_CASE("A load cell lost or silent in the ramp stops the stage", "[rig][pty]"
   CHECK(is_at_rest_and_lifted(rig));
 }
 
-TEST_CASE("A stage lost in the hold ends the run and says that it cannot be lifted", "[rig][pty]") {
+TEST_CASE("a stage lost in the hold ends the run and the reason says that it cannot be lifted",
+          "[rig][pty]") {
   RigFixture rig(RigFixture::options(20.0));
   when_phase(rig, "hold", [&rig] { rig.emulated.pull_stage_cable(); });
   const RunOutcome outcome = rig.run(short_plan());
@@ -195,7 +196,8 @@ TEST_CASE("A stage lost in the hold ends the run and says that it cannot be lift
   CHECK(rig.all<LoadSample>().size() > 20);
 }
 
-TEST_CASE("A limit switch in any phase ends with the stage unlocked and lifted", "[rig][pty]") {
+TEST_CASE("a limit switch in any phase ends with the stage unlocked and the punch lifted",
+          "[rig][pty]") {
   const std::string phase = GENERATE("approach", "ramp", "hold");
   RigFixture rig(RigFixture::options(10.0));
   when_phase(rig, phase, [&rig] { rig.emulated.hit_limit_switch(); });
@@ -206,7 +208,7 @@ TEST_CASE("A limit switch in any phase ends with the stage unlocked and lifted",
   CHECK(is_at_rest_and_lifted(rig));
 }
 
-TEST_CASE("A sink that fails stops the run safely and is named", "[rig][pty]") {
+TEST_CASE("a sink that fails stops the run safely and is named in the reason", "[rig][pty]") {
   RigFixture rig(RigFixture::options(20.0));
   when_phase(rig, "hold", [] { throw std::runtime_error("disk full"); });
   const RunOutcome outcome = rig.run(short_plan());
@@ -215,7 +217,7 @@ TEST_CASE("A sink that fails stops the run safely and is named", "[rig][pty]") {
   CHECK(is_at_rest_and_lifted(rig));
 }
 
-TEST_CASE("Stalls of the emulated rig change no reading", "[rig][pty]") {
+TEST_CASE("stalls of the emulated rig change no reading", "[rig][pty]") {
   RigFixture rig(RigFixture::options(50.0));
   int n_progress = 0;
   rig.on_progress = [&](const RunProgress& progress) {
@@ -235,7 +237,7 @@ TEST_CASE("Stalls of the emulated rig change no reading", "[rig][pty]") {
   CHECK(outcome.achieved_depth_m == Approx(0.13e-3).margin(6e-6));
 }
 
-TEST_CASE("A host that is busy when the run ends still hears the readings made before",
+TEST_CASE("a host that is busy when the run ends still receives the readings made before",
           "[rig][pty]") {
   RigFixture rig(RigFixture::options(20.0));
   bool has_slept = false;
@@ -257,7 +259,7 @@ TEST_CASE("A host that is busy when the run ends still hears the readings made b
   CHECK(rig.load_cell.made_at_s(last) > begun_s + plan.baseline_s - 0.1);
 }
 
-TEST_CASE("Nothing to touch within the limit of the approach is an error, and the stage goes back",
+TEST_CASE("an approach that touches nothing within its limit is an error, and the stage goes back",
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(50.0);
   options.truth.surface_position_m = 8e-3;

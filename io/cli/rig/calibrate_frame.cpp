@@ -20,8 +20,8 @@
 namespace viscard {
 namespace {
 
-constexpr double kBlock_Pa = 200e9;       // steel, against which everything else gives way
-constexpr double kUsualFrame_N_m = 10e3;  // of a rig that was taken for rigid so far
+constexpr double kBlock_Pa = 200e9;       // steel, much stiffer than any frame
+constexpr double kUsualFrame_N_m = 10e3;  // assumed for a rig file without a frame stiffness
 constexpr double kShareOfLimit = 0.7;
 constexpr double kPunch_m = 2e-3;
 
@@ -47,7 +47,7 @@ TestPlan block_plan(const CalibrateWords& words, const RigConfig& rig) {
   return plan;
 }
 
-// Keeps what the fit needs.
+// Keeps the records that the fit needs.
 struct KeepRecords {
   CapturedRun& run;
   void operator()(const RawBytes& raw) const { run.n_raw_bytes += raw.bytes.size(); }
@@ -96,9 +96,10 @@ BlockPoints points_from_table(const std::string& path) {
 
 void wait_for_block(const CalibrateWords& words, Streams& streams) {
   if (words.is_emulated || words.asks_nobody) return;
-  streams.err << "Put a block of steel or glass under the punch, nothing soft between, and press "
-                 "Enter: "
-              << std::flush;
+  streams.err
+      << "Put a block of steel or glass under the punch, with nothing soft between them, and "
+         "press Enter: "
+      << std::flush;
   std::string answer;
   if (!std::getline(std::cin, answer)) throw std::runtime_error("nothing was measured");
 }

@@ -21,11 +21,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Gravity differs by .26 % to either side between equator and poles (rectangular) where its value
-// was not given.
+// Gravity varies by 0.26 % to either side over the Earth; used as a rectangular distribution if its
+// value was not given.
 constexpr double kGravityHalfWidth = 0.0026;
 
-// Up and down again, each weight alone, as often as there are series.
+// Up and down again with one weight at a time, once for each series.
 std::vector<double> sequence_kg(std::vector<double> masses_kg, int series) {
   masses_kg.push_back(0.0);
   std::sort(masses_kg.begin(), masses_kg.end());
@@ -179,8 +179,8 @@ ordered_json json_from(const LoadCellFit& fit, const CalibrationRecord& record,
           {"budget", budget}};
 }
 
-// Load cells are straight within parts in a thousand. What is ten times worse is a weight that was
-// mixed up, or something that touches the pan: such a record must not become anybody's forces.
+// Load cells are linear within some thousandths. A deviation ten times larger means that a weight
+// was mixed up or that something touches the load cell, so no record is written.
 void check_line(const LoadCellFit& fit, const WeightReadings& readings) {
   constexpr double kWorst = 0.05;
   const double worst = std::max({fit.nonlinearity, fit.hysteresis, fit.repeatability});
@@ -195,11 +195,31 @@ void check_line(const LoadCellFit& fit, const WeightReadings& readings) {
     furthest = i;
   }
   throw std::runtime_error(fmt::format(
-      "the readings do not lie on a line: they depart by {:.0f} % of the largest force, and most "
-      "at "
-      "reading {} of {} ({:.4f} N), by {:.4f} N. Was a weight mixed up, or did something touch the "
-      "load cell? Nothing was written; weigh again",
+      "the readings do not lie on a line: they deviate by {:.0f} % of the largest force, at most 5 "
+      "% "
+      "is allowed. The largest deviation is at reading {} of {} ({:.4f} N), by {:.4f} N. Was a "
+      "weight mixed up, or did something touch the load cell? Nothing was written; weigh again",
       100.0 * worst, furthest + 1, readings.force_N.size(), readings.force_N[furthest], largest_N));
+}
+
+WeightReadings readings_on_rig(const RigConfig& rig, const CalibrateWords& words, double capacity_N,
+                               Streams& streams) {
+  if (!words.is_emulated && words.masses_kg.empty()) {
+    throw UsageError("calibrate needs --weights, such as \"20 g, 50 g, 100 g, 200 g\"");
+  }
+  for (const double mass_kg : words.masses_kg) {
+    if (mass_kg * words.gravity_m_s2 <= capacity_N) continue;
+    throw UsageError(fmt::format("--weights: {:g} g is more than the load cell's {:.4f} N",
+                                 mass_kg * 1e3, capacity_N));
+  }
+  std::unique_ptr<EmulatedRig> emulated;
+  if (words.is_emulated) {
+    EmulatedRigOptions options;
+    options.truth = calibrate_truth(words);
+    options.config = rig;
+    emulated = std::make_unique<EmulatedRig>(options);
+  }
+  return weigh_on(rig, words, emulated.get(), streams);
 }
 
 }  // namespace
@@ -215,22 +235,7 @@ int calibrate_load_cell(const CalibrateWords& words, Streams& streams) {
   } else {
     const RigConfig rig = calibrate_rig(words);
     if (capacity_N == 0.0) capacity_N = rig.calibration.capacity_N;
-    if (!words.is_emulated && words.masses_kg.empty()) {
-      throw UsageError("calibrate needs --weights, such as \"20 g, 50 g, 100 g, 200 g\"");
-    }
-    for (const double mass_kg : words.masses_kg) {
-      if (mass_kg * words.gravity_m_s2 <= capacity_N) continue;
-      throw UsageError(fmt::format("--weights: {:g} g is more than the load cell's {:.4f} N",
-                                   mass_kg * 1e3, capacity_N));
-    }
-    std::unique_ptr<EmulatedRig> emulated;
-    if (words.is_emulated) {
-      EmulatedRigOptions options;
-      options.truth = calibrate_truth(words);
-      options.config = rig;
-      emulated = std::make_unique<EmulatedRig>(options);
-    }
-    readings = weigh_on(rig, words, emulated.get(), streams);
+    readings = readings_on_rig(rig, words, capacity_N, streams);
   }
   if (capacity_N == 0.0) {
     throw UsageError("calibrate needs --capacity, the rated load of the cell, such as \"250 gf\"");

@@ -12,7 +12,7 @@
 
 namespace viscard {
 
-// Words of `viscard calibrate`, as given. SI.
+// The options of `viscard calibrate`. SI.
 struct CalibrateWords {
   std::optional<std::string> rig_file, data_file, truth_file;
   std::string out_file, id, valid_until;
@@ -29,19 +29,20 @@ struct CalibrateWords {
   std::optional<double> capacity_N;
   double settle_s = 1.0;
   double mean_s = 3.0;
-  double force_N = 0.0;  // highest, on the block; 0: 70 % of the soft limit
+  double force_N = 0.0;  // highest force on the block; 0: 70 % of the soft limit
   int steps = 6;
   double speed = 1.0;
 };
 
-// Dead weights: from a table, or on the rig. The record and what was found.
+// Calibrates the load cell with dead weights, from a table or on the rig; writes the record and
+// prints the result.
 int calibrate_load_cell(const CalibrateWords& words, Streams& streams);
-// A rigid block: from a table or a capture, or on the rig.
+// Measures the frame's stiffness on a rigid block, from a table, a capture or on the rig; likewise.
 int calibrate_frame(const CalibrateWords& words, Streams& streams);
 
 // "2026-11-21", UTC.
 std::string today();
-// The emulated rig's truth and configuration for these words.
+// Configuration and truth of the emulated rig for these words.
 RigConfig calibrate_rig(const CalibrateWords& words);
 EmulatedTruth calibrate_truth(const CalibrateWords& words);
 

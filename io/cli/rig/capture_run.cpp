@@ -43,18 +43,18 @@ LiveViewOptions view_options(const CaptureWords& words, const CaptureSetup& setu
   return options;
 }
 
-// What --force replaces stays beside the new capture until the run has moved anything, and comes
-// back if it never does: a cable that is not plugged in, or a punch that presses already, must not
-// cost yesterday's record.
+// The capture that --force replaces. It stays beside the new one until the run has moved the stage,
+// and is restored if that never happens: a cable that is not plugged in, or a punch that presses
+// already, must not destroy yesterday's record.
 class PreviousCapture {
  public:
   PreviousCapture(std::filesystem::path path, bool is_replaced) : path_(std::move(path)) {
     if (!is_replaced || !std::filesystem::is_regular_file(path_) || is_being_captured(path_)) {
-      return;  // the writer says what is wrong
+      return;  // the writer reports what is wrong
     }
     if (std::filesystem::exists(aside(""))) {
       throw std::runtime_error(aside("").string() +
-                               " is a capture that an earlier --force had put aside; move it away");
+                               " is a capture that an earlier --force has kept; move it away");
     }
     move([this](const char* suffix) { return part(suffix); },
          [this](const char* suffix) { return aside(suffix); });
@@ -67,7 +67,7 @@ class PreviousCapture {
       move([this](const char* suffix) { return aside(suffix); },
            [this](const char* suffix) { return part(suffix); });
     } catch (const std::filesystem::filesystem_error&) {
-      // It is still there under its other name.
+      // The old capture is still there under its other name.
     }
   }
   PreviousCapture(const PreviousCapture&) = delete;
@@ -98,12 +98,12 @@ class PreviousCapture {
   bool is_aside_ = false;
 };
 
-// Ends the file. A run that lost records to a slow disk did not finish.
+// Ends the file. A run that lost records because of a slow disk counts as interrupted.
 void close_file(CaptureWriter& writer, RunOutcome& outcome) {
   try {
     writer.finish(outcome.status == "finished" ? "finished" : "interrupted");
   } catch (const std::exception& error) {
-    if (outcome.reason.empty()) throw;  // otherwise the reason is this very failure
+    if (outcome.reason.empty()) throw;  // otherwise the reason is this failure
   }
   const std::size_t dropped = writer.counts().dropped;
   if (dropped == 0 || outcome.status != "finished") return;

@@ -10,21 +10,20 @@
 
 namespace viscard {
 
-// What stands beside the capture, in place of its extension: what an emulated rig was made with,
-// and the live page.
+// Extensions of the files beside a capture: the truth of an emulated rig, and the live page.
 inline constexpr const char* kTruthEnding = ".truth.json";
 inline constexpr const char* kPageEnding = ".live.html";
 
-// How one capture ended, and the force it saw, for a summary.
+// How one capture ended, and its forces for the summary.
 struct CaptureOutcome {
   RunOutcome run;
   std::string file;
-  std::vector<double> force_N;  // thinned
+  std::vector<double> force_N;  // thinned out
 };
 
-// Opens both ports (or makes an emulated rig), then the file, then runs one test while SIGINT,
-// SIGTERM and SIGHUP stop the stage first. `command` is what the file records as its origin.
-// Throws std::runtime_error when nothing could be begun.
+// Opens both ports (or makes an emulated rig), creates the file and runs one test. SIGINT, SIGTERM
+// and SIGHUP first stop the stage. `command` is recorded in the file as its origin. Throws
+// std::runtime_error if the test could not begin.
 CaptureOutcome capture_once(const CaptureWords& words, const CaptureSetup& setup,
                             const std::string& command, Streams& streams);
 

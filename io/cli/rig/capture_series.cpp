@@ -21,7 +21,7 @@ fs::path attempt_path(const fs::path& first, int n) {
       fmt::format("{}.{}{}", first.stem().string(), n, first.extension().string()));
 }
 
-// A capture that is empty or broken counts as one that was not finished.
+// An empty or damaged capture counts as unfinished.
 bool is_finished(const fs::path& path) {
   try {
     return read_capture(path).status == "finished";

@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kFastest = 500.0;
 
-// An emulated specimen like the one described: PDMS of the demonstration where the mixing ratio is
-// one of its three, otherwise its relaxation with the guessed modulus; geometry as described.
+// An emulated specimen with the geometry of the specimen file. The material is PDMS of the
+// demonstration if the mixing ratio is one of its three, otherwise its relaxation with the guessed
+// modulus.
 EmulatedTruth truth_like(const Specimen& specimen, std::uint64_t seed) {
   const bool is_known = specimen.mixing_ratio == 13.0 || specimen.mixing_ratio == 20.0;
   EmulatedTruth truth = demo_truth(is_known ? specimen.mixing_ratio : 10.0, seed);

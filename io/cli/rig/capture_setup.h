@@ -12,25 +12,25 @@
 
 namespace viscard {
 
-// Words of `viscard capture`, as given.
+// The options of `viscard capture`.
 struct CaptureWords {
   std::optional<std::string> rig_file, test_file, truth_file;
-  std::vector<std::string> specimen_files;  // one after the other
+  std::vector<std::string> specimen_files;  // in the order of the captures
   std::string out_file;                     // a folder if there are several specimens
   bool is_emulated = false;
   std::optional<std::uint64_t> seed;
   double speed = 1.0;
   bool overwrite = false;
   bool as_json = false;
-  bool resumes = false;          // leave out what is finished already
+  bool resumes = false;          // skip specimens with a finished capture
   bool asks_nobody = false;      // no prompt between specimens
   bool shows_page = false;       // --live
-  bool is_uncalibrated = false;  // an expired calibration will do
-  bool acknowledges = false;     // say on stderr how many records are safe
+  bool is_uncalibrated = false;  // accept an expired calibration
+  bool acknowledges = false;     // report on stderr how many records are safe
 };
 
-// Everything a run needs to know, read from files or, for an emulated rig, made up where files are
-// left out.
+// All that one run needs, read from files; an emulated rig has defaults for files that are left
+// out.
 struct CaptureSetup {
   RigConfig rig;
   TestPlan plan;
@@ -38,13 +38,14 @@ struct CaptureSetup {
   std::optional<EmulatedTruth> truth;  // of an emulated rig
 };
 
-// Throws UsageError on words that do not go together.
+// Throws UsageError on options that cannot be combined.
 void check_words(const CaptureWords& words);
 
-// For one of the specimens (empty: the emulated rig's own). Throws std::runtime_error on files.
+// The setup for one specimen (empty: the emulated rig's own). Throws std::runtime_error on a bad
+// file.
 CaptureSetup capture_setup(const CaptureWords& words, const std::string& specimen_file);
 
-// The truth as JSON, to lie beside the capture: what a fit of the run should find.
+// The truth as JSON for the file beside the capture: the result that a fit of the run should find.
 std::string json_from_truth(const EmulatedTruth& truth);
 
 }  // namespace viscard

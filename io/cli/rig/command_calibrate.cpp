@@ -3,11 +3,9 @@
 #include "io/basics/units.h"
 #include "io/cli/rig/calibrate_words.h"
 #include "io/cli/words/command_line.h"
-#include "rig/emulator/demo_rig.h"
 
 #include <fmt/format.h>
 
-#include <ctime>
 #include <filesystem>
 #include <ostream>
 
@@ -35,17 +33,17 @@ CommandSyntax calibrate_syntax() {
   add("data", po::value<std::string>(), "table of weights and readings, in the order taken");
   add("compliance", "measure the frame on a rigid block");
   add("weights", po::value<std::string>(), "masses to put on, \"20 g, 50 g, 100 g, 200 g\"");
-  add("series", po::value<int>()->default_value(3), "how often to go up and down");
+  add("series", po::value<int>()->default_value(3), "number of times to go up and down");
   add("mass-u", po::value<double>()->default_value(1e-4),
       "relative standard uncertainty of the masses");
-  add("gravity", po::value<std::string>(), "at this place, \"9.8067 m/s2\"");
-  add("capacity", po::value<std::string>(), "rated load of the cell, if no rig file says");
-  add("settle", po::value<std::string>()->default_value("1 s"), "wait after a weight was put on");
+  add("gravity", po::value<std::string>(), "gravity at this place, \"9.8067 m/s2\"");
+  add("capacity", po::value<std::string>(), "rated load of the cell, if there is no rig file");
+  add("settle", po::value<std::string>()->default_value("1 s"), "wait after putting on a weight");
   add("seconds", po::value<std::string>()->default_value("3 s"), "time of each mean reading");
   add("to", po::value<std::string>(), "highest force on the block (70 % of the soft limit)");
-  add("steps", po::value<int>()->default_value(6), "of force, on the block");
+  add("steps", po::value<int>()->default_value(6), "number of steps of force on the block");
   add("id", po::value<std::string>(), "name of the record");
-  add("valid-until", po::value<std::string>(), "last day it counts (a year from today)");
+  add("valid-until", po::value<std::string>(), "last day of validity (a year from today)");
   add("out", po::value<std::string>(), "record to write (*.toml)");
   add("emulate", "calibrate an emulated rig");
   add("truth", po::value<std::string>(), "truth.toml: what the emulated cell is like");
@@ -109,6 +107,18 @@ CalibrateWords calibrate_words_from(const po::variables_map& values) {
   return words;
 }
 
+void check_valid_until(const std::string& day) {
+  const bool is_day = day.size() == 10 && day[4] == '-' && day[7] == '-' &&
+                      day.find_first_not_of("0123456789-") == std::string::npos;
+  if (!day.empty() && !is_day) {
+    throw UsageError("--valid-until '" + day + "' is not a day such as 2027-11-21");
+  }
+  if (!day.empty() && day < today()) {
+    throw UsageError("--valid-until " + day +
+                     " is in the past; the record would be refused at once");
+  }
+}
+
 void check_words(const CalibrateWords& words) {
   const int n_sources = (words.is_emulated ? 1 : 0) + (words.data_file ? 1 : 0) +
                         (words.rig_file && !words.is_emulated && !words.data_file ? 1 : 0);
@@ -124,7 +134,10 @@ void check_words(const CalibrateWords& words) {
     throw UsageError("--seconds must be positive and --settle not negative");
   }
   if (!(words.gravity_m_s2 > 9.7) || !(words.gravity_m_s2 < 9.9)) {
-    throw UsageError("--gravity is nowhere on Earth: it is between 9.76 and 9.84 m/s2");
+    throw UsageError(
+        fmt::format("--gravity {} m/s2 does not occur on Earth, where it lies between "
+                    "9.76 and 9.84 m/s2",
+                    words.gravity_m_s2));
   }
   if (!(words.mass_relative_u >= 0.0) || !(words.mass_relative_u < 0.1)) {
     throw UsageError("--mass-u is outside 0 to 0.1");
@@ -135,15 +148,7 @@ void check_words(const CalibrateWords& words) {
   if (!(words.speed > 0.0) || words.speed > 500.0) {
     throw UsageError(fmt::format("--speed is {}; it must be above 0 and at most 500", words.speed));
   }
-  const std::string& day = words.valid_until;
-  const bool is_day = day.size() == 10 && day[4] == '-' && day[7] == '-' &&
-                      day.find_first_not_of("0123456789-") == std::string::npos;
-  if (!day.empty() && !is_day) {
-    throw UsageError("--valid-until '" + day + "' is no day such as 2027-11-21");
-  }
-  if (!day.empty() && day < today()) {
-    throw UsageError("--valid-until " + day + " is past; the record would be refused at once");
-  }
+  check_valid_until(words.valid_until);
   if (!words.overwrite && std::filesystem::exists(words.out_file)) {
     throw std::runtime_error(
         "'" + words.out_file +
@@ -152,29 +157,6 @@ void check_words(const CalibrateWords& words) {
 }
 
 }  // namespace
-
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[16];
-  return {text, std::strftime(text, sizeof text, "%Y-%m-%d", &utc)};
-}
-
-RigConfig calibrate_rig(const CalibrateWords& words) {
-  RigConfig rig = words.rig_file ? read_rig(*words.rig_file) : demo_rig();
-  if (words.is_emulated) {
-    rig.clock_speed = words.speed;
-    if (rig.load_cell.volts_per_count == 0.0) {
-      rig.load_cell.volts_per_count = demo_rig().load_cell.volts_per_count;
-    }
-  }
-  return rig;
-}
-
-EmulatedTruth calibrate_truth(const CalibrateWords& words) {
-  return words.truth_file ? read_truth(*words.truth_file) : demo_truth(10.0, 1);
-}
 
 int run_calibrate(const std::vector<std::string>& words, Streams& streams) {
   CommandSyntax syntax = calibrate_syntax();

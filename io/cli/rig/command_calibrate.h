@@ -4,7 +4,7 @@
 
 namespace viscard {
 
-// viscard calibrate: dead weights on the load cell, or a rigid block under the punch.
+// viscard calibrate: the load cell with dead weights, or the frame with a rigid block.
 int run_calibrate(const std::vector<std::string>& words, Streams& streams);
 
 }  // namespace viscard

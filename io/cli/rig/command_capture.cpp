@@ -31,20 +31,20 @@ CommandSyntax capture_syntax() {
   syntax.description =
       "Runs one indentation test and records every byte of it. With --emulate no rig\n"
       "and no file is needed: a GRBL stage and an HX711 amplifier are emulated behind real ports.\n"
-      "Ctrl-C stops the stage, lifts the punch and keeps what was recorded. Several --specimen "
+      "Ctrl-C stops the stage, lifts the punch and keeps the record. Several --specimen options "
       "make\n"
-      "a series: --out is then a folder, and --resume goes on with what is not finished in it.";
+      "a series: --out is then a folder, and --resume captures what is not finished in it.";
   syntax.example = "viscard capture --emulate --speed 50 --out run.viscap";
   auto add = syntax.options.add_options();
   add("rig", po::value<std::string>(), "rig.toml: ports, calibration");
   add("test", po::value<std::string>(), "test.toml: depth, ramp, hold");
   add("specimen", po::value<std::vector<std::string>>(),
-      "specimen.toml: geometry, modulus guess; again for each further specimen");
+      "specimen.toml: geometry, modulus guess; repeat for each further specimen");
   add("out", po::value<std::string>(), "capture file to write (*.viscap), or a folder");
-  add("resume", "leave finished captures, repeat interrupted ones beside them");
+  add("resume", "skip finished captures, repeat interrupted ones in files beside them");
   add("yes", "do not wait for Enter between specimens");
   add("live", "keep a page with force against time beside the capture: *.live.html");
-  add("acknowledge", "say on stderr how many records are safe from a crash");
+  add("acknowledge", "report on stderr how many records are safe from a crash");
   add("uncalibrated", "capture although the load cell's calibration has expired");
   add("emulate", "use an emulated rig");
   add("truth", po::value<std::string>(), "truth.toml: what the emulated specimen is made of");
@@ -80,13 +80,13 @@ CaptureWords capture_words_from(const po::variables_map& values) {
   return words;
 }
 
-// Expired is refused. Undated is said on a real rig: with numbers written by hand nobody can tell.
+// An expired calibration is refused. One without a date is a warning on a real rig.
 void check_calibration(const CaptureWords& words, const CaptureSetup& setup, Streams& streams) {
   if (!words.rig_file || words.is_uncalibrated) return;
   const std::string trouble = calibration_trouble(setup.rig.calibration, today());
   if (trouble.empty()) return;
   if (!last_valid_day(setup.rig.calibration).empty()) {
-    throw std::runtime_error(trouble + "; or add --uncalibrated to capture all the same");
+    throw std::runtime_error(trouble + "; or add --uncalibrated to capture without one");
   }
   if (!words.is_emulated) streams.err << "viscard: " << trouble << "\n";
 }
@@ -166,7 +166,7 @@ ordered_json json_from_outcome(const CaptureOutcome& capture) {
   return json;
 }
 
-// Waits until the person has changed the specimen; false when that was declined.
+// Waits until the person has changed the specimen; false if the person ended the series.
 bool is_next_ready(const SeriesStep& step, const CaptureWords& words, Streams& streams) {
   if (words.is_emulated || words.asks_nobody) return true;
   streams.err << "Put the specimen of " << step.specimen_file
@@ -175,17 +175,18 @@ bool is_next_ready(const SeriesStep& step, const CaptureWords& words, Streams& s
   return std::getline(std::cin, answer) && answer.rfind('q', 0) != 0;
 }
 
-// Several specimens need somebody to change them, unless nobody needs to.
+// Several specimens need a person at a terminal to change them, unless --yes was given.
 void check_somebody_is_there(const CaptureWords& words, std::size_t n_left) {
   if (n_left < 2 || words.is_emulated || words.asks_nobody || isatty(STDIN_FILENO) == 1) return;
   throw UsageError(
-      "between several specimens capture waits for Enter, and there is no terminal to wait at: add "
-      "--yes if they change by themselves");
+      "between several specimens capture waits for Enter, but there is no terminal: add --yes if "
+      "the "
+      "specimens are changed automatically");
 }
 
 struct SeriesResult {
   ordered_json runs = ordered_json::array();
-  std::string trouble;  // why it ended early
+  std::string trouble;  // why the series ended early; empty if it did not
 };
 
 SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords& words,
@@ -239,7 +240,7 @@ int run_capture(const std::vector<std::string>& words, Streams& streams) {
   if (result.trouble.empty()) return kDone;
   streams.err << "viscard: " << result.trouble << "\n";
   if (steps.size() > 1 || asked.resumes) {
-    streams.err << "viscard: the same command with --resume goes on from here\n";
+    streams.err << "viscard: the same command with --resume continues from here\n";
   }
   return kFailed;
 }

@@ -7,7 +7,7 @@
 
 namespace viscard {
 
-// viscard capture: runs one indentation on the rig, or on an emulated one, into a capture file.
+// viscard capture: runs indentation tests on the rig, or on an emulated one, into capture files.
 int run_capture(const std::vector<std::string>& words, Streams& streams);
 
 }  // namespace viscard

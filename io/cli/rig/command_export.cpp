@@ -21,7 +21,7 @@ CommandSyntax export_syntax() {
   syntax.description =
       "Writes every sample of a capture as CSV: time, counts, volts, force, stage position, "
       "phase.\n"
-      "An interrupted run gives all that was committed, and its head says that it was "
+      "Of an interrupted run all committed samples are written, and the head states that it was "
       "interrupted.\n"
       "Without --out the table goes to standard output.";
   syntax.example = "viscard export run.viscap --out run.csv";
@@ -56,7 +56,7 @@ int run_export(const std::vector<std::string>& words, Streams& streams) {
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   if (values->count("capture") == 0) {
-    throw UsageError("which capture? usage: " + std::string(syntax.usage));
+    throw UsageError("export needs a capture. usage: " + std::string(syntax.usage));
   }
   const auto capture = (*values)["capture"].as<std::string>();
   const bool is_json = values->count("json") > 0;

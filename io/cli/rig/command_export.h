@@ -7,7 +7,7 @@
 
 namespace viscard {
 
-// viscard export: a capture as CSV.
+// viscard export: writes a capture as CSV.
 int run_export(const std::vector<std::string>& words, Streams& streams);
 
 }  // namespace viscard

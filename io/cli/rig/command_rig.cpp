@@ -5,11 +5,11 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/progress.h"
 #include "io/config/config_file.h"
+#include "models/maths/text_of_number.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/lines/port_probe.h"
 #include "rig/open_devices.h"
-#include "rig/protocols/text_number.h"
 #include "rig/rig_check.h"
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ int list_ports(bool as_json, Streams& streams) {
     streams.out << ordered_json{{"ports", rows}}.dump() << "\n";
   } else if (rows.empty()) {
     streams.out << "No serial port is present. Plug the stage and the load cell in and switch them "
-                   "on; 'dmesg | tail' says what the system made of them.\n";
+                   "on; 'dmesg | tail' shows whether the system has recognised them.\n";
   }
   return kDone;
 }
@@ -60,7 +60,8 @@ RigCheck check(RigConfig rig, bool is_emulated, double seconds) {
   return check_rig(*devices.stage, *devices.load_cell, rig, clock, seconds);
 }
 
-// A capture refuses an expired calibration, and one of tomorrow; an undated one it only mentions.
+// As in a capture: an expired calibration, or one dated later than today, forbids a test; one
+// without a date is only a warning.
 void add_calibration(const RigConfig& rig, RigCheck& found) {
   const std::string trouble = calibration_trouble(rig.calibration, today());
   if (trouble.empty()) return;
@@ -141,14 +142,12 @@ int show_overshoot(bool as_json, Streams& streams) {
   return kDone;
 }
 
-}  // namespace
-
-int run_rig(const std::vector<std::string>& words, Streams& streams) {
+CommandSyntax rig_syntax() {
   CommandSyntax syntax;
   syntax.usage = "viscard rig list | check --rig FILE | overshoot [OPTIONS]";
   syntax.description =
       "list shows the serial ports and why one cannot be used, without opening any.\n"
-      "check opens both devices of a rig file, identifies and measures them, and says what to "
+      "check opens both devices of a rig file, identifies and measures them, and reports what to "
       "change;\n"
       "nothing moves. overshoot shows how far the force goes beyond a limit, on the emulated rig.";
   syntax.example = "viscard rig check --emulate";
@@ -156,6 +155,34 @@ int run_rig(const std::vector<std::string>& words, Streams& streams) {
       "seconds", po::value<double>()->default_value(3.0), "how long to listen")(
       "emulate", "check an emulated rig");
   syntax.positional = {"what"};
+  return syntax;
+}
+
+int check_and_print(const po::variables_map& values, bool as_json, Streams& streams) {
+  const bool is_emulated = values.count("emulate") > 0;
+  if (!is_emulated && values.count("rig") == 0) {
+    throw UsageError("rig check needs --rig FILE (or --emulate to see what it prints)");
+  }
+  const double seconds = values["seconds"].as<double>();
+  if (!(seconds >= 1.0) || seconds > 3600.0) {
+    throw UsageError(fmt::format("--seconds {} is outside 1 to 3600", seconds));
+  }
+  const RigConfig rig =
+      values.count("rig") > 0 ? read_rig(values["rig"].as<std::string>()) : demo_rig();
+  RigCheck found = check(rig, is_emulated, seconds);
+  if (values.count("rig") > 0) add_calibration(rig, found);
+  if (as_json) {
+    print_json(found, streams.out);
+  } else {
+    print_text(found, streams.out);
+  }
+  return found.is_usable ? kDone : kFailed;
+}
+
+}  // namespace
+
+int run_rig(const std::vector<std::string>& words, Streams& streams) {
+  CommandSyntax syntax = rig_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   const std::string what = values->count("what") > 0 ? (*values)["what"].as<std::string>() : "";
@@ -167,27 +194,10 @@ int run_rig(const std::vector<std::string>& words, Streams& streams) {
   if (what == "list") return list_ports(as_json, streams);
   if (what == "overshoot") return show_overshoot(as_json, streams);
   if (what != "check") {
-    throw UsageError("rig needs to know what: list, check or overshoot. usage: " +
+    throw UsageError("rig needs one of list, check or overshoot. usage: " +
                      std::string(syntax.usage));
   }
-  const bool is_emulated = values->count("emulate") > 0;
-  if (!is_emulated && values->count("rig") == 0) {
-    throw UsageError("rig check needs --rig FILE (or --emulate to see what it prints)");
-  }
-  const double seconds = (*values)["seconds"].as<double>();
-  if (!(seconds >= 1.0) || seconds > 3600.0) {
-    throw UsageError(fmt::format("--seconds {} is outside 1 to 3600", seconds));
-  }
-  const RigConfig rig =
-      values->count("rig") > 0 ? read_rig((*values)["rig"].as<std::string>()) : demo_rig();
-  RigCheck found = check(rig, is_emulated, seconds);
-  if (values->count("rig") > 0) add_calibration(rig, found);
-  if (as_json) {
-    print_json(found, streams.out);
-  } else {
-    print_text(found, streams.out);
-  }
-  return found.is_usable ? kDone : kFailed;
+  return check_and_print(*values, as_json, streams);
 }
 
 }  // namespace viscard

@@ -7,8 +7,9 @@
 
 namespace viscard {
 
-// viscard rig list: serial ports, and why one cannot be used.
-// viscard rig check: both devices of a rig file identified, measured, their settings read back.
+// viscard rig list: lists serial ports and why one cannot be used.
+// viscard rig check: identifies both devices of a rig file, measures them and reads their settings.
+// viscard rig overshoot: the force beyond a limit on the emulated rig.
 int run_rig(const std::vector<std::string>& words, Streams& streams);
 
 }  // namespace viscard

@@ -28,7 +28,7 @@ struct Scale {
   }
 };
 
-// A step of 1, 2 or 5 times a power of ten that makes about five of the range.
+// A step of 1, 2 or 5 times a power of ten, of which the range has about five.
 double tick_step(double range) {
   const double raw = range / 5.0;
   const double power = std::pow(10.0, std::floor(std::log10(raw)));

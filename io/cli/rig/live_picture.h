@@ -8,8 +8,7 @@
 
 namespace viscard {
 
-// Force against time as it comes in, thinned so that it never holds more than kMost points however
-// long the run.
+// Force against time during a run, thinned out to at most kMost points however long the run is.
 class LiveHistory {
  public:
   static constexpr std::size_t kMost = 2000;
@@ -24,18 +23,18 @@ class LiveHistory {
   std::size_t n_seen_ = 0;
 };
 
-// The values as one of eight blocks each, the lowest to the highest of them; more values than width
-// are reduced to the largest within each share.
+// Draws each value as one of eight blocks, scaled from the smallest to the largest value. If there
+// are more values than width, each block shows the largest value of its share.
 std::string sparkline(const std::vector<double>& values, std::size_t width);
 
-// "hold     0.843 N  34 % of the cell  128.3 um  [sparkline]  1:23 left", cut to fit the columns.
+// "hold     0.843 N  34 % of the cell  128.3 um  [sparkline]  1:23 left", shortened to fit columns.
 std::string line_from_live(const RunProgress& now, const LiveHistory& history, double capacity_N,
                            std::size_t columns);
 
 // "1:23" or "2:01:07".
 std::string clock_from_s(double seconds);
 
-// A page of its own that reloads itself every second while the run goes on.
+// An HTML page that reloads itself every second until the run is over.
 std::string page_from_live(const RunProgress& now, const LiveHistory& history, double capacity_N,
                            double limit_N, const std::string& title, bool is_over);
 

@@ -41,7 +41,7 @@ LiveView::~LiveView() {
 void LiveView::update(const RunProgress& now) {
   const std::lock_guard<std::mutex> lock(mutex_);
   now_ = now;
-  now_.time_left_s /= options_.clock_speed;  // a person waits by the wall clock
+  now_.time_left_s /= options_.clock_speed;  // shown as wall time
   history_.add(now.time_s, now.force_N);
   is_new_ = true;
 }

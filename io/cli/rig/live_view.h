@@ -19,23 +19,23 @@ struct LiveViewOptions {
   double clock_speed = 1.0;
   std::string title;
   std::optional<std::filesystem::path> page;  // rewritten every second
-  std::function<std::size_t()> n_safe;  // records that a kill cannot lose; announced when given
+  std::function<std::size_t()> n_safe;        // records that survive a kill; reported if not empty
 };
 
-// Shows a run to the person at the rig: one line at the foot of the terminal, and a page. update()
-// only takes a note and never waits: a terminal that was stopped (Ctrl-S) or a slow disk must not
-// hold up the thread that watches the force. A thread of its own draws. What goes wrong with a
-// picture is never the run's trouble: a page that cannot be written is given up.
+// Shows a run to the person at the rig, as one line at the bottom of the terminal and as a page. A
+// thread of its own draws. update() only stores the values and never waits, because a stopped
+// terminal (Ctrl-S) or a slow disk must not delay the thread that watches the force. A page that
+// cannot be written is given up and does not disturb the run.
 class LiveView {
  public:
   LiveView(Streams& streams, LiveViewOptions options);
-  // Draws the page once more, wipes the line.
+  // Draws the page once more and removes the line.
   ~LiveView();
   LiveView(const LiveView&) = delete;
   LiveView& operator=(const LiveView&) = delete;
 
   void update(const RunProgress& now);
-  // Of the whole run so far, for a summary.
+  // The history of the run so far.
   LiveHistory history() const;
 
  private:
@@ -50,7 +50,7 @@ class LiveView {
   bool is_page_lost_ = false;
   std::size_t n_announced_ = 0;
 
-  mutable std::mutex mutex_;  // of the next four
+  mutable std::mutex mutex_;  // guards the next five
   std::condition_variable wake_;
   RunProgress now_;
   LiveHistory history_;

@@ -13,7 +13,8 @@ namespace viscard {
 namespace {
 
 constexpr double kLimit_N = 1.0;
-constexpr double kFarther_m = 0.6e-3;  // than the limit is deep: nothing else ends the move
+constexpr double kFarther_m =
+    0.6e-3;  // deeper than the limit, so that only the limit ends the move
 
 enum class Stop { kGentle, kLadder, kReset };
 
@@ -30,7 +31,7 @@ EmulatedRigOptions bench(const OvershootRow& row) {
   options.truth.contact.poisson_ratio = 0.5;
   options.truth.frame_stiffness_N_m = 0.0;
   options.truth.overload_N = 0.0;
-  // Far enough to have full speed when it touches.
+  // Far enough to reach full speed before contact.
   options.truth.surface_position_m =
       0.02e-3 + 0.5 * row.speed_m_s * row.speed_m_s / row.acceleration_m_s2;
   options.truth.steps_per_m = row.steps_per_m;

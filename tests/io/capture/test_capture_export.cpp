@@ -31,7 +31,7 @@ CapturedRun short_run() {
   return run;
 }
 
-TEST_CASE("a capture as CSV says what it is and reads back", "[io][capture][golden]") {
+TEST_CASE("a capture as CSV describes itself and reads back", "[io][capture][golden]") {
   const std::string text = csv_from_capture(short_run());
   // 1e-12: the last digits of sums and products may differ between compilers.
   CHECK(test::golden_difference("capture_export.csv", text, 1e-12) == "");
@@ -59,7 +59,7 @@ TEST_CASE("without a contact there is no depth", "[io][capture]") {
   CHECK(csv_from_capture(run).find("depth_m") == std::string::npos);
 }
 
-TEST_CASE("raw bytes are exported so that each can be told", "[io][capture]") {
+TEST_CASE("raw bytes are exported so that each byte can be recovered", "[io][capture]") {
   const test::ScratchFolder folder;
   const auto path = folder / "run.viscap";
   CaptureWriter writer(path, test::demo_run());

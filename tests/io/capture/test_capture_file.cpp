@@ -107,7 +107,7 @@ TEST_CASE("a capture being written reads as running, and afterwards as interrupt
   CHECK(run.load_samples.size() == 101);  // the destructor loses nothing
 }
 
-TEST_CASE("records are committed within the interval without anybody asking", "[io][capture]") {
+TEST_CASE("records are committed within the interval without a call of sync", "[io][capture]") {
   const ScratchFolder folder;
   CaptureWriter writer(folder / "run.viscap", demo_run());
   writer.append(sample(0));
@@ -118,7 +118,7 @@ TEST_CASE("records are committed within the interval without anybody asking", "[
   CHECK(writer.counts().synced == 1);
 }
 
-TEST_CASE("nothing is overwritten without being told, and a live capture never", "[io][capture]") {
+TEST_CASE("nothing is overwritten unless asked for, and a live capture never", "[io][capture]") {
   const ScratchFolder folder;
   const auto path = folder / "run.viscap";
   {
@@ -135,7 +135,7 @@ TEST_CASE("nothing is overwritten without being told, and a live capture never",
   CHECK(read_capture(path).load_samples.empty());
 }
 
-TEST_CASE("a capture goes nowhere but into a new plain file in a folder that is there",
+TEST_CASE("a capture is written only into a new plain file in an existing folder",
           "[io][capture]") {
   const ScratchFolder folder;
   CHECK(contains(error_text([&] { CaptureWriter w(folder / "no/run.viscap", demo_run()); }),
@@ -154,7 +154,7 @@ TEST_CASE("a capture goes nowhere but into a new plain file in a folder that is 
                  "belongs to an earlier capture"));
 }
 
-TEST_CASE("an overfull queue drops records, counts them and says where, but never an event",
+TEST_CASE("a full queue drops records, counts them and records where, but never drops an event",
           "[io][capture]") {
   const ScratchFolder folder;
   const auto path = folder / "run.viscap";
@@ -208,7 +208,7 @@ std::string finished_bytes(const ScratchFolder& folder, int n) {
   return read_file(path);
 }
 
-TEST_CASE("what is no whole capture is refused with one clear line", "[io][capture]") {
+TEST_CASE("a file that is no whole capture is refused with one clear line", "[io][capture]") {
   const ScratchFolder folder;
   const auto path = folder / "run.viscap";
   const std::string whole = finished_bytes(folder, 2000);

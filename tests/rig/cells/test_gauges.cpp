@@ -31,7 +31,7 @@ EmulatedRigOptions gauge_rig(const std::string& driver, double speed) {
 
 }  // namespace
 
-TEST_CASE("Units of force have their newtons", "[rig]") {
+TEST_CASE("units of force are converted to newtons", "[rig]") {
   CHECK(*newtons_per_unit("N") == 1.0);
   CHECK(*newtons_per_unit(" mN ") == 1e-3);
   CHECK(*newtons_per_unit("gF") == Approx(9.80665e-3).epsilon(1e-14));
@@ -72,7 +72,7 @@ TEST_CASE("Mark-10 and Sauter readings are read in their units", "[rig]") {
   CHECK_THROWS_WITH(sauter_protocol("stone"), Contains("unit 'stone'"));
 }
 
-TEST_CASE("Each kind of load cell is identified and measured by a rig check", "[rig][pty]") {
+TEST_CASE("each kind of load cell is identified and measured by a rig check", "[rig][pty]") {
   const std::string driver = GENERATE("scpi", "mark10", "sauter");
   EmulatedRigOptions options = gauge_rig(driver, 1.0);
   options.gauge.echoes = driver == "scpi";
@@ -88,7 +88,7 @@ TEST_CASE("Each kind of load cell is identified and measured by a rig check", "[
   CHECK(check.stream.unreadable == 0);
 }
 
-TEST_CASE("A whole test runs on a multimeter and on force gauges", "[rig][pty]") {
+TEST_CASE("a whole test runs on a multimeter and on force gauges", "[rig][pty]") {
   const std::string driver = GENERATE("scpi", "mark10", "sauter");
   DeviceFixture rig(gauge_rig(driver, 4.0));  // each reading is a question: leave time for it
   const RunOutcome outcome = rig.run(quick_plan());
@@ -100,7 +100,7 @@ TEST_CASE("A whole test runs on a multimeter and on force gauges", "[rig][pty]")
   CHECK(rig.all<LoadSample>().front().volts.has_value() == (driver == "scpi"));
 }
 
-TEST_CASE("Lost and late answers never pass for the answer to another question", "[rig][pty]") {
+TEST_CASE("lost and late answers are never taken for the answer to another query", "[rig][pty]") {
   EmulatedRigOptions options = gauge_rig("mark10", 1.0);
   options.gauge.late_answer_every = 9;
   options.gauge.late_s = 0.58;  // after the driver has given up
@@ -132,7 +132,7 @@ TEST_CASE("Lost and late answers never pass for the answer to another question",
   CHECK(cell.counts().duplicate >= 1);  // the late ones, counted and left out
 }
 
-TEST_CASE("A load cell that changes its unit, refuses its setup or goes silent is named",
+TEST_CASE("a load cell that changes its unit, refuses its setup or goes silent is an error",
           "[rig][pty]") {
   SECTION("unit") {
     EmulatedRigOptions options = gauge_rig("mark10", 1.0);
@@ -155,7 +155,7 @@ TEST_CASE("A load cell that changes its unit, refuses its setup or goes silent i
   }
 }
 
-TEST_CASE("A unit hidden in the gauge's menu is taken from the rig file", "[rig][pty]") {
+TEST_CASE("a unit that the gauge does not send is taken from the rig file", "[rig][pty]") {
   EmulatedRigOptions options = gauge_rig("mark10", 1.0);
   options.gauge.unit = "gF";
   options.gauge.hides_unit = true;
@@ -167,7 +167,7 @@ TEST_CASE("A unit hidden in the gauge's menu is taken from the rig file", "[rig]
         Approx(options.truth.force_offset_N).margin(6 * options.truth.force_noise_N));
 }
 
-TEST_CASE("A number of an HX711 line with a unit is a force", "[rig][pty]") {
+TEST_CASE("a number with a unit on an HX711 line is a force", "[rig][pty]") {
   EmulatedRigOptions options = DeviceFixture::options(10.0);
   options.amplifier.format = AmplifierFormat::kVolts;  // a plain number with decimals
   options.config.load_cell.unit = "g";
@@ -184,7 +184,7 @@ TEST_CASE("A number of an HX711 line with a unit is a force", "[rig][pty]") {
         Approx(options.truth.force_offset_N).margin(6 * options.truth.force_noise_N));
 }
 
-TEST_CASE("Framings other than 8N1 are set, and nonsense is refused", "[rig][pty]") {
+TEST_CASE("framings other than 8N1 are set, and an unknown one is refused", "[rig][pty]") {
   const PtyPort port;
   const RigClock clock;
   CHECK_NOTHROW(SerialLine(port.path(), 9600, clock, "7E2"));

@@ -17,7 +17,7 @@ void serve_for(RigFixture& rig, double wall_s) {
 
 }  // namespace
 
-TEST_CASE("The shape of an amplifier's lines is found out", "[rig][pty]") {
+TEST_CASE("the format of an amplifier's lines is learnt", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(10.0);
   options.config.load_cell.line_format = "auto";
   Hx711Format expected = Hx711Format::kCounts;
@@ -48,7 +48,7 @@ TEST_CASE("The shape of an amplifier's lines is found out", "[rig][pty]") {
   CHECK(rig.load_cell.counts().unreadable == 0);
 }
 
-TEST_CASE("Noise depends on the seed and the number of the reading alone", "[rig]") {
+TEST_CASE("noise depends only on the seed and the number of the reading", "[rig]") {
   const EmulatedTruth truth = demo_truth(10.0, 42);
   const RigConfig config = demo_rig();
   const double volts_per_count = config.load_cell.volts_per_count;
@@ -73,7 +73,7 @@ TEST_CASE("Noise depends on the seed and the number of the reading alone", "[rig
   CHECK(std::sqrt(squares / kN) == Approx(sigma_N).epsilon(5 / std::sqrt(2.0 * kN)));
 }
 
-TEST_CASE("A counter that wraps in the run loses nothing", "[rig][pty]") {
+TEST_CASE("a counter that wraps during the run loses no reading", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(10.0);
   options.amplifier.micros_at_reset = 4294967295u - 1500000u;  // wraps after 1.5 s
   RigFixture rig(options);
@@ -88,8 +88,7 @@ TEST_CASE("A counter that wraps in the run loses nothing", "[rig][pty]") {
   }
 }
 
-TEST_CASE("The host's estimate of when a reading was made forgets what stalls added",
-          "[rig][pty]") {
+TEST_CASE("the estimated time of a reading recovers from the delay of a stall", "[rig][pty]") {
   RigFixture rig(RigFixture::options(1.0));
   rig.load_cell.connect(rig.pump());
   serve_for(rig, 0.5);
@@ -107,7 +106,7 @@ TEST_CASE("The host's estimate of when a reading was made forgets what stalls ad
   CHECK(rig.load_cell.counts().missing == 0);
 }
 
-TEST_CASE("Incidents of the amplifier are told apart", "[rig][pty]") {
+TEST_CASE("incidents of the amplifier are distinguished", "[rig][pty]") {
   RigFixture rig(RigFixture::options(5.0));
   rig.load_cell.connect(rig.pump());
   SECTION("restart") {
@@ -120,7 +119,7 @@ TEST_CASE("Incidents of the amplifier are told apart", "[rig][pty]") {
   }
 }
 
-TEST_CASE("A port without readings is named, with what came instead", "[rig][pty]") {
+TEST_CASE("a port without readings is refused with the bytes that came instead", "[rig][pty]") {
   EmulatedRig emulated(RigFixture::options(1.0));
   const RigClock clock;
   SerialLine line(emulated.load_cell_port(), 115200, clock);

@@ -57,7 +57,7 @@ EmulatedTruth touching_truth() {
 
 }  // namespace
 
-TEST_CASE("Without relaxation the force is that of two springs in series", "[rig]") {
+TEST_CASE("without relaxation the force is that of two springs in series", "[rig]") {
   EmulatedTruth truth = touching_truth();
   truth.material.terms.clear();
   EmulatedSpecimen specimen(truth);
@@ -68,7 +68,7 @@ TEST_CASE("Without relaxation the force is that of two springs in series", "[rig
   CHECK(specimen.depth_m() == Approx(z_m - expected_N / truth.frame_stiffness_N_m).epsilon(1e-12));
 }
 
-TEST_CASE("Ramp and hold through a frame spring agree with a fine integration", "[rig]") {
+TEST_CASE("ramp and hold through a frame spring agree with a fine integration", "[rig]") {
   const EmulatedTruth truth = touching_truth();
   const double ramp_m = 0.3e-3;
   EmulatedSpecimen specimen(truth);
@@ -80,7 +80,7 @@ TEST_CASE("Ramp and hold through a frame spring agree with a fine integration", 
   CHECK(specimen.force_N() == Approx(independent_N).epsilon(1e-6));
 }
 
-TEST_CASE("Halving the step changes the force by a quarter of what it did", "[rig][convergence]") {
+TEST_CASE("halving the step reduces the change of the force to a quarter", "[rig][convergence]") {
   const EmulatedTruth truth = touching_truth();
   const auto force_with = [&](int per_second) {
     EmulatedSpecimen specimen(truth);
@@ -97,7 +97,7 @@ TEST_CASE("Halving the step changes the force by a quarter of what it did", "[ri
   CHECK(coarse_N / fine_N < 4.5);
 }
 
-TEST_CASE("The punch never pulls, and finds a surface that recovers where it is", "[rig]") {
+TEST_CASE("the punch never pulls and touches a recovering surface where it is", "[rig]") {
   EmulatedTruth truth = touching_truth();
   EmulatedSpecimen specimen(truth);
   specimen.advance(0.01, 0.3e-3);
@@ -110,14 +110,14 @@ TEST_CASE("The punch never pulls, and finds a surface that recovers where it is"
   CHECK(specimen.depth_m() < 1e-3 * pressed_m);  // ten relaxation times later
 }
 
-TEST_CASE("Moves end on whole steps: .25 mm at 250 steps/mm becomes .252", "[rig]") {
+TEST_CASE("moves end on whole steps: 0.25 mm at 250 steps/mm becomes 0.252 mm", "[rig]") {
   EmulatedMotion motion(250e3, 0.0);
   motion.start(0.0, 0.25e-3 + 1e-9, 1e-3, 0.2);
   CHECK(motion.end_position_m() == Approx(0.252e-3).epsilon(1e-12));
   CHECK(motion.position_m(10.0) == motion.end_position_m());
 }
 
-TEST_CASE("A gentle stop runs through GRBL's queue, a reset stops where it is", "[rig]") {
+TEST_CASE("a gentle stop carries out GRBL's queue, a reset stops at once", "[rig]") {
   const double speed_m_s = GENERATE(0.1e-3, 0.5e-3, 2e-3);
   EmulatedMotion motion(3200e3, 0.0);
   motion.start(0.0, 5e-3, speed_m_s, 0.2);

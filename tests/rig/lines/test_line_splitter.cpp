@@ -1,5 +1,4 @@
 #include "rig/lines/line_splitter.h"
-#include "rig/protocols/text_number.h"
 
 #include <catch2/catch.hpp>
 
@@ -17,7 +16,7 @@ std::vector<std::string> lines_of(LineSplitter& splitter) {
 
 }  // namespace
 
-TEST_CASE("A line ends at CR, LF, CRLF or LFCR, wherever the bytes are split", "[rig]") {
+TEST_CASE("a line ends at CR, LF, CRLF or LFCR, wherever the bytes are split", "[rig]") {
   const std::string terminator = GENERATE("\r", "\n", "\r\n", "\n\r");
   const std::string stream = "one" + terminator + "two" + terminator + "three" + terminator;
   for (std::size_t at = 0; at <= stream.size(); ++at) {
@@ -28,7 +27,7 @@ TEST_CASE("A line ends at CR, LF, CRLF or LFCR, wherever the bytes are split", "
   }
 }
 
-TEST_CASE("An empty line is a line, the second half of a terminator is none", "[rig]") {
+TEST_CASE("an empty line is a line, but the second character of a terminator makes none", "[rig]") {
   LineSplitter splitter;
   splitter.feed("\r\n\r\nok\r\n", 0.0);
   CHECK(lines_of(splitter) == std::vector<std::string>{"", "", "ok"});
@@ -37,7 +36,7 @@ TEST_CASE("An empty line is a line, the second half of a terminator is none", "[
   CHECK(lines_of(bare) == std::vector<std::string>{"a", "", "b"});
 }
 
-TEST_CASE("A mebibyte without an end is dropped, and the line after it read", "[rig]") {
+TEST_CASE("a mebibyte without a line end is dropped, and the line after it is read", "[rig]") {
   LineSplitter splitter(256);
   const std::string block(4096, 'x');
   for (int i = 0; i < 256; ++i) splitter.feed(block, 0.0);
@@ -46,7 +45,7 @@ TEST_CASE("A mebibyte without an end is dropped, and the line after it read", "[
   CHECK(lines_of(splitter) == std::vector<std::string>{"next"});
 }
 
-TEST_CASE("Lines of one read arrived earlier by the wire time of what came behind", "[rig]") {
+TEST_CASE("lines of one read arrived earlier by the wire time of the bytes after them", "[rig]") {
   LineSplitter splitter;
   splitter.feed("12345678\nabcdefgh\n", 10.0, 1e-3);
   const auto first = splitter.next();
@@ -57,24 +56,13 @@ TEST_CASE("Lines of one read arrived earlier by the wire time of what came behin
   CHECK(second->time_s == 10.0);
 }
 
-TEST_CASE("NULs and bytes above 127 count as unprintable, text does not", "[rig]") {
+TEST_CASE("NULs and bytes above 127 count as unprintable, but text does not", "[rig]") {
   LineSplitter noise;
   noise.feed(std::string("\x00\xff\x80\xfe", 4), 0.0);
   CHECK(noise.unprintable_fraction() == 1.0);
   LineSplitter text;
   text.feed("123,\t456\r\n", 0.0);
   CHECK(text.unprintable_fraction() == 0.0);
-}
-
-TEST_CASE("Numbers on the wire are read and written whatever the locale", "[rig]") {
-  CHECK(number_from_text(" +1.25 ").value() == 1.25);
-  CHECK(number_from_text("-0.00").value() == 0.0);
-  for (const char* bad : {"", "1,25", "1.2.3", "nan", "inf", "0x10", "12a", "--1"}) {
-    INFO(bad);
-    CHECK_FALSE(number_from_text(bad));
-  }
-  CHECK(text_from_number(-0.0001, 3) == "0.000");
-  CHECK(text_from_number(-1.23456789, 5) == "-1.23457");
 }
 
 }  // namespace viscard

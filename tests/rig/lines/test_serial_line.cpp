@@ -2,6 +2,7 @@
 #include "rig/lines/port_probe.h"
 #include "rig/lines/rig_error.h"
 #include "rig/lines/serial_line.h"
+#include "tests/rig/read_line.h"
 
 #include <catch2/catch.hpp>
 #include <fcntl.h>
@@ -22,7 +23,7 @@ const RigClock& wall() {
 
 }  // namespace
 
-TEST_CASE("A port that cannot be used says why", "[rig][pty]") {
+TEST_CASE("a port that cannot be used is refused with the reason", "[rig][pty]") {
   using Catch::Matchers::Contains;
   SECTION("missing") {
     CHECK_THROWS_WITH(SerialLine("/dev/no_such_port", 115200, wall()),
@@ -56,7 +57,7 @@ TEST_CASE("A port that cannot be used says why", "[rig][pty]") {
   }
 }
 
-TEST_CASE("A port that was closed can be opened again", "[rig][pty]") {
+TEST_CASE("a port that was closed can be opened again", "[rig][pty]") {
   PtyPort device;
   for (int i = 0; i < 3; ++i) {
     SerialLine line(device.path(), 115200, wall());
@@ -68,7 +69,7 @@ TEST_CASE("A port that was closed can be opened again", "[rig][pty]") {
   }
 }
 
-TEST_CASE("Bytes pass unchanged in both directions, 8 bits wide", "[rig][pty]") {
+TEST_CASE("bytes pass unchanged in both directions, 8 bits wide", "[rig][pty]") {
   PtyPort device;
   SerialLine line(device.path(), 115200, wall());
   std::string all;
@@ -89,7 +90,7 @@ TEST_CASE("Bytes pass unchanged in both directions, 8 bits wide", "[rig][pty]") 
   CHECK(back == all);
 }
 
-TEST_CASE("A pulled cable is a hang-up after the last bytes, and closing does not abort",
+TEST_CASE("a pulled cable is a hang-up after the last bytes, and closing does not abort",
           "[rig][pty]") {
   auto device = std::make_unique<PtyPort>();
   auto line = std::make_unique<SerialLine>(device->path(), 115200, wall());
@@ -103,7 +104,7 @@ TEST_CASE("A pulled cable is a hang-up after the last bytes, and closing does no
   SUCCEED("closed after the hang-up");
 }
 
-TEST_CASE("Descriptors are given back after a hang-up", "[rig][pty]") {
+TEST_CASE("descriptors are released after a hang-up", "[rig][pty]") {
   const auto lowest_free = [] {
     const int descriptor = open("/dev/null", O_RDONLY);
     close(descriptor);
@@ -119,7 +120,7 @@ TEST_CASE("Descriptors are given back after a hang-up", "[rig][pty]") {
   CHECK(lowest_free() == before);
 }
 
-TEST_CASE("A deadline without a line passes without one, and what came stays", "[rig][pty]") {
+TEST_CASE("a deadline without a line returns nothing and keeps the bytes received", "[rig][pty]") {
   PtyPort device;
   SerialLine line(device.path(), 115200, wall());
   LineSplitter splitter;
@@ -131,7 +132,7 @@ TEST_CASE("A deadline without a line passes without one, and what came stays", "
   CHECK(received->text == "begun");
 }
 
-TEST_CASE("A mebibyte without an end passes by and the stream goes on", "[rig][pty]") {
+TEST_CASE("a mebibyte without a line end is dropped, and the stream continues", "[rig][pty]") {
   PtyPort device;
   SerialLine line(device.path(), 115200, wall());
   LineSplitter splitter;
@@ -146,7 +147,7 @@ TEST_CASE("A mebibyte without an end passes by and the stream goes on", "[rig][p
   CHECK(splitter.n_overlong() == 1);
 }
 
-TEST_CASE("Writing to a device that does not read ends at the deadline", "[rig][pty]") {
+TEST_CASE("writing to a device that does not read ends at the deadline", "[rig][pty]") {
   PtyPort device;
   SerialLine line(device.path(), 115200, wall());
   CHECK_THROWS_WITH(line.write(std::string(1 << 20, 'x'), 0.05),

@@ -6,7 +6,7 @@
 
 namespace viscard {
 
-TEST_CASE("A status report is read with its fields in any order", "[rig]") {
+TEST_CASE("a status report is read with its fields in any order", "[rig]") {
   const auto status = parse_grbl_status(
       "<Jog|WCO:1.000,2.000,3.000|FS:30,0|TLR:0|A:|MPos:0.000,0.000,-0.252|Bf:15,128|Pn:Z>\r\n");
   REQUIRE(status);
@@ -19,7 +19,7 @@ TEST_CASE("A status report is read with its fields in any order", "[rig]") {
   CHECK(status->pins == "Z");
 }
 
-TEST_CASE("Work positions, sub-states and more axes than three are read", "[rig]") {
+TEST_CASE("work positions, sub-states and more than three axes are read", "[rig]") {
   const auto held = parse_grbl_status("<Hold:1|WPos:1.5,2.5,3.5,4.5|F:0>");
   REQUIRE(held);
   CHECK(held->state == "Hold");
@@ -28,7 +28,7 @@ TEST_CASE("Work positions, sub-states and more axes than three are read", "[rig]
   CHECK(held->work_mm.size() == 4);
 }
 
-TEST_CASE("What is no status report is not taken for one", "[rig]") {
+TEST_CASE("a line that is no status report is refused", "[rig]") {
   const std::string line =
       GENERATE("", "<>", "<Idle>", "<Idle|MPos:1,2,3", "Idle|MPos:1,2,3>", "<Id1e|MPos:1,2,3>",
                "<Idle|MPos:1,2,x>", "<Idle|MPos:0.000,0.0<Idle|MPos:0,0,0>", "ok");
@@ -36,7 +36,7 @@ TEST_CASE("What is no status report is not taken for one", "[rig]") {
   CHECK_FALSE(parse_grbl_status(line));
 }
 
-TEST_CASE("Answers, alarms and welcomes of both dialects are told apart", "[rig]") {
+TEST_CASE("answers, alarms and welcomes of both dialects are distinguished", "[rig]") {
   CHECK(is_grbl_ok("ok\r"));
   CHECK_FALSE(is_grbl_ok("[MSG:ok]"));
   CHECK_FALSE(is_grbl_ok(">G54:ok"));
@@ -53,7 +53,7 @@ TEST_CASE("Answers, alarms and welcomes of both dialects are told apart", "[rig]
   CHECK_FALSE(parse_grbl_welcome("Grblx"));
 }
 
-TEST_CASE("News that answers no line is told from answers", "[rig]") {
+TEST_CASE("lines that answer nothing are distinguished from answers", "[rig]") {
   for (const char* push :
        {"<Idle|MPos:0,0,0>", "[MSG:Caution: Unlocked]", "[GC:G0 G54]", "[PRB:0,0,0:1]", "$0=10",
         "ALARM:3", ">G54:ok", "", "\r", "Grbl 1.1h ['$' for help]"}) {
@@ -64,7 +64,7 @@ TEST_CASE("News that answers no line is told from answers", "[rig]") {
   CHECK_FALSE(is_grbl_push("error:9"));
 }
 
-TEST_CASE("Settings and build options are read", "[rig]") {
+TEST_CASE("settings and messages are read", "[rig]") {
   const auto setting = parse_grbl_setting("$102=3200.000");
   REQUIRE(setting);
   CHECK(setting->number == 102);
@@ -74,7 +74,7 @@ TEST_CASE("Settings and build options are read", "[rig]") {
   CHECK(parse_grbl_message("[MSG:Reset to continue]").value() == "Reset to continue");
 }
 
-TEST_CASE("A jog fits GRBL's line buffer and carries no locale", "[rig]") {
+TEST_CASE("a jog fits GRBL's line buffer and does not depend on the locale", "[rig]") {
   CHECK(format_grbl_jog('Z', -1.23456, 7.8) == "$J=G53G90G21Z-1.23456F7.800");
   CHECK(format_grbl_jog('X', -123.456789, 12345.678).size() < 80);
 }

@@ -6,7 +6,7 @@
 
 namespace viscard {
 
-TEST_CASE("Every shape of reading seen in the wild is read", "[rig]") {
+TEST_CASE("every known format of a reading is read", "[rig]") {
   struct Row {
     const char* line;
     bool has_clock;
@@ -29,28 +29,28 @@ TEST_CASE("Every shape of reading seen in the wild is read", "[rig]") {
   CHECK(line->ticks.has_value() == row.has_clock);
 }
 
-TEST_CASE("Lines without a reading are refused", "[rig]") {
+TEST_CASE("lines without a reading are refused", "[rig]") {
   const std::string line = GENERATE("", "HX711 Demo", "Initializing the scale", "x", "12 parrots",
                                     "1.2.3", "8388\x01", "Before setting up the scale:");
   INFO(line);
   CHECK_FALSE(parse_hx711_line(line, false));
 }
 
-TEST_CASE("With a clock a line needs both numbers", "[rig]") {
+TEST_CASE("with a clock a line needs both numbers", "[rig]") {
   for (const char* bad : {"8388", "-1,5", "1.5,5", "99999999999,5", "12,x", "12,", ",5"}) {
     INFO(bad);
     CHECK_FALSE(parse_hx711_line(bad, true));
   }
 }
 
-TEST_CASE("A reading that says it is none has no value", "[rig]") {
+TEST_CASE("a reading such as nan or ovf has no value", "[rig]") {
   const std::string word = GENERATE("nan", "inf", "-inf", "ovf", "OVF");
   const auto line = parse_hx711_line(word, false);
   REQUIRE(line);
   CHECK_FALSE(line->value);
 }
 
-TEST_CASE("Codes of an interrupted conversion count only as jumps", "[rig]") {
+TEST_CASE("codes of an interrupted conversion count only if the reading jumps", "[rig]") {
   CHECK(is_hx711_glitch(-1.0, 50000.0));
   CHECK(is_hx711_glitch(1048575.0, 50000.0));
   CHECK_FALSE(is_hx711_glitch(1048575.0, 1048570.0));  // it simply stands there
@@ -62,7 +62,7 @@ TEST_CASE("Codes of an interrupted conversion count only as jumps", "[rig]") {
   CHECK_FALSE(is_hx711_saturated(8388606.0));
 }
 
-TEST_CASE("A missing converter is a fault, a banner is not", "[rig]") {
+TEST_CASE("a missing converter is a fault, but a banner is not", "[rig]") {
   CHECK(is_hx711_fault("HX711 not found."));
   CHECK_FALSE(is_hx711_fault("HX711 ready"));
 }

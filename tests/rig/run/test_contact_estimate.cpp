@@ -16,7 +16,7 @@ JogEnd stop_at(double position_m, double stiffness_N_m) {
 
 }  // namespace
 
-TEST_CASE("A stiffness guessed right puts the contact where it is", "[rig]") {
+TEST_CASE("a correct guess of the stiffness gives the true contact", "[rig]") {
   const ContactEstimate contact =
       contact_from_stops(stop_at(690e-6, 8e3), stop_at(705e-6, 8e3), kNoise_N, kStep_m, 8e3);
   CHECK(contact.position_m == Approx(kSurface_m).margin(1e-9));  // exact readings
@@ -24,7 +24,7 @@ TEST_CASE("A stiffness guessed right puts the contact where it is", "[rig]") {
   CHECK(contact.least_stiffness_N_m > 1e3);
 }
 
-TEST_CASE("A specimen stiffer than guessed is not taken to lie before a stop that felt nothing",
+TEST_CASE("for a specimen stiffer than guessed, contact is not before a stop without force",
           "[rig]") {
   // 60 N/mm guessed as 8.7: the guess alone would say 82 um too early.
   const ContactEstimate contact =
@@ -34,7 +34,7 @@ TEST_CASE("A specimen stiffer than guessed is not taken to lie before a stop tha
   CHECK(contact.least_stiffness_N_m < 60e3);
 }
 
-TEST_CASE("Two stops in contact need no guess", "[rig]") {
+TEST_CASE("two stops in contact need no guess", "[rig]") {
   for (const double guess_N_m : {2e3, 50e3}) {
     const ContactEstimate contact = contact_from_stops(stop_at(701e-6, 10e3), stop_at(706e-6, 10e3),
                                                        kNoise_N, kStep_m, guess_N_m);
@@ -42,7 +42,7 @@ TEST_CASE("Two stops in contact need no guess", "[rig]") {
   }
 }
 
-TEST_CASE("Without a way between the stops the guess decides", "[rig]") {
+TEST_CASE("without a distance between the stops the guess decides", "[rig]") {
   const JogEnd touched = stop_at(705e-6, 8e3);
   const ContactEstimate contact = contact_from_stops(touched, touched, kNoise_N, kStep_m, 16e3);
   CHECK(contact.position_m == Approx(702.5e-6).margin(1e-9));

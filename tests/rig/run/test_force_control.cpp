@@ -23,9 +23,8 @@ std::vector<double> forces_of(ForceControl& control, double true_N_m, double sta
 
 }  // namespace
 
-TEST_CASE(
-    "Force control comes to its target whatever the stiffness really is, with bounded overshoot",
-    "[rig]") {
+TEST_CASE("force control reaches its target for any true stiffness, with bounded overshoot",
+          "[rig]") {
   const double ratio = GENERATE(0.3, 1.0, 1.4, 2.5, 5.0);  // true stiffness over the one believed
   const double start_N = GENERATE(0.0, 0.8, 1.3);
   ForceControl control({.target_N = 1.0,
@@ -41,7 +40,7 @@ TEST_CASE(
   CHECK(*std::max_element(forces.begin(), forces.end()) <= most_N + 1e-9);
 }
 
-TEST_CASE("Force control keeps up with relaxation and leaves a small gap", "[rig]") {
+TEST_CASE("force control follows relaxation and leaves a small error", "[rig]") {
   ForceControl control({.target_N = 1.0,
                         .stiffness_N_m = 6e3,
                         .tolerance_N = 1e-4,
@@ -52,7 +51,7 @@ TEST_CASE("Force control keeps up with relaxation and leaves a small gap", "[rig
   CHECK(forces.back() == Approx(1.0 - 0.002 / 0.7).margin(2e-4));
 }
 
-TEST_CASE("Force control never steps further than allowed, and not at all within its tolerance",
+TEST_CASE("force control never steps further than allowed, and not at all within its tolerance",
           "[rig]") {
   ForceControl control(
       {.target_N = 1.0, .stiffness_N_m = 1e3, .tolerance_N = 0.01, .largest_step_m = 25e-6});

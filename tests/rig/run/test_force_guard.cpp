@@ -13,7 +13,7 @@ ForceGuard guard_of_1_N() {
 
 }  // namespace
 
-TEST_CASE("The ladder warns once, then stops gently, then at once", "[rig]") {
+TEST_CASE("the force guard warns once, then stops gently, then at once", "[rig]") {
   ForceGuard guard = guard_of_1_N();
   CHECK(guard.take(0.69, false, 0.0, kPeriod_s) == GuardAction::kNone);
   CHECK(guard.take(0.71, false, 0.1, kPeriod_s) == GuardAction::kWarn);
@@ -22,14 +22,14 @@ TEST_CASE("The ladder warns once, then stops gently, then at once", "[rig]") {
   CHECK(guard.take(0.96, false, 0.4, kPeriod_s) == GuardAction::kHardStop);
 }
 
-TEST_CASE("One reading above the hard limit is enough, and pulling counts", "[rig]") {
+TEST_CASE("one reading above the hard limit is enough, and tension counts too", "[rig]") {
   ForceGuard push = guard_of_1_N();
   CHECK(push.take(0.951, false, 0.0, kPeriod_s) == GuardAction::kHardStop);
   ForceGuard pull = guard_of_1_N();
   CHECK(pull.take(-0.951, false, 0.0, kPeriod_s) == GuardAction::kHardStop);
 }
 
-TEST_CASE("A force that still rises two readings after the gentle stop is stopped at once",
+TEST_CASE("a force that still rises two readings after the gentle stop is stopped at once",
           "[rig]") {
   ForceGuard guard = guard_of_1_N();
   REQUIRE(guard.take(0.81, false, 0.0, kPeriod_s) == GuardAction::kSoftStop);
@@ -42,8 +42,7 @@ TEST_CASE("A force that still rises two readings after the gentle stop is stoppe
   }
 }
 
-TEST_CASE("A doubtful reading is forgiven when the next one disagrees, and not when it does not",
-          "[rig]") {
+TEST_CASE("a doubtful reading is forgiven only if the next one is good", "[rig]") {
   ForceGuard forgiven = guard_of_1_N();
   CHECK(forgiven.take(9.9, true, 0.0, kPeriod_s) == GuardAction::kNone);
   CHECK(forgiven.take(0.1, false, 0.0125, kPeriod_s) == GuardAction::kNone);

@@ -1,8 +1,8 @@
 // Short captures over lines that drop, double, split, delay, garble and add bytes, and hang up.
 // Each must end with a record that agrees with what the emulated amplifier said, or with a clear
 // error; never with the stage moving, the punch pressing unsaid, or a wrong reading unmarked.
+#include "models/maths/text_of_number.h"
 #include "rig/protocols/hx711_protocol.h"
-#include "rig/protocols/text_number.h"
 #include "tests/rig/rig_fixture.h"
 
 #include <catch2/catch.hpp>
@@ -201,7 +201,8 @@ void run_seeds(std::uint64_t first, std::uint64_t last) {
 
 }  // namespace
 
-TEST_CASE("A capture over a clean proxy is like one without", "[rig][pty][faults]") {
+TEST_CASE("a run through a proxy without faults is like one without a proxy",
+          "[rig][pty][faults]") {
   RigFixture rig(rig_options(1), LineFaults{});
   const RunOutcome outcome = rig.run(shortest_plan());
   INFO(outcome.reason);
@@ -217,7 +218,7 @@ TEST_CASE("A capture over a clean proxy is like one without", "[rig][pty][faults
   }
 }
 
-TEST_CASE("A run over a line that garbles says that some readings may be wrong",
+TEST_CASE("a run over a disturbed line reports that some readings may be wrong",
           "[rig][pty][faults]") {
   LineFaults faults;
   faults.cell.seed = 5;
@@ -231,12 +232,12 @@ TEST_CASE("A run over a line that garbles says that some readings may be wrong",
   CHECK(outcome.doubts[0].find("may be wrong") != std::string::npos);
 }
 
-TEST_CASE("12 captures over disturbed lines end right or say why", "[rig][pty][faults]") {
+TEST_CASE("12 runs over disturbed lines end well or give the reason", "[rig][pty][faults]") {
   run_seeds(1, 12);
 }
 
 // VISCARD_FIRST_SEED and VISCARD_LAST_SEED pick others.
-TEST_CASE("500 captures over disturbed lines end right or say why", "[rig][pty][faults][slow]") {
+TEST_CASE("500 runs over disturbed lines end well or give the reason", "[rig][pty][faults][slow]") {
   const char* from = std::getenv("VISCARD_FIRST_SEED");
   const char* to = std::getenv("VISCARD_LAST_SEED");
   run_seeds(from != nullptr ? std::strtoull(from, nullptr, 10) : 1,

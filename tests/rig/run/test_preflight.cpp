@@ -15,7 +15,7 @@ const StageDynamics kFine{3200e3, 0.2, 10e-3};
 
 }  // namespace
 
-TEST_CASE("What the stage cannot do slowly enough is said, with the speed it goes at instead",
+TEST_CASE("a speed below the smallest of the stage is a warning with the speed used instead",
           "[rig]") {
   StageDynamics coarse{3200e3, 0.2, 10e-3, 0.122e-3};
   TestPlan plan;
@@ -36,7 +36,7 @@ TEST_CASE("What the stage cannot do slowly enough is said, with the speed it goe
   CHECK(slow.approach_overshoot_N > 1.5 * free.approach_overshoot_N);
 }
 
-TEST_CASE("A depth of .25 mm is refused for all three mixing ratios, and a safe one named",
+TEST_CASE("a depth of 0.25 mm is refused for all three mixing ratios, and a safe one is named",
           "[rig]") {
   const double ratio = GENERATE(10.0, 13.0, 20.0);
   TestPlan plan;
@@ -61,7 +61,7 @@ TEST_CASE("A depth of .25 mm is refused for all three mixing ratios, and a safe 
   CHECK(preflight(demo_rig(), plan, demo_specimen(ratio)).problems.empty());
 }
 
-TEST_CASE("The demonstration's depth of .13 mm passes with 1.82 N expected", "[rig]") {
+TEST_CASE("the demonstration's depth of 0.13 mm passes with an expected force of 1.82 N", "[rig]") {
   const Preflight result = preflight(demo_rig(), TestPlan{}, demo_specimen(10.0), kFine);
   CHECK(result.problems.empty());
   CHECK(result.peak_force_N == Approx(1.82).margin(0.005));  // two printed digits
@@ -70,14 +70,14 @@ TEST_CASE("The demonstration's depth of .13 mm passes with 1.82 N expected", "[r
   CHECK(result.ramp_speed_m_s == Approx(result.stage_travel_m).epsilon(1e-12));  // in 1 s
 }
 
-TEST_CASE("The way of a gentle stop is GRBL's queue and the deceleration", "[rig]") {
+TEST_CASE("the distance of a gentle stop is GRBL's queue and the deceleration", "[rig]") {
   // 250 steps/mm: 7.5 steps are 30 um whatever the speed.
   CHECK(stop_distance_m(0.1e-3, {250e3, 0.2, 1e-2}) == Approx(30e-6 + 0.025e-6).epsilon(1e-9));
   // 3200 steps/mm at 2 mm/s and 10 mm/s2: 60 ms, then v^2/(2a) = .2 mm.
   CHECK(stop_distance_m(2e-3, {3200e3, 0.01, 1e-2}) == Approx(120e-6 + 200e-6).epsilon(1e-9));
 }
 
-TEST_CASE("An approach that would overshoot the limit is refused", "[rig]") {
+TEST_CASE("an approach that would overshoot the limit is refused", "[rig]") {
   TestPlan plan;
   plan.approach_speed_m_s = 2e-3;
   const Preflight result =
@@ -96,7 +96,7 @@ TEST_CASE("An approach that would overshoot the limit is refused", "[rig]") {
   CHECK(problems_at(named_m_s + 2e-6) == 1);
 }
 
-TEST_CASE("A converter at 10 readings/s is refused", "[rig]") {
+TEST_CASE("a converter at 10 readings/s is refused", "[rig]") {
   RigConfig rig = demo_rig();
   rig.load_cell.expected_rate_Hz = 10.0;
   const Preflight result = preflight(rig, TestPlan{}, demo_specimen(10.0));
@@ -104,7 +104,7 @@ TEST_CASE("A converter at 10 readings/s is refused", "[rig]") {
   CHECK(result.problems[0].find("80/s") != std::string::npos);
 }
 
-TEST_CASE("Plans and rigs that make no sense are refused by name", "[rig]") {
+TEST_CASE("impossible plans and rigs are refused with the value to change", "[rig]") {
   TestPlan plan;
   plan.ramp_s = 0.0;
   CHECK_THROWS_WITH(preflight(demo_rig(), plan, demo_specimen(10.0)),

@@ -10,8 +10,9 @@ using Catch::Matchers::Contains;
 
 }  // namespace
 
-TEST_CASE("A cell of the wrong sign stops the approach at the touch and names the key",
-          "[rig][pty]") {
+TEST_CASE(
+    "a load cell of the wrong sign stops the approach at the touch, and the reason names the key",
+    "[rig][pty]") {
   RigFixture rig(RigFixture::options(20.0));
   rig.config.load_cell.compression_is_positive = false;
   const RunOutcome outcome = rig.run(short_plan());
@@ -25,7 +26,7 @@ TEST_CASE("A cell of the wrong sign stops the approach at the touch and names th
   CHECK(bench.final_position_m < demo_truth(10.0, 7).surface_position_m);
 }
 
-TEST_CASE("Readings far slower than the rig file says end the run before the approach",
+TEST_CASE("readings far slower than in the rig file end the run before the approach",
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.truth.sample_rate_Hz = 10.0;
@@ -41,7 +42,7 @@ TEST_CASE("Readings far slower than the rig file says end the run before the app
   CHECK(rig.emulated.outcome().final_position_m == 0.0);
 }
 
-TEST_CASE("A punch that presses too hard before the run is lifted, and the advice is not the ramp",
+TEST_CASE("a punch that presses before the run is lifted, and the advice is not about the ramp",
           "[rig][pty]") {
   const bool is_beyond_limit = GENERATE(true, false);
   EmulatedRigOptions options = RigFixture::options(20.0);
@@ -59,7 +60,7 @@ TEST_CASE("A punch that presses too hard before the run is lifted, and the advic
   CHECK(rig.all<LoadSample>().size() > 0);
 }
 
-TEST_CASE("A force that cannot be read after the lift is not said to stay", "[rig][pty]") {
+TEST_CASE("a force that cannot be read after the lift is not reported as unchanged", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(5.0);
   RigFixture rig(options);
   when_phase(rig, "hold", [&rig] {
@@ -71,7 +72,7 @@ TEST_CASE("A force that cannot be read after the lift is not said to stay", "[ri
   CHECK_THAT(outcome.reason, Contains("cannot be seen") && !Contains("FALL"));
 }
 
-TEST_CASE("An amplifier without a clock that restarts in the hold ends the run", "[rig][pty]") {
+TEST_CASE("an amplifier without a clock that restarts in the hold ends the run", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(5.0);
   options.config.load_cell.line_format = "auto";
   options.amplifier.format = AmplifierFormat::kCounts;
@@ -85,7 +86,7 @@ TEST_CASE("An amplifier without a clock that restarts in the hold ends the run",
   CHECK_THAT(outcome.reason, Contains("restarted") && Contains("HX711 ready"));
 }
 
-TEST_CASE("Readings that a stall holds up are not counted as missing, without a clock either",
+TEST_CASE("readings delayed by a stall are not counted as missing, even without a clock",
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(1.0);
   options.config.load_cell.line_format = "counts";
@@ -107,7 +108,7 @@ TEST_CASE("Readings that a stall holds up are not counted as missing, without a 
   CHECK(rig.load_cell.counts().missing <= 2);  // of 47 in the gap: its ends are ragged
 }
 
-TEST_CASE("Counts printed with a decimal point are taken for counts", "[rig][pty]") {
+TEST_CASE("counts printed with a decimal point are read as counts", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.config.load_cell.line_format = "auto";
   options.amplifier.format = AmplifierFormat::kMeanText;
@@ -116,7 +117,7 @@ TEST_CASE("Counts printed with a decimal point are taken for counts", "[rig][pty
   CHECK(rig.load_cell.format() == Hx711Format::kCounts);
 }
 
-TEST_CASE("A lost answer leaves questions and answers in step", "[rig][pty]") {
+TEST_CASE("a lost answer leaves questions and answers in step", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(5.0);
   options.grbl.lose_status_every = 12;
   RigFixture rig(options);
@@ -128,7 +129,7 @@ TEST_CASE("A lost answer leaves questions and answers in step", "[rig][pty]") {
   CHECK(rig.stage.report_latency().n_lost == 2);
 }
 
-TEST_CASE("Answers that come late are not counted as lost", "[rig][pty]") {
+TEST_CASE("late answers are not counted as lost", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(5.0);
   options.grbl.status_delay_s = 0.35 * options.config.clock_speed;
   RigFixture rig(options);

@@ -24,7 +24,8 @@ extern "C" int clock_gettime(clockid_t clock, timespec* now) noexcept {
 
 namespace viscard {
 
-TEST_CASE("A step of the wall clock in mid-run changes no stamp and loses nothing", "[rig][pty]") {
+TEST_CASE("a step of the system clock during a run changes no time stamp and loses nothing",
+          "[rig][pty]") {
   const auto before = std::chrono::system_clock::now();
   step_s = 5000;
   REQUIRE(std::chrono::system_clock::now() - before > std::chrono::seconds(4000));  // it is ours

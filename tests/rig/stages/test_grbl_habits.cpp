@@ -16,7 +16,8 @@ bool stands_where_it_says(const RigFixture& rig) {
 
 }  // namespace
 
-TEST_CASE("Start-up blocks and an empty memory's dump are no answers", "[rig][pty]") {
+TEST_CASE("start-up blocks and the settings of an empty memory are not taken for answers",
+          "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.grbl.has_startup_block = true;
   options.grbl.has_empty_eeprom = true;
@@ -28,7 +29,7 @@ TEST_CASE("Start-up blocks and an empty memory's dump are no answers", "[rig][pt
   CHECK(rig.all<CommandedMove>().size() == 1);
 }
 
-TEST_CASE("Reports in inches give the same metres", "[rig][pty]") {
+TEST_CASE("reports in inches give the same metres", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.grbl.reports_inches = true;
   RigFixture rig(options);
@@ -38,7 +39,8 @@ TEST_CASE("Reports in inches give the same metres", "[rig][pty]") {
   CHECK(rig.emulated.outcome().final_position_m == Approx(0.3e-3).margin(0.5 / 3200e3));
 }
 
-TEST_CASE("A speed below what the firmware can do is recorded as what it does", "[rig][pty]") {
+TEST_CASE("a speed below the smallest of the firmware is recorded as that smallest speed",
+          "[rig][pty]") {
   // 30.5 steps/s at 250 steps/mm is .1221 mm/s (gnea/grbl stepper.c), whatever is asked.
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.truth.steps_per_m = 250e3;
@@ -52,7 +54,8 @@ TEST_CASE("A speed below what the firmware can do is recorded as what it does", 
   CHECK(stands_where_it_says(rig));
 }
 
-TEST_CASE("grblHAL and fine steps are held to 1 mm/min at most", "[rig][pty]") {
+TEST_CASE("with fine steps GRBL moves no slower than 1 mm/min, and grblHAL at any speed",
+          "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.grbl.is_hal = GENERATE(false, true);
   RigFixture rig(options);
@@ -61,7 +64,7 @@ TEST_CASE("grblHAL and fine steps are held to 1 mm/min at most", "[rig][pty]") {
   CHECK(rig.stage.dynamics().min_speed_m_s == Approx(expected_m_s).margin(1e-12));
 }
 
-TEST_CASE("With soft limits a lift ends where the controller's travel does", "[rig][pty]") {
+TEST_CASE("with soft limits a lift ends at the end of the controller's travel", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.grbl.soft_limit_mm = 3.0;
   RigFixture rig(options);
@@ -75,7 +78,7 @@ TEST_CASE("With soft limits a lift ends where the controller's travel does", "[r
   CHECK(stands_where_it_says(rig));
 }
 
-TEST_CASE("A stage outside of its own travel is told to be homed", "[rig]") {
+TEST_CASE("a stage outside of its own travel is refused with the advice to home it", "[rig]") {
   const StageDynamics dynamics{1600e3, 0.2, 5e-3, 0.0, 0.0, 3e-3};
   CHECK_THROWS_WITH(within_travel_m(-0.3e-3, 0.1e-3, dynamics), Contains("home = true"));
   CHECK_THROWS_WITH(within_travel_m(3.1e-3, 3.0e-3, dynamics), Contains("home = true"));
@@ -85,7 +88,7 @@ TEST_CASE("A stage outside of its own travel is told to be homed", "[rig]") {
   CHECK(within_travel_m(1e-3, -1e-3, odd) == Approx(1.0 / 1600e3).epsilon(1e-9));
 }
 
-TEST_CASE("A run with soft limits retracts as far as it may and finishes", "[rig][pty]") {
+TEST_CASE("a run with soft limits retracts as far as they allow and finishes", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.truth.surface_position_m = 0.1e-3;
   options.grbl.soft_limit_mm = 3.0;
@@ -96,7 +99,7 @@ TEST_CASE("A run with soft limits retracts as far as it may and finishes", "[rig
   CHECK(rig.emulated.outcome().final_position_m == Approx(0.0).margin(1e-6));
 }
 
-TEST_CASE("A question answered by two lines, or later than the next question, ends no move early",
+TEST_CASE("a question answered by two lines, or after the next question, ends no move early",
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(5.0);
   SECTION("two lines") {
@@ -120,7 +123,7 @@ TEST_CASE("A question answered by two lines, or later than the next question, en
   CHECK_FALSE(rig.has_event("move_doubtful", "test"));
 }
 
-TEST_CASE("A missing ok ends the move with an error that says so", "[rig][pty]") {
+TEST_CASE("a missing ok ends the move with an error that names it", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.grbl.lose_ok_number = 4;  // $$ and $$ of the connection, one jog, this jog
   RigFixture rig(options, std::nullopt, 0.2);
@@ -132,7 +135,7 @@ TEST_CASE("A missing ok ends the move with an error that says so", "[rig][pty]")
   CHECK(stands_where_it_says(rig));
 }
 
-TEST_CASE("A jog that is refused ends with the reason, and the next one works", "[rig][pty]") {
+TEST_CASE("a refused jog ends with the reason, and the next one works", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.grbl.refuse_jog_number = 2;
   RigFixture rig(options);
@@ -144,7 +147,7 @@ TEST_CASE("A jog that is refused ends with the reason, and the next one works", 
   CHECK(stands_where_it_says(rig));
 }
 
-TEST_CASE("A line held back at Idle is freed by telling the stage to go on", "[rig][pty]") {
+TEST_CASE("a line that is kept back at Idle is answered after a resume", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(1.0);
   options.grbl.holds_after_cancel = true;
   RigFixture rig(options);
@@ -158,8 +161,7 @@ TEST_CASE("A line held back at Idle is freed by telling the stage to go on", "[r
   CHECK(stands_where_it_says(rig));
 }
 
-TEST_CASE("A hold at rest, pressed by somebody, is an error when a move is asked for",
-          "[rig][pty]") {
+TEST_CASE("a hold button pressed at rest is an error when a move is asked for", "[rig][pty]") {
   RigFixture rig(RigFixture::options(20.0));
   rig.stage.connect(rig.pump());
   rig.stage_line.write("!", 0.5);
@@ -169,7 +171,7 @@ TEST_CASE("A hold at rest, pressed by somebody, is an error when a move is asked
   CHECK(rig.stage.state() == "Idle");
 }
 
-TEST_CASE("A stage that says Jog for ever is given up", "[rig][pty]") {
+TEST_CASE("a stage that reports Jog for ever is given up", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.grbl.never_rests = true;
   RigFixture rig(options, std::nullopt, 0.2);
@@ -177,18 +179,18 @@ TEST_CASE("A stage that says Jog for ever is given up", "[rig][pty]") {
   CHECK_THROWS_WITH(move_and_wait(rig, 0.1e-3, 1e-3), Contains("should have come to rest"));
 }
 
-TEST_CASE("A stage sent elsewhere by a garbled line is stopped at once", "[rig][pty]") {
+TEST_CASE("a stage sent to a wrong position by a garbled line is stopped at once", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(1.0);
   options.grbl.misread_jog_number = 1;
   RigFixture rig(options);
   rig.stage.connect(rig.pump());
-  CHECK_THROWS_WITH(move_and_wait(rig, 0.05e-3, 0.2e-3), Contains("outside its way"));
+  CHECK_THROWS_WITH(move_and_wait(rig, 0.05e-3, 0.2e-3), Contains("outside of its path"));
   rig.stage.recover(rig.pump());
   CHECK(rig.emulated.outcome().final_position_m < 0.3e-3);  // of the 1.05 mm it was heard to ask
   CHECK(stands_where_it_says(rig));
 }
 
-TEST_CASE("A stage slower than its settings promise is waited for, and the move is marked",
+TEST_CASE("a stage slower than its settings is waited for, and the move is marked as doubtful",
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(5.0);
   options.grbl.true_speed = GENERATE(1.0, 0.4);
@@ -199,7 +201,8 @@ TEST_CASE("A stage slower than its settings promise is waited for, and the move 
   CHECK(rig.has_event("move_doubtful", "test") == (options.grbl.true_speed < 1.0));
 }
 
-TEST_CASE("A limit switch that alarms again when it opens still ends lifted", "[rig][pty]") {
+TEST_CASE("a limit switch that raises another alarm when it opens still ends with the punch lifted",
+          "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(10.0);
   options.grbl.alarms_again = true;
   RigFixture rig(options);
@@ -215,7 +218,8 @@ TEST_CASE("A limit switch that alarms again when it opens still ends lifted", "[
   CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
 }
 
-TEST_CASE("A stage that refuses to be unlocked is named as such", "[rig][pty]") {
+TEST_CASE("a stage that refuses to be unlocked ends with an error that names the refusal",
+          "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.grbl.is_homing_enabled = true;
   options.grbl.refuses_unlock = true;
@@ -223,8 +227,7 @@ TEST_CASE("A stage that refuses to be unlocked is named as such", "[rig][pty]") 
   CHECK_THROWS_WITH(rig.stage.connect(rig.pump()), Contains("refused '$X'") && Contains("door"));
 }
 
-TEST_CASE("A board that resets late, in the middle of the conversation, is asked again",
-          "[rig][pty]") {
+TEST_CASE("a board that resets late, while its settings are read, is asked again", "[rig][pty]") {
   RigFixture rig(RigFixture::options(5.0));
   bool has_restarted = false;
   const Pump pump = rig.pump();
@@ -241,7 +244,7 @@ TEST_CASE("A board that resets late, in the middle of the conversation, is asked
   CHECK(stands_where_it_says(rig));
 }
 
-TEST_CASE("Coarse steps: the record says where the stage really went", "[rig][pty]") {
+TEST_CASE("with coarse steps the record has the true position of the stage", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.truth.steps_per_m = 250e3;
   RigFixture rig(options);
@@ -252,8 +255,7 @@ TEST_CASE("Coarse steps: the record says where the stage really went", "[rig][pt
   CHECK(rig.emulated.outcome().final_position_m == Approx(0.252e-3).epsilon(1e-9));
 }
 
-TEST_CASE("A stage that stands at another place than it was sent to is not believed",
-          "[rig][pty]") {
+TEST_CASE("a stage that rests at another position than its target is an error", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.grbl.ends_short_number = 1;
   RigFixture rig(options);
@@ -261,7 +263,7 @@ TEST_CASE("A stage that stands at another place than it was sent to is not belie
   CHECK_THROWS_WITH(move_and_wait(rig, 0.3e-3, 1e-3), Contains("did not reach 0.300 mm"));
 }
 
-TEST_CASE("A force that stays flat at full depth is doubted: steps may be lost", "[rig][pty]") {
+TEST_CASE("a force that stays flat at full depth is a doubt: steps may be lost", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.truth.material.E0_Pa *= 0.05;  // what lost steps look like from the force
   RigFixture rig(options);
@@ -273,7 +275,7 @@ TEST_CASE("A force that stays flat at full depth is doubted: steps may be lost",
   CHECK(rig.has_event("doubt", "force_flat"));
 }
 
-TEST_CASE("A controller that restarts while the punch presses is lifted from where it then counts",
+TEST_CASE("after a restart of the controller under load the punch is lifted from the new zero",
           "[rig][pty]") {
   RigFixture rig(RigFixture::options(20.0));
   rig.sink = [&rig](const RunRecord& record) {

@@ -11,8 +11,7 @@ using Catch::Matchers::Contains;
 
 }  // namespace
 
-TEST_CASE("A stage is identified, its settings read back, and its moves end exactly",
-          "[rig][pty]") {
+TEST_CASE("a stage is identified, its settings are read, and its moves end exactly", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.grbl.is_hal = GENERATE(false, true);
   RigFixture rig(options);
@@ -31,7 +30,7 @@ TEST_CASE("A stage is identified, its settings read back, and its moves end exac
   CHECK(moves[1].start_uncertainty_s >= 0.0);
 }
 
-TEST_CASE("Everything before the welcome is dropped, even errors", "[rig][pty]") {
+TEST_CASE("everything before the welcome is dropped, even errors", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.grbl.has_empty_eeprom = true;
   RigFixture rig(options);
@@ -39,7 +38,7 @@ TEST_CASE("Everything before the welcome is dropped, even errors", "[rig][pty]")
   CHECK(rig.stage.state() == "Idle");
 }
 
-TEST_CASE("A controller that does not reset on opening is asked to", "[rig][pty]") {
+TEST_CASE("a controller that does not reset on opening is reset by the driver", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.resets_on_open = false;
   EmulatedRig emulated(options);
@@ -57,7 +56,7 @@ TEST_CASE("A controller that does not reset on opening is asked to", "[rig][pty]
   }
 }
 
-TEST_CASE("Lost reports, late and doubled answers do not confuse a move", "[rig][pty]") {
+TEST_CASE("lost reports, late answers and doubled answers do not disturb a move", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(10.0);
   SECTION("every second '?' unanswered") {
     options.grbl.lose_status_every = 2;
@@ -79,7 +78,8 @@ TEST_CASE("Lost reports, late and doubled answers do not confuse a move", "[rig]
   CHECK_FALSE(rig.emulated.outcome().is_moving);
 }
 
-TEST_CASE("A stage that boots locked is homed when asked and unlocked otherwise", "[rig][pty]") {
+TEST_CASE("a stage that boots locked is homed if the rig file asks for it and unlocked otherwise",
+          "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(50.0);
   options.grbl.is_homing_enabled = true;
   options.config.stage.home = GENERATE(false, true);
@@ -93,7 +93,7 @@ TEST_CASE("A stage that boots locked is homed when asked and unlocked otherwise"
   }
 }
 
-TEST_CASE("A gentle stop ends short of the target and the record says where", "[rig][pty]") {
+TEST_CASE("a gentle stop ends short of the target, and the record has the position", "[rig][pty]") {
   RigFixture rig(RigFixture::options(1.0));
   rig.stage.connect(rig.pump());
   rig.stage.begin_move(1e-3, 0.5e-3, "test");
@@ -110,7 +110,7 @@ TEST_CASE("A gentle stop ends short of the target and the record says where", "[
   CHECK(rig.all<CommandedMove>()[0].move.to_m == rig.stage.position_m());
 }
 
-TEST_CASE("A reset in motion stops at once, and the stage works again after recovery",
+TEST_CASE("a reset in motion stops at once, and the stage works again after recovery",
           "[rig][pty]") {
   RigFixture rig(RigFixture::options(1.0));
   rig.stage.connect(rig.pump());
@@ -128,7 +128,7 @@ TEST_CASE("A reset in motion stops at once, and the stage works again after reco
   CHECK(rig.emulated.outcome().final_position_m == Approx(here_m - 0.05e-3).margin(0.6e-6));
 }
 
-TEST_CASE("After a limit switch the controller is silent until it is reset", "[rig][pty]") {
+TEST_CASE("after a limit switch the controller is silent until it is reset", "[rig][pty]") {
   RigFixture rig(RigFixture::options(1.0));
   rig.stage.connect(rig.pump());
   rig.stage.begin_move(1e-3, 0.2e-3, "test");
@@ -143,8 +143,7 @@ TEST_CASE("After a limit switch the controller is silent until it is reset", "[r
   CHECK(rig.stage.state() == "Idle");
 }
 
-TEST_CASE("A controller that restarts in a move, or goes away, ends it with an error",
-          "[rig][pty]") {
+TEST_CASE("a controller that restarts in a move, or is lost, ends it with an error", "[rig][pty]") {
   RigFixture rig(RigFixture::options(1.0));
   rig.stage.connect(rig.pump());
   rig.stage.begin_move(1e-3, 0.1e-3, "test");
@@ -162,14 +161,14 @@ TEST_CASE("A controller that restarts in a move, or goes away, ends it with an e
   }
 }
 
-TEST_CASE("Moves beyond the travel of the rig file are refused", "[rig][pty]") {
+TEST_CASE("moves beyond the travel of the rig file are refused", "[rig][pty]") {
   RigFixture rig(RigFixture::options(20.0));
   rig.stage.connect(rig.pump());
   CHECK_THROWS_WITH(rig.stage.begin_move(10.1e-3, 1e-3, "test"), Contains("travel"));
   CHECK_FALSE(rig.stage.is_moving());
 }
 
-TEST_CASE("A port where no controller answers is named", "[rig][pty]") {
+TEST_CASE("a port where no controller answers is named in the error", "[rig][pty]") {
   EmulatedRig emulated(RigFixture::options(1.0));
   const RigClock clock;
   SerialLine line(emulated.load_cell_port(), 115200, clock);  // the wrong one
@@ -182,7 +181,7 @@ TEST_CASE("A port where no controller answers is named", "[rig][pty]") {
                     Contains("no GRBL controller answered"));
 }
 
-TEST_CASE("Settings that would spoil a test are pointed out", "[rig][pty]") {
+TEST_CASE("settings that would spoil a test are reported as advice", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.truth.steps_per_m = 250e3;
   options.truth.acceleration_m_s2 = 0.01;

@@ -25,7 +25,7 @@ TestPlan quick_plan() {
 
 }  // namespace
 
-TEST_CASE("Zaber checksums agree with those printed for known messages", "[rig]") {
+TEST_CASE("Zaber checksums agree with the ones printed for known messages", "[rig]") {
   CHECK(zaber_checksum("1 0 get pos") == "AD");
   CHECK(zaber_checksum("01 0 OK IDLE -- 0") == "8D");
   CHECK(zaber_checksum("1 1 move rel 1000") == "63");
@@ -33,7 +33,7 @@ TEST_CASE("Zaber checksums agree with those printed for known messages", "[rig]"
         "/1 1 07 get pos:" + zaber_checksum("1 1 07 get pos") + "\n");
 }
 
-TEST_CASE("Zaber replies, alerts and infos are told apart, with and without id and checksum",
+TEST_CASE("Zaber replies, alerts and infos are distinguished, with and without id and checksum",
           "[rig]") {
   const auto reply = parse_zaber_message("@01 1 12 RJ IDLE WR BADDATA");
   REQUIRE(reply.has_value());
@@ -63,13 +63,13 @@ TEST_CASE("Zaber replies, alerts and infos are told apart, with and without id a
   }
 }
 
-TEST_CASE("Zaber speeds and accelerations survive their data units", "[rig]") {
+TEST_CASE("Zaber speeds and accelerations survive the conversion to data units", "[rig]") {
   CHECK(zaber_speed_data(10000.0) == 16384);
   CHECK(microsteps_s_from_zaber(16384.0) == Approx(10000.0).epsilon(1e-12));
   CHECK(microsteps_s2_from_zaber(1.6384) == Approx(10000.0).epsilon(1e-12));
 }
 
-TEST_CASE("A Zaber stage reports its dynamics and goes where it is sent, at the speed asked for",
+TEST_CASE("a Zaber stage reports its dynamics and reaches its target at the speed asked for",
           "[rig][pty]") {
   EmulatedRigOptions options = zaber_rig(10.0);
   SECTION("as it comes") {}
@@ -100,7 +100,7 @@ TEST_CASE("A Zaber stage reports its dynamics and goes where it is sent, at the 
   CHECK(moves[1].move.from_m == Approx(0.5e-3).margin(1e-9));
 }
 
-TEST_CASE("A Zaber stage stops gently and at once, and can be moved again", "[rig][pty]") {
+TEST_CASE("a Zaber stage stops gently or at once and can be moved again", "[rig][pty]") {
   EmulatedRigOptions options = zaber_rig(1.0);
   options.zaber.knows_estop = GENERATE(true, false);
   DeviceFixture rig(options);
@@ -123,7 +123,7 @@ TEST_CASE("A Zaber stage stops gently and at once, and can be moved again", "[ri
   REQUIRE(rig.move(0.0, 2e-3));
 }
 
-TEST_CASE("A Zaber stage that stalls raises an alarm and recovers", "[rig][pty]") {
+TEST_CASE("a Zaber stage that stalls raises an alarm and recovers", "[rig][pty]") {
   DeviceFixture rig(zaber_rig(1.0));
   Stage& stage = *rig.devices.stage;
   stage.connect(rig.pump());
@@ -135,7 +135,8 @@ TEST_CASE("A Zaber stage that stalls raises an alarm and recovers", "[rig][pty]"
   CHECK(rig.move(0.0, 2e-3));
 }
 
-TEST_CASE("A Zaber stage without reference is refused, unless it may home itself", "[rig][pty]") {
+TEST_CASE("a Zaber stage without a reference position is refused unless it may home",
+          "[rig][pty]") {
   EmulatedRigOptions options = zaber_rig(10.0);
   options.zaber.has_reference = false;
   SECTION("refused") {
@@ -150,7 +151,8 @@ TEST_CASE("A Zaber stage without reference is refused, unless it may home itself
   }
 }
 
-TEST_CASE("A Zaber stage without microstep in the rig file says where to find it", "[rig]") {
+TEST_CASE("a Zaber stage without microstep in the rig file is refused with the place to find it",
+          "[rig]") {
   RigConfig rig;
   rig.stage.driver = "zaber";
   rig.stage.port = "/dev/null";
@@ -169,7 +171,7 @@ TEST_CASE("A Zaber stage without microstep in the rig file says where to find it
                     Contains("grbl, zaber"));
 }
 
-TEST_CASE("A whole test runs on a Zaber stage, and a stalled one leaves the specimen",
+TEST_CASE("a whole test runs on a Zaber stage, and a stalled one leaves the specimen",
           "[rig][pty]") {
   DeviceFixture rig(zaber_rig(20.0));
   const RunOutcome outcome = rig.run(quick_plan());

@@ -50,7 +50,7 @@ std::string truth_file(const ScratchFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("Dead weights on the emulated rig recover gain and hysteresis within their interval",
+TEST_CASE("dead weights on the emulated rig recover gain and hysteresis within their interval",
           "[cli][pty]") {
   const ScratchFolder folder;
   const std::string out = (folder / "cell.toml").string();
@@ -85,7 +85,7 @@ TEST_CASE("Dead weights on the emulated rig recover gain and hysteresis within t
   CHECK(rig_from_toml(toml_from_rig(rig), "again").calibration.volts_per_newton == gain);
 }
 
-TEST_CASE("A rigid block on the emulated rig recovers the frame's stiffness within its interval",
+TEST_CASE("a rigid block on the emulated rig recovers the frame's stiffness within its interval",
           "[cli][pty]") {
   const ScratchFolder folder;
   const std::string out = (folder / "frame.toml").string();
@@ -109,7 +109,7 @@ TEST_CASE("A rigid block on the emulated rig recovers the frame's stiffness with
   CHECK(read_calibration(out).frame->stiffness_N_m == stiffness_N_m);
 }
 
-TEST_CASE("A table of weights and readings is calibrated as well", "[cli]") {
+TEST_CASE("a table of weights and readings makes a calibration too", "[cli]") {
   const ScratchFolder folder;
   std::string table = "mass (g),voltage (mV)\n";
   for (const double mass_g : {0.0, 50.0, 100.0, 200.0, 100.0, 50.0, 0.0}) {
@@ -132,7 +132,7 @@ TEST_CASE("A table of weights and readings is calibrated as well", "[cli]") {
   CHECK_THROWS_WITH(calibrate(words), Contains("exists already"));
 }
 
-TEST_CASE("Weights mixed up make no record, and the reading is named", "[cli]") {
+TEST_CASE("mixed-up weights make no record, and the error names the reading", "[cli]") {
   const ScratchFolder folder;
   const std::vector<double> asked_g{0.0, 20.0, 50.0, 100.0, 200.0, 100.0, 50.0, 20.0, 0.0};
   std::vector<double> put_g = asked_g;
@@ -150,7 +150,7 @@ TEST_CASE("Weights mixed up make no record, and the reading is named", "[cli]") 
   CHECK_FALSE(std::filesystem::exists(out));
 }
 
-TEST_CASE("Bad words of a calibration are named", "[cli]") {
+TEST_CASE("wrong options of calibrate are named", "[cli]") {
   CHECK_THROWS_AS(calibrate({"--out", "x.toml"}), UsageError);
   CHECK_THROWS_WITH(calibrate({"--emulate"}), Contains("--out"));
   CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--weights", "20 V"}),
@@ -158,9 +158,9 @@ TEST_CASE("Bad words of a calibration are named", "[cli]") {
   CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--weights", "300 g"}),
                     Contains("300 g is more than"));
   CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--gravity", "1.6 m/s2"}),
-                    Contains("nowhere on Earth"));
+                    Contains("does not occur on Earth"));
   CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--valid-until", "2020-01-31"}),
-                    Catch::Contains("--valid-until 2020-01-31 is past"));
+                    Catch::Contains("--valid-until 2020-01-31 is in the past"));
   CHECK_THROWS_WITH(calibrate({"--emulate", "--out", "x.toml", "--valid-until", "soon"}),
                     Contains("'soon'"));
 }

@@ -2,7 +2,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/sqlite_database.h"
-#include "io/cli/rig/live_picture.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/emulator/pty_port.h"
@@ -14,7 +13,6 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include <cmath>
 #include <filesystem>
 
 namespace viscard {
@@ -85,7 +83,7 @@ void leave_interrupted(const std::filesystem::path& path) {
 
 }  // namespace
 
-TEST_CASE("what would stand beside a capture is not overwritten either", "[cli][capture]") {
+TEST_CASE("files beside a capture are not overwritten either", "[cli][capture]") {
   const ScratchFolder folder;
   write_file(folder / "run.truth.json", "precious", false);
   const auto refused = run_command(
@@ -95,7 +93,7 @@ TEST_CASE("what would stand beside a capture is not overwritten either", "[cli][
   CHECK(read_file(folder / "run.truth.json") == "precious");
 }
 
-TEST_CASE("a series is resumed with what is not finished, and nothing is overwritten",
+TEST_CASE("a series is resumed with the unfinished captures, and nothing is overwritten",
           "[cli][capture][pty]") {
   const ScratchFolder folder;
   std::filesystem::create_directories(folder / "series");
@@ -121,7 +119,7 @@ TEST_CASE("a series is resumed with what is not finished, and nothing is overwri
   for (const auto& run : json["runs"]) CHECK(run["status"] == "finished before");
 }
 
-TEST_CASE("one finished capture is left alone by --resume", "[cli][capture][pty]") {
+TEST_CASE("--resume skips a single finished capture", "[cli][capture][pty]") {
   const ScratchFolder folder;
   const std::string out = folder / "run.viscap";
   const std::string test_file = folder / "test.toml";
@@ -143,7 +141,7 @@ TEST_CASE("one finished capture is left alone by --resume", "[cli][capture][pty]
   CHECK(contains(again.out, "run.viscap: finished before"));
 }
 
-TEST_CASE("a reading that was marked implausible is read back as a glitch", "[cli][capture]") {
+TEST_CASE("a reading that was marked implausible is read as a glitch", "[cli][capture]") {
   const ScratchFolder folder;
   leave_interrupted(folder / "old.viscap");
   CapturedRun about = read_capture(folder / "old.viscap");
@@ -158,7 +156,7 @@ TEST_CASE("a reading that was marked implausible is read back as a glitch", "[cl
   for (std::size_t i = 0; i < 4; ++i) CHECK(run.load_samples[i].is_glitch == (i == 2));
 }
 
-TEST_CASE("capture refuses words that do not go together", "[cli][capture]") {
+TEST_CASE("capture refuses options that cannot be combined", "[cli][capture]") {
   CHECK(run_command({"capture", "--emulate"}).status == kBadWords);
   CHECK(run_command({"capture", "--emulate", "--out", "x.viscap", "--resume", "--force"}).status ==
         kBadWords);
@@ -176,7 +174,7 @@ TEST_CASE("capture refuses words that do not go together", "[cli][capture]") {
   }
 }
 
-TEST_CASE("capture names the port that is not there", "[cli][capture]") {
+TEST_CASE("capture names a port that does not exist", "[cli][capture]") {
   const ScratchFolder folder;
   const auto outcome =
       run_command({"capture", "--rig", demo("01_rig.toml"), "--test", demo("02_test.toml"),
@@ -224,7 +222,7 @@ TEST_CASE("a run refused because the punch presses leaves the capture that --for
   CHECK_FALSE(std::filesystem::exists(capture.string() + ".previous"));
 }
 
-TEST_CASE("what a run has against its record is a flag of the fit", "[cli][capture][pty]") {
+TEST_CASE("a doubt of a run is a flag of the fit", "[cli][capture][pty]") {
   const ScratchFolder folder;
   const std::string file = folder / "run.viscap";
   write_file(folder / "test.toml", kShortTest, false);
@@ -266,13 +264,13 @@ TEST_CASE("a damaged capture is never taken for a table", "[cli][capture]") {
   }
 }
 
-TEST_CASE("options of rig check are refused where they mean nothing", "[cli][rig]") {
+TEST_CASE("options of rig check are refused by the other subcommands", "[cli][rig]") {
   const auto outcome = run_command({"rig", "overshoot", "--rig", "none.toml"});
   CHECK(outcome.status == kBadWords);
   CHECK(contains(outcome.err, "--rig belongs to 'viscard rig check'"));
 }
 
-TEST_CASE("rig list and rig check say what they find, and what they cannot do", "[cli][rig][pty]") {
+TEST_CASE("rig list and rig check report what they find and what is wrong", "[cli][rig][pty]") {
   CHECK(run_command({"rig", "list"}).status == kDone);
   CHECK(nlohmann::json::parse(run_command({"rig", "list", "--json"}).out)["ports"].is_array());
   CHECK(run_command({"rig"}).status == kBadWords);
@@ -286,52 +284,6 @@ TEST_CASE("rig list and rig check say what they find, and what they cannot do", 
   const auto json = nlohmann::json::parse(found.out);
   CHECK(json["stage"]["identity"] == "Grbl 1.1h");
   CHECK(json["load_cell"]["rate_Hz"].get<double>() == Approx(80.0).epsilon(0.1));  // 80 readings
-}
-
-TEST_CASE("a sparkline shows the highest of each share, low to high", "[cli]") {
-  CHECK(sparkline({}, 10).empty());
-  CHECK(sparkline({1.0, 1.0}, 10) == "▁▁");
-  CHECK(sparkline({0, 1, 2, 3, 4, 5, 6, 7}, 8) == "▁▂▃▄▅▆▇█");
-  std::vector<double> spike(1000, 0.0);
-  spike[501] = 1.0;
-  CHECK(contains(sparkline(spike, 10), "█"));
-}
-
-TEST_CASE("a history stays small however long the run and keeps its ends", "[cli]") {
-  LiveHistory history;
-  for (int i = 0; i < 100'000; ++i) history.add(i, std::sin(1e-3 * i));
-  CHECK(history.time_s().size() <= LiveHistory::kMost);
-  CHECK(history.time_s().size() > LiveHistory::kMost / 4);
-  CHECK(history.time_s().front() == 0.0);
-  CHECK(history.time_s().back() > 99'000.0);
-  for (std::size_t i = 0; i < history.time_s().size(); ++i) {
-    REQUIRE(history.force_N()[i] == std::sin(1e-3 * history.time_s()[i]));
-  }
-}
-
-TEST_CASE("the live line fits its terminal and tells phase, force, depth and time left", "[cli]") {
-  LiveHistory history;
-  for (int i = 0; i < 50; ++i) history.add(i, 0.01 * i);
-  const RunProgress now{
-      .time_s = 50, .phase = "hold", .force_N = 0.843, .depth_m = 128.3e-6, .time_left_s = 83.0};
-  const std::string line = line_from_live(now, history, 2.4517, 100);
-  for (const char* part : {"hold", "0.843 N", "34 % of the cell", "128.3 um", "1:23 left", "█"}) {
-    CHECK(contains(line, part));
-  }
-  CHECK(line_from_live(now, history, 2.4517, 40).size() <= 40);
-  CHECK(clock_from_s(7267.0) == "2:01:07");
-}
-
-TEST_CASE("the live page reloads while the run goes on and escapes what it shows", "[cli]") {
-  LiveHistory history;
-  history.add(0.0, 0.0);
-  history.add(1.0, 1.0);
-  const RunProgress now{.time_s = 1, .phase = "<b>"};
-  const std::string page = page_from_live(now, history, 2.0, 0.5, "a & b", false);
-  CHECK(contains(page, "http-equiv='refresh'"));
-  CHECK(contains(page, "a &amp; b"));
-  CHECK(contains(page, "&lt;b&gt;"));
-  CHECK(contains(page, "#d55e00"));  // the limit lies within the picture
 }
 
 }  // namespace viscard

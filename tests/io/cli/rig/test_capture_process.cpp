@@ -221,7 +221,7 @@ TEST_CASE("Ctrl-C and termination in a move stop the stage, lift the punch and k
   CHECK(read_capture(rig.folder / "run.viscap").status == "interrupted");
 }
 
-TEST_CASE("a capture killed in its approach stops within one jog, for want of the next",
+TEST_CASE("after a capture is killed in its approach the stage stops within one jog",
           "[cli][capture][pty]") {
   OutsideRig rig(2e-3);
   Program program(rig.words());
@@ -234,7 +234,7 @@ TEST_CASE("a capture killed in its approach stops within one jog, for want of th
   CHECK(rig.emulated.outcome().final_position_m < killed_m + 25e-6);
 }
 
-TEST_CASE("Ctrl-Z and a closed pipe do not keep a run from ending well", "[cli][capture][pty]") {
+TEST_CASE("Ctrl-Z and a closed pipe do not prevent a run from ending well", "[cli][capture][pty]") {
   OutsideRig rig(0.05e-3);
   Program program(rig.words());
   REQUIRE(rig.wait_for(program, [&] { return rig.is_moving_beyond(0.03e-3); }));
@@ -246,7 +246,8 @@ TEST_CASE("Ctrl-Z and a closed pipe do not keep a run from ending well", "[cli][
   CHECK(rig.emulated.outcome().final_position_m < 0.05e-3);
 }
 
-TEST_CASE("a full disk ends the run safely with everything before it kept", "[cli][capture][pty]") {
+TEST_CASE("a full disk ends the run safely and keeps all records before it",
+          "[cli][capture][pty]") {
   const ScratchFolder folder;
   const auto path = folder / "run.viscap";
   Program program({"capture", "--emulate", "--speed", "20", "--out", path}, 200'000);
@@ -259,7 +260,7 @@ TEST_CASE("a full disk ends the run safely with everything before it kept", "[cl
   CHECK(read_capture(path).load_samples.size() > 20);
 }
 
-TEST_CASE("two captures cannot share a port, nor a file", "[cli][capture][pty]") {
+TEST_CASE("two captures cannot share a port or a file", "[cli][capture][pty]") {
   OutsideRig rig(2e-3);
   Program first(rig.words());
   REQUIRE(rig.wait_for(first, [&] { return rig.emulated.outcome().is_moving; }));

@@ -54,7 +54,7 @@ TEST_CASE("viscard export --json prints one object and nothing else", "[cli][cap
   CHECK(outcome.err.empty());
 }
 
-TEST_CASE("an interrupted capture is exported and said to be so", "[cli][capture]") {
+TEST_CASE("an interrupted capture is exported and marked as interrupted", "[cli][capture]") {
   const ScratchFolder folder;
   const auto outcome = run_command({"export", capture_of(folder, "interrupted")});
   CHECK(outcome.status == kDone);
@@ -63,7 +63,7 @@ TEST_CASE("an interrupted capture is exported and said to be so", "[cli][capture
   CHECK(column_SI(csv_from_text(outcome.out, "stdout"), "time_s").size() == 50);
 }
 
-TEST_CASE("viscard export refuses what is no capture in one line", "[cli][capture]") {
+TEST_CASE("viscard export refuses a file that is no capture in one line", "[cli][capture]") {
   const ScratchFolder folder;
   CHECK(run_command({"export"}).status == kBadWords);
   CHECK(run_command({"export", "a", "b"}).status == kBadWords);

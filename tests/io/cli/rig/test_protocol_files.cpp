@@ -26,7 +26,7 @@ bool has_phase(const CapturedRun& run, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("Every example of a protocol runs, and its capture carries the phases", "[cli][pty]") {
+TEST_CASE("every example of a protocol runs, and its capture contains the phases", "[cli][pty]") {
   struct Row {
     const char* file;
     const char* phase;
@@ -48,7 +48,7 @@ TEST_CASE("Every example of a protocol runs, and its capture carries the phases"
   CHECK(nlohmann::json::parse(run.out)["readings"]["missing"] == 0);
 }
 
-TEST_CASE("A rig file whose counts make no force, or whose dates are none, is refused by its key",
+TEST_CASE("a rig file without volts_per_count or with impossible dates is refused by its key",
           "[cli]") {
   const ScratchFolder folder;
   const auto checked = [&](const std::string& cell, const std::string& calibration) {
@@ -63,7 +63,7 @@ TEST_CASE("A rig file whose counts make no force, or whose dates are none, is re
   CHECK_THAT(checked("", ""), Contains("/dev/null") && !Contains("volts_per_count"));
 }
 
-TEST_CASE("rig check says what a capture would say of the calibration", "[cli][pty]") {
+TEST_CASE("rig check judges the calibration as a capture does", "[cli][pty]") {
   const ScratchFolder folder;
   const auto checked = [&](const std::string& date) {
     std::ofstream(folder / "rig.toml")
@@ -83,8 +83,9 @@ TEST_CASE("rig check says what a capture would say of the calibration", "[cli][p
   CHECK_THAT(future.out, Contains("later than today"));
 }
 
-TEST_CASE("An expired calibration is refused before any port is opened, unless told otherwise",
-          "[cli]") {
+TEST_CASE(
+    "an expired calibration is refused before any port is opened, unless --uncalibrated is given",
+    "[cli]") {
   const ScratchFolder folder;
   std::ofstream(folder / "rig.toml")
       << "[stage]\nport = \"/dev/null\"\n[load_cell]\nport = \"/dev/null\"\nvolts_per_count = "

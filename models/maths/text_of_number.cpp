@@ -1,10 +1,31 @@
-#include "rig/protocols/text_number.h"
+#include "models/maths/text_of_number.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 namespace viscard {
+
+std::string text_of(double value, int significant_digits) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.*g", significant_digits, value);
+  return text.data();
+}
+
+std::string text_with_error(double value, double standard_error) {
+  if (!(standard_error > 0.0) || !std::isfinite(standard_error) || value == 0.0) {
+    return text_of(value);
+  }
+  const double digits =
+      std::floor(std::log10(std::abs(value))) - std::floor(std::log10(standard_error)) + 2.0;
+  return text_of(value, static_cast<int>(std::clamp(digits, 1.0, 15.0)));
+}
+
+std::string counted(std::size_t count, const std::string& one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlank(" \t\r\n\0", 5);
@@ -40,7 +61,6 @@ std::string text_from_number(double value, int decimals) {
                                           std::chars_format::fixed, decimals);
   if (error != std::errc()) return "0";
   std::string text(buffer.data(), end);
-  // "-0.000" is a number, but some parsers choke on it.
   if (text.find_first_not_of("-0.") == std::string::npos && text.front() == '-') text.erase(0, 1);
   return text;
 }

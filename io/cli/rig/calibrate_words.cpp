@@ -1,0 +1,32 @@
+#include "io/cli/rig/calibrate_words.h"
+
+#include "rig/emulator/demo_rig.h"
+
+#include <ctime>
+
+namespace viscard {
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[16];
+  return {text, std::strftime(text, sizeof text, "%Y-%m-%d", &utc)};
+}
+
+RigConfig calibrate_rig(const CalibrateWords& words) {
+  RigConfig rig = words.rig_file ? read_rig(*words.rig_file) : demo_rig();
+  if (words.is_emulated) {
+    rig.clock_speed = words.speed;
+    if (rig.load_cell.volts_per_count == 0.0) {
+      rig.load_cell.volts_per_count = demo_rig().load_cell.volts_per_count;
+    }
+  }
+  return rig;
+}
+
+EmulatedTruth calibrate_truth(const CalibrateWords& words) {
+  return words.truth_file ? read_truth(*words.truth_file) : demo_truth(10.0, 1);
+}
+
+}  // namespace viscard

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "rig/run/force_control.h"
+#include "rig/run/test_run.h"
+
+namespace viscard {
+
+// The phases that go to a force or hold one. Keeps the stiffness seen while loading, because the
+// hold that follows steps by it.
+class ForcePhases {
+ public:
+  explicit ForcePhases(TestRun& run) : run_(run) {}
+
+  // Loads to phase.force_N: first most of the way by the stiffness guessed, then the rest by the
+  // stiffness seen on the way. Each move ends early, by a gentle stop, when the force is reached.
+  void load(const TestPhase& phase);
+
+  // Holds phase.force_N for phase.duration_s by steps of the stage (force_control.h). Throws
+  // RigError if the specimen creeps beyond the depth limit.
+  void hold(const TestPhase& phase);
+
+ private:
+  double mean_s();
+  ForceControl force_control(const TestPhase& phase);
+  void check_depth(double deepest_m);
+
+  TestRun& run_;
+  double measured_N_m_ = 0.0;  // stiffness seen while loading; 0 before the first load
+};
+
+}  // namespace viscard

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "models/experiment/rig_config.h"
+#include "models/experiment/run_record.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace viscard {
+
+struct ForceMean {
+  double force_N = 0.0;  // mean from the tare
+  double sd_N = 0.0;     // standard deviation of one reading
+  double rate_Hz = 0.0;  // of the readings that have a force
+  int n = 0;
+};
+
+// Turns readings of the load cell into forces from the tare. Keeps the newest and the largest,
+// reports when a force passes a threshold, and collects the readings of a mean.
+class ForceReadings {
+ public:
+  explicit ForceReadings(const RigConfig& rig) : rig_(rig) {}
+
+  struct Reading {
+    double force_N = 0.0;      // from the tare; 0 if the sample has no force
+    bool is_doubtful = false;  // a glitch code, saturated, or without a finite force
+  };
+  // made_at_s: the rig time at which the reading was made. Doubtful readings change nothing.
+  Reading take(const LoadSample& sample, double made_at_s);
+
+  double force_N() const { return force_N_; }
+  double peak_force_N() const { return peak_force_N_; }
+  double tare_N() const { return tare_N_; }
+  std::int64_t n_forces() const { return n_forces_; }  // readings that were not doubtful
+  double last_made_s() const { return last_made_s_; }
+
+  // Moves the zero by this force and forgets the peak.
+  void add_to_tare(double force_N);
+
+  // From now on has_exceeded() is true once a force lies above the threshold in either direction.
+  void watch(std::optional<double> threshold_N);
+  void stop_watching() { threshold_N_.reset(); }
+  bool has_exceeded() const { return has_exceeded_; }
+
+  // Collects the readings made at or after time_s until stop_collecting().
+  void collect_from(double time_s);
+  void stop_collecting() { collects_from_s_.reset(); }
+  int n_collected() const { return static_cast<int>(collected_N_.size()); }
+  double collected_until_s() const { return collected_until_s_; }  // time of the last of them
+  // Of what was collected. Precondition: at least two readings.
+  ForceMean collected_mean() const;
+
+ private:
+  void collect(double absolute_N, double made_at_s);
+
+  const RigConfig& rig_;
+  double tare_N_ = 0.0;
+  double force_N_ = 0.0;
+  double peak_force_N_ = 0.0;
+  std::int64_t n_forces_ = 0;
+  double last_made_s_ = 0.0;
+  std::optional<double> threshold_N_;
+  bool has_exceeded_ = false;
+  std::optional<double> collects_from_s_;
+  std::vector<double> collected_N_;  // before the tare is subtracted
+  double collected_first_s_ = 0.0, collected_until_s_ = 0.0;
+};
+
+}  // namespace viscard

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "rig/run/force_readings.h"
+#include "rig/run/served_devices.h"
+
+#include <string>
+
+namespace viscard {
+
+// What a run that ended early could still do for the specimen and the load cell.
+struct SafeEnd {
+  double lifted_m = 0.0;
+  std::string trouble;  // what could not be done and what to do by hand; empty if all was done
+};
+
+// Stops the stage, unlocks it if it locked itself, lifts the punch and checks that the force falls.
+// Tries four times; each further try lifts by half the distance, because a stage that refuses to go
+// so far (its own limits) may go part of the way.
+class PunchLift {
+ public:
+  struct Options {
+    double retract_to_m = 0.0;
+    double speed_m_s = 0.0;
+    double pressing_N = 0.0;  // a force above this means that the punch presses
+  };
+  // pump: serves both devices.
+  PunchLift(ServedDevices& devices, const ForceReadings& readings, const RigClock& clock, Pump pump,
+            const Options& options);
+
+  SafeEnd carry_out();
+
+ private:
+  void stop_gently();
+  std::string lift(double share);
+  std::string trouble_with_force(double before_N);
+
+  ServedDevices& devices_;
+  const ForceReadings& readings_;
+  const RigClock& clock_;
+  Pump pump_;
+  Options options_;
+  double lifted_m_ = 0.0;
+};
+
+}  // namespace viscard

@@ -1,0 +1,98 @@
+#include "rig/run/served_devices.h"
+
+#include "rig/run/run_errors.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+constexpr double kNap_wall_s = 0.005;
+constexpr double kSilence_wall_s = 0.1;
+// On an emulated clock that runs fast, every stall of the machine counts as seconds of rig time.
+constexpr double kSilenceEmulated_wall_s = 1.0;
+
+}  // namespace
+
+ServedDevices::ServedDevices(Stage& stage, LoadCell& load_cell, const RigClock& clock)
+    : stage_(stage),
+      load_cell_(load_cell),
+      clock_(clock),
+      silence_(clock.speed() > 1.0 ? kSilenceEmulated_wall_s : kSilence_wall_s) {}
+
+void ServedDevices::connect(const Pump& pump) {
+  load_cell_.connect(pump);
+  is_cell_connected_ = true;
+  stage_.connect(pump);
+  is_stage_connected_ = true;
+}
+
+void ServedDevices::serve(bool is_guarded) {
+  wait();
+  serve_cell(is_guarded);
+  serve_stage();
+  const double arrival_s = load_cell_.last_arrival_s();
+  silence_.pass(monotonic_s(), arrival_s != last_arrival_s_, stage_.is_moving());
+  last_arrival_s_ = arrival_s;
+}
+
+void ServedDevices::wait() {
+  std::vector<const Transport*> transports{&stage_.transport()};
+  if (!is_cell_lost_) transports.push_back(&load_cell_.transport());
+  // Rig time may run faster than the wall clock, so the wait is shorter then.
+  wait_readable(transports, kNap_wall_s / std::clamp(clock_.speed() / 10.0, 1.0, 10.0));
+}
+
+void ServedDevices::serve_cell(bool is_guarded) {
+  if (is_cell_lost_) return;
+  try {
+    load_cell_.service();
+  } catch (const LimitReached&) {  // the stage has been stopped already
+    throw;
+  } catch (const RigError& error) {
+    is_cell_restarted_ =
+        is_cell_restarted_ || dynamic_cast<const DeviceRestarted*>(&error) != nullptr;
+    is_cell_lost_ = dynamic_cast<const PortHungUp*>(&error) != nullptr;
+    if (!is_guarded) return;
+    if (stage_.is_moving()) stop_hard();
+    throw;
+  }
+}
+
+void ServedDevices::serve_stage() {
+  try {
+    stage_.service();
+  } catch (const StageAlarm&) {
+    needs_recovery_ = true;
+    throw;
+  } catch (const DeviceRestarted&) {
+    needs_recovery_ = true;
+    is_position_lost_ = true;
+    throw;
+  }
+}
+
+void ServedDevices::stop_hard() {
+  needs_recovery_ = true;
+  stage_.stop_hard();
+}
+
+void ServedDevices::begin_gentle_stop() {
+  is_stopping_ = true;
+  stage_.stop_soft();
+}
+
+void ServedDevices::recover(const Pump& pump) {
+  stage_.recover(pump);
+  needs_recovery_ = false;
+}
+
+std::optional<ServedDevices::Silence> ServedDevices::silence() const {
+  if (!is_cell_connected_ || !stage_.is_moving()) return std::nullopt;
+  const double period_s = load_cell_.period_s() / clock_.speed();
+  if (!silence_.is_silent(period_s)) return std::nullopt;
+  return Silence{silence_.silent_s(), silence_.limit_s(period_s)};
+}
+
+}  // namespace viscard

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "models/experiment/rig_config.h"
+#include "models/experiment/specimen.h"
+#include "models/experiment/test_phases.h"
+#include "models/experiment/test_plan.h"
+#include "rig/run/run_outcome.h"
+#include "rig/run/run_session.h"
+
+#include <vector>
+
+namespace viscard {
+
+// What the phases of one test share: the session, what was asked for, and what is known so far.
+struct TestRun {
+  RunSession& session;
+  const RigConfig& rig;
+  const TestPlan& plan;
+  const Specimen& specimen;
+  std::vector<TestPhase> phases;
+  RunOutcome outcome;
+  double start_m = 0.0;           // stage position before anything was moved
+  double contact_m = 0.0;         // stage position at which the punch touches
+  bool is_in_contact = false;     // the last move pressed the punch into the specimen
+  bool presses_at_start = false;  // the tare showed a force before anything was moved
+};
+
+// Soft limit of the force, N.
+double limit_N(const TestRun& run);
+
+// Indentation by the live contact point and the newest force.
+double live_depth_m(TestRun& run);
+
+// Keeps the deepest indentation so far as outcome.achieved_depth_m.
+void note_depth(TestRun& run);
+
+}  // namespace viscard

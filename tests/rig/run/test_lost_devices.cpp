@@ -1,0 +1,61 @@
+// Runs whose cables are pulled or whose program stalls, through real pseudo-terminals.
+#include "tests/rig/rig_fixture.h"
+
+#include <catch2/catch.hpp>
+#include <unistd.h>
+
+#include <string>
+
+namespace viscard {
+namespace {
+
+using Catch::Matchers::Contains;
+
+}  // namespace
+
+TEST_CASE("a cable pulled in any phase ends the run and keeps all records before it",
+          "[rig][pty]") {
+  const std::string phase =
+      GENERATE("tare", "approach", "baseline", "ramp", "hold", "unload", "recovery", "retract");
+  const bool is_stage = GENERATE(false, true);
+  RigFixture rig(RigFixture::options(40.0));
+  when_phase(rig, phase, [&] {
+    is_stage ? rig.emulated.pull_stage_cable() : rig.emulated.pull_load_cell_cable();
+  });
+  const RunOutcome outcome = rig.run(short_plan());
+  INFO(phase << (is_stage ? ", stage: " : ", load cell: ") << outcome.reason);
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("is gone") || Contains("took no more bytes"));
+  CHECK(rig.has_event("phase", phase));
+  CHECK(rig.has_event("interrupted", "reason"));
+  if (is_stage && phase == "tare") {
+    CHECK_THAT(outcome.reason, !Contains("by hand"));  // it had not moved
+  } else if (is_stage) {
+    CHECK_THAT(outcome.reason, Contains("by hand"));
+  } else {
+    CHECK_FALSE(rig.emulated.outcome().is_moving);
+    CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
+  }
+}
+
+TEST_CASE("a stall of this program changes no reading and stops nothing", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(2.0);
+  options.truth.surface_position_m = 0.1e-3;
+  RigFixture rig(options);
+  int n_progress = 0;
+  rig.on_progress = [&](const RunProgress&) {
+    if (++n_progress % 5 == 0) ::usleep(300'000);  // as SIGSTOP and SIGCONT would
+  };
+  TestPlan plan = short_plan();
+  plan.approach_speed_m_s = 0.5e-3;
+  plan.baseline_s = 0.2;
+  plan.hold_s = 0.5;
+  plan.recovery_s = 0.0;
+  const RunOutcome outcome = rig.run(plan);
+  INFO(outcome.reason);
+  CHECK(outcome.status == "finished");
+  CHECK(outcome.stream.missing == 0);
+  CHECK(n_progress > 8);
+}
+
+}  // namespace viscard
