@@ -22,6 +22,10 @@ ShownUnit shown_unit(const std::string& base, const std::vector<double>& values_
 // four significant digits without one. "–" if it is not finite.
 std::string number_text(double value, const Interval* interval = nullptr);
 
+// "0.002", "1500", "3×10⁻⁷": at most `digits` significant digits, a true minus sign. "–" if it is not
+// finite.
+std::string readable_number(double value, int digits);
+
 // "[1.874, 1.890]", with as many decimals; an end that is not finite is called unbounded.
 std::string interval_text(const Interval& interval);
 

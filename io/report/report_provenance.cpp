@@ -1,4 +1,3 @@
-#include "io/plots/plot_axis.h"
 #include "io/plots/plot_svg.h"
 #include "io/report/report_numbers.h"
 #include "io/report/report_sections.h"

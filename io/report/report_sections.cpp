@@ -1,6 +1,5 @@
 #include "io/report/report_sections.h"
 
-#include "io/plots/plot_axis.h"
 #include "io/plots/plot_svg.h"
 #include "io/report/report_campaign.h"
 #include "io/report/report_figures.h"
