@@ -43,6 +43,5 @@ EmulatedTruth truth_from_toml(const std::string& text, const std::string& name);
 std::string toml_from_rig(const RigConfig& rig);
 std::string toml_from_test(const TestPlan& plan);
 std::string toml_from_specimen(const Specimen& specimen);
-std::string toml_from_truth(const EmulatedTruth& truth);
 
 }  // namespace viscard

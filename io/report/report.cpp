@@ -1,6 +1,5 @@
 #include "io/report/report.h"
 
-#include "io/basics/atomic_file.h"
 #include "io/plots/plot_svg.h"
 #include "io/report/report_estimates.h"
 #include "io/report/report_html.h"
@@ -75,14 +74,6 @@ std::string html_from_page(const ReportInput& input, const Page& page) {
 RenderedReport render_report(const ReportInput& input) {
   const Page page = page_from_report(input);
   return {html_from_page(input, page), page.pictures()};
-}
-
-std::string html_from_report(const ReportInput& input) {
-  return render_report(input).html;
-}
-
-void write_report(const ReportInput& input, const std::filesystem::path& path, bool overwrite) {
-  write_file(path, html_from_report(input), overwrite);
 }
 
 }  // namespace viscard

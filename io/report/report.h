@@ -3,7 +3,6 @@
 #include "io/report/report_html.h"
 #include "io/report/report_input.h"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,9 +17,5 @@ struct RenderedReport {
 // has neither fit nor material, or moduli and stiffnesses meet; std::runtime_error if gnuplot is
 // not installed or fails.
 RenderedReport render_report(const ReportInput& input);
-std::string html_from_report(const ReportInput& input);
-
-// Writes the page whole or not at all (io/atomic_file.h).
-void write_report(const ReportInput& input, const std::filesystem::path& path, bool overwrite);
 
 }  // namespace viscard

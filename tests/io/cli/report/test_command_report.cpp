@@ -66,10 +66,9 @@ TEST_CASE("a capture becomes a page with fit, truth, pillar and cards", "[cli][r
   const test::ScratchFolder folder;
   const std::string capture = (folder / "run.viscap").string();
   const std::string page = (folder / "page.html").string();
-  const std::string truth_file = (folder / "truth.toml").string();
+  const std::string truth_file = VISCARD_SOURCE_DIR "/data/demo/03_pdms_1to10.truth.toml";
   const EmulatedTruth truth = test::demo_truth(10, 3);
   write_run(capture, truth);
-  write_text(truth_file, toml_from_truth(truth));
   const auto outcome = run_command({"report", capture, "--truth", truth_file, "--out", page,
                                     "--pictures", (folder / "pictures").string(), "--json"});
   CAPTURE(outcome.err);
