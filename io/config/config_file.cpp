@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kVoltsPerCount = 20.0 / 16777216.0;  // 24 bits from -10 V to +10 V
 
-// Reads, then checks what no single key can tell; errors of the checks get the file's name.
+// Reads the fields, then checks them together; an error of the checks gets the file's name.
 template <typename Config>
 Config config_from_toml(const std::string& text, const std::string& name, Config config,
                         void (*show)(FieldVisitor&, Config&), void (*check)(Config&)) {
@@ -50,8 +50,8 @@ void check_rig(RigConfig& rig) {
 void check_test(TestPlan& plan) {
   if (plan.unload_to_fraction >= 1.0 && plan.recovery_s > 0.0) {
     throw std::invalid_argument(
-        "recovery.unload_to_fraction is 1, so nothing would be unloaded; use 0.1, or recovery.hold "
-        "= 0 to leave it out");
+        "recovery.unload_to_fraction is 1, so the specimen would not be unloaded; use 0.1, or set "
+        "recovery.hold = 0 to omit the recovery");
   }
   phases_from_plan(plan);
 }
@@ -88,15 +88,15 @@ EmulatedTruth truth_from_toml(const std::string& text, const std::string& name) 
   return config_from_toml<EmulatedTruth>(text, name, unset, show_truth, check_truth);
 }
 
-// What a rig about to be used must say; a record of an old run is read without.
+// Checks that apply only to a rig about to be used; the rig in an old capture is read without them.
 void check_before_use(const RigConfig& rig, const std::string& name) {
   const LoadCellConfig& cell = rig.load_cell;
   const bool may_count = cell.driver == "hx711" && cell.unit.empty() && cell.line_format != "volts";
   if (may_count && cell.volts_per_count == 0.0) {
-    throw std::runtime_error(
-        name +
-        ": load_cell.volts_per_count is 0, so that counts make no force; give the volts of one "
-        "count, or leave it out for 20 V / 2^24");
+    throw std::runtime_error(name +
+                             ": load_cell.volts_per_count is 0, so counts cannot be converted to a "
+                             "force; give the volts "
+                             "of one count, or omit the key for 20 V / 2^24");
   }
   try {
     validate_dates(rig.calibration);
@@ -109,15 +109,15 @@ RigConfig read_rig(const std::filesystem::path& path) {
   RigConfig rig = rig_from_toml(read_file(path), path.string());
   check_before_use(rig, path.string());
   const std::filesystem::path folder = path.parent_path();
-  // What a record says replaces all of the section, so that it cannot be mixed with older numbers;
-  // only the cell's rating may stand in the rig file alone.
+  // The record replaces the whole section, so that its numbers are never mixed with older ones.
+  // Only the rated load of the cell may be in the rig file alone.
   if (!rig.calibration.file.empty()) {
     const double capacity_N = rig.calibration.capacity_N;
     const std::string file = rig.calibration.file;
     const CalibrationRecord record = read_calibration(folder / rig.calibration.file);
     if (!record.calibration) {
       throw std::runtime_error((folder / rig.calibration.file).string() +
-                               ": holds no [calibration]; make one with viscard calibrate");
+                               ": has no [calibration]; make one with viscard calibrate");
     }
     rig.calibration = *record.calibration;
     if (rig.calibration.capacity_N == 0.0) rig.calibration.capacity_N = capacity_N;
@@ -128,12 +128,13 @@ RigConfig read_rig(const std::filesystem::path& path) {
     const CalibrationRecord record = read_calibration(folder / rig.frame.file);
     if (!record.frame) {
       throw std::runtime_error((folder / rig.frame.file).string() +
-                               ": holds no [frame]; make one with viscard calibrate --compliance");
+                               ": has no [frame]; make one with viscard calibrate --compliance");
     }
     rig.frame = *record.frame;
   }
   return rig;
 }
+
 TestPlan read_test(const std::filesystem::path& path) {
   return test_from_toml(read_file(path), path.string());
 }

@@ -53,7 +53,7 @@ void show_rig(FieldVisitor& fields, RigConfig& rig) {
   });
   fields.section("frame", [&](FieldVisitor& inner) {
     inner.text({"file", "bench.frame.toml"}, rig.frame.file);
-    // Required: a frame taken as rigid without a word about it can halve the modulus.
+    // Required, because assuming a rigid frame can halve the modulus.
     inner.quantity({.key = "stiffness",
                     .unit = "N/m",
                     .range = kPositive,

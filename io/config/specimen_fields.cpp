@@ -9,7 +9,7 @@ namespace {
 
 using enum Range;
 
-// [tip]: left out for a flat punch.
+// [tip] may be omitted for a flat punch.
 void show_tip(FieldVisitor& fields, PunchContact& contact) {
   std::string shape = contact.shape == TipShape::kSphere ? "sphere"
                       : contact.shape == TipShape::kCone ? "cone"
@@ -40,7 +40,7 @@ void show_contact(FieldVisitor& fields, PunchContact& contact) {
         {.key = "punch_diameter_u", .unit = "m", .range = kNotNegative, .written_per_value = 2.0},
         contact.punch_radius_u_m);
   }
-  // Required: a half-space taken for granted overestimates the modulus of a thin layer.
+  // Required, because assuming a half-space overestimates the modulus of a thin layer.
   fields.quantity({.key = "layer_thickness",
                    .unit = "m",
                    .range = kPositive,
@@ -69,7 +69,7 @@ void show_truth_material(FieldVisitor& fields, Material& material) {
         inner.quantity({"g", "1", kNotNegative, true}, term.g);
         inner.quantity({"k", "1", kNotNegative}, term.k);
         inner.quantity({"tau", "s", kPositive, true}, term.tau_s);
-        if (std::isnan(term.k)) term.k = term.g;  // constant Poisson ratio unless said otherwise
+        if (std::isnan(term.k)) term.k = term.g;  // constant Poisson ratio unless k is given
       });
 }
 

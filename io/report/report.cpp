@@ -15,14 +15,17 @@ namespace viscard {
 namespace {
 
 std::vector<SpecimenEstimates> all_estimates(const ReportInput& input) {
-  if (input.specimens.empty()) throw std::invalid_argument("report: there is no specimen to show");
+  if (input.specimens.empty())
+    throw std::invalid_argument(
+        "report: there is no specimen to show; give a capture or a material file");
   std::vector<SpecimenEstimates> estimates;
   for (std::size_t i = 0; i < input.specimens.size(); ++i) {
     estimates.push_back(estimates_from_specimen(input.specimens[i], i));
     if (estimates.back().is_stiffness != estimates.front().is_stiffness) {
       throw std::invalid_argument(
           "report: " + estimates.back().label + " and " + estimates.front().label +
-          " cannot share a page: one has moduli, the other stiffnesses (no punch geometry given)");
+          " cannot share a page: one has moduli, the other stiffnesses, because no punch geometry "
+          "was given; make two pages, or fit again with the geometry");
     }
   }
   return estimates;

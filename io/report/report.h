@@ -13,9 +13,9 @@ struct RenderedReport {
   std::vector<ReportPicture> pictures;
 };
 
-// The same input gives the same bytes. Throws std::invalid_argument if there is no specimen, one
-// has neither fit nor material, or moduli and stiffnesses meet; std::runtime_error if gnuplot is
-// not installed or fails.
+// Makes the page. The same input gives the same bytes. Throws std::invalid_argument if there is no
+// specimen, a specimen has neither fit nor material, or some specimens have moduli and others
+// stiffnesses; std::runtime_error if gnuplot is not installed or fails.
 RenderedReport render_report(const ReportInput& input);
 
 }  // namespace viscard

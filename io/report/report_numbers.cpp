@@ -46,7 +46,8 @@ std::string with_true_minus(const std::string& text) {
   return text.front() == '-' ? "−" + text.substr(1) : text;
 }
 
-// Decimals that show two digits of the half-width; negative when those stand before the point.
+// The decimals that show two digits of the half-width, negative if those digits are before the
+// point; -100 without an interval.
 int decimals_of(const Interval& interval) {
   const double half = 0.5 * (interval.high - interval.low);
   if (!(half > 0.0) || !std::isfinite(half)) return -100;

@@ -122,7 +122,7 @@ TEST_CASE("a material file that cannot be right is refused with file and key", "
   CHECK(error_of("[1, 2]") == "m.json: the file must be an object, { ... }");
   CHECK(contains(error_of(R"({"E0": 1e6, "nu": 0.4, "terms": []})"),
                  "m.json: 'E0_Pa' is missing; expected the instantaneous Young's modulus in Pa "
-                 "(there is a 'E0')"));
+                 "(the file has 'E0')"));
   CHECK(error_of(R"({"E0_Pa": "2 MPa", "nu": 0.4, "terms": []})") ==
         "m.json: E0_Pa: expected a number in SI, without quotes or unit");
   CHECK(error_of(R"({"E0_Pa": 1e6, "nu": 0.4, "terms": {}})") ==
@@ -142,7 +142,7 @@ TEST_CASE("a material file that cannot be right is refused with file and key", "
   CHECK(contains(error_of(R"({"schema": "viscard-material/2", "E0_Pa": 1, "nu": 0, "terms": []})"),
                  "update viscard"));
   CHECK(contains(error_of(R"({"schema": "geojson", "E0_Pa": 1, "nu": 0, "terms": []})"),
-                 "no material file"));
+                 "not a material file"));
   CHECK(contains(error_of(R"({"E0_Pa": 1, "nu": 0, "terms": [], "uncertainty":
                  {"covariance_parameters": ["a", "b"], "covariance": [[1, 2], [3]]}})"),
                  "m.json: uncertainty.covariance: expected 2 rows of 2 numbers"));

@@ -190,7 +190,7 @@ TEST_CASE("missing parts are left out together with their headings", "[io][repor
   CHECK(has(words, "Summary"));
   CHECK(has(words, "PDMS 1:10"));
   for (const char* absent : {"Truth and estimate", "in a pillar", "Material cards", "Two-point",
-                             "Ratio", "Orders tried", "What the data could not tell"}) {
+                             "Ratio", "Orders tried", "What the data could not determine"}) {
     CAPTURE(absent);
     CHECK_FALSE(has(words, absent));
   }
