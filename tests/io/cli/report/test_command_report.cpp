@@ -167,7 +167,7 @@ TEST_CASE("wrong words to report get one clear line", "[cli][report]") {
     CHECK(outcome.out.empty());
     CHECK_FALSE(std::filesystem::exists(page));
   };
-  fails({"--out", page}, kBadWords, "report on what?");
+  fails({"--out", page}, kBadWords, "which files?");
   fails({material}, kBadWords, "--out report.html");
   fails({material, "--out", page, "--card", "abacus"}, kBadWords, "abaqus");
   fails({material, "--out", page, "--units", "furlong"}, kBadWords, "mm-t-s");
