@@ -138,7 +138,7 @@ std::optional<Plot> run_plot(const RunSeries& series) {
   if (!series.flagged_s.empty()) volts.series.push_back(flagged_dots(series, volt.per_si));
   Plot plot{.title = "Recorded run",
             .description = "Output of the load cell and position of the stage over time.",
-            .height_px = 430};
+            .height_px = 500};
   PlotPanel way;
   way.x.label = volts.x.label;
   way.series.push_back({.ink = Ink::kGreen, .size = 0.8});
