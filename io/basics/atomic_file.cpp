@@ -59,9 +59,7 @@ void write_file(const std::filesystem::path& path, const std::string& contents, 
   if (std::filesystem::is_directory(path, ignored)) fail(path, "cannot write", EISDIR);
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
     throw std::runtime_error(
-        path.string() +
-        " is no file but a device or pipe, which would be lost; choose another "
-        "name");
+        path.string() + " is a device or pipe, which the file would replace; choose another name");
   }
   if (!overwrite && std::filesystem::exists(path, ignored)) {
     throw std::runtime_error(path.string() +
@@ -80,12 +78,12 @@ void write_file(const std::filesystem::path& path, const std::string& contents, 
     if (overwrite) {
       if (::rename(temporary.c_str(), path.c_str()) != 0) fail(path, "cannot rename", errno);
     } else {
-      // link() refuses an existing name, so nobody's file is lost to a race.
+      // link() refuses an existing name, so a file that another process creates meanwhile is kept.
       if (::link(temporary.c_str(), path.c_str()) == 0) {
         ::unlink(temporary.c_str());
       } else if (errno != EPERM && errno != EOPNOTSUPP) {
         fail(path, "cannot create", errno);
-      } else if (::rename(temporary.c_str(), path.c_str()) != 0) {  // no links on a FAT stick
+      } else if (::rename(temporary.c_str(), path.c_str()) != 0) {  // FAT has no hard links
         fail(path, "cannot rename", errno);
       }
     }
@@ -103,8 +101,9 @@ std::string read_file(const std::filesystem::path& path) {
   if (file.get() < 0) fail(path, "cannot open", errno);
   std::string contents;
   std::size_t size = 0;
-  const auto expected = std::filesystem::file_size(path, ignored);        // unknown for a pipe
-  contents.resize(ignored ? 0 : static_cast<std::size_t>(expected) + 1);  // one to see the end
+  const auto expected = std::filesystem::file_size(path, ignored);  // fails for a pipe
+  contents.resize(
+      ignored ? 0 : static_cast<std::size_t>(expected) + 1);  // one more byte, to detect the end
   while (true) {
     if (size == contents.size()) contents.resize(size + std::max<std::size_t>(size, 1 << 16));
     const ssize_t count = ::read(file.get(), contents.data() + size, contents.size() - size);

@@ -5,13 +5,14 @@
 
 namespace viscard {
 
-// Writes a whole file so that a reader sees the old one or the new one and never a part: temporary
-// name in the same folder, fsync, rename, fsync of the folder.
-// Throws std::runtime_error, saying what to do next, if the target exists and overwrite is false,
-// if it is a folder, or if any step fails; the temporary file is then removed.
+// Writes a file so that a reader sees either the old or the new contents, never a part: it writes a
+// temporary file in the same folder, syncs it, renames it and syncs the folder.
+// Throws std::runtime_error with the path, the reason and the next step if the target exists and
+// overwrite is false, if it is a folder, device or pipe, or if a step fails. The temporary file is
+// removed in every case.
 void write_file(const std::filesystem::path& path, const std::string& contents, bool overwrite);
 
-// The whole file. Throws std::runtime_error naming the file and the reason.
+// Returns the contents of a file. Throws std::runtime_error naming the file and the reason.
 std::string read_file(const std::filesystem::path& path);
 
 }  // namespace viscard

@@ -25,7 +25,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
   std::string best;
-  // At least one letter must be right: "SI" is no neighbour of "mm".
+  // At least one letter must agree: "SI" is not near "mm".
   std::size_t best_distance = std::min(std::max<std::size_t>(2, word.size() / 3) + 1,
                                        std::max<std::size_t>(1, word.size()));
   for (const std::string& candidate : known) {

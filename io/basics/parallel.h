@@ -5,8 +5,8 @@
 
 namespace viscard {
 
-// Calls work(i) for i = 0 ... n - 1 on all cores. All are carried out; then what the first of them,
-// by number, threw is thrown.
+// Calls work(i) for i = 0 ... n - 1 on all cores and waits for all of them. If some calls throw,
+// the exception of the smallest i is rethrown once all have ended.
 void for_each_in_parallel(std::size_t n, const std::function<void(std::size_t)>& work);
 
 }  // namespace viscard

@@ -4,11 +4,11 @@
 
 namespace viscard {
 
-// What a publication prints for one result of a scene, to be shown beside ours.
+// The value that a publication prints for one result of a scene. Commands print it beside ours.
 struct PrintedValue {
   std::string name;   // of a result, or family and number of a mode: "lateral 2"
   std::string value;  // with its unit: "16103 Hz"
-  std::string note;   // why ours differs
+  std::string note;   // why our value differs
 };
 
 }  // namespace viscard

@@ -36,7 +36,8 @@ class Sha256 {
 
  private:
   static void check(int is_done) {
-    if (is_done != 1) throw std::runtime_error("SHA-256 is not to be had from this OpenSSL");
+    if (is_done != 1)
+      throw std::runtime_error("SHA-256 failed in OpenSSL; check the installation of libssl");
   }
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
 };
@@ -59,12 +60,6 @@ std::string sha256_of_file(const std::filesystem::path& path) {
     sum.add(block.data(), static_cast<std::size_t>(count));
   }
   ::close(fd);
-  return sum.hexadecimal();
-}
-
-std::string sha256_of_text(std::string_view text) {
-  Sha256 sum;
-  sum.add(text.data(), text.size());
   return sum.hexadecimal();
 }
 

@@ -40,7 +40,7 @@ class UnitsGuard {
 using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
 using Converter = std::unique_ptr<cv_converter, decltype(&cv_free)>;
 
-// The database, read once (about 5 ms) when the first unit is met. Call under UnitsGuard.
+// The database, read once (about 5 ms) for the first unit. Call it while holding a UnitsGuard.
 ut_system* unit_system() {
   static const std::unique_ptr<ut_system, decltype(&ut_free_system)> system = [] {
     ut_set_error_message_handler(&ut_ignore);
@@ -49,7 +49,7 @@ ut_system* unit_system() {
   }();
   if (!system) {
     throw std::runtime_error(
-        "the database of units cannot be read; install the package libudunits2-data (or set "
+        "the UDUNITS database cannot be read; install the package libudunits2-data (or set "
         "UDUNITS2_XML_PATH to its udunits2.xml)");
   }
   return system.get();
@@ -66,7 +66,7 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-// Words of the trade that UDUNITS lacks; they count things, so they are numbers.
+// Words that UDUNITS lacks. Most of them count things, so they have no dimension.
 std::string with_known_words(std::string_view text, bool is_temperature) {
   struct Word {
     std::string_view word, meaning;
@@ -114,7 +114,7 @@ bool has_angle(const ut_unit* unit) {
   return size > 0 && std::string_view(text.data()).find("rad") != std::string_view::npos;
 }
 
-// The scale, or nothing when the text is no unit, or is one of another quantity.
+// Returns the scale, or nothing if the text is not a unit or measures another quantity.
 std::optional<UnitScale> try_scale(std::string_view unit_text, std::string_view si_unit) {
   const UnitsGuard guard;
   const bool is_temperature = si_unit == "degC" || si_unit == "K";
@@ -173,7 +173,7 @@ std::string unit_name(std::string_view si_unit) {
   return is_no_unit(si_unit) ? "a plain number" : "a unit of " + std::string(si_unit);
 }
 
-// n for factor = 10^n to rounding.
+// Returns n if factor = 10^n within rounding.
 std::optional<int> power_of_ten(double factor) {
   const double exponent = std::round(std::log10(std::abs(factor)));
   if (!(std::abs(exponent) < 30.0)) return std::nullopt;
@@ -181,8 +181,8 @@ std::optional<int> power_of_ten(double factor) {
   return is_power ? std::optional<int>(static_cast<int>(exponent)) : std::nullopt;
 }
 
-// "0.13" mm is the double nearest to 0.13e-3 m and not 0.13 * 1e-3, which may be its neighbour: the
-// decimal point is shifted in the text.
+// Shifts the decimal point in the text, because 0.13 * 1e-3 may differ from the double nearest to
+// 0.13e-3 in the last bit.
 double scaled(std::string_view digits, double value, const UnitScale& scale) {
   const auto shift = power_of_ten(scale.factor);
   if (!shift || scale.offset != 0.0) return value * scale.factor + scale.offset;

@@ -9,30 +9,31 @@ namespace viscard {
 // factors follow NIST SP 811). All functions may be called from several threads, do not depend on
 // the process's locale and print nothing.
 
-// Value in SI = factor * value as written + offset; the offset is not 0 for temperatures only.
+// Value in SI = factor * value as written + offset. Only temperatures have an offset other than 0.
 struct UnitScale {
   double factor = 1.0;
   double offset = 0.0;
 };
 
-// Value of "40 um", "10 kPa", "0.7255 V/N" or "250 gf" in si_unit ("m", "Pa", "V/N", "N"). A number
-// without a unit is in si_unit already. For si_unit "degC", "23 C", "23 degC" and "296.15 K" are
-// read. Throws std::invalid_argument naming the text, the unit expected and an example.
+// Returns the value of "40 um", "10 kPa", "0.7255 V/N" or "250 gf" in si_unit ("m", "Pa", "V/N",
+// "N"). A number without a unit is in si_unit already. With si_unit "degC", "23 C", "23 degC" and
+// "296.15 K" are accepted. Throws std::invalid_argument naming the text, the unit expected and an
+// example.
 double si_from_text(std::string_view text, const char* si_unit);
 
-// How values in unit_text ("ms", "MPa", "%") become values in si_unit. "", "-" and "1" stand for
-// no unit and give factor 1. Turns and radians are told apart: "rad/s" to "Hz" divides by 2 pi.
-// Throws std::invalid_argument naming both units when they do not measure the same quantity.
+// Returns the scale from unit_text ("ms", "MPa", "%") to si_unit. "", "-" and "1" mean no unit and
+// give factor 1. Turns and radians differ: "rad/s" to "Hz" divides by 2 pi. Throws
+// std::invalid_argument naming both units if they do not measure the same quantity.
 UnitScale scale_to_si(std::string_view unit_text, const char* si_unit);
 
-// True when scale_to_si() would succeed.
+// True if scale_to_si() would succeed.
 bool is_unit_of(std::string_view unit_text, const char* si_unit);
 
-// True when the text is a unit of whatever quantity ("MPa", "s", "-").
+// True if the text is a unit of some quantity ("MPa", "s", "-").
 bool is_unit(std::string_view unit_text);
 
-// The shortest text that reads back as exactly this double, with a decimal point whatever the
-// locale.
+// Returns the shortest text that reads back as exactly this double. The decimal sign is a point in
+// every locale.
 std::string text_from_number(double value);
 
 }  // namespace viscard

@@ -25,7 +25,7 @@ namespace {
 void print_overview(std::ostream& out) {
   out << "viscard " VISCARD_VERSION
          ": a soft polymer from a load cell to a validated simulation\n\n"
-         "usage: viscard COMMAND [OPTIONS]      (viscard COMMAND --help says more)\n\n";
+         "usage: viscard COMMAND [OPTIONS]      (details: viscard COMMAND --help)\n\n";
   for (const Command& command : commands()) {
     out << "  " << command.name << std::string(12 - std::string(command.name).size(), ' ')
         << command.summary << "\n";
@@ -50,7 +50,7 @@ int dispatch(const std::vector<std::string>& words, Streams& streams) {
   const std::string near = nearest_word(words[0], names);
   throw UsageError("there is no command '" + words[0] + "'" +
                    (near.empty() ? "" : "; did you mean '" + near + "'?") +
-                   " 'viscard --help' lists them");
+                   " 'viscard --help' lists the commands");
 }
 
 }  // namespace
@@ -61,19 +61,19 @@ const std::vector<Command>& commands() {
       {"capture", "run one indentation on the rig, or on an emulated one", run_capture},
       {"calibrate", "find the load cell's gain with weights, or the frame's stiffness on a block",
        run_calibrate},
-      {"export", "a capture as CSV", run_export},
+      {"export", "write a capture as CSV", run_export},
       {"fit", "find modulus and Prony series in captures or tables", run_fit},
       {"card", "write, check or prove a material card for a solver", run_card},
-      {"validate", "check a material in the pillar against exact creep and relaxation",
-       run_validate},
+      {"validate", "check a material in a pillar against exact creep and relaxation", run_validate},
       {"scene", "check a scene file and draw its geometry", run_scene},
-      {"plan", "which effects a scene needs at its tolerance, and why", run_plan},
-      {"simulate", "answer a scene: static, modes, buckling, creep, with error estimates",
+      {"plan", "choose the effects that a scene needs at its tolerance, with reasons", run_plan},
+      {"simulate", "solve a scene: static, modes, buckling, creep, with error estimates",
        run_simulate},
-      {"design", "closed-form limits of a pillar sensor and its admissible region", run_design},
-      {"cost", "what accuracy costs: error against time over meshes and effects", run_cost},
-      {"report", "one page with everything known of captures, tables and materials", run_report},
-      {"demo", "run all of it on the emulated rig",
+      {"design", "compute closed-form limits of a pillar sensor and its admissible region",
+       run_design},
+      {"cost", "measure what accuracy costs: error against time over meshes and effects", run_cost},
+      {"report", "write one page about captures, tables and materials", run_report},
+      {"demo", "run all steps on the emulated rig",
        [](const std::vector<std::string>& words, Streams& streams) {
          return run_demo(words, streams, run_viscard);
        }},

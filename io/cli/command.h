@@ -13,10 +13,10 @@ struct Command {
   int (*run)(const std::vector<std::string>& words, Streams& streams);
 };
 
-// In the order of the flow.
+// All commands, in the order in which a user needs them.
 const std::vector<Command>& commands();
 
-// Runs `viscard WORDS...` and returns the exit status; prints one clear line on any error.
+// Runs `viscard WORDS...` and returns the exit status. Prints one line on stderr for any error.
 int run_viscard(const std::vector<std::string>& words, Streams& streams);
 
 }  // namespace viscard

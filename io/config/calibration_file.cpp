@@ -1,4 +1,3 @@
-// What `viscard calibrate` writes and a rig file names.
 #include "io/basics/atomic_file.h"
 #include "io/config/config_file.h"
 #include "io/config/config_show.h"
@@ -27,12 +26,12 @@ void show_frame_numbers(FieldVisitor& fields, FrameConfig& frame) {
   fields.text({"date", "2026-11-21"}, frame.date);
 }
 
-// What `viscard calibrate` writes: one of the two sections, and what its uncertainty is made of.
+// A record has one of the two sections, and the contributions to its uncertainty.
 void show_record(FieldVisitor& fields, LoadCellCalibration& calibration, FrameConfig& frame,
                  std::vector<UncertaintyRow>& budget) {
   fields.section("calibration", [&](FieldVisitor& inner) {
     LoadCellCalibration found = calibration;
-    found.file = "-";  // nothing is required
+    found.file = "-";  // a record need not have this section, so none of its keys is required
     show_calibration(inner, found, false);
     found.file.clear();
     calibration = found;
@@ -43,8 +42,6 @@ void show_record(FieldVisitor& fields, LoadCellCalibration& calibration, FrameCo
 
 }  // namespace
 
-// Nothing is required where a record of `viscard calibrate` is named: it is read afterwards. A
-// force gauge knows its own gain.
 void show_calibration(FieldVisitor& fields, LoadCellCalibration& calibration, bool knows_gain) {
   fields.text({"file", "cell-7.calibration.toml"}, calibration.file);
   const bool is_elsewhere = !calibration.file.empty();
@@ -73,7 +70,7 @@ CalibrationRecord calibration_from_toml(const std::string& text, const std::stri
   });
   if (calibration.volts_per_newton != 0.0) {
     if (calibration.id.empty() || calibration.date.empty()) {
-      throw std::runtime_error(name + ": the calibration has no id or no date");
+      throw std::runtime_error(name + ": the calibration has no id or no date; give both");
     }
     record.calibration = calibration;
   }

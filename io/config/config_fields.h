@@ -9,8 +9,9 @@
 
 namespace viscard {
 
-// What a configuration struct consists of is said once, by a function that shows each field to a
-// FieldVisitor; one visitor reads TOML into the fields, another writes them as TOML.
+// One function per configuration struct shows each of its fields to a FieldVisitor. One visitor
+// reads TOML into the fields, another writes them as TOML, so that reading and writing cannot
+// differ.
 
 enum class Range { kAny, kPositive, kNotNegative, kFraction };  // fraction: [0, 1]
 
@@ -20,7 +21,7 @@ struct QuantityField {
   Range range = Range::kAny;
   bool is_required = false;
   double written_per_value = 1.0;  // 2 for a radius that is written as a diameter
-  const char* word = nullptr;      // a word that may stand for word_value: "rigid"
+  const char* word = nullptr;      // a word that a file may use for word_value: "rigid"
   double word_value = 0.0;
 };
 
@@ -42,11 +43,12 @@ class FieldVisitor {
   // key = [["0 s", "10 kPa"], ...]
   virtual void quantity_pairs(const char* key, const char* first_unit, const char* second_unit,
                               std::vector<std::pair<double, double>>& values) = 0;
-  // key = ["5 um", "10 um"], every entry as quantity() has it.
+  // key = ["5 um", "10 um"]; every entry is read as by quantity().
   virtual void quantities(const QuantityField& field, std::vector<double>& values) = 0;
-  // [key] with the fields that body shows.
+  // A section [key] with the fields that body shows.
   virtual void section(const char* key, const std::function<void(FieldVisitor&)>& body) = 0;
-  // [[key]]: resize(n) is called with the number of entries when reading; body shows entry i.
+  // A list of sections [[key]]: on reading, resize(n) is called with the number of entries; body
+  // shows the fields of entry i.
   virtual void list(const char* key, std::size_t size,
                     const std::function<void(std::size_t)>& resize,
                     const std::function<void(FieldVisitor&, std::size_t)>& body) = 0;
@@ -54,7 +56,8 @@ class FieldVisitor {
 
 using ShowFields = std::function<void(FieldVisitor&)>;
 
-// Throws std::runtime_error with file:line, key and what is expected; name stands for the file.
+// Throws std::runtime_error with file, line, key and the expected value; messages show name in
+// place of the file.
 void read_toml_fields(const std::string& text, const std::string& name, const ShowFields& show);
 
 std::string toml_from_fields(const ShowFields& show);

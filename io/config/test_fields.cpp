@@ -5,7 +5,7 @@ namespace {
 
 using enum Range;
 
-// What belongs to one protocol each. Its section must be there when it is the one asked for.
+// The sections of single protocols. A section is required if its protocol is selected.
 void show_protocols(FieldVisitor& fields, TestPlan& plan) {
   fields.section("preload", [&](FieldVisitor& inner) {
     inner.quantity({"force", "N", kNotNegative}, plan.preload_N);

@@ -41,13 +41,14 @@ bool is_in(Range range, double value) {
   return true;
 }
 
-// A text in a file says its unit; a bare number between quotes may be in any.
+// A number in quotes needs a unit, because the user may have meant any.
 double si_with_unit(const std::string& text, const char* unit) {
   const double value = si_from_text(text, unit);
   const bool has_unit = text.find_first_not_of("0123456789+-.eE \t") != std::string::npos;
   if (!has_unit && std::string(unit) != "1") {
-    throw std::invalid_argument("\"" + text + "\" has no unit; write it with one, as \"" + text +
-                                " " + unit + "\", or without the quotes if it is in " + unit);
+    throw std::invalid_argument("\"" + text + "\" has no unit; write it with one, such as \"" +
+                                text + " " + unit + "\", or without the quotes if it is in " +
+                                unit);
   }
   return value;
 }
@@ -187,8 +188,7 @@ class TomlReader final : public FieldVisitor {
     }
   }
 
-  // Told at the end of a section: a key that is misspelt says more than the one that is then
-  // missing.
+  // Reports a misspelt key before a missing one, because the misspelling is usually the cause.
   void refuse_unknown_keys() const {
     for (const auto& [key, node] : table_) {
       const std::string word(key.str());
@@ -237,7 +237,7 @@ class TomlReader final : public FieldVisitor {
     return node;
   }
 
-  // The list under a key; nullptr where there is none and need be none.
+  // Returns the list of a key, or nullptr if an optional key is missing.
   const toml::array* list_at(const char* key, bool is_required, const std::string& what) {
     const toml::node* node = find(key, is_required, what);
     if (node == nullptr) return nullptr;
@@ -257,7 +257,7 @@ class TomlReader final : public FieldVisitor {
   std::string file_;
   std::string prefix_;  // "stage."
   std::vector<std::string> known_;
-  std::string missing_;  // what to say of the first required key that is not there
+  std::string missing_;  // message about the first required key that is missing
 };
 
 }  // namespace

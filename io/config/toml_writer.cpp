@@ -22,7 +22,7 @@ std::string in_quotes(const std::string& text) {
   return out + "\"";
 }
 
-// TOML tells 1.0 from 1; the sign of an infinity is legal there too.
+// TOML reads 1 as an integer and 1.0 as a number.
 std::string number(double value) {
   std::string out = text_from_number(value);
   if (out.find_first_not_of("-0123456789") == std::string::npos) out += ".0";
@@ -83,7 +83,7 @@ class TomlWriter final : public FieldVisitor {
     }
   }
 
-  // Plain keys come before the sections, whatever order they were shown in.
+  // Plain keys come before the sections, as TOML requires; they may be shown in any order.
   std::string all() const { return lines_ + sections_; }
 
  private:

@@ -11,7 +11,7 @@
 namespace viscard {
 namespace {
 
-// Infinite bounds have no number in JSON; null stands for an open end.
+// JSON has no infinity; null stands for an end without bound.
 Json json_from(const Interval& interval) {
   const auto bound = [](double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -191,8 +191,10 @@ std::string json_from_material(const MaterialFile& file) {
   try {
     return out.dump(2) + "\n";
   } catch (const Json::exception&) {
-    throw std::invalid_argument("material '" + file.material.name +
-                                "' holds a text that is not UTF-8; it cannot be written as JSON");
+    throw std::invalid_argument(
+        "material '" + file.material.name +
+        "' contains text that is not UTF-8 and cannot be written as JSON; correct its name, flags "
+        "and provenance");
   }
 }
 

@@ -7,22 +7,24 @@
 
 namespace viscard {
 
-// Material files, schema "viscard-material/1" (io/README.md lists the keys): JSON, SI, units in the
-// names. E0_Pa, nu and terms are enough; k of a term defaults to its g (constant Poisson ratio).
+// Material files, schema "viscard-material/1": JSON in SI, with the unit in each key; README.md of
+// this room lists the keys. Only E0_Pa, nu and terms are required. k of a term defaults to its g
+// (constant Poisson ratio).
 struct MaterialFile {
   Material material;
-  // The text the material was read from; keys viscard does not know are carried over from it when
-  // the material is written again. Empty for a material made by viscard.
+  // The text that the material was read from. When the material is written again, keys that viscard
+  // does not know are copied from it. Empty for a material made by viscard.
   std::string original_json;
 };
 
-// Throws std::runtime_error naming file and key: not JSON, wrong type, a newer schema, a key
-// missing, or a value that models' validate() refuses (sum of g >= 1, nu above 0.5 ...).
+// Throws std::runtime_error naming the file and the key if the file is not JSON, has a newer
+// schema, a missing key, a value of the wrong type, or a value that validate(Material) refuses (sum
+// of g >= 1, nu > 0.5 ...).
 MaterialFile read_material(const std::filesystem::path& path);
-// The same from text; name stands for the file in messages.
+// The same from text; messages show name in place of the file.
 MaterialFile material_from_json(const std::string& text, const std::string& name);
 
-// Every double reads back exactly. Throws std::invalid_argument as validate() does.
+// Every double reads back exactly. Throws std::invalid_argument as validate(Material) does.
 std::string json_from_material(const MaterialFile& file);
 std::string json_from_material(const Material& material);
 

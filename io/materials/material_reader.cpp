@@ -8,7 +8,7 @@
 namespace viscard {
 namespace {
 
-// One object of the file and where it stands, for messages.
+// One object of the file with its path, which messages show.
 class Fields {
  public:
   Fields(const Json& json, std::string name, std::string prefix)
@@ -27,14 +27,14 @@ class Fields {
     std::vector<std::string> keys;
     for (const auto& item : json_.items()) keys.push_back(item.key());
     std::string near = nearest_word(key, keys);
-    for (const std::string& one : keys) {  // the unit left out: E0 for E0_Pa
+    for (const std::string& one : keys) {  // a key without its unit: E0 for E0_Pa
       if (near.empty() && std::string(key).rfind(one + "_", 0) == 0) near = one;
     }
     throw std::runtime_error(name_ + ": '" + prefix_ + key + "' is missing; expected " + what +
-                             (near.empty() ? "" : " (there is a '" + near + "')"));
+                             (near.empty() ? "" : " (the file has '" + near + "')"));
   }
 
-  // Leaves the value as it is when the key is not there.
+  // Keeps the value if the key is missing.
   void number(const char* key, double& value) const {
     if (has(key)) value = as_number(json_[key], key);
   }
@@ -48,7 +48,7 @@ class Fields {
     if (!json_[key].is_string()) fail(key, "expected a text in quotes");
     value = json_[key].get<std::string>();
   }
-  // [low, high]; null stands for an open end.
+  // [low, high]; null stands for an end without bound.
   void interval(const char* key, Interval& value) const {
     if (!has(key)) return;
     const Json& pair = json_[key];
@@ -130,7 +130,7 @@ void read_terms(const Fields& file, Material& material, MaterialUncertainty& unc
     fields.require("tau_s", "the relaxation time in s");
     fields.number("g", term.g);
     fields.number("tau_s", term.tau_s);
-    term.k = term.g;  // constant Poisson ratio, unless k says otherwise
+    term.k = term.g;  // constant Poisson ratio, unless k is given
     fields.number("k", term.k);
     material.terms.push_back(term);
     uncertainty.terms.push_back(uncertainty_from(fields));
@@ -177,7 +177,7 @@ void read_shift(const Fields& file, Material& material) {
   fields.require("law", "\"wlf\" or \"arrhenius\"");
   fields.text("law", law);
   if (law != "wlf" && law != "arrhenius") {
-    fields.fail("law", "is '" + law + "'; there are wlf and arrhenius");
+    fields.fail("law", "is '" + law + "'; expected 'wlf' or 'arrhenius'");
   }
   shift.law = law == "wlf" ? ShiftLaw::kWlf : ShiftLaw::kArrhenius;
   if (material.T_ref_C) shift.T_ref_C = *material.T_ref_C;
@@ -200,16 +200,16 @@ void check_schema(const Fields& file) {
   file.text("schema", schema);
   if (schema == kSchema) return;
   const bool is_newer = schema.rfind("viscard-material/", 0) == 0;
-  file.fail("schema", "is '" + schema + "'; this viscard reads '" + kSchema +
-                          (is_newer ? "', update viscard" : "', so this is no material file"));
+  file.fail("schema", "is '" + schema + "'; this version of viscard reads '" + kSchema +
+                          (is_newer ? "'; update viscard" : "', so this is not a material file"));
 }
 
 }  // namespace
 
 Json parse_json(const std::string& text, const std::string& name) {
-  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  std::vector<std::set<std::string>> keys;  // of the objects not yet closed
   std::string repeated;
-  bool is_deep = false;  // writing it again would recurse as deep
+  bool is_deep = false;  // deeper nesting could overflow the stack when the text is written again
   const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
     is_deep = is_deep || depth > 64;
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
@@ -229,7 +229,7 @@ Json parse_json(const std::string& text, const std::string& name) {
     if (tag != std::string::npos) what.erase(0, tag + 2);
     throw std::runtime_error(name + ": is not JSON: " + what);
   }
-  if (is_deep) throw std::runtime_error(name + ": is nested more than 64 levels deep");
+  if (is_deep) throw std::runtime_error(name + ": is nested deeper than 64 levels, the limit");
   if (!repeated.empty()) throw std::runtime_error(name + ": key '" + repeated + "' is given twice");
   return json;
 }

@@ -35,7 +35,7 @@ Matrix6d stiffness_from(const json& elastic) {
   Matrix6d s = Matrix6d::Zero();
   s.topLeftCorner<3, 3>() << s11, s12, s13, s12, s11, s13, s13, s13, s33;
   s.diagonal().tail<3>() << s55, s55, s66;
-  const Matrix6d scaled = s / s11;  // so that the inverse is of numbers near one
+  const Matrix6d scaled = s / s11;  // scaled to numbers near 1, for the accuracy of the inverse
   const Matrix6d inverse = scaled.inverse();
   return 0.5 * (inverse + inverse.transpose()) / s11;
 }
@@ -85,7 +85,7 @@ MediumFile read_medium(const std::filesystem::path& path) {
   try {
     return medium_from(json::parse(text));
   } catch (const json::exception& error) {
-    throw std::runtime_error(path.string() + ": not a medium file: " + error.what());
+    throw std::runtime_error(path.string() + ": is not a medium file: " + error.what());
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(path.string() + ": " + error.what());
   }

@@ -7,10 +7,10 @@
 
 namespace viscard {
 
-// Elastic and piezoelectric media of films and ceramics, schema "viscard-medium/1" (io/README.md):
-// JSON with name, rho_kg_m3 and
+// Elastic and piezoelectric media of films and ceramics, schema "viscard-medium/1": JSON with name,
+// rho_kg_m3 and
 //   elastic: {E_Pa, nu} or {s11, s12, s13, s33, s55, s66 in 1/Pa} (transversely isotropic about z);
-//   charge_C_N: {d31, d32, d33, d24, d15}, d32 = d31 and d24 = d15 unless given;
+//   charge_C_N: {d31, d32, d33, d24, d15}, d32 defaults to d31 and d24 to d15;
 //   relative_permittivity: [e11, e22, e33] at constant stress.
 struct MediumFile {
   std::string name;
@@ -19,7 +19,7 @@ struct MediumFile {
   double permittivity_stress_F_m = 0.0;  // along z
 };
 
-// Throws std::runtime_error naming file and key.
+// Throws std::runtime_error naming the file and the key.
 MediumFile read_medium(const std::filesystem::path& path);
 
 }  // namespace viscard

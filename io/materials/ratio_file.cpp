@@ -43,7 +43,7 @@ Json json_from(const RatioModel& model) {
     const Eigen::VectorXd row = model.covariance.row(i);
     rows.push_back(std::vector<double>(row.begin(), row.end()));
   }
-  const auto spread = [&](double value, int parameter) {  // null: unknown
+  const auto spread = [&](double value, int parameter) {  // null if unknown
     const bool is_known = parameter > 2 * model.n_terms || has_known_spread(model, parameter);
     return is_known ? Json(value) : Json(nullptr);
   };
@@ -102,11 +102,11 @@ RatioModel model_from(const Json& json) {
   model.coefficients = Eigen::Map<const Eigen::VectorXd>(beta.data(), size);
   model.covariance.resize(size, size);
   if (model.ratios.empty() || model.n_terms < 0 || rows.size() != beta.size()) {
-    throw std::runtime_error("sizes of coefficients and covariance differ");
+    throw std::runtime_error("the numbers of coefficients and of covariance rows differ");
   }
   for (Eigen::Index i = 0; i < size; ++i) {
     const auto& row = rows[static_cast<std::size_t>(i)];
-    if (row.size() != beta.size()) throw std::runtime_error("covariance is not square");
+    if (row.size() != beta.size()) throw std::runtime_error("the covariance is not square");
     model.covariance.row(i) = Eigen::Map<const Eigen::VectorXd>(row.data(), size);
   }
   const auto spread = [&](const char* name) {
@@ -121,7 +121,7 @@ RatioModel model_from(const Json& json) {
   model.log_likelihood = json.at("log_likelihood").get<double>();
   model.bic = json.at("bic").get<double>();
   if (design_at(model, model.ratios.front()).cols() != size) {
-    throw std::runtime_error("the form asks for another number of coefficients");
+    throw std::runtime_error("the number of coefficients does not match the form");
   }
   return model;
 }
@@ -169,11 +169,12 @@ std::string json_from_ratio_fit(const RatioFit& fit) {
   return out.dump(2) + "\n";
 }
 
-RatioFit ratio_fit_from_json(const std::string& text, const std::string& name) {
-  const Json json = parse_json(text, name);
+RatioFit read_ratio_fit(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  const Json json = parse_json(read_file(path), name);
   if (!json.is_object() || json.value("schema", "") != kSchema) {
     throw std::runtime_error(name + ": schema is not '" + kSchema +
-                             "', so this is no joint fit; viscard fit --joint writes one");
+                             "', so this is not a joint fit; make one with viscard fit --joint");
   }
   RatioFit fit;
   try {
@@ -181,17 +182,15 @@ RatioFit ratio_fit_from_json(const std::string& text, const std::string& name) {
     fit.law = model_from(json.at("law"));
     read_lists(json, fit);
   } catch (const Json::exception& error) {
-    throw std::runtime_error(name + ": not a complete joint fit: " + error.what());
+    throw std::runtime_error(name + ": is not a complete joint fit: " + error.what());
   } catch (const std::exception& error) {
-    throw std::runtime_error(name + ": not a valid joint fit: " + error.what());
+    throw std::runtime_error(name + ": is not a valid joint fit: " + error.what());
   }
-  if (!json.contains("common")) throw std::runtime_error(name + ": 'common' is missing");
+  if (!json.contains("common"))
+    throw std::runtime_error(name +
+                             ": 'common' is missing; make the file again with viscard fit --joint");
   fit.common = material_from(json["common"], name);
   return fit;
-}
-
-RatioFit read_ratio_fit(const std::filesystem::path& path) {
-  return ratio_fit_from_json(read_file(path), path.string());
 }
 
 bool looks_like_ratio_file(const std::filesystem::path& path) {

@@ -3,19 +3,41 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <unordered_set>
+#include <utility>
 
 namespace viscard {
 namespace {
 
-bool can_show(const AxisRange& range, double value) {
-  return std::isfinite(value) && !(range.is_log && value <= 0.0);
+std::vector<double> values_along(const PlotPanel& panel, bool is_x) {
+  std::vector<double> values;
+  const auto add = [&](const std::vector<double>& more) {
+    values.insert(values.end(), more.begin(), more.end());
+  };
+  for (const PlotSeries& series : panel.series) {
+    add(is_x ? series.x : series.y);
+    add(is_x ? series.x_low : series.y_low);
+    add(is_x ? series.x_high : series.y_high);
+  }
+  return values;
 }
 
-// End of an error bar: on a logarithmic axis one that reaches zero is cut at the axis.
-double bar_end(const AxisRange& range, double value) {
-  return range.is_log && !(value > range.min) ? range.min : value;
+double power_of_ten(double exponent) {
+  return std::max(std::pow(10.0, exponent), std::numeric_limits<double>::min());
+}
+
+// Whole decades, as gnuplot draws them.
+void widen_to_decades(AxisSpan& span) {
+  span.low = power_of_ten(std::floor(std::log10(span.low)));
+  span.high = power_of_ten(std::ceil(std::log10(span.high)));
+  if (!(span.high > span.low)) span.high = 10.0 * span.low;
+}
+
+// gnuplot would leave out a bar that reaches zero on a logarithmic axis.
+double bar_end(const AxisSpan& span, double value) {
+  return span.is_log && !(value > span.low) ? span.low : value;
 }
 
 PlotPoint point_at(const PlotSeries& series, std::size_t i) {
@@ -33,8 +55,8 @@ PlotPoint point_at(const PlotSeries& series, std::size_t i) {
   return point;
 }
 
-std::vector<PlotPoint> showable_points(const PlotSeries& series, const AxisRange& x,
-                                       const AxisRange& y) {
+std::vector<PlotPoint> showable_points(const PlotSeries& series, const AxisSpan& x,
+                                       const AxisSpan& y) {
   std::vector<PlotPoint> points;
   bool breaks = false;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
@@ -63,19 +85,19 @@ std::int64_t cell(double fraction, double length_px, double cell_px) {
   return static_cast<std::int64_t>(std::floor(inside * length_px / cell_px));
 }
 
-std::vector<PlotPoint> thinned_dots(const std::vector<PlotPoint>& points, const AxisRange& x,
-                                    const AxisRange& y, int width_px, int height_px) {
+std::vector<PlotPoint> thinned_dots(const std::vector<PlotPoint>& points, const AxisSpan& x,
+                                    const AxisSpan& y, int width_px, int height_px) {
   std::unordered_set<std::int64_t> taken;
   std::vector<PlotPoint> kept;
   for (const PlotPoint& point : points) {
-    const std::int64_t column = cell(axis_fraction(x, point.x), width_px, kDotCell_px);
-    const std::int64_t row = cell(axis_fraction(y, point.y), height_px, kDotCell_px);
+    const std::int64_t column = cell(fraction_of(x, point.x), width_px, kDotCell_px);
+    const std::int64_t row = cell(fraction_of(y, point.y), height_px, kDotCell_px);
     if (taken.insert(column * 100000 + row).second) kept.push_back(point);
   }
   return kept;
 }
 
-// Points first..last of one pixel column, boiled down.
+// Keeps the first, lowest, highest and last of the points first..last of one pixel column.
 void keep_extremes(const std::vector<PlotPoint>& points, std::size_t first, std::size_t last,
                    std::vector<PlotPoint>& kept) {
   std::size_t lowest = first, highest = first;
@@ -104,14 +126,14 @@ void keep_outline(const std::vector<PlotPoint>& points, std::size_t first, std::
   }
 }
 
-std::vector<PlotPoint> thinned_columns(const std::vector<PlotPoint>& points, const AxisRange& x,
+std::vector<PlotPoint> thinned_columns(const std::vector<PlotPoint>& points, const AxisSpan& x,
                                        int width_px, bool is_band) {
   std::vector<PlotPoint> kept;
   for (std::size_t first = 0; first < points.size();) {
-    const std::int64_t column = cell(axis_fraction(x, points[first].x), width_px, 1.0);
+    const std::int64_t column = cell(fraction_of(x, points[first].x), width_px, 1.0);
     std::size_t last = first;
     while (last + 1 < points.size() && !points[last + 1].breaks_before &&
-           cell(axis_fraction(x, points[last + 1].x), width_px, 1.0) == column) {
+           cell(fraction_of(x, points[last + 1].x), width_px, 1.0) == column) {
       ++last;
     }
     is_band ? keep_outline(points, first, last, kept) : keep_extremes(points, first, last, kept);
@@ -122,6 +144,45 @@ std::vector<PlotPoint> thinned_columns(const std::vector<PlotPoint>& points, con
 
 }  // namespace
 
+AxisSpan axis_span(const PlotAxis& axis, const std::vector<double>& values) {
+  AxisSpan span{std::numeric_limits<double>::infinity(), 0.0, axis.is_log};
+  span.high = -span.low;
+  for (const double value : values) {
+    if (!can_show(span, value)) continue;
+    span.low = std::min(span.low, value);
+    span.high = std::max(span.high, value);
+  }
+  if (span.low > span.high) {
+    span.low = axis.is_log ? 1.0 : 0.0;
+    span.high = axis.is_log ? 10.0 : 1.0;
+  }
+  if (span.is_log) widen_to_decades(span);
+  if (axis.min && can_show(span, *axis.min)) span.low = *axis.min;
+  if (axis.max && can_show(span, *axis.max)) span.high = *axis.max;
+  if (span.low > span.high) std::swap(span.low, span.high);
+  if (span.low == span.high) {
+    const double half = span.low == 0.0 ? 1.0 : 0.05 * std::abs(span.low);
+    span.low -= half;
+    span.high += half;
+  }
+  return span;
+}
+
+PanelSpans panel_spans(const PlotPanel& panel) {
+  return {axis_span(panel.x, values_along(panel, true)),
+          axis_span(panel.y, values_along(panel, false))};
+}
+
+bool can_show(const AxisSpan& span, double value) {
+  return std::isfinite(value) && !(span.is_log && value <= 0.0);
+}
+
+double fraction_of(const AxisSpan& span, double value) {
+  if (!span.is_log) return (value - span.low) / (span.high - span.low);
+  if (!(value > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  return std::log(value / span.low) / std::log(span.high / span.low);
+}
+
 void validate(const PlotSeries& series) {
   const std::size_t n = series.x.size();
   const bool needs_bars = series.mark == Mark::kBand || series.mark == Mark::kErrorBars;
@@ -131,12 +192,12 @@ void validate(const PlotSeries& series) {
                     (series.x_low.empty() || series.x_low.size() == n);
   if (!fits) {
     throw std::invalid_argument("plot: the columns of series '" + series.label +
-                                "' differ in length");
+                                "' differ in length; give every point all its values");
   }
 }
 
-std::vector<PlotPoint> visible_points(const PlotSeries& series, const AxisRange& x,
-                                      const AxisRange& y, int width_px, int height_px) {
+std::vector<PlotPoint> visible_points(const PlotSeries& series, const AxisSpan& x,
+                                      const AxisSpan& y, int width_px, int height_px) {
   std::vector<PlotPoint> points = showable_points(series, x, y);
   switch (series.mark) {
     case Mark::kErrorBars:

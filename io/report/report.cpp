@@ -1,6 +1,5 @@
 #include "io/report/report.h"
 
-#include "io/basics/atomic_file.h"
 #include "io/plots/plot_svg.h"
 #include "io/report/report_estimates.h"
 #include "io/report/report_html.h"
@@ -16,14 +15,17 @@ namespace viscard {
 namespace {
 
 std::vector<SpecimenEstimates> all_estimates(const ReportInput& input) {
-  if (input.specimens.empty()) throw std::invalid_argument("report: there is no specimen to show");
+  if (input.specimens.empty())
+    throw std::invalid_argument(
+        "report: there is no specimen to show; give a capture or a material file");
   std::vector<SpecimenEstimates> estimates;
   for (std::size_t i = 0; i < input.specimens.size(); ++i) {
     estimates.push_back(estimates_from_specimen(input.specimens[i], i));
     if (estimates.back().is_stiffness != estimates.front().is_stiffness) {
       throw std::invalid_argument(
           "report: " + estimates.back().label + " and " + estimates.front().label +
-          " cannot share a page: one has moduli, the other stiffnesses (no punch geometry given)");
+          " cannot share a page: one has moduli, the other stiffnesses, because no punch geometry "
+          "was given; make two pages, or fit again with the geometry");
     }
   }
   return estimates;
@@ -75,14 +77,6 @@ std::string html_from_page(const ReportInput& input, const Page& page) {
 RenderedReport render_report(const ReportInput& input) {
   const Page page = page_from_report(input);
   return {html_from_page(input, page), page.pictures()};
-}
-
-std::string html_from_report(const ReportInput& input) {
-  return render_report(input).html;
-}
-
-void write_report(const ReportInput& input, const std::filesystem::path& path, bool overwrite) {
-  write_file(path, html_from_report(input), overwrite);
 }
 
 }  // namespace viscard

@@ -3,7 +3,6 @@
 #include "io/report/report_html.h"
 #include "io/report/report_input.h"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,13 +13,9 @@ struct RenderedReport {
   std::vector<ReportPicture> pictures;
 };
 
-// The same input gives the same bytes. Throws std::invalid_argument if there is no specimen, one
-// has neither fit nor material, or moduli and stiffnesses meet; std::runtime_error if gnuplot is
-// not installed or fails.
+// Makes the page. The same input gives the same bytes. Throws std::invalid_argument if there is no
+// specimen, a specimen has neither fit nor material, or some specimens have moduli and others
+// stiffnesses; std::runtime_error if gnuplot is not installed or fails.
 RenderedReport render_report(const ReportInput& input);
-std::string html_from_report(const ReportInput& input);
-
-// Writes the page whole or not at all (io/atomic_file.h).
-void write_report(const ReportInput& input, const std::filesystem::path& path, bool overwrite);
 
 }  // namespace viscard

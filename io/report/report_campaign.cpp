@@ -47,7 +47,7 @@ std::string percent(double share) {
   return fmt::format("{:.2g} %", 100.0 * share);
 }
 
-// Twice the half-width around a mean of few is only a guide to how many digits it deserves.
+// With few specimens the interval is only a guide to the number of digits.
 std::string mean_html(const Spread& spread, double per_si) {
   const Interval digits{spread.mean - spread.deviation, spread.mean + spread.deviation};
   return number_html(spread.mean, per_si, spread.deviation > 0.0 ? &digits : nullptr);
@@ -114,8 +114,8 @@ std::optional<Plot> profile_plot(const FitResult& fit) {
   if (fit.profiles.empty()) return std::nullopt;
   Plot plot{.title = "Profile likelihoods",
             .description =
-                "Rise of the residual sum of squares over its variance as one parameter "
-                "is held, all others fitted again.",
+                "Rise of the residual sum of squares, divided by the noise variance, while one "
+                "parameter is held and all others are fitted again.",
             .columns = static_cast<int>(std::min<std::size_t>(4, fit.profiles.size())),
             .height_px = 260};
   const auto rows = (fit.profiles.size() + static_cast<std::size_t>(plot.columns) - 1) /

@@ -42,7 +42,7 @@ void take_material(const Material& material, SpecimenEstimates& estimates) {
   }
   estimates.sum_g.value = 1.0 - series.equilibrium_modulus_Pa / material.E0_Pa;
   estimates.flags = material.flags;
-  // Uncertainties are those of E(t) itself only while the Poisson ratio is constant.
+  // The uncertainties apply to E(t) only if the Poisson ratio is constant.
   if (!material.uncertainty || !has_constant_poisson_ratio(material)) return;
   const MaterialUncertainty& uncertainty = *material.uncertainty;
   estimates.E0_Pa.interval_95 = uncertainty.E0_Pa_95;
@@ -57,7 +57,7 @@ void take_material(const Material& material, SpecimenEstimates& estimates) {
   estimates.covariance = uncertainty.covariance;
 }
 
-// d E(t) / d parameter, or 0 for a nuisance.
+// d E(t) / d parameter, or 0 for a nuisance parameter.
 double slope(const SpecimenEstimates& estimates, const std::string& parameter, double time_s) {
   const char* unit = estimates.is_stiffness ? "_N_m" : "_Pa";
   if (parameter == std::string("E_inf") + unit) return 1.0;
@@ -105,7 +105,7 @@ RecoveredParameter recovered(const std::string& name_html, const std::string& un
   return {name_html, unit, truth, estimate, recovery_of(truth, estimate, systematic_relative)};
 }
 
-// For each true term the index of the fitted one, or nothing; a fitted term is given away once.
+// For each true term the index of a fitted term, or nothing; each fitted term is used at most once.
 std::vector<std::optional<std::size_t>> paired_terms(const std::vector<MaxwellTerm>& truth,
                                                      const std::vector<TermEstimate>& fitted) {
   std::vector<std::optional<std::size_t>> pairs(truth.size());
@@ -130,6 +130,15 @@ std::vector<std::optional<std::size_t>> paired_terms(const std::vector<MaxwellTe
   return pairs;
 }
 
+PronySeries series_from_estimates(const SpecimenEstimates& estimates) {
+  PronySeries series;
+  series.equilibrium_modulus_Pa = estimates.E_inf_Pa.value;
+  for (const TermEstimate& term : estimates.terms) {
+    series.terms.push_back({term.modulus_Pa.value, term.tau_s.value});
+  }
+  return series;
+}
+
 }  // namespace
 
 SpecimenEstimates estimates_from_specimen(const SpecimenReport& specimen, std::size_t index) {
@@ -144,18 +153,11 @@ SpecimenEstimates estimates_from_specimen(const SpecimenReport& specimen, std::s
   } else if (specimen.material) {
     take_material(*specimen.material, estimates);
   } else {
-    throw std::invalid_argument("report: " + estimates.label + " has neither a fit nor a material");
+    throw std::invalid_argument(
+        "report: " + estimates.label +
+        " has neither a fit nor a material; give a capture, a table or a material file");
   }
   return estimates;
-}
-
-PronySeries series_from_estimates(const SpecimenEstimates& estimates) {
-  PronySeries series;
-  series.equilibrium_modulus_Pa = estimates.E_inf_Pa.value;
-  for (const TermEstimate& term : estimates.terms) {
-    series.terms.push_back({term.modulus_Pa.value, term.tau_s.value});
-  }
-  return series;
 }
 
 RelaxationBand relaxation_band(const SpecimenEstimates& estimates,

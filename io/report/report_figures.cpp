@@ -51,7 +51,7 @@ PlotSeries line(const std::vector<double>& x, const std::vector<double>& y, Ink 
   return {.mark = Mark::kLine, .label = label, .x = x, .y = y, .ink = ink};
 }
 
-// One specimen's curve, band and truth, times `factor`.
+// Adds one specimen's curve and band, times `factor`.
 void add_relaxation(PlotPanel& panel, const RelaxationBand& band, double factor, Ink ink,
                     const std::string& label) {
   if (!band.low.empty()) {
@@ -143,7 +143,7 @@ std::optional<Plot> relaxation_plot(const ReportInput& input,
                      is_relative ? 1.0 : unit.per_si, styles[i].ink, styles[i].label);
     }
   }
-  const char* truth_label = "truth";  // once in the legend, after the specimens
+  const char* truth_label = "truth";  // one entry in the legend, after the specimens
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     const std::optional<EmulatedTruth>& truth = input.specimens[i].truth;
     if (!truth || estimates[i].is_stiffness) continue;
@@ -192,7 +192,7 @@ std::optional<Plot> ratio_plot(const ReportInput& input,
   panel.series.insert(panel.series.end(), {total, random});
   if (!truth.x.empty()) panel.series.push_back(truth);
   return Plot{.title = "Instantaneous modulus over mixing ratio",
-              .description = "E0 of every specimen with its 95 % interval over the mixing ratio.",
+              .description = "E0 of every specimen over the mixing ratio, with its 95 % interval.",
               .panels = {panel},
               .width_px = 510,
               .height_px = 360};
@@ -223,12 +223,11 @@ std::optional<Plot> spectrum_plot(const ReportInput& input,
   panel.y.is_log = smallest > 0.0 && largest > 30.0 * smallest;
   if (!panel.y.is_log && smallest >= 0.0) panel.y.min = 0.0;
   if (!has_something_to_draw(panel)) return std::nullopt;
-  return Plot{
-      .title = "Relaxation spectrum",
-      .description = "Relative moduli over relaxation times with the 95 % intervals of both.",
-      .panels = {panel},
-      .width_px = 510,
-      .height_px = 360};
+  return Plot{.title = "Relaxation spectrum",
+              .description = "Relative moduli over relaxation times, both with 95 % intervals.",
+              .panels = {panel},
+              .width_px = 510,
+              .height_px = 360};
 }
 
 }  // namespace viscard

@@ -10,29 +10,31 @@
 
 namespace viscard {
 
-// The pictures of the page. Each returns nothing when its data are missing.
+// The figures of the page. Each function returns nothing if its data are missing.
 
-// E(t) of all specimens and the same relative to E0, with 95 % bands and, where known, the truth.
+// E(t) of all specimens, absolute and relative to E0, with 95 % bands and the truth if it is known.
 std::optional<Plot> relaxation_plot(const ReportInput& input,
                                     const std::vector<SpecimenEstimates>& estimates);
 
-// E0 over mixing ratio: random interval, and that with the systematic part; the law of a joint fit.
-// Needs two different ratios.
+// E0 over mixing ratio with the interval of the fit and the wider one that includes the systematic
+// part, and the law of a joint fit. Needs two different ratios.
 std::optional<Plot> ratio_plot(const ReportInput& input,
                                const std::vector<SpecimenEstimates>& estimates);
 
-// g_i over tau_i with the intervals of both.
+// g_i over tau_i, each with its interval.
 std::optional<Plot> spectrum_plot(const ReportInput& input,
                                   const std::vector<SpecimenEstimates>& estimates);
 
-// Relaxation and creep of the pillar relative to their first value, solver on exact, and the error.
+// Relaxation and creep of the pillar relative to their first value, from the solver and exact, and
+// the relative error.
 std::optional<Plot> pillar_plot(const ReportInput& input,
                                 const std::vector<SpecimenEstimates>& estimates);
 
-// Volts and depth (or stage position) of one run.
+// Output of the load cell and depth (or stage position) of one run over time.
 std::optional<Plot> run_plot(const RunSeries& series);
 
-// Data with fit, and residuals over their standard deviation, on logarithmic time from each motion.
+// Data with fit, and residuals divided by their standard deviation, over the logarithm of the time
+// since each motion began.
 std::optional<Plot> fit_plot(const FitResult& fit);
 
 }  // namespace viscard

@@ -13,8 +13,9 @@ HtmlTable::HtmlTable(std::vector<Column> columns) : columns_(std::move(columns))
 
 void HtmlTable::add_row(std::vector<std::string> cells_html, RowStyle style) {
   if (cells_html.size() != columns_.size()) {
-    throw std::invalid_argument("report: a table row has " + std::to_string(cells_html.size()) +
-                                " cells for " + std::to_string(columns_.size()) + " columns");
+    throw std::invalid_argument("report: a row of a table has " +
+                                std::to_string(cells_html.size()) + " cells for " +
+                                std::to_string(columns_.size()) + " columns");
   }
   rows_.push_back({std::move(cells_html), style});
 }

@@ -7,7 +7,7 @@
 
 namespace viscard {
 
-// A picture of the page for itself, in the order of the page.
+// One picture of the page, to be written to a file of its own.
 struct ReportPicture {
   std::string name;  // "03_spectrum", a file name without suffix
   std::string svg;
@@ -18,13 +18,17 @@ class HtmlTable {
  public:
   struct Column {
     std::string header_html;
-    bool is_number = true;  // set flush right
+    bool is_number = true;  // aligned to the right
   };
   explicit HtmlTable(std::vector<Column> columns);
 
-  enum class RowStyle { kPlain, kBeginsGroup, kChosen };  // a line above; a tint
+  enum class RowStyle {
+    kPlain,
+    kBeginsGroup,
+    kChosen
+  };  // kBeginsGroup: a line above; kChosen: a tint
 
-  // Cells as HTML, as many as columns; throws std::invalid_argument otherwise.
+  // Adds a row of cells in HTML. Throws std::invalid_argument unless there are as many as columns.
   void add_row(std::vector<std::string> cells_html, RowStyle style = RowStyle::kPlain);
   bool is_empty() const { return rows_.empty(); }
 
@@ -39,21 +43,21 @@ class HtmlTable {
   std::vector<Row> rows_;
 };
 
-// The body of a page as it grows: numbers sections, tables and figures, and remembers the contents.
+// Builds the body of a page: numbers tables and figures, and collects the table of contents.
 class Page {
  public:
-  // level 2 or 3; id of letters, digits and '-', unique on the page.
+  // level is 2 or 3; id has letters, digits and '-' and is unique on the page.
   void add_heading(int level, const std::string& id, const std::string& text);
   void add_paragraph(const std::string& html);
-  void add_html(const std::string& html);  // as it is
+  void add_html(const std::string& html);  // without any change
   void add_table(const HtmlTable& table, const std::string& caption_html);
-  // Figures between begin and end of a row stand side by side while the page is wide enough.
+  // Figures added between begin and end stand side by side if the page is wide enough.
   void add_figure(const Plot& plot, const std::string& name, const std::string& caption_html);
   void begin_row_of_figures();
   void end_row_of_figures();
 
   const std::string& body() const { return body_; }
-  std::string contents_html() const;  // navigation over the level-2 headings
+  std::string contents_html() const;  // navigation to the level-2 headings
   const std::vector<ReportPicture>& pictures() const { return pictures_; }
 
  private:

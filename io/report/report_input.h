@@ -12,8 +12,8 @@
 
 namespace viscard {
 
-// Creep or relaxation of the pillar: what the solver gave beside the exact answer, one quantity
-// over time, and the largest relative error between them.
+// Creep or relaxation of the pillar: one quantity over time as the solver and the exact solution
+// give it, and the largest relative difference.
 struct PillarCurve {
   std::string quantity;  // "force (uN)", the axis label
   std::vector<double> time_s, solver, exact;
@@ -22,31 +22,31 @@ struct PillarCurve {
 
 struct PillarCheck {
   PillarCurve relaxation, creep;
-  double limit = 1e-6;  // of the largest relative error
+  double limit = 1e-6;  // largest relative error that is accepted
   std::string setup;    // one sentence: geometry, load, unknowns, steps
 };
 
-// A card for another solver, as written.
+// A material card for another solver.
 struct ReportCard {
   std::string target;     // "abaqus"
   std::string units;      // "mm-t-s"
   std::string file_name;  // "pdms_1to10.inp"
   std::string text;
-  std::string refusal;  // why there is no text
+  std::string refusal;  // why the card was not written; then text is empty
 };
 
-// All that is known of one specimen; what is missing is left out of the page. At least a fit or a
-// material must be there.
+// The data of one specimen. The page omits the parts that are missing; a fit or a material is
+// required.
 struct SpecimenReport {
-  Specimen specimen;                   // id names the section; the material's name stands in for it
+  Specimen specimen;  // its id is the section's title; without an id, the material's name
   std::optional<CapturedRun> run;      // raw record
   std::optional<FitResult> fit;        // estimates with data and residuals
-  std::optional<Material> material;    // estimates as filed, when there is no fit
+  std::optional<Material> material;    // from its file; shown if there is no fit
   std::optional<EmulatedTruth> truth;  // emulated rig only
   std::optional<PillarCheck> pillar;
   std::vector<ReportCard> cards;
-  std::vector<RawFile> files;      // read for this specimen
-  std::vector<std::string> notes;  // sentences a reader should see
+  std::vector<RawFile> files;      // that were read for this specimen
+  std::vector<std::string> notes;  // sentences at the top of the section
 };
 
 // E0 over mixing ratio as a joint fit describes it.

@@ -20,16 +20,15 @@ std::string loading_text(const ReportInput& input) {
         "Captured runs: a rigid punch was driven into the specimen, held, partly unloaded and held "
         "again. The force follows the recorded motion of the stage through the hereditary integral "
         "of specimen and frame in series, in closed form between the knots of the motion (Taylor, "
-        "Pister and Goudreau, 1970); time zero is never put at the end of the ramp. Contact "
-        "position, starts of the motions, zero and drift of the load cell are fitted with the "
-        "material, and their uncertainty is in its intervals. The stiffness of the frame is "
-        "subtracted in compliance. ";
+        "Pister and Goudreau, 1970), so the finite ramp is part of the model. Contact position, "
+        "starts of the motions, zero and drift of the load cell are fitted with the material, and "
+        "the intervals include their uncertainty. The compliance of the frame is subtracted. ";
   }
   const auto is_table = [](const SpecimenReport& s) { return !s.run.has_value(); };
   if (any_fit(input, is_table)) {
     text +=
-        "Tables: step records are fitted as they are, loading histories through the exact "
-        "hereditary integral of the measured depth or strain (Taylor, Pister and Goudreau, 1970). ";
+        "Tables: step records are fitted directly, loading histories through the exact hereditary "
+        "integral of the measured depth or strain (Taylor, Pister and Goudreau, 1970). ";
   }
   return text;
 }
@@ -47,29 +46,29 @@ void add_methods(Page& page, const ReportInput& input) {
   std::string loading = loading_text(input);
   if (is_punch) {
     loading +=
-        "Moduli of a flat punch on a bonded layer carry the layer's correction factor, computed "
-        "from the integral equation of the contact.";
+        "The moduli include the correction factor of a punch on a bonded layer, computed from the "
+        "integral equation of the contact.";
   }
   page.add_paragraph(loading);
   page.add_paragraph(
-      "Times are found by variable projection (Golub and Pereyra, 1973) from a non-negative "
-      "spectrum on a dense grid, for every number of terms; there are no starting values. The "
-      "number of terms is the smallest whose cross-validated error is within one standard error of "
-      "the best, and no more than the Bayesian information criterion asks for; a term that lasts "
-      "longer than a third of the record takes strong evidence.");
+      "For every number of terms, the relaxation times are found by variable projection (Golub and "
+      "Pereyra, 1973), which starts from a non-negative spectrum on a dense grid; no starting "
+      "values are needed. The number of terms is the smallest whose cross-validated error is "
+      "within one standard error of the best, but not larger than the Bayesian information "
+      "criterion selects. A term longer than a third of the record needs strong evidence.");
   std::string intervals =
-      "Intervals hold 95 %. They follow from the covariance with the memory of the noise (an "
-      "autoregression of the residuals)";
-  intervals += has_profiles
-                   ? "; those of the equilibrium modulus and, where no frame is in series, "
-                     "of the times come from profile likelihoods (Venzon and Moolgavkar, "
-                     "1988). "
-                   : ". ";
+      "Intervals are 95 % intervals. They follow from the covariance of the parameters with "
+      "autocorrelated noise (an autoregression of the residuals)";
+  intervals +=
+      has_profiles
+          ? "; the intervals of the equilibrium modulus and, without a frame in series, of "
+            "the times come from profile likelihoods (Venzon and Moolgavkar, 1988). "
+          : ". ";
   if (is_punch) {
     intervals +=
-        "Drift of the load cell's gain before contact, where the record shows it, is in the "
-        "intervals of the moduli. Punch, layer, Poisson ratio, calibration and frame scale all "
-        "moduli of a specimen together: the systematic part, stated apart.";
+        "If the record shows a drift of the load cell before contact, the intervals of the moduli "
+        "include it. Errors of punch, layer, Poisson ratio, calibration and frame scale all "
+        "moduli of a specimen together; they are reported separately as the systematic part.";
   }
   page.add_paragraph(intervals);
   if (!input.law) return;

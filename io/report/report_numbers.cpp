@@ -1,8 +1,5 @@
 #include "io/report/report_numbers.h"
 
-#include "io/plots/plot_axis.h"
-#include "io/plots/plot_svg.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +35,19 @@ const Prefix& prefix_for(double magnitude) {
   return *chosen;
 }
 
-// Decimals that show two digits of the half-width; negative when those stand before the point.
+std::string superscript(int exponent) {
+  static const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = exponent < 0 ? "⁻" : "";
+  for (const char c : std::to_string(std::abs(exponent))) text += digits[c - '0'];
+  return text;
+}
+
+std::string with_true_minus(const std::string& text) {
+  return text.front() == '-' ? "−" + text.substr(1) : text;
+}
+
+// The decimals that show two digits of the half-width, negative if those digits are before the
+// point; -100 without an interval.
 int decimals_of(const Interval& interval) {
   const double half = 0.5 * (interval.high - interval.low);
   if (!(half > 0.0) || !std::isfinite(half)) return -100;
@@ -54,10 +63,32 @@ std::string fixed_text(double value, int decimals) {
     return readable_number(value, std::clamp(before + decimals, 1, 12));
   }
   const std::string text = fmt::format("{:.{}f}", value, std::max(0, decimals));
-  return text.front() == '-' ? "−" + text.substr(1) : text;
+  return with_true_minus(text);
 }
 
 }  // namespace
+
+std::string readable_number(double value, int digits) {
+  if (!std::isfinite(value)) return "–";
+  if (value == 0.0) return "0";
+  int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
+  if (exponent >= -4 && exponent < 6) {
+    std::string text = fmt::format("{:.{}g}", value, digits);
+    // %g writes 1.8e+05 when there are fewer digits than places before the point.
+    if (text.find('e') != std::string::npos) text = fmt::format("{:.0f}", std::stod(text));
+    return with_true_minus(text);
+  }
+  std::string text = fmt::format("{:.{}e}", value, std::max(0, digits - 1));
+  const std::size_t e = text.find('e');
+  exponent = std::stoi(text.substr(e + 1));
+  std::string mantissa = text.substr(0, e);
+  if (mantissa.find('.') != std::string::npos) {
+    mantissa.erase(mantissa.find_last_not_of('0') + 1);
+    if (mantissa.back() == '.') mantissa.pop_back();
+  }
+  if (mantissa == "1") return "10" + superscript(exponent);
+  return with_true_minus(mantissa) + "×10" + superscript(exponent);
+}
 
 ShownUnit shown_unit(const std::string& base, const std::vector<double>& values_SI) {
   const double largest = largest_magnitude(values_SI);

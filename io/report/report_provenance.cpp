@@ -1,4 +1,3 @@
-#include "io/plots/plot_axis.h"
 #include "io/plots/plot_svg.h"
 #include "io/report/report_numbers.h"
 #include "io/report/report_sections.h"
@@ -10,7 +9,7 @@
 namespace viscard {
 namespace {
 
-// Text as the path of a data: address, every byte but letters and digits escaped.
+// Percent-encodes every byte except letters and digits, for a data: URL.
 std::string percent_encoded(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -37,7 +36,7 @@ std::string card_html(const ReportCard& card, const std::string& label) {
       percent_encoded(card.text), escaped_markup(card.text));
 }
 
-// A list of names and values; empty values are left out.
+// A list of names and values; empty values are omitted.
 class Facts {
  public:
   void add(const std::string& name, const std::string& value) {
@@ -160,7 +159,7 @@ void add_provenance(Page& page, const ReportInput& input,
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     add_files(files, input.specimens[i], estimates[i].label);
   }
-  if (!files.is_empty()) page.add_table(files, "Files this page rests on.");
+  if (!files.is_empty()) page.add_table(files, "Files from which this page was made.");
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     const SpecimenReport& specimen = input.specimens[i];
     Facts facts;

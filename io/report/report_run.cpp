@@ -9,10 +9,11 @@
 namespace viscard {
 namespace {
 
-constexpr double kLatency_s = 0.5;  // no controller takes longer to begin a move
-constexpr double kClear_m = 5e-6;   // this far from contact nothing is touched
+constexpr double kLatency_s = 0.5;  // every controller begins a move within this time
+constexpr double kClear_m = 5e-6;   // at this distance the punch does not touch
 
-// Where the stage was: by its moves as carried out, or between its reports.
+// Position of the stage over time: from its moves, or without them interpolated between its
+// reports.
 class StagePath {
  public:
   StagePath(const CapturedRun& run, const std::vector<double>& motion_start_s)

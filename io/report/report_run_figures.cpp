@@ -1,4 +1,3 @@
-#include "io/report/report_campaign.h"
 #include "io/report/report_figures.h"
 #include "io/report/report_numbers.h"
 
@@ -10,9 +9,7 @@
 namespace viscard {
 namespace {
 
-constexpr double kRounding = 1e-16;  // errors below are drawn here: a logarithmic axis has no zero
-
-// A motion with its hold: samples first .. last - 1, time counted from start_s.
+// A motion with the hold after it: samples first .. last - 1, time counted from start_s.
 struct Motion {
   double start_s = 0.0;
   std::size_t first = 0, last = 0;
@@ -59,8 +56,8 @@ FitColumns columns_of(const FitCurves& curves, const Motion& motion, double fact
   return columns;
 }
 
-// A hold relaxes by a few per cent of what the motion before it spans: the axis shows the hold,
-// that is, what follows the motion's extreme value, and cuts the motion off.
+// The force changes during a hold by a few per cent of its change during the motion before it.
+// Limits the axis to the values after the extreme of the motion, so that the hold is visible.
 void show_the_hold(PlotAxis& axis, const PlotSeries& fitted) {
   const auto [lowest, highest] = std::minmax_element(fitted.y.begin(), fitted.y.end());
   const bool is_loading = fitted.y.front() < fitted.y.back();
@@ -73,7 +70,7 @@ void show_the_hold(PlotAxis& axis, const PlotSeries& fitted) {
   axis.max = *high + (is_loading ? 0.15 : 0.35) * span;
 }
 
-// Nineteen of twenty residuals should lie in the band.
+// Adds the band that should contain 95 % of the residuals.
 void show_two_sigma(PlotPanel& panel) {
   const PlotSeries& residual = panel.series.front();
   double largest = 3.0;
@@ -82,7 +79,7 @@ void show_two_sigma(PlotPanel& panel) {
   }
   panel.y.max = 1.1 * largest;
   panel.y.min = -1.1 * largest;
-  // A logarithmic axis begins at the first time above zero.
+  // The band begins at the first time above zero, because the axis is logarithmic.
   const auto first = std::find_if(residual.x.begin(), residual.x.end(),
                                   [](double time_s) { return time_s > 0.0; });
   if (first == residual.x.end()) return;
@@ -110,61 +107,11 @@ const char* value_name(const FitResult& fit) {
     case FitKind::kDma:
       break;
   }
-  return "storage modulus";  // the loss is not among the curves
+  return "storage modulus";  // the curves do not include the loss modulus
 }
 
-void add_error(PlotPanel& panel, const PillarCurve& curve, Ink ink) {
-  PlotSeries error{.mark = Mark::kLine, .ink = ink, .size = 0.8};
-  for (std::size_t i = 0; i < curve.time_s.size(); ++i) {
-    const double relative = std::abs(curve.solver[i] / curve.exact[i] - 1.0);
-    error.x.push_back(curve.time_s[i]);
-    error.y.push_back(std::max(relative, kRounding));
-  }
-  panel.series.push_back(error);
-}
-
-// A dashed line at the largest error that passes, from the first time of the panel to the last.
-void add_limit(PlotPanel& panel, double limit) {
-  PlotSeries line{.mark = Mark::kLine, .label = "limit", .ink = Ink::kGrey, .is_dashed = true};
-  double first_s = INFINITY, last_s = 0.0;
-  for (const PlotSeries& series : panel.series) {
-    for (const double time_s : series.x) {
-      if (time_s > 0.0) first_s = std::min(first_s, time_s);
-      last_s = std::max(last_s, time_s);
-    }
-  }
-  if (!(limit > 0.0) || !(last_s > first_s)) return;
-  line.x = {first_s, last_s};
-  line.y = {limit, limit};
-  panel.series.push_back(line);
-}
-
-// First value that is not zero: what the pillar answers at once.
-double first_value(const std::vector<double>& values) {
-  for (const double value : values) {
-    if (std::isfinite(value) && value != 0.0) return value;
-  }
-  return 1.0;
-}
-
-void add_pillar_curve(PlotPanel& panel, const PillarCurve& curve, Ink ink,
-                      const std::string& label) {
-  const double factor = 1.0 / first_value(curve.exact);
-  PlotSeries exact{.mark = Mark::kLine, .ink = ink, .size = 0.9};
-  exact.x = curve.time_s;
-  exact.y = scaled(curve.exact, factor);
-  PlotSeries solver{.mark = Mark::kPoints, .label = label, .ink = ink, .is_hollow = true};
-  solver.size = 1.9;
-  const std::size_t stride = std::max<std::size_t>(1, curve.time_s.size() / 40);
-  for (std::size_t i = 0; i < curve.time_s.size(); i += stride) {
-    solver.x.push_back(curve.time_s[i]);
-    solver.y.push_back(curve.solver[i] * factor);
-  }
-  panel.series.push_back(exact);
-  panel.series.push_back(solver);
-}
-
-// A reading at the end of the converter's range would squeeze all others: it is drawn at the edge.
+// Flagged readings may be far outside of the others, which would then fill a small part of the
+// axis; they are drawn at the edge.
 PlotSeries flagged_dots(const RunSeries& series, double per_si) {
   const auto [lowest, highest] = std::minmax_element(series.volts.begin(), series.volts.end());
   PlotSeries dots{.mark = Mark::kPoints, .label = "saturated or glitch, left out"};
@@ -190,8 +137,8 @@ std::optional<Plot> run_plot(const RunSeries& series) {
   volts.series.push_back({.x = series.time_s, .y = scaled(series.volts, volt.per_si), .size = 0.7});
   if (!series.flagged_s.empty()) volts.series.push_back(flagged_dots(series, volt.per_si));
   Plot plot{.title = "Recorded run",
-            .description = "Output of the load cell and way of the stage over time.",
-            .height_px = 430};
+            .description = "Output of the load cell and position of the stage over time.",
+            .height_px = 500};
   PlotPanel way;
   way.x.label = volts.x.label;
   way.series.push_back({.ink = Ink::kGreen, .size = 0.8});
@@ -199,7 +146,8 @@ std::optional<Plot> run_plot(const RunSeries& series) {
     const double deepest = *std::max_element(series.depth_m.begin(), series.depth_m.end());
     const ShownUnit unit = shown_unit("m", {deepest});
     way.y.label = fmt::format("depth ({})", unit.text);
-    way.y.min = -0.5 * deepest * unit.per_si;  // the approach from far above would hide the rest
+    way.y.min =
+        -0.5 * deepest * unit.per_si;  // leaves out most of the approach, which is much longer
     way.series[0].x = series.time_s;
     way.series[0].y = scaled(series.depth_m, unit.per_si);
   } else if (!series.report_s.empty()) {
@@ -228,9 +176,9 @@ std::optional<Plot> fit_plot(const FitResult& fit) {
   const ShownUnit unit = shown_unit(curves.unit, curves.measured);
   Plot plot{
       .title = "Data and fit",
-      .description = "Measured and fitted values and their difference, logarithmic time axis.",
+      .description = "Measured and fitted values and their difference over the logarithm of time.",
       .columns = static_cast<int>(motions.size()),
-      .height_px = 430};
+      .height_px = 520};
   std::vector<PlotPanel> residuals;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     FitColumns columns = columns_of(curves, motions[k], unit.per_si);
@@ -254,42 +202,6 @@ std::optional<Plot> fit_plot(const FitResult& fit) {
     residuals.push_back(residual);
   }
   plot.panels.insert(plot.panels.end(), residuals.begin(), residuals.end());
-  for (const PlotPanel& panel : plot.panels) {
-    if (!has_something_to_draw(panel)) return std::nullopt;
-  }
-  return plot;
-}
-
-std::optional<Plot> pillar_plot(const ReportInput& input,
-                                const std::vector<SpecimenEstimates>& estimates) {
-  Plot plot{.title = "Pillar in relaxation and creep",
-            .description = "Solver on the exact answer, and the relative error, over time.",
-            .columns = 2,
-            .height_px = 520};
-  plot.panels.resize(4);
-  const char* titles[] = {"Relaxation", "Creep"};
-  const char* label = "relative to the first value";
-  for (std::size_t p = 0; p < 4; ++p) {
-    plot.panels[p].x = {.label = "time (s)", .is_log = true};
-    plot.panels[p].height_share = p < 2 ? 1.7 : 1.0;
-    plot.panels[p].shares_x_with_below = p < 2;
-    plot.panels[p].title = p < 2 ? titles[p] : "";
-    plot.panels[p].y.label = p < 2 ? label : "relative error";
-    plot.panels[p].y.is_log = p >= 2;
-  }
-  double limit = 0.0;
-  const std::vector<SpecimenStyle> styles = styles_of(estimates);
-  for (std::size_t i = 0; i < estimates.size(); ++i) {
-    if (!input.specimens[i].pillar) continue;
-    limit = input.specimens[i].pillar->limit;
-    const PillarCurve* curves[] = {&input.specimens[i].pillar->relaxation,
-                                   &input.specimens[i].pillar->creep};
-    for (std::size_t p = 0; p < 2; ++p) {
-      add_pillar_curve(plot.panels[p], *curves[p], styles[i].ink, styles[i].label);
-      add_error(plot.panels[p + 2], *curves[p], styles[i].ink);
-    }
-  }
-  for (std::size_t p = 2; p < 4; ++p) add_limit(plot.panels[p], limit);
   for (const PlotPanel& panel : plot.panels) {
     if (!has_something_to_draw(panel)) return std::nullopt;
   }

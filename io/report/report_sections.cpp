@@ -1,6 +1,5 @@
 #include "io/report/report_sections.h"
 
-#include "io/plots/plot_axis.h"
 #include "io/plots/plot_svg.h"
 #include "io/report/report_campaign.h"
 #include "io/report/report_figures.h"
@@ -32,21 +31,22 @@ void add_flags(Page& page, const std::vector<SpecimenEstimates>& estimates) {
     }
   }
   if (items.empty()) return;
-  page.add_heading(3, "flags", "What the data could not tell");
+  page.add_heading(3, "flags", "What the data could not determine");
   page.add_html("<ul class=\"flags\">\n" + items + "</ul>\n");
 }
 
 std::string summary_caption(const std::vector<SpecimenEstimates>& estimates) {
-  std::string text = estimates.front().is_stiffness
-                         ? "Stiffness at once (<i>R</i><sub>0</sub>) and in the end "
-                           "(<i>R</i><sub>∞</sub>): no punch geometry was given, so no modulus is "
-                           "claimed."
-                         : "Young's modulus at once (<i>E</i><sub>0</sub>) and in the end "
-                           "(<i>E</i><sub>∞</sub>).";
+  std::string text =
+      estimates.front().is_stiffness
+          ? "Instantaneous stiffness (<i>R</i><sub>0</sub>) and equilibrium stiffness "
+            "(<i>R</i><sub>∞</sub>). No punch geometry was given, so no modulus is "
+            "claimed."
+          : "Instantaneous (<i>E</i><sub>0</sub>) and equilibrium "
+            "(<i>E</i><sub>∞</sub>) Young's modulus.";
   text +=
-      " In brackets 95 % intervals from the record alone; the systematic part "
-      "(geometry, calibration, frame), also at 95 %, scales all moduli of a specimen together "
-      "and leaves every <i>g</i> and <i>τ</i> as it is.";
+      " Brackets hold 95 % intervals from the record alone. The systematic part (geometry, "
+      "calibration, frame), also at 95 %, scales all moduli of a specimen together and does not "
+      "change <i>g</i> and <i>τ</i>.";
   const auto with = std::find_if(estimates.begin(), estimates.end(), [](const auto& specimen) {
     return specimen.two_point.has_value();
   });
@@ -64,13 +64,13 @@ std::string summary_caption(const std::vector<SpecimenEstimates>& estimates) {
 std::string fit_caption(const FitResult& fit) {
   const bool is_punch = fit.kind == FitKind::kIndentation;
   std::string text = fmt::format(
-      "Data (dots; averages of neighbours where samples crowd) and fit with {}, {} samples",
+      "Data (dots; averages of neighbours where samples are dense) and fit with {}, {} samples",
       counted(fit.terms.size(), "term"), fit.n_samples);
-  if (fit.n_spikes > 0) text += fmt::format(", {} left out as spikes", fit.n_spikes);
+  if (fit.n_spikes > 0) text += fmt::format(", {} omitted as spikes", fit.n_spikes);
   text += fit.curves.sigma.size() == fit.curves.time_s.size()
-              ? "; below, the difference in units of its standard deviation."
-              : "; below, the difference.";
-  if (is_punch) text += " The force axis shows the hold and cuts the motion before it off.";
+              ? ". Below: the difference divided by its standard deviation."
+              : ". Below: the difference.";
+  if (is_punch) text += " The force axis shows the range of the hold.";
   if (fit.noise.sigma > 0.0) {
     const std::string base = fit.curves.unit;
     const ShownUnit unit = shown_unit(base, {fit.noise.sigma});
@@ -81,7 +81,7 @@ std::string fit_caption(const FitResult& fit) {
   return text;
 }
 
-// An error is known to two digits at best.
+// Two digits of an error are enough.
 std::string rough_html(double value) {
   const Interval two_digits{0.9 * value, 1.1 * value};
   return number_html(value, 1.0, value > 0.0 ? &two_digits : nullptr);
@@ -91,14 +91,14 @@ std::string run_caption(const CapturedRun& run, const RunSeries& series) {
   std::string text =
       fmt::format("The run as recorded, times since it began: {} readings", series.time_s.size());
   if (!series.flagged_s.empty())
-    text += fmt::format(" and {} flagged (drawn at the edge where they lie beyond)",
+    text += fmt::format(" and {} flagged ones (drawn at the edge if they are outside)",
                         series.flagged_s.size());
   text += fmt::format(" of the {}, {} of the stage", series.is_force ? "force gauge" : "amplifier",
                       counted(run.stage_reports.size(), "report"));
   text += series.depth_m.empty()
-              ? "; position on the stage's own axis."
-              : "; depth of the punch below contact, that is, stage position less contact position "
-                "and deflection of the frame. The approach far above the surface is cut off.";
+              ? ", over its own position axis."
+              : ". The depth of the punch is the stage position minus the contact position and the "
+                "deflection of the frame. Most of the approach is not shown.";
   if (run.status != "finished") text += " <b>This run was " + escaped_markup(run.status) + ".</b>";
   return text;
 }
@@ -110,12 +110,12 @@ void add_summary(Page& page, const ReportInput& input,
   page.add_heading(2, "summary", "Summary");
   page.add_table(summary_table(estimates), summary_caption(estimates));
   const std::string dashes =
-      has_truth(input) ? " Dashed: the truth the emulated rig was made with." : "";
+      has_truth(input) ? " Dashed: the true material of the emulated rig." : "";
   if (const auto plot = relaxation_plot(input, estimates)) {
     page.add_figure(
         *plot, "relaxation",
-        "Relaxation of all specimens, left in absolute terms, right relative to the first "
-        "value; bands are 95 % intervals from the records alone." +
+        "Relaxation of all specimens: absolute (left) and relative to the first value (right). "
+        "Bands are 95 % intervals from the records alone." +
             dashes);
   }
   page.begin_row_of_figures();
@@ -126,17 +126,17 @@ void add_summary(Page& page, const ReportInput& input,
   }
   if (const auto plot = spectrum_plot(input, estimates)) {
     page.add_figure(*plot, "spectrum",
-                    "Relaxation spectrum: relative moduli over relaxation times, bars are 95 % "
-                    "intervals of both.");
+                    "Relaxation spectrum: relative moduli over relaxation times. Bars are 95 % "
+                    "intervals.");
   }
   page.end_row_of_figures();
   const HtmlTable spread = spread_table(estimates);
   if (!spread.is_empty()) {
     page.add_table(
         spread,
-        "Repeated specimens of a mixing ratio: standard deviation between specimens, "
-        "relative to the mean, beside the standard error of a single fit (median). Where "
-        "the first is larger, specimens differ by more than the fit can err.");
+        "Repeated specimens of a mixing ratio: the standard deviation between specimens, "
+        "relative to the mean, and the median standard error of a single fit. If the first is "
+        "larger, the specimens differ by more than the error of the fit.");
   }
   const HtmlTable terms = terms_table(estimates);
   if (!terms.is_empty()) {
@@ -161,13 +161,13 @@ void add_recovery(Page& page, const ReportInput& input,
       count.n_inside, count.n);
   if (count.n_inside_with_systematic > 0) {
     text +=
-        fmt::format(", {} more once the systematic part is added", count.n_inside_with_systematic);
+        fmt::format(", {} more do with the systematic part added", count.n_inside_with_systematic);
   }
   if (count.n_not_resolved > 0) text += fmt::format("; {} were not resolved", count.n_not_resolved);
   text += fmt::format("; <i>E</i><sub>0</sub> is off by at most {:.2g} %.",
                       100.0 * count.largest_E0_error);
   page.add_paragraph(text);
-  page.add_table(table, "What the emulated rig was made with beside what the fit found.");
+  page.add_table(table, "The true values of the emulated rig and the estimates of the fit.");
 }
 
 void add_pillar(Page& page, const ReportInput& input,
@@ -190,10 +190,10 @@ void add_pillar(Page& page, const ReportInput& input,
   if (!setup.empty()) page.add_paragraph(escaped_markup(setup));
   page.add_figure(
       *plot, "pillar",
-      "The time-stepping solver (rings, some of its steps) on the exact answer (lines), "
-      "relative to the first value, and below the relative error of every step; errors "
-      "below 10⁻¹⁶ are drawn there.");
-  page.add_table(table, "Agreement of the solver with the exact answer.");
+      "Above: the time-stepping solver (rings, some of its steps) and the exact solution (lines), "
+      "relative to the first value. Below: the relative error of every step; errors below 10⁻¹⁶ "
+      "are drawn at 10⁻¹⁶.");
+  page.add_table(table, "Agreement of the solver with the exact solution.");
 }
 
 void add_specimen(Page& page, const SpecimenReport& specimen, const SpecimenEstimates& estimates) {
@@ -218,19 +218,18 @@ void add_specimen(Page& page, const SpecimenReport& specimen, const SpecimenEsti
   if (const auto profiles = specimen.fit ? profile_plot(*specimen.fit) : std::nullopt) {
     page.add_figure(
         *profiles, "profiles",
-        "Profile likelihoods: rise of the residual sum of squares, over the variance of "
-        "the noise, as one parameter is held and all others are fitted again. The "
-        "dashed line, 3.84, ends the 95 % interval; a curve that is no parabola tells "
-        "of an interval that is not symmetric." +
-            std::string(specimen.run ? " The times held are those of specimen and frame "
-                                       "in series."
+        "Profile likelihoods: rise of the residual sum of squares, divided by the variance of the "
+        "noise, while one parameter is held and all others are fitted again. The 95 % interval "
+        "ends at the dashed line, 3.84; it is asymmetric if the curve is not a parabola." +
+            std::string(specimen.run ? " The times are those of specimen and frame in "
+                                       "series."
                                      : ""));
   }
   if (has_orders) {
     page.add_table(
         orders_table(*specimen.fit),
-        "Orders tried. AICc and BIC stand above their smallest value; cross-validation is "
-        "the error of predicting left-out blocks over that of the noise.");
+        "Orders tried. AICc and BIC are differences from their smallest value; cross-validation "
+        "is the error of predicting omitted blocks, divided by that of the noise.");
   }
 }
 

@@ -8,8 +8,7 @@
 
 namespace viscard {
 
-// The sections of the page, in order. Each adds nothing, not even its heading, when its data are
-// missing.
+// The sections of the page, in order. A section whose data are missing is omitted with its heading.
 void add_summary(Page& page, const ReportInput& input,
                  const std::vector<SpecimenEstimates>& estimates);
 void add_recovery(Page& page, const ReportInput& input,
@@ -19,7 +18,7 @@ void add_pillar(Page& page, const ReportInput& input,
 void add_specimen(Page& page, const SpecimenReport& specimen, const SpecimenEstimates& estimates);
 void add_cards(Page& page, const ReportInput& input,
                const std::vector<SpecimenEstimates>& estimates);
-// How the numbers were found, in a few sentences with their sources; only what this page needs.
+// The methods used for this page, in a few sentences with their sources.
 void add_methods(Page& page, const ReportInput& input);
 void add_provenance(Page& page, const ReportInput& input,
                     const std::vector<SpecimenEstimates>& estimates);

@@ -8,7 +8,7 @@
 
 namespace viscard {
 
-// The tables of the page. Values stand with their 95 % intervals in brackets.
+// The tables of the page. Values have their 95 % intervals in brackets.
 
 // One row per specimen: E0, E_inf, number of terms, systematic part, two-point modulus.
 HtmlTable summary_table(const std::vector<SpecimenEstimates>& estimates);
@@ -27,7 +27,7 @@ struct RecoveryCount {
 RecoveryCount count_recovery(const ReportInput& input,
                              const std::vector<SpecimenEstimates>& estimates);
 
-// Orders tried, the chosen one marked.
+// The orders tried, with the chosen one marked.
 HtmlTable orders_table(const FitResult& fit);
 
 }  // namespace viscard

@@ -24,11 +24,11 @@ std::string quoted_header(const CsvColumn& column) {
 std::string columns_there(const CsvTable& table) {
   std::string out = "; there ";
   if (!table.has_header) {
-    out += "is no header, so say which column it is: --column NAME=1 to " +
+    out += "is no header, so give the column by its number: --column NAME=1 to " +
            std::to_string(table.columns.size());
     if (!table.preamble.empty()) {
       out += " ('" + table.preamble.back() +
-             "' was taken for a note, because it has not as many cells as the numbers)";
+             "' was read as a note, because the rows of numbers have another number of cells)";
     }
     return out;
   }
@@ -46,8 +46,8 @@ std::string columns_there(const CsvTable& table) {
   throw std::runtime_error(table.file + ": " + what);
 }
 
-// Scale of a column, from the unit said on the command line, the table's own, or a suffix of its
-// name.
+// Returns the scale of a column from the unit on the command line, the table's unit, or the suffix
+// of its name.
 UnitScale scale_of(const CsvTable& table, const CsvColumn& column, const Quantity& quantity,
                    const std::string& said_unit) {
   if (quantity.is_text) return {};
@@ -77,8 +77,8 @@ ColumnUse use_of(const CsvTable& table, std::size_t index, const Quantity& quant
   return use;
 }
 
-// Index of the column that the right-hand side of --column names; npos when none does. A unit in
-// brackets behind a name or number that fits without it goes to said_unit.
+// Returns the index of the column that the right-hand side of --column names, or npos. If a unit in
+// brackets follows a name or number that matches without it, said_unit is set to that unit.
 std::size_t index_of(const CsvTable& table, std::string_view spec, std::string& said_unit) {
   const auto& columns = table.columns;
   for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -93,7 +93,7 @@ std::size_t index_of(const CsvTable& table, std::string_view spec, std::string& 
   if (count == 1) return found;
   if (count > 1) {
     fail(table, std::to_string(count) + " columns are named '" + std::string(spec) +
-                    "'; name the one you mean by its number");
+                    "'; choose one by its number");
   }
   std::size_t number = 0;
   const auto result = std::from_chars(spec.data(), spec.data() + spec.size(), number);
@@ -113,7 +113,8 @@ ColumnUse mapped_column(const CsvTable& table, const Quantity& quantity,
   double factor = 1.0;
   std::string_view spec = trimmed_cell(expression);
   std::string said_unit;
-  std::size_t index = index_of(table, spec, said_unit);  // a header may begin with a sign
+  std::size_t index =
+      index_of(table, spec, said_unit);  // a header may begin with a sign, so try it whole
   const std::size_t star = spec.find('*');
   if (index == std::string::npos && star != std::string_view::npos) {
     const auto number = number_from_cell(trimmed_cell(spec.substr(0, star)), {});
@@ -147,7 +148,7 @@ std::optional<ColumnUse> found_column(const CsvTable& table, const Quantity& qua
     if (best && match->rank == best_rank) {
       fail(table, "columns " + place(best->index) + quoted_header(table.columns[best->index]) +
                       " and " + place(i) + quoted_header(table.columns[i]) + " could both be " +
-                      quantity.name + "; say which with --column " + quantity.name + "=" +
+                      quantity.name + "; choose one with --column " + quantity.name + "=" +
                       place(i));
     }
     best = use_of(table, i, quantity, 1.0, match->scale);
@@ -168,9 +169,10 @@ ColumnMap column_map_from_words(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == word.size()) {
-      throw std::invalid_argument("--column '" + word +
-                                  "' is not NAME=COLUMN; write it like time_s=\"Time (s)\" or "
-                                  "force_N=2");
+      throw std::invalid_argument(
+          "--column '" + word +
+          "' is not of the form NAME=COLUMN; write it like time_s=\"Time (s)\" or "
+          "force_N=2");
     }
     const std::string name = word.substr(0, equals);
     const auto& names = column_names();

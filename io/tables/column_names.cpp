@@ -7,7 +7,7 @@
 namespace viscard {
 namespace {
 
-// Lower case, with one blank for any run of blanks, underscores and hyphens.
+// Returns the text in lower case; each run of blanks, underscores and hyphens becomes one blank.
 std::string plain(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -25,7 +25,7 @@ bool is_alias(const std::string& name, const char* alias) {
   return is_letter ? name == text : plain(name) == text;
 }
 
-// omega, w: radians a second, whether the unit says so or not.
+// omega and w are angular frequencies, in rad/s even if the column has no unit.
 bool is_angular(const std::string& name) {
   const std::string text = plain(name);
   return name == "w" || name == "ω" || text == "omega" || text == "angular frequency";
@@ -95,8 +95,8 @@ std::optional<HeaderMatch> match_header(const CsvColumn& column, const Quantity&
   if (column.name.empty()) return std::nullopt;
   if (column.header == quantity.name || column.name == quantity.name) {
     const auto scale = scale_if_fits(column, column.unit, quantity);
-    // A name with its SI unit over another unit contradicts itself: not taken, so the user must
-    // say.
+    // A name that ends in one unit above a row with another contradicts itself, so the column is
+    // not used unless --column names it.
     const bool names_unit = std::string(quantity.name) != quantity.base;
     const bool is_si = scale && scale->factor == 1.0 && scale->offset == 0.0;
     if (!scale || (names_unit && !is_si)) return std::nullopt;
@@ -109,7 +109,7 @@ std::optional<HeaderMatch> match_header(const CsvColumn& column, const Quantity&
     const bool is_own_name = plain(column.name) == plain(quantity.base);
     return HeaderMatch{is_own_name ? 2 : 1, *scale};
   }
-  // force_mN, depth_um: the quantity's own name with another unit behind it.
+  // force_mN, depth_um: the quantity's own name followed by another unit.
   const std::string head = std::string(quantity.base) + "_";
   if (quantity.is_text || is_stated(column.unit) || column.name.rfind(head, 0) != 0) {
     return std::nullopt;

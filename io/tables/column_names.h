@@ -9,12 +9,12 @@
 
 namespace viscard {
 
-// Which headers of a table mean which quantity.
+// The headers by which each quantity is found in a table.
 struct Quantity {
   const char* name;                  // "force_N"
   const char* base;                  // "force"
   const char* si_unit;               // "N"; "1" for a plain number
-  std::vector<const char*> aliases;  // lower case unless a single letter; that one's case matters
+  std::vector<const char*> aliases;  // lower case; a single letter keeps its case, which matters
   bool is_text = false;
 };
 
@@ -23,14 +23,15 @@ const std::vector<Quantity>& quantities();
 // The names of all quantities, in the order of the table.
 const std::vector<std::string>& column_names();
 
-// Throws std::invalid_argument when there is none of that name.
+// Throws std::invalid_argument if no quantity has that name.
 const Quantity& quantity_named(const std::string& name);
 
-// False for no unit and for "-".
+// False for an empty unit and for "-".
 bool is_stated(const std::string& unit);
 
-// How well a column's header says that it holds the quantity: 3 by its viscard name, 2 by the
-// quantity's own name and a unit, 1 by an alias. Nothing when it does not, or in another unit.
+// Returns how well a column's header matches the quantity: 3 for its viscard name, 2 for the
+// quantity's own name with a unit, 1 for an alias. Returns nothing for any other header, and if the
+// unit measures another quantity.
 struct HeaderMatch {
   int rank = 0;
   UnitScale scale;

@@ -75,7 +75,8 @@ bool is_utf8(std::string_view bytes) {
   return true;
 }
 
-// A file that begins in the two-byte way without saying so by a BOM.
+// Byte order of UTF-16 by its BOM, or without one because every other byte of the first characters
+// is zero; nothing for other encodings.
 std::optional<bool> is_big_endian_utf16(std::string_view bytes) {
   if (bytes.size() >= 2 && byte_at(bytes, 0) == 0xff && byte_at(bytes, 1) == 0xfe) return false;
   if (bytes.size() >= 2 && byte_at(bytes, 0) == 0xfe && byte_at(bytes, 1) == 0xff) return true;
@@ -108,7 +109,7 @@ std::size_t count_outside_quotes(std::string_view line, char separator) {
   return count;
 }
 
-// "1,5 2,3": two numbers with a blank between them inside one comma cell.
+// "1,5 2,3": with commas as separators, one cell would hold two numbers with a blank between them.
 bool has_blank_between_numbers(std::string_view line) {
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {
     if (!is_blank(line[i])) continue;
@@ -150,15 +151,17 @@ std::string utf8_from_bytes(std::string_view bytes, const std::string& name) {
   }
   if (bytes.substr(0, 3) == "\xef\xbb\xbf") bytes.remove_prefix(3);
   if (bytes.find('\0') != std::string_view::npos) {
-    throw std::runtime_error(name + ": is not a table of text (it has NUL bytes in it)");
+    throw std::runtime_error(name +
+                             ": is not a text table (it contains NUL bytes); export it as CSV");
   }
   if (is_utf8(bytes)) return std::string(bytes);
-  std::string text;  // Latin-1: old instruments write the micro sign so
+  std::string text;  // Latin-1, in which old instruments write the micro sign
   for (std::size_t i = 0; i < bytes.size(); ++i) append_utf8(text, byte_at(bytes, i));
   return text;
 }
 
-// The next "\n" is looked for once and not once a line: in a file of "\r" it is far away.
+// The next "\n" is kept between lines: in a file whose lines end in "\r", searching it again for
+// each line would make reading quadratic.
 std::string_view LineReader::take_line() {
   const char* begin = rest_.data();
   if (newline_ < begin) {
@@ -208,7 +211,7 @@ void split_cells(const TextLine& line, char separator, std::vector<std::string_v
       }
       if (close == std::string_view::npos) {
         throw std::runtime_error("line " + std::to_string(line.number) +
-                                 ": a quote is opened and not closed on the same line");
+                                 ": a quote is not closed on the same line; close it or remove it");
       }
       cells.push_back(trimmed_cell(rest.substr(1, close - 1)));
       rest.remove_prefix(close + 1);
@@ -288,7 +291,7 @@ Dialect detect_dialect(const std::vector<TextLine>& sample, const std::string& n
   if (with_comma != nullptr && with_point != nullptr) {
     throw std::runtime_error(name + ": line " + std::to_string(with_comma->number) +
                              " has a decimal comma and line " + std::to_string(with_point->number) +
-                             " a decimal point; write all numbers in one way");
+                             " a decimal point; use the same decimal sign in all numbers");
   }
   dialect.has_decimal_comma = with_comma != nullptr;
   return dialect;

@@ -31,7 +31,7 @@ std::string_view without_brackets(std::string_view cell) {
   return is_bracketed ? trimmed_cell(cell.substr(1, cell.size() - 2)) : cell;
 }
 
-// E(t), G'(w): a function's argument and not a unit.
+// E(t), G'(w): the argument of a function, not a unit.
 bool is_argument(std::string_view header, std::size_t open, std::string_view inside) {
   const bool is_attached = open > 0 && header[open - 1] != ' ';
   return header[open] == '(' && is_attached &&
@@ -100,7 +100,7 @@ class TableReader {
     });
   }
 
-  // The number of cells that most lines with numbers have.
+  // Finds the number of cells that most lines with numbers have.
   void find_width() {
     std::map<std::size_t, std::size_t> counts;
     std::vector<std::string_view> cells;
@@ -108,7 +108,7 @@ class TableReader {
       split_cells(line, dialect_.separator, cells);
       if (!has_number(cells)) continue;
       ++counts[cells.size()];
-      width_ = cells.size();  // of the last: it wins a tie, for notes come first
+      width_ = cells.size();  // the last line wins a tie, because notes come first
     }
     if (counts.empty()) {
       throw std::runtime_error(name_ + ": has no line with a number in its first " +
@@ -119,7 +119,7 @@ class TableReader {
     }
   }
 
-  // Header, units and what stands before them; leaves first_row_ at the first line of numbers.
+  // Reads the notes, the header and the units; leaves first_row_ at the first line of numbers.
   void read_head() {
     table_.columns.resize(width_);
     LineReader lines(text_);
@@ -181,7 +181,7 @@ class TableReader {
       const auto names = header_cells({0, comment}, dialect_.separator);
       if (names.size() == width_ && !has_number(names)) take_header(names);
     } catch (const std::runtime_error&) {
-      // A comment with an odd quote is a comment.
+      // A comment may contain a single quote.
     }
   }
 
@@ -216,7 +216,7 @@ class TableReader {
           std::any_of(cells.begin() + static_cast<std::ptrdiff_t>(std::min(width_, cells.size())),
                       cells.end(), [](auto cell) { return !cell.empty(); });
       if (cells.size() < width_ || has_more) {
-        fail(line.number, std::to_string(cells.size()) + " cells where the table has " +
+        fail(line.number, std::to_string(cells.size()) + " cells, but the table has " +
                               std::to_string(width_) + " columns");
       }
       take(line, cells);
@@ -236,7 +236,7 @@ class TableReader {
     if (!cell.empty() && !number) is_text_[i] = 1;
   }
 
-  // Lines that end with a separator make a column of nothing.
+  // Lines that end with a separator make an empty last column.
   void drop_empty_last_column() {
     const CsvColumn& last = table_.columns.back();
     const bool is_empty = last.header.empty() && last.text.empty() &&

@@ -9,17 +9,17 @@
 
 namespace viscard {
 
-// A table of numbers from any machine: header or none, second row of units, comma, semicolon, tab
-// or blanks between cells, decimal point or comma, comments (#, %, //), blank lines, quoted cells,
-// UTF-8 with or without BOM, UTF-16, any line end. io/column_map.h finds the columns by quantity.
+// Reads a table of numbers from any machine: with or without header, with or without a second row
+// of units; comma, semicolon, tab or blanks between cells; decimal point or comma; comments (#, %,
+// //), blank lines, quoted cells; UTF-8 with or without BOM, UTF-16, any line end. column_map.h
+// finds the columns by quantity.
 struct CsvColumn {
-  std::string header;             // as written: "Force [nN]"; "" without a header
-  std::string name;               // without its bracketed unit: "Force"
-  std::string unit;               // bracketed or from the row of units: "nN"; "" if none
-  std::vector<double> values;     // as written, one per row; NaN where the cell is no finite number
-  std::vector<std::string> text;  // every cell of a column that has a cell of text; else empty
-  // First cell that is no finite number: its line (from 1; 0 if there is none) and what stands
-  // there.
+  std::string header;          // as written: "Force [nN]"; "" without a header
+  std::string name;            // without the bracketed unit: "Force"
+  std::string unit;            // bracketed or from the row of units: "nN"; "" if none
+  std::vector<double> values;  // as written, one per row; NaN where the cell is not a finite number
+  std::vector<std::string> text;  // all cells, if one of them is text; otherwise empty
+  // The first cell that is not a finite number: its line (from 1; 0 if there is none) and its text.
   std::size_t first_bad_line = 0;
   std::string first_bad_cell;
 };
@@ -28,14 +28,15 @@ struct CsvTable {
   std::string file;
   std::vector<CsvColumn> columns;     // all of the same length
   std::vector<std::uint32_t> lines;   // line of the file, from 1, of each row
-  std::vector<std::string> preamble;  // lines before the header that are no part of the table
+  std::vector<std::string> preamble;  // lines before the header, which are not part of the table
   bool has_header = false;
   char separator = ',';  // ' ' for runs of blanks
   bool has_decimal_comma = false;
 };
 
-// Throws std::runtime_error naming the file (and line) when it is missing, empty, not text, or has
-// rows of different lengths. Cells that are no numbers are no error here: see column_map.h.
+// Throws std::runtime_error naming the file (and line) if it is missing, empty, not text, or has
+// rows of different lengths. A cell that is not a number is accepted here; column_map.h refuses it
+// if its column is used.
 CsvTable read_csv(const std::filesystem::path& path);
 
 // The same from bytes; name stands for the file in messages.

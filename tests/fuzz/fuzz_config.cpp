@@ -35,7 +35,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       round_trip<Specimen>(text, specimen_from_toml, toml_from_specimen);
       break;
     default:
-      round_trip<EmulatedTruth>(text, truth_from_toml, toml_from_truth);
+      try {
+        truth_from_toml(text, "fuzz");  // nothing writes a truth
+      } catch (const std::runtime_error&) {
+      }
       break;
   }
   return 0;

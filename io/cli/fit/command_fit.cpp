@@ -22,57 +22,70 @@ namespace {
 
 using Words = std::vector<std::string>;
 
+// How to fit.
+void add_fit_options(po::options_description& options) {
+  auto add = options.add_options();
+  add("kind", po::value<std::string>(),
+      "indentation, relaxation, creep or dma; by default the columns decide");
+  add("terms", po::value<int>(), "use this number of terms instead of choosing one");
+  add("max-terms", po::value<int>()->default_value(40), "largest number of terms to try");
+  add("liquid", "no equilibrium modulus");
+  add("allow-negative", "terms may have negative moduli");
+  add("noise", po::value<std::string>()->default_value("auto"),
+      "white: no inflation for autocorrelation, sigma^2 = rss/(n - p)");
+  add("full-data", "fit every sample instead of averages in log time");
+  add("profiles", "asymmetric intervals of E_inf and times from profile likelihoods");
+  add("diagnose", "compare by BIC with a power law between two plateaus (fractional Zener)");
+  add("bootstrap", po::value<int>(), "intervals from this many resamples of blocks of residuals");
+  add("fix", po::value<Words>()->composing(),
+      "hold a parameter at a value in SI, such as tau_1=0.2; parameters are E0, E_inf, and E_i, "
+      "g_i, tau_i of term i (repeatable, needs --terms)");
+  add("bound", po::value<Words>()->composing(),
+      "keep a parameter within bounds, such as g_2=0:0.1 (repeatable, needs --terms)");
+  add("constraints", po::value<std::string>(), "file with the text of one --fix or --bound a line");
+}
+
+// What the data are.
+void add_data_options(po::options_description& options) {
+  auto add = options.add_options();
+  add("column", po::value<Words>()->composing(),
+      "NAME=HEADER or NAME=2: the column of a quantity; also NAME=-HEADER and NAME=1e9*HEADER");
+  add("segment", po::value<Words>()->composing(), "use only rows of this segment (repeatable)");
+  add("time-zero", po::value<std::string>()->default_value("0"), "time in the table where t = 0");
+  add("specimen", po::value<std::string>(), "specimen.toml with the geometry under the punch");
+  add("punch-diameter", po::value<std::string>(), "of a flat punch, such as \"4.4 mm\"");
+  add("layer-thickness", po::value<std::string>(),
+      "of the specimen on a rigid base; without it, the specimen is a half-space");
+  add("poisson-ratio", po::value<double>(), "default 0.495");
+  add("frame-stiffness", po::value<std::string>(),
+      "between stage and punch, such as \"10 N/mm\"; needed if depth_m is the stage's position");
+  add("reference-temperature", po::value<std::string>(),
+      "of the master curve of a table with several temperatures (temperature_C), such as "
+      "\"20 degC\"; default: the middle one");
+  add("density", po::value<std::string>(), "for the material file, such as \"965 kg/m3\"");
+  add("ratio", po::value<std::vector<double>>()->composing(),
+      "mixing ratio, parts of base to one of curing agent; with --joint once for each file");
+}
+
 CommandSyntax fit_syntax() {
   CommandSyntax syntax;
   syntax.usage = "viscard fit FILE... [OPTIONS]";
   syntax.description =
-      "Finds the instantaneous modulus and a Prony series, with 95 % intervals, in captures "
-      "(*.viscap)\n"
-      "or tables from any machine. Columns are found by name and unit (force_N, \"Force [N]\", t "
-      "(s)).\n"
-      "Times come from the exact history of loading; the number of terms is chosen unless given.";
+      "Fits the instantaneous modulus and a Prony series, with 95 % intervals, to captures\n"
+      "(*.viscap) or tables from any machine. Columns are found by name and unit (force_N,\n"
+      "\"Force [N]\", t (s)). The fit uses the exact loading history and chooses the number of\n"
+      "terms unless it is given.";
   syntax.example = "viscard fit data/demo/example_relaxation.csv --out material.json";
-  syntax.options.add_options()(
-      "kind", po::value<std::string>(),
-      "indentation, relaxation, creep or dma; default: by the columns there are")(
-      "terms", po::value<int>(), "this number of terms instead of a choice")(
-      "max-terms", po::value<int>()->default_value(40), "largest number tried")(
-      "liquid", "no equilibrium modulus")("allow-negative", "terms may have negative moduli")(
-      "noise", po::value<std::string>()->default_value("auto"),
-      "white: no inflation for autocorrelation, sigma^2 = rss/(n - p)")(
-      "full-data", "every sample for itself instead of averages in log time")(
-      "profiles", "intervals of E_inf and times from profile likelihoods (asymmetric)")(
-      "diagnose", "compare with a power law between two plateaus (fractional Zener) by BIC")(
-      "bootstrap", po::value<int>(), "intervals from this many resamples of blocks of residuals")(
-      "column", po::value<Words>()->composing(),
-      "NAME=HEADER or NAME=2: where a column is, also -HEADER and 1e9*HEADER")(
-      "segment", po::value<Words>()->composing(), "only rows of this segment (repeatable)")(
-      "time-zero", po::value<std::string>()->default_value("0"), "time of the table that is t = 0")(
-      "specimen", po::value<std::string>(), "specimen.toml: geometry under the punch")(
-      "punch-diameter", po::value<std::string>(), "of a flat punch, for instance \"4.4 mm\"")(
-      "layer-thickness", po::value<std::string>(),
-      "of the specimen on a rigid base; left out: deep")("poisson-ratio", po::value<double>(),
-                                                         "default 0.495")(
-      "frame-stiffness", po::value<std::string>(),
-      "when depth_m is the stage's: \"10 N/mm\" between stage and punch")(
-      "reference-temperature", po::value<std::string>(),
-      "of the master curve that a table with several temperatures (temperature_C) becomes: \"20 "
-      "degC\"; default: the middle one")("density", po::value<std::string>(),
-                                         "for the material file, for instance \"965 kg/m3\"")(
-      "out", po::value<std::string>(), "material file to write (one input file)")(
-      "force", "replace an existing material file")(
-      "ratio", po::value<std::vector<double>>()->composing(),
-      "mixing ratio, parts of base to one of curing agent; with --joint once for each file")(
-      "joint",
-      "all files together: the law of the material in its mixing ratio, from captures, tables or "
-      "material files; --out takes the joint file that viscard card reads")(
-      "fix", po::value<Words>()->composing(),
-      "tau_1=0.2: this parameter at this value, in SI; E0, E_inf, and E_i, g_i, tau_i of term i "
-      "(repeatable, needs --terms)")("bound", po::value<Words>()->composing(),
-                                     "g_2=0:0.1: this parameter within bounds")(
-      "constraints", po::value<std::string>(), "file with one --fix or --bound text a line")(
-      "share", po::value<Words>()->composing(),
-      "with --joint: E0, g or tau, or one of them (tau_1), the same at all ratios (repeatable)");
+  add_fit_options(syntax.options);
+  add_data_options(syntax.options);
+  auto add = syntax.options.add_options();
+  add("joint",
+      "fit all files together: the law of the material in its mixing ratio, from captures, tables "
+      "or material files; --out writes the joint file that viscard card reads");
+  add("share", po::value<Words>()->composing(),
+      "with --joint: E0, g, tau or one of them (tau_1) is the same at all ratios (repeatable)");
+  add("out", po::value<std::string>(), "material file to write (one input file)");
+  add("force", "replace an existing material file");
   syntax.positional = {"file"};
   syntax.last_is_repeatable = true;
   return syntax;
@@ -108,7 +121,7 @@ void print(const std::vector<FittedFile>& fitted, bool as_json, std::ostream& ou
   out << json.dump(2) << "\n";
 }
 
-// One line for each result that must not be trusted.
+// Prints one line for each result that is not to be trusted and returns the exit status.
 int report_defects(const std::vector<FittedFile>& fitted, std::ostream& err) {
   int status = kDone;
   for (const FittedFile& file : fitted) {
@@ -137,11 +150,12 @@ int run_fit(const Words& words, Streams& streams) {
   const bool is_joint = values->count("joint") > 0;
   if (!is_joint && values->count("share") > 0) throw UsageError("--share needs --joint");
   if (!is_joint && values->count("ratio") > 0 && files.size() > 1) {
-    throw UsageError("--ratio is of one file here; with --joint once for each");
+    throw UsageError(
+        "--ratio is for one input file; for several, give it once for each with --joint");
   }
   if (has_out && files.size() > 1 && !is_joint) {
-    throw UsageError("--out takes the material of one input file; fit the " +
-                     std::to_string(files.size()) + " files one by one");
+    throw UsageError("--out writes the material of one input file, but there are " +
+                     std::to_string(files.size()) + "; fit them one by one, or with --joint");
   }
   const bool overwrite = values->count("force") > 0;
   if (has_out && !overwrite && std::filesystem::exists((*values)["out"].as<std::string>())) {
@@ -152,8 +166,8 @@ int run_fit(const Words& words, Streams& streams) {
   if (is_joint) return run_joint(*values, files, quoted_command_line("fit", words), streams);
   FitWords fit_words = words_from(*values);
   fit_words.needs_modulus = has_out;
-  const FittedMaterialWords about =
-      material_words(*values, quoted_command_line("fit", words));  // before the work
+  const FittedMaterialWords about = material_words(
+      *values, quoted_command_line("fit", words));  // refuses bad words before the fit
   const std::vector<FittedFile> fitted = fit_files(files, fit_words, streams);
   print(fitted, values->count("json") > 0, streams.out);
   if (has_out) {

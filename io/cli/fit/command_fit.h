@@ -7,8 +7,8 @@
 
 namespace viscard {
 
-// viscard fit: captures or tables to modulus and Prony series, on the screen, as JSON, as a
-// material file.
+// viscard fit: fits a modulus and a Prony series to captures or tables; prints them, as text or
+// JSON, and writes a material file.
 int run_fit(const std::vector<std::string>& words, Streams& streams);
 
 }  // namespace viscard

@@ -8,8 +8,8 @@
 
 namespace viscard {
 
-// Fits all files on all cores, with a progress bar; the first failure in the order of the files is
-// thrown.
+// Fits all files on all cores, with a progress bar. If some fail, rethrows the exception of the
+// first of them in the order of the files.
 std::vector<FittedFile> fit_files(const std::vector<std::string>& files, const FitWords& words,
                                   Streams& streams);
 

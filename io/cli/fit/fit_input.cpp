@@ -26,13 +26,13 @@ FitKind kind_of_table(const CsvTable& table, const FitWords& words) {
   if (has("compliance_1_Pa")) return FitKind::kCreep;
   if (has("storage_modulus_Pa") && has("loss_modulus_Pa")) return FitKind::kDma;
   throw std::runtime_error(table.file +
-                           ": no column says what to fit. Wanted are force_N with depth_m, "
-                           "modulus_Pa, stress_Pa, compliance_1_Pa, or storage_modulus_Pa with "
-                           "loss_modulus_Pa; name them with --column modulus_Pa=\"HEADER\" or a "
-                           "number counting from 1");
+                           ": no known column to fit; expected force_N with depth_m, modulus_Pa, "
+                           "stress_Pa, compliance_1_Pa, or storage_modulus_Pa with "
+                           "loss_modulus_Pa. Name a column with --column modulus_Pa=\"HEADER\", or "
+                           "with its number from 1");
 }
 
-// Several segments one after another, in the order of the file.
+// The rows of the chosen segments, in the order of the file.
 CsvTable rows_of_segments(const CsvTable& table, const FitWords& words) {
   if (words.segments.empty()) return table;
   std::vector<CsvTable> parts;
@@ -75,7 +75,8 @@ FitResult fit_relaxation_table(const CsvTable& table, const FitWords& words) {
 FitResult fit_indentation_table(const CsvTable& table, const FitWords& words) {
   if (words.needs_modulus && !words.specimen) {
     throw std::runtime_error(
-        "--out writes moduli, and without the punch an indentation gives stiffnesses only. Add "
+        "--out writes moduli, but an indentation without punch geometry gives only stiffnesses; "
+        "add "
         "--specimen FILE, or --punch-diameter (and --layer-thickness)");
   }
   IndentationData data;
@@ -87,7 +88,8 @@ FitResult fit_indentation_table(const CsvTable& table, const FitWords& words) {
   return fit_indentation(data, words.options);
 }
 
-// Several temperatures in a table of relaxation moduli or frequency sweeps: a master curve.
+// Fits a master curve if a table of relaxation moduli or of frequency sweeps has several
+// temperatures.
 std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
                                             const FitWords& words) {
   const bool is_step =
@@ -98,8 +100,9 @@ std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
   if ((!is_step && kind != FitKind::kDma) || !has_several_temperatures(data.temperature_C)) {
     if (!words.T_ref_C) return std::nullopt;
     throw std::runtime_error(
-        "a reference temperature is for tables of modulus_Pa, or storage and loss moduli, with a "
-        "column temperature_C of several temperatures");
+        "--reference-temperature applies only to tables of modulus_Pa, or of storage and loss "
+        "moduli, "
+        "with several temperatures in a column temperature_C; omit it");
   }
   if (is_step) {
     data.argument = time_of(table, words);
@@ -152,11 +155,12 @@ FittedFile fit_table(const std::string& path, const FitWords& words) {
 
 FittedFile fit_capture(const std::string& path, const FitWords& words) {
   if (words.kind && *words.kind != FitKind::kIndentation) {
-    throw std::runtime_error(path + ": a capture is an indentation; leave --kind away");
+    throw std::runtime_error(path + ": a capture is an indentation; omit --kind");
   }
   if (!words.columns.empty() || !words.segments.empty() || words.time_zero_s != 0.0) {
     throw std::runtime_error(
-        path + ": --column, --segment and --time-zero are for tables; a capture needs none");
+        path +
+        ": --column, --segment and --time-zero apply only to tables; omit them for a capture");
   }
   CapturedRun run = read_capture(path);
   if (words.specimen) run.specimen = *words.specimen;
@@ -167,9 +171,10 @@ FittedFile fit_capture(const std::string& path, const FitWords& words) {
   fitted.result = fit_indentation(indentation_from_capture(run), words.options);
   if (run.status != "finished") {
     fitted.result.flags.push_back(
-        {"run-" + run.status, 0, "the run was not finished; what was recorded is used"});
+        {"run-" + run.status, 0,
+         "the run was not finished; the fit uses the part that was recorded"});
   }
-  // What the run itself had against its record.
+  // Defects that the run reported about its own record.
   for (const RunEvent& event : run.events) {
     if (event.name != "doubt") continue;
     std::string name = event.value;
@@ -183,7 +188,7 @@ FittedFile fit_capture(const std::string& path, const FitWords& words) {
 
 FittedFile fit_file(const std::string& path, const FitWords& words) {
   const bool is_capture = looks_like_capture(path);
-  // Readers name the file themselves; the fit does not know it.
+  // Readers name the file in their messages; the fit does not know it.
   try {
     FittedFile fitted = is_capture ? fit_capture(path, words) : fit_table(path, words);
     fitted.path = path;
@@ -192,7 +197,8 @@ FittedFile fit_file(const std::string& path, const FitWords& words) {
       if (!fitted.fractional) {
         throw std::runtime_error(
             "--diagnose compares relaxation after a step (modulus_Pa or stress_Pa over time_s) "
-            "with a power law; this is none");
+            "with "
+            "a power law; these data are of another kind, so omit it");
       }
     }
     return fitted;

@@ -13,29 +13,29 @@
 
 namespace viscard {
 
-// What `viscard fit` was asked, apart from the files.
+// The options of `viscard fit`.
 struct FitWords {
-  std::optional<FitKind> kind;  // none: by the columns found
+  std::optional<FitKind> kind;  // none: the columns decide
   FitOptions options;
   ColumnMap columns;
-  std::vector<std::string> segments;  // rows of these only; empty: all
-  double time_zero_s = 0.0;           // t = 0
-  std::optional<Specimen> specimen;   // geometry, in place of the capture's own
+  std::vector<std::string> segments;  // use only rows of these; empty: all
+  double time_zero_s = 0.0;           // time in the table where t = 0
+  std::optional<Specimen> specimen;   // replaces the specimen of a capture
   bool diagnose = false;              // compare with a fractional model
-  bool needs_modulus = false;         // a stiffness will not do: a material is to be written
-  double frame_stiffness_N_m = 0.0;   // for tables whose depth is the stage's
-  std::optional<double> T_ref_C;      // of a master curve
+  bool needs_modulus = false;         // a stiffness is refused, because a material will be written
+  double frame_stiffness_N_m = 0.0;   // for tables whose depth_m is the position of the stage
+  std::optional<double> T_ref_C;      // reference temperature of a master curve
 };
 
-// One file fitted, with what the file said about the specimen.
+// The fit of one file, with the specimen that the file or the options describe.
 struct FittedFile {
   std::string path;
   FitResult result;
   Specimen specimen;        // empty for a table without --specimen
-  std::string fitted_unit;  // of the fitted column: "N", "Pa", "1/Pa"
-  // A table of several temperatures: `result` is the master curve at the reference.
+  std::string fitted_unit;  // unit of the fitted column: "N", "Pa", "1/Pa"
+  // For a table of several temperatures; `result` is then the fit at the reference temperature.
   std::optional<MasterCurve> master;
-  std::optional<FractionalDiagnosis> fractional;  // with FitWords::diagnose
+  std::optional<FractionalDiagnosis> fractional;  // if FitWords::diagnose is set
 };
 
 // Reads a capture or a table and fits it. Throws std::runtime_error naming the file.

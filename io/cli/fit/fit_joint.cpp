@@ -23,8 +23,9 @@ bool is_material_file(const std::string& file) {
   return std::filesystem::path(file).extension() == ".json" && !looks_like_capture(file);
 }
 
-// Terms are compared one by one, so all specimens need the same number: that of the material files,
-// or the one most of the measured specimens asked for (the smaller of two as frequent).
+// The law compares the terms one by one, so all specimens need the same number of terms: that of
+// the material files, or the most frequent choice among the measured specimens (the smallest if
+// several are equally frequent).
 int common_order(const std::vector<FittedFile>& fitted, const std::vector<Material>& given) {
   if (!given.empty()) return static_cast<int>(given.front().terms.size());
   std::map<int, int> votes;
@@ -40,9 +41,9 @@ void refit_others(std::vector<FittedFile>& fitted, int order, const JointWords& 
   forced.options.n_terms = order;
   for (FittedFile& one : fitted) {
     if (static_cast<int>(one.result.terms.size()) == order) continue;
-    streams.err << fmt::format("viscard: {}: fitted with {} like the others, not {}\n", one.path,
-                               counted(static_cast<std::size_t>(order), "term"),
-                               one.result.terms.size());
+    streams.err << fmt::format(
+        "viscard: {}: fitted again with {}, as the other specimens, instead of {}\n", one.path,
+        counted(static_cast<std::size_t>(order), "term"), one.result.terms.size());
     one = fit_file(one.path, forced);
   }
 }
@@ -62,7 +63,7 @@ std::vector<Material> specimens_of(const JointWords& words, Streams& streams) {
   }
   std::vector<FittedFile> fitted = fit_files(measured, words.fit, streams);
   if (!fitted.empty()) refit_others(fitted, common_order(fitted, given), words, streams);
-  // Back into the order of the files.
+  // In the order of the files.
   std::vector<Material> specimens;
   auto next_given = given.begin();
   auto next_fitted = fitted.begin();
@@ -117,8 +118,9 @@ void print(const RatioFit& fit, std::ostream& out) {
 
 int run_joint_fit(const JointWords& words, Streams& streams) {
   if (!words.ratios.empty() && words.ratios.size() != words.files.size()) {
-    throw UsageError(fmt::format("{} and {} --ratio: give one for each file, in their order",
-                                 counted(words.files.size(), "file"), words.ratios.size()));
+    throw UsageError(
+        fmt::format("there are {} and {} --ratio; give one for each file, in their order",
+                    counted(words.files.size(), "file"), words.ratios.size()));
   }
   MixingOptions options;
   for (const std::string& name : words.shared) {
@@ -132,7 +134,7 @@ int run_joint_fit(const JointWords& words, Streams& streams) {
       options.shared.push_back(name);
     } else {
       throw UsageError("--share " + name +
-                       " is not known; there are E0, g, tau, and g_i and tau_i of single terms");
+                       " is not known; use E0, g, tau, or g_i and tau_i of single terms");
     }
   }
   const RatioFit fit = fit_mixing_ratio(specimens_of(words, streams), options);

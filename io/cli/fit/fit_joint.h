@@ -9,10 +9,10 @@
 
 namespace viscard {
 
-// What `viscard fit --joint` was asked.
+// The options of `viscard fit --joint`.
 struct JointWords {
   std::vector<std::string> files;   // captures, tables, material files
-  std::vector<double> ratios;       // --ratio, one for each file; empty: the files say it
+  std::vector<double> ratios;       // --ratio, one for each file; empty: from the files
   std::vector<std::string> shared;  // --share: E0, g, tau
   FitWords fit;
   FittedMaterialWords material;
@@ -20,7 +20,7 @@ struct JointWords {
   bool overwrite = false, json = false;
 };
 
-// Fits what was measured with one number of terms for all, then the law in the mixing ratio.
+// Fits all captures and tables with the same number of terms, then the law in the mixing ratio.
 int run_joint_fit(const JointWords& words, Streams& streams);
 
 }  // namespace viscard

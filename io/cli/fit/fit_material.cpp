@@ -9,7 +9,7 @@
 namespace viscard {
 namespace {
 
-constexpr double kUsualNu = 0.495;  // of a rubber, where nobody said
+constexpr double kUsualNu = 0.495;  // typical of rubber; used if none is given
 
 ValidityWindow window_of(const FitResult& fit) {
   ValidityWindow window;

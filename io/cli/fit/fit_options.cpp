@@ -19,7 +19,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// A quantity from the command line; bad text is bad words.
+// Reads a quantity from the command line. Throws UsageError if the text is not one.
 double quantity(const po::variables_map& values, const char* option, const char* si_unit) {
   try {
     return si_from_text(values[option].as<std::string>(), si_unit);
@@ -41,11 +41,11 @@ FitKind kind_from_word(const std::string& word) {
   }
   const std::string near = nearest_word(word, names);
   throw UsageError("--kind " + word + " is not known" +
-                   (near.empty() ? "" : "; did you mean '" + near + "'?") +
-                   " There are indentation, relaxation, creep, dma");
+                   (near.empty() ? "." : "; did you mean '" + near + "'?") +
+                   " Use indentation, relaxation, creep or dma");
 }
 
-// From --fix, --bound and the lines of --constraints.
+// The constraints from --fix, --bound and the lines of the --constraints file.
 std::vector<ParameterConstraint> constraints_from(const po::variables_map& values) {
   Words texts;
   for (const char* option : {"fix", "bound"}) {
@@ -88,7 +88,7 @@ FitOptions options_from(const po::variables_map& values) {
   options.with_profiles = values.count("profiles") > 0;
   if (values.count("bootstrap") > 0) {
     options.n_bootstrap = values["bootstrap"].as<int>();
-    constexpr int kFewest = 20;  // below, there are no percentiles
+    constexpr int kFewest = 20;  // fewer give no 95 % percentiles
     constexpr int kMostResamples = 100000;
     if (options.n_bootstrap < kFewest || options.n_bootstrap > kMostResamples) {
       throw UsageError("--bootstrap " + std::to_string(options.n_bootstrap) +
@@ -97,15 +97,15 @@ FitOptions options_from(const po::variables_map& values) {
   }
   const std::string noise = values["noise"].as<std::string>();
   if (noise != "auto" && noise != "white") {
-    throw UsageError("--noise " + noise + " is not known; there are auto and white");
+    throw UsageError("--noise " + noise + " is not known; use auto or white");
   }
   options.white_noise = noise == "white";
   options.constraints = constraints_from(values);
   if (!options.constraints.empty() && !options.n_terms) {
-    throw UsageError("--fix and --bound name terms by number, so say how many with --terms N");
+    throw UsageError("--fix and --bound name terms by number, so they need --terms N");
   }
   if (options.is_liquid && options.n_terms == 0) {
-    throw UsageError("--liquid needs at least one term; nothing is left with --terms 0");
+    throw UsageError("--liquid needs at least one term, but --terms is 0; give at least 1");
   }
   return options;
 }
@@ -153,7 +153,7 @@ FitWords words_from(const po::variables_map& values) {
   if (values.count("frame-stiffness") > 0) {
     words.frame_stiffness_N_m = quantity(values, "frame-stiffness", "N/m");
     if (!(words.frame_stiffness_N_m > 0.0)) {
-      throw UsageError("--frame-stiffness must be positive; leave it away for a rigid frame");
+      throw UsageError("--frame-stiffness must be positive; omit it for a rigid frame");
     }
   }
   if (values.count("reference-temperature") > 0) {
@@ -168,12 +168,13 @@ FittedMaterialWords material_words(const po::variables_map& values, const std::s
   if (values.count("poisson-ratio") > 0) words.nu = values["poisson-ratio"].as<double>();
   if (values.count("density") > 0) {
     words.rho_kg_m3 = quantity(values, "density", "kg/m3");
-    if (!(words.rho_kg_m3 > 0.0)) throw UsageError("--density must be positive");
+    if (!(words.rho_kg_m3 > 0.0))
+      throw UsageError("--density must be positive, such as \"965 kg/m3\"");
   }
   if (values.count("ratio") > 0) {
     for (const double ratio : values["ratio"].as<std::vector<double>>()) {
       if (!(ratio > 0.0))
-        throw UsageError("--ratio must be positive: parts of base to one of hardener");
+        throw UsageError("--ratio must be positive; give parts of base to one of curing agent");
     }
   }
   return words;

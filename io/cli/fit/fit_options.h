@@ -9,10 +9,10 @@
 
 namespace viscard {
 
-// What the options of viscard fit say. Both throw UsageError for words that cannot be meant.
+// Convert the options of viscard fit. Both throw UsageError for values that are not allowed.
 FitWords words_from(const boost::program_options::variables_map& values);
 
-// command: the whole line, for the provenance of the material.
+// command: the whole command line, for the provenance of the material.
 FittedMaterialWords material_words(const boost::program_options::variables_map& values,
                                    const std::string& command);
 

@@ -87,7 +87,7 @@ Json profiles_of(const FitResult& fit) {
   return profiles;
 }
 
-// 1.8800e+06 Pa as "1.8800 MPa".
+// The unit for moduli: 1.88e6 Pa is printed as "1.88 MPa".
 struct Shown {
   double factor = 1.0;
   std::string unit;
@@ -166,10 +166,10 @@ void print_fractional(const FractionalDiagnosis& fractional, std::ostream& out) 
   constexpr double kStrong = 6.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
   const double difference = fractional.bic_difference;
   out << fmt::format(
-      "  fractional Zener: alpha {:.4g}, tau {:.4g} s, BIC {:+.1f} beside the series: {}\n",
+      "  fractional Zener: alpha {:.4g}, tau {:.4g} s, BIC minus that of the series {:+.1f}: {}\n",
       fractional.model.alpha, fractional.model.tau_s, difference,
-      difference < -kStrong  ? "a power law tells this better, the terms only sample it"
-      : difference > kStrong ? "the terms tell this better than a power law"
+      difference < -kStrong  ? "a power law describes the data better than the terms"
+      : difference > kStrong ? "the terms describe the data better than a power law"
                              : "the data do not decide between the two");
 }
 
@@ -220,7 +220,7 @@ Json json_from_fit(const FittedFile& fitted) {
   json["noise"] = {{"sigma", number(fit.noise.sigma)}, {"inflation", number(fit.noise.inflation)}};
   json["systematic_relative"] = number(fit.systematic_relative);
   json["gain_drift_relative"] = number(fit.gain_drift_relative);
-  // With the systematic part too, in quadrature.
+  // Including the systematic part, in quadrature.
   json[letter + "0_combined_interval_95"] =
       interval(combined_95(fit.E0_interval_95, fit.E0_Pa, fit.systematic_relative));
   json[letter + "_inf_combined_interval_95"] =
@@ -263,8 +263,9 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   }
   if (fit.systematic_relative > 0.0) {
     out << fmt::format(
-        "  systematic, all moduli together: {:.2g} % (geometry, calibration, frame); with it E0 is "
-        "{} {}\n",
+        "  systematic part, common to all moduli: {:.2g} % (geometry, calibration, frame); "
+        "including "
+        "it, E0 is {} {}\n",
         100.0 * fit.systematic_relative,
         range(combined_95(fit.E0_interval_95, fit.E0_Pa, fit.systematic_relative), shown.factor, 4),
         shown.unit);
@@ -275,7 +276,7 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
                        fit.two_point->half_space_modulus_Pa * shown.factor, fit.two_point->bias);
   }
   const std::string sigma_unit = fit.kind == FitKind::kDma ? "(relative)" : fitted.fitted_unit;
-  out << fmt::format("  noise {:.3g} {}, variance x {:.3g} for its memory\n", fit.noise.sigma,
+  out << fmt::format("  noise {:.3g} {}, variance x {:.3g} for autocorrelation\n", fit.noise.sigma,
                      sigma_unit, fit.noise.inflation);
   if (fitted.master) print_master(*fitted.master, out);
   if (fitted.fractional) print_fractional(*fitted.fractional, out);

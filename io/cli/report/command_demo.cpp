@@ -21,8 +21,8 @@ namespace viscard {
 namespace {
 
 struct DemoSpecimen {
-  const char* ratio;  // as people say it
-  const char* stem;   // of the files it makes
+  const char* ratio;  // as it is usually written
+  const char* stem;   // of the names of its files
   const char* specimen_file;
   const char* truth_file;
 };
@@ -40,8 +40,7 @@ struct CardChoice {
 constexpr CardChoice kCards[] = {
     {"abaqus", ".inp"}, {"ansys", ".mac"}, {"febio", ".feb"}, {"json", ".neutral.json"}};
 
-// As make(1) would decide: nothing to do when every output is there and none is older than an
-// input.
+// True if every output exists and none is older than an input, as make(1) decides.
 bool is_up_to_date(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
   std::error_code error;
   for (const fs::path& output : outputs) {
@@ -72,21 +71,21 @@ class Demo {
         speed_(std::move(speed)),
         is_forced_(is_forced) {}
 
-  // Runs one command as typed and fails with its own message when it does.
+  // Runs one command unless its outputs are up to date. Throws std::runtime_error if it fails.
   void step(const std::vector<std::string>& words, const std::vector<fs::path>& outputs,
             std::vector<fs::path> inputs) {
-    inputs.push_back("/proc/self/exe");  // a newer program makes newer results
+    inputs.push_back("/proc/self/exe");  // a newer program makes the results out of date
     if (!is_forced_ && is_up_to_date(outputs, inputs)) {
       ++n_kept_;
       return;
     }
     streams_.err << "$ " << quoted_command_line(words[0], {words.begin() + 1, words.end()}) << "\n";
     std::vector<std::string> forced = words;
-    forced.push_back("--force");  // replaces only what an earlier demo made
+    forced.push_back("--force");  // replaces only files of an earlier demo
     std::ostringstream printed;
     Streams inner{printed, streams_.err, streams_.err_is_terminal};
     if (run_command_(forced, inner) != kDone) {
-      throw std::runtime_error("the demo stopped at the command above");
+      throw std::runtime_error("the demo stopped, because the command above failed");
     }
   }
 
@@ -104,7 +103,7 @@ class Demo {
     for (const CardChoice& card : kCards) {
       std::vector<std::string> words{"card",    file(".json"), "--for", card.target,
                                      "--units", "mm-t-s",      "--out", file(card.suffix)};
-      // Rarely the noise leaves a doubt about a term. The card then says so in its head.
+      // Rarely the noise makes a term doubtful. The card then has a warning in its header.
       if (has_flagged_term(file(".json"))) words.emplace_back("--accept-flags");
       step(words, {file(card.suffix)}, {file(".json")});
     }
@@ -153,8 +152,8 @@ class Demo {
   int n_kept_ = 0;
 };
 
-// Why the demo does not go to the depth of the thesis it starts from: what the check before a run
-// says of that depth.
+// Explains why the demo does not indent as deep as the thesis that it follows: the peak forces that
+// the check before a run predicts for that depth.
 std::string depth_explained(const fs::path& data) {
   constexpr double kThesisDepth_m = 0.25e-3;
   const RigConfig rig = read_rig(data / "01_rig.toml");
@@ -162,8 +161,8 @@ std::string depth_explained(const fs::path& data) {
   const double depth_m = plan.depth_m;
   plan.depth_m = kThesisDepth_m;
   std::string text = fmt::format(
-      "The test goes {:g} mm deep, not {:g} mm as in the thesis. With the moduli guessed before\n"
-      "the test, the peak there would be\n",
+      "The test indents by {:g} mm, not by {:g} mm as the thesis. With the moduli guessed before\n"
+      "the test, the peak force at that depth would be\n",
       1e3 * depth_m, 1e3 * kThesisDepth_m);
   for (const DemoSpecimen& specimen : kSpecimens) {
     const Preflight check = preflight(rig, plan, read_specimen(data / specimen.specimen_file));
@@ -188,23 +187,29 @@ nlohmann::json json_from_scores(const std::vector<ScoreRow>& rows, const fs::pat
   return {{"scores", list}, {"report", page.string()}};
 }
 
+CommandSyntax demo_syntax() {
+  CommandSyntax syntax{"viscard demo [--out DIR] [OPTIONS]",
+                       "Runs the whole flow on the emulated rig for three mixing ratios of PDMS: "
+                       "capture, fit, cards,\n"
+                       "validation and one HTML page. Prints each command as you would type it. "
+                       "Results of an earlier\n"
+                       "demo that are up to date are kept.",
+                       "viscard demo --out demo"};
+  auto add = syntax.options.add_options();
+  add("out", po::value<std::string>()->default_value("demo"), "folder for all results");
+  add("data", po::value<std::string>()->default_value(VISCARD_DEMO_DATA),
+      "folder with the rig, test, specimen and truth files");
+  add("speed", po::value<std::string>()->default_value("50"),
+      "speed of the emulated clock relative to real time");
+  add("force", "run every step again");
+  return syntax;
+}
+
 }  // namespace
 
 int run_demo(const std::vector<std::string>& words, Streams& streams,
              const CommandRunner& run_command) {
-  CommandSyntax syntax{"viscard demo [--out DIR] [OPTIONS]",
-                       "Runs the whole flow on the emulated rig for three mixing ratios of PDMS: "
-                       "capture, fit, cards, "
-                       "validation and one\nHTML page. Prints each command as you would type it. "
-                       "What an earlier demo "
-                       "left that is still up to date is kept.",
-                       "viscard demo --out demo"};
-  syntax.options.add_options()  //
-      ("out", po::value<std::string>()->default_value("demo"), "folder for everything it makes")(
-          "data", po::value<std::string>()->default_value(VISCARD_DEMO_DATA),
-          "folder with the rig, test, specimen and truth files")(
-          "speed", po::value<std::string>()->default_value("50"), "emulated clock over wall clock")(
-          "force", "do everything again");
+  CommandSyntax syntax = demo_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
 
@@ -222,11 +227,12 @@ int run_demo(const std::vector<std::string>& words, Streams& streams,
     return kDone;
   }
   if (demo.n_kept() > 0) {
-    streams.err << fmt::format("{} results were up to date and kept (--force makes them again).\n",
-                               demo.n_kept());
+    streams.err << fmt::format(
+        "{} results were up to date and kept (--force runs every step again).\n", demo.n_kept());
   }
-  streams.out << "\nWhat the emulated rig was made with, and what the fit found:\n\n"
-              << table_from_scores(rows) << "\nThe page with everything: " << page.string() << "\n";
+  streams.out << "\nTrue values of the emulated rig, and estimates of the fit:\n\n"
+              << table_from_scores(rows) << "\nThe page with all results: " << page.string()
+              << "\n";
   return kDone;
 }
 

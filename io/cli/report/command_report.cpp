@@ -26,23 +26,25 @@ namespace {
 CommandSyntax report_syntax() {
   CommandSyntax syntax{
       "viscard report FILE... --out PAGE.html [OPTIONS]",
-      "Makes one self-contained HTML page of captures and tables (fitted on the way), material "
-      "files and a joint fit: "
-      "estimates with\nintervals, raw record, fit and residuals, spectrum, mixing ratios side by "
-      "side, the pillar, cards, provenance.",
+      "Writes one self-contained HTML page about captures and tables (which it fits), material "
+      "files\n"
+      "and a joint fit: estimates with intervals, raw record, fit and residuals, spectrum, mixing\n"
+      "ratios, the pillar, cards and provenance.",
       "viscard report data/materials/pdms_1to10_seed.json --out report.html"};
-  syntax.options.add_options()("out", po::value<std::string>(), "the page")(
-      "title", po::value<std::string>()->default_value("Soft polymer, from load cell to material"),
-      "heading of the page")(
-      "truth", po::value<std::vector<std::string>>(),
-      "truth of an emulated specimen; once for each capture, in their order. Without it, the file "
-      "that capture --emulate left beside it")(
-      "card", po::value<std::vector<std::string>>(),
-      "target of a card to show, may be repeated (abaqus, ansys, febio, json)")(
-      "units", po::value<std::string>()->default_value("mm-t-s"), "unit system of the cards")(
-      "pictures", po::value<std::string>(), "write every picture into this folder too, as SVG")(
-      "reproducible", "no date: the same input gives the same bytes")("force",
-                                                                      "overwrite existing files");
+  auto add = syntax.options.add_options();
+  add("out", po::value<std::string>(), "the page");
+  add("title", po::value<std::string>()->default_value("Soft polymer, from load cell to material"),
+      "heading of the page");
+  add("truth", po::value<std::vector<std::string>>(),
+      "truth of an emulated specimen; once for each capture, in their order. Default: the file "
+      "that "
+      "capture --emulate wrote beside the capture");
+  add("card", po::value<std::vector<std::string>>(),
+      "target of a card to show (repeatable; default: abaqus, ansys, febio, json)");
+  add("units", po::value<std::string>()->default_value("mm-t-s"), "unit system of the cards");
+  add("pictures", po::value<std::string>(), "folder to write every picture into, as SVG");
+  add("reproducible", "omit the date, so that the same input gives the same bytes");
+  add("force", "overwrite existing files");
   syntax.positional = {"files"};
   syntax.last_is_repeatable = true;
   return syntax;
@@ -60,9 +62,9 @@ ReportWords checked_words(const po::variables_map& values, const std::vector<std
                      values["units"].as<std::string>(),
                      "",
                      quoted_command_line("report", words)};
-  if (report.files.empty()) throw UsageError(std::string("report on what? usage: ") + usage);
+  if (report.files.empty()) throw UsageError(std::string("which files? usage: ") + usage);
   if (values.count("out") == 0) {
-    throw UsageError("where to? name the page with --out report.html");
+    throw UsageError("which page? name it with --out report.html");
   }
   if (report.card_targets.empty()) report.card_targets = {"abaqus", "ansys", "febio", "json"};
   try {
@@ -88,7 +90,7 @@ ReportInput input_from_words(const ReportWords& words, const std::string& title,
   return input;
 }
 
-// Refused before any work is done.
+// Refuses to replace a file before the work starts.
 void refuse_existing(const fs::path& path, bool is_forced) {
   if (fs::exists(path) && !is_forced) {
     throw std::runtime_error(path.string() +
@@ -115,18 +117,19 @@ bool passed_pillar(const SpecimenReport& specimen) {
   return worst <= pillar.limit;
 }
 
-// One line for each result on the page that must not be trusted.
+// One line for each result on the page that is not to be trusted.
 std::vector<std::string> defects_of(const ReportInput& input) {
   std::vector<std::string> lines;
   for (const SpecimenReport& specimen : input.specimens) {
     const std::string& id = specimen.specimen.id;
     if (specimen.fit && !specimen.fit->is_trustworthy) {
-      lines.push_back(id + ": the fit is not to be trusted; the page and viscard fit say why");
+      lines.push_back(id +
+                      ": the fit is not to be trusted; the page and viscard fit give the reason");
     }
     if (!passed_pillar(specimen)) {
       lines.push_back(id +
-                      ": the pillar differs from the exact answer by more than allowed; the page "
-                      "shows it, and viscard validate says more");
+                      ": the pillar differs from the exact solution by more than the limit; see "
+                      "the page and viscard validate");
     }
   }
   return lines;

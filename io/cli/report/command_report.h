@@ -7,7 +7,7 @@
 
 namespace viscard {
 
-// viscard report: captures and material files to one HTML page with everything known of them.
+// viscard report: writes one HTML page about captures, tables, material files and a joint fit.
 int run_report(const std::vector<std::string>& words, Streams& streams);
 
 }  // namespace viscard

@@ -8,7 +8,7 @@
 
 namespace viscard {
 
-// Truth, estimate and 95 % interval of one fitted number, side by side.
+// Truth, estimate and 95 % interval of one fitted number.
 struct ScoreRow {
   std::string specimen;
   std::string quantity;  // "E0", "g_1", "tau_1" ...
@@ -19,12 +19,12 @@ struct ScoreRow {
   bool is_inside = false;
 };
 
-// E0, every g and tau of the truth, in its order. A term the fit does not have gets NaN for its
-// estimate and counts as missed.
+// One row for E0 and for every g and tau of the truth, in its order. If the fit does not have a
+// term, its estimate is NaN and it counts as missed.
 std::vector<ScoreRow> score_rows(const std::string& specimen, const EmulatedTruth& truth,
                                  const Material& estimate);
 
-// The rows as a table a person can read; moduli in MPa.
+// The rows as a text table, moduli in MPa.
 std::string table_from_scores(const std::vector<ScoreRow>& rows);
 
 }  // namespace viscard

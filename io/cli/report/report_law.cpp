@@ -11,7 +11,7 @@
 namespace viscard {
 namespace {
 
-// Signs as they are printed.
+// Replaces "+-" and "x" by the signs for print.
 std::string typeset(std::string text) {
   for (const auto& [plain, sign] : {std::pair{"+- ", "± "}, {" x ", " × "}}) {
     for (auto at = text.find(plain); at != std::string::npos; at = text.find(plain)) {
@@ -24,11 +24,11 @@ std::string typeset(std::string text) {
 MixingLaw law_from(const RatioFit& fit) {
   const RatioBand band = ratio_band(fit);
   return {"Joint fit over specimens: " + typeset(law_in_words(fit)) +
-              ". The band holds 95 % of new specimens.",
+              ". The band contains 95 % of new specimens.",
           band.ratio, band.E0_Pa, band.E0_low_Pa, band.E0_high_Pa};
 }
 
-// The modulus alone: specimens may differ in their number of terms.
+// The material reduced to its modulus, because specimens may differ in their number of terms.
 std::optional<Material> modulus_of(const SpecimenReport& specimen) {
   if (!specimen.material || !specimen.material->uncertainty) return std::nullopt;
   Material material = *specimen.material;

@@ -8,8 +8,8 @@
 
 namespace viscard {
 
-// E0 over mixing ratio for the report: that of a joint file among the inputs, or else fitted to the
-// specimens' own E0 when there are four or more at two ratios or more. Nothing otherwise.
+// E0 over mixing ratio for the report: from the joint file among the inputs or, without one, fitted
+// to E0 of the specimens if there are at least four at two or more ratios. Nothing otherwise.
 std::optional<MixingLaw> mixing_law_of(const std::vector<std::string>& files,
                                        const std::vector<SpecimenReport>& specimens);
 

@@ -29,7 +29,8 @@ namespace fs = std::filesystem;
 namespace viscard {
 namespace {
 
-constexpr double kSameFit = 1e-3;  // relative; beyond it a material file is not from this fit
+constexpr double kSameFit =
+    1e-3;  // relative difference of E0 up to which a material file is from this fit
 
 struct InputFiles {
   std::vector<std::string> measured;  // captures and tables
@@ -39,21 +40,22 @@ struct InputFiles {
 InputFiles sorted_by_kind(const std::vector<std::string>& files) {
   InputFiles sorted;
   for (const std::string& file : files) {
-    if (!fs::exists(file)) throw std::runtime_error(file + ": there is no such file");
+    if (!fs::exists(file)) throw std::runtime_error(file + ": no such file; check the name");
     if (fs::is_directory(file))
-      throw std::runtime_error(file + ": is a folder; name the files in it");
-    if (looks_like_ratio_file(file)) continue;  // the law over ratios: report_law
+      throw std::runtime_error(file + ": is a folder; give the files in it");
+    if (looks_like_ratio_file(file)) continue;  // read by mixing_law_of()
     const bool is_material = fs::path(file).extension() == ".json" && !looks_like_capture(file);
     (is_material ? sorted.materials : sorted.measured).push_back(file);
   }
   return sorted;
 }
 
-// A truth file as a user writes it, or the one that `viscard capture --emulate` leaves.
+// Reads a truth file written by a user (TOML) or by `viscard capture --emulate` (JSON).
 EmulatedTruth truth_from_file(const std::string& path) {
   if (fs::path(path).extension() != ".json") return read_truth(path);
   nlohmann::json json = nlohmann::json::parse(read_file(path), nullptr, false);
-  if (!json.is_object()) throw std::runtime_error(path + ": not a truth file: no JSON object");
+  if (!json.is_object())
+    throw std::runtime_error(path + ": is not a truth file; expected a JSON object");
   json["schema"] = "viscard-material/1";  // its material has the same keys
   EmulatedTruth truth;
   truth.material = material_from_json(json.dump(), path).material;
@@ -69,8 +71,8 @@ std::optional<std::string> truth_file_of(const ReportWords& words, const std::st
   return std::nullopt;
 }
 
-// Puts the readings on their own clock, tied to the host's: what a reading waited for on its way to
-// the host would otherwise stand in the picture as a motion.
+// Replaces the host times of the readings by their device times, mapped to the host's clock. The
+// transmission delays of the readings would otherwise look like motion in the picture.
 void put_on_one_clock(CapturedRun& run) {
   std::vector<double> device_s, host_s;
   for (const LoadSample& sample : run.load_samples) {
@@ -83,8 +85,8 @@ void put_on_one_clock(CapturedRun& run) {
   for (LoadSample& sample : run.load_samples) sample.host_time_s = line.at(*sample.device_time_s);
 }
 
-// Profile likelihoods of few terms, as `viscard fit FILE --profiles` gives them; of many they take
-// long and nobody reads them.
+// Adds profile likelihoods, as `viscard fit FILE --profiles` does, if there are few terms. For many
+// terms they take long and the figure would be too crowded to read.
 FittedFile fit_for_page(const std::string& path) {
   constexpr std::size_t kFewTerms = 6;
   const FittedFile fitted = fit_file(path, {});
@@ -94,7 +96,7 @@ FittedFile fit_for_page(const std::string& path) {
   return fit_file(path, words);
 }
 
-// A capture or a table, fitted as `viscard fit FILE` does.
+// Fits a capture or a table as `viscard fit FILE` does.
 SpecimenReport specimen_from_fit(const ReportWords& words, const std::string& path) {
   SpecimenReport report;
   const FittedFile fitted = fit_for_page(path);
@@ -135,8 +137,8 @@ bool came_from(const Material& material, const SpecimenReport& capture) {
   });
 }
 
-// A material file of a capture on the page joins it: data and fit are there already, so the file
-// adds its name, provenance and cards.
+// If the material was made from a capture on the page, it becomes part of that specimen and adds
+// its provenance and cards; otherwise it is a specimen of its own.
 void join_or_append(std::vector<SpecimenReport>& specimens, SpecimenReport material) {
   for (SpecimenReport& specimen : specimens) {
     if (!specimen.fit || !specimen.material || !came_from(*material.material, specimen)) continue;
@@ -145,9 +147,8 @@ void join_or_append(std::vector<SpecimenReport>& specimens, SpecimenReport mater
                          std::abs(filed_Pa / fitted_Pa - 1.0) < kSameFit;
     if (!is_same) {
       specimen.notes.push_back(fmt::format(
-          "The material file {} differs from the fit shown here ({}, E0 = {:.5g} Pa "
-          "against {}, {:.5g} Pa): it was fitted with other options. Pillar and cards are "
-          "those of the file.",
+          "The material file {} differs from the fit shown here ({}, E0 = {:.5g} Pa instead of {}, "
+          "{:.5g} Pa), because it was fitted with other options. Pillar and cards use the file.",
           material.files.front().path, counted(material.material->terms.size(), "term"), filed_Pa,
           counted(specimen.fit->terms.size(), "term"), fitted_Pa));
     }

@@ -48,7 +48,7 @@ std::optional<po::variables_map> parse_words(CommandSyntax& syntax,
 
   po::variables_map values;
   try {
-    // No guessing of shortened options: a script must not change meaning when an option is added.
+    // Shortened options are refused: a new option could change the meaning of an old script.
     const int style =
         po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
     po::store(po::command_line_parser(words).options(all).positional(positions).style(style).run(),
@@ -56,9 +56,9 @@ std::optional<po::variables_map> parse_words(CommandSyntax& syntax,
   } catch (const po::unknown_option& error) {
     throw_unknown(error.get_option_name(), syntax.options, syntax.usage);
   } catch (const po::too_many_positional_options_error&) {
-    throw UsageError(std::string("too many words on the command line. usage: ") + syntax.usage);
+    throw UsageError(std::string("too many words on the command line; usage: ") + syntax.usage);
   } catch (const po::error& error) {
-    throw UsageError(std::string(error.what()) + ". usage: " + syntax.usage);
+    throw UsageError(std::string(error.what()) + "; usage: " + syntax.usage);
   }
   if (values.count("help") > 0) {
     streams.out << "usage: " << syntax.usage << "\n\n"

@@ -43,8 +43,8 @@ std::vector<NamedPath> paths_among(const po::variables_map& values) {
   return paths;
 }
 
-// Links and other spellings of one file count as the same. Folders may be shared, and a word that
-// names no file ("relaxation") is not a path.
+// Compares files, not names: links and other spellings of one file are the same. Two options may
+// share a folder. A word that is not the name of a file ("relaxation") is never the same.
 bool is_same_file(const fs::path& output, const NamedPath& other) {
   std::error_code error;
   if (fs::is_directory(output, error)) return false;
@@ -64,7 +64,7 @@ void refuse_shared_file(const NamedPath& output, const std::vector<NamedPath>& a
   }
 }
 
-// The nearest folder that is there must be one, and writable: some commands make what lies below.
+// The nearest existing parent must be a writable folder; some commands make the folders below it.
 void refuse_unwritable_folder(const NamedPath& output) {
   std::error_code error;
   fs::path folder = fs::absolute(output.path, error).lexically_normal().parent_path();
@@ -76,7 +76,7 @@ void refuse_unwritable_folder(const NamedPath& output) {
   }
   if (::access(folder.c_str(), W_OK) != 0) {
     throw std::runtime_error(where + std::strerror(errno) + " in '" + folder.string() +
-                             "'; choose a folder you may write to");
+                             "'; choose a folder with write permission");
   }
 }
 

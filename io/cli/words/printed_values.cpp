@@ -47,7 +47,7 @@ std::vector<PrintedComparison> compare_printed(const std::vector<PrintedValue>& 
                                (near.empty() ? "" : "; did you mean '" + near + "'?"));
     }
     const double value = si_from_text(p.value, ours->unit.c_str());
-    // Voltages and displacements are printed without their sign.
+    // Publications print voltages and displacements without their sign.
     const double percent = 100.0 * (std::abs(value) / std::abs(ours->value) - 1.0);
     rows.push_back({p.name, value, ours->value, ours->unit, percent, p.note});
     if (ours->unit == "%") rows.back().difference_points = value - ours->value;
@@ -68,7 +68,7 @@ void print_comparison(const std::vector<PrintedComparison>& rows, std::ostream& 
     out << fmt::format("  {:<{}} {:>12.6g} {:>14.7g} {:<5} {}{}{}\n", row.name, width, row.printed,
                        row.ours, row.unit, difference, row.note.empty() ? "" : "  ", row.note);
   }
-  out << "  (what a source prints without its sign is compared by size)\n";
+  out << "  (magnitudes are compared, because publications often omit signs)\n";
 }
 
 nlohmann::json json_from_comparison(const std::vector<PrintedComparison>& rows) {

@@ -12,19 +12,21 @@
 
 namespace viscard {
 
-// A value that some publication prints, beside ours.
+// A value that a publication prints, and ours.
 struct PrintedComparison {
   std::string name;
   double printed = 0.0;
   double ours = 0.0;
-  std::string unit;                 // SI
-  double difference_percent = 0.0;  // of the printed size against ours; signs are conventions
-  std::string note;                 // why they differ
-  std::optional<double> difference_points;  // of per cents: printed less ours
+  std::string unit;  // SI
+  double difference_percent =
+      0.0;           // of the magnitudes, printed relative to ours; signs are conventions
+  std::string note;  // why they differ
+  std::optional<double> difference_points;  // printed minus ours, for values in per cent
 };
 
-// The scene's [[printed]] entries against its answer. A name is that of a result, or a family and a
-// number: "lateral 2". Throws std::runtime_error naming the entry that the answer does not have.
+// Compares the [[printed]] entries of a scene with its answer. The name of an entry is that of a
+// result, or the family and number of a mode: "lateral 2". Throws std::runtime_error naming the
+// entry if the answer has no such value.
 std::vector<PrintedComparison> compare_printed(const std::vector<PrintedValue>& printed,
                                                const SceneAnswer& answer);
 

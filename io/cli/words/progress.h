@@ -7,8 +7,8 @@
 
 namespace viscard {
 
-// A bar on one line of the terminal, with the time left; silent when stderr is not a terminal.
-// Draws at most ten times a second.
+// Draws a progress bar with the remaining time on one line of stderr, at most ten times a second.
+// Draws nothing if stderr is not a terminal.
 class Progress {
  public:
   Progress(Streams& streams, std::string title);
@@ -16,9 +16,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // fraction in [0, 1]; note stands behind the bar (a live reading, a file name).
+  // fraction in [0, 1]; note is printed after the bar (a live reading, a file name).
   void show(double fraction, const std::string& note);
-  // Wipes the line; the destructor does so too.
+  // Clears the line; the destructor does it too.
   void clear();
 
  private:

@@ -7,9 +7,9 @@
 
 namespace viscard {
 
-// While it lives, Ctrl-C, termination and a closed terminal ask for a stop instead of ending the
-// program, so that the stage is stopped first; and nothing else that a terminal, a full disk quota
-// or a closed pipe sends can end or suspend a program that moves a stage.
+// During its lifetime, Ctrl-C, a termination request and a closed terminal only set is_asked(), so
+// that the program can stop the stage before it ends. Signals from a closed pipe, a file size limit
+// or Ctrl-Z are ignored, so that they cannot end or suspend a program that moves a stage.
 class StopOnSignal {
  public:
   StopOnSignal();

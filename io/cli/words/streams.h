@@ -5,7 +5,7 @@
 
 namespace viscard {
 
-// Where a command prints: results on out, progress and messages on err.
+// Output of a command: results go to out, progress and messages to err.
 struct Streams {
   std::ostream& out;
   std::ostream& err;
@@ -17,7 +17,7 @@ inline constexpr int kDone = 0;
 inline constexpr int kFailed = 1;
 inline constexpr int kBadWords = 2;
 
-// Bad words on the command line: exit status 2.
+// The command line is wrong; the exit status is 2.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

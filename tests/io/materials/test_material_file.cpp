@@ -122,7 +122,7 @@ TEST_CASE("a material file that cannot be right is refused with file and key", "
   CHECK(error_of("[1, 2]") == "m.json: the file must be an object, { ... }");
   CHECK(contains(error_of(R"({"E0": 1e6, "nu": 0.4, "terms": []})"),
                  "m.json: 'E0_Pa' is missing; expected the instantaneous Young's modulus in Pa "
-                 "(there is a 'E0')"));
+                 "(the file has 'E0')"));
   CHECK(error_of(R"({"E0_Pa": "2 MPa", "nu": 0.4, "terms": []})") ==
         "m.json: E0_Pa: expected a number in SI, without quotes or unit");
   CHECK(error_of(R"({"E0_Pa": 1e6, "nu": 0.4, "terms": {}})") ==
@@ -142,7 +142,7 @@ TEST_CASE("a material file that cannot be right is refused with file and key", "
   CHECK(contains(error_of(R"({"schema": "viscard-material/2", "E0_Pa": 1, "nu": 0, "terms": []})"),
                  "update viscard"));
   CHECK(contains(error_of(R"({"schema": "geojson", "E0_Pa": 1, "nu": 0, "terms": []})"),
-                 "no material file"));
+                 "not a material file"));
   CHECK(contains(error_of(R"({"E0_Pa": 1, "nu": 0, "terms": [], "uncertainty":
                  {"covariance_parameters": ["a", "b"], "covariance": [[1, 2], [3]]}})"),
                  "m.json: uncertainty.covariance: expected 2 rows of 2 numbers"));
@@ -165,10 +165,13 @@ TEST_CASE("the seed's materials read, and their comment on the layer holds", "[i
 
 TEST_CASE("SHA-256 agrees with the examples of FIPS 180-4", "[io][sha256]") {
   // https://csrc.nist.gov/projects/cryptographic-standards-and-guidelines/example-values
-  CHECK(sha256_of_text("abc") ==
-        "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  CHECK(sha256_of_text("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   const test::ScratchFolder folder;
+  write_file(folder / "abc", "abc", false);
+  CHECK(sha256_of_file(folder / "abc") ==
+        "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  write_file(folder / "empty", "", false);
+  CHECK(sha256_of_file(folder / "empty") ==
+        "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   write_file(folder / "million", std::string(1'000'000, 'a'), false);
   CHECK(sha256_of_file(folder / "million") ==
         "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");

@@ -43,6 +43,26 @@ std::size_t count_of(const std::string& text, const std::string& part) {
   return n;
 }
 
+// The area of the data, px from the upper left corner of the picture.
+struct Frame {
+  double left = 0.0, bottom = 0.0, width = 0.0, height = 0.0;
+};
+
+// From the path that draws both axes: down on the left, then right along the bottom.
+Frame frame_of(const std::string& svg) {
+  const std::string grey = "stroke='rgb(107, 114, 128)'";
+  for (std::size_t at = svg.find(grey); at != std::string::npos; at = svg.find(grey, at + 1)) {
+    double x[3] = {}, y[3] = {};
+    const std::size_t path = svg.find("d='M", at);
+    if (path == std::string::npos) break;
+    const int n = std::sscanf(svg.c_str() + path, "d='M%lf,%lf L%lf,%lf L%lf,%lf", &x[0], &y[0],
+                              &x[1], &y[1], &x[2], &y[2]);
+    if (n == 6 && x[0] == x[1] && y[1] == y[2]) return {x[0], y[1], x[2] - x[0], y[1] - y[0]};
+  }
+  FAIL("the picture has no axes");
+  return {};
+}
+
 }  // namespace
 
 TEST_CASE("a plot is well-formed SVG that says what it shows", "[io][report]") {
@@ -64,9 +84,9 @@ TEST_CASE("a line passes through its points at the scale of the axes", "[io][rep
   plot.panels[0].x.min = plot.panels[0].y.min = 0.0;
   plot.panels[0].x.max = 4.0;
   plot.panels[0].y.max = 10.0;
-  plot.panels[0].series[0].label = "";
-  // margins: 68 left, 18 right, 10 above, 46 below: the data area is 414 x 244 px
+  plot.panels[0].series[0].label = "";  // no sample of the line in a legend
   const std::string svg = svg_from_plot(plot, "f");
+  const Frame frame = frame_of(svg);
   const std::size_t path = svg.find("d='M", svg.find("stroke='rgb(  0, 114, 178)'"));
   REQUIRE(path != std::string::npos);
   double x[3] = {}, y[3] = {};
@@ -74,8 +94,9 @@ TEST_CASE("a line passes through its points at the scale of the axes", "[io][rep
                       &y[1], &x[2], &y[2]) == 6);
   for (int i = 0; i < 3; ++i) {
     const double value = i + 1.0;
-    CHECK(x[i] == Approx(68.0 + 414.0 * value / 4.0).margin(0.02));  // gnuplot rounds to .01 px
-    CHECK(y[i] == Approx(254.0 - 244.0 * value * value / 10.0).margin(0.02));
+    // gnuplot rounds to 0.01 px
+    CHECK(x[i] == Approx(frame.left + frame.width * value / 4.0).margin(0.02));
+    CHECK(y[i] == Approx(frame.bottom - frame.height * value * value / 10.0).margin(0.02));
   }
 }
 

@@ -122,6 +122,16 @@ TEST_CASE("numbers get the decimals their interval deserves", "[io][report]") {
   CHECK(number_html(1.88e6, 1e-6) == "<data value=\"1880000\">1.88</data>");
 }
 
+TEST_CASE("numbers are written as a person would", "[io][report]") {
+  CHECK(readable_number(0.0, 4) == "0");
+  CHECK(readable_number(-0.25, 4) == "−0.25");
+  CHECK(readable_number(183000.0, 2) == "180000");
+  CHECK(readable_number(2.853e-9, 3) == "2.85×10⁻⁹");
+  CHECK(readable_number(1e-9, 3) == "10⁻⁹");
+  CHECK(readable_number(-5e20, 1) == "−5×10²⁰");
+  CHECK(readable_number(std::numeric_limits<double>::quiet_NaN(), 4) == "–");
+}
+
 TEST_CASE("units take the prefix of the largest value", "[io][report]") {
   CHECK(shown_unit("Pa", {1.88e6, 3.0}).text == "MPa");
   CHECK(shown_unit("Pa", {1.88e6}).per_si == 1e-6);

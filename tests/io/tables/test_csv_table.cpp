@@ -116,11 +116,11 @@ TEST_CASE("what is no table is refused with file and line", "[io][csv]") {
   CHECK(error_of("\n# only a comment\n") == "t.csv: is empty; expected a table of numbers");
   CHECK(contains(error_of("a,b\nc,d\n"), "t.csv: has no line with a number"));
   CHECK(error_of("time_s,force_N\n0,1\n1,2\n2\n3,4\n") ==
-        "t.csv:4: 1 cells where the table has 2 columns");
-  CHECK(error_of("a,b\n0,1\n1,2,3\n2,3\n") == "t.csv:3: 3 cells where the table has 2 columns");
-  CHECK(contains(error_of(std::string("a,b\n0,\0\n", 8)), "t.csv: is not a table of text"));
+        "t.csv:4: 1 cells, but the table has 2 columns");
+  CHECK(error_of("a,b\n0,1\n1,2,3\n2,3\n") == "t.csv:3: 3 cells, but the table has 2 columns");
+  CHECK(contains(error_of(std::string("a,b\n0,\0\n", 8)), "t.csv: is not a text table"));
   CHECK(contains(error_of("a;b\n1,5;2.5\n"), "has a decimal comma and line 2 a decimal point"));
-  CHECK(contains(error_of("a,b\n\"1,2\n"), "t.csv: line 2: a quote is opened"));
+  CHECK(contains(error_of("a,b\n\"1,2\n"), "t.csv: line 2: a quote is not closed"));
   CHECK(contains(error_text([] { read_csv("/nowhere/t.csv"); }), "/nowhere/t.csv: cannot open"));
 }
 

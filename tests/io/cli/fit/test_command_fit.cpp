@@ -173,7 +173,7 @@ TEST_CASE("wrong words give one line and exit status 2", "[cli]") {
       {{"fit", file, "--terms", "-1"}, "outside 0 to 100"},
       {{"fit", file, "--terms", "two"}, "two"},
       {{"fit", file, "--kind", "relaxtion"}, "did you mean 'relaxation'"},
-      {{"fit", file, "--noise", "pink"}, "auto and white"},
+      {{"fit", file, "--noise", "pink"}, "auto or white"},
       {{"fit", file, "--punch-diameter", "4.4 kg"}, "--punch-diameter"},
       {{"fit", file, "--layer-thickness", "1 mm"}, "need --punch-diameter"},
       {{"fit", file, "--column", "modulus=2"}, "modulus"},

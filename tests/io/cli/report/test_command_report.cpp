@@ -66,10 +66,9 @@ TEST_CASE("a capture becomes a page with fit, truth, pillar and cards", "[cli][r
   const test::ScratchFolder folder;
   const std::string capture = (folder / "run.viscap").string();
   const std::string page = (folder / "page.html").string();
-  const std::string truth_file = (folder / "truth.toml").string();
+  const std::string truth_file = VISCARD_SOURCE_DIR "/data/demo/03_pdms_1to10.truth.toml";
   const EmulatedTruth truth = test::demo_truth(10, 3);
   write_run(capture, truth);
-  write_text(truth_file, toml_from_truth(truth));
   const auto outcome = run_command({"report", capture, "--truth", truth_file, "--out", page,
                                     "--pictures", (folder / "pictures").string(), "--json"});
   CAPTURE(outcome.err);
@@ -168,7 +167,7 @@ TEST_CASE("wrong words to report get one clear line", "[cli][report]") {
     CHECK(outcome.out.empty());
     CHECK_FALSE(std::filesystem::exists(page));
   };
-  fails({"--out", page}, kBadWords, "report on what?");
+  fails({"--out", page}, kBadWords, "which files?");
   fails({material}, kBadWords, "--out report.html");
   fails({material, "--out", page, "--card", "abacus"}, kBadWords, "abaqus");
   fails({material, "--out", page, "--units", "furlong"}, kBadWords, "mm-t-s");

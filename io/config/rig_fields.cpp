@@ -1,0 +1,75 @@
+#include "io/config/config_show.h"
+
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+using enum Range;
+
+void show_stage(FieldVisitor& fields, StageConfig& stage) {
+  fields.text({"driver", "grbl"}, stage.driver);
+  fields.text({"port", "/dev/serial/by-id/usb-..."}, stage.port);
+  show_integer(fields, "baud", 300, 4'000'000, stage.baud);
+  std::string axis(1, stage.axis);
+  fields.text({"axis", "Z"}, axis);
+  if (axis.size() != 1) {
+    throw std::runtime_error("stage.axis is '" + axis + "'; expected one letter, such as \"Z\"");
+  }
+  stage.axis = axis.front();
+  show_integer(fields, "toward_specimen", -1, 1, stage.toward_specimen);
+  fields.quantity({"travel", "m", kPositive}, stage.travel_m);
+  fields.quantity({"backlash", "m", kNotNegative}, stage.backlash_m);
+  fields.boolean("home", stage.home);
+  fields.quantity({"microstep", "m", kNotNegative}, stage.microstep_m);
+  show_integer(fields, "device", 1, 99, stage.device);
+  show_integer(fields, "axis_number", 1, 9, stage.axis_number);
+}
+
+void show_load_cell(FieldVisitor& fields, LoadCellConfig& cell) {
+  fields.text({"driver", "hx711"}, cell.driver);
+  fields.text({"port", "/dev/serial/by-id/usb-..."}, cell.port);
+  show_integer(fields, "baud", 300, 4'000'000, cell.baud);
+  fields.text({"line_format", "auto"}, cell.line_format);
+  fields.quantity({"expected_rate", "Hz", kPositive}, cell.expected_rate_Hz);
+  fields.quantity({"volts_per_count", "V"}, cell.volts_per_count);
+  fields.boolean("compression_is_positive", cell.compression_is_positive);
+  fields.text({"dialect", "34401a"}, cell.dialect);
+  fields.text({"unit", "N"}, cell.unit);
+  fields.text({"framing", "8N1"}, cell.framing);
+}
+
+}  // namespace
+
+void show_rig(FieldVisitor& fields, RigConfig& rig) {
+  fields.text({"name", "bench 1"}, rig.name);
+  fields.quantity({"clock_speed", "1", kPositive}, rig.clock_speed);
+  fields.section("stage", [&](FieldVisitor& inner) { show_stage(inner, rig.stage); });
+  fields.section("load_cell", [&](FieldVisitor& inner) { show_load_cell(inner, rig.load_cell); });
+  const LoadCellConfig& cell = rig.load_cell;
+  const bool knows_gain = cell.driver == "mark10" || cell.driver == "sauter" || !cell.unit.empty();
+  fields.section("calibration", [&](FieldVisitor& inner) {
+    show_calibration(inner, rig.calibration, knows_gain);
+  });
+  fields.section("frame", [&](FieldVisitor& inner) {
+    inner.text({"file", "bench.frame.toml"}, rig.frame.file);
+    // Required, because assuming a rigid frame can halve the modulus.
+    inner.quantity({.key = "stiffness",
+                    .unit = "N/m",
+                    .range = kPositive,
+                    .is_required = rig.frame.file.empty(),
+                    .word = "rigid",
+                    .word_value = 0.0},
+                   rig.frame.stiffness_N_m);
+    inner.quantity({"stiffness_relative_u", "1", kNotNegative}, rig.frame.stiffness_relative_u);
+    inner.text({"id", "bench 2026-11"}, rig.frame.id);
+    inner.text({"date", "2026-11-21"}, rig.frame.date);
+  });
+  fields.section("safety", [&](FieldVisitor& inner) {
+    inner.quantity({"warn_fraction", "1", kFraction}, rig.safety.warn_fraction);
+    inner.quantity({"soft_fraction", "1", kFraction}, rig.safety.soft_fraction);
+    inner.quantity({"hard_fraction", "1", kFraction}, rig.safety.hard_fraction);
+  });
+}
+
+}  // namespace viscard
