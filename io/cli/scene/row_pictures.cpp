@@ -126,9 +126,9 @@ PlotSeries limit_line(const PlotPanel& panel, double limit) {
   return line;
 }
 
-Plot plot_over_sweep(const ArraySceneFile& file, const std::vector<SweepPoint>& points,
+Plot plot_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoint>& points,
                      const std::map<std::size_t, SweepRow>& rows, std::size_t column) {
-  const SweepKey key = key_with_most_values(file.sweep);
+  const SweepKey key = key_with_most_values(sweep);
   const SceneResult& first = rows.begin()->second[column];
   std::vector<double> values;
   for (const auto& [i, row] : rows) values.push_back(row[column].value);
@@ -139,7 +139,7 @@ Plot plot_over_sweep(const ArraySceneFile& file, const std::vector<SweepPoint>& 
   std::map<std::string, std::size_t> line_of;
   for (const auto& [i, row] : rows) {
     const ArrayGeometry& g = points[i].scene.geometry;
-    const std::string name = others_of(file.sweep, g, key);
+    const std::string name = others_of(sweep, g, key);
     const auto [at, is_new] = line_of.try_emplace(name, panel.series.size());
     if (is_new) panel.series.push_back({.label = name, .ink = ink_of_series(at->second)});
     panel.series[at->second].x.push_back(kUm * (g.*key.of));
@@ -152,8 +152,8 @@ Plot plot_over_sweep(const ArraySceneFile& file, const std::vector<SweepPoint>& 
     dots.label.clear();
     panel.series.push_back(std::move(dots));
   }
-  if (first.name.starts_with("deviation_percent") && file.sweep.limit_percent > 0.0) {
-    panel.series.push_back(limit_line(panel, file.sweep.limit_percent));
+  if (first.name.starts_with("deviation_percent") && sweep.limit_percent > 0.0) {
+    panel.series.push_back(limit_line(panel, sweep.limit_percent));
   }
   Plot plot{.title = words_of(first.name), .panels = {}};
   plot.description = plot.title + " against " + key.name;
@@ -183,13 +183,13 @@ Pictures pictures_over_pillars(const SceneAnswer& answer) {
   return pictures;
 }
 
-Pictures pictures_over_sweep(const ArraySceneFile& file, const std::vector<SweepPoint>& points,
+Pictures pictures_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoint>& points,
                              const std::map<std::size_t, SweepRow>& rows) {
   Pictures pictures;
-  if (rows.size() < 2 || key_with_most_values(file.sweep).values < 2) return pictures;
+  if (rows.size() < 2 || key_with_most_values(sweep).values < 2) return pictures;
   for (std::size_t column = 0; column < rows.begin()->second.size(); ++column) {
     const std::string& name = rows.begin()->second[column].name;
-    if (!draw(name, plot_over_sweep(file, points, rows, column), pictures)) return {};
+    if (!draw(name, plot_over_sweep(sweep, points, rows, column), pictures)) return {};
   }
   return pictures;
 }

@@ -6,7 +6,7 @@
 #include "io/scenes/scene_file.h"
 #include "models/array/plane/array_plan.h"
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/analyses/error_control.h"
+#include "models/scene/common/error_control.h"
 #include "models/pillar/plan/plan.h"
 #include "models/pillar/plan/relaxed_modes.h"
 
@@ -20,8 +20,8 @@ using namespace viscard;
 
 namespace {
 
-SceneAnswer independent_answer(const Scene& scene) {
-  Scene on = plan_effects(with_all_effects_on(scene)).reduced;
+SceneAnswer independent_answer(const PillarScene& scene) {
+  PillarScene on = plan_effects(with_all_effects_on(scene)).reduced;
   const bool moves =
       scene.kind == AnalysisKind::kHarmonic || scene.kind == AnalysisKind::kTransient;
   on.tolerance = moves ? 0.05 * scene.tolerance : 1e-6;
@@ -111,7 +111,7 @@ TEST_CASE("what a cost study recommends meets its tolerance", "[io][scene]") {
 
 TEST_CASE("without time a cost study shows a few cheap meshes and says what it left out",
           "[io][scene]") {
-  const Scene scene = read_scene(VISCARD_SOURCE_DIR "/data/scenes/pillar_buckling.toml").scene;
+  const PillarScene scene = read_scene(VISCARD_SOURCE_DIR "/data/scenes/pillar_buckling.toml").scene;
   const CostStudy study = study_cost(scene, {.budget_s = 1e-9, .repeats = 1});
   CHECK(study.rows.size() == 4);
   CHECK(study.left_out + 4 == static_cast<int>(trials_of(scene).rows.size()));

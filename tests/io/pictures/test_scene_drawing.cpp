@@ -59,7 +59,7 @@ TEST_CASE("a drawing of a long row has its first and its last pillars", "[io][sc
 }
 
 TEST_CASE("the electrode of a pillar is drawn over what stands on it", "[io][scene]") {
-  Scene scene;
+  PillarScene scene;
   scene.pressure_Pa = 1e4;
   scene.geometry.film = FilmGeometry{25e-6, 60e-6};
   scene.film = isotropic_medium(2e9, 0.29, 1780.0);
@@ -86,7 +86,7 @@ TEST_CASE("scene check draws pillars and rows into a file, and overwrites none",
 }
 
 TEST_CASE("a drawing hatches what is held and says what is free", "[io][scene]") {
-  Scene scene;
+  PillarScene scene;
   if (GENERATE(false, true)) {
     scene.geometry.film = FilmGeometry{25e-6, 60e-6};
     scene.film = isotropic_medium(2e9, 0.29, 1780.0);

@@ -20,8 +20,8 @@ namespace {
 
 const Discretisation kMesh{.degree = 4, .layers = 2};
 
-Scene pressed_pillar() {
-  Scene scene;
+PillarScene pressed_pillar() {
+  PillarScene scene;
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = 0.33;
   scene.pillar.rho_kg_m3 = 965.0;
@@ -29,8 +29,8 @@ Scene pressed_pillar() {
   return scene;
 }
 
-Scene sensor() {
-  Scene scene = pressed_pillar();
+PillarScene sensor() {
+  PillarScene scene = pressed_pillar();
   scene.geometry.film = FilmGeometry{25e-6, 60e-6};
   PiezoMatrix d = PiezoMatrix::Zero();
   d.row(2) << 23e-12, 23e-12, -33e-12, 0, 0, 0;
@@ -84,7 +84,7 @@ TEST_CASE(
     "the potential of the field is the electrode's voltage on the electrode and zero on "
     "ground",
     "[pillar][io]") {
-  Scene scene = sensor();
+  PillarScene scene = sensor();
   const bool is_driven = GENERATE(false, true);
   if (is_driven) scene.drive_V = 2.0;
   const SectionGrid grid = solution_fields(scene, kMesh).front();
@@ -100,7 +100,7 @@ TEST_CASE(
 }
 
 TEST_CASE("mode shapes turn with their harmonic", "[pillar][io]") {
-  Scene scene = pressed_pillar();
+  PillarScene scene = pressed_pillar();
   scene.kind = AnalysisKind::kModal;
   scene.pressure_Pa = 0.0;
   scene.modes = 2;
@@ -139,7 +139,7 @@ TEST_CASE("mode shapes turn with their harmonic", "[pillar][io]") {
 
 TEST_CASE("a .vtu file has as many points and cells as it says, and corners that exist",
           "[pillar][io]") {
-  Scene scene = pressed_pillar();
+  PillarScene scene = pressed_pillar();
   const bool is_strip = GENERATE(false, true);
   if (is_strip) scene.plane = PlaneState::kStress;
   const SectionGrid grid = solution_fields(scene, kMesh).front();

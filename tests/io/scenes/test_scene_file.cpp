@@ -39,7 +39,7 @@ struct Files {
 
 TEST_CASE("a sweep is read with its frequencies, load and direction", "[io]") {
   Files files;
-  const Scene scene = files
+  const PillarScene scene = files
                           .read(
                               "[analysis]\nkind = \"harmonic\"\n"
                               "load = { acceleration = \"2 m/s2\", on = \"base\", direction = "
@@ -58,7 +58,7 @@ TEST_CASE("a sweep is read with its frequencies, load and direction", "[io]") {
 
 TEST_CASE("a pulse becomes half a sine", "[io]") {
   Files files;
-  const Scene scene = files
+  const PillarScene scene = files
                           .read(
                               "[analysis]\nkind = \"transient\"\nend_time = \"50 us\"\n"
                               "pulse = { height = \"1 kPa\", duration = \"10 us\" }\n")

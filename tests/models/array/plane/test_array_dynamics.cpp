@@ -1,7 +1,7 @@
 #include "models/array/plane/array_dynamics.h"
 #include "models/array/plane/array_modes.h"
 #include "models/array/plane/array_scene.h"
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/scene/pillar_scene.h"
 #include "tests/models/array/plane/seed_array.h"
 
 #include <catch2/catch.hpp>
@@ -84,7 +84,7 @@ TEST_CASE("one pillar of a row vibrates as the solver of one pillar has it", "[a
   // A strip on a film: its frequency response away from resonance, elastic and relaxing.
   const std::vector<MaterialTerm> terms =
       GENERATE(std::vector<MaterialTerm>{}, std::vector<MaterialTerm>{{0.2, 0.2, 2e-6}});
-  Scene one;
+  PillarScene one;
   one.tolerance = 1e-4;
   one.pillar = pdms(terms);
   one.plane = PlaneState::kStress;

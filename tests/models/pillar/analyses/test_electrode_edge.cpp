@@ -1,6 +1,6 @@
 // The potential goes with the root of the distance from an electrode's edge; meshes shrink there.
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/analyses/error_control.h"
+#include "models/scene/common/error_control.h"
 
 #include <catch2/catch.hpp>
 
@@ -10,8 +10,8 @@ using namespace viscard;
 
 namespace {
 
-Scene sensor(FilmFace grounded, double electrode_radius_m) {
-  Scene scene;
+PillarScene sensor(FilmFace grounded, double electrode_radius_m) {
+  PillarScene scene;
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = 0.33;
   scene.pressure_Pa = 1e4;
@@ -25,7 +25,7 @@ Scene sensor(FilmFace grounded, double electrode_radius_m) {
   return scene;
 }
 
-double voltage_V(const Scene& scene, int degree, int layers) {
+double voltage_V(const PillarScene& scene, int degree, int layers) {
   SceneAnswer answer;
   answer.discretisation = mesh_sequence(scene.geometry).back();
   answer.discretisation.degree = degree;
@@ -42,7 +42,7 @@ double voltage_V(const Scene& scene, int degree, int layers) {
 TEST_CASE("voltages of electrodes off the rim converge as those at the rim do",
           "[pillar][convergence]") {
   const FilmFace grounded = GENERATE(FilmFace::kTop, FilmFace::kBottom);
-  const Scene scene = sensor(grounded, 16e-6);
+  const PillarScene scene = sensor(grounded, 16e-6);
   CAPTURE(grounded == FilmFace::kTop);
   const double fine_V = voltage_V(scene, 8, 4);
   // 1.2e-4 and less; on meshes without layers at the edge it was 4.3e-4 and more.

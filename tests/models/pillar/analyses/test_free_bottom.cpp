@@ -2,7 +2,7 @@
 #include "models/pillar/body/pillar_modes.h"
 #include "models/pillar/body/rigid_motion.h"
 #include "models/pillar/mesh/scene_mistake.h"
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/scene/pillar_scene.h"
 #include "tests/models/pillar/analyses/answer_of.h"
 
 #include <catch2/catch.hpp>
@@ -43,8 +43,8 @@ double disc_Hz(double thickness_over_radius, Motion motion) {
   return lowest_modes(model, 1).front().frequency_Hz;
 }
 
-Scene disc_under_voltage() {
-  Scene scene;
+PillarScene disc_under_voltage() {
+  PillarScene scene;
   scene.geometry = {.diameter_m = 40e-6, .length_m = 40e-6, .film = FilmGeometry{25e-6, 60e-6}};
   scene.pillar.E0_Pa = 1.0;  // so soft that the film is free
   scene.pillar.nu = 0.0;     // and does not pass on that the film becomes wider
@@ -169,7 +169,7 @@ TEST_CASE("a freed pillar's modes lie among those of the held one", "[pillar]") 
 
 TEST_CASE("the six rigid motions of a free body, three of a strip, are told and left out",
           "[pillar]") {
-  Scene scene;
+  PillarScene scene;
   scene.tolerance = 1e-2;
   scene.geometry = bar(3.0);
   scene.pillar.E0_Pa = kE_Pa;
@@ -202,7 +202,7 @@ TEST_CASE("a free film between electrodes becomes thicker by d33 times the volta
 // A wide plate on a rigid base cannot become wider, so its thickness changes by d33 + 2 nu/(1 - nu)
 // d31 = -12.03 pm/V instead (IEEE Std 176-1987 with S1 = S2 = 0).
 TEST_CASE("a film that is held moves less under a voltage", "[pillar]") {
-  Scene scene = disc_under_voltage();
+  PillarScene scene = disc_under_voltage();
   const double free_m = value_of(simulate(scene), "top_displacement");
   scene.fixed_bottom = true;
   const double held_m = value_of(simulate(scene), "top_displacement");
@@ -213,8 +213,8 @@ TEST_CASE("a film that is held moves less under a voltage", "[pillar]") {
 }
 
 TEST_CASE("what needs to be held is refused of a free bottom, with the reason", "[pillar]") {
-  Scene scene = disc_under_voltage();
-  const auto key_of = [](const Scene& refused) {
+  PillarScene scene = disc_under_voltage();
+  const auto key_of = [](const PillarScene& refused) {
     try {
       validate(refused);
     } catch (const SceneMistake& mistake) {

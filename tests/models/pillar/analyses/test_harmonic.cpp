@@ -1,5 +1,5 @@
 #include "models/pillar/body/pillar_loads.h"
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/scene/pillar_scene.h"
 #include "models/pillar/time/harmonic_response.h"
 #include "models/pillar/time/reduced_body.h"
 #include "models/pillar/time/relative_modulus.h"
@@ -47,8 +47,8 @@ struct Body {
   ViscoelasticSystem system;
 };
 
-Scene sweep_scene(const Material& material) {
-  Scene scene;
+PillarScene sweep_scene(const Material& material) {
+  PillarScene scene;
   scene.kind = AnalysisKind::kHarmonic;
   scene.pillar = material;
   scene.pressure_Pa = 1e3;
@@ -103,7 +103,7 @@ TEST_CASE(
     "a sweep of a thousand frequencies lies within its errors of direct solutions on a finer "
     "mesh",
     "[pillar]") {
-  Scene scene = sweep_scene(damped_material(true));
+  PillarScene scene = sweep_scene(damped_material(true));
   scene.tolerance = 1e-3;
   for (int i = 0; i < 1000; ++i) scene.frequencies_Hz.push_back(std::pow(10.0, 5.5 * i / 999.0));
   const SceneAnswer answer = simulate(scene);
@@ -124,7 +124,7 @@ TEST_CASE(
 }
 
 TEST_CASE("resonances of a sweep are the modes", "[pillar]") {
-  Scene scene = sweep_scene(damped_material(false));
+  PillarScene scene = sweep_scene(damped_material(false));
   scene.pillar.terms = {{0.0077, 0.0077, 1e-6}};
   scene.tolerance = 1e-4;
   for (int i = 0; i < 200; ++i) scene.frequencies_Hz.push_back(6e4 + 300.0 * i);
@@ -138,7 +138,7 @@ TEST_CASE("resonances of a sweep are the modes", "[pillar]") {
 TEST_CASE("an undamped resonance is refused alone and flagged in a sweep", "[pillar]") {
   Material elastic = damped_material(false);
   elastic.terms.clear();
-  Scene scene = sweep_scene(elastic);
+  PillarScene scene = sweep_scene(elastic);
   scene.frequencies_Hz = {90770.0};
   CHECK_THROWS_WITH(simulate(scene), Catch::Contains("resonance"));
   scene.frequencies_Hz = {1e3, 90770.0, 1.2e5};
@@ -151,7 +151,7 @@ TEST_CASE("frequencies from a microhertz to ten megahertz are those of a rod",
           "[pillar][stability]") {
   // Without contraction the top under pressure moves by -p tan(k L)/(k E*), k = w sqrt(rho/E*).
   // Graff, Wave Motion in Elastic Solids (1975), 2.4.
-  Scene scene = sweep_scene(damped_material(false));
+  PillarScene scene = sweep_scene(damped_material(false));
   scene.pillar.nu = 0.0;
   const bool is_small = GENERATE(false, true);  // of 40 nm to a gigahertz
   scene.frequencies_Hz = {1e-6, 1e-3, 1.0, 1e3, 1e5, 2e6};
@@ -184,7 +184,7 @@ TEST_CASE("frequencies from a microhertz to ten megahertz are those of a rod",
 TEST_CASE(
     "a pillar with contraction answers from a microhertz to megahertz, and says where it ends",
     "[pillar][stability]") {
-  Scene scene = sweep_scene(damped_material(true));
+  PillarScene scene = sweep_scene(damped_material(true));
   scene.tolerance = 1e-2;
   scene.frequencies_Hz = {1e-6, 1e-3, 1.0, 1e3, 5e5, 2e6};
   const SceneAnswer answer = simulate(scene);
@@ -210,7 +210,7 @@ TEST_CASE(
 
 TEST_CASE("waves that die out are meshed where they live, up to a gigahertz",
           "[pillar][stability]") {
-  Scene scene = sweep_scene(damped_material(true));
+  PillarScene scene = sweep_scene(damped_material(true));
   scene.pillar.E0_Pa = 1e9;
   scene.pillar.terms = {{.5, .5, 1e-10},  {.2, .2, 1e-9},   {.1, .1, 1e-8},
                         {.05, .05, 1e-7}, {.05, .05, 1e-6}, {.05, .05, 1e-3}};
@@ -246,7 +246,7 @@ TEST_CASE("waves that die out are meshed where they live, up to a gigahertz",
 
 TEST_CASE("a sweep too wide for its basis ends with the frequency up to which it is sound",
           "[pillar]") {
-  Scene scene = sweep_scene(damped_material(true));
+  PillarScene scene = sweep_scene(damped_material(true));
   for (int i = 1; i <= 40; ++i) scene.frequencies_Hz.push_back(2e5 * i);
   CHECK_THROWS_WITH(simulate(scene), Catch::Contains("is sound up to about"));
 }

@@ -1,7 +1,7 @@
 #include "models/pillar/body/piezo_quadrants.h"
 #include "models/pillar/body/pillar_loads.h"
 #include "models/pillar/plan/plan.h"
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/scene/pillar_scene.h"
 #include "tests/models/pillar/analyses/answer_of.h"
 
 #include <catch2/catch.hpp>
@@ -39,8 +39,8 @@ struct OnThinFilm {
   PillarModel model;
 };
 
-Scene sideways_scene() {
-  Scene scene;
+PillarScene sideways_scene() {
+  PillarScene scene;
   scene.geometry.film = FilmGeometry{.thickness_m = 25e-6, .radius_m = 60e-6};
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = .33;
@@ -90,7 +90,7 @@ TEST_CASE("mean voltages of quadrants of a thin film are those of a beam", "[pil
 // The work of a force on what a voltage moves is that of the voltage on the charge the force
 // drives: F u = V (q1 + q4 - q2 - q3) = 4 V q1.
 TEST_CASE("quadrants sense and drive reciprocally", "[pillar]") {
-  Scene scene = sideways_scene();
+  PillarScene scene = sideways_scene();
   const SceneAnswer sensed = simulate(scene);
   const double force_N = scene.pressure_Pa * kPi * 20e-6 * 20e-6;
   scene.pressure_Pa = 0.0;
@@ -105,7 +105,7 @@ TEST_CASE("quadrants sense and drive reciprocally", "[pillar]") {
 // Timoshenko's cantilever, P L^3/(3 E I) + P L/(kappa G A), kappa by Cowper: the clamped foot of a
 // solid is stiffer by what it may not contract.
 TEST_CASE("a sideways push bends the pillar as a beam", "[pillar]") {
-  Scene scene = sideways_scene();
+  PillarScene scene = sideways_scene();
   scene.geometry.film.reset();
   scene.film.reset();
   scene.electrodes.reset();
@@ -121,7 +121,7 @@ TEST_CASE("a sideways push bends the pillar as a beam", "[pillar]") {
 }
 
 TEST_CASE("what quadrants cannot read is refused", "[pillar]") {
-  Scene scene = sideways_scene();
+  PillarScene scene = sideways_scene();
   scene.electrodes->quadrants = false;
   CHECK_THROWS_WITH(simulate(scene), Catch::Contains("quadrants = true"));
   scene = sideways_scene();
@@ -130,7 +130,7 @@ TEST_CASE("what quadrants cannot read is refused", "[pillar]") {
 }
 
 TEST_CASE("a film left out under a sideways push is within the error told", "[pillar]") {
-  Scene scene = sideways_scene();
+  PillarScene scene = sideways_scene();
   scene.electrodes.reset();
   scene.geometry.length_m = 60e-6;
   scene.film = isotropic_medium(40e6, .4, 965.0);  // soft enough to matter: 1.8 %
@@ -146,8 +146,8 @@ namespace {
 
 // Long before the first resonance (16 kHz) all is in step with the load. One mesh for all analyses,
 // so that what differs is not the mesh.
-Scene slow_scene(bool is_sampled) {
-  Scene scene = sideways_scene();
+PillarScene slow_scene(bool is_sampled) {
+  PillarScene scene = sideways_scene();
   scene.pillar.rho_kg_m3 = 965.0;
   if (is_sampled) scene.electrodes->electrode_radius_m = 0.0;
   scene.discretisation = Discretisation{.degree = 4, .layers = 2};
@@ -162,7 +162,7 @@ Scene slow_scene(bool is_sampled) {
 TEST_CASE("quadrants read a slow sideways load as they read one at rest", "[pillar]") {
   const bool is_sampled = GENERATE(false, true);
   const std::string name = is_sampled ? "quadrant_voltage" : "quadrant_charge";
-  Scene scene = slow_scene(is_sampled);
+  PillarScene scene = slow_scene(is_sampled);
   const SceneAnswer slow = simulate(scene);
   scene.kind = AnalysisKind::kStatic;
   const double at_rest = value_of(simulate(scene), name);
@@ -182,7 +182,7 @@ TEST_CASE("quadrants read a slow sideways load as they read one at rest", "[pill
 TEST_CASE("quadrants on a shaken base read the pillar's inertia", "[pillar]") {
   const double a_m_s2 = 10.0;
   const auto shaken_C = [&](double length_m) {
-    Scene scene = slow_scene(false);
+    PillarScene scene = slow_scene(false);
     scene.geometry.length_m = length_m;
     scene.load_place = LoadPlace::kBase;
     scene.base_acceleration_m_s2 = a_m_s2;
@@ -190,7 +190,7 @@ TEST_CASE("quadrants on a shaken base read the pillar's inertia", "[pillar]") {
     return curve_of(simulate(scene), "quadrant_charge_real").value[0];
   };
   const auto pushed_C_N = [&](double length_m) {
-    Scene scene = slow_scene(false);
+    PillarScene scene = slow_scene(false);
     scene.kind = AnalysisKind::kStatic;
     scene.geometry.length_m = length_m;
     return value_of(simulate(scene), "quadrant_charge") / (scene.pressure_Pa * kPi * 4e-10);
@@ -207,7 +207,7 @@ TEST_CASE("quadrants on a shaken base read the pillar's inertia", "[pillar]") {
 }
 
 TEST_CASE("a charge amplifier reads a quadrant", "[pillar]") {
-  Scene scene = slow_scene(false);
+  PillarScene scene = slow_scene(false);
   scene.readout = Readout{ReadoutKind::kCharge, 1e10, 1e-12};  // 10 ms: a corner at 16 Hz
   scene.frequencies_Hz = {1.0, 1000.0};
   const SceneAnswer answer = simulate(scene);

@@ -1,4 +1,4 @@
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/scene/pillar_scene.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,8 +8,8 @@ using namespace viscard;
 
 namespace {
 
-Scene pillar_scene() {
-  Scene scene;
+PillarScene pillar_scene() {
+  PillarScene scene;
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = 0.33;
   scene.pillar.rho_kg_m3 = 965.0;
@@ -28,7 +28,7 @@ const SceneResult& result_of(const SceneAnswer& answer, const std::string& name)
 
 TEST_CASE("static answers lie within their error estimate, and that within the tolerance",
           "[pillar]") {
-  Scene scene = pillar_scene();
+  PillarScene scene = pillar_scene();
   scene.tolerance = GENERATE(1e-2, 1e-3, 1e-4);
   const SceneAnswer answer = simulate(scene);
   const SceneResult& top = result_of(answer, "top_displacement");
@@ -38,7 +38,7 @@ TEST_CASE("static answers lie within their error estimate, and that within the t
 }
 
 TEST_CASE("modal answers lie within their error estimates", "[pillar]") {
-  Scene scene = pillar_scene();
+  PillarScene scene = pillar_scene();
   scene.kind = AnalysisKind::kModal;
   scene.pressure_Pa = 0.0;
   scene.modes = 2;
@@ -54,7 +54,7 @@ TEST_CASE("modal answers lie within their error estimates", "[pillar]") {
 }
 
 TEST_CASE("a tolerance that is smaller needs no fewer unknowns", "[pillar]") {
-  Scene scene = pillar_scene();
+  PillarScene scene = pillar_scene();
   scene.tolerance = 1e-1;
   const int few = simulate(scene).unknowns;
   scene.tolerance = 1e-4;
@@ -62,7 +62,7 @@ TEST_CASE("a tolerance that is smaller needs no fewer unknowns", "[pillar]") {
 }
 
 TEST_CASE("a load beyond buckling is refused with the buckling pressure", "[pillar]") {
-  Scene scene = pillar_scene();
+  PillarScene scene = pillar_scene();
   scene.pressure_Pa = 3.2e4;  // the critical pressure is 29.37 kPa
   CHECK_THROWS_WITH(simulate(scene), Catch::Contains("buckling pressure"));
   scene.pressure_Pa = 2.8e4;
@@ -70,7 +70,7 @@ TEST_CASE("a load beyond buckling is refused with the buckling pressure", "[pill
 }
 
 TEST_CASE("scenes that contradict themselves are refused by name", "[pillar]") {
-  Scene scene = pillar_scene();
+  PillarScene scene = pillar_scene();
   SECTION("no load") {
     scene.pressure_Pa = 0.0;
     CHECK_THROWS_WITH(simulate(scene), Catch::Contains("pressure"));
@@ -96,7 +96,7 @@ TEST_CASE("scenes that contradict themselves are refused by name", "[pillar]") {
 
 TEST_CASE("a load beyond buckling is refused unless the scene holds its pillar straight",
           "[pillar]") {
-  Scene scene;
+  PillarScene scene;
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = .33;
   scene.kind = AnalysisKind::kStatic;

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Scene moved_pillar(double displacement_m, double nu) {
-  Scene scene;
+PillarScene moved_pillar(double displacement_m, double nu) {
+  PillarScene scene;
   scene.tolerance = 1e-4;
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = nu;
@@ -27,7 +27,7 @@ Scene moved_pillar(double displacement_m, double nu) {
   return scene;
 }
 
-Scene on_piezo_film(Scene scene) {
+PillarScene on_piezo_film(PillarScene scene) {
   PiezoMatrix d = PiezoMatrix::Zero();
   d.row(2) << 23e-12, 23e-12, -33e-12, 0, 0, 0;
   scene.geometry.film = FilmGeometry{25e-6, 60e-6};
@@ -40,14 +40,14 @@ Scene on_piezo_film(Scene scene) {
   return scene;
 }
 
-double area_m2(const Scene& scene) {
+double area_m2(const PillarScene& scene) {
   return 0.25 * kPi * scene.geometry.diameter_m * scene.geometry.diameter_m;
 }
 
 }  // namespace
 
 TEST_CASE("a pillar of Poisson ratio 0 takes E A u/L, and bears it evenly", "[pillar]") {
-  const Scene scene = moved_pillar(-1e-6, 0.0);
+  const PillarScene scene = moved_pillar(-1e-6, 0.0);
   const SceneAnswer answer = simulate(scene);
   const double stiffness_N_m = 1.8e6 * area_m2(scene) / 120e-6;
   CHECK(value_of(answer, "top_force") == Approx(-1e-6 * stiffness_N_m).epsilon(1e-11));
@@ -60,7 +60,7 @@ TEST_CASE("a disc pressed by a frictionless plate is half of one bonded to two",
   // 1e-5. Its plane of symmetry is a frictionless plate: half the thickness, R/L = 4.
   const auto [nu, stiffening] =
       GENERATE(std::pair{.33, 1.27853}, std::pair{.49, 2.63372}, std::pair{.4999, 2.95147});
-  Scene scene = moved_pillar(-1e-8, nu);
+  PillarScene scene = moved_pillar(-1e-8, nu);
   scene.geometry = {.diameter_m = 40e-6, .length_m = 5e-6};
   scene.wanted = {"top_stiffness"};
   scene.tolerance = 1e-5;
@@ -70,7 +70,7 @@ TEST_CASE("a disc pressed by a frictionless plate is half of one bonded to two",
 }
 
 TEST_CASE("the force's error estimate contains what finer meshes change", "[pillar]") {
-  Scene scene = moved_pillar(-1e-6, .4999);
+  PillarScene scene = moved_pillar(-1e-6, .4999);
   scene.wanted = {"top_force"};
   scene.tolerance = 1e-6;
   const double fine_N = value_of(simulate(scene), "top_force");
@@ -84,7 +84,7 @@ TEST_CASE("the force's error estimate contains what finer meshes change", "[pill
 
 TEST_CASE("the work of the plate is the strain energy, and a plate is stiffer than a pressure",
           "[pillar]") {
-  const Scene scene = moved_pillar(-1e-6, .45);
+  const PillarScene scene = moved_pillar(-1e-6, .45);
   const Discretisation mesh{.degree = 5, .layers = 2};
   SceneAnswer answer;
   answer.discretisation = mesh;
@@ -98,7 +98,7 @@ TEST_CASE("the work of the plate is the strain energy, and a plate is stiffer th
   CHECK(force_N * -1e-6 == Approx(twice_energy_J).epsilon(1e-9));
   // Pressure minimises the mean displacement's energy among all tops: a bound from below; the
   // confined pillar (no lateral strain anywhere) is one from above.
-  Scene pressed = scene;
+  PillarScene pressed = scene;
   pressed.displacement_m.reset();
   pressed.pressure_Pa = 1e4;
   SceneAnswer soft;
@@ -113,13 +113,13 @@ TEST_CASE("the work of the plate is the strain energy, and a plate is stiffer th
 
 TEST_CASE("a film under a moved pillar: open, shorted and held answers are reciprocal",
           "[pillar]") {
-  const Scene scene = on_piezo_film(moved_pillar(-1e-6, .33));
+  const PillarScene scene = on_piezo_film(moved_pillar(-1e-6, .33));
   const SceneAnswer open = simulate(scene);
   // No charge flows: the voltage is what brings the charge of the shorted film back (top held).
   CHECK(value_of(open, "electrode_voltage") * value_of(open, "electrode_capacitance") ==
         Approx(-value_of(open, "electrode_charge")).epsilon(1e-8));
   // Held by the plate and driven by the open voltage: no charge, the force of the open film less.
-  Scene driven = scene;
+  PillarScene driven = scene;
   driven.drive_V = value_of(open, "electrode_voltage");
   const SceneAnswer at_open = simulate(driven);
   CHECK(value_of(at_open, "top_force") == Approx(value_of(open, "top_force")).epsilon(1e-8));
@@ -133,9 +133,9 @@ TEST_CASE("a film under a moved pillar: open, shorted and held answers are recip
 }
 
 TEST_CASE("pressed by the force it took, a pillar on its film moves nearly as far", "[pillar]") {
-  const Scene scene = on_piezo_film(moved_pillar(-1e-6, .33));
+  const PillarScene scene = on_piezo_film(moved_pillar(-1e-6, .33));
   const SceneAnswer moved = simulate(scene);
-  Scene pressed = scene;
+  PillarScene pressed = scene;
   pressed.displacement_m.reset();
   pressed.pressure_Pa = -value_of(moved, "top_force") / area_m2(scene);
   const SceneAnswer by_pressure = simulate(pressed);
@@ -144,14 +144,14 @@ TEST_CASE("pressed by the force it took, a pillar on its film moves nearly as fa
         Approx(value_of(moved, "electrode_voltage")).epsilon(1e-4));
   CHECK(value_of(by_pressure, "top_displacement") == Approx(-1e-6).epsilon(1e-3));
   // One way coupled the voltage is off by no more than the film's k^2.
-  Scene one_way = scene;
+  PillarScene one_way = scene;
   one_way.one_way_potential = true;
   CHECK(value_of(simulate(one_way), "electrode_voltage") ==
         Approx(value_of(moved, "electrode_voltage")).epsilon(0.05));
 }
 
 TEST_CASE("a top moved sideways takes the shear that moves it as far", "[pillar]") {
-  Scene moved = moved_pillar(1e-6, .33);
+  PillarScene moved = moved_pillar(1e-6, .33);
   moved.direction = LoadDirection::kLateral;
   if (GENERATE(false, true)) {
     moved = on_piezo_film(moved);
@@ -166,7 +166,7 @@ TEST_CASE("a top moved sideways takes the shear that moves it as far", "[pillar]
   CHECK(force_N < beam_N);
   CHECK(force_N > 0.9 * beam_N);
   CHECK(value_of(answer, "top_stiffness") == Approx(force_N / 1e-6).epsilon(1e-12));
-  Scene pushed = moved;
+  PillarScene pushed = moved;
   pushed.displacement_m.reset();
   pushed.pressure_Pa = force_N / area_m2(moved);
   CHECK(value_of(simulate(pushed), "top_displacement") == Approx(1e-6).epsilon(1e-9));
@@ -174,10 +174,10 @@ TEST_CASE("a top moved sideways takes the shear that moves it as far", "[pillar]
 
 TEST_CASE("a strip takes E b u/L per metre, and a film left out changes force within its budget",
           "[pillar][plan]") {
-  Scene strip = moved_pillar(-1e-6, 0.0);
+  PillarScene strip = moved_pillar(-1e-6, 0.0);
   strip.plane = PlaneState::kStress;
   CHECK(value_of(simulate(strip), "top_force") == Approx(-1.8e6 * 40e-6 / 120.0).epsilon(1e-11));
-  Scene scene = moved_pillar(-1e-6, .33);
+  PillarScene scene = moved_pillar(-1e-6, .33);
   scene.tolerance = 1e-2;
   scene.geometry.film = FilmGeometry{25e-6, 60e-6};
   scene.film = isotropic_medium(2e9, 0.29, 1780.0);
@@ -193,7 +193,7 @@ TEST_CASE("a strip takes E b u/L per metre, and a film left out changes force wi
 }
 
 TEST_CASE("a newton on a wider tip is a newton", "[pillar]") {
-  Scene scene = moved_pillar(-1e-6, .33);
+  PillarScene scene = moved_pillar(-1e-6, .33);
   scene.geometry.tip = {10e-6, 10e-6};
   SceneAnswer on_mesh;
   on_mesh.discretisation = Discretisation{};
@@ -202,7 +202,7 @@ TEST_CASE("a newton on a wider tip is a newton", "[pillar]") {
 }
 
 TEST_CASE("moved scenes that cannot be are refused by name", "[pillar]") {
-  Scene scene = moved_pillar(-1e-6, .33);
+  PillarScene scene = moved_pillar(-1e-6, .33);
   SECTION("beyond buckling between foot and plate") {
     scene.displacement_m = -9e-6;  // Engesser: 7.2 um
     CHECK_THROWS_WITH(simulate(scene), Catch::Contains("buckles between"));
@@ -229,7 +229,7 @@ TEST_CASE("moved scenes that cannot be are refused by name", "[pillar]") {
 // Engesser's correction for shear, four times a free top's. Source: Timoshenko & Gere, Theory of
 // Elastic Stability (1961), 2.1, 2.17.
 TEST_CASE("a slender pillar under a plate buckles as an upright column", "[pillar]") {
-  Scene scene;
+  PillarScene scene;
   scene.geometry.length_m = 1200e-6;  // 30 diameters
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = .33;
@@ -245,7 +245,7 @@ TEST_CASE("a slender pillar under a plate buckles as an upright column", "[pilla
 }
 
 TEST_CASE("a plate may press a pillar as far as it buckles, not beyond", "[pillar]") {
-  Scene scene;
+  PillarScene scene;
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = .33;
   scene.kind = AnalysisKind::kBuckling;

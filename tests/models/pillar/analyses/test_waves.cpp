@@ -1,6 +1,6 @@
 // Waves in the pillar, whole scenes: against d'Alembert's solution, statics, and the damping of the
 // material.
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/scene/pillar_scene.h"
 #include "models/pillar/time/modal_response.h"
 #include "tests/models/pillar/analyses/answer_of.h"
 
@@ -24,8 +24,8 @@ constexpr double kLength_m = 120e-6;
 constexpr double kPressure_Pa = 1e3;
 const double kSpeed_m_s = std::sqrt(kModulus_Pa / 965.0);
 
-Scene rod_scene(double nu, double end_s) {
-  Scene scene;
+PillarScene rod_scene(double nu, double end_s) {
+  PillarScene scene;
   scene.kind = AnalysisKind::kTransient;
   scene.pillar.E0_Pa = kModulus_Pa;
   scene.pillar.nu = nu;
@@ -68,7 +68,7 @@ double wave_error(const SceneAnswer& answer, const std::function<double(double)>
 
 TEST_CASE("a pressure put on at once makes the rod's end a triangular wave of twice the static sag",
           "[pillar]") {
-  Scene scene = rod_scene(0.0, 3e-5);
+  PillarScene scene = rod_scene(0.0, 3e-5);
   scene.history = {{0.0, kPressure_Pa}, {1.0, kPressure_Pa}};
   const SceneAnswer answer = simulate(scene);
   const auto F = [](double t) { return kPressure_Pa * t; };
@@ -85,7 +85,7 @@ TEST_CASE("a pressure put on at once makes the rod's end a triangular wave of tw
 TEST_CASE("a pulse runs up and down the rod as d'Alembert says", "[pillar]") {
   const double duration_s = 3e-6;
   const double pi = std::numbers::pi;
-  Scene scene = rod_scene(0.0, 4e-5);
+  PillarScene scene = rod_scene(0.0, 4e-5);
   scene.tolerance = GENERATE(1e-2, 3e-3);
   for (int i = 0; i <= 256; ++i) {
     scene.history.push_back({duration_s * i / 256, kPressure_Pa * std::sin(pi * i / 256)});
@@ -102,7 +102,7 @@ TEST_CASE("a pulse runs up and down the rod as d'Alembert says", "[pillar]") {
 
 TEST_CASE("a load that comes slowly is a static load", "[pillar]") {
   // Over a hundred periods of the lowest mode; what still rings is T/(pi ramp) of the static value.
-  Scene scene = rod_scene(0.33, 2.2e-3);
+  PillarScene scene = rod_scene(0.33, 2.2e-3);
   scene.history = {{0.0, 0.0}, {1.1e-3, kPressure_Pa}, {2.2e-3, kPressure_Pa}};
   const double moving_m = value_of(simulate(scene), "top_displacement_end");
   const double static_m = -659.692e-9 * kPressure_Pa / 1e4;  // converged
@@ -111,7 +111,7 @@ TEST_CASE("a load that comes slowly is a static load", "[pillar]") {
 }
 
 TEST_CASE("slow motion of a viscoelastic pillar is its creep", "[pillar]") {
-  Scene scene = rod_scene(0.33, 0.02);
+  PillarScene scene = rod_scene(0.33, 0.02);
   scene.pillar.terms = {{0.3, 0.3, 2e-3}, {0.2, 0.2, 1e-2}};
   scene.history = {{0.0, 0.0}, {2e-3, kPressure_Pa}, {0.02, kPressure_Pa}};
   const double moving_m = value_of(simulate(scene), "top_displacement_end");
@@ -122,7 +122,7 @@ TEST_CASE("slow motion of a viscoelastic pillar is its creep", "[pillar]") {
 }
 
 TEST_CASE("ringing decays by half the loss tangent and never grows", "[pillar]") {
-  Scene scene = rod_scene(0.0, 2e-4);
+  PillarScene scene = rod_scene(0.0, 2e-4);
   scene.outputs = 4000;
   const double g = 0.05;
   const double tau_s = 1.77e-6;  // near the resonance
@@ -200,7 +200,7 @@ TEST_CASE("one relaxing mode: closed form, Runge-Kutta and extremes", "[pillar][
 }
 
 // What refuses a scene, or nothing.
-std::string refusal_of(const Scene& scene) {
+std::string refusal_of(const PillarScene& scene) {
   try {
     simulate(scene);
   } catch (const std::exception& refused) {
@@ -217,7 +217,7 @@ double number_after(const std::string& text, const std::string& words) {
 
 // A step of load at a tolerance it is refused for, then as the refusal says.
 void check_advice(LoadDirection direction, double tolerance) {
-  Scene scene = rod_scene(0.33, 1e-4);
+  PillarScene scene = rod_scene(0.33, 1e-4);
   scene.direction = direction;
   scene.history = {{0.0, kPressure_Pa}, {1e-4, kPressure_Pa}};
   scene.tolerance = tolerance;
@@ -225,7 +225,7 @@ void check_advice(LoadDirection direction, double tolerance) {
   CAPTURE(tolerance, refusal);
   REQUIRE_THAT(refusal, Catch::Contains("the load jumps"));
   const double rise_s = number_after(refusal, "Let each jump take ");
-  Scene slower = scene;
+  PillarScene slower = scene;
   slower.history = {{0.0, 0.0}, {rise_s, kPressure_Pa}, {1e-4, kPressure_Pa}};
   CHECK(simulate(slower).largest_relative_error <= tolerance);
   scene.tolerance = number_after(refusal, "ask for a tolerance of ");
@@ -239,7 +239,7 @@ TEST_CASE("a jump too sharp for the tolerance is refused with a rise and a toler
 }
 
 TEST_CASE("a ramp too steep for the tolerance is refused with how far to stretch it", "[pillar]") {
-  Scene scene = rod_scene(0.33, 1e-4);
+  PillarScene scene = rod_scene(0.33, 1e-4);
   scene.direction = LoadDirection::kLateral;
   scene.tolerance = 1e-3;
   const double rise_s = 2e-7;
@@ -247,7 +247,7 @@ TEST_CASE("a ramp too steep for the tolerance is refused with how far to stretch
   const std::string refusal = refusal_of(scene);
   CAPTURE(refusal);
   REQUIRE_THAT(refusal, Catch::Contains("changes its slope suddenly"));
-  Scene slower = scene;
+  PillarScene slower = scene;
   slower.history[1].time_s = rise_s * number_after(refusal, "Stretch its ramps ");
   CHECK(simulate(slower).largest_relative_error <= scene.tolerance);
   scene.tolerance = number_after(refusal, "ask for a tolerance of ");

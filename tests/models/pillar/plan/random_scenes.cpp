@@ -1,7 +1,7 @@
 #include "tests/models/pillar/plan/random_scenes.h"
 
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/analyses/error_control.h"
+#include "models/scene/common/error_control.h"
 #include "models/pillar/plan/effects.h"
 #include "models/pillar/plan/plan.h"
 #include "models/pillar/plan/relaxed_modes.h"
@@ -13,7 +13,7 @@
 namespace viscard::test {
 namespace {
 
-void draw_film(Draw& draw, const Ranges& ranges, Scene& scene) {
+void draw_film(Draw& draw, const Ranges& ranges, PillarScene& scene) {
   const double R = 0.5 * scene.geometry.diameter_m;
   scene.geometry.film =
       FilmGeometry{2.0 * R * draw.log_uniform(0.05, 1.5),
@@ -33,7 +33,7 @@ void draw_film(Draw& draw, const Ranges& ranges, Scene& scene) {
                             permittivity * Eigen::Matrix3d::Identity(), 1780.0);
 }
 
-void draw_terms(Draw& draw, Scene& scene) {
+void draw_terms(Draw& draw, PillarScene& scene) {
   const int count = 1 + draw.below(4);
   const bool shear_only = draw.chance(0.3);
   for (int i = 0; i < count; ++i) {
@@ -42,7 +42,7 @@ void draw_terms(Draw& draw, Scene& scene) {
   }
 }
 
-void draw_history(Draw& draw, Scene& scene, double value) {
+void draw_history(Draw& draw, PillarScene& scene, double value) {
   const double ramp_s = draw.chance(0.5) ? 0.0 : draw.log_uniform(1e-3, 10.0);
   const double hold_s = draw.log_uniform(1e-2, 100.0);
   if (ramp_s > 0.0) {
@@ -58,7 +58,7 @@ void draw_history(Draw& draw, Scene& scene, double value) {
   }
 }
 
-void draw_static(Draw& draw, Scene& scene) {
+void draw_static(Draw& draw, PillarScene& scene) {
   scene.pressure_Pa = draw.uniform(0.01, 0.3) * engesser_pressure_Pa(scene);
   if (scene.film && scene.film->is_piezoelectric() && draw.chance(0.7)) {
     const double R = 0.5 * scene.geometry.diameter_m;
@@ -76,9 +76,9 @@ void draw_static(Draw& draw, Scene& scene) {
 
 }  // namespace
 
-Scene random_scene(std::mt19937_64& random, const Ranges& ranges) {
+PillarScene random_scene(std::mt19937_64& random, const Ranges& ranges) {
   Draw draw(random);
-  Scene scene;
+  PillarScene scene;
   scene.tolerance = draw.log_uniform(ranges.least_tolerance, 1e-1);
   scene.geometry.diameter_m = draw.log_uniform(5e-6, 200e-6);
   scene.geometry.length_m =
@@ -115,14 +115,14 @@ Scene random_scene(std::mt19937_64& random, const Ranges& ranges) {
   return scene;
 }
 
-Scene with_everything_on(const Scene& scene) {
-  Scene on = with_all_effects_on(scene);
+PillarScene with_everything_on(const PillarScene& scene) {
+  PillarScene on = with_all_effects_on(scene);
   on.tolerance = 0.02 * scene.tolerance;  // of time steps
   return on;
 }
 
-SceneAnswer fine_answer(const Scene& scene, int degree, int layers) {
-  const Scene on = plan_effects(with_everything_on(scene)).reduced;
+SceneAnswer fine_answer(const PillarScene& scene, int degree, int layers) {
+  const PillarScene on = plan_effects(with_everything_on(scene)).reduced;
   SceneAnswer answer;
   answer.discretisation = mesh_sequence(on.geometry).back();
   answer.discretisation.degree = degree;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/scene/pillar_scene.h"
 
 #include <random>
 
@@ -15,12 +15,12 @@ struct Ranges {
   double largest_aspect = 8.0;  // L/d
   double widest_film = 4.0;     // in radii
 };
-Scene random_scene(std::mt19937_64& random, const Ranges& ranges = {});
+PillarScene random_scene(std::mt19937_64& random, const Ranges& ranges = {});
 
 // The same scene with every effect on, for a reference on a fine mesh.
-Scene with_everything_on(const Scene& scene);
+PillarScene with_everything_on(const PillarScene& scene);
 
 // Everything on, on one fine mesh; errors are not estimated.
-SceneAnswer fine_answer(const Scene& scene, int degree, int layers);
+SceneAnswer fine_answer(const PillarScene& scene, int degree, int layers);
 
 }  // namespace viscard::test

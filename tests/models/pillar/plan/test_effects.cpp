@@ -12,8 +12,8 @@ using namespace viscard;
 
 namespace {
 
-Scene pillar_on_film() {
-  Scene scene;
+PillarScene pillar_on_film() {
+  PillarScene scene;
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = 0.33;
   scene.pillar.rho_kg_m3 = 965.0;
@@ -44,9 +44,9 @@ double value_of(const SceneAnswer& answer, const std::string& name) {
 }  // namespace
 
 TEST_CASE("a film that is left out costs what a scene without film costs", "[pillar][plan]") {
-  Scene with_film = pillar_on_film();
+  PillarScene with_film = pillar_on_film();
   with_film.wanted = {"top_displacement"};
-  Scene without = with_film;
+  PillarScene without = with_film;
   without.film.reset();
   without.geometry.film.reset();
   SceneAnswer planned, never;
@@ -70,7 +70,7 @@ TEST_CASE("a film that is left out costs what a scene without film costs", "[pil
 }
 
 TEST_CASE("a film whose share exceeds the tolerance is on", "[pillar][plan]") {
-  Scene scene = pillar_on_film();
+  PillarScene scene = pillar_on_film();
   scene.wanted = {"top_displacement"};
   scene.tolerance = 1e-4;
   CHECK(effect_of(plan_effects(scene).effects, "film_compliance").on);
@@ -80,7 +80,7 @@ TEST_CASE("the film's estimates exceed its true shares, by less than four times"
           "[pillar][plan]") {
   // Shares of the film of 25 um under the pillar of 40 x 120 um: top displacement 659.763 against
   // 659.692 nm, buckling 29.3648 against 29.3689 kPa, lateral modes 1.4e-4 and less.
-  Scene scene = pillar_on_film();
+  PillarScene scene = pillar_on_film();
   scene.wanted = {"top_displacement"};
   double share = 659.763 / 659.692 - 1.0;
   SECTION("deflection") {}
@@ -99,7 +99,7 @@ TEST_CASE("the film's estimates exceed its true shares, by less than four times"
 }
 
 TEST_CASE("what is forced off though it is asked for is refused by name", "[pillar][plan]") {
-  Scene scene = pillar_on_film();
+  PillarScene scene = pillar_on_film();
   scene.wanted = {"film_bottom_stress_mean"};
   scene.effects["film_compliance"] = EffectChoice::kOff;
   CHECK_THROWS_WITH(plan_effects(scene), Catch::Contains("cannot be off"));
@@ -109,7 +109,7 @@ TEST_CASE("what is forced off though it is asked for is refused by name", "[pill
 
 TEST_CASE("what is left out stays within half the tolerance and is part of the error",
           "[pillar][plan]") {
-  Scene scene = pillar_on_film();
+  PillarScene scene = pillar_on_film();
   scene.wanted = {"top_displacement"};
   scene.tolerance = GENERATE(1e-1, 1e-2, 1e-3, 1e-4, 1e-5);
   const ScenePlan plan = plan_effects(scene);
@@ -126,7 +126,7 @@ TEST_CASE("what is left out stays within half the tolerance and is part of the e
 }
 
 TEST_CASE("one-way potentials differ from coupled ones by about k^2", "[pillar][plan]") {
-  Scene scene = pillar_on_film();
+  PillarScene scene = pillar_on_film();
   scene.electrodes = ElectrodeOptions{FilmFace::kBottom, 20e-6};
   scene.wanted = {"electrode_voltage"};
   scene.effects["piezo_coupling"] = EffectChoice::kOff;
@@ -145,7 +145,7 @@ TEST_CASE("without piezoelectric constants one way is both ways, and gives nothi
           "[pillar][plan]") {
   // Weak coupling: the one-way error falls with the square of the charge constants.
   const auto change_for = [](double factor) {
-    Scene scene = pillar_on_film();
+    PillarScene scene = pillar_on_film();
     scene.film->piezo_C_m2 *= factor;
     scene.film->permittivity_F_m.setIdentity();
     scene.film->permittivity_F_m *= 12.0 * kVacuumPermittivity_F_m;
@@ -161,7 +161,7 @@ TEST_CASE("without piezoelectric constants one way is both ways, and gives nothi
 }
 
 TEST_CASE("relaxation that a history is too short to see is left out", "[pillar][plan]") {
-  Scene scene = pillar_on_film();
+  PillarScene scene = pillar_on_film();
   scene.film.reset();
   scene.geometry.film.reset();
   scene.kind = AnalysisKind::kCreep;
@@ -177,7 +177,7 @@ TEST_CASE("relaxation that a history is too short to see is left out", "[pillar]
 
 TEST_CASE("modes of a solid that has relaxed vibrate with what is left of its modulus",
           "[pillar][plan]") {
-  Scene scene = pillar_on_film();
+  PillarScene scene = pillar_on_film();
   scene.film.reset();
   scene.geometry.film.reset();
   scene.kind = AnalysisKind::kModal;
@@ -214,7 +214,7 @@ TEST_CASE("every effect says what it changes and costs, under a name of its own"
 
 TEST_CASE("sideways loads bend, however they come: no pressure buckles, and bending is the strain",
           "[pillar][plan]") {
-  Scene scene = pillar_on_film();
+  PillarScene scene = pillar_on_film();
   scene.direction = LoadDirection::kLateral;
   scene.pressure_Pa = 1e5;  // along the pillar it would be beyond buckling
   SECTION("at rest") {}
@@ -235,7 +235,7 @@ TEST_CASE("sideways loads bend, however they come: no pressure buckles, and bend
 }
 
 TEST_CASE("a transient push beyond buckling is told", "[pillar][plan]") {
-  Scene scene = pillar_on_film();
+  PillarScene scene = pillar_on_film();
   scene.kind = AnalysisKind::kTransient;
   scene.pressure_Pa = 0.0;
   scene.end_time_s = 2e-3;
@@ -248,7 +248,7 @@ TEST_CASE("a transient push beyond buckling is told", "[pillar][plan]") {
 }
 
 TEST_CASE("an oscillating push is judged by its size", "[pillar][plan]") {
-  Scene scene = pillar_on_film();
+  PillarScene scene = pillar_on_film();
   scene.kind = AnalysisKind::kHarmonic;
   scene.frequencies_Hz = {1.0};
   scene.pressure_Pa = -1e5;

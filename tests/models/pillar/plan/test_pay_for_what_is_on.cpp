@@ -21,8 +21,8 @@ Medium piezo_film() {
                       12.0 * kVacuumPermittivity_F_m * Eigen::Matrix3d::Identity(), 1780.0);
 }
 
-Scene pillar_on_film() {
-  Scene scene;
+PillarScene pillar_on_film() {
+  PillarScene scene;
   scene.tolerance = 1e-2;
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = 0.33;
@@ -64,9 +64,9 @@ Told told(const SceneAnswer& answer) {
 }
 
 // The scene with one effect as chosen, on the mesh that the rest of the tolerance asks for.
-Told with_choice(Scene scene, const std::string& effect, EffectChoice choice) {
+Told with_choice(PillarScene scene, const std::string& effect, EffectChoice choice) {
   scene.effects[effect] = choice;
-  Scene reduced = plan_effects(scene).reduced;
+  PillarScene reduced = plan_effects(scene).reduced;
   reduced.tolerance = scene.tolerance;
   SceneAnswer answer = simulate(reduced);
   if (reduced.kind == AnalysisKind::kModal) relax_modes(reduced, answer);
@@ -81,24 +81,24 @@ Told with_choice(ArrayScene scene, const std::string& effect, EffectChoice choic
 
 struct Case {
   const char* effect;
-  std::function<void(Scene&)> set_up;     // makes the effect matter
-  std::function<void(Scene&)> never_had;  // takes its cause away
+  std::function<void(PillarScene&)> set_up;     // makes the effect matter
+  std::function<void(PillarScene&)> never_had;  // takes its cause away
   bool adds_unknowns;
 };
 
-void without_film(Scene& s) {
+void without_film(PillarScene& s) {
   s.film.reset();
   s.geometry.film.reset();
 }
 
-void creeps(Scene& s) {
+void creeps(PillarScene& s) {
   without_film(s);
   s.kind = AnalysisKind::kCreep;
   s.pillar.terms = {{0.1, 0.1, 0.5}};
   s.history = {{0.0, 1e4}, {2.0, 1e4}};
 }
 
-void vibrates_under_pressure(Scene& s) {
+void vibrates_under_pressure(PillarScene& s) {
   without_film(s);
   s.kind = AnalysisKind::kModal;
   s.modes = 1;
@@ -108,33 +108,33 @@ void vibrates_under_pressure(Scene& s) {
 
 TEST_CASE("an effect of one pillar that is off costs nothing", "[pillar][plan]") {
   const Case one = GENERATE(
-      values<Case>({{"film_compliance", [](Scene&) {}, without_film, true},
+      values<Case>({{"film_compliance", [](PillarScene&) {}, without_film, true},
                     {"piezo_coupling",
-                     [](Scene& s) {
+                     [](PillarScene& s) {
                        s.electrodes = ElectrodeOptions{FilmFace::kBottom, 20e-6};
                        s.effects["film_compliance"] = EffectChoice::kOn;
                      },
-                     [](Scene& s) { s.electrodes.reset(); }, true},
-                    {"relaxation", creeps, [](Scene& s) { s.pillar.terms.clear(); }, false},
+                     [](PillarScene& s) { s.electrodes.reset(); }, true},
+                    {"relaxation", creeps, [](PillarScene& s) { s.pillar.terms.clear(); }, false},
                     {"relaxation",
-                     [](Scene& s) {
+                     [](PillarScene& s) {
                        vibrates_under_pressure(s);
                        s.pressure_Pa = 0.0;
                        s.pillar.terms = {{0.1, 0.1, 1e-9}};
                      },
-                     [](Scene& s) { s.pillar.terms.clear(); }, false},
+                     [](PillarScene& s) { s.pillar.terms.clear(); }, false},
                     {"geometric_stiffness", vibrates_under_pressure,
-                     [](Scene& s) { s.pressure_Pa = 0.0; }, false},
+                     [](PillarScene& s) { s.pressure_Pa = 0.0; }, false},
                     {"incompressibility",
-                     [](Scene& s) {
+                     [](PillarScene& s) {
                        without_film(s);
                        s.pillar.nu = 0.499;
                      },
-                     [](Scene& s) { s.condense_pressures_from = 0.5; }, false}}));
+                     [](PillarScene& s) { s.condense_pressures_from = 0.5; }, false}}));
   CAPTURE(one.effect);
-  Scene scene = pillar_on_film();
+  PillarScene scene = pillar_on_film();
   one.set_up(scene);
-  Scene never = scene;
+  PillarScene never = scene;
   one.never_had(never);
   const Told off = with_choice(scene, one.effect, EffectChoice::kOff);
   CHECK(off == told(simulate(never)));
@@ -144,7 +144,7 @@ TEST_CASE("an effect of one pillar that is off costs nothing", "[pillar][plan]")
 }
 
 TEST_CASE("a static answer knows no mass, and an open electrode no readout", "[pillar][plan]") {
-  Scene scene = pillar_on_film();
+  PillarScene scene = pillar_on_film();
   scene.electrodes = ElectrodeOptions{FilmFace::kBottom, 20e-6};
   scene.wanted = {"electrode_voltage"};
   const Told with_mass = told(simulate_planned(scene));
@@ -181,7 +181,7 @@ TEST_CASE("an effect of a row that is off costs nothing", "[array][plan]") {
   SECTION("film: a pillar of its own on a rigid base") {
     scene.wanted = {"top_displacement"};
     const Told off = with_choice(scene, "film_compliance", EffectChoice::kOff);
-    Scene one = single_pillar(scene);
+    PillarScene one = single_pillar(scene);
     one.pressure_Pa = scene.load_Pa;
     one.wanted = scene.wanted;
     const SceneAnswer never = simulate(one);

@@ -64,7 +64,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-Verdict verdict_on(const Scene& scene, const FineMesh& mesh) {
+Verdict verdict_on(const PillarScene& scene, const FineMesh& mesh) {
   Verdict verdict;
   auto start = std::chrono::steady_clock::now();
   SceneAnswer planned;
@@ -90,7 +90,7 @@ Verdict verdict_on(const Scene& scene, const FineMesh& mesh) {
   return verdict;
 }
 
-std::string described(const Scene& scene, const Verdict& v) {
+std::string described(const PillarScene& scene, const Verdict& v) {
   std::ostringstream text;
   text << "kind " << static_cast<int>(scene.kind) << " tol " << scene.tolerance << " L/d "
        << scene.geometry.length_m / scene.geometry.diameter_m << " nu " << scene.pillar.nu
@@ -125,7 +125,7 @@ void study(int count, unsigned long seed, const test::Ranges& ranges = {},
   std::string doubtful;
   std::vector<double> saved;
   for (int i = 0; i < count; ++i) {
-    const Scene scene = test::random_scene(random, ranges);
+    const PillarScene scene = test::random_scene(random, ranges);
     const Verdict v = verdict_on(scene, mesh);
     if (!v.answered) {
       doubtful +=

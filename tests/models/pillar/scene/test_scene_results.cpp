@@ -1,6 +1,6 @@
 // The list of what a scene may ask for is what its analyses give.
 #include "models/pillar/plan/plan.h"
-#include "models/pillar/scene/scene_results.h"
+#include "models/pillar/analyses/pillar_results.h"
 
 #include <catch2/catch.hpp>
 
@@ -10,8 +10,8 @@ using namespace viscard;
 
 namespace {
 
-Scene sensor() {
-  Scene scene;
+PillarScene sensor() {
+  PillarScene scene;
   scene.tolerance = 5e-2;
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = 0.33;
@@ -27,7 +27,7 @@ Scene sensor() {
   return scene;
 }
 
-void check_listed(const Scene& scene) {
+void check_listed(const PillarScene& scene) {
   const std::vector<std::string> names = result_names(scene);
   const auto is_listed = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -47,7 +47,7 @@ void check_listed(const Scene& scene) {
 }  // namespace
 
 TEST_CASE("every static result can be asked for", "[pillar][plan]") {
-  Scene scene = sensor();
+  PillarScene scene = sensor();
   SECTION("electrode") {}
   SECTION("driven electrode") {
     scene.drive_V = 1.0;
@@ -85,7 +85,7 @@ TEST_CASE("every static result can be asked for", "[pillar][plan]") {
 }
 
 TEST_CASE("every result in time and frequency can be asked for", "[pillar][plan]") {
-  Scene scene = sensor();
+  PillarScene scene = sensor();
   SECTION("creep") {
     scene.kind = AnalysisKind::kCreep;
     scene.history = {{0.0, 0.0}, {1e-2, 1e3}, {1.0, 1e3}};
@@ -102,7 +102,7 @@ TEST_CASE("every result in time and frequency can be asked for", "[pillar][plan]
 }
 
 TEST_CASE("a wanted curve keeps its film and electrode in the plan", "[pillar][plan]") {
-  Scene scene = sensor();
+  PillarScene scene = sensor();
   scene.tolerance = 1e-1;
   scene.kind = AnalysisKind::kCreep;
   scene.history = {{0.0, 0.0}, {1e-2, 1e3}, {1.0, 1e3}};

@@ -1,5 +1,5 @@
 #include "models/material/retardation_spectrum.h"
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/scene/pillar_scene.h"
 #include "models/pillar/time/load_history.h"
 #include "models/pillar/time/relative_modulus.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
@@ -96,7 +96,7 @@ double kelvin_voigt_error() {
 // -p tan(k L)/(k E*), k = w sqrt(rho/E*).
 double oscillation_error(double frequency_Hz, double diameter_m, double E0_Pa,
                          const std::vector<MaterialTerm>& terms) {
-  Scene scene;
+  PillarScene scene;
   scene.kind = AnalysisKind::kHarmonic;
   scene.geometry.diameter_m = diameter_m;
   scene.geometry.length_m = 3.0 * diameter_m;
