@@ -20,8 +20,6 @@
 namespace viscard {
 namespace {
 
-constexpr std::size_t kLeastRows = 4;
-
 std::vector<double> copy_of(std::span<const double> column) {
   return {column.begin(), column.end()};
 }
@@ -106,6 +104,7 @@ FitResult fit_robustly(CleanViews& clean, const FitOptions& options) {
 }
 
 void check_values(std::span<const double> time_s, std::span<const double> value, bool is_step) {
+  constexpr std::size_t kLeastRows = 4;
   if (time_s.size() < kLeastRows) {
     throw std::runtime_error("only " + std::to_string(time_s.size()) +
                              " rows lie at or after t = 0; a fit takes at least " +

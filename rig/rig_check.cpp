@@ -3,8 +3,8 @@
 #include "models/experiment/sample_force.h"
 #include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
-#include "rig/preflight.h"
 #include "rig/protocols/text_number.h"
+#include "rig/run/preflight.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "fit/assembly/assemble_result.h"
 
 #include "fit/assembly/constraints.h"
+#include "fit/assembly/order_doubt.h"
 #include "fit/intervals/bootstrap.h"
 #include "fit/intervals/flags.h"
-#include "fit/intervals/order_doubt.h"
 #include "fit/intervals/profile_likelihood.h"
 #include "fit/samples/noise_model.h"
 #include "fit/search/quick_search.h"

@@ -1,27 +1,11 @@
 #pragma once
 
+#include "fit/assembly/spectral_fit.h"
 #include "fit/intervals/fit_result.h"
-#include "fit/intervals/uncertainty.h"
-#include "fit/samples/fit_data.h"
-#include "fit/search/order_choice.h"
-#include "fit/search/order_path.h"
 
 #include <vector>
 
 namespace viscard {
-
-// What every kind of fit does after its model stands: path of orders, choice, noise, covariance.
-struct SpectralFit {
-  FitOptions options;
-  std::vector<SpectralState> path;
-  OrderScores scores;
-  SpectralState state;    // the chosen one, polished
-  double rss = 0.0;       // weighted, over all samples
-  double variance = 1.0;  // of one weighted sample
-  Autoregression noise;
-  Eigen::MatrixXd covariance;       // of all parameters of the state
-  std::vector<MaterialFlag> notes;  // constraints that were kept
-};
 
 // blocks: number of each row's block for cross-validation (log_time_blocks).
 SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blocks,

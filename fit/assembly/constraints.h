@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fit/assembly/assemble_result.h"
+#include "fit/assembly/spectral_fit.h"
 #include "fit/samples/fit_data.h"
 
 #include <string>

@@ -10,9 +10,7 @@ namespace viscard {
 namespace {
 
 using Index = Eigen::Index;
-constexpr std::size_t kSmallRecord = 2000;
-constexpr double kBinsPerDecade = 60.0;
-constexpr Index kLongSeries = 16384;
+constexpr Index kLongHistory = 16384;
 
 // The factors of a step, kept while the step stays the same.
 struct StepFactors {
@@ -235,7 +233,7 @@ Eigen::VectorXd HistoryModel::residual_series(const Eigen::VectorXd& ln_tau,
   const Eigen::Map<const Eigen::VectorXd> output(in_.output.data(),
                                                  static_cast<Index>(in_.output.size()));
   const Eigen::VectorXd residual = output - fitted(ln_tau, nuisance, coefficients);
-  return residual.tail(std::min(kLongSeries, residual.size()));
+  return residual.tail(std::min(kLongHistory, residual.size()));
 }
 
 }  // namespace viscard

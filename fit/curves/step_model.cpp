@@ -12,8 +12,6 @@ namespace {
 using Index = Eigen::Index;
 
 // Below this many samples averaging gains nothing.
-constexpr std::size_t kSmallRecord = 2000;
-constexpr double kBinsPerDecade = 60.0;
 // Autocorrelation is taken from at most this many consecutive samples.
 constexpr std::size_t kLongSeries = 8192;
 // Enough rows for the samples: averages in log time, or each for itself.

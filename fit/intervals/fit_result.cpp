@@ -7,7 +7,6 @@
 namespace viscard {
 
 Interval combined_95(const Interval& interval, double value, double relative_u) {
-  constexpr double kNormal95 = 1.959963984540054;
   const double part = kNormal95 * relative_u * std::abs(value);
   const Interval wide{value - std::hypot(std::max(0.0, value - interval.low), part),
                       value + std::hypot(std::max(0.0, interval.high - value), part)};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fit/search/order_row.h"
 #include "models/material/material.h"
 
 #include <Eigen/Core>
@@ -22,16 +23,6 @@ struct FittedTerm {
   double modulus_se_Pa = 0.0;
   double ln_tau_se = 0.0;
   Interval modulus_Pa_95, g_95, tau_s_95;
-};
-
-// One row of the table of orders tried.
-struct OrderRow {
-  int n_terms = 0;
-  double rss = 0.0;  // all samples, unweighted, unit of the fitted column squared
-  double aicc = 0.0;
-  double bic = 0.0;
-  double cv = 0.0;  // mean squared prediction error of left-out blocks over that of the noise
-  bool is_chosen = false;
 };
 
 struct NoiseEstimate {

@@ -12,7 +12,6 @@ namespace viscard {
 namespace {
 
 using Index = Eigen::Index;
-constexpr double kNormal95 = 1.959963984540054;
 
 // E_inf, E_i, ln tau_i of a series.
 Eigen::VectorXd vector_from(const PronySeries& series) {

@@ -20,6 +20,12 @@ struct LogBin {
   double value_m2 = 0.0;                                    // mean of (value - mean)^2
 };
 
+// With this many bins per decade the neglected orders are below 3e-10 of an exponential's initial
+// value (fit/README.md, sect. 2).
+inline constexpr double kBinsPerDecade = 60.0;
+// A record of up to this many samples is fitted sample by sample.
+inline constexpr std::size_t kSmallRecord = 2000;
+
 // Bins of sorted times; per_decade <= 0: every sample for itself. Times up to 0 stay alone.
 std::vector<LogBin> log_bins(std::span<const double> time_s, std::span<const double> value,
                              double per_decade);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fit/intervals/fit_result.h"
+#include "fit/search/order_row.h"
 #include "fit/search/separable.h"
 
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "fit/samples/column_products.h"
 #include "fit/search/nnls.h"
-#include "fit/search/separable.h"
+#include "fit/search/spectral_state.h"
 
 #include <Eigen/Cholesky>
 

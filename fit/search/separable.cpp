@@ -76,30 +76,6 @@ class ProjectedCost final : public ceres::CostFunction {
 
 }  // namespace
 
-SpectralState sorted_by_time(SpectralState state, Index n_common) {
-  const Index n_terms = state.n_terms();
-  std::vector<Index> order(static_cast<std::size_t>(n_terms));
-  std::iota(order.begin(), order.end(), Index{0});
-  std::sort(order.begin(), order.end(),
-            [&](Index a, Index b) { return state.ln_tau[a] < state.ln_tau[b]; });
-  const SpectralState old = state;
-  for (Index i = 0; i < n_terms; ++i) {
-    const Index from = order[static_cast<std::size_t>(i)];
-    state.ln_tau[i] = old.ln_tau[from];
-    state.coefficients[n_common + i] = old.coefficients[n_common + from];
-  }
-  return state;
-}
-
-std::vector<bool> free_columns(const SpectralModel& model, Index n_terms) {
-  std::vector<bool> is_free;
-  for (const CommonColumn& column : model.common()) {
-    is_free.push_back(column.is_free || model.may_be_negative());
-  }
-  is_free.resize(is_free.size() + static_cast<std::size_t>(n_terms), model.may_be_negative());
-  return is_free;
-}
-
 SpectralState solve_coefficients(const SpectralModel& model, const Eigen::VectorXd& ln_tau,
                                  const Eigen::VectorXd& nuisance) {
   SpectralState state{ln_tau, nuisance, {}, 0.0, true};

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fit/curves/spectral_model.h"
+#include "fit/search/spectral_state.h"
 
 #include <Eigen/Core>
 
@@ -8,17 +8,6 @@
 #include <vector>
 
 namespace viscard {
-
-// A point of a SpectralModel: what all its parameters are.
-struct SpectralState {
-  Eigen::VectorXd ln_tau;  // ln s, ascending after refine()
-  Eigen::VectorXd nuisance;
-  Eigen::VectorXd coefficients;  // common columns, then the terms' moduli
-  double rss = 0.0;              // weighted
-  bool is_converged = true;
-
-  Eigen::Index n_terms() const { return ln_tau.size(); }
-};
 
 // Coefficients that are best at given times and nuisances; moduli not negative unless the model
 // says.
@@ -40,9 +29,6 @@ struct RefineOptions {
 SpectralState refine(const SpectralModel& model, const SpectralState& start,
                      const RefineOptions& options = {});
 
-// The same state with its terms in ascending order of time.
-SpectralState sorted_by_time(SpectralState state, Eigen::Index n_common);
-
 // A few Gauss-Newton steps in all parameters together, for the last digits; keeps the start where a
 // step would leave the bounds or make the fit worse.
 SpectralState polish(const SpectralModel& model, const SpectralState& start);
@@ -50,8 +36,5 @@ SpectralState polish(const SpectralModel& model, const SpectralState& start);
 // Derivative of the (weighted) model by all parameters, in the order common, moduli, ln tau,
 // nuisance.
 Eigen::MatrixXd full_jacobian(const SpectralModel& model, const SpectralState& state);
-
-// Which columns may have either sign: free common ones, and terms if the model allows it.
-std::vector<bool> free_columns(const SpectralModel& model, Eigen::Index n_terms);
 
 }  // namespace viscard

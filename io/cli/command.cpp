@@ -1,5 +1,6 @@
 #include "io/cli/command.h"
 
+#include "io/basics/nearest_word.h"
 #include "io/cli/card/command_card.h"
 #include "io/cli/fit/command_fit.h"
 #include "io/cli/report/command_demo.h"
@@ -72,7 +73,10 @@ const std::vector<Command>& commands() {
       {"design", "closed-form limits of a pillar sensor and its admissible region", run_design},
       {"cost", "what accuracy costs: error against time over meshes and effects", run_cost},
       {"report", "one page with everything known of captures, tables and materials", run_report},
-      {"demo", "run all of it on the emulated rig", run_demo},
+      {"demo", "run all of it on the emulated rig",
+       [](const std::vector<std::string>& words, Streams& streams) {
+         return run_demo(words, streams, run_viscard);
+       }},
   };
   return table;
 }

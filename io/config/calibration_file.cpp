@@ -8,8 +8,7 @@
 namespace viscard {
 namespace {
 
-constexpr Range kPositive = Range::kPositive;
-constexpr Range kNotNegative = Range::kNotNegative;
+using enum Range;
 
 void show_budget(FieldVisitor& fields, std::vector<UncertaintyRow>& budget) {
   fields.list(

@@ -12,9 +12,7 @@
 namespace viscard {
 namespace {
 
-constexpr Range kPositive = Range::kPositive;
-constexpr Range kNotNegative = Range::kNotNegative;
-constexpr Range kFraction = Range::kFraction;
+using enum Range;
 constexpr double kVoltsPerCount = 20.0 / 16777216.0;  // 24 bits from -10 V to +10 V
 
 void show_stage(FieldVisitor& fields, StageConfig& stage) {

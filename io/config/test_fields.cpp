@@ -3,9 +3,7 @@
 namespace viscard {
 namespace {
 
-constexpr Range kPositive = Range::kPositive;
-constexpr Range kNotNegative = Range::kNotNegative;
-constexpr Range kFraction = Range::kFraction;
+using enum Range;
 
 // What belongs to one protocol each. Its section must be there when it is the one asked for.
 void show_protocols(FieldVisitor& fields, TestPlan& plan) {

@@ -6,7 +6,7 @@
 namespace viscard {
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
@@ -35,12 +35,14 @@ class TomlWriter final : public FieldVisitor {
 
   void quantity(const QuantityField& field, double& value) override {
     if (field.word != nullptr && value == field.word_value) {
-      line(field.key, quoted(field.word));
+      line(field.key, in_quotes(field.word));
     } else {
       line(field.key, number(value * field.written_per_value));
     }
   }
-  void text(const TextField& field, std::string& value) override { line(field.key, quoted(value)); }
+  void text(const TextField& field, std::string& value) override {
+    line(field.key, in_quotes(value));
+  }
   void integer(const char* key, std::int64_t, std::int64_t, std::int64_t& value) override {
     line(key, std::to_string(value));
   }
@@ -48,7 +50,7 @@ class TomlWriter final : public FieldVisitor {
 
   void texts(const TextField& field, std::vector<std::string>& values) override {
     std::string all;
-    for (const std::string& value : values) all += (all.empty() ? "" : ", ") + quoted(value);
+    for (const std::string& value : values) all += (all.empty() ? "" : ", ") + in_quotes(value);
     line(field.key, "[" + all + "]");
   }
   void quantities(const QuantityField& field, std::vector<double>& values) override {

@@ -13,8 +13,6 @@
 namespace viscard {
 namespace {
 
-constexpr double kNormal95 = 1.959963984540054;
-
 std::map<double, std::vector<std::size_t>> specimens_by_ratio(
     const std::vector<SpecimenEstimates>& estimates) {
   std::map<double, std::vector<std::size_t>> by_ratio;

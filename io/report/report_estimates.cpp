@@ -13,7 +13,6 @@ namespace viscard {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kNormal95 = 1.959963984540054;
 
 void take_fit(const FitResult& fit, SpecimenEstimates& estimates) {
   estimates.is_stiffness = fit.is_stiffness;

@@ -15,12 +15,6 @@ namespace {
 
 constexpr int kPointsPerCurve = 240;
 
-std::vector<double> scaled(const std::vector<double>& values, double factor) {
-  std::vector<double> out(values);
-  for (double& value : out) value *= factor;
-  return out;
-}
-
 // From a twentieth of the shortest relaxation time to ten times the longest, over all specimens.
 std::vector<double> shared_times(const std::vector<SpecimenEstimates>& estimates) {
   double first_s = 0.0, last_s = 0.0;

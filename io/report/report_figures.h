@@ -1,8 +1,8 @@
 #pragma once
 
 #include "io/plots/plot.h"
-#include "io/report/report.h"
 #include "io/report/report_estimates.h"
+#include "io/report/report_input.h"
 #include "io/report/report_run.h"
 
 #include <optional>

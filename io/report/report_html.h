@@ -1,12 +1,17 @@
 #pragma once
 
 #include "io/plots/plot.h"
-#include "io/report/report.h"
 
 #include <string>
 #include <vector>
 
 namespace viscard {
+
+// A picture of the page for itself, in the order of the page.
+struct ReportPicture {
+  std::string name;  // "03_spectrum", a file name without suffix
+  std::string svg;
+};
 
 // A table as HTML: caption, column headers, and rows whose first cell is the row's header.
 class HtmlTable {

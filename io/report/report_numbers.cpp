@@ -103,4 +103,10 @@ std::string interval_html(const Interval& interval_SI, double per_si) {
          interval_text({interval_SI.low * per_si, interval_SI.high * per_si}) + "</span>";
 }
 
+std::vector<double> scaled(const std::vector<double>& values, double factor) {
+  std::vector<double> out(values);
+  for (double& value : out) value *= factor;
+  return out;
+}
+
 }  // namespace viscard

@@ -32,4 +32,7 @@ std::string number_html(double value_SI, double per_si, const Interval* interval
 // The interval likewise, in the colour of a side note; "" if both ends are missing or zero.
 std::string interval_html(const Interval& interval_SI, double per_si);
 
+// Every value times the factor.
+std::vector<double> scaled(const std::vector<double>& values, double factor);
+
 }  // namespace viscard

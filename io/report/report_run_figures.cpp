@@ -12,12 +12,6 @@ namespace {
 
 constexpr double kRounding = 1e-16;  // errors below are drawn here: a logarithmic axis has no zero
 
-std::vector<double> scaled(const std::vector<double>& values, double factor) {
-  std::vector<double> out(values);
-  for (double& value : out) value *= factor;
-  return out;
-}
-
 // A motion with its hold: samples first .. last - 1, time counted from start_s.
 struct Motion {
   double start_s = 0.0;

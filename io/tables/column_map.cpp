@@ -46,10 +46,6 @@ std::string columns_there(const CsvTable& table) {
   throw std::runtime_error(table.file + ": " + what);
 }
 
-bool is_stated(const std::string& unit) {
-  return !unit.empty() && unit != "-";
-}
-
 // Scale of a column, from the unit said on the command line, the table's own, or a suffix of its
 // name.
 UnitScale scale_of(const CsvTable& table, const CsvColumn& column, const Quantity& quantity,

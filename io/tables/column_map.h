@@ -53,7 +53,4 @@ std::vector<std::string> column_text(const CsvTable& table, const std::string& n
 CsvTable rows_of_segment(const CsvTable& table, const std::string& segment,
                          const ColumnMap& map = {});
 
-// All names above.
-const std::vector<std::string>& column_names();
-
 }  // namespace viscard

@@ -1,17 +1,11 @@
 #include "io/tables/column_names.h"
 
-#include "io/tables/column_map.h"
-
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>
 
 namespace viscard {
 namespace {
-
-bool is_stated(const std::string& unit) {
-  return !unit.empty() && unit != "-";
-}
 
 // Lower case, with one blank for any run of blanks, underscores and hyphens.
 std::string plain(const std::string& text) {
@@ -123,6 +117,10 @@ std::optional<HeaderMatch> match_header(const CsvColumn& column, const Quantity&
   const auto scale = scale_if_fits(column, column.name.substr(head.size()), quantity);
   if (!scale) return std::nullopt;
   return HeaderMatch{2, *scale};
+}
+
+bool is_stated(const std::string& unit) {
+  return !unit.empty() && unit != "-";
 }
 
 const std::vector<std::string>& column_names() {

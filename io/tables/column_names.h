@@ -9,7 +9,7 @@
 
 namespace viscard {
 
-// Parts of column_map.cpp: which headers mean which quantity.
+// Which headers of a table mean which quantity.
 struct Quantity {
   const char* name;                  // "force_N"
   const char* base;                  // "force"
@@ -20,8 +20,14 @@ struct Quantity {
 
 const std::vector<Quantity>& quantities();
 
+// The names of all quantities, in the order of the table.
+const std::vector<std::string>& column_names();
+
 // Throws std::invalid_argument when there is none of that name.
 const Quantity& quantity_named(const std::string& name);
+
+// False for no unit and for "-".
+bool is_stated(const std::string& unit);
 
 // How well a column's header says that it holds the quantity: 3 by its viscard name, 2 by the
 // quantity's own name and a unit, 1 by an alias. Nothing when it does not, or in another unit.

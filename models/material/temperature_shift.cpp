@@ -1,5 +1,6 @@
 #include "models/material/temperature_shift.h"
 
+#include "models/maths/require.h"
 #include "models/maths/text_of_number.h"
 
 #include <cmath>
@@ -8,14 +9,6 @@
 #include <string>
 
 namespace viscard {
-namespace {
-
-void require(bool holds, const std::string& what) {
-  if (!holds) throw std::invalid_argument(what);
-}
-
-}  // namespace
-
 void validate(const TemperatureShift& shift) {
   require(std::isfinite(shift.T_ref_C) && shift.T_ref_C > kAbsoluteZero_C,
           "the reference temperature of the shift is " + text_of(shift.T_ref_C) +

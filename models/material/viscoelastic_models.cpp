@@ -1,6 +1,7 @@
 #include "models/material/viscoelastic_models.h"
 
 #include "models/maths/mittag_leffler.h"
+#include "models/maths/require.h"
 #include "models/maths/text_of_number.h"
 
 #include <cmath>
@@ -15,10 +16,6 @@ struct Overloaded : Cases... {
 };
 template <typename... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
-
-void require(bool holds, const std::string& what) {
-  if (!holds) throw std::invalid_argument(what);
-}
 
 void check(const char* name, double value, bool may_be_zero) {
   require(std::isfinite(value) && (value > 0.0 || (may_be_zero && value == 0.0)),

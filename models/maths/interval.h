@@ -2,10 +2,13 @@
 
 namespace viscard {
 
-// 95 % interval of one parameter, and how sure we are that it can be told at all.
+// 95 % interval of one parameter.
 struct Interval {
   double low = 0.0;
   double high = 0.0;
 };
+
+// Half-width of a 95 % interval of a normal deviate, in standard deviations.
+inline constexpr double kNormal95 = 1.959963984540054;
 
 }  // namespace viscard

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "rig/lines/rig_clock.h"
+#include "rig/run/run_outcome.h"
 #include "rig/run/run_session.h"
-#include "rig/run_indentation.h"
 
 #include <string>
 

@@ -4,7 +4,7 @@
 #include "models/pillar/body/pillar_modes.h"
 #include "models/pillar/time/harmonic_response.h"
 #include "models/pillar/time/load_history.h"
-#include "models/pillar/time/reduced_body.h"
+#include "models/pillar/time/model_reduction.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 #include "models/experiment/sample_force.h"
-#include "rig/preflight.h"
+#include "rig/run/preflight.h"
 #include "tests/rig/device_fixture.h"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/cards/card.h"
-#include "io/cli/command.h"
+#include "io/cli/words/streams.h"
 #include "models/material/material.h"
 
 #include <optional>

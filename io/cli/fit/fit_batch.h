@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/cli/command.h"
 #include "io/cli/fit/fit_input.h"
+#include "io/cli/words/streams.h"
 
 #include <string>
 #include <vector>

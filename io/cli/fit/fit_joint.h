@@ -1,8 +1,8 @@
 #pragma once
 
-#include "io/cli/command.h"
 #include "io/cli/fit/fit_input.h"
 #include "io/cli/fit/fit_material.h"
+#include "io/cli/words/streams.h"
 
 #include <string>
 #include <vector>

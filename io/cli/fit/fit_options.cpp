@@ -2,6 +2,7 @@
 
 #include "fit/assembly/constraints.h"
 #include "io/basics/atomic_file.h"
+#include "io/basics/nearest_word.h"
 #include "io/basics/units.h"
 #include "io/cli/words/command_line.h"
 #include "io/config/config_file.h"

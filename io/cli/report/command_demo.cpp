@@ -4,7 +4,7 @@
 #include "io/cli/words/command_line.h"
 #include "io/config/config_file.h"
 #include "io/materials/material_file.h"
-#include "rig/preflight.h"
+#include "rig/run/preflight.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -63,8 +63,10 @@ bool has_flagged_term(const fs::path& material_file) {
 
 class Demo {
  public:
-  Demo(Streams& streams, fs::path out, fs::path data, std::string speed, bool is_forced)
+  Demo(Streams& streams, const CommandRunner& run_command, fs::path out, fs::path data,
+       std::string speed, bool is_forced)
       : streams_(streams),
+        run_command_(run_command),
         out_(std::move(out)),
         data_(std::move(data)),
         speed_(std::move(speed)),
@@ -83,7 +85,7 @@ class Demo {
     forced.push_back("--force");  // replaces only what an earlier demo made
     std::ostringstream printed;
     Streams inner{printed, streams_.err, streams_.err_is_terminal};
-    if (run_viscard(forced, inner) != kDone) {
+    if (run_command_(forced, inner) != kDone) {
       throw std::runtime_error("the demo stopped at the command above");
     }
   }
@@ -143,6 +145,7 @@ class Demo {
 
  private:
   Streams& streams_;
+  const CommandRunner& run_command_;
   fs::path out_;
   fs::path data_;
   std::string speed_;
@@ -187,7 +190,8 @@ nlohmann::json json_from_scores(const std::vector<ScoreRow>& rows, const fs::pat
 
 }  // namespace
 
-int run_demo(const std::vector<std::string>& words, Streams& streams) {
+int run_demo(const std::vector<std::string>& words, Streams& streams,
+             const CommandRunner& run_command) {
   CommandSyntax syntax{"viscard demo [--out DIR] [OPTIONS]",
                        "Runs the whole flow on the emulated rig for three mixing ratios of PDMS: "
                        "capture, fit, cards, "
@@ -208,7 +212,8 @@ int run_demo(const std::vector<std::string>& words, Streams& streams) {
   fs::create_directories(out);
   const fs::path data = (*values)["data"].as<std::string>();
   streams.err << depth_explained(data);
-  Demo demo(streams, out, data, (*values)["speed"].as<std::string>(), values->count("force") > 0);
+  Demo demo(streams, run_command, out, data, (*values)["speed"].as<std::string>(),
+            values->count("force") > 0);
   for (const DemoSpecimen& specimen : kSpecimens) demo.run_specimen(specimen);
   const fs::path page = fs::absolute(demo.run_report());
   const std::vector<ScoreRow> rows = demo.scores();

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fit/calibration/fit_load_cell.h"
-#include "io/cli/command.h"
+#include "io/cli/words/streams.h"
 #include "io/config/config_file.h"
 #include "models/experiment/emulated_specimen.h"
 #include "models/experiment/rig_config.h"

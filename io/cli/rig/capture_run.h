@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/cli/command.h"
 #include "io/cli/rig/capture_setup.h"
+#include "io/cli/words/streams.h"
 #include "rig/run_indentation.h"
 
 #include <optional>

@@ -1,6 +1,6 @@
 #include "io/cli/rig/capture_setup.h"
 
-#include "io/cli/command.h"
+#include "io/cli/words/streams.h"
 #include "io/config/config_file.h"
 #include "rig/emulator/demo_rig.h"
 

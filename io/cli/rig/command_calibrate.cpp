@@ -79,7 +79,7 @@ std::vector<double> masses_from(const std::string& text) {
   return masses_kg;
 }
 
-CalibrateWords words_from(const po::variables_map& values) {
+CalibrateWords calibrate_words_from(const po::variables_map& values) {
   const auto text = [&](const char* name) {
     return values.count(name) > 0 ? std::optional(values[name].as<std::string>()) : std::nullopt;
   };
@@ -180,7 +180,7 @@ int run_calibrate(const std::vector<std::string>& words, Streams& streams) {
   CommandSyntax syntax = calibrate_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
-  const CalibrateWords asked = words_from(*values);
+  const CalibrateWords asked = calibrate_words_from(*values);
   check_words(asked);
   return asked.is_compliance ? calibrate_frame(asked, streams)
                              : calibrate_load_cell(asked, streams);

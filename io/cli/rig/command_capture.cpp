@@ -55,7 +55,7 @@ CommandSyntax capture_syntax() {
   return syntax;
 }
 
-CaptureWords words_from(const po::variables_map& values) {
+CaptureWords capture_words_from(const po::variables_map& values) {
   const auto text = [&](const char* name) {
     return values.count(name) > 0 ? std::optional(values[name].as<std::string>()) : std::nullopt;
   };
@@ -224,7 +224,7 @@ int run_capture(const std::vector<std::string>& words, Streams& streams) {
   CommandSyntax syntax = capture_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
-  const CaptureWords asked = words_from(*values);
+  const CaptureWords asked = capture_words_from(*values);
   check_words(asked);
   const std::vector<SeriesStep> steps = series_from_words(asked);
   std::size_t n_left = 0;

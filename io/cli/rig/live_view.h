@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/cli/command.h"
 #include "io/cli/rig/live_picture.h"
+#include "io/cli/words/streams.h"
 
 #include <condition_variable>
 #include <filesystem>

@@ -3,7 +3,7 @@
 #include "rig/emulator/demo_rig.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/open_devices.h"
-#include "rig/preflight.h"
+#include "rig/run/preflight.h"
 #include "rig/run/run_session.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/cli/command.h"
+#include "io/cli/words/streams.h"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "io/cli/scene/tolerance_option.h"
 
-#include "io/cli/command.h"
+#include "io/cli/words/streams.h"
 
 #include <string>
 

@@ -1,5 +1,6 @@
 #include "io/cli/words/command_line.h"
 
+#include "io/basics/nearest_word.h"
 #include "io/cli/words/output_paths.h"
 
 #include <ostream>

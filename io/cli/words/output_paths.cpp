@@ -1,6 +1,6 @@
 #include "io/cli/words/output_paths.h"
 
-#include "io/cli/command.h"
+#include "io/cli/words/streams.h"
 
 #include <unistd.h>
 

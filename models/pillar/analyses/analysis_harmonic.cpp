@@ -6,6 +6,7 @@
 #include "models/pillar/body/pillar_loads.h"
 #include "models/pillar/mesh/number_text.h"
 #include "models/pillar/time/harmonic_response.h"
+#include "models/pillar/time/model_reduction.h"
 
 #include <algorithm>
 #include <cmath>

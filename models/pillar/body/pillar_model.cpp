@@ -1,6 +1,6 @@
 #include "models/pillar/body/pillar_model.h"
 
-#include "models/pillar/body/rigid_motion.h"
+#include "models/pillar/body/rigid_pins.h"
 #include "models/pillar/mesh/number_text.h"
 
 #include <algorithm>

@@ -42,23 +42,6 @@ int rigid_motion_count(Motion motion) {
   return static_cast<int>(motions_of(motion).size());
 }
 
-std::vector<RigidPin> rigid_pins(Motion motion) {
-  switch (motion) {
-    case Motion::kLongitudinal:
-    case Motion::kPlaneSymmetric:
-      return {{1, false}};
-    case Motion::kTorsion:
-      return {{0, true}};
-    case Motion::kLateral:
-      return {{1, false}, {2, true}};
-    case Motion::kPlaneAntisymmetric:
-      return {{0, false}, {1, true}};
-    case Motion::kOvalling:
-      return {};
-  }
-  return {};
-}
-
 Eigen::MatrixXd rigid_motions(const PillarModel& model) {
   const std::vector<RigidMotion> motions = motions_of(model.options().motion);
   const DiscreteSystem& system = model.system();

@@ -8,14 +8,6 @@ namespace viscard {
 // (longitudinal), about it (torsion), sideways and rocking (lateral), not at all (ovalling).
 int rigid_motion_count(Motion motion);
 
-// One held unknown per rigid motion, so that the statics of a free body under loads that balance
-// themselves have one answer: a field at the middle of the bottom, or at its rim.
-struct RigidPin {
-  int field = 0;
-  bool at_rim = false;
-};
-std::vector<RigidPin> rigid_pins(Motion motion);
-
 // The rigid motions of a model whose bottom is free, as columns of its unknowns: 1 m along z or x,
 // a turn by 1 rad about the bottom's middle. They lie in every mesh of degree 2 and more.
 Eigen::MatrixXd rigid_motions(const PillarModel& model);

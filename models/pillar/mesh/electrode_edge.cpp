@@ -1,7 +1,6 @@
 #include "models/pillar/mesh/electrode_edge.h"
 
 #include "models/pillar/mesh/line_mesh.h"
-#include "models/pillar/mesh/pillar_mesh.h"
 
 #include <algorithm>
 #include <cmath>

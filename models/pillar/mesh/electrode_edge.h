@@ -1,11 +1,10 @@
 #pragma once
 
+#include "models/pillar/mesh/pillar_geometry.h"
+
 #include <vector>
 
 namespace viscard {
-
-struct FilmGeometry;
-struct Discretisation;
 
 // Makes the breaks of a graded mesh shrink toward the edge of the film's electrode, from the left
 // and the right (x) and, for one below the film, from above (z; toward an electrode on top they

@@ -1,4 +1,5 @@
 #include "models/pillar/time/harmonic_response.h"
+#include "models/pillar/time/model_reduction.h"
 #include "models/pillar/time/reduced_span.h"
 #include "models/pillar/time/relative_modulus.h"
 
@@ -24,7 +25,7 @@ struct ComplexModuli {
   Complex shear, bulk;
 };
 
-ComplexModuli moduli_at(const ViscoelasticSystem& body, double omega_rad_s) {
+ComplexModuli oscillating_moduli_at(const ViscoelasticSystem& body, double omega_rad_s) {
   const Complex s(0.0, omega_rad_s);
   return {relative_modulus(body.terms, &MaterialTerm::g, s),
           relative_modulus(body.terms, &MaterialTerm::k, s)};
@@ -49,7 +50,7 @@ double smallest_singular_value(const Eigen::PartialPivLU<Eigen::MatrixXcd>& lu) 
 // residuals and the smallest singular value of the restricted dynamic stiffness.
 double error_at(const ReducedSpan& span, const ViscoelasticSystem& body,
                 const std::vector<Eigen::VectorXd>& loads, double omega_rad_s) {
-  const ComplexModuli m = moduli_at(body, omega_rad_s);
+  const ComplexModuli m = oscillating_moduli_at(body, omega_rad_s);
   const double omega2 = omega_rad_s * omega_rad_s;
   const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(span.restricted(m.shear, m.bulk, omega2));
   const double nearest = std::max(smallest_singular_value(lu), kNearestPole);
@@ -121,7 +122,7 @@ struct Chain {
 // True when the shape of the answers depends on how far the material has relaxed: shear and bulk
 // relax differently, or the body has an elastic part.
 bool shape_relaxes(const ViscoelasticSystem& system, const DynamicRange& range) {
-  const ComplexModuli slow = moduli_at(system, range.lowest_rad_s);
+  const ComplexModuli slow = oscillating_moduli_at(system, range.lowest_rad_s);
   const double g = std::abs(slow.shear);
   const double k = system.incompressible ? g : std::abs(slow.bulk);
   const bool has_film = system.elastic.coeffs().cwiseAbs().sum() > 0.0;

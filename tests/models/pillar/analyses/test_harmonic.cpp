@@ -1,7 +1,7 @@
 #include "models/pillar/body/pillar_loads.h"
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/pillar/time/harmonic_response.h"
-#include "models/pillar/time/reduced_body.h"
+#include "models/pillar/time/model_reduction.h"
 #include "models/pillar/time/relative_modulus.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
 #include "tests/models/pillar/analyses/answer_of.h"

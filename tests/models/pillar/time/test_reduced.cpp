@@ -1,8 +1,8 @@
 #include "models/pillar/body/pillar_loads.h"
 #include "models/pillar/time/harmonic_response.h"
 #include "models/pillar/time/load_history.h"
+#include "models/pillar/time/model_reduction.h"
 #include "models/pillar/time/readout.h"
-#include "models/pillar/time/reduced_body.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
 
 #include <catch2/catch.hpp>

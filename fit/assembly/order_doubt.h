@@ -1,6 +1,7 @@
 #pragma once
 
-#include "fit/assembly/assemble_result.h"
+#include "fit/assembly/spectral_fit.h"
+#include "fit/intervals/fit_result.h"
 
 namespace viscard {
 

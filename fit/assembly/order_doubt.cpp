@@ -1,4 +1,4 @@
-#include "fit/intervals/order_doubt.h"
+#include "fit/assembly/order_doubt.h"
 
 #include "fit/curves/model_variant.h"
 #include "fit/search/quick_search.h"
@@ -12,8 +12,6 @@ namespace viscard {
 namespace {
 
 using Index = Eigen::Index;
-
-constexpr double kNormal95 = 1.959963984540054;
 
 void widen(Interval& interval, double value, double error) {
   interval.low = std::min(interval.low, value - kNormal95 * error);

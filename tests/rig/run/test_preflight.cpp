@@ -1,6 +1,6 @@
 #include "models/contact/punch_contact.h"
 #include "rig/emulator/demo_rig.h"
-#include "rig/preflight.h"
+#include "rig/run/preflight.h"
 
 #include <catch2/catch.hpp>
 

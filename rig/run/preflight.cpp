@@ -1,4 +1,4 @@
-#include "rig/preflight.h"
+#include "rig/run/preflight.h"
 
 #include "models/experiment/test_phases.h"
 #include "rig/protocols/text_number.h"

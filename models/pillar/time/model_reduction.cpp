@@ -1,0 +1,82 @@
+#include "models/pillar/time/model_reduction.h"
+
+#include "models/pillar/time/reduced_span.h"
+#include "models/pillar/time/relative_modulus.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+namespace viscard {
+namespace {
+
+struct RelativeModuli {
+  double shear = 1.0, bulk = 1.0;
+};
+
+RelativeModuli laplace_moduli_at(const ViscoelasticSystem& body, double s) {
+  return {std::real(relative_modulus(body.terms, &MaterialTerm::g, s)),
+          body.incompressible ? 1.0 : std::real(relative_modulus(body.terms, &MaterialTerm::k, s))};
+}
+
+// Laplace variables that meet every relaxation time: one per decade from well below the slowest
+// rate to well above the fastest, and zero for a solid.
+std::vector<double> laplace_points(const std::vector<MaterialTerm>& terms) {
+  double slowest_s = 0.0;
+  double fastest_s = std::numeric_limits<double>::infinity();
+  for (const MaterialTerm& term : terms) {
+    if (term.g == 0.0 && term.k == 0.0) continue;
+    slowest_s = std::max(slowest_s, term.tau_s);
+    fastest_s = std::min(fastest_s, term.tau_s);
+  }
+  std::vector<double> points;
+  if (slowest_s == 0.0) return points;
+  for (double s = 1e-2 / slowest_s; s < 20.0 / fastest_s; s *= 10.0) points.push_back(s);
+  return points;
+}
+
+// Error of the restricted answer at one s in the energy norm, relative; `answer` is its
+// coefficients.
+double error_at(const ReducedSpan& span, const ViscoelasticSystem& body, double s) {
+  const RelativeModuli m = laplace_moduli_at(body, s);
+  const Eigen::MatrixXd image = span.image(m.shear, m.bulk);
+  const Eigen::MatrixXd small = span.basis().transpose() * image;
+  const Eigen::VectorXd c = small.ldlt().solve(span.basis().transpose() * body.load);
+  const double size = std::sqrt(std::abs(c.dot(small * c)));
+  const double softest = std::max(std::min({1.0, m.shear, m.bulk}), 1e-12);
+  return span.dual_norm(body.load - image * c) / std::sqrt(softest) / size;
+}
+
+}  // namespace
+
+ReducedBody reduce_quasi_static(const ViscoelasticSystem& system, double tolerance) {
+  ReducedSpan span(system);
+  span.add(span.instantaneous().solve(system.load));
+  const std::vector<double> points = laplace_points(system.terms);
+  double error = 0.0;
+  constexpr int kLargest = 40;
+  while (span.count() < kLargest) {
+    error = 0.0;
+    double worst_s = 0.0;
+    for (const double s : points) {
+      const double here = error_at(span, system, s);
+      if (here > error) {
+        error = here;
+        worst_s = s;
+      }
+    }
+    if (error <= tolerance) break;
+    const RelativeModuli m = laplace_moduli_at(system, worst_s);
+    StiffnessFactor factor;
+    span.factor(m.shear, m.bulk, factor);
+    if (!span.add(factor.solve(system.load))) break;  // rounding: no better answer exists
+  }
+  ReducedBody result = span.reduced();
+  result.error = error;
+  return result;
+}
+
+}  // namespace viscard
