@@ -12,7 +12,7 @@
 namespace viscard {
 namespace {
 
-constexpr double kWidth_px = 980.0;
+constexpr double kRowWidth_px = 980.0;
 constexpr int kMostPillars = 16;
 
 // What of the row is drawn: pillars and where their middles stand; with a long row its first and
@@ -143,7 +143,7 @@ std::string svg_from_array(const ArrayScene& scene, const std::string& title) {
   const bool is_endless = g.ends == FilmEnds::kMirror;
   const double image_m = is_endless ? 0.5 * g.spacing_m + g.diameter_m : 0.0;
   SceneDrawing d(row.left_m - image_m, row.right_m + image_m, -g.film_thickness_m, g.length_m,
-                 kWidth_px);
+                 kRowWidth_px);
   d.film(row.left_m - image_m, row.right_m + image_m, g.film_thickness_m);
   if (is_endless) draw_mirrors(d, g, row);
   draw_row(d, scene, row);

@@ -10,7 +10,7 @@
 namespace viscard {
 namespace {
 
-constexpr double kWidth_px = 640.0;
+constexpr double kPillarWidth_px = 640.0;
 const char* const kPillarStyle = R"(fill="#bcd4e6" stroke="#2b5d7d")";
 
 std::vector<std::pair<double, double>> pillar_outline(const PillarGeometry& g) {
@@ -78,7 +78,7 @@ std::string svg_from_pillar(const PillarScene& scene, const std::string& title) 
   const PillarGeometry& g = scene.geometry;
   const double half_m = std::max(g.film ? g.film->radius_m : g.diameter_m, widest_m(g));
   const double low_m = g.film ? -g.film->thickness_m : 0.0;
-  SceneDrawing d(-half_m, half_m, low_m, g.length_m, kWidth_px);
+  SceneDrawing d(-half_m, half_m, low_m, g.length_m, kPillarWidth_px);
   if (g.film) {
     d.film(-g.film->radius_m, g.film->radius_m, g.film->thickness_m, scene.fixed_bottom);
   } else if (scene.fixed_bottom) {

@@ -13,7 +13,7 @@
 namespace viscard {
 namespace {
 
-constexpr double kUm = 1e6;  // lengths are shown in micrometres
+constexpr double kUm_m = 1e6;  // lengths are shown in micrometres
 
 using Pictures = std::vector<std::pair<std::string, std::string>>;
 
@@ -106,7 +106,7 @@ std::string others_of(const ArraySweep& sweep, const ArrayGeometry& g, const Swe
   std::string text;
   const auto add = [&](const char* name, std::size_t values, double ArrayGeometry::*of) {
     if (of == abscissa.of || values < 2) return;
-    text += fmt::format("{}{} {:.4g} um", text.empty() ? "" : ", ", name, kUm * (g.*of));
+    text += fmt::format("{}{} {:.4g} um", text.empty() ? "" : ", ", name, kUm_m * (g.*of));
   };
   add("diameter", sweep.diameter_m.size(), &ArrayGeometry::diameter_m);
   add("spacing", sweep.spacing_m.size(), &ArrayGeometry::spacing_m);
@@ -142,7 +142,7 @@ Plot plot_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoint>& poi
     const std::string name = others_of(sweep, g, key);
     const auto [at, is_new] = line_of.try_emplace(name, panel.series.size());
     if (is_new) panel.series.push_back({.label = name, .ink = ink_of_series(at->second)});
-    panel.series[at->second].x.push_back(kUm * (g.*key.of));
+    panel.series[at->second].x.push_back(kUm_m * (g.*key.of));
     panel.series[at->second].y.push_back(unit.per_si * row[column].value);
   }
   const std::size_t lines = panel.series.size();

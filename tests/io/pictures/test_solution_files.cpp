@@ -2,6 +2,7 @@
 #include "io/pictures/section_picture.h"
 #include "io/pictures/vtk_file.h"
 #include "io/scenes/scene_file.h"
+#include "models/scene/simulate.h"
 
 #include <catch2/catch.hpp>
 #include <unistd.h>
@@ -25,7 +26,7 @@ PillarScene pressed_pillar() {
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = 0.33;
   scene.pillar.rho_kg_m3 = 965.0;
-  scene.pressure_Pa = 1e4;
+  scene.drive = StaticDrive{.pressure_Pa = 1e4};
   return scene;
 }
 
@@ -86,7 +87,7 @@ TEST_CASE(
     "[pillar][io]") {
   PillarScene scene = sensor();
   const bool is_driven = GENERATE(false, true);
-  if (is_driven) scene.drive_V = 2.0;
+  if (is_driven) std::get<StaticDrive>(scene.drive).drive_V = 2.0;
   const SectionGrid grid = solution_fields(scene, kMesh).front();
   const SectionField& phi = field_of(grid, "potential_V");
   const double wanted_V = is_driven ? 2.0 : phi.value[0][0];
@@ -101,9 +102,7 @@ TEST_CASE(
 
 TEST_CASE("mode shapes turn with their harmonic", "[pillar][io]") {
   PillarScene scene = pressed_pillar();
-  scene.kind = AnalysisKind::kModal;
-  scene.pressure_Pa = 0.0;
-  scene.modes = 2;
+  scene.drive = ModalDrive{.modes = 2};
   const std::vector<SectionGrid> grids = solution_fields(scene, kMesh);
   REQUIRE(grids.size() == 4);
   const double pi = std::numbers::pi;

@@ -1,6 +1,7 @@
 // The potential goes with the root of the distance from an electrode's edge; meshes shrink there.
 #include "models/pillar/analyses/analysis.h"
-#include "models/scene/common/error_control.h"
+#include "models/pillar/mesh/mesh_sequence.h"
+#include "tests/models/pillar/drive_as.h"
 
 #include <catch2/catch.hpp>
 
@@ -14,7 +15,7 @@ PillarScene sensor(FilmFace grounded, double electrode_radius_m) {
   PillarScene scene;
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = 0.33;
-  scene.pressure_Pa = 1e4;
+  test::as<StaticDrive>(scene).pressure_Pa = 1e4;
   scene.geometry.film = FilmGeometry{25e-6, 60e-6};
   PiezoMatrix d = PiezoMatrix::Zero();
   d(2, 0) = d(2, 1) = 23e-12;
@@ -30,7 +31,7 @@ double voltage_V(const PillarScene& scene, int degree, int layers) {
   answer.discretisation = mesh_sequence(scene.geometry).back();
   answer.discretisation.degree = degree;
   answer.discretisation.layers = layers;
-  analysis_of(scene.kind).run(scene, answer);
+  analysis_of(scene).run(scene, answer);
   for (const SceneResult& r : answer.results) {
     if (r.name == "electrode_voltage") return r.value;
   }

@@ -1,6 +1,6 @@
-#include "tests/models/array/plane/random_rows.h"
+#include "tests/models/scene/random_rows.h"
 
-#include "models/pillar/plan/effects.h"
+#include "models/pillar/analyses/buckling_limit.h"
 #include "tests/models/array/plane/seed_array.h"
 #include "tests/support/random_draw.h"
 
@@ -47,8 +47,7 @@ ArrayScene random_row(std::mt19937_64& random) {
   scene.load_Pa = draw.uniform(0.01, 0.3) * engesser_pressure_Pa(single_pillar(scene));
   const double kind = draw.uniform(0.0, 1.0);
   if (kind < 0.2) {
-    scene.analysis = ArrayAnalysis::kModal;
-    scene.modes = 1 + draw.below(3);
+    scene.drive = RowModal{.modes = 1 + draw.below(3)};
   } else if (kind < 0.4) {
     scene.wanted = {"top_displacement"};
     if (draw.chance(0.3)) scene.load = ArrayLoad::kShear;

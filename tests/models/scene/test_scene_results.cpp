@@ -1,6 +1,8 @@
 // The list of what a scene may ask for is what its analyses give.
-#include "models/pillar/plan/plan.h"
 #include "models/pillar/analyses/pillar_results.h"
+#include "models/scene/plan.h"
+#include "models/scene/simulate.h"
+#include "tests/models/pillar/drive_as.h"
 
 #include <catch2/catch.hpp>
 
@@ -17,7 +19,7 @@ PillarScene sensor() {
   scene.pillar.nu = 0.33;
   scene.pillar.rho_kg_m3 = 965.0;
   scene.pillar.terms = {{0.1, 0.1, 1e-3}};
-  scene.pressure_Pa = 1e3;
+  test::as<StaticDrive>(scene).pressure_Pa = 1e3;
   scene.geometry.film = FilmGeometry{25e-6, 60e-6};
   PiezoMatrix d = PiezoMatrix::Zero();
   d(2, 2) = -33e-12;
@@ -32,7 +34,7 @@ void check_listed(const PillarScene& scene) {
   const auto is_listed = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  const SceneAnswer answer = simulate_planned(scene);
+  const SceneAnswer answer = simulate(scene);
   for (const SceneResult& result : answer.results) {
     CAPTURE(result.name);
     CHECK(is_listed(result.name));
@@ -50,27 +52,27 @@ TEST_CASE("every static result can be asked for", "[pillar][plan]") {
   PillarScene scene = sensor();
   SECTION("electrode") {}
   SECTION("driven electrode") {
-    scene.drive_V = 1.0;
+    test::as<StaticDrive>(scene).drive_V = 1.0;
   }
   SECTION("charge-free face") {
     scene.electrodes->electrode_radius_m = 0.0;
   }
   SECTION("moved top") {
-    scene.pressure_Pa = 0.0;
-    scene.displacement_m = -1e-7;
+    test::as<StaticDrive>(scene).pressure_Pa = 0.0;
+    test::as<StaticDrive>(scene).displacement_m = -1e-7;
     SECTION("electrode") {}
     SECTION("wired electrode") {
       scene.readout = Readout{.resistance_Ohm = 1e9};
     }
     SECTION("driven electrode") {
-      scene.drive_V = 1.0;
+      test::as<StaticDrive>(scene).drive_V = 1.0;
     }
     SECTION("charge-free face") {
       scene.electrodes->electrode_radius_m = 0.0;
     }
     SECTION("no electrode, sideways") {
       scene.electrodes.reset();
-      scene.direction = LoadDirection::kLateral;
+      test::as<StaticDrive>(scene).direction = LoadDirection::kLateral;
     }
   }
   SECTION("no electrode") {
@@ -87,16 +89,13 @@ TEST_CASE("every static result can be asked for", "[pillar][plan]") {
 TEST_CASE("every result in time and frequency can be asked for", "[pillar][plan]") {
   PillarScene scene = sensor();
   SECTION("creep") {
-    scene.kind = AnalysisKind::kCreep;
-    scene.history = {{0.0, 0.0}, {1e-2, 1e3}, {1.0, 1e3}};
+    scene.drive = CreepDrive{{{0.0, 0.0}, {1e-2, 1e3}, {1.0, 1e3}}};
   }
   SECTION("relaxation") {
-    scene.kind = AnalysisKind::kRelaxation;
-    scene.history = {{0.0, 0.0}, {1e-2, 1e-7}, {1.0, 1e-7}};
+    scene.drive = RelaxationDrive{{{0.0, 0.0}, {1e-2, 1e-7}, {1.0, 1e-7}}};
   }
   SECTION("harmonic") {
-    scene.kind = AnalysisKind::kHarmonic;
-    scene.frequencies_Hz = {1e3, 1e4, 5e4};
+    scene.drive = HarmonicDrive{.pressure_Pa = 1e3, .frequencies_Hz = {1e3, 1e4, 5e4}};
   }
   check_listed(scene);
 }
@@ -104,10 +103,9 @@ TEST_CASE("every result in time and frequency can be asked for", "[pillar][plan]
 TEST_CASE("a wanted curve keeps its film and electrode in the plan", "[pillar][plan]") {
   PillarScene scene = sensor();
   scene.tolerance = 1e-1;
-  scene.kind = AnalysisKind::kCreep;
-  scene.history = {{0.0, 0.0}, {1e-2, 1e3}, {1.0, 1e3}};
+  scene.drive = CreepDrive{{{0.0, 0.0}, {1e-2, 1e3}, {1.0, 1e3}}};
   scene.wanted = {"electrode_voltage_peak"};
-  CHECK(plan_effects(scene).reduced.electrodes.has_value());
+  CHECK(std::get<PillarScene>(plan_effects(scene).reduced).electrodes.has_value());
   scene.wanted = {"top_displacement"};
-  CHECK_FALSE(plan_effects(scene).reduced.electrodes.has_value());
+  CHECK_FALSE(std::get<PillarScene>(plan_effects(scene).reduced).electrodes.has_value());
 }

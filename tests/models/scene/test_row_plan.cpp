@@ -1,6 +1,8 @@
-#include "models/array/plane/array_plan.h"
+#include "models/array/plane/simulate_array.h"
 #include "models/pillar/mesh/scene_mistake.h"
-#include "tests/models/array/plane/random_rows.h"
+#include "models/scene/plan.h"
+#include "models/scene/simulate.h"
+#include "tests/models/scene/random_rows.h"
 #include "tests/models/array/plane/seed_array.h"
 
 #include <catch2/catch.hpp>
@@ -16,7 +18,7 @@ using namespace viscard::test;
 
 namespace {
 
-const SceneEffect& effect_of(const ArrayPlan& plan, const std::string& name) {
+const SceneEffect& effect_of(const ScenePlan& plan, const std::string& name) {
   const auto found = std::find_if(plan.effects.begin(), plan.effects.end(),
                                   [&](const SceneEffect& e) { return e.name == name; });
   if (found == plan.effects.end()) throw std::runtime_error("no effect " + name);
@@ -30,8 +32,8 @@ struct Verdict {
 };
 
 Verdict verdict_on(const ArrayScene& scene, int fine_degree) {
-  const SceneAnswer planned = simulate_array_planned(scene);
-  const ArrayScene all = plan_effects(with_all_effects_on(scene)).reduced;
+  const SceneAnswer planned = simulate(scene);
+  const auto all = std::get<ArrayScene>(plan_effects(with_all_effects_on(scene)).reduced);
   const SceneAnswer fine =
       array_answer_on(all, {.degree = fine_degree,
                             .layers = fine_degree / 2 + (scene.electrodes.is_equipotential ? 3 : 0),
@@ -83,9 +85,9 @@ void study(int count, unsigned long seed, int fine_degree = 8) {
     worst = std::max(worst, v.over);
     if (v.over <= 1.0 && v.is_honest) continue;
     const ArrayGeometry& g = scene.geometry;
-    doubtful << "\n  scene " << i << " tol " << scene.tolerance << " kind "
-             << static_cast<int>(scene.analysis) << " d/t " << g.diameter_m / g.film_thickness_m
-             << " s/t " << g.spacing_m / g.film_thickness_m << " over " << v.over << " "
+    doubtful << "\n  scene " << i << " tol " << scene.tolerance << " kind " << scene.drive.index()
+             << " d/t " << g.diameter_m / g.film_thickness_m << " s/t "
+             << g.spacing_m / g.film_thickness_m << " over " << v.over << " "
              << (scene.wanted.empty() ? "modes" : scene.wanted.front());
   }
   WARN(below << " of " << answered << " answered of " << count
@@ -124,11 +126,11 @@ TEST_CASE("neighbours are left out where they are too far to matter, and cost no
   CHECK(effect_of(plan_effects(scene), "crosstalk").on);
   scene.geometry.spacing_m = 200e-6;
   scene.geometry.film_edge_m = 200e-6;
-  const ArrayPlan far = plan_effects(scene);
+  const ScenePlan far = plan_effects(scene);
   CHECK_FALSE(effect_of(far, "crosstalk").on);
-  const SceneAnswer planned = simulate_array_planned(scene);
+  const SceneAnswer planned = simulate(scene);
   scene.effects["crosstalk"] = EffectChoice::kOn;
-  const SceneAnswer all = simulate_array_planned(scene);
+  const SceneAnswer all = simulate(scene);
   CHECK(planned.unknowns < all.unknowns);
   const auto is_centre = [](const SceneResult& r) { return r.name.starts_with("centre_voltage"); };
   CHECK(std::count_if(planned.results.begin(), planned.results.end(), is_centre) == 8);
@@ -156,31 +158,29 @@ TEST_CASE("the cross-talk estimate covers what rows of the thesis' film have", "
 TEST_CASE("modes and deflections of a row need its film only at tight tolerances",
           "[array][plan]") {
   ArrayScene scene = seed_scene();
-  scene.analysis = ArrayAnalysis::kModal;
-  scene.modes = 1;
+  scene.drive = RowModal{.modes = 1};
   scene.tolerance = 1e-2;
   CHECK_FALSE(effect_of(plan_effects(scene), "film_compliance").on);
-  CHECK(simulate_array_planned(scene).modes.size() == 16);
+  CHECK(simulate(scene).modes.size() == 16);
   scene.tolerance = 1e-5;
   CHECK(effect_of(plan_effects(scene), "film_compliance").on);
   scene.effects["film_compliance"] = EffectChoice::kOff;
   CHECK_FALSE(effect_of(plan_effects(scene), "film_compliance").on);
   scene.effects = {{"finite_strain", EffectChoice::kOn}};
-  scene.analysis = ArrayAnalysis::kStatic;
+  scene.drive = RowStatic{};
   CHECK_THROWS_AS(plan_effects(scene), SceneMistake);
 }
 
 TEST_CASE("modes of a row whose film would vibrate itself are refused with the reason",
           "[array][plan]") {
   ArrayScene scene = seed_scene();
-  scene.analysis = ArrayAnalysis::kModal;
-  scene.modes = 2;
+  scene.drive = RowModal{.modes = 2};
   scene.geometry.count = 2;
   scene.geometry.film_thickness_m = 60e-6;
   scene.film = isotropic_medium(10.0 * scene.pillar.E0_Pa, 0.3, 8000.0);
-  CHECK_THROWS_WITH(simulate_array_planned(scene), Catch::Contains("film's own inertia"));
+  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("film's own inertia"));
   scene.film.rho_kg_m3 = 1.0;
-  CHECK_NOTHROW(simulate_array_planned(scene));
+  CHECK_NOTHROW(simulate(scene));
 }
 
 TEST_CASE("pillars long enough to stick to their neighbours are told so", "[array][plan]") {

@@ -1,8 +1,10 @@
 // An effect that is off costs nothing: its scene has the unknowns of one that never had it, and
 // gives the same numbers to the last bit, so that nothing of it is assembled or solved.
-#include "models/array/plane/array_plan.h"
-#include "models/pillar/plan/plan.h"
-#include "models/pillar/plan/relaxed_modes.h"
+#include "models/array/plane/simulate_array.h"
+#include "models/pillar/analyses/simulate_pillar.h"
+#include "models/scene/plan.h"
+#include "models/scene/simulate.h"
+#include "tests/models/pillar/drive_as.h"
 
 #include <catch2/catch.hpp>
 
@@ -27,7 +29,7 @@ PillarScene pillar_on_film() {
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = 0.33;
   scene.pillar.rho_kg_m3 = 965.0;
-  scene.pressure_Pa = 1e4;
+  test::as<StaticDrive>(scene).pressure_Pa = 1e4;
   scene.geometry.film = FilmGeometry{25e-6, 60e-6};
   scene.film = piezo_film();
   scene.wanted = {"top_displacement"};
@@ -66,15 +68,15 @@ Told told(const SceneAnswer& answer) {
 // The scene with one effect as chosen, on the mesh that the rest of the tolerance asks for.
 Told with_choice(PillarScene scene, const std::string& effect, EffectChoice choice) {
   scene.effects[effect] = choice;
-  PillarScene reduced = plan_effects(scene).reduced;
+  auto reduced = std::get<PillarScene>(plan_effects(scene).reduced);
   reduced.tolerance = scene.tolerance;
-  SceneAnswer answer = simulate(reduced);
-  if (reduced.kind == AnalysisKind::kModal) relax_modes(reduced, answer);
+  SceneAnswer answer = simulate_pillar(reduced);
+  finish_pillar(reduced, answer);
   return told(answer);
 }
 Told with_choice(ArrayScene scene, const std::string& effect, EffectChoice choice) {
   scene.effects[effect] = choice;
-  ArrayScene reduced = plan_effects(scene).reduced;
+  auto reduced = std::get<ArrayScene>(plan_effects(scene).reduced);
   reduced.tolerance = scene.tolerance;
   return told(simulate_array(reduced));
 }
@@ -93,15 +95,13 @@ void without_film(PillarScene& s) {
 
 void creeps(PillarScene& s) {
   without_film(s);
-  s.kind = AnalysisKind::kCreep;
+  s.drive = CreepDrive{{{0.0, 1e4}, {2.0, 1e4}}};
   s.pillar.terms = {{0.1, 0.1, 0.5}};
-  s.history = {{0.0, 1e4}, {2.0, 1e4}};
 }
 
 void vibrates_under_pressure(PillarScene& s) {
   without_film(s);
-  s.kind = AnalysisKind::kModal;
-  s.modes = 1;
+  s.drive = ModalDrive{.modes = 1, .pressure_Pa = 1e4};
 }
 
 }  // namespace
@@ -119,12 +119,12 @@ TEST_CASE("an effect of one pillar that is off costs nothing", "[pillar][plan]")
                     {"relaxation",
                      [](PillarScene& s) {
                        vibrates_under_pressure(s);
-                       s.pressure_Pa = 0.0;
+                       test::as<ModalDrive>(s).pressure_Pa = 0.0;
                        s.pillar.terms = {{0.1, 0.1, 1e-9}};
                      },
                      [](PillarScene& s) { s.pillar.terms.clear(); }, false},
                     {"geometric_stiffness", vibrates_under_pressure,
-                     [](PillarScene& s) { s.pressure_Pa = 0.0; }, false},
+                     [](PillarScene& s) { test::as<ModalDrive>(s).pressure_Pa = 0.0; }, false},
                     {"incompressibility",
                      [](PillarScene& s) {
                        without_film(s);
@@ -137,7 +137,7 @@ TEST_CASE("an effect of one pillar that is off costs nothing", "[pillar][plan]")
   PillarScene never = scene;
   one.never_had(never);
   const Told off = with_choice(scene, one.effect, EffectChoice::kOff);
-  CHECK(off == told(simulate(never)));
+  CHECK(off == told(simulate_pillar(never)));
   const Told on = with_choice(scene, one.effect, EffectChoice::kOn);
   CHECK(off.numbers != on.numbers);
   if (one.adds_unknowns) CHECK(off.unknowns < on.unknowns);
@@ -147,17 +147,17 @@ TEST_CASE("a static answer knows no mass, and an open electrode no readout", "[p
   PillarScene scene = pillar_on_film();
   scene.electrodes = ElectrodeOptions{FilmFace::kBottom, 20e-6};
   scene.wanted = {"electrode_voltage"};
-  const Told with_mass = told(simulate_planned(scene));
+  const Told with_mass = told(simulate(scene));
   scene.pillar.rho_kg_m3 *= 1e3;
-  CHECK(told(simulate_planned(scene)) == with_mass);
+  CHECK(told(simulate(scene)) == with_mass);
   // The readout is a filter behind the same voltage: a few numbers more, no unknown.
   creeps(scene);
   scene.geometry.film = FilmGeometry{25e-6, 60e-6};
   scene.film = piezo_film();
-  const SceneAnswer open = simulate_planned(scene);
+  const SceneAnswer open = simulate(scene);
   scene.readout = Readout{};
   scene.wanted = {"electrode_voltage", "reading"};
-  const SceneAnswer read = simulate_planned(scene);
+  const SceneAnswer read = simulate(scene);
   CHECK(open.unknowns == read.unknowns);
   const auto has_reading = [](const SceneAnswer& a) {
     return std::any_of(a.results.begin(), a.results.end(),
@@ -182,9 +182,9 @@ TEST_CASE("an effect of a row that is off costs nothing", "[array][plan]") {
     scene.wanted = {"top_displacement"};
     const Told off = with_choice(scene, "film_compliance", EffectChoice::kOff);
     PillarScene one = single_pillar(scene);
-    one.pressure_Pa = scene.load_Pa;
+    one.drive = StaticDrive{.pressure_Pa = scene.load_Pa};
     one.wanted = scene.wanted;
-    const SceneAnswer never = simulate(one);
+    const SceneAnswer never = simulate_pillar(one);
     CHECK(off.numbers == std::vector<double>(4, never.results.front().value));
     CHECK(off.unknowns < with_choice(scene, "film_compliance", EffectChoice::kOn).unknowns);
   }
@@ -199,9 +199,9 @@ TEST_CASE("an effect of a row that is off costs nothing", "[array][plan]") {
     CHECK(off.unknowns < with_choice(scene, "piezo_coupling", EffectChoice::kOn).unknowns);
   }
   SECTION("adhesion and mass: formulas only") {
-    const Told usual = told(simulate_array_planned(scene));
+    const Told usual = told(simulate(scene));
     scene.surface_energy_J_m2 *= 100.0;
     scene.pillar.rho_kg_m3 *= 1e3;
-    CHECK(told(simulate_array_planned(scene)) == usual);
+    CHECK(told(simulate(scene)) == usual);
   }
 }

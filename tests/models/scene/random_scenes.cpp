@@ -1,10 +1,10 @@
-#include "tests/models/pillar/plan/random_scenes.h"
+#include "tests/models/scene/random_scenes.h"
 
-#include "models/pillar/analyses/analysis.h"
-#include "models/scene/common/error_control.h"
-#include "models/pillar/plan/effects.h"
-#include "models/pillar/plan/plan.h"
-#include "models/pillar/plan/relaxed_modes.h"
+#include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/mesh/mesh_sequence.h"
+#include "models/scene/plan.h"
+#include "models/scene/simulate.h"
+#include "tests/models/pillar/drive_as.h"
 #include "tests/support/random_draw.h"
 
 #include <algorithm>
@@ -42,24 +42,23 @@ void draw_terms(Draw& draw, PillarScene& scene) {
   }
 }
 
-void draw_history(Draw& draw, PillarScene& scene, double value) {
+std::vector<HistoryPoint> draw_history(Draw& draw, double value) {
   const double ramp_s = draw.chance(0.5) ? 0.0 : draw.log_uniform(1e-3, 10.0);
   const double hold_s = draw.log_uniform(1e-2, 100.0);
-  if (ramp_s > 0.0) {
-    scene.history = {{0.0, 0.0}, {ramp_s, value}};
-  } else {
-    scene.history = {{0.0, value}};
-  }
-  scene.history.push_back({ramp_s + hold_s, value});
+  std::vector<HistoryPoint> history = {{0.0, value}};
+  if (ramp_s > 0.0) history = {{0.0, 0.0}, {ramp_s, value}};
+  history.push_back({ramp_s + hold_s, value});
   if (draw.chance(0.3)) {
     const double left = draw.chance(0.5) ? 0.0 : 0.5 * value;
-    scene.history.push_back({ramp_s + hold_s, left});
-    scene.history.push_back({ramp_s + 2.0 * hold_s, left});
+    history.push_back({ramp_s + hold_s, left});
+    history.push_back({ramp_s + 2.0 * hold_s, left});
   }
+  return history;
 }
 
 void draw_static(Draw& draw, PillarScene& scene) {
-  scene.pressure_Pa = draw.uniform(0.01, 0.3) * engesser_pressure_Pa(scene);
+  scene.drive = StaticDrive{};
+  as<StaticDrive>(scene).pressure_Pa = draw.uniform(0.01, 0.3) * engesser_pressure_Pa(scene);
   if (scene.film && scene.film->is_piezoelectric() && draw.chance(0.7)) {
     const double R = 0.5 * scene.geometry.diameter_m;
     const double edge = std::min(R * draw.uniform(0.6, 1.0), scene.geometry.film->radius_m);
@@ -91,45 +90,43 @@ PillarScene random_scene(std::mt19937_64& random, const Ranges& ranges) {
   switch (draw.below(5)) {
     case 0:
     case 1:
-      scene.kind = AnalysisKind::kStatic;
       draw_static(draw, scene);
       break;
     case 2:
-      scene.kind = AnalysisKind::kModal;
-      scene.modes = 1 + draw.below(3);
+      scene.drive = ModalDrive{.modes = 1 + draw.below(3)};
       if (draw.chance(0.5)) {
-        scene.pressure_Pa = draw.log_uniform(1e-5, 0.5) * engesser_pressure_Pa(scene);
+        as<ModalDrive>(scene).pressure_Pa =
+            draw.log_uniform(1e-5, 0.5) * engesser_pressure_Pa(scene);
       }
       break;
     case 3:
-      scene.kind = AnalysisKind::kBuckling;  // stubbier ones do not bend
+      scene.drive = BucklingDrive{};  // stubbier ones do not bend
       scene.geometry.length_m = std::max(scene.geometry.length_m, 1.5 * scene.geometry.diameter_m);
       break;
     default:
-      scene.kind = draw.chance(0.6) ? AnalysisKind::kCreep : AnalysisKind::kRelaxation;
-      draw_history(draw, scene,
-                   scene.kind == AnalysisKind::kCreep ? 0.2 * engesser_pressure_Pa(scene)
-                                                      : 1e-3 * scene.geometry.length_m);
+      if (draw.chance(0.6)) {
+        scene.drive = CreepDrive{};
+        as<CreepDrive>(scene).history = draw_history(draw, 0.2 * engesser_pressure_Pa(scene));
+      } else {
+        scene.drive = RelaxationDrive{draw_history(draw, 1e-3 * scene.geometry.length_m)};
+      }
       break;
   }
   return scene;
 }
 
 PillarScene with_everything_on(const PillarScene& scene) {
-  PillarScene on = with_all_effects_on(scene);
+  PillarScene on = std::get<PillarScene>(with_all_effects_on(scene));
   on.tolerance = 0.02 * scene.tolerance;  // of time steps
   return on;
 }
 
 SceneAnswer fine_answer(const PillarScene& scene, int degree, int layers) {
-  const PillarScene on = plan_effects(with_everything_on(scene)).reduced;
-  SceneAnswer answer;
-  answer.discretisation = mesh_sequence(on.geometry).back();
-  answer.discretisation.degree = degree;
-  answer.discretisation.layers = layers;
-  analysis_of(on.kind).run(on, answer);
-  if (on.kind == AnalysisKind::kModal) relax_modes(on, answer);
-  return answer;
+  const Scene on = plan_effects(with_everything_on(scene)).reduced;
+  Discretisation mesh = mesh_sequence(std::get<PillarScene>(on).geometry).back();
+  mesh.degree = degree;
+  mesh.layers = layers;
+  return answer_on(on, mesh);
 }
 
 }  // namespace viscard::test

@@ -1,5 +1,6 @@
-#include "models/pillar/plan/plan.h"
-#include "tests/models/pillar/plan/random_scenes.h"
+#include "models/scene/plan.h"
+#include "models/scene/simulate.h"
+#include "tests/models/scene/random_scenes.h"
 
 #include <catch2/catch.hpp>
 
@@ -69,7 +70,7 @@ Verdict verdict_on(const PillarScene& scene, const FineMesh& mesh) {
   auto start = std::chrono::steady_clock::now();
   SceneAnswer planned;
   try {
-    planned = simulate_planned(scene);
+    planned = simulate(scene);
     verdict.answered = true;
   } catch (const std::runtime_error& error) {  // a refusal is no wrong answer; they are counted
     verdict.refusal = error.what();
@@ -92,7 +93,7 @@ Verdict verdict_on(const PillarScene& scene, const FineMesh& mesh) {
 
 std::string described(const PillarScene& scene, const Verdict& v) {
   std::ostringstream text;
-  text << "kind " << static_cast<int>(scene.kind) << " tol " << scene.tolerance << " L/d "
+  text << "kind " << scene.drive.index() << " tol " << scene.tolerance << " L/d "
        << scene.geometry.length_m / scene.geometry.diameter_m << " nu " << scene.pillar.nu
        << (scene.film ? " film" : "") << (scene.electrodes ? " electrode" : "") << " terms "
        << scene.pillar.terms.size() << " wanted";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/pillar/scene/pillar_scene.h"
+#include "models/scene/common/scene_answer.h"
 
 #include <random>
 

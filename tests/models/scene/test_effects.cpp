@@ -1,7 +1,12 @@
+#include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/analyses/relaxed_modes.h"
+#include "models/pillar/analyses/simulate_pillar.h"
 #include "models/pillar/body/piezo_one_way.h"
-#include "models/pillar/plan/effects.h"
-#include "models/pillar/plan/plan.h"
-#include "models/pillar/plan/relaxed_modes.h"
+#include "models/scene/effects.h"
+#include "models/scene/pillar_effects.h"
+#include "models/scene/plan.h"
+#include "models/scene/simulate.h"
+#include "tests/models/pillar/drive_as.h"
 
 #include <catch2/catch.hpp>
 
@@ -17,7 +22,7 @@ PillarScene pillar_on_film() {
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = 0.33;
   scene.pillar.rho_kg_m3 = 965.0;
-  scene.pressure_Pa = 1e4;
+  test::as<StaticDrive>(scene).pressure_Pa = 1e4;
   scene.geometry.film = FilmGeometry{25e-6, 60e-6};
   PiezoMatrix d = PiezoMatrix::Zero();
   d(2, 0) = d(2, 1) = 23e-12;
@@ -59,9 +64,9 @@ TEST_CASE("a film that is left out costs what a scene without film costs", "[pil
   }
   const ScenePlan plan = plan_effects(with_film);
   CHECK_FALSE(effect_of(plan.effects, "film_compliance").on);
-  planned = simulate_planned(with_film);
-  without.tolerance = plan.reduced.tolerance;
-  never = simulate(without);
+  planned = simulate(with_film);
+  without.tolerance = common(plan.reduced).tolerance;
+  never = simulate_pillar(without);
   CHECK(planned.unknowns == never.unknowns);
   CHECK(value_of(planned, "top_displacement") == value_of(never, "top_displacement"));
   // The film's share is known: 659.763 against 659.692 nm.
@@ -85,12 +90,11 @@ TEST_CASE("the film's estimates exceed its true shares, by less than four times"
   double share = 659.763 / 659.692 - 1.0;
   SECTION("deflection") {}
   SECTION("buckling") {
-    scene.kind = AnalysisKind::kBuckling;
+    scene.drive = BucklingDrive{};
     share = 29.3689 / 29.3648 - 1.0;
   }
   SECTION("modes") {
-    scene.kind = AnalysisKind::kModal;
-    scene.modes = 4;
+    scene.drive = ModalDrive{.modes = 4, .pressure_Pa = 1e4};
     share = 16029.18 / 16026.87 - 1.0;
   }
   const double estimate = film_compliance_estimate(scene).error;
@@ -119,9 +123,9 @@ TEST_CASE("what is left out stays within half the tolerance and is part of the e
   }
   CHECK(sum == Approx(plan.left_out).epsilon(1e-12).margin(0.0));
   CHECK(sum <= 0.5 * scene.tolerance);
-  CHECK(plan.reduced.tolerance + sum <= scene.tolerance * (1.0 + 1e-12));
+  CHECK(common(plan.reduced).tolerance + sum <= scene.tolerance * (1.0 + 1e-12));
   if (scene.tolerance < 1e-4) return;
-  const SceneAnswer answer = simulate_planned(scene);
+  const SceneAnswer answer = simulate(scene);
   CHECK(answer.results.front().error_estimate >= sum * std::abs(answer.results.front().value));
 }
 
@@ -130,9 +134,9 @@ TEST_CASE("one-way potentials differ from coupled ones by about k^2", "[pillar][
   scene.electrodes = ElectrodeOptions{FilmFace::kBottom, 20e-6};
   scene.wanted = {"electrode_voltage"};
   scene.effects["piezo_coupling"] = EffectChoice::kOff;
-  const SceneAnswer one_way = simulate_planned(scene);
+  const SceneAnswer one_way = simulate(scene);
   scene.effects["piezo_coupling"] = EffectChoice::kOn;
-  const SceneAnswer coupled = simulate_planned(scene);
+  const SceneAnswer coupled = simulate(scene);
   const double change =
       value_of(one_way, "electrode_voltage") / value_of(coupled, "electrode_voltage") - 1.0;
   const double estimate = piezo_coupling_estimate(scene).error;
@@ -153,9 +157,9 @@ TEST_CASE("without piezoelectric constants one way is both ways, and gives nothi
     scene.wanted = {"electrode_voltage"};
     scene.tolerance = 1e-2;
     scene.effects["piezo_coupling"] = EffectChoice::kOff;
-    const double one_way = value_of(simulate_planned(scene), "electrode_voltage");
+    const double one_way = value_of(simulate(scene), "electrode_voltage");
     scene.effects["piezo_coupling"] = EffectChoice::kOn;
-    return one_way / value_of(simulate_planned(scene), "electrode_voltage") - 1.0;
+    return one_way / value_of(simulate(scene), "electrode_voltage") - 1.0;
   };
   CHECK(change_for(0.1) / change_for(1.0) == Approx(0.01).epsilon(0.1));
 }
@@ -164,14 +168,13 @@ TEST_CASE("relaxation that a history is too short to see is left out", "[pillar]
   PillarScene scene = pillar_on_film();
   scene.film.reset();
   scene.geometry.film.reset();
-  scene.kind = AnalysisKind::kCreep;
+  scene.drive = CreepDrive{{{0.0, 1e4}, {1e-2, 1e4}}};
   scene.pillar.terms = {{0.02, 0.02, 100.0}};
-  scene.history = {{0.0, 1e4}, {1e-2, 1e4}};
   scene.tolerance = 1e-2;
   const ScenePlan plan = plan_effects(scene);
   CHECK_FALSE(effect_of(plan.effects, "relaxation").on);
-  CHECK(plan.reduced.pillar.terms.empty());
-  scene.history.back().time_s = 1e3;
+  CHECK(common(plan.reduced).pillar.terms.empty());
+  test::as<CreepDrive>(scene).history.back().time_s = 1e3;
   CHECK(effect_of(plan_effects(scene).effects, "relaxation").on);
 }
 
@@ -180,15 +183,13 @@ TEST_CASE("modes of a solid that has relaxed vibrate with what is left of its mo
   PillarScene scene = pillar_on_film();
   scene.film.reset();
   scene.geometry.film.reset();
-  scene.kind = AnalysisKind::kModal;
-  scene.pressure_Pa = 0.0;
-  scene.modes = 1;
+  scene.drive = ModalDrive{.modes = 1};
   scene.pillar.terms = {{0.19, 0.19, 1e-12}};  // relaxed long before any mode
   scene.effects["relaxation"] = EffectChoice::kOn;
   scene.tolerance = 1e-2;
-  const SceneAnswer relaxed = simulate_planned(scene);
+  const SceneAnswer relaxed = simulate(scene);
   scene.effects["relaxation"] = EffectChoice::kOff;
-  const SceneAnswer instantaneous = simulate_planned(scene);
+  const SceneAnswer instantaneous = simulate(scene);
   REQUIRE(relaxed.modes.size() == instantaneous.modes.size());
   for (std::size_t i = 0; i < relaxed.modes.size(); ++i) {
     CHECK(relaxed.modes[i].frequency_Hz / instantaneous.modes[i].frequency_Hz ==
@@ -215,18 +216,19 @@ TEST_CASE("every effect says what it changes and costs, under a name of its own"
 TEST_CASE("sideways loads bend, however they come: no pressure buckles, and bending is the strain",
           "[pillar][plan]") {
   PillarScene scene = pillar_on_film();
-  scene.direction = LoadDirection::kLateral;
-  scene.pressure_Pa = 1e5;  // along the pillar it would be beyond buckling
-  SECTION("at rest") {}
+  const double shear_Pa = 1e5;  // along the pillar it would be beyond buckling
+  SECTION("at rest") {
+    scene.drive = StaticDrive{.direction = LoadDirection::kLateral, .pressure_Pa = shear_Pa};
+  }
   SECTION("oscillating") {
-    scene.kind = AnalysisKind::kHarmonic;
-    scene.frequencies_Hz = {1.0, 10.0};
+    scene.drive = HarmonicDrive{.direction = LoadDirection::kLateral,
+                                .pressure_Pa = shear_Pa,
+                                .frequencies_Hz = {1.0, 10.0}};
   }
   SECTION("in time") {
-    scene.kind = AnalysisKind::kTransient;
-    scene.history = {{0.0, 0.0}, {1e-3, 1e5}};
-    scene.pressure_Pa = 0.0;
-    scene.end_time_s = 2e-3;
+    scene.drive = TransientDrive{.direction = LoadDirection::kLateral,
+                                 .history = {{0.0, 0.0}, {1e-3, shear_Pa}},
+                                 .end_time_s = 2e-3};
   }
   CHECK_NOTHROW(refuse_beyond_buckling(scene));
   const SceneEffect strain = effect_of(plan_effects(scene).effects, "finite_strain");
@@ -236,21 +238,16 @@ TEST_CASE("sideways loads bend, however they come: no pressure buckles, and bend
 
 TEST_CASE("a transient push beyond buckling is told", "[pillar][plan]") {
   PillarScene scene = pillar_on_film();
-  scene.kind = AnalysisKind::kTransient;
-  scene.pressure_Pa = 0.0;
-  scene.end_time_s = 2e-3;
-  scene.history = {{0.0, 0.0}, {1e-3, 1e5}};
+  scene.drive = TransientDrive{.history = {{0.0, 0.0}, {1e-3, 1e5}}, .end_time_s = 2e-3};
   const SceneEffect buckling = effect_of(plan_effects(scene).effects, "geometric_stiffness");
   CHECK(buckling.estimate == 1.0);
   CHECK(buckling.value > 3.0);
-  scene.history.back().value = 1e4;
+  test::as<TransientDrive>(scene).history.back().value = 1e4;
   CHECK(effect_of(plan_effects(scene).effects, "geometric_stiffness").estimate == 0.0);
 }
 
 TEST_CASE("an oscillating push is judged by its size", "[pillar][plan]") {
   PillarScene scene = pillar_on_film();
-  scene.kind = AnalysisKind::kHarmonic;
-  scene.frequencies_Hz = {1.0};
-  scene.pressure_Pa = -1e5;
+  scene.drive = HarmonicDrive{.pressure_Pa = -1e5, .frequencies_Hz = {1.0}};
   CHECK_THROWS_WITH(refuse_beyond_buckling(scene), Catch::Contains("buckling"));
 }
