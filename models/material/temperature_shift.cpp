@@ -40,17 +40,4 @@ double ln_shift_factor(const TemperatureShift& shift, double temperature_C) {
   return -std::numbers::ln10 * shift.C1 * warmer_K / (shift.C2_K + warmer_K);
 }
 
-TemperatureShift with_reference(const TemperatureShift& shift, double T_ref_C) {
-  ln_shift_factor(shift, T_ref_C);  // throws where the law does not reach
-  TemperatureShift moved = shift;
-  moved.T_ref_C = T_ref_C;
-  moved.C1_95 = moved.C2_K_95 = moved.activation_J_mol_95 = {};
-  if (shift.law == ShiftLaw::kWlf) {
-    // Ferry (1980), ch. 11, eq. 24: C1 C2 and T_ref - C2 do not depend on the reference.
-    moved.C2_K = shift.C2_K + T_ref_C - shift.T_ref_C;
-    moved.C1 = shift.C1 * shift.C2_K / moved.C2_K;
-  }
-  return moved;
-}
-
 }  // namespace viscard

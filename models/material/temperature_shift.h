@@ -30,9 +30,6 @@ void validate(const TemperatureShift& shift);
 // T_ref - C2, where the law has its pole.
 double ln_shift_factor(const TemperatureShift& shift, double temperature_C);
 
-// The same law counted from another reference temperature; intervals are dropped.
-TemperatureShift with_reference(const TemperatureShift& shift, double T_ref_C);
-
 constexpr double kAbsoluteZero_C = -273.15;
 constexpr double kGasConstant_J_mol_K = 8.314462618;  // CODATA 2018, exact
 

@@ -58,19 +58,6 @@ double fractional_creep_1_Pa(const FractionalZenerModel& m, double time_s) {
 
 }  // namespace
 
-std::string model_name(const ViscoelasticModel& model) {
-  return std::visit(
-      Overloaded{[](const ElasticModel&) { return "elastic"; },
-                 [](const MaxwellModel&) { return "Maxwell"; },
-                 [](const KelvinVoigtModel&) { return "Kelvin-Voigt"; },
-                 [](const StandardLinearSolid&) { return "standard linear solid"; },
-                 [](const GeneralizedMaxwellModel& m) {
-                   return m.series.equilibrium_modulus_Pa > 0.0 ? "generalised Maxwell" : "liquid";
-                 },
-                 [](const FractionalZenerModel&) { return "fractional Zener"; }},
-      model);
-}
-
 void validate(const ViscoelasticModel& model) {
   std::visit(Overloaded{[](const ElasticModel& m) { check("modulus", m.modulus_Pa, false); },
                         [](const MaxwellModel& m) {
@@ -131,12 +118,6 @@ double creep_compliance_1_Pa(const ViscoelasticModel& model, double time_s) {
     return -std::expm1(-time_s * m->modulus_Pa / m->viscosity_Pa_s) / m->modulus_Pa;
   }
   return fractional_creep_1_Pa(std::get<FractionalZenerModel>(model), time_s);
-}
-
-double recovery_1_Pa(const ViscoelasticModel& model, double release_s, double time_s) {
-  const double loaded_1_Pa = creep_compliance_1_Pa(model, time_s);
-  if (time_s < release_s) return loaded_1_Pa;
-  return loaded_1_Pa - creep_compliance_1_Pa(model, time_s - release_s);  // superposition
 }
 
 std::complex<double> complex_modulus_Pa(const ViscoelasticModel& model, double angular_1_s) {

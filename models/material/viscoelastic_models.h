@@ -40,7 +40,6 @@ using ViscoelasticModel =
     std::variant<ElasticModel, MaxwellModel, KelvinVoigtModel, StandardLinearSolid,
                  GeneralizedMaxwellModel, FractionalZenerModel>;
 
-std::string model_name(const ViscoelasticModel& model);
 // Throws std::invalid_argument naming the parameter: negative or not finite, no modulus at all,
 // alpha outside (0, 1].
 void validate(const ViscoelasticModel& model);
@@ -50,8 +49,6 @@ void validate(const ViscoelasticModel& model);
 double relaxation_modulus_Pa(const ViscoelasticModel& model, double time_s);
 // Strain over stress at t >= 0 after a step of stress.
 double creep_compliance_1_Pa(const ViscoelasticModel& model, double time_s);
-// Strain over stress at any t >= 0 when the stress is taken off again at release_s.
-double recovery_1_Pa(const ViscoelasticModel& model, double release_s, double time_s);
 // E' + i E'' at angular frequency in rad/s.
 std::complex<double> complex_modulus_Pa(const ViscoelasticModel& model, double angular_1_s);
 

@@ -60,24 +60,4 @@ double mean_potential_V(const PillarModel& model, const PillarState& state, doub
   return sum_V / area;
 }
 
-double one_way_voltage_V(const PillarModel& model, const PillarState& state,
-                         const PiezoMatrix& charge_C_N, double permittivity_stress_F_m,
-                         double electrode_radius_m) {
-  const LineMesh& line = model.mesh().section.z();
-  double voltage_V = 0.0;
-  for (int row = 0; row < model.mesh().bond_row; ++row) {
-    const LineMesh::ElementRule rule = line.rule(row);
-    for (Eigen::Index i = 0; i < rule.x.size(); ++i) {
-      for (int component = 0; component < 6; ++component) {
-        const double d = charge_C_N(2, component);
-        if (d == 0.0) continue;
-        voltage_V +=
-            rule.weight[i] * d / permittivity_stress_F_m *
-            model.mean_stress(state, component, rule.x[i], kFilmRegion, electrode_radius_m);
-      }
-    }
-  }
-  return voltage_V;
-}
-
 }  // namespace viscard

@@ -25,10 +25,4 @@ double potential_at_V(const PillarModel& model, const PillarState& state, double
 double mean_potential_V(const PillarModel& model, const PillarState& state, double z,
                         double radius_m);
 
-// The usual one-way estimate beside it: mean over the electrode's film volume of
-// d3j T_j t/eps33^T with the stresses of the uncoupled film, V. `charge_C_N` are the film's d.
-double one_way_voltage_V(const PillarModel& elastic_model, const PillarState& state,
-                         const PiezoMatrix& charge_C_N, double permittivity_stress_F_m,
-                         double electrode_radius_m);
-
 }  // namespace viscard

@@ -42,9 +42,6 @@ class DiscreteSystem {
   // m^2.
   Eigen::VectorXd line_load(int field, int break_row, int first_column, int last_column) const;
 
-  // Values of the field at all nodes, and back.
-  Eigen::VectorXd field_values(int field, const Eigen::VectorXd& solution) const;
-
   // rows(u) at one point (x, z) of the body, which must lie in the element.
   Eigen::VectorXd rows_at(const std::vector<OperatorRow>& rows, const Eigen::VectorXd& solution,
                           const SectionElement& element, double x, double z) const;

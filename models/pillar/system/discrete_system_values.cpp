@@ -55,13 +55,4 @@ Eigen::VectorXd DiscreteSystem::line_load(int field, int break_row, int first_co
   return load;
 }
 
-Eigen::VectorXd DiscreteSystem::field_values(int field, const Eigen::VectorXd& solution) const {
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(section_->node_count());
-  for (int node = 0; node < section_->node_count(); ++node) {
-    const int dof = dofs_.dof(field, node);
-    if (dof >= 0) values[node] = solution[dof];
-  }
-  return values;
-}
-
 }  // namespace viscard

@@ -83,9 +83,4 @@ int StiffnessFactor::negative_pivots() const {
   return static_cast<int>((ldlt_.pivots().array() < 0.0).count());
 }
 
-double StiffnessFactor::pivot_ratio() const {
-  const Eigen::VectorXd pivots = ldlt_.pivots().cwiseAbs();
-  return pivots.minCoeff() / pivots.maxCoeff();
-}
-
 }  // namespace viscard

@@ -30,8 +30,6 @@ class StiffnessFactor {
 
   // Number of negative pivots, which is the number of eigenvalues below zero (Sylvester).
   int negative_pivots() const;
-  // Smallest over largest absolute pivot, a cheap sign of near-singularity.
-  double pivot_ratio() const;
 
  private:
   void constrain_solution(Eigen::VectorXd& u, Eigen::VectorXd& source) const;
