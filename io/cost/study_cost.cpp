@@ -121,9 +121,8 @@ CostAdvice advice_for(double tolerance, const CostStudy& study) {
 
 }  // namespace
 
-namespace {
-
-CostStudy study_of(const CostTrials& trials, const CostOptions& options) {
+CostStudy study_cost(const Scene& scene, const CostOptions& options) {
+  const CostTrials trials = trials_of(scene);
   const Clock::time_point start = Clock::now();
   if (options.progress) options.progress(0.0, "reference");
   const SceneAnswer reference = trials.reference();
@@ -147,16 +146,6 @@ CostStudy study_of(const CostTrials& trials, const CostOptions& options) {
     study.advice.push_back(advice_for(tolerance, study));
   }
   return study;
-}
-
-}  // namespace
-
-CostStudy study_cost(const Scene& scene, const CostOptions& options) {
-  return study_of(trials_of(scene), options);
-}
-
-CostStudy study_cost(const ArrayScene& scene, const CostOptions& options) {
-  return study_of(trials_of(scene), options);
 }
 
 std::optional<LinearFactor> factor_over_linear(const CostStudy& study, double error) {

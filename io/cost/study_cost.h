@@ -1,7 +1,7 @@
 #pragma once
 
-#include "models/array/plane/array_scene.h"
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/mesh/pillar_mesh.h"
+#include "models/scene/scene.h"
 
 #include <functional>
 #include <optional>
@@ -55,8 +55,7 @@ struct LinearFactor {
 // the mesh.
 std::optional<LinearFactor> factor_over_linear(const CostStudy& study, double error);
 
-// Throws what simulate() and simulate_array() throw for scenes that contradict themselves.
+// Throws what simulate() throws for a scene that contradicts itself.
 CostStudy study_cost(const Scene& scene, const CostOptions& options);
-CostStudy study_cost(const ArrayScene& scene, const CostOptions& options);
 
 }  // namespace viscard

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "io/cost/study_cost.h"
+#include "models/scene/common/scene_answer.h"
+#include "models/scene/scene.h"
 
 #include <functional>
 #include <string>
@@ -22,6 +23,5 @@ struct CostTrials {
   std::vector<CostTrial> rows;
 };
 CostTrials trials_of(const Scene& scene);
-CostTrials trials_of(const ArrayScene& scene);
 
 }  // namespace viscard

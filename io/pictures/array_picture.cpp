@@ -1,5 +1,7 @@
+#include "io/pictures/array_picture.h"
+
 #include "io/pictures/scene_drawing.h"
-#include "io/pictures/scene_picture.h"
+#include "models/array/plane/array_analysis.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +12,7 @@
 namespace viscard {
 namespace {
 
-constexpr double kWidth_px = 980.0;
+constexpr double kRowWidth_px = 980.0;
 constexpr int kMostPillars = 16;
 
 // What of the row is drawn: pillars and where their middles stand; with a long row its first and
@@ -65,7 +67,7 @@ void draw_row(SceneDrawing& d, const ArrayScene& scene, const ShownRow& row) {
   const double half_m = electrode_half_width_m(g, scene.electrodes);
   const bool has_electrodes = scene.electrodes.is_equipotential;
   const bool is_top = scene.electrodes.grounded == FilmFace::kBottom;
-  const bool is_electric = scene.film.permittivity_F_m(2, 2) > 0.0;
+  const bool is_electric = viscard::is_electric(scene);
   for (const auto& [number, middle_m] : row.pillars) draw_pillar(d, g, middle_m, false);
   if (is_electric) {
     d.ground(row.left_m, row.right_m, g.film_thickness_m, scene.electrodes.grounded);
@@ -77,7 +79,7 @@ void draw_row(SceneDrawing& d, const ArrayScene& scene, const ShownRow& row) {
                   is_top ? FilmFace::kTop : FilmFace::kBottom);
     }
     d.text(d.x(middle_m), d.y(-g.film_thickness_m) + 24.0, std::to_string(number), "middle");
-    if (scene.analysis != ArrayAnalysis::kModal && (loaded.empty() || loaded.count(number) > 0)) {
+    if (analysis_of(scene).is_loaded && (loaded.empty() || loaded.count(number) > 0)) {
       d.load_arrows(middle_m, 0.5 * g.diameter_m, g.length_m, scene.load == ArrayLoad::kShear);
     }
   }
@@ -89,7 +91,7 @@ void draw_row(SceneDrawing& d, const ArrayScene& scene, const ShownRow& row) {
 }
 
 std::string words_of_load(const ArrayScene& scene) {
-  if (scene.analysis == ArrayAnalysis::kModal) return "free vibration";
+  if (!analysis_of(scene).is_loaded) return "free vibration";
   std::string words =
       scene.load_Pa != 0.0 ? pascals(scene.load_Pa) : std::string("a history in time");
   if (scene.load == ArrayLoad::kShear) words += ", sideways,";
@@ -135,13 +137,13 @@ std::string words_of_lengths(const ArrayGeometry& g) {
 
 }  // namespace
 
-std::string svg_from_scene(const ArrayScene& scene, const std::string& title) {
+std::string svg_from_array(const ArrayScene& scene, const std::string& title) {
   const ArrayGeometry& g = scene.geometry;
   const ShownRow row = shown_row(g);
   const bool is_endless = g.ends == FilmEnds::kMirror;
   const double image_m = is_endless ? 0.5 * g.spacing_m + g.diameter_m : 0.0;
   SceneDrawing d(row.left_m - image_m, row.right_m + image_m, -g.film_thickness_m, g.length_m,
-                 kWidth_px);
+                 kRowWidth_px);
   d.film(row.left_m - image_m, row.right_m + image_m, g.film_thickness_m);
   if (is_endless) draw_mirrors(d, g, row);
   draw_row(d, scene, row);

@@ -1,102 +1,22 @@
 #include "io/pictures/scene_picture.h"
 
-#include "io/pictures/scene_drawing.h"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
+#include "io/pictures/array_picture.h"
+#include "io/pictures/pillar_picture.h"
 
 namespace viscard {
 namespace {
 
-constexpr double kWidth_px = 640.0;
-const char* const kPillarStyle = R"(fill="#bcd4e6" stroke="#2b5d7d")";
-
-std::vector<std::pair<double, double>> pillar_outline(const PillarGeometry& g) {
-  constexpr int kPieces = 96;
-  std::vector<std::pair<double, double>> corners;
-  for (int i = 0; i <= kPieces; ++i) {
-    const double z_m = g.length_m * i / kPieces;
-    corners.emplace_back(radius_at_m(g, z_m), z_m);
-  }
-  for (int i = kPieces; i >= 0; --i) {
-    const auto [x_m, z_m] = corners[static_cast<std::size_t>(i)];
-    corners.emplace_back(-x_m, z_m);
-  }
-  return corners;
+std::string svg_from(const PillarScene& scene, const std::string& title) {
+  return svg_from_pillar(scene, title);
 }
-
-double widest_m(const PillarGeometry& g) {
-  double widest = 0.0;
-  for (const auto& [x_m, z_m] : pillar_outline(g)) widest = std::max(widest, x_m);
-  return widest;
-}
-
-void draw_electrodes(SceneDrawing& d, const Scene& scene) {
-  const FilmGeometry& film = *scene.geometry.film;
-  const double R = scene.electrodes->electrode_radius_m;
-  const FilmFace grounded = scene.electrodes->grounded;
-  d.ground(-film.radius_m, film.radius_m, film.thickness_m, grounded);
-  if (R > 0.0) {
-    d.electrode(-R, R, film.thickness_m,
-                grounded == FilmFace::kTop ? FilmFace::kBottom : FilmFace::kTop);
-  }
-  d.legend((R > 0.0 ? "orange: electrode, radius " + micrometres(R)
-                    : std::string("the other face is free of charge and read")) +
-           "; dashed: ground");
-}
-
-void draw_load(SceneDrawing& d, const Scene& scene, double low_m) {
-  const PillarGeometry& g = scene.geometry;
-  const bool is_sideways = scene.direction == LoadDirection::kLateral;
-  const bool is_driven = scene.pressure_Pa != 0.0 || scene.displacement_m.value_or(0.0) != 0.0 ||
-                         !scene.history.empty();
-  const double words_px = d.y(g.length_m) - 38.0;
-  if (scene.load_place == LoadPlace::kBase) {
-    d.base_arrow(0.0, low_m, is_sideways);
-    const std::string words = scene.history.empty() ? fmt::format("base shaken, {:.4g} m/s2",
-                                                                  scene.base_acceleration_m_s2)
-                                                    : std::string("base shaken, a history in time");
-    d.text(d.x(0.0) + 52.0, d.y(low_m) + 26.0, words);
-  } else if (is_driven) {
-    d.load_arrows(0.0, radius_at_m(g, g.length_m), g.length_m, is_sideways);
-    d.text(d.x(0.0), words_px,
-           scene.displacement_m       ? "moved by " + micrometres(*scene.displacement_m)
-           : scene.pressure_Pa != 0.0 ? pascals(scene.pressure_Pa)
-                                      : std::string("a history in time"),
-           "middle");
-  } else if (scene.drive_V != 0.0) {
-    d.text(d.x(0.0), words_px, fmt::format("{:.4g} V on the electrode", scene.drive_V), "middle");
-  }
+std::string svg_from(const ArrayScene& scene, const std::string& title) {
+  return svg_from_array(scene, title);
 }
 
 }  // namespace
 
 std::string svg_from_scene(const Scene& scene, const std::string& title) {
-  const PillarGeometry& g = scene.geometry;
-  const double half_m = std::max(g.film ? g.film->radius_m : g.diameter_m, widest_m(g));
-  const double low_m = g.film ? -g.film->thickness_m : 0.0;
-  SceneDrawing d(-half_m, half_m, low_m, g.length_m, kWidth_px);
-  if (g.film) {
-    d.film(-g.film->radius_m, g.film->radius_m, g.film->thickness_m, scene.fixed_bottom);
-  } else if (scene.fixed_bottom) {
-    d.held(-g.diameter_m, g.diameter_m, 0.0);
-  }
-  if (!scene.fixed_bottom) d.text(d.x(0.0), d.y(low_m) + 16.0, "free", "middle");
-  d.outline(pillar_outline(g), kPillarStyle);
-  d.line(d.x(0.0), d.y(g.length_m), d.x(0.0), d.y(0.0),
-         R"(stroke="#2b5d7d" stroke-dasharray="8 3 2 3")");
-  if (g.film && scene.electrodes) draw_electrodes(d, scene);
-  const double words_px = d.x(widest_m(g)) + 8.0;
-  d.text(words_px, d.y(0.5 * g.length_m), "l " + micrometres(g.length_m));
-  d.text(words_px, d.y(0.5 * g.length_m) + 18.0, "d " + micrometres(g.diameter_m));
-  if (g.film) {
-    d.text(d.x(half_m), d.y(low_m) + 28.0, "film radius " + micrometres(g.film->radius_m), "end");
-  }
-  draw_load(d, scene, low_m);
-  if (scene.plane) d.text(d.width_px() - 12.0, 20.0, "a strip, in the plane", "end");
-  return d.document(title);
+  return std::visit([&](const auto& body) { return svg_from(body, title); }, scene);
 }
 
 }  // namespace viscard

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "models/array/plane/array_scene.h"
-#include "models/pillar/scene/scene.h"
+#include "models/scene/scene.h"
 
 #include <string>
 
@@ -10,9 +9,5 @@ namespace viscard {
 // The geometry of a scene to scale, as an SVG document: pillars, film, electrodes and ground, the
 // held bottom, the load, with their sizes. A section along the axis.
 std::string svg_from_scene(const Scene& scene, const std::string& title);
-
-// Of a long row the first and the last pillars; of an endless one, faint, the neighbours beyond the
-// mirrors.
-std::string svg_from_scene(const ArrayScene& scene, const std::string& title);
 
 }  // namespace viscard

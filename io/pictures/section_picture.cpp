@@ -12,7 +12,7 @@
 namespace viscard {
 namespace {
 
-constexpr double kWidth_px = 560.0;
+constexpr double kSectionWidth_px = 560.0;
 constexpr double kHeight_px = 560.0;
 constexpr double kLeft_px = 30.0, kRight_px = 130.0, kTop_px = 50.0, kBottom_px = 40.0;
 // Largest displacement drawn: of the height, and of the pillar's radius where it does not swing.
@@ -129,7 +129,7 @@ Range range_of(const Shown& shown) {
 
 std::string scale_bar(const Range& range, const Shown& shown) {
   std::string text;
-  const double x = kWidth_px - kRight_px + 30.0;
+  const double x = kSectionWidth_px - kRight_px + 30.0;
   constexpr int kSteps = 40;
   const double height = 0.6 * kHeight_px;
   for (int i = 0; i < kSteps; ++i) {
@@ -156,10 +156,10 @@ std::string svg_of(const Shown& shown) {
       high_z = std::max(high_z, c.z_m);
     }
   }
-  const double scale = std::min((kWidth_px - kLeft_px - kRight_px) / (high_x - low_x),
+  const double scale = std::min((kSectionWidth_px - kLeft_px - kRight_px) / (high_x - low_x),
                                 (kHeight_px - kTop_px - kBottom_px) / (high_z - low_z));
   const double left =
-      kLeft_px + 0.5 * (kWidth_px - kLeft_px - kRight_px - scale * (high_x - low_x));
+      kLeft_px + 0.5 * (kSectionWidth_px - kLeft_px - kRight_px - scale * (high_x - low_x));
   const Range range = range_of(shown);
   std::string body;
   for (const auto& quad : shown.quads) {
@@ -180,7 +180,7 @@ std::string svg_of(const Shown& shown) {
       "<title>{2}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
       "<text x=\"12\" y=\"24\" font-size=\"15\">{2}</text>\n{3}{4}"
       "<text x=\"12\" y=\"{5:.0f}\" fill=\"#444\">{6}</text>\n</svg>\n",
-      kWidth_px, kHeight_px, escaped_markup(shown.title), body, scale_bar(range, shown),
+      kSectionWidth_px, kHeight_px, escaped_markup(shown.title), body, scale_bar(range, shown),
       kHeight_px - 14.0, escaped_markup(shown.note));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/pillar/analyses/solution_fields.h"
+#include "models/pillar/body/section_grid.h"
 
 #include <string>
 #include <utility>

@@ -1,61 +1,239 @@
 #include "io/scenes/scene_drive.h"
 
 #include "io/scenes/scene_words.h"
+#include "models/array/plane/array_analysis.h"
 #include "models/pillar/analyses/analysis.h"
+#include "models/scene/common/drive_parts.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace viscard {
 namespace {
 
-// Straight pieces that stand for half a sine: they err by (pi/256)^2/8 = 2e-5 of its height.
-constexpr int kPulsePieces = 256;
+// Parts of drives that a scene file sets.
+constexpr auto kPlace = [](const auto& d) requires requires {
+  d.load_place;
+}
+{};
+constexpr auto kDirection = [](const auto& d) requires requires {
+  d.direction;
+}
+{};
+constexpr auto kDisplacement = [](const auto& d) requires requires {
+  d.displacement_m;
+}
+{};
+constexpr auto kVoltage = [](const auto& d) requires requires {
+  d.drive_V;
+}
+{};
+constexpr auto kFrequencies = [](const auto& d) requires requires {
+  d.frequencies_Hz;
+}
+{};
+constexpr auto kHistory = [](const auto& d) requires requires {
+  d.history;
+}
+{};
+constexpr auto kEndTime = [](const auto& d) requires requires {
+  d.end_time_s;
+}
+{};
+constexpr auto kPlate = [](const auto& d) requires requires {
+  d.plate_on_top;
+}
+{};
 
-std::vector<HistoryPoint> half_sine(double height, double duration_s) {
-  std::vector<HistoryPoint> points;
-  for (int i = 0; i <= kPulsePieces; ++i) {
-    const double share = static_cast<double>(i) / kPulsePieces;
-    points.push_back({share * duration_s, height * std::sin(std::numbers::pi * share)});
+// The analyses whose drive has a part: "static, harmonic" and then `joint` and "transient".
+template <typename Rows, typename Part>
+std::string analyses_with(const Rows& rows, const Part& part, const std::string& joint) {
+  std::vector<std::string> names;
+  for (const auto& row : rows) {
+    if (has_part(row.drive, part)) names.emplace_back(row.name);
   }
-  points.back().value = 0.0;
-  return points;
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    list += (i == 0 ? "" : i + 1 == names.size() ? joint : ", ") + names[i];
+  }
+  return list;
 }
 
-void fill_frequencies(const RawDrive& raw, Scene& scene) {
-  if (raw.from_Hz == 0.0) return;
-  const bool is_log =
-      choice<bool>("analysis.frequencies.spacing", raw.spacing, {{"log", true}, {"linear", false}});
-  const double to_Hz = raw.to_Hz > 0.0 ? raw.to_Hz : raw.from_Hz;
-  const auto n = raw.count > 0 ? raw.count : (raw.to_Hz > 0.0 ? 100 : 1);
-  if (n > 1 && !(to_Hz > raw.from_Hz)) {
-    throw SceneMistake("analysis.frequencies", "'to' must lie above 'from'");
+// A value that an analysis ignores would make another experiment of the scene than the one meant.
+template <typename Rows, typename Drive, typename Part>
+void refuse_unread(bool is_given, const char* key, const Rows& rows, const char* analysis,
+                   const Drive& drive, const Part& part) {
+  if (!is_given || has_part(drive, part)) return;
+  throw SceneMistake(std::string("analysis.") + key,
+                     std::string("a ") + analysis + " analysis does not use it (" +
+                         analyses_with(rows, part, ", ") + "); leave it out, or change the kind");
+}
+
+// "only harmonic and transient analyses" and what they alone do.
+template <typename Part>
+std::string only(const Part& part, const std::string& what) {
+  return "only " + analyses_with(analyses(), part, " and ") + " analyses " + what;
+}
+
+template <typename Rows, typename Drive>
+void fill_times_of(const RawDrive& raw, const Rows& rows, const char* analysis, Drive& drive) {
+  const auto refuse = [&](bool is_given, const char* key, const auto& part) {
+    refuse_unread(is_given, key, rows, analysis, drive, part);
+  };
+  refuse(raw.from_Hz != 0.0, "frequencies", kFrequencies);
+  refuse(raw.end_time_s != 0.0, "end_time", kEndTime);
+  refuse(!raw.history.empty(), "history", kHistory);
+  refuse(raw.pulse_duration_s != 0.0, "pulse", kHistory);
+  const std::vector<double> frequencies_Hz = frequencies_of(raw);
+  const std::vector<HistoryPoint> history = history_of(raw);
+  set_part(
+      drive, [&](auto& d) requires requires { d.frequencies_Hz; } {
+        d.frequencies_Hz = frequencies_Hz;
+      });
+  set_part(
+      drive, [&](auto& d) requires requires { d.history; } { d.history = history; });
+  set_part(
+      drive, [&](auto& d) requires requires { d.end_time_s; } { d.end_time_s = raw.end_time_s; });
+  set_part(
+      drive, [&](auto& d) requires requires { d.outputs; } {
+        d.outputs = static_cast<int>(raw.outputs);
+      });
+}
+
+bool is_moved(const RawDrive& raw) {
+  return !std::isnan(raw.displacement_m);
+}
+
+void fill_displacement(const RawDrive& raw, PillarScene& scene) {
+  if (!is_moved(raw)) return;
+  if (analysis_of(scene).history == HistoryOf::kShortening) {
+    throw SceneMistake("analysis.load.displacement",
+                       std::string("a ") + analysis_of(scene).name +
+                           " has its shortening in time in a history, such as [[\"0 s\", "
+                           "\"1 um\"], [\"10 s\", \"1 um\"]]");
   }
-  for (std::int64_t i = 0; i < n; ++i) {
-    const double share = n == 1 ? 0.0 : static_cast<double>(i) / static_cast<double>(n - 1);
-    scene.frequencies_Hz.push_back(is_log ? raw.from_Hz * std::pow(to_Hz / raw.from_Hz, share)
-                                          : raw.from_Hz + share * (to_Hz - raw.from_Hz));
+  const bool is_set = set_part(
+      scene.drive, [&](auto& d) requires requires { d.displacement_m; } {
+        d.displacement_m = raw.displacement_m;
+      });
+  if (!is_set) {
+    throw SceneMistake("analysis.load.displacement",
+                       only(kDisplacement, "move the top by a given displacement"));
   }
 }
 
-void fill_history(const RawDrive& raw, Scene& scene) {
-  if (raw.pulse_duration_s > 0.0) {
-    if (!raw.history.empty()) {
-      throw SceneMistake("analysis.pulse", "a scene has a history or a pulse, not both");
-    }
-    scene.history = half_sine(raw.pulse_height, raw.pulse_duration_s);
-    return;
+// Where the load acts: on the top, or as an acceleration of the base.
+void fill_place(const RawDrive& raw, PillarScene& scene) {
+  const bool is_loaded =
+      raw.pressure_Pa != 0.0 || raw.shear_Pa != 0.0 || raw.force_N != 0.0 || is_moved(raw);
+  if (is_loaded && raw.load_on.empty()) {
+    throw SceneMistake("analysis.load", "the load has no place; say on = \"top\"");
   }
-  for (const auto& [time_s, value] : raw.history) scene.history.push_back({time_s, value});
-  validate(scene.history);
-  // A history may begin with nothing at time 0 and jump there.
-  if (scene.history.size() > 1 && scene.history[0].time_s == scene.history[1].time_s) {
-    if (scene.history[0].value == 0.0) scene.history.erase(scene.history.begin());
+  LoadPlace place = LoadPlace::kTop;
+  if (!raw.load_on.empty()) {
+    place = choice<LoadPlace>("analysis.load.on", raw.load_on,
+                              {{"top", LoadPlace::kTop}, {"base", LoadPlace::kBase}});
+  }
+  const bool is_set = set_part(
+      scene.drive, [&](auto& d) requires requires { d.load_place; } { d.load_place = place; });
+  if (place == LoadPlace::kBase && !is_set) {
+    throw SceneMistake("analysis.load.on", only(kPlace, "shake the base; say \"top\""));
+  }
+  if (raw.acceleration_m_s2 != 0.0 && place != LoadPlace::kBase) {
+    throw SceneMistake("analysis.load.acceleration", "is of the base; say on = \"base\"");
+  }
+  if (raw.pressure_Pa != 0.0 && place == LoadPlace::kBase) {
+    throw SceneMistake("analysis.load.pressure", "is on the top; the base takes an acceleration");
   }
 }
 
-void fill_readout(const RawDrive& raw, Scene& scene) {
+void fill_direction(const RawDrive& raw, PillarScene& scene) {
+  const auto direction = choice<LoadDirection>(
+      "analysis.load.direction", raw.direction,
+      {{"axial", LoadDirection::kAxial}, {"lateral", LoadDirection::kLateral}});
+  const bool is_set = set_part(
+      scene.drive, [&](auto& d) requires requires { d.direction; } { d.direction = direction; });
+  if (direction == LoadDirection::kLateral && !is_set) {
+    throw SceneMistake("analysis.load.direction", only(kDirection, "push sideways; say \"axial\""));
+  }
+}
+
+// A pressure, a shear (which says the direction), or a force over the top's area.
+void fill_traction(const RawDrive& raw, PillarScene& scene) {
+  const int given =
+      (raw.pressure_Pa != 0.0) + (raw.shear_Pa != 0.0) + (raw.force_N != 0.0) + is_moved(raw);
+  if (given > 1) {
+    throw SceneMistake("analysis.load", "give one of pressure, shear, force and displacement");
+  }
+  fill_displacement(raw, scene);
+  if (has_history(scene) && (given > 0 || raw.acceleration_m_s2 != 0.0)) {
+    throw SceneMistake("analysis.load",
+                       std::string("the load of a ") + analysis_of(scene).name +
+                           " analysis stands in its history or pulse; say here only on and "
+                           "direction");
+  }
+  if ((raw.shear_Pa != 0.0 || raw.force_N != 0.0) && load_place(scene) == LoadPlace::kBase) {
+    throw SceneMistake("analysis.load", "the base takes an acceleration");
+  }
+  if (raw.shear_Pa != 0.0 && !is_lateral(scene)) {
+    throw SceneMistake("analysis.load.shear", "a shear is sideways; say direction = \"lateral\"");
+  }
+  const double d_m = 2.0 * radius_at_m(scene.geometry, scene.geometry.length_m);  // of the top
+  const double area_m2 = scene.plane ? d_m : 0.25 * std::numbers::pi * d_m * d_m;
+  const double pressure_Pa = raw.pressure_Pa + raw.shear_Pa + raw.force_N / area_m2;
+  set_part(
+      scene.drive, [&](auto& d) requires requires { d.pressure_Pa; } {
+        d.pressure_Pa = pressure_Pa;
+      });
+  set_part(
+      scene.drive, [&](auto& d) requires requires { d.base_acceleration_m_s2; } {
+        d.base_acceleration_m_s2 = raw.acceleration_m_s2;
+      });
+}
+
+void fill_voltage(const RawDrive& raw, PillarScene& scene) {
+  const bool is_set = set_part(
+      scene.drive, [&](auto& d) requires requires { d.drive_V; } { d.drive_V = raw.voltage_V; });
+  if (raw.voltage_V != 0.0 && !is_set) {
+    throw SceneMistake("analysis.load.voltage", only(kVoltage, "drive the electrode"));
+  }
+}
+
+}  // namespace
+
+void fill_modes_and_top(const RawDrive& raw, PillarScene& scene) {
+  set_part(
+      scene.drive, [&](auto& d) requires requires { d.modes; } {
+        d.modes = static_cast<int>(raw.modes);
+      });
+  if (raw.top.empty()) return;
+  if (!has_part(scene.drive, kPlate)) {
+    throw SceneMistake("analysis.top", only(kPlate, "say what is on the top"));
+  }
+  const bool has_plate = choice<bool>("analysis.top", raw.top, {{"free", false}, {"plate", true}});
+  set_part(
+      scene.drive, [&](auto& d) requires requires { d.plate_on_top; } {
+        d.plate_on_top = has_plate;
+      });
+}
+
+void fill_drive(const RawDrive& raw, PillarScene& scene) {
+  fill_place(raw, scene);
+  fill_direction(raw, scene);
+  fill_traction(raw, scene);
+  fill_voltage(raw, scene);
+  fill_times_of(raw, analyses(), analysis_of(scene).name, scene.drive);
+}
+
+void fill_drive(const RawDrive& raw, ArrayScene& scene) {
+  set_part(
+      scene.drive, [&](auto& d) requires requires { d.modes; } {
+        d.modes = static_cast<int>(raw.modes);
+      });
+  fill_times_of(raw, array_analyses(), analysis_of(scene).name, scene.drive);
+}
+
+void fill_readout(const RawDrive& raw, PillarScene& scene) {
   if (raw.readout.empty()) return;
   Readout readout;
   readout.kind =
@@ -75,155 +253,6 @@ void fill_readout(const RawDrive& raw, Scene& scene) {
     throw SceneMistake("readout", error.what());
   }
   scene.readout = readout;
-}
-
-// What an analysis does not read would be an experiment other than the one that is meant.
-void refuse_unread(bool is_given, const char* key, const std::string& analysis,
-                   const std::vector<std::string>& readers) {
-  if (!is_given || std::find(readers.begin(), readers.end(), analysis) != readers.end()) return;
-  std::string list;
-  for (const std::string& reader : readers) list += (list.empty() ? "" : ", ") + reader;
-  throw SceneMistake(std::string("analysis.") + key, "a " + analysis +
-                                                         " analysis does not use it (" + list +
-                                                         "); leave it out, or change the kind");
-}
-
-bool is_moved(const RawDrive& raw) {
-  return !std::isnan(raw.displacement_m);
-}
-
-void fill_displacement(const RawDrive& raw, Scene& scene) {
-  if (!is_moved(raw)) return;
-  if (scene.kind == AnalysisKind::kRelaxation) {
-    throw SceneMistake("analysis.load.displacement",
-                       "a relaxation has its shortening in time in a history, such as [[\"0 s\", "
-                       "\"1 um\"], [\"10 s\", \"1 um\"]]");
-  }
-  if (scene.kind != AnalysisKind::kStatic) {
-    throw SceneMistake("analysis.load.displacement",
-                       "only static analyses move the top by a given displacement");
-  }
-  scene.displacement_m = raw.displacement_m;
-}
-
-// A pressure, a shear (which says the direction), or a force over the top's area.
-void fill_traction(const RawDrive& raw, Scene& scene) {
-  const int given =
-      (raw.pressure_Pa != 0.0) + (raw.shear_Pa != 0.0) + (raw.force_N != 0.0) + is_moved(raw);
-  if (given > 1) {
-    throw SceneMistake("analysis.load", "give one of pressure, shear, force and displacement");
-  }
-  fill_displacement(raw, scene);
-  const bool in_time = scene.kind == AnalysisKind::kCreep ||
-                       scene.kind == AnalysisKind::kRelaxation ||
-                       scene.kind == AnalysisKind::kTransient;
-  if (in_time && (given > 0 || raw.acceleration_m_s2 != 0.0)) {
-    throw SceneMistake("analysis.load",
-                       std::string("the load of a ") + analysis_of(scene.kind).name +
-                           " analysis stands in its history or pulse; say here only on and "
-                           "direction");
-  }
-  if ((raw.shear_Pa != 0.0 || raw.force_N != 0.0) && scene.load_place == LoadPlace::kBase) {
-    throw SceneMistake("analysis.load", "the base takes an acceleration");
-  }
-  if (raw.shear_Pa != 0.0 && scene.direction == LoadDirection::kAxial) {
-    throw SceneMistake("analysis.load.shear", "a shear is sideways; say direction = \"lateral\"");
-  }
-  const double d_m = 2.0 * radius_at_m(scene.geometry, scene.geometry.length_m);  // of the top
-  const double area_m2 = scene.plane ? d_m : 0.25 * std::numbers::pi * d_m * d_m;
-  scene.pressure_Pa = raw.pressure_Pa + raw.shear_Pa + raw.force_N / area_m2;
-}
-
-}  // namespace
-
-void show_drive(FieldVisitor& v, const std::string& analysis, RawDrive& d) {
-  v.section("load", [&](FieldVisitor& l) {
-    l.quantity({.key = "pressure", .unit = "Pa"}, d.pressure_Pa);
-    l.quantity({.key = "shear", .unit = "Pa"}, d.shear_Pa);
-    l.quantity({.key = "force", .unit = "N"}, d.force_N);
-    l.quantity({.key = "displacement", .unit = "m"}, d.displacement_m);
-    l.quantity({.key = "acceleration", .unit = "m/s2"}, d.acceleration_m_s2);
-    l.quantity({.key = "voltage", .unit = "V"}, d.voltage_V);
-    l.text({"on", "top"}, d.load_on);
-    l.text({"direction", "axial"}, d.direction);
-  });
-  show_times(v, d.load_on == "base" ? "m/s2" : analysis == "relaxation" ? "m" : "Pa", d);
-}
-
-void show_times(FieldVisitor& v, const char* unit, RawDrive& d) {
-  v.section("frequencies", [&](FieldVisitor& f) {
-    f.quantity({.key = "from", .unit = "Hz", .range = Range::kPositive}, d.from_Hz);
-    f.quantity({.key = "to", .unit = "Hz", .range = Range::kPositive}, d.to_Hz);
-    f.integer("count", 1, 100000, d.count);
-    f.text({"spacing", "log"}, d.spacing);
-  });
-  v.quantity({.key = "end_time", .unit = "s", .range = Range::kPositive}, d.end_time_s);
-  v.integer("outputs", 10, 200000, d.outputs);
-  v.section("pulse", [&](FieldVisitor& p) {
-    p.quantity({.key = "height", .unit = unit}, d.pulse_height);
-    p.quantity({.key = "duration", .unit = "s", .range = Range::kPositive}, d.pulse_duration_s);
-  });
-  v.quantity_pairs("history", "s", unit, d.history);
-}
-
-void show_readout(FieldVisitor& v, RawDrive& d) {
-  v.text({"kind", "voltage"}, d.readout);
-  v.quantity({.key = "resistance", .unit = "ohm", .range = Range::kPositive}, d.resistance_Ohm);
-  v.quantity({.key = "capacitance", .unit = "F", .range = Range::kPositive}, d.capacitance_F);
-  v.quantity({.key = "film_resistivity", .unit = "ohm m", .range = Range::kPositive},
-             d.film_resistivity_Ohm_m);
-}
-
-void fill_drive(const RawDrive& raw, Scene& scene) {
-  const bool is_loaded =
-      raw.pressure_Pa != 0.0 || raw.shear_Pa != 0.0 || raw.force_N != 0.0 || is_moved(raw);
-  if (is_loaded && raw.load_on.empty()) {
-    throw SceneMistake("analysis.load", "the load has no place; say on = \"top\"");
-  }
-  if (!raw.load_on.empty()) {
-    scene.load_place = choice<LoadPlace>("analysis.load.on", raw.load_on,
-                                         {{"top", LoadPlace::kTop}, {"base", LoadPlace::kBase}});
-  }
-  const bool moves =
-      scene.kind == AnalysisKind::kHarmonic || scene.kind == AnalysisKind::kTransient;
-  if (scene.load_place == LoadPlace::kBase && !moves) {
-    throw SceneMistake("analysis.load.on",
-                       "only harmonic and transient analyses shake the base; say \"top\"");
-  }
-  if (raw.acceleration_m_s2 != 0.0 && scene.load_place != LoadPlace::kBase) {
-    throw SceneMistake("analysis.load.acceleration", "is of the base; say on = \"base\"");
-  }
-  if (raw.pressure_Pa != 0.0 && scene.load_place == LoadPlace::kBase) {
-    throw SceneMistake("analysis.load.pressure", "is on the top; the base takes an acceleration");
-  }
-  scene.direction = choice<LoadDirection>(
-      "analysis.load.direction", raw.direction,
-      {{"axial", LoadDirection::kAxial}, {"lateral", LoadDirection::kLateral}});
-  const bool may_push_sideways = moves || scene.kind == AnalysisKind::kStatic;
-  if (scene.direction == LoadDirection::kLateral && !may_push_sideways) {
-    throw SceneMistake("analysis.load.direction",
-                       "only static, harmonic and transient analyses push sideways; say \"axial\"");
-  }
-  fill_traction(raw, scene);
-  scene.base_acceleration_m_s2 = raw.acceleration_m_s2;
-  if (raw.voltage_V != 0.0 && scene.kind != AnalysisKind::kStatic) {
-    throw SceneMistake("analysis.load.voltage", "only static analyses drive the electrode");
-  }
-  scene.drive_V = raw.voltage_V;
-  scene.end_time_s = raw.end_time_s;
-  scene.outputs = static_cast<int>(raw.outputs);
-  fill_times(raw, analysis_of(scene.kind).name, scene);
-  fill_readout(raw, scene);
-}
-
-void fill_times(const RawDrive& raw, const std::string& analysis, Scene& scene) {
-  refuse_unread(raw.from_Hz != 0.0, "frequencies", analysis, {"harmonic"});
-  refuse_unread(raw.end_time_s != 0.0, "end_time", analysis, {"transient"});
-  const std::vector<std::string> in_time = {"relaxation", "creep", "transient"};
-  refuse_unread(!raw.history.empty(), "history", analysis, in_time);
-  refuse_unread(raw.pulse_duration_s != 0.0, "pulse", analysis, in_time);
-  fill_frequencies(raw, scene);
-  fill_history(raw, scene);
 }
 
 }  // namespace viscard

@@ -1,20 +1,12 @@
 #pragma once
 
-#include "io/basics/printed_value.h"
+#include "io/scenes/scene_sweep.h"
 #include "models/pillar/mesh/scene_mistake.h"
-#include "models/pillar/scene/scene.h"
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace viscard {
-
-struct SceneFile {
-  Scene scene;
-  std::vector<std::string> quantities;  // wanted results; empty: all
-  std::vector<PrintedValue> printed;    // [[printed]]
-};
 
 // Scene files are TOML; data/scenes/ holds commented examples. Material files are looked for beside
 // the scene. Throws std::runtime_error with file:line, key and what is expected, or naming the

@@ -1,7 +1,6 @@
 #include "io/scenes/scene_words.h"
 
 #include "io/materials/material_file.h"
-#include "models/pillar/scene/scene_results.h"
 
 #include <algorithm>
 
@@ -23,6 +22,16 @@ void show_printed(FieldVisitor& v, std::vector<PrintedValue>& printed) {
         p.text({"note", "the mesh of the source is coarse"}, printed[i].note);
       });
 }
+
+namespace {
+
+// Names under which people ask for the largest stress at the rim of the bond. There is none: it is
+// infinite in an elastic body (Williams, J. Appl. Mech. 19 (1952) 526).
+bool is_peak_stress(const std::string& name) {
+  return name.find("peak_stress") != std::string::npos || name == "base_stress_max";
+}
+
+}  // namespace
 
 void check_wanted(const std::vector<std::string>& wanted, const std::vector<std::string>& known) {
   for (const std::string& name : wanted) {

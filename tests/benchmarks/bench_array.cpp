@@ -1,6 +1,7 @@
 // Rows of pillars inside one process: processor time of static voltage maps to .1 %, and wall time
 // of a sweep over diameters and spacings on all cores.
-#include "models/array/plane/array_scene.h"
+#include "models/array/plane/simulate_array.h"
+#include "models/scene/simulate.h"
 
 #include <fmt/format.h>
 
@@ -62,7 +63,7 @@ void bench_voltages(int count, double allowed_s) {
 }
 
 void bench_map(int across) {
-  std::vector<ArrayScene> points;
+  std::vector<Scene> points;
   for (int i = 0; i < across; ++i) {
     for (int j = 0; j < across; ++j) {
       ArrayScene scene = seed_row(1);
@@ -77,7 +78,7 @@ void bench_map(int across) {
   const double start_s = wall_s();
   const double cpu_start_s = cpu_s();
   double worst = 0.0;
-  simulate_arrays(points, [&](std::size_t, const SceneAnswer& answer) {
+  simulate_all(points, [&](std::size_t, const SceneAnswer& answer) {
     worst = std::max(worst, answer.largest_relative_error);
   });
   fmt::print(

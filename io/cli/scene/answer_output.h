@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/pillar/scene/scene.h"
+#include "models/scene/common/scene_answer.h"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -80,23 +80,23 @@ void SweepStore::remove() {
   if (!path_.empty()) std::filesystem::remove(path_);
 }
 
-SceneAnswer joined(const ArraySceneFile& file, const std::vector<SweepPoint>& points,
+SceneAnswer joined(const ArraySweep& sweep, const std::vector<SweepPoint>& points,
                    const std::map<std::size_t, SweepRow>& rows) {
   SceneAnswer answer;
-  const std::size_t per_line = std::max<std::size_t>(1, file.sweep.spacing_m.size());
+  const std::size_t per_line = std::max<std::size_t>(1, sweep.spacing_m.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (SceneResult r : rows.at(i)) {
       r.name += " at " + points[i].label;
       answer.results.push_back(std::move(r));
     }
   }
-  if (!(file.sweep.limit_percent > 0.0)) return answer;
+  if (!(sweep.limit_percent > 0.0)) return answer;
   for (std::size_t line = 0; line < points.size(); line += per_line) {
     for (std::size_t i = line; i < line + per_line; ++i) {
       const auto deviation = std::find_if(rows.at(i).begin(), rows.at(i).end(), [](const auto& r) {
         return r.name.starts_with("deviation_percent");
       });
-      if (deviation == rows.at(i).end() || std::abs(deviation->value) >= file.sweep.limit_percent) {
+      if (deviation == rows.at(i).end() || std::abs(deviation->value) >= sweep.limit_percent) {
         continue;
       }
       const std::string& label = points[i].label;

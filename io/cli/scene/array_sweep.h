@@ -1,6 +1,7 @@
 #pragma once
 
-#include "io/scenes/scene_array.h"
+#include "io/scenes/scene_sweep.h"
+#include "models/scene/common/scene_answer.h"
 
 #include <filesystem>
 #include <map>
@@ -31,7 +32,7 @@ class SweepStore {
 // One answer of the whole sweep: every result as "name at label", and, with a limit, for each
 // combination of the other parameters the first spacing whose deviation lies below it:
 // "first_spacing at diameter 40 um" (none, no result).
-SceneAnswer joined(const ArraySceneFile& file, const std::vector<SweepPoint>& points,
+SceneAnswer joined(const ArraySweep& sweep, const std::vector<SweepPoint>& points,
                    const std::map<std::size_t, SweepRow>& rows);
 
 // Columns diameter_m, spacing_m, thickness_m, then value and error estimate of each result.

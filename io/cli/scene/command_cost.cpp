@@ -6,7 +6,6 @@
 #include "io/cli/words/progress.h"
 #include "io/cost/study_cost.h"
 #include "io/plots/plot.h"
-#include "io/scenes/scene_array.h"
 #include "io/scenes/scene_file.h"
 
 #include <fmt/format.h>
@@ -14,7 +13,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <ostream>
 
 namespace po = boost::program_options;
@@ -170,16 +168,13 @@ int run_cost(const std::vector<std::string>& words, Streams& streams) {
   }
   const auto path = (*values)["scene"].as<std::string>();
   CostOptions options{.budget_s = budget_s((*values)["budget"].as<std::string>())};
-  const bool is_array = scene_kind(path) == "array";
-  const std::optional<ArrayScene> row =
-      is_array ? std::optional(read_array_scene(path).scene) : std::nullopt;
-  const Scene scene = is_array ? Scene{} : read_scene(path).scene;
+  const Scene scene = read_scene(path).scene;
   CostStudy study;
   {
     Progress progress(streams, "cost");
     options.progress = [&](double done, const std::string& name) { progress.show(done, name); };
     try {
-      study = row ? study_cost(*row, options) : study_cost(scene, options);
+      study = study_cost(scene, options);
     } catch (const SceneMistake& mistake) {
       throw std::runtime_error(told_with_line(path, mistake));
     }

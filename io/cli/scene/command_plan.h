@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/cli/words/streams.h"
-#include "models/pillar/scene/scene.h"
+#include "models/scene/common/scene_answer.h"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -3,9 +3,8 @@
 #include "io/basics/atomic_file.h"
 #include "io/cli/words/command_line.h"
 #include "io/pictures/scene_picture.h"
-#include "io/scenes/scene_array.h"
 #include "io/scenes/scene_file.h"
-#include "models/pillar/plan/plan.h"
+#include "models/scene/plan.h"
 
 #include <nlohmann/json.hpp>
 
@@ -29,12 +28,6 @@ CommandSyntax scene_syntax() {
   return syntax;
 }
 
-// What reading alone does not find: effects that cannot be off, a load beyond buckling.
-void check_pillar(const Scene& scene) {
-  plan_effects(scene);
-  refuse_beyond_buckling(scene);
-}
-
 }  // namespace
 
 int run_scene(const std::vector<std::string>& words, Streams& streams) {
@@ -46,25 +39,20 @@ int run_scene(const std::vector<std::string>& words, Streams& streams) {
     throw UsageError(std::string("usage: ") + syntax.usage);
   }
   const auto path = (*values)["scene"].as<std::string>();
-  const std::string kind = scene_kind(path);
-  const std::string name = std::filesystem::path(path).filename().string();
-  std::string drawing;
-  if (kind == "array") {
-    drawing = svg_from_scene(read_array_scene(path).scene, name);
-  } else {
-    const Scene scene = read_scene(path).scene;
-    try {
-      check_pillar(scene);
-    } catch (const SceneMistake& mistake) {
-      throw std::runtime_error(told_with_line(path, mistake));
-    }
-    drawing = svg_from_scene(scene, name);
+  const Scene scene = read_scene(path).scene;
+  try {
+    checked_plan(scene);  // reading finds neither effects that cannot be off nor buckling
+  } catch (const SceneMistake& mistake) {
+    throw std::runtime_error(told_with_line(path, mistake));
   }
+  const std::string name = std::filesystem::path(path).filename().string();
+  const std::string drawing = svg_from_scene(scene, name);
   if (values->count("svg") > 0) {
     write_file((*values)["svg"].as<std::string>(), drawing, values->count("force") > 0);
   }
   if (values->count("json") > 0) {
-    streams.out << nlohmann::json({{"scene", path}, {"kind", kind}, {"ok", true}}).dump(2) << "\n";
+    streams.out << nlohmann::json({{"scene", path}, {"kind", kind_of(scene)}, {"ok", true}}).dump(2)
+                << "\n";
   } else {
     streams.out << path << ": nothing contradicts itself\n";
   }

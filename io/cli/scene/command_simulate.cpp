@@ -2,15 +2,16 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/cli/scene/answer_output.h"
-#include "io/cli/scene/array_run.h"
+#include "io/cli/scene/row_pictures.h"
+#include "io/cli/scene/sweep_run.h"
+#include "io/cli/scene/tolerance_option.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/printed_values.h"
 #include "io/cli/words/progress.h"
 #include "io/pictures/section_picture.h"
 #include "io/pictures/vtk_file.h"
-#include "io/scenes/scene_array.h"
 #include "io/scenes/scene_file.h"
-#include "models/pillar/plan/plan.h"
+#include "models/scene/simulate.h"
 
 #include <nlohmann/json.hpp>
 
@@ -25,9 +26,9 @@ namespace {
 
 SceneAnswer answer_of(Scene scene, const std::string& path, Streams& streams) {
   Progress progress(streams, "simulate");
-  scene.progress = [&](double done) { progress.show(done, ""); };
+  common(scene).progress = [&](double done) { progress.show(done, ""); };
   try {
-    return simulate_planned(scene);
+    return simulate(scene);
   } catch (const SceneMistake& mistake) {
     throw std::runtime_error(told_with_line(path, mistake));
   } catch (const std::runtime_error& error) {
@@ -35,16 +36,15 @@ SceneAnswer answer_of(Scene scene, const std::string& path, Streams& streams) {
   }
 }
 
-// For ParaView and to look at: the solution on the mesh that met the tolerance.
-void write_fields(const Scene& scene, const SceneAnswer& answer, const std::string& folder,
-                  bool overwrite) {
+// To look at, and for ParaView: the solution on the mesh that met the tolerance, and results over
+// the pillars' numbers.
+void write_looks(const Scene& scene, const SceneAnswer& answer, const SweepOutput& output) {
+  const std::filesystem::path in = output.folder;
   for (const SectionGrid& grid : solution_fields(scene, answer.discretisation)) {
-    const std::filesystem::path in = folder;
-    write_file(in / (grid.name + ".vtu"), vtu_from_grid(grid), overwrite);
-    for (const auto& [name, svg] : pictures_from_grid(grid)) {
-      write_file(in / (name + ".svg"), svg, overwrite);
-    }
+    write_file(in / (grid.name + ".vtu"), vtu_from_grid(grid), output.overwrite);
+    write_pictures(pictures_from_grid(grid), output.folder, output.overwrite);
   }
+  write_pictures(pictures_over_pillars(answer), output.folder, output.overwrite);
 }
 
 CommandSyntax simulate_syntax() {
@@ -52,15 +52,13 @@ CommandSyntax simulate_syntax() {
       "viscard simulate SCENE.toml [OPTIONS]",
       "Answers a scene: static, modal, buckling, creep, relaxation, harmonic or transient of one "
       "pillar, on a rigid base or a film,\nor voltages, cross-talk and modes of a row of pillars. "
-      "The "
-      "mesh is refined until the estimated error meets the tolerance.",
+      "The mesh is refined until the estimated error meets the tolerance.",
       "viscard simulate data/scenes/pillar_modal.toml"};
-  syntax.options.add_options()("tol", po::value<double>(),
-                               "relative error allowed, instead of the scene's")(
+  add_tolerance_option(syntax.options);
+  syntax.options.add_options()(
       "out", po::value<std::string>(),
       "folder for results as JSON and CSV, curves as CSV and pictures; static and modal scenes add "
-      "fields "
-      "as .vtu for ParaView")("force", "overwrite existing files");
+      "fields as .vtu for ParaView")("force", "overwrite existing files");
   syntax.positional = {"scene"};
   return syntax;
 }
@@ -74,25 +72,24 @@ int run_simulate(const std::vector<std::string>& words, Streams& streams) {
   if (values->count("scene") == 0)
     throw UsageError(std::string("which scene? usage: ") + syntax.usage);
   const auto path = (*values)["scene"].as<std::string>();
-  if (scene_kind(path) == "array") return run_array_scene(path, *values, words, streams);
   SceneFile file = read_scene(path);
-  if (values->count("tol") > 0) file.scene.tolerance = (*values)["tol"].as<double>();
-  if (!(file.scene.tolerance >= 1e-9 && file.scene.tolerance < 1.0)) {
-    throw UsageError("--tol must lie between 1e-9 and 1");
-  }
+  apply_tolerance(*values, file.scene);
+  const bool is_sweep = !file.sweep.is_empty();
+  const std::string folder = values->count("out") > 0 ? (*values)["out"].as<std::string>() : "";
+  const SweepOutput output{folder, quoted_command_line("simulate", words),
+                           values->count("force") > 0};
   const auto start = std::chrono::steady_clock::now();
-  SceneAnswer answer = answer_of(file.scene, path, streams);
+  SceneAnswer answer =
+      is_sweep ? run_sweep(file, path, output, streams) : answer_of(file.scene, path, streams);
   const double wall_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const auto printed = compare_printed(file.printed, answer);
-  if (file.scene.kind != AnalysisKind::kModal) keep_wanted(file.quantities, answer);
+  if (!is_sweep) keep_wanted(common(file.scene).wanted, answer);  // a sweep has kept them by point
   nlohmann::json object = json_from_answer(answer, wall_s);
   if (!printed.empty()) object["printed"] = json_from_comparison(printed);
-  if (values->count("out") > 0) {
-    write_files(answer, object, (*values)["out"].as<std::string>(),
-                quoted_command_line("simulate", words), values->count("force") > 0);
-    write_fields(file.scene, answer, (*values)["out"].as<std::string>(),
-                 values->count("force") > 0);
+  if (!folder.empty()) {
+    write_files(answer, object, folder, output.command, output.overwrite);
+    if (!is_sweep) write_looks(file.scene, answer, output);
   }
   if (values->count("json") > 0) {
     streams.out << object.dump(2) << "\n";

@@ -13,7 +13,7 @@
 namespace viscard {
 namespace {
 
-constexpr double kUm = 1e6;  // lengths are shown in micrometres
+constexpr double kUm_m = 1e6;  // lengths are shown in micrometres
 
 using Pictures = std::vector<std::pair<std::string, std::string>>;
 
@@ -106,7 +106,7 @@ std::string others_of(const ArraySweep& sweep, const ArrayGeometry& g, const Swe
   std::string text;
   const auto add = [&](const char* name, std::size_t values, double ArrayGeometry::*of) {
     if (of == abscissa.of || values < 2) return;
-    text += fmt::format("{}{} {:.4g} um", text.empty() ? "" : ", ", name, kUm * (g.*of));
+    text += fmt::format("{}{} {:.4g} um", text.empty() ? "" : ", ", name, kUm_m * (g.*of));
   };
   add("diameter", sweep.diameter_m.size(), &ArrayGeometry::diameter_m);
   add("spacing", sweep.spacing_m.size(), &ArrayGeometry::spacing_m);
@@ -126,9 +126,9 @@ PlotSeries limit_line(const PlotPanel& panel, double limit) {
   return line;
 }
 
-Plot plot_over_sweep(const ArraySceneFile& file, const std::vector<SweepPoint>& points,
+Plot plot_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoint>& points,
                      const std::map<std::size_t, SweepRow>& rows, std::size_t column) {
-  const SweepKey key = key_with_most_values(file.sweep);
+  const SweepKey key = key_with_most_values(sweep);
   const SceneResult& first = rows.begin()->second[column];
   std::vector<double> values;
   for (const auto& [i, row] : rows) values.push_back(row[column].value);
@@ -139,10 +139,10 @@ Plot plot_over_sweep(const ArraySceneFile& file, const std::vector<SweepPoint>& 
   std::map<std::string, std::size_t> line_of;
   for (const auto& [i, row] : rows) {
     const ArrayGeometry& g = points[i].scene.geometry;
-    const std::string name = others_of(file.sweep, g, key);
+    const std::string name = others_of(sweep, g, key);
     const auto [at, is_new] = line_of.try_emplace(name, panel.series.size());
     if (is_new) panel.series.push_back({.label = name, .ink = ink_of_series(at->second)});
-    panel.series[at->second].x.push_back(kUm * (g.*key.of));
+    panel.series[at->second].x.push_back(kUm_m * (g.*key.of));
     panel.series[at->second].y.push_back(unit.per_si * row[column].value);
   }
   const std::size_t lines = panel.series.size();
@@ -152,8 +152,8 @@ Plot plot_over_sweep(const ArraySceneFile& file, const std::vector<SweepPoint>& 
     dots.label.clear();
     panel.series.push_back(std::move(dots));
   }
-  if (first.name.starts_with("deviation_percent") && file.sweep.limit_percent > 0.0) {
-    panel.series.push_back(limit_line(panel, file.sweep.limit_percent));
+  if (first.name.starts_with("deviation_percent") && sweep.limit_percent > 0.0) {
+    panel.series.push_back(limit_line(panel, sweep.limit_percent));
   }
   Plot plot{.title = words_of(first.name), .panels = {}};
   plot.description = plot.title + " against " + key.name;
@@ -183,13 +183,13 @@ Pictures pictures_over_pillars(const SceneAnswer& answer) {
   return pictures;
 }
 
-Pictures pictures_over_sweep(const ArraySceneFile& file, const std::vector<SweepPoint>& points,
+Pictures pictures_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoint>& points,
                              const std::map<std::size_t, SweepRow>& rows) {
   Pictures pictures;
-  if (rows.size() < 2 || key_with_most_values(file.sweep).values < 2) return pictures;
+  if (rows.size() < 2 || key_with_most_values(sweep).values < 2) return pictures;
   for (std::size_t column = 0; column < rows.begin()->second.size(); ++column) {
     const std::string& name = rows.begin()->second[column].name;
-    if (!draw(name, plot_over_sweep(file, points, rows, column), pictures)) return {};
+    if (!draw(name, plot_over_sweep(sweep, points, rows, column), pictures)) return {};
   }
   return pictures;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/cli/scene/array_sweep.h"
-#include "models/pillar/scene/scene.h"
+#include "models/scene/common/scene_answer.h"
 
 #include <map>
 #include <string>
@@ -20,7 +20,7 @@ std::vector<std::pair<std::string, std::string>> pictures_over_pillars(const Sce
 // Each result of a sweep over the parameter with the most values, one line for each combination of
 // the others; the limit on the deviation is drawn where there is one.
 std::vector<std::pair<std::string, std::string>> pictures_over_sweep(
-    const ArraySceneFile& file, const std::vector<SweepPoint>& points,
+    const ArraySweep& sweep, const std::vector<SweepPoint>& points,
     const std::map<std::size_t, SweepRow>& rows);
 
 }  // namespace viscard

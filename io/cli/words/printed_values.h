@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/basics/printed_value.h"
-#include "models/pillar/scene/scene.h"
+#include "models/scene/common/scene_answer.h"
 
 #include <nlohmann/json_fwd.hpp>
 

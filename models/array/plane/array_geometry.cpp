@@ -42,8 +42,11 @@ double electrode_half_width_m(const ArrayGeometry& g, const ArrayElectrodes& e) 
   return e.half_width_m > 0.0 ? e.half_width_m : 0.5 * g.diameter_m;
 }
 
-double pillar_centre_m(const ArrayGeometry& g, int pillar) {
-  return (pillar - 0.5 * (g.count - 1)) * (g.diameter_m + g.spacing_m);
+ArrayGeometry lone(ArrayGeometry geometry) {
+  geometry.count = 1;
+  geometry.ends = FilmEnds::kMirror;
+  geometry.spacing_m = 15.0 * std::max(geometry.diameter_m, 1.6 * geometry.film_thickness_m);
+  return geometry;
 }
 
 void validate(const ArrayGeometry& g, const ArrayElectrodes& e) {

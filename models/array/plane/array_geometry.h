@@ -37,7 +37,8 @@ struct ArrayElectrodes {
 void validate(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes);
 
 double electrode_half_width_m(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes);
-double pillar_centre_m(const ArrayGeometry& geometry, int pillar);  // 0 is the middle of the row
+// The same pillar alone, on a film so wide that its ends are not felt.
+ArrayGeometry lone(ArrayGeometry geometry);
 
 // Where elements must end, and whether stress or field is singular there, so that they shrink.
 struct MeshMark {

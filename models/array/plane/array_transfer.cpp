@@ -1,4 +1,5 @@
-#include "models/array/plane/array_dynamics.h"
+#include "models/array/plane/array_transfer.h"
+
 #include "models/pillar/time/relative_modulus.h"
 
 #include <Eigen/Eigenvalues>

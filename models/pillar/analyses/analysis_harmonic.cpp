@@ -1,4 +1,7 @@
+#include "models/pillar/analyses/analysis.h"
+#include "models/pillar/analyses/pillar_results.h"
 #include "models/pillar/analyses/scene_body.h"
+#include "models/pillar/analyses/sideways.h"
 #include "models/pillar/analyses/wave_mesh.h"
 #include "models/pillar/body/pillar_loads.h"
 #include "models/pillar/mesh/number_text.h"
@@ -16,6 +19,10 @@ namespace viscard {
 namespace {
 
 using Complex = std::complex<double>;
+const HarmonicDrive& harmonic_drive(const PillarScene& scene) {
+  return std::get<HarmonicDrive>(scene.drive);
+}
+
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // Up to this many frequencies are solved one by one on the whole body.
@@ -32,20 +39,20 @@ struct Sweep {
 // Everything needed for one frequency.
 class Response {
  public:
-  Response(const Scene& scene, const SceneBody& body, const ReducedBody& reduced)
-      : is_base_(scene.load_place == LoadPlace::kBase),
+  Response(const PillarScene& scene, const SceneBody& body, const ReducedBody& reduced)
+      : is_base_(load_place(scene) == LoadPlace::kBase),
         solver_(reduced.system),
         mass_(dense(reduced.system.mass)) {
     const double area_m2 = top_area_m2(*body.model);
     sides_.resize(reduced.basis.cols(), static_cast<Eigen::Index>(1 + body.outputs.size()));
     sides_.col(0) =
         is_base_
-            ? reduced.load(-scene.base_acceleration_m_s2 * unit_acceleration_force(*body.model))
-            : reduced.load(sign(scene) * scene.pressure_Pa * area_m2 * body.system.load);
+            ? reduced.load(-base_acceleration_m_s2(scene) * unit_acceleration_force(*body.model))
+            : reduced.load(sign(scene) * pressure_Pa(scene) * area_m2 * body.system.load);
     for (std::size_t i = 0; i < body.outputs.size(); ++i) {
       sides_.col(static_cast<Eigen::Index>(i + 1)) = reduced.output(body.outputs[i].of);
     }
-    base_acceleration_m_s2_ = scene.base_acceleration_m_s2;
+    base_acceleration_m_s2_ = base_acceleration_m_s2(scene);
   }
 
   // Values of all outputs, and what the tolerance refers to.
@@ -100,8 +107,8 @@ class Response {
   }
 
  private:
-  static double sign(const Scene& scene) {
-    return scene.direction == LoadDirection::kAxial ? -1.0 : 1.0;  // a pressure pushes down
+  static double sign(const PillarScene& scene) {
+    return !is_lateral(scene) ? -1.0 : 1.0;  // a pressure pushes down
   }
 
   bool is_base_;
@@ -111,9 +118,9 @@ class Response {
   double base_acceleration_m_s2_ = 0.0;
 };
 
-void add_curves(const Scene& scene, const std::string& name, const std::string& unit,
+void add_curves(const PillarScene& scene, const std::string& name, const std::string& unit,
                 const Sweep& sweep, SceneAnswer& answer) {
-  const std::vector<double>& f = scene.frequencies_Hz;
+  const std::vector<double>& f = harmonic_drive(scene).frequencies_Hz;
   const auto part = [&](const char* suffix, const char* part_unit, bool watched,
                         const std::function<double(Complex)>& of) {
     SceneCurve curve{name + suffix, part_unit, f, {}, "frequency_Hz"};
@@ -135,9 +142,9 @@ void add_curves(const Scene& scene, const std::string& name, const std::string& 
 }
 
 // Resonances of the first output inside the sweep.
-void add_peaks(const Scene& scene, const Response& response, const std::string& name,
+void add_peaks(const PillarScene& scene, const Response& response, const std::string& name,
                const Sweep& sweep, SceneAnswer& answer) {
-  const std::vector<double>& f = scene.frequencies_Hz;
+  const std::vector<double>& f = harmonic_drive(scene).frequencies_Hz;
   int number = 0;
   for (std::size_t i = 1; i + 1 < f.size() && number < 9; ++i) {
     const double here = std::abs(sweep.value[i]);
@@ -148,17 +155,18 @@ void add_peaks(const Scene& scene, const Response& response, const std::string& 
 }
 
 // Frequencies at which the tolerance allows no statement of the amplitude.
-void note_poles(const Scene& scene, const Sweep& sweep, SceneAnswer& answer) {
+void note_poles(const PillarScene& scene, const Sweep& sweep, SceneAnswer& answer) {
   std::string list;
   int count = 0;
   for (std::size_t i = 0; i < sweep.value.size(); ++i) {
     const double size = std::abs(sweep.value[i]);
     if (sweep.allowed[i] * scene.tolerance < 0.5 * size) continue;
-    if (++count <= 4) list += (count > 1 ? ", " : "") + number_text(scene.frequencies_Hz[i], 8);
+    if (++count <= 4)
+      list += (count > 1 ? ", " : "") + number_text(harmonic_drive(scene).frequencies_Hz[i], 8);
   }
   if (count == 0) return;
   // A coarse mesh may resonate where the pillar does not; no answer ends below degree 5.
-  if (scene.frequencies_Hz.size() == 1 && answer.discretisation.degree >= 5) {
+  if (harmonic_drive(scene).frequencies_Hz.size() == 1 && answer.discretisation.degree >= 5) {
     throw std::runtime_error(
         "at " + list +
         " Hz the pillar is on a resonance, or a node between two, with too little damping: "
@@ -171,19 +179,19 @@ void note_poles(const Scene& scene, const Sweep& sweep, SceneAnswer& answer) {
                          "error column there");
 }
 
-bool is_solved_one_by_one(const Scene& scene, const SceneBody& body) {
-  return scene.frequencies_Hz.size() <= kMostDirect && !body.system.incompressible;
+bool is_solved_one_by_one(const PillarScene& scene, const SceneBody& body) {
+  return harmonic_drive(scene).frequencies_Hz.size() <= kMostDirect && !body.system.incompressible;
 }
 
-ReducedBody reduced_for(const Scene& scene, const SceneBody& body,
+ReducedBody reduced_for(const PillarScene& scene, const SceneBody& body,
                         const std::vector<Eigen::VectorXd>& loads) {
   if (is_solved_one_by_one(scene, body)) {
     std::vector<double> omega;
-    for (const double f : scene.frequencies_Hz) omega.push_back(kTwoPi * f);
+    for (const double f : harmonic_drive(scene).frequencies_Hz) omega.push_back(kTwoPi * f);
     return reduce_at(body.system, loads, omega);
   }
-  const DynamicRange range{.lowest_rad_s = kTwoPi * scene.frequencies_Hz.front(),
-                           .highest_rad_s = kTwoPi * scene.frequencies_Hz.back(),
+  const DynamicRange range{.lowest_rad_s = kTwoPi * harmonic_drive(scene).frequencies_Hz.front(),
+                           .highest_rad_s = kTwoPi * harmonic_drive(scene).frequencies_Hz.back(),
                            .tolerance = 0.1 * scene.tolerance};
   ReducedBody reduced = reduce_dynamic(body.system, loads, range);
   if (reduced.sound_up_to_rad_s < range.highest_rad_s) {
@@ -196,10 +204,8 @@ ReducedBody reduced_for(const Scene& scene, const SceneBody& body,
   return reduced;
 }
 
-}  // namespace
-
-void check_harmonic(const Scene& scene) {
-  const std::vector<double>& f = scene.frequencies_Hz;
+void check_harmonic(const PillarScene& scene) {
+  const std::vector<double>& f = harmonic_drive(scene).frequencies_Hz;
   if (f.empty()) throw std::invalid_argument("a harmonic analysis needs frequencies");
   for (std::size_t i = 0; i < f.size(); ++i) {
     if (!(f[i] > 0.0) || !std::isfinite(f[i]) || (i > 0 && !(f[i] > f[i - 1]))) {
@@ -207,34 +213,34 @@ void check_harmonic(const Scene& scene) {
                                   std::to_string(i + 1) + " is " + number_text(f[i]) + " Hz");
     }
   }
-  if (scene.load_place == LoadPlace::kTop ? scene.pressure_Pa == 0.0
-                                          : scene.base_acceleration_m_s2 == 0.0) {
+  if (load_place(scene) == LoadPlace::kTop ? pressure_Pa(scene) == 0.0
+                                           : base_acceleration_m_s2(scene) == 0.0) {
     throw std::invalid_argument(
         "a harmonic analysis needs a pressure on the top or an acceleration of the base");
   }
   check_sideways_in_time(scene);
-  wave_mesh(scene);  // refuses what no mesh can resolve
+  wave_mesh(scene, f);  // refuses what no mesh can resolve
 }
 
-void run_harmonic(const Scene& scene, SceneAnswer& answer) {
-  const bool is_axial = scene.direction == LoadDirection::kAxial;
-  const Motion lateral = scene.plane ? Motion::kPlaneAntisymmetric : Motion::kLateral;
+void run_harmonic(const PillarScene& scene, SceneAnswer& answer) {
+  const bool is_axial = !is_lateral(scene);
   if (!scene.discretisation) {
-    const WaveMesh mesh = wave_mesh(scene);
+    const WaveMesh mesh = wave_mesh(scene, harmonic_drive(scene).frequencies_Hz);
     answer.discretisation.longest_m = mesh.longest_m;
     answer.discretisation.skin_m = mesh.skin_m;
-    answer.discretisation.skin_at_foot = scene.load_place == LoadPlace::kBase;
+    answer.discretisation.skin_at_foot = load_place(scene) == LoadPlace::kBase;
   }
-  const SceneBody body =
-      body_of(scene, is_axial ? axial_motion(scene) : lateral, {.with_mass = true}, answer);
+  const SceneBody body = body_of(scene, is_axial ? axial_motion(scene) : lateral_motion(scene),
+                                 {.with_mass = true}, answer);
   std::vector<Eigen::VectorXd> loads = {body.system.load};
-  if (scene.load_place == LoadPlace::kBase) loads.push_back(unit_acceleration_force(*body.model));
+  if (load_place(scene) == LoadPlace::kBase) loads.push_back(unit_acceleration_force(*body.model));
   const ReducedBody reduced = reduced_for(scene, body, loads);
   answer.step_error = reduced.error;
   const Response response(scene, body, reduced);
   std::vector<Sweep> sweeps(body.outputs.size());
-  for (const double frequency_Hz : scene.frequencies_Hz) response.add(frequency_Hz, sweeps);
-  const bool is_base = scene.load_place == LoadPlace::kBase;
+  for (const double frequency_Hz : harmonic_drive(scene).frequencies_Hz)
+    response.add(frequency_Hz, sweeps);
+  const bool is_base = load_place(scene) == LoadPlace::kBase;
   const std::string first = is_base ? "transmissibility" : "top_displacement";
   add_curves(scene, first, is_base ? "1" : "m", sweeps[0], answer);
   if (!is_solved_one_by_one(scene, body)) add_peaks(scene, response, first, sweeps[0], answer);
@@ -245,11 +251,40 @@ void run_harmonic(const Scene& scene, SceneAnswer& answer) {
   const ReadoutFilter filter = readout_of(scene, body, answer);
   Sweep reading = sweeps[1];
   for (std::size_t i = 0; i < reading.value.size(); ++i) {
-    const Complex gain = viscard::response(filter, kTwoPi * scene.frequencies_Hz[i]);
+    const Complex gain =
+        viscard::response(filter, kTwoPi * harmonic_drive(scene).frequencies_Hz[i]);
     reading.value[i] *= gain;
     reading.allowed[i] *= std::abs(gain);
   }
   add_curves(scene, "reading", "V", reading, answer);
+}
+
+std::vector<std::string> harmonic_names(const PillarScene& scene) {
+  const bool is_base = load_place(scene) == LoadPlace::kBase;
+  std::vector<std::string> endings = {"_real",  "_imaginary", "_magnitude",
+                                      "_phase", "_at_lowest", "_at_highest"};
+  for (char number = '1'; number <= '9'; ++number) {
+    endings.push_back(std::string("_resonance_") + number);
+  }
+  return moving_names(scene, is_base ? "transmissibility" : "top_displacement", endings);
+}
+
+// An oscillating load pushes half of the time, whatever its sign.
+double harmonic_push_Pa(const PillarScene& scene) {
+  return std::abs(harmonic_drive(scene).pressure_Pa);
+}
+
+}  // namespace
+
+Analysis harmonic_analysis() {
+  return {.name = "harmonic",
+          .drive = HarmonicDrive{},
+          .has_inertia = true,
+          .relaxes = true,
+          .check = check_harmonic,
+          .result_names = harmonic_names,
+          .run = run_harmonic,
+          .push_Pa = harmonic_push_Pa};
 }
 
 }  // namespace viscard

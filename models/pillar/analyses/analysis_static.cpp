@@ -1,8 +1,11 @@
 #include "models/maths/gauss_legendre.h"
 #include "models/pillar/analyses/analysis.h"
+#include "models/pillar/analyses/film_shares.h"
+#include "models/pillar/analyses/sideways.h"
+#include "models/pillar/analyses/static_piezo.h"
 #include "models/pillar/analyses/top_load.h"
-#include "models/pillar/body/piezo_one_way.h"
 #include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/body/section_sampling.h"
 #include "models/pillar/mesh/number_text.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
@@ -53,11 +56,11 @@ double rim_mean_Pa(const PillarModel& model, const PillarState& state) {
   return sum / area;
 }
 
-bool names(const Scene& scene, const char* result) {
+bool names(const PillarScene& scene, const char* result) {
   return std::find(scene.wanted.begin(), scene.wanted.end(), result) != scene.wanted.end();
 }
 
-void run_elastic(const Scene& scene, SceneAnswer& answer) {
+void run_elastic(const PillarScene& scene, SceneAnswer& answer) {
   const PillarModel axial = model_of(scene, axial_motion(scene), answer);
   count_unknowns(axial, answer);
   const Eigen::VectorXd traction = axial.top_traction();
@@ -77,100 +80,12 @@ void run_elastic(const Scene& scene, SceneAnswer& answer) {
   }
 }
 
-// The film's mesh with the electrode's edge.
-PillarGeometry with_electrode_edge(const Scene& scene) {
-  PillarGeometry geometry = scene.geometry;
-  geometry.film->electrode_radius_m = scene.electrodes->electrode_radius_m;
-  geometry.film->electrode_is_below = scene.electrodes->grounded == FilmFace::kTop;
-  return geometry;
-}
-
-// A voltage on the electrode, and the pressure if there is one (actuator). The stiffness of the
-// pillar on its film is told with the electrode shorted (or driven) and open, and how a drive
-// changes it by changing length and cross-section of the film under it,
-//   dk/k = (d31 + d32 - d33) V/t   (eq. 25, from k = E A/L).
-void add_driven(const Scene& scene, const PillarModel& model, SceneAnswer& answer) {
-  const PiezoAnswer unit = piezo_static(model, 1.0);  // 1 Pa; of a free body only the drive counts
-  const double p_Pa = scene.pressure_Pa;
-  const double V = scene.drive_V;
-  const double short_m_Pa = shorted_displacement_m(unit);
-  const double force_N_Pa = top_area_m2(model);
-  const PiezoMatrix& d = scene.film_charge_C_N;
-  answer.results = {{"electrode_voltage", V, "V"},
-                    {"electrode_charge", unit.charge_C * p_Pa + unit.capacitance_F * V, "C"},
-                    {"electrode_capacitance", unit.capacitance_F, "F"},
-                    {"top_displacement", short_m_Pa * p_Pa + unit.displacement_per_V_m * V, "m"},
-                    {"displacement_per_volt", unit.displacement_per_V_m, "m/V"},
-                    {"stiffness_driven", -force_N_Pa / short_m_Pa, "N/m"},
-                    {"stiffness_open", -force_N_Pa / unit.top_displacement_m, "N/m"},
-                    {"film_stiffness_change_by_drive",
-                     (d(2, 0) + d(2, 1) - d(2, 2)) * V / scene.geometry.film->thickness_m, "1"}};
-  // Nothing holds a free body against a force whose share of the deflection would be its stiffness.
-  if (scene.fixed_bottom) return;
-  std::erase_if(answer.results,
-                [](const SceneResult& result) { return result.name.starts_with("stiffness"); });
-}
-
-// The potential of a charge-free face, from the state under 1 Pa.
-void add_sampled(const Scene& scene, const PillarModel& coupled, const PillarState& per_Pa,
-                 SceneAnswer& answer) {
-  const Eigen::VectorXd traction = coupled.top_traction();
-  const double moved_m = traction.dot(per_Pa.unknowns) / traction.sum();
-  const double pressure_Pa = top_pressure_Pa(scene, moved_m);
-  const bool top = scene.electrodes->grounded == FilmFace::kBottom;
-  const double z_m = top ? 0.0 : -scene.geometry.film->thickness_m;
-  const double R_m = coupled.radius_m();
-  answer.results = {
-      {"potential_at_centre", pressure_Pa * potential_at_V(coupled, per_Pa, 0.0, z_m), "V"},
-      {"potential_mean", pressure_Pa * mean_potential_V(coupled, per_Pa, z_m, R_m), "V"}};
-  if (!moves_top(scene)) return;
-  add_top_force(scene, -pressure_Pa * traction.sum(), -traction.sum() / moved_m, answer);
-}
-
-void run_piezoelectric(const Scene& scene, SceneAnswer& answer) {
-  ModelOptions options = options_of(scene, axial_motion(scene));
-  options.electrodes = scene.electrodes;
-  const PillarModel coupled(scene.geometry, answer.discretisation, media_of(scene), options);
-  std::optional<PillarModel> elastic;
-  if (scene.one_way_potential) {
-    elastic.emplace(with_electrode_edge(scene), answer.discretisation, media_of(scene),
-                    options_of(scene, axial_motion(scene)));
-  }
-  count_unknowns(elastic ? *elastic : coupled, answer);
-  if (coupled.electrode_dof() < 0) {  // charge-free face, read at its centre
-    const PillarState state =
-        elastic ? piezo_one_way_sampled(*elastic, coupled, 1.0) : piezo_sampled(coupled, 1.0);
-    return add_sampled(scene, coupled, state, answer);
-  }
-  if (moves_top(scene)) {
-    const PiezoAnswer unit =
-        elastic ? piezo_one_way(*elastic, coupled, 1.0) : piezo_static(coupled, 1.0);
-    return add_moved_piezoelectric(scene, coupled, unit, answer);
-  }
-  if (scene.drive_V != 0.0) return add_driven(scene, coupled, answer);
-  const PiezoAnswer piezo = elastic ? piezo_one_way(*elastic, coupled, scene.pressure_Pa)
-                                    : piezo_static(coupled, scene.pressure_Pa);
-  answer.results = {{"electrode_voltage", piezo.voltage_V, "V"},
-                    {"electrode_charge", piezo.charge_C, "C"},
-                    {"electrode_capacitance", piezo.capacitance_F, "F"},
-                    {"top_displacement", piezo.top_displacement_m, "m"}};
-  if (!elastic) {
-    answer.results.push_back({"displacement_per_volt", piezo.displacement_per_V_m, "m/V"});
-  }
-  if (!scene.readout) return;
-  const ReadoutFilter filter = readout_filter(*scene.readout, piezo.capacitance_F);
-  answer.results.push_back({"reading_at_once", filter.gain * piezo.voltage_V, "V"});
-  if (std::isfinite(filter.time_constant_s)) {
-    answer.results.push_back({"readout_time_constant", filter.time_constant_s, "s"});
-  }
-}
-
-void check_displacement(const Scene& scene) {
-  if (!scene.displacement_m) return;
-  if (scene.pressure_Pa != 0.0) {
+void check_displacement(const PillarScene& scene) {
+  if (!displacement_m(scene)) return;
+  if (pressure_Pa(scene) != 0.0) {
     throw SceneMistake("analysis.load", "give the top a pressure or a displacement, not both");
   }
-  const double size_m = std::abs(*scene.displacement_m);
+  const double size_m = std::abs(*displacement_m(scene));
   if (!(size_m < scene.geometry.length_m)) {
     throw SceneMistake("analysis.load.displacement",
                        "a displacement of " + number_text(size_m * 1e6) +
@@ -179,29 +94,168 @@ void check_displacement(const Scene& scene) {
   }
 }
 
-}  // namespace
-
-void check_static(const Scene& scene) {
-  const bool is_held = scene.displacement_m == 0.0;
-  if (scene.drive_V == 0.0 && scene.pressure_Pa == 0.0 && (!scene.displacement_m || is_held)) {
+void check_static(const PillarScene& scene) {
+  const bool is_held = displacement_m(scene) == 0.0;
+  if (drive_V(scene) == 0.0 && pressure_Pa(scene) == 0.0 && (!displacement_m(scene) || is_held)) {
     throw SceneMistake("analysis.load",
                        "a static analysis needs a pressure on the top, a displacement of it or a "
                        "voltage");
   }
   check_displacement(scene);
-  if (scene.drive_V != 0.0 &&
+  if (drive_V(scene) != 0.0 &&
       (!scene.electrodes || !(scene.electrodes->electrode_radius_m > 0.0))) {
     throw SceneMistake("analysis.load.voltage", "needs an electrode with a radius to drive");
   }
-  if (!std::isfinite(scene.drive_V)) {
+  if (!std::isfinite(drive_V(scene))) {
     throw SceneMistake("analysis.load.voltage", "the voltage is not finite");
   }
-  if (is_sideways(scene)) check_sideways(scene);
+  if (is_lateral(scene)) check_sideways(scene);
 }
 
-void run_static(const Scene& scene, SceneAnswer& answer) {
-  if (is_sideways(scene)) return run_sideways(scene, answer);
-  scene.electrodes ? run_piezoelectric(scene, answer) : run_elastic(scene, answer);
+void run_static(const PillarScene& scene, SceneAnswer& answer) {
+  if (is_lateral(scene)) return run_sideways(scene, answer);
+  scene.electrodes ? run_static_piezo(scene, answer) : run_elastic(scene, answer);
+}
+
+using Names = std::vector<std::string>;
+
+void append(Names& names, const Names& more) {
+  names.insert(names.end(), more.begin(), more.end());
+}
+
+Names sideways_names(const PillarScene& scene, Names names) {
+  if (!scene.electrodes) return names;
+  if (scene.electrodes->electrode_radius_m == 0.0) {
+    names.emplace_back("quadrant_voltage");
+    return names;
+  }
+  names.emplace_back("displacement_per_volt");
+  if (drive_V(scene) == 0.0) names.emplace_back("quadrant_charge");
+  return names;
+}
+
+// The top's motion, or what it takes if the motion is given.
+Names static_names(const PillarScene& scene) {
+  const bool is_moved = moves_top(scene);
+  const Names top = is_moved ? Names{"top_force", "top_stiffness"} : Names{"top_displacement"};
+  if (is_lateral(scene)) return sideways_names(scene, top);
+  if (!scene.electrodes) {
+    Names names = top;
+    append(names, {"base_stress_at_half_radius", "base_stress_rim_mean"});
+    if (scene.film) names.emplace_back("film_bottom_stress_mean");
+    return names;
+  }
+  if (scene.electrodes->electrode_radius_m == 0.0) {
+    Names names = {"potential_at_centre", "potential_mean"};
+    if (is_moved) append(names, top);
+    return names;
+  }
+  if (is_moved) {
+    Names names = {"electrode_voltage", "electrode_charge", "electrode_capacitance"};
+    append(names, top);
+    if (scene.readout && drive_V(scene) == 0.0) {
+      append(names, {"reading_at_once", "readout_time_constant"});
+    }
+    return names;
+  }
+  Names names = {"electrode_voltage", "electrode_charge", "electrode_capacitance",
+                 "top_displacement", "displacement_per_volt"};
+  if (drive_V(scene) != 0.0) {
+    if (scene.fixed_bottom) append(names, {"stiffness_driven", "stiffness_open"});
+    names.emplace_back("film_stiffness_change_by_drive");
+  } else if (scene.readout) {
+    names.emplace_back("reading_at_once");
+    names.emplace_back("readout_time_constant");
+  }
+  return names;
+}
+
+PillarState static_state(const PillarScene& scene, const PillarModel& model) {
+  const Eigen::VectorXd traction = model.top_traction();
+  PiezoAnswer unit;  // 1 Pa
+  if (model.electrode_dof() < 0) {
+    unit.open = model.solve(-traction);
+    unit.top_displacement_m = traction.dot(unit.open.unknowns) / traction.sum();
+  } else {
+    unit = piezo_static(model, 1.0);
+  }
+  const double pressure_Pa = top_pressure_Pa(scene, unit);
+  if (drive_V(scene) == 0.0) {
+    PillarState state = unit.open;
+    state.unknowns *= pressure_Pa;
+    state.pressure_source *= pressure_Pa;
+    return state;
+  }
+  // Charge on the electrode until it has the voltage, beside what the pressure gives.
+  Eigen::VectorXd forces = -pressure_Pa * traction;
+  const double charge_C = unit.charge_C * pressure_Pa + unit.capacitance_F * drive_V(scene);
+  forces[model.electrode_dof()] -= charge_C * model.potential_scale_V();
+  return model.solve(forces);
+}
+
+std::vector<SectionGrid> static_fields(const PillarScene& scene, const Discretisation& mesh) {
+  if (is_lateral(scene)) return sideways_fields(scene, mesh);
+  ModelOptions options = options_of(scene, axial_motion(scene));
+  options.electrodes = scene.electrodes;
+  const PillarModel model(scene.geometry, mesh, media_of(scene), options);
+  const PillarState state = static_state(scene, model);
+  Sampling at = sampling_of(model);
+  at.grid.name = "static";
+  at.grid.fields.push_back(displacement_field(model, at, "displacement_m", state.unknowns));
+  at.grid.fields.push_back(stress_field(model, at, state));
+  if (scene.electrodes) at.grid.fields.push_back(potential_field(model, at, state));
+  return {at.grid};
+}
+
+// Change of the stress at half the radius over E_pillar/E_film times min(1, t/R); the factor is the
+// largest seen over random scenes.
+constexpr double kStressShare = 2.0;
+
+EffectEstimate static_film_compliance(const PillarScene& scene, const EffectEstimate&) {
+  const FilmShares shares = film_shares(scene);
+  // A force at the end turns the foot by F L c: 3 E I c/L of the beam's F L^3/(3 E I).
+  if (is_lateral(scene)) {
+    const double share = 3.0 * shares.bending + shares.shear;
+    return {EffectRole::kOptional, kUnevenTraction * share, "3 E I/(k L)", 3.0 * shares.bending,
+            "the base turns and slides under the bent pillar"};
+  }
+  if (!scene.electrodes && asks_for(scene, "film_bottom_stress_mean")) {
+    return {EffectRole::kNeeded, 1.0, "E A/(k L)", shares.axial, "its own stress is asked for"};
+  }
+  double error = kUnevenTraction * shares.axial;
+  if (asks_for(scene, "base_stress_at_half_radius")) {
+    const double R = 0.5 * scene.geometry.diameter_m;
+    const double thin = std::min(1.0, scene.geometry.film->thickness_m / R);
+    const double stress_error =
+        kStressShare * thin * scene.pillar.E0_Pa / elasticity_of(*scene.film).young_Pa;
+    // If the top is moved, its force changes too.
+    error = moves_top(scene) ? error + stress_error : std::max(error, stress_error);
+  }
+  return {EffectRole::kOptional, error, "E A/(k L)", shares.axial,
+          "the film's deflection over the pillar's"};
+}
+
+const char* static_why_two_way(const PillarScene& scene) {
+  if (is_lateral(scene)) return "quadrants are answered both ways";
+  if (drive_V(scene) != 0.0) return "the film is driven by a voltage";
+  if (!asks_for(scene, "displacement_per_volt")) return nullptr;
+  return scene.wanted.empty() ? "without a [want] everything is asked for, the motion per volt too"
+                              : "the motion per volt is asked for";
+}
+
+}  // namespace
+
+Analysis static_analysis() {
+  return {.name = "static",
+          .drive = StaticDrive{},
+          .free_bottom = FreeBottom::kPinned,
+          .check = check_static,
+          .result_names = static_names,
+          .run = run_static,
+          .push_Pa = pressure_Pa,
+          .fields = static_fields,
+          .why_two_way = static_why_two_way,
+          .film_compliance = static_film_compliance};
 }
 
 }  // namespace viscard

@@ -1,9 +1,14 @@
+#include "models/pillar/analyses/analysis.h"
+#include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/analyses/pillar_results.h"
 #include "models/pillar/analyses/scene_body.h"
+#include "models/pillar/analyses/sideways.h"
 #include "models/pillar/body/pillar_loads.h"
 #include "models/pillar/mesh/number_text.h"
 #include "models/pillar/mesh/scene_mistake.h"
-#include "models/pillar/time/inertial_stepper.h"
 #include "models/pillar/time/model_reduction.h"
+#include "models/pillar/time/spectrum.h"
+#include "models/pillar/time/transient_run.h"
 
 #include <Eigen/Cholesky>
 
@@ -17,13 +22,17 @@
 namespace viscard {
 namespace {
 
+const TransientDrive& transient_drive(const PillarScene& scene) {
+  return std::get<TransientDrive>(scene.drive);
+}
+
 // The pillar's first resonance, by the rod or by the cantilever (Euler-Bernoulli), with the
 // instantaneous modulus. Source: Graff, Wave Motion in Elastic Solids (1975), ch. 2, 3. It only
 // sets scales: how far the basis reaches and how long the first steps are.
-double first_resonance_rad_s(const Scene& scene) {
+double first_resonance_rad_s(const PillarScene& scene) {
   const double L_m = scene.geometry.length_m;
   const double speed_m_s = std::sqrt(scene.pillar.E0_Pa / scene.pillar.rho_kg_m3);
-  if (scene.direction == LoadDirection::kAxial) return 0.5 * std::numbers::pi * speed_m_s / L_m;
+  if (!is_lateral(scene)) return 0.5 * std::numbers::pi * speed_m_s / L_m;
   const double gyration_m = scene.geometry.diameter_m / (scene.plane ? std::sqrt(12.0) : 4.0);
   return 3.516 * gyration_m * speed_m_s / (L_m * L_m);
 }
@@ -65,8 +74,8 @@ double tail_beyond(double omega_rad_s, double first_rad_s, const Roughness& load
 // static one.
 constexpr double kFarthest = 60.0;  // first resonances; meshes and bases end there
 constexpr int kLargestBasis = 450;
-double reach_rad_s(const Scene& scene, double first_rad_s) {
-  const Roughness load = roughness_of(scene.history);
+double reach_rad_s(const PillarScene& scene, double first_rad_s) {
+  const Roughness load = roughness_of(transient_drive(scene).history);
   double omega = 5.0 * first_rad_s;
   while (omega < kFarthest * first_rad_s &&
          tail_beyond(omega, first_rad_s, load) > 0.4 * scene.tolerance) {
@@ -117,9 +126,9 @@ double static_over_peak(const ReducedBody& reduced, const TransientRequest& requ
 // then part of the answer, and only a load that takes its time leaves it small. Jumps become ramps,
 // ramps longer ones, until the tail is a good third of the tolerance; a tolerance that leaves this
 // tail such a third does as well. The rest is the share of mesh and basis.
-void refuse_sudden_load(const Scene& scene, double first_rad_s, double reach, double tail,
+void refuse_sudden_load(const PillarScene& scene, double first_rad_s, double reach, double tail,
                         double static_share) {
-  const Roughness load = roughness_of(scene.history);
+  const Roughness load = roughness_of(transient_drive(scene).history);
   const bool has_jumps = load.jumps > 0.0;
   if (tail <= (has_jumps ? 0.5 : 0.9) * scene.tolerance) return;
   const double rise_s =
@@ -131,7 +140,7 @@ void refuse_sudden_load(const Scene& scene, double first_rad_s, double reach, do
   const std::string cure =
       has_jumps ? "Let each jump take " + number_text(rise_s, 2) + " s or longer"
                 : "Stretch its ramps " + number_text(2.8 * tail / scene.tolerance, 2) + " times";
-  throw SceneMistake(scene.history.size() > 2 ? "analysis.history" : "analysis",
+  throw SceneMistake(transient_drive(scene).history.size() > 2 ? "analysis.history" : "analysis",
                      cause + "shorter than " + number_text(1e6 * wave_m, 2) +
                          " um, too short for the meshes here, carry " + number_text(tail, 2) +
                          " of the answer, too much for the tolerance. " + cure +
@@ -139,26 +148,25 @@ void refuse_sudden_load(const Scene& scene, double first_rad_s, double reach, do
                          " or larger");
 }
 
-}  // namespace
-
-void check_transient(const Scene& scene) {
-  if (scene.history.size() < 2) {
+void check_transient(const PillarScene& scene) {
+  if (transient_drive(scene).history.size() < 2) {
     throw std::invalid_argument("a transient analysis needs a history of at least two points");
   }
-  if (!(scene.end_time_s > 0.0) || !std::isfinite(scene.end_time_s)) {
+  if (!(transient_drive(scene).end_time_s > 0.0) ||
+      !std::isfinite(transient_drive(scene).end_time_s)) {
     throw std::invalid_argument("a transient analysis needs an end_time that is positive");
   }
-  if (scene.outputs < 10 || scene.outputs > 200000) {
-    throw std::invalid_argument("outputs: " + std::to_string(scene.outputs) +
+  if (transient_drive(scene).outputs < 10 || transient_drive(scene).outputs > 200000) {
+    throw std::invalid_argument("outputs: " + std::to_string(transient_drive(scene).outputs) +
                                 "; it must lie between 10 and 200000");
   }
-  validate(scene.history);
+  validate(transient_drive(scene).history);
   check_sideways_in_time(scene);
 }
 
-void run_transient_scene(const Scene& scene, SceneAnswer& answer) {
-  const bool is_axial = scene.direction == LoadDirection::kAxial;
-  const bool is_base = scene.load_place == LoadPlace::kBase;
+void run_transient_analysis(const PillarScene& scene, SceneAnswer& answer) {
+  const bool is_axial = !is_lateral(scene);
+  const bool is_base = load_place(scene) == LoadPlace::kBase;
   const double first_rad_s = first_resonance_rad_s(scene);
   const double reach = reach_rad_s(scene, first_rad_s);
   // Elements as long as the waves that count, so that a rising degree resolves them.
@@ -166,27 +174,26 @@ void run_transient_scene(const Scene& scene, SceneAnswer& answer) {
     answer.discretisation.longest_m =
         2.0 * std::numbers::pi * std::sqrt(scene.pillar.E0_Pa / scene.pillar.rho_kg_m3) / reach;
   }
-  const Motion lateral = scene.plane ? Motion::kPlaneAntisymmetric : Motion::kLateral;
-  const SceneBody body =
-      body_of(scene, is_axial ? axial_motion(scene) : lateral, {.with_mass = true}, answer);
+  const SceneBody body = body_of(scene, is_axial ? axial_motion(scene) : lateral_motion(scene),
+                                 {.with_mass = true}, answer);
   const Eigen::VectorXd load =
       is_base
           ? Eigen::VectorXd(-unit_acceleration_force(*body.model))
           : Eigen::VectorXd((is_axial ? -1.0 : 1.0) * top_area_m2(*body.model) * body.system.load);
-  const Roughness roughness = roughness_of(scene.history);
+  const Roughness roughness = roughness_of(transient_drive(scene).history);
   const DynamicRange range{
-      .lowest_rad_s = 2.0 * std::numbers::pi / scene.end_time_s,
+      .lowest_rad_s = 2.0 * std::numbers::pi / transient_drive(scene).end_time_s,
       .highest_rad_s = reach,
       .tolerance = 0.2 * scene.tolerance,
       .corner_rad_s = first_rad_s,
       .second_corner_rad_s = roughness.jumps == 0.0 ? roughness.kinks_1_s : 0.0,
       .largest_basis = kLargestBasis};
   const ReducedBody reduced = reduce_dynamic(body.system, {load}, range);
-  TransientRequest request{.load = reduced.load(load), .end_s = scene.end_time_s};
-  request.outputs = scene.outputs;
+  TransientRequest request{.load = reduced.load(load), .end_s = transient_drive(scene).end_time_s};
+  request.outputs = transient_drive(scene).outputs;
   request.tolerance = 0.1 * scene.tolerance;
   request.first_step_s = std::numbers::pi / (10.0 * first_rad_s);
-  for (const HistoryPoint& point : scene.history) {
+  for (const HistoryPoint& point : transient_drive(scene).history) {
     request.corner_time_s.push_back(point.time_s);
     request.corner_value.push_back(point.value);
   }
@@ -197,7 +204,8 @@ void run_transient_scene(const Scene& scene, SceneAnswer& answer) {
   const TransientResult run = run_transient(reduced.system, request, observers);
   const double static_share =
       static_over_peak(reduced, request, observers.row(0).transpose(), run.values.row(0));
-  const double tail = static_share * tail_beyond(reach, first_rad_s, roughness_of(scene.history));
+  const double tail =
+      static_share * tail_beyond(reach, first_rad_s, roughness_of(transient_drive(scene).history));
   refuse_sudden_load(scene, first_rad_s, reach, tail, static_share);
   answer.step_error = run.converged ? run.error_estimate + reduced.error + tail
                                     : std::numeric_limits<double>::infinity();
@@ -213,6 +221,32 @@ void run_transient_scene(const Scene& scene, SceneAnswer& answer) {
                 answer);
     }
   }
+}
+
+std::vector<std::string> transient_names(const PillarScene& scene) {
+  const bool is_base = load_place(scene) == LoadPlace::kBase;
+  return moving_names(scene, is_base ? "top_displacement_from_base" : "top_displacement",
+                      {"_peak", "_end", "_spectrum"});
+}
+
+EffectEstimate transient_geometric_stiffness(const PillarScene&, const EffectEstimate& usual) {
+  if (usual.value <= 1.0) return usual;
+  return {EffectRole::kOutside, 1.0, "p/p_cr", usual.value,
+          "the straight pillar gives way sideways if the load stays longer than a swing"};
+}
+
+}  // namespace
+
+Analysis transient_analysis() {
+  return {.name = "transient",
+          .drive = TransientDrive{},
+          .has_inertia = true,
+          .relaxes = true,
+          .history = HistoryOf::kPressure,
+          .check = check_transient,
+          .result_names = transient_names,
+          .run = run_transient_analysis,
+          .geometric_stiffness = transient_geometric_stiffness};
 }
 
 }  // namespace viscard

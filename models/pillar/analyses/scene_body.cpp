@@ -1,5 +1,7 @@
 #include "models/pillar/analyses/scene_body.h"
 
+#include "models/pillar/analyses/analysis.h"
+#include "models/pillar/analyses/sideways.h"
 #include "models/pillar/body/piezo_quadrants.h"
 #include "models/pillar/body/pillar_loads.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
@@ -11,7 +13,7 @@ namespace viscard {
 
 namespace {
 
-double free_face_m(const Scene& scene) {
+double free_face_m(const PillarScene& scene) {
   const bool is_top = scene.electrodes->grounded == FilmFace::kBottom;
   return is_top ? 0.0 : -scene.geometry.film->thickness_m;
 }
@@ -28,7 +30,7 @@ void hold_at_zero(int dof, SymmetricSparse& matrix) {
 }
 
 // What an electrode in quadrants reads of a sideways motion (piezo_quadrants.h).
-void add_quadrants(const Scene& scene, SceneBody& body) {
+void add_quadrants(const PillarScene& scene, SceneBody& body) {
   const PillarModel* model = body.model.get();
   if (model->electrode_dof() < 0) {
     const double z_m = free_face_m(scene);
@@ -47,7 +49,7 @@ void add_quadrants(const Scene& scene, SceneBody& body) {
 
 }  // namespace
 
-SceneBody body_of(const Scene& scene, Motion motion, const SceneBodyOptions& options,
+SceneBody body_of(const PillarScene& scene, Motion motion, const SceneBodyOptions& options,
                   SceneAnswer& answer) {
   ModelOptions model_options = options_of(scene, motion);
   model_options.rigid_top = options.rigid_top;
@@ -83,7 +85,7 @@ SceneBody body_of(const Scene& scene, Motion motion, const SceneBodyOptions& opt
   return body;
 }
 
-ReadoutFilter readout_of(const Scene& scene, const SceneBody& body, SceneAnswer& answer) {
+ReadoutFilter readout_of(const PillarScene& scene, const SceneBody& body, SceneAnswer& answer) {
   if (!scene.readout || body.model->electrode_dof() < 0) {
     throw std::invalid_argument("a readout needs an electrode with a radius");
   }

@@ -1,7 +1,10 @@
 #pragma once
 
-#include "models/pillar/analyses/analysis.h"
+#include "models/pillar/body/pillar_model.h"
+#include "models/pillar/scene/pillar_scene.h"
 #include "models/pillar/time/reduced_body.h"
+#include "models/pillar/time/viscoelastic_system.h"
+#include "models/scene/common/scene_answer.h"
 
 #include <functional>
 #include <memory>
@@ -31,11 +34,11 @@ struct SceneBodyOptions {
   bool rigid_top = false;
   bool with_mass = false;
 };
-SceneBody body_of(const Scene& scene, Motion motion, const SceneBodyOptions& options,
+SceneBody body_of(const PillarScene& scene, Motion motion, const SceneBodyOptions& options,
                   SceneAnswer& answer);
 
 // Filter between the electrode's open-circuit voltage (a quadrant's charge) and the reading; adds
 // time constant and capacitance to the results. Only with an electrode and a readout.
-ReadoutFilter readout_of(const Scene& scene, const SceneBody& body, SceneAnswer& answer);
+ReadoutFilter readout_of(const PillarScene& scene, const SceneBody& body, SceneAnswer& answer);
 
 }  // namespace viscard

@@ -4,34 +4,35 @@
 
 namespace viscard {
 
-bool moves_top(const Scene& scene) {
-  return scene.kind == AnalysisKind::kStatic && scene.displacement_m.has_value();
+bool moves_top(const PillarScene& scene) {
+  return displacement_m(scene).has_value();
 }
 
-double top_pressure_Pa(const Scene& scene, double displacement_per_Pa_m,
+double top_pressure_Pa(const PillarScene& scene, double displacement_per_Pa_m,
                        double moved_by_voltage_m) {
-  if (!moves_top(scene)) return scene.pressure_Pa;
-  return (*scene.displacement_m - moved_by_voltage_m) / displacement_per_Pa_m;
+  if (!moves_top(scene)) return pressure_Pa(scene);
+  return (*displacement_m(scene) - moved_by_voltage_m) / displacement_per_Pa_m;
 }
 
 double shorted_displacement_m(const PiezoAnswer& answer) {
   return answer.top_displacement_m - answer.displacement_per_V_m * answer.voltage_V;
 }
 
-double top_pressure_Pa(const Scene& scene, const PiezoAnswer& per_Pa) {
-  if (scene.drive_V == 0.0) return top_pressure_Pa(scene, per_Pa.top_displacement_m);
+double top_pressure_Pa(const PillarScene& scene, const PiezoAnswer& per_Pa) {
+  if (drive_V(scene) == 0.0) return top_pressure_Pa(scene, per_Pa.top_displacement_m);
   return top_pressure_Pa(scene, shorted_displacement_m(per_Pa),
-                         per_Pa.displacement_per_V_m * scene.drive_V);
+                         per_Pa.displacement_per_V_m * drive_V(scene));
 }
 
-void add_top_force(const Scene& scene, double force_N, double stiffness_N_m, SceneAnswer& answer) {
+void add_top_force(const PillarScene& scene, double force_N, double stiffness_N_m,
+                   SceneAnswer& answer) {
   // Of a drive that cancels most of it the error is judged against what the displacement takes.
-  const double scale_N = std::abs(stiffness_N_m * *scene.displacement_m);
+  const double scale_N = std::abs(stiffness_N_m * *displacement_m(scene));
   answer.results.push_back({"top_force", force_N, scene.plane ? "N/m" : "N", 0.0, scale_N});
   answer.results.push_back({"top_stiffness", stiffness_N_m, scene.plane ? "N/m2" : "N/m"});
 }
 
-void add_moved_piezoelectric(const Scene& scene, const PillarModel& model,
+void add_moved_piezoelectric(const PillarScene& scene, const PillarModel& model,
                              const PiezoAnswer& per_Pa, SceneAnswer& answer) {
   const double shorted_m = shorted_displacement_m(per_Pa);
   const double charge_C_per_m = per_Pa.charge_C / shorted_m;
@@ -39,10 +40,10 @@ void add_moved_piezoelectric(const Scene& scene, const PillarModel& model,
   const double held_F = per_Pa.capacitance_F - charge_C_per_m * per_Pa.displacement_per_V_m;
   const double pressure_Pa = top_pressure_Pa(scene, per_Pa);
   const double area_m2 = model.top_traction().sum();
-  const bool is_driven = scene.drive_V != 0.0;
-  const double voltage_V = is_driven ? scene.drive_V : per_Pa.voltage_V * pressure_Pa;
-  const double by_motion_C = charge_C_per_m * *scene.displacement_m;
-  const double charge_C = by_motion_C + held_F * scene.drive_V;
+  const bool is_driven = drive_V(scene) != 0.0;
+  const double voltage_V = is_driven ? drive_V(scene) : per_Pa.voltage_V * pressure_Pa;
+  const double by_motion_C = charge_C_per_m * *displacement_m(scene);
+  const double charge_C = by_motion_C + held_F * drive_V(scene);
   answer.results = {{"electrode_voltage", voltage_V, "V"},
                     {"electrode_charge", charge_C, "C", 0.0, std::abs(by_motion_C)},
                     {"electrode_capacitance", held_F, "F"}};

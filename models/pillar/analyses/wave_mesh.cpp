@@ -25,7 +25,7 @@ struct Waves {
   double decay_1_m = 0.0;  // of the wave that dies out last
 };
 
-Waves waves_at(const Scene& scene, double frequency_Hz) {
+Waves waves_at(const PillarScene& scene, double frequency_Hz) {
   const Material& m = scene.pillar;
   const double omega = 2.0 * std::numbers::pi * frequency_Hz;
   const Complex s(0.0, omega);
@@ -51,12 +51,12 @@ double elements_over(double line_m, const WaveMesh& mesh) {
   return mesh.skin_m / mesh.longest_m + std::log1p((line_m - mesh.skin_m) / mesh.longest_m);
 }
 
-double cells_of(const Scene& scene, const WaveMesh& mesh) {
+double cells_of(const PillarScene& scene, const WaveMesh& mesh) {
   return elements_over(0.5 * scene.geometry.diameter_m, mesh) *
          elements_over(scene.geometry.length_m, mesh);
 }
 
-WaveMesh mesh_for(const Scene& scene, const std::vector<double>& frequencies_Hz) {
+WaveMesh mesh_for(const PillarScene& scene, const std::vector<double>& frequencies_Hz) {
   WaveMesh mesh{.longest_m = std::numeric_limits<double>::infinity()};
   double slowest_1_m = std::numeric_limits<double>::infinity();
   for (const double frequency_Hz : frequencies_Hz) {
@@ -72,7 +72,7 @@ WaveMesh mesh_for(const Scene& scene, const std::vector<double>& frequencies_Hz)
 }
 
 // The frequency up to which the whole body can be meshed, by bisection in its logarithm.
-double highest_Hz(const Scene& scene, double refused_Hz) {
+double highest_Hz(const PillarScene& scene, double refused_Hz) {
   double low = std::log(1e-12 * refused_Hz);
   double high = std::log(refused_Hz);
   for (int i = 0; i < 60; ++i) {
@@ -84,8 +84,8 @@ double highest_Hz(const Scene& scene, double refused_Hz) {
 
 }  // namespace
 
-WaveMesh wave_mesh(const Scene& scene) {
-  const std::vector<double>& f = scene.frequencies_Hz;
+WaveMesh wave_mesh(const PillarScene& scene, const std::vector<double>& frequencies_Hz) {
+  const std::vector<double>& f = frequencies_Hz;
   const WaveMesh mesh = mesh_for(scene, f);
   if (mesh.cells <= kMostCells) return mesh;
   constexpr double kUnknowns = 200.0;  // of an element of degree 10 with two fields

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/scene/pillar_scene.h"
+
+#include <vector>
 
 namespace viscard {
 
@@ -18,6 +20,6 @@ struct WaveMesh {
 
 // Throws SceneMistake if the section would need more elements than can be solved, saying how many
 // and how much memory that would be, and up to which frequency the pillar can be answered.
-WaveMesh wave_mesh(const Scene& scene);
+WaveMesh wave_mesh(const PillarScene& scene, const std::vector<double>& frequencies_Hz);
 
 }  // namespace viscard

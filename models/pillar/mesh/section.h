@@ -9,7 +9,7 @@ namespace viscard {
 
 // A meridian (r, z) or plane (x, z) section: cells of a rectilinear grid, each filled with one
 // region or empty, with tensor-product elements of degree p. Rectangles make every matrix a sum of
-// Kronecker products of one-dimensional ones (models/README.md, eq. 13).
+// Kronecker products of one-dimensional ones (models/pillar/README.md, eq. 13).
 // Where a region's outline is not straight, its cells are stretched along x: x = scale(z) times the
 // x of the grid.
 struct Stretch {

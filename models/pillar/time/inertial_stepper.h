@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-#include <functional>
 #include <vector>
 
 namespace viscard {
@@ -42,44 +41,5 @@ class InertialStepper {
   Eigen::VectorXd u_, v_;
   Eigen::MatrixXd memory_;  // unknowns x branches
 };
-
-// A load factor against time, linear between points; two points of one time are a jump.
-struct TransientRequest {
-  Eigen::VectorXd load;               // of the small body, times the factor
-  std::vector<double> corner_time_s;  // of the load factor, ascending
-  std::vector<double> corner_value;
-  double end_s = 0.0;
-  int outputs = 1000;         // equal intervals between outputs
-  double first_step_s = 0.0;  // longest step of the coarsest level
-  double tolerance = 1e-4;    // relative to the largest value of each output
-  int most_steps = 4000000;
-};
-
-struct TransientResult {
-  std::vector<double> time_s;   // outputs + 1 equal steps from 0
-  Eigen::MatrixXd values;       // observers x times
-  double error_estimate = 0.0;  // relative to the largest of each
-  bool converged = false;
-  int steps = 0;  // all levels together
-};
-
-// Runs from rest. Rows of `observers` are linear outputs. Bodies whose stiffness relaxes all alike
-// are answered exactly (modal_response.h), others by steps.
-TransientResult run_transient(const ViscoelasticSystem& small, const TransientRequest& request,
-                              const Eigen::MatrixXd& observers);
-
-// By steps: all are halved until the extrapolated answer (Richardson, fourth order) changes by less
-// than the tolerance.
-TransientResult run_by_steps(const ViscoelasticSystem& small, const TransientRequest& request,
-                             const Eigen::MatrixXd& observers);
-
-// Amplitude spectrum of equally spaced samples, mean removed, Hann window, so that a steady sine of
-// amplitude A gives a peak of about A: frequencies k/(n dt). Source: Harris, Proc. IEEE 66
-// (1978) 51.
-struct Spectrum {
-  std::vector<double> frequency_Hz;
-  std::vector<double> amplitude;
-};
-Spectrum amplitude_spectrum(const std::vector<double>& samples, double dt_s);
 
 }  // namespace viscard

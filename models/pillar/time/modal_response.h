@@ -1,7 +1,8 @@
 #pragma once
 
 #include "models/material/material.h"
-#include "models/pillar/time/inertial_stepper.h"
+#include "models/pillar/time/transient_request.h"
+#include "models/pillar/time/viscoelastic_system.h"
 
 #include <complex>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/pillar/time/inertial_stepper.h"
+#include "models/pillar/time/transient_request.h"
 
 #include <vector>
 

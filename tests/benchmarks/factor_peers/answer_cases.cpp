@@ -1,9 +1,10 @@
 #include "tests/benchmarks/factor_peers/answer_cases.h"
 
-#include "models/array/plane/array_plan.h"
 #include "models/array/plane/array_scene.h"
 #include "models/pillar/body/pillar_modes.h"
-#include "models/pillar/plan/plan.h"
+#include "models/pillar/scene/pillar_scene.h"
+#include "models/scene/plan.h"
+#include "models/scene/simulate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,87 +91,83 @@ const std::vector<double> kFixedHz = {16029.18, 77413.28, 173664.2, 274693.5,
 const std::vector<double> kFilmHz = {16026.87, 77403.97, 173645.7, 274668.4,
                                      90760.26, 268141.2, 55165.77, 165497.3};
 
-Scene modal_scene() {
-  Scene scene;
+PillarScene modal_scene() {
+  PillarScene scene;
   scene.geometry = on_film();
   scene.pillar = soft();
   scene.film = elastic_film();
-  scene.kind = AnalysisKind::kModal;
+  scene.drive = ModalDrive{};
   return scene;
 }
 
-Scene free_disc_scene() {
-  Scene scene = modal_scene();
+PillarScene free_disc_scene() {
+  PillarScene scene = modal_scene();
   scene.geometry.length_m = 40e-6;
   scene.geometry.film = FilmGeometry{50e-6, 1e-3};
-  scene.modes = 3;
+  scene.drive = ModalDrive{.modes = 3};
   scene.fixed_bottom = false;
   return scene;
 }
 
-Scene buckling_scene() {
-  Scene scene;
+PillarScene buckling_scene() {
+  PillarScene scene;
   scene.tolerance = 1e-4;
   scene.pillar = soft();
-  scene.kind = AnalysisKind::kBuckling;
+  scene.drive = BucklingDrive{};
   return scene;
 }
 
-Scene sensor_scene() {
-  Scene scene;
+PillarScene sensor_scene() {
+  PillarScene scene;
   scene.geometry = on_film();
   scene.pillar = soft();
   const PiezoMatrix d = film_charge(23e-12, 23e-12, -33e-12);
   scene.film = piezo_film(d);
   scene.film_charge_C_N = d;
   scene.electrodes = ElectrodeOptions{FilmFace::kBottom, 20e-6};
-  scene.pressure_Pa = 1e4;
+  scene.drive = StaticDrive{.pressure_Pa = 1e4};
   return scene;
 }
 
-Scene incompressible_scene() {
-  Scene scene = sensor_scene();
+PillarScene incompressible_scene() {
+  PillarScene scene = sensor_scene();
   scene.pillar.nu = 0.5;
   return scene;
 }
 
-Scene creep_scene() {
-  Scene scene;
+PillarScene creep_scene() {
+  PillarScene scene;
   scene.tolerance = 1e-4;
   scene.pillar = relaxing();
-  scene.kind = AnalysisKind::kCreep;
-  scene.history = {{0.0, 0.0}, {0.0, 1e4}, {10.0, 1e4}, {10.0, 0.0}, {30.0, 0.0}};
+  scene.drive = CreepDrive{{{0.0, 0.0}, {0.0, 1e4}, {10.0, 1e4}, {10.0, 0.0}, {30.0, 0.0}}};
   return scene;
 }
 
-Scene touch_scene() {
-  Scene scene = sensor_scene();
+PillarScene touch_scene() {
+  PillarScene scene = sensor_scene();
   scene.pillar = relaxing();
-  scene.pressure_Pa = 0.0;
-  scene.kind = AnalysisKind::kCreep;
-  scene.history = {{0.0, 0.0}, {0.01, 1e4}, {2.0, 1e4}, {2.01, 0.0}, {4.0, 0.0}};
+  scene.drive = CreepDrive{{{0.0, 0.0}, {0.01, 1e4}, {2.0, 1e4}, {2.01, 0.0}, {4.0, 0.0}}};
   scene.readout = Readout{.resistance_Ohm = 1e13, .capacitance_F = 1e-13};
   return scene;
 }
 
-Scene sweep_scene() {
-  Scene scene;
+PillarScene sweep_scene() {
+  PillarScene scene;
   scene.pillar = relaxing();
-  scene.kind = AnalysisKind::kHarmonic;
-  scene.load_place = LoadPlace::kBase;
-  scene.direction = LoadDirection::kLateral;
-  scene.base_acceleration_m_s2 = 1.0;
-  for (int i = 0; i < 1000; ++i) scene.frequencies_Hz.push_back(std::pow(1e5, i / 999.0));
+  HarmonicDrive drive{.load_place = LoadPlace::kBase,
+                      .direction = LoadDirection::kLateral,
+                      .base_acceleration_m_s2 = 1.0};
+  for (int i = 0; i < 1000; ++i) drive.frequencies_Hz.push_back(std::pow(1e5, i / 999.0));
+  scene.drive = drive;
   return scene;
 }
 
-Scene pulse_scene() {
-  Scene scene;
+PillarScene pulse_scene() {
+  PillarScene scene;
   scene.tolerance = 1e-2;
   scene.pillar = soft();
-  scene.kind = AnalysisKind::kTransient;
-  scene.history = {{0.0, 0.0}, {5e-6, 1e3}, {10e-6, 0.0}, {100e-6, 0.0}};
-  scene.end_time_s = 100e-6;
+  scene.drive = TransientDrive{.history = {{0.0, 0.0}, {5e-6, 1e3}, {10e-6, 0.0}, {100e-6, 0.0}},
+                               .end_time_s = 100e-6};
   return scene;
 }
 
@@ -188,9 +185,8 @@ ArrayScene row_modes_scene() {
   ArrayScene scene = row_scene(4);
   scene.geometry.spacing_m = 20e-6;
   scene.geometry.film_edge_m = 60e-6;
-  scene.analysis = ArrayAnalysis::kModal;
+  scene.drive = RowModal{.modes = 2};
   scene.load_Pa = 0.0;
-  scene.modes = 2;
   scene.wanted = {};
   return scene;
 }
@@ -206,11 +202,7 @@ Answer quadratic_static(double size_m) {
 }
 
 AnswerCase scene_case(const char* name, const Scene& scene) {
-  return {name, [scene] { return answer_of(simulate_planned(scene)); }};
-}
-
-AnswerCase row_case(const char* name, const ArrayScene& scene) {
-  return {name, [scene] { return answer_of(simulate_array_planned(scene)); }};
+  return {name, [scene] { return answer_of(simulate(scene)); }};
 }
 
 }  // namespace
@@ -236,9 +228,9 @@ std::vector<AnswerCase> answer_cases() {
           scene_case("touch and readout", touch_scene()),
           scene_case("sweep, 1000 frequencies", sweep_scene()),
           scene_case("pulse, 1000 times", pulse_scene()),
-          row_case("row of 8, voltages", row_scene(8)),
-          row_case("row of 64, voltages", row_scene(64)),
-          row_case("row of 4, modes", row_modes_scene()),
+          scene_case("row of 8, voltages", row_scene(8)),
+          scene_case("row of 64, voltages", row_scene(64)),
+          scene_case("row of 4, modes", row_modes_scene()),
           {"quadratic elements of 2 um", [] { return quadratic_static(2e-6); }},
           {"quadratic elements of 0.8 um", [] { return quadratic_static(0.8e-6); }}};
 }

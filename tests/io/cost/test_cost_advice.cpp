@@ -2,13 +2,10 @@
 // anything the study itself has run.
 #include "io/cost/study_cost.h"
 #include "io/cost/study_trials.h"
-#include "io/scenes/scene_array.h"
 #include "io/scenes/scene_file.h"
-#include "models/array/plane/array_plan.h"
-#include "models/pillar/analyses/analysis.h"
-#include "models/pillar/analyses/error_control.h"
-#include "models/pillar/plan/plan.h"
-#include "models/pillar/plan/relaxed_modes.h"
+#include "models/pillar/mesh/mesh_sequence.h"
+#include "models/scene/plan.h"
+#include "models/scene/simulate.h"
 
 #include <catch2/catch.hpp>
 
@@ -20,23 +17,28 @@ using namespace viscard;
 
 namespace {
 
-SceneAnswer independent_answer(const Scene& scene) {
-  Scene on = plan_effects(with_all_effects_on(scene)).reduced;
-  const bool moves =
-      scene.kind == AnalysisKind::kHarmonic || scene.kind == AnalysisKind::kTransient;
-  on.tolerance = moves ? 0.05 * scene.tolerance : 1e-6;
-  SceneAnswer answer;
-  answer.discretisation = mesh_sequence(on.geometry).back();  // degree 10, five layers
-  analysis_of(on.kind).run(on, answer);
-  if (on.kind == AnalysisKind::kModal) relax_modes(on, answer);
-  return answer;
+Discretisation finest_mesh(const PillarScene& scene) {
+  return mesh_sequence(scene.geometry).back();  // degree 10, five layers
 }
 
-SceneAnswer independent_answer(const ArrayScene& scene) {
-  const ArrayScene on = plan_effects(with_all_effects_on(scene)).reduced;
-  return array_answer_on(
-      on,
-      {.degree = 10, .layers = scene.electrodes.is_equipotential ? 10 : 6, .shaft_elements = 3});
+Discretisation finest_mesh(const ArrayScene& scene) {
+  return {.degree = 10, .layers = scene.electrodes.is_equipotential ? 10 : 6, .shaft_elements = 3};
+}
+
+bool moves(const PillarScene& scene) {
+  return std::holds_alternative<HarmonicDrive>(scene.drive) ||
+         std::holds_alternative<TransientDrive>(scene.drive);
+}
+
+bool moves(const ArrayScene&) {
+  return false;
+}
+
+SceneAnswer independent_answer(const Scene& scene) {
+  Scene on = plan_effects(with_all_effects_on(scene)).reduced;
+  const bool is_moving = std::visit([](const auto& body) { return moves(body); }, scene);
+  common(on).tolerance = is_moving ? 0.05 * common(scene).tolerance : 1e-6;
+  return answer_on(on, std::visit([](const auto& body) { return finest_mesh(body); }, on));
 }
 
 bool is_asked(const std::vector<std::string>& wanted, const std::string& name) {
@@ -74,8 +76,7 @@ const CostTrial& trial_of(const CostRow& row, const CostTrials& trials) {
   return *found;
 }
 
-template <typename AnyScene>
-void follow(const AnyScene& scene, double budget_s) {
+void follow(const Scene& scene, double budget_s) {
   const CostStudy study = study_cost(scene, {.budget_s = budget_s, .repeats = 1});
   const CostTrials trials = trials_of(scene);
   const SceneAnswer exact = independent_answer(scene);
@@ -84,7 +85,7 @@ void follow(const AnyScene& scene, double budget_s) {
     if (advice.row < 0) continue;
     const CostTrial& row = trial_of(study.rows[static_cast<std::size_t>(advice.row)], trials);
     CAPTURE(advice.text, row.discretisation, row.effects);
-    CHECK(error_of(row.run(), exact, scene.wanted) <= advice.tolerance);
+    CHECK(error_of(row.run(), exact, common(scene).wanted) <= advice.tolerance);
     ++followed;
   }
   CHECK(followed >= 2);  // of the five tolerances; the loose ones at least
@@ -94,11 +95,7 @@ void follow_file(const std::string& name, double budget_s) {
   CAPTURE(name);
   const std::filesystem::path path =
       std::filesystem::path(VISCARD_SOURCE_DIR) / "data/scenes" / name;
-  if (scene_kind(path) == "array") {
-    follow(read_array_scene(path).scene, budget_s);
-  } else {
-    follow(read_scene(path).scene, budget_s);
-  }
+  follow(read_scene(path).scene, budget_s);
 }
 
 }  // namespace

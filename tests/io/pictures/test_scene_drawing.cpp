@@ -59,8 +59,8 @@ TEST_CASE("a drawing of a long row has its first and its last pillars", "[io][sc
 }
 
 TEST_CASE("the electrode of a pillar is drawn over what stands on it", "[io][scene]") {
-  Scene scene;
-  scene.pressure_Pa = 1e4;
+  PillarScene scene;
+  scene.drive = StaticDrive{.pressure_Pa = 1e4};
   scene.geometry.film = FilmGeometry{25e-6, 60e-6};
   scene.film = isotropic_medium(2e9, 0.29, 1780.0);
   scene.electrodes = ElectrodeOptions{GENERATE(FilmFace::kTop, FilmFace::kBottom), 20e-6};
@@ -70,7 +70,7 @@ TEST_CASE("the electrode of a pillar is drawn over what stands on it", "[io][sce
   CHECK(svg.find("10 kPa") != std::string::npos);
   CHECK(svg.find("a &amp; b") != std::string::npos);
   const std::size_t upright = count_of(svg, kArrow);
-  scene.direction = LoadDirection::kLateral;
+  scene.drive = StaticDrive{.direction = LoadDirection::kLateral, .pressure_Pa = 1e4};
   CHECK(count_of(svg_from_scene(scene, ""), kArrow) < upright);  // one arrow sideways
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("scene check draws pillars and rows into a file, and overwrites none",
 }
 
 TEST_CASE("a drawing hatches what is held and says what is free", "[io][scene]") {
-  Scene scene;
+  PillarScene scene;
   if (GENERATE(false, true)) {
     scene.geometry.film = FilmGeometry{25e-6, 60e-6};
     scene.film = isotropic_medium(2e9, 0.29, 1780.0);

@@ -2,6 +2,7 @@
 #include "io/pictures/section_picture.h"
 #include "io/pictures/vtk_file.h"
 #include "io/scenes/scene_file.h"
+#include "models/scene/simulate.h"
 
 #include <catch2/catch.hpp>
 #include <unistd.h>
@@ -20,17 +21,17 @@ namespace {
 
 const Discretisation kMesh{.degree = 4, .layers = 2};
 
-Scene pressed_pillar() {
-  Scene scene;
+PillarScene pressed_pillar() {
+  PillarScene scene;
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = 0.33;
   scene.pillar.rho_kg_m3 = 965.0;
-  scene.pressure_Pa = 1e4;
+  scene.drive = StaticDrive{.pressure_Pa = 1e4};
   return scene;
 }
 
-Scene sensor() {
-  Scene scene = pressed_pillar();
+PillarScene sensor() {
+  PillarScene scene = pressed_pillar();
   scene.geometry.film = FilmGeometry{25e-6, 60e-6};
   PiezoMatrix d = PiezoMatrix::Zero();
   d.row(2) << 23e-12, 23e-12, -33e-12, 0, 0, 0;
@@ -84,9 +85,9 @@ TEST_CASE(
     "the potential of the field is the electrode's voltage on the electrode and zero on "
     "ground",
     "[pillar][io]") {
-  Scene scene = sensor();
+  PillarScene scene = sensor();
   const bool is_driven = GENERATE(false, true);
-  if (is_driven) scene.drive_V = 2.0;
+  if (is_driven) std::get<StaticDrive>(scene.drive).drive_V = 2.0;
   const SectionGrid grid = solution_fields(scene, kMesh).front();
   const SectionField& phi = field_of(grid, "potential_V");
   const double wanted_V = is_driven ? 2.0 : phi.value[0][0];
@@ -100,10 +101,8 @@ TEST_CASE(
 }
 
 TEST_CASE("mode shapes turn with their harmonic", "[pillar][io]") {
-  Scene scene = pressed_pillar();
-  scene.kind = AnalysisKind::kModal;
-  scene.pressure_Pa = 0.0;
-  scene.modes = 2;
+  PillarScene scene = pressed_pillar();
+  scene.drive = ModalDrive{.modes = 2};
   const std::vector<SectionGrid> grids = solution_fields(scene, kMesh);
   REQUIRE(grids.size() == 4);
   const double pi = std::numbers::pi;
@@ -139,7 +138,7 @@ TEST_CASE("mode shapes turn with their harmonic", "[pillar][io]") {
 
 TEST_CASE("a .vtu file has as many points and cells as it says, and corners that exist",
           "[pillar][io]") {
-  Scene scene = pressed_pillar();
+  PillarScene scene = pressed_pillar();
   const bool is_strip = GENERATE(false, true);
   if (is_strip) scene.plane = PlaneState::kStress;
   const SectionGrid grid = solution_fields(scene, kMesh).front();

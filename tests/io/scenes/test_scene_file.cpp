@@ -46,14 +46,14 @@ TEST_CASE("a sweep is read with its frequencies, load and direction", "[io]") {
                               "\"lateral\" }\n"
                               "frequencies = { from = \"1 Hz\", to = \"10 kHz\", count = 5 }\n")
                           .scene;
-  CHECK(scene.kind == AnalysisKind::kHarmonic);
-  CHECK(scene.load_place == LoadPlace::kBase);
-  CHECK(scene.direction == LoadDirection::kLateral);
-  CHECK(scene.base_acceleration_m_s2 == 2.0);
-  REQUIRE(scene.frequencies_Hz.size() == 5);
-  CHECK(scene.frequencies_Hz[0] == 1.0);
-  CHECK(scene.frequencies_Hz[2] == Approx(100.0).epsilon(1e-14));  // rounding
-  CHECK(scene.frequencies_Hz[4] == Approx(1e4).epsilon(1e-14));
+  const auto& drive = std::get<HarmonicDrive>(std::get<PillarScene>(scene).drive);
+  CHECK(drive.load_place == LoadPlace::kBase);
+  CHECK(drive.direction == LoadDirection::kLateral);
+  CHECK(drive.base_acceleration_m_s2 == 2.0);
+  REQUIRE(drive.frequencies_Hz.size() == 5);
+  CHECK(drive.frequencies_Hz[0] == 1.0);
+  CHECK(drive.frequencies_Hz[2] == Approx(100.0).epsilon(1e-14));  // rounding
+  CHECK(drive.frequencies_Hz[4] == Approx(1e4).epsilon(1e-14));
 }
 
 TEST_CASE("a pulse becomes half a sine", "[io]") {
@@ -63,11 +63,12 @@ TEST_CASE("a pulse becomes half a sine", "[io]") {
                               "[analysis]\nkind = \"transient\"\nend_time = \"50 us\"\n"
                               "pulse = { height = \"1 kPa\", duration = \"10 us\" }\n")
                           .scene;
-  REQUIRE(scene.history.size() > 100);
-  CHECK(scene.history.front().value == 0.0);
-  CHECK(scene.history.back().time_s == Approx(1e-5).epsilon(1e-14));  // rounding
-  CHECK(scene.history[scene.history.size() / 2].value == Approx(1e3).epsilon(1e-12));
-  CHECK(scene.end_time_s == Approx(5e-5).epsilon(1e-14));
+  const auto& drive = std::get<TransientDrive>(std::get<PillarScene>(scene).drive);
+  REQUIRE(drive.history.size() > 100);
+  CHECK(drive.history.front().value == 0.0);
+  CHECK(drive.history.back().time_s == Approx(1e-5).epsilon(1e-14));  // rounding
+  CHECK(drive.history[drive.history.size() / 2].value == Approx(1e3).epsilon(1e-12));
+  CHECK(drive.end_time_s == Approx(5e-5).epsilon(1e-14));
 }
 
 TEST_CASE("mistakes in how a pillar is driven are told with their key", "[io]") {

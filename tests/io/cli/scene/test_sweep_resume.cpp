@@ -71,7 +71,7 @@ TEST_CASE("a sweep that was killed goes on and gives the same table", "[cli][sce
   const CommandOutcome outcome = run_command({"simulate", scene.path(), "--out", cut.string()});
   CAPTURE(outcome.err);
   REQUIRE(outcome.status == 0);
-  CHECK(outcome.err.find("going on: ") != std::string::npos);
+  CHECK(outcome.err.find("continuing: ") != std::string::npos);
   CHECK(rows_of(cut) == rows_of(whole));
   CHECK_FALSE(std::filesystem::exists(part));
 }

@@ -1,7 +1,9 @@
-#include "models/array/plane/array_dynamics.h"
 #include "models/array/plane/array_modes.h"
 #include "models/array/plane/array_scene.h"
-#include "models/pillar/scene/scene.h"
+#include "models/array/plane/array_transfer.h"
+#include "models/array/plane/simulate_array.h"
+#include "models/pillar/analyses/simulate_pillar.h"
+#include "models/pillar/scene/pillar_scene.h"
 #include "tests/models/array/plane/seed_array.h"
 
 #include <catch2/catch.hpp>
@@ -27,14 +29,14 @@ Material pdms(std::vector<MaterialTerm> terms = {}) {
   return material;
 }
 
-ArrayScene row_in_time(ArrayAnalysis analysis) {
+ArrayScene row_in_time(const RowDrive& drive) {
   ArrayScene scene;
   scene.tolerance = 3e-2;  // a tap takes many modes
   scene.geometry.count = 3;
   scene.geometry.spacing_m = 20e-6;
   scene.pillar = pdms();
   scene.film = seed_pvdf();
-  scene.analysis = analysis;
+  scene.drive = drive;
   scene.loaded = {2};
   return scene;
 }
@@ -84,25 +86,23 @@ TEST_CASE("one pillar of a row vibrates as the solver of one pillar has it", "[a
   // A strip on a film: its frequency response away from resonance, elastic and relaxing.
   const std::vector<MaterialTerm> terms =
       GENERATE(std::vector<MaterialTerm>{}, std::vector<MaterialTerm>{{0.2, 0.2, 2e-6}});
-  Scene one;
+  PillarScene one;
   one.tolerance = 1e-4;
   one.pillar = pdms(terms);
   one.plane = PlaneState::kStress;
   one.geometry.film = FilmGeometry{25e-6, 60e-6};
   one.film = isotropic_medium(2e9, 0.29, 1780.0);
-  one.kind = AnalysisKind::kHarmonic;
-  one.pressure_Pa = 1e3;
-  one.frequencies_Hz = {1e3, 5e4, 1.3e5, 2e5};
-  const SceneAnswer single = simulate(one);
+  const std::vector<double> frequencies_Hz = {1e3, 5e4, 1.3e5, 2e5};
+  one.drive = HarmonicDrive{.pressure_Pa = 1e3, .frequencies_Hz = frequencies_Hz};
+  const SceneAnswer single = simulate_pillar(one);
   ArrayScene row;
   row.tolerance = 1e-3;
   row.geometry.count = 1;
   row.geometry.film_edge_m = 40e-6;
   row.pillar = one.pillar;
   row.film = *one.film;
-  row.analysis = ArrayAnalysis::kHarmonic;
-  row.load_Pa = one.pressure_Pa;
-  row.frequencies_Hz = one.frequencies_Hz;
+  row.drive = RowHarmonic{frequencies_Hz};
+  row.load_Pa = 1e3;
   const SceneAnswer array = simulate_array(row);
   for (const char* part : {"_real", "_imaginary"}) {
     const SceneCurve& mine = curve_of(array, std::string("top_displacement_1") + part);
@@ -155,10 +155,8 @@ TEST_CASE("the numerical Laplace transform gives a damped oscillator's exact res
 }
 
 TEST_CASE("only one pillar of a row is tapped and its neighbours answer", "[array]") {
-  ArrayScene scene = row_in_time(ArrayAnalysis::kTransient);
-  scene.history = {{0.0, 0.0}, {5e-6, 1e3}, {1e-5, 0.0}};
-  scene.end_time_s = 5e-5;
-  scene.outputs = 200;
+  ArrayScene scene = row_in_time(RowTransient{
+      .history = {{0.0, 0.0}, {5e-6, 1e3}, {1e-5, 0.0}}, .end_time_s = 5e-5, .outputs = 200});
   const SceneAnswer answer = simulate_array(scene);
   CHECK(answer.largest_relative_error <= scene.tolerance);
   const auto peak = [&](const char* name) {
@@ -174,10 +172,8 @@ TEST_CASE("only one pillar of a row is tapped and its neighbours answer", "[arra
 }
 
 TEST_CASE("linear elements answer a tap too, with the few modes they have right", "[array]") {
-  ArrayScene scene = row_in_time(ArrayAnalysis::kTransient);
-  scene.history = {{0.0, 0.0}, {5e-6, 1e3}, {1e-5, 0.0}};
-  scene.end_time_s = 5e-5;
-  scene.outputs = 200;
+  ArrayScene scene = row_in_time(RowTransient{
+      .history = {{0.0, 0.0}, {5e-6, 1e3}, {1e-5, 0.0}}, .end_time_s = 5e-5, .outputs = 200});
   const auto peak_on = [&](const Discretisation& mesh) {
     const SceneAnswer answer = array_answer_on(scene, mesh);
     const auto found =

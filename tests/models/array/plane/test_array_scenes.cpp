@@ -1,4 +1,6 @@
 #include "models/array/plane/array_scene.h"
+#include "models/array/plane/check_array.h"
+#include "models/array/plane/simulate_array.h"
 #include "models/pillar/mesh/scene_mistake.h"
 #include "tests/models/array/plane/seed_array.h"
 
@@ -115,7 +117,7 @@ TEST_CASE("contradictory rows name the place that has to change", "[array]") {
   scene.tolerance = 0.0;
   CHECK(key_of(scene) == "tolerance");
   scene = seed_scene();
-  scene.analysis = ArrayAnalysis::kModal;
+  scene.drive = RowModal{};
   scene.pillar.rho_kg_m3 = 0.0;
   CHECK(key_of(scene) == "materials.pillar");
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 // What a scene's answer says under a name. Throws std::runtime_error if there is nothing.
-#include "models/pillar/scene/scene.h"
+#include "models/scene/common/scene_answer.h"
 
 #include <stdexcept>
 #include <string>

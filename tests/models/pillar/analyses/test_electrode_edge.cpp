@@ -1,6 +1,7 @@
 // The potential goes with the root of the distance from an electrode's edge; meshes shrink there.
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/analyses/error_control.h"
+#include "models/pillar/mesh/mesh_sequence.h"
+#include "tests/models/pillar/drive_as.h"
 
 #include <catch2/catch.hpp>
 
@@ -10,11 +11,11 @@ using namespace viscard;
 
 namespace {
 
-Scene sensor(FilmFace grounded, double electrode_radius_m) {
-  Scene scene;
+PillarScene sensor(FilmFace grounded, double electrode_radius_m) {
+  PillarScene scene;
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = 0.33;
-  scene.pressure_Pa = 1e4;
+  test::as<StaticDrive>(scene).pressure_Pa = 1e4;
   scene.geometry.film = FilmGeometry{25e-6, 60e-6};
   PiezoMatrix d = PiezoMatrix::Zero();
   d(2, 0) = d(2, 1) = 23e-12;
@@ -25,12 +26,12 @@ Scene sensor(FilmFace grounded, double electrode_radius_m) {
   return scene;
 }
 
-double voltage_V(const Scene& scene, int degree, int layers) {
+double voltage_V(const PillarScene& scene, int degree, int layers) {
   SceneAnswer answer;
   answer.discretisation = mesh_sequence(scene.geometry).back();
   answer.discretisation.degree = degree;
   answer.discretisation.layers = layers;
-  analysis_of(scene.kind).run(scene, answer);
+  analysis_of(scene).run(scene, answer);
   for (const SceneResult& r : answer.results) {
     if (r.name == "electrode_voltage") return r.value;
   }
@@ -42,7 +43,7 @@ double voltage_V(const Scene& scene, int degree, int layers) {
 TEST_CASE("voltages of electrodes off the rim converge as those at the rim do",
           "[pillar][convergence]") {
   const FilmFace grounded = GENERATE(FilmFace::kTop, FilmFace::kBottom);
-  const Scene scene = sensor(grounded, 16e-6);
+  const PillarScene scene = sensor(grounded, 16e-6);
   CAPTURE(grounded == FilmFace::kTop);
   const double fine_V = voltage_V(scene, 8, 4);
   // 1.2e-4 and less; on meshes without layers at the edge it was 4.3e-4 and more.

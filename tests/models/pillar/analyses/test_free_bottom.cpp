@@ -1,9 +1,12 @@
 // Bodies that nothing holds: their elastic modes, the motion by a voltage, and what is refused.
+#include "models/pillar/analyses/check_pillar.h"
+#include "models/pillar/analyses/simulate_pillar.h"
 #include "models/pillar/body/pillar_modes.h"
 #include "models/pillar/body/rigid_motion.h"
 #include "models/pillar/mesh/scene_mistake.h"
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/scene/pillar_scene.h"
 #include "tests/models/pillar/analyses/answer_of.h"
+#include "tests/models/pillar/drive_as.h"
 
 #include <catch2/catch.hpp>
 
@@ -43,8 +46,8 @@ double disc_Hz(double thickness_over_radius, Motion motion) {
   return lowest_modes(model, 1).front().frequency_Hz;
 }
 
-Scene disc_under_voltage() {
-  Scene scene;
+PillarScene disc_under_voltage() {
+  PillarScene scene;
   scene.geometry = {.diameter_m = 40e-6, .length_m = 40e-6, .film = FilmGeometry{25e-6, 60e-6}};
   scene.pillar.E0_Pa = 1.0;  // so soft that the film is free
   scene.pillar.nu = 0.0;     // and does not pass on that the film becomes wider
@@ -55,8 +58,8 @@ Scene disc_under_voltage() {
                             12.0 * kVacuumPermittivity_F_m * Eigen::Matrix3d::Identity(), 1780.0);
   scene.film_charge_C_N = charge;
   scene.electrodes = ElectrodeOptions{FilmFace::kBottom, 60e-6};
-  scene.kind = AnalysisKind::kStatic;
-  scene.drive_V = 1.0;
+  scene.drive = StaticDrive{};
+  test::as<StaticDrive>(scene).drive_V = 1.0;
   scene.fixed_bottom = false;
   return scene;
 }
@@ -169,14 +172,13 @@ TEST_CASE("a freed pillar's modes lie among those of the held one", "[pillar]") 
 
 TEST_CASE("the six rigid motions of a free body, three of a strip, are told and left out",
           "[pillar]") {
-  Scene scene;
+  PillarScene scene;
   scene.tolerance = 1e-2;
   scene.geometry = bar(3.0);
   scene.pillar.E0_Pa = kE_Pa;
   scene.pillar.nu = .33;
   scene.pillar.rho_kg_m3 = kRho;
-  scene.kind = AnalysisKind::kModal;
-  scene.modes = 2;
+  scene.drive = ModalDrive{.modes = 2};
   scene.fixed_bottom = false;
   std::string told = "6 motions";
   SECTION("cylinder") {}
@@ -184,13 +186,13 @@ TEST_CASE("the six rigid motions of a free body, three of a strip, are told and 
     scene.plane = PlaneState::kStress;
     told = "3 motions";
   }
-  const SceneAnswer answer = simulate(scene);
+  const SceneAnswer answer = simulate_pillar(scene);
   CHECK(answer.notes.at(0).find(told) != std::string::npos);
   for (const SceneMode& mode : answer.modes) CHECK(mode.frequency_Hz > 1e4);
 }
 
 TEST_CASE("a free film between electrodes becomes thicker by d33 times the voltage", "[pillar]") {
-  const SceneAnswer answer = simulate(disc_under_voltage());
+  const SceneAnswer answer = simulate_pillar(disc_under_voltage());
   // Case 5 of a free plate: 30.00 pm/V; the pillar is 2e9 times as soft.
   CHECK(value_of(answer, "displacement_per_volt") == Approx(30e-12).epsilon(1e-7));
   CHECK(value_of(answer, "top_displacement") == Approx(30e-12).epsilon(1e-7));
@@ -202,19 +204,19 @@ TEST_CASE("a free film between electrodes becomes thicker by d33 times the volta
 // A wide plate on a rigid base cannot become wider, so its thickness changes by d33 + 2 nu/(1 - nu)
 // d31 = -12.03 pm/V instead (IEEE Std 176-1987 with S1 = S2 = 0).
 TEST_CASE("a film that is held moves less under a voltage", "[pillar]") {
-  Scene scene = disc_under_voltage();
-  const double free_m = value_of(simulate(scene), "top_displacement");
+  PillarScene scene = disc_under_voltage();
+  const double free_m = value_of(simulate_pillar(scene), "top_displacement");
   scene.fixed_bottom = true;
-  const double held_m = value_of(simulate(scene), "top_displacement");
+  const double held_m = value_of(simulate_pillar(scene), "top_displacement");
   CHECK(held_m < 0.9 * free_m);
   scene.geometry.film->radius_m = 600e-6;
   scene.electrodes->electrode_radius_m = 600e-6;
-  CHECK(value_of(simulate(scene), "top_displacement") == Approx(12.03e-12).epsilon(1e-3));
+  CHECK(value_of(simulate_pillar(scene), "top_displacement") == Approx(12.03e-12).epsilon(1e-3));
 }
 
 TEST_CASE("what needs to be held is refused of a free bottom, with the reason", "[pillar]") {
-  Scene scene = disc_under_voltage();
-  const auto key_of = [](const Scene& refused) {
+  PillarScene scene = disc_under_voltage();
+  const auto key_of = [](const PillarScene& refused) {
     try {
       validate(refused);
     } catch (const SceneMistake& mistake) {
@@ -223,19 +225,19 @@ TEST_CASE("what needs to be held is refused of a free bottom, with the reason", 
     }
     return std::string("not refused");
   };
-  scene.pressure_Pa = 1e3;
+  test::as<StaticDrive>(scene).pressure_Pa = 1e3;
   CHECK(key_of(scene) == "geometry.film.bottom");
-  scene.pressure_Pa = 0.0;
-  scene.drive_V = 0.0;
+  test::as<StaticDrive>(scene).pressure_Pa = 0.0;
+  test::as<StaticDrive>(scene).drive_V = 0.0;
   CHECK(key_of(scene) == "geometry.film.bottom");
-  scene.displacement_m = 1e-9;
+  test::as<StaticDrive>(scene).displacement_m = 1e-9;
   CHECK(key_of(scene) == "geometry.film.bottom");
   scene = disc_under_voltage();
   scene.pillar.rho_kg_m3 = kRho;
-  for (const AnalysisKind kind :
-       {AnalysisKind::kBuckling, AnalysisKind::kCreep, AnalysisKind::kRelaxation,
-        AnalysisKind::kHarmonic, AnalysisKind::kTransient}) {
-    scene.kind = kind;
+  for (const PillarDrive& drive :
+       {PillarDrive(BucklingDrive{}), PillarDrive(CreepDrive{}), PillarDrive(RelaxationDrive{}),
+        PillarDrive(HarmonicDrive{}), PillarDrive(TransientDrive{})}) {
+    scene.drive = drive;
     CHECK(key_of(scene) == "geometry.film.bottom");
   }
   scene.film.reset();

@@ -1,10 +1,12 @@
+#include "models/pillar/analyses/simulate_pillar.h"
 #include "models/pillar/body/pillar_loads.h"
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/scene/pillar_scene.h"
 #include "models/pillar/time/harmonic_response.h"
 #include "models/pillar/time/model_reduction.h"
 #include "models/pillar/time/relative_modulus.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
 #include "tests/models/pillar/analyses/answer_of.h"
+#include "tests/models/pillar/drive_as.h"
 
 #include <catch2/catch.hpp>
 
@@ -47,11 +49,11 @@ struct Body {
   ViscoelasticSystem system;
 };
 
-Scene sweep_scene(const Material& material) {
-  Scene scene;
-  scene.kind = AnalysisKind::kHarmonic;
+PillarScene sweep_scene(const Material& material) {
+  PillarScene scene;
+  scene.drive = HarmonicDrive{};
   scene.pillar = material;
-  scene.pressure_Pa = 1e3;
+  test::as<HarmonicDrive>(scene).pressure_Pa = 1e3;
   return scene;
 }
 
@@ -103,20 +105,21 @@ TEST_CASE(
     "a sweep of a thousand frequencies lies within its errors of direct solutions on a finer "
     "mesh",
     "[pillar]") {
-  Scene scene = sweep_scene(damped_material(true));
+  PillarScene scene = sweep_scene(damped_material(true));
   scene.tolerance = 1e-3;
-  for (int i = 0; i < 1000; ++i) scene.frequencies_Hz.push_back(std::pow(10.0, 5.5 * i / 999.0));
-  const SceneAnswer answer = simulate(scene);
+  for (int i = 0; i < 1000; ++i)
+    test::as<HarmonicDrive>(scene).frequencies_Hz.push_back(std::pow(10.0, 5.5 * i / 999.0));
+  const SceneAnswer answer = simulate_pillar(scene);
   const SceneCurve& real = curve_of(answer, "top_displacement_real");
   const SceneCurve& imaginary = curve_of(answer, "top_displacement_imaginary");
   const Body fine(scene.pillar, Motion::kLongitudinal, {.degree = 7, .layers = 3});
   const double force_N = -1e3 * top_area_m2(fine.model);
   for (const std::size_t i :
        {std::size_t{0}, std::size_t{500}, std::size_t{900}, std::size_t{999}}) {
-    const Eigen::VectorXcd u =
-        solve_harmonic(fine.system, fine.system.load, kTwoPi * scene.frequencies_Hz[i]);
+    const Eigen::VectorXcd u = solve_harmonic(
+        fine.system, fine.system.load, kTwoPi * test::as<HarmonicDrive>(scene).frequencies_Hz[i]);
     const Complex y = force_N * (fine.system.load.cast<Complex>().transpose() * u).value();
-    CAPTURE(scene.frequencies_Hz[i], y, real.value[i], imaginary.value[i]);
+    CAPTURE(test::as<HarmonicDrive>(scene).frequencies_Hz[i], y, real.value[i], imaginary.value[i]);
     CHECK(std::abs(y.real() - real.value[i]) <= real.error[i]);
     CHECK(std::abs(y.imag() - imaginary.value[i]) <= imaginary.error[i]);
     CHECK(real.error[i] <= scene.tolerance * real.allowed[i]);
@@ -124,11 +127,12 @@ TEST_CASE(
 }
 
 TEST_CASE("resonances of a sweep are the modes", "[pillar]") {
-  Scene scene = sweep_scene(damped_material(false));
+  PillarScene scene = sweep_scene(damped_material(false));
   scene.pillar.terms = {{0.0077, 0.0077, 1e-6}};
   scene.tolerance = 1e-4;
-  for (int i = 0; i < 200; ++i) scene.frequencies_Hz.push_back(6e4 + 300.0 * i);
-  const SceneAnswer answer = simulate(scene);
+  for (int i = 0; i < 200; ++i)
+    test::as<HarmonicDrive>(scene).frequencies_Hz.push_back(6e4 + 300.0 * i);
+  const SceneAnswer answer = simulate_pillar(scene);
   const double tau_omega = kTwoPi * 90770.0 * 1e-6;
   const double share = 1.0 - 0.0077 / (1.0 + tau_omega * tau_omega);  // storage modulus there
   CHECK(value_of(answer, "top_displacement_resonance_1") ==
@@ -138,11 +142,11 @@ TEST_CASE("resonances of a sweep are the modes", "[pillar]") {
 TEST_CASE("an undamped resonance is refused alone and flagged in a sweep", "[pillar]") {
   Material elastic = damped_material(false);
   elastic.terms.clear();
-  Scene scene = sweep_scene(elastic);
-  scene.frequencies_Hz = {90770.0};
-  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("resonance"));
-  scene.frequencies_Hz = {1e3, 90770.0, 1.2e5};
-  const SceneAnswer answer = simulate(scene);
+  PillarScene scene = sweep_scene(elastic);
+  test::as<HarmonicDrive>(scene).frequencies_Hz = {90770.0};
+  CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("resonance"));
+  test::as<HarmonicDrive>(scene).frequencies_Hz = {1e3, 90770.0, 1.2e5};
+  const SceneAnswer answer = simulate_pillar(scene);
   REQUIRE(answer.notes.size() == 1);
   CHECK_THAT(answer.notes[0], Catch::Contains("90770"));
 }
@@ -151,43 +155,45 @@ TEST_CASE("frequencies from a microhertz to ten megahertz are those of a rod",
           "[pillar][stability]") {
   // Without contraction the top under pressure moves by -p tan(k L)/(k E*), k = w sqrt(rho/E*).
   // Graff, Wave Motion in Elastic Solids (1975), 2.4.
-  Scene scene = sweep_scene(damped_material(false));
+  PillarScene scene = sweep_scene(damped_material(false));
   scene.pillar.nu = 0.0;
   const bool is_small = GENERATE(false, true);  // of 40 nm to a gigahertz
-  scene.frequencies_Hz = {1e-6, 1e-3, 1.0, 1e3, 1e5, 2e6};
+  test::as<HarmonicDrive>(scene).frequencies_Hz = {1e-6, 1e-3, 1.0, 1e3, 1e5, 2e6};
   if (is_small) {
     scene.geometry.diameter_m = 40e-9;
     scene.geometry.length_m = 120e-9;
-    scene.frequencies_Hz.back() = 1e8;
-    scene.frequencies_Hz.push_back(1e9);
+    test::as<HarmonicDrive>(scene).frequencies_Hz.back() = 1e8;
+    test::as<HarmonicDrive>(scene).frequencies_Hz.push_back(1e9);
     for (MaterialTerm& term : scene.pillar.terms) term.tau_s *= 1e-3;
   }
-  const SceneAnswer answer = simulate(scene);
+  const SceneAnswer answer = simulate_pillar(scene);
   const SceneCurve& real = curve_of(answer, "top_displacement_real");
   const SceneCurve& imaginary = curve_of(answer, "top_displacement_imaginary");
-  for (std::size_t i = 0; i < scene.frequencies_Hz.size(); ++i) {
-    const double omega = kTwoPi * scene.frequencies_Hz[i];
+  for (std::size_t i = 0; i < test::as<HarmonicDrive>(scene).frequencies_Hz.size(); ++i) {
+    const double omega = kTwoPi * test::as<HarmonicDrive>(scene).frequencies_Hz[i];
     const Complex modulus_Pa =
         scene.pillar.E0_Pa *
         relative_modulus(scene.pillar.terms, &MaterialTerm::g, Complex(0.0, omega));
     const Complex k = omega * std::sqrt(965.0 / modulus_Pa);
     const Complex exact = -1e3 * std::tan(k * scene.geometry.length_m) / (k * modulus_Pa);
     const Complex found(real.value[i], imaginary.value[i]);
-    CAPTURE(scene.frequencies_Hz[i], exact, found, real.error[i], imaginary.error[i]);
+    CAPTURE(test::as<HarmonicDrive>(scene).frequencies_Hz[i], exact, found, real.error[i],
+            imaginary.error[i]);
     CHECK(std::abs(found - exact) <=
           std::hypot(real.error[i], imaginary.error[i]) + 1e-9 * std::abs(exact));
     CHECK(real.error[i] <= scene.tolerance * real.allowed[i]);
-    if (scene.frequencies_Hz[i] < 1e4) CHECK(found.real() == Approx(exact.real()).epsilon(1e-6));
+    if (test::as<HarmonicDrive>(scene).frequencies_Hz[i] < 1e4)
+      CHECK(found.real() == Approx(exact.real()).epsilon(1e-6));
   }
 }
 
 TEST_CASE(
     "a pillar with contraction answers from a microhertz to megahertz, and says where it ends",
     "[pillar][stability]") {
-  Scene scene = sweep_scene(damped_material(true));
+  PillarScene scene = sweep_scene(damped_material(true));
   scene.tolerance = 1e-2;
-  scene.frequencies_Hz = {1e-6, 1e-3, 1.0, 1e3, 5e5, 2e6};
-  const SceneAnswer answer = simulate(scene);
+  test::as<HarmonicDrive>(scene).frequencies_Hz = {1e-6, 1e-3, 1.0, 1e3, 5e5, 2e6};
+  const SceneAnswer answer = simulate_pillar(scene);
   const SceneCurve& real = curve_of(answer, "top_displacement_real");
   for (const double value : real.value) CHECK(std::isfinite(value));
   CHECK(answer.largest_relative_error <= scene.tolerance);
@@ -199,25 +205,25 @@ TEST_CASE(
   factor.factor(relaxed);
   const double slow_m = -1e3 * area_m2 * body.system.load.dot(factor.solve(body.system.load));
   CHECK(real.value[0] == Approx(slow_m).epsilon(1e-3));
-  scene.frequencies_Hz = {1e9};
+  test::as<HarmonicDrive>(scene).frequencies_Hz = {1e9};
   // 1.7e5 elements of one wave each would be needed, sqrt(1.7e5/400) = 64 times too many a side.
-  CHECK_THROWS_WITH(simulate(scene),
+  CHECK_THROWS_WITH(simulate_pillar(scene),
                     Catch::Contains("2778 to the length") && Catch::Contains("too little damped") &&
                         Catch::Contains("highest frequency") && Catch::Contains("e+07 Hz"));
-  scene.frequencies_Hz = {2.0, 1.0};
-  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("ascend"));
+  test::as<HarmonicDrive>(scene).frequencies_Hz = {2.0, 1.0};
+  CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("ascend"));
 }
 
 TEST_CASE("waves that die out are meshed where they live, up to a gigahertz",
           "[pillar][stability]") {
-  Scene scene = sweep_scene(damped_material(true));
+  PillarScene scene = sweep_scene(damped_material(true));
   scene.pillar.E0_Pa = 1e9;
   scene.pillar.terms = {{.5, .5, 1e-10},  {.2, .2, 1e-9},   {.1, .1, 1e-8},
                         {.05, .05, 1e-7}, {.05, .05, 1e-6}, {.05, .05, 1e-3}};
   const auto answer_at = [&](double frequency_Hz, double tolerance) {
-    scene.frequencies_Hz = {frequency_Hz};
+    test::as<HarmonicDrive>(scene).frequencies_Hz = {frequency_Hz};
     scene.tolerance = tolerance;
-    return simulate(scene);
+    return simulate_pillar(scene);
   };
   const auto value_of = [](const SceneAnswer& a) {
     return Complex(a.curves[0].value[0], a.curves[1].value[0]);
@@ -239,14 +245,14 @@ TEST_CASE("waves that die out are meshed where they live, up to a gigahertz",
   const Complex modulus_Pa =
       1e9 * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)) *
       relative_modulus(scene.pillar.terms, &MaterialTerm::g, {0.0, kTwoPi * 1e9});
-  const Complex plane = Complex(0.0, scene.pressure_Pa) /
+  const Complex plane = Complex(0.0, test::as<HarmonicDrive>(scene).pressure_Pa) /
                         (kTwoPi * 1e9 * std::sqrt(scene.pillar.rho_kg_m3 * modulus_Pa));
   CHECK(std::abs(value_of(answer) / plane - 1.0) < 5e-3);
 }
 
 TEST_CASE("a sweep too wide for its basis ends with the frequency up to which it is sound",
           "[pillar]") {
-  Scene scene = sweep_scene(damped_material(true));
-  for (int i = 1; i <= 40; ++i) scene.frequencies_Hz.push_back(2e5 * i);
-  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("is sound up to about"));
+  PillarScene scene = sweep_scene(damped_material(true));
+  for (int i = 1; i <= 40; ++i) test::as<HarmonicDrive>(scene).frequencies_Hz.push_back(2e5 * i);
+  CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("is sound up to about"));
 }

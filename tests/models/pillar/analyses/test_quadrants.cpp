@@ -1,8 +1,10 @@
+#include "models/pillar/analyses/simulate_pillar.h"
 #include "models/pillar/body/piezo_quadrants.h"
 #include "models/pillar/body/pillar_loads.h"
-#include "models/pillar/plan/plan.h"
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/scene/pillar_scene.h"
+#include "models/scene/simulate.h"
 #include "tests/models/pillar/analyses/answer_of.h"
+#include "tests/models/pillar/drive_as.h"
 
 #include <catch2/catch.hpp>
 
@@ -39,16 +41,16 @@ struct OnThinFilm {
   PillarModel model;
 };
 
-Scene sideways_scene() {
-  Scene scene;
+constexpr double kShear_Pa = 1e3;
+
+PillarScene sideways_scene() {
+  PillarScene scene;
   scene.geometry.film = FilmGeometry{.thickness_m = 25e-6, .radius_m = 60e-6};
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = .33;
   scene.film = film_medium();
   scene.electrodes = ElectrodeOptions{FilmFace::kBottom, 20e-6, true};
-  scene.kind = AnalysisKind::kStatic;
-  scene.direction = LoadDirection::kLateral;
-  scene.pressure_Pa = 1e3;
+  scene.drive = StaticDrive{.direction = LoadDirection::kLateral, .pressure_Pa = kShear_Pa};
   scene.tolerance = 1e-3;
   return scene;
 }
@@ -90,12 +92,11 @@ TEST_CASE("mean voltages of quadrants of a thin film are those of a beam", "[pil
 // The work of a force on what a voltage moves is that of the voltage on the charge the force
 // drives: F u = V (q1 + q4 - q2 - q3) = 4 V q1.
 TEST_CASE("quadrants sense and drive reciprocally", "[pillar]") {
-  Scene scene = sideways_scene();
-  const SceneAnswer sensed = simulate(scene);
-  const double force_N = scene.pressure_Pa * kPi * 20e-6 * 20e-6;
-  scene.pressure_Pa = 0.0;
-  scene.drive_V = 10.0;
-  const SceneAnswer driven = simulate(scene);
+  PillarScene scene = sideways_scene();
+  const SceneAnswer sensed = simulate_pillar(scene);
+  const double force_N = kShear_Pa * kPi * 20e-6 * 20e-6;
+  scene.drive = StaticDrive{.direction = LoadDirection::kLateral, .drive_V = 10.0};
+  const SceneAnswer driven = simulate_pillar(scene);
   CHECK(force_N * value_of(driven, "top_displacement") ==
         Approx(4.0 * 10.0 * value_of(sensed, "quadrant_charge")).epsilon(2e-3));
   CHECK(value_of(driven, "top_displacement") !=
@@ -105,38 +106,38 @@ TEST_CASE("quadrants sense and drive reciprocally", "[pillar]") {
 // Timoshenko's cantilever, P L^3/(3 E I) + P L/(kappa G A), kappa by Cowper: the clamped foot of a
 // solid is stiffer by what it may not contract.
 TEST_CASE("a sideways push bends the pillar as a beam", "[pillar]") {
-  Scene scene = sideways_scene();
+  PillarScene scene = sideways_scene();
   scene.geometry.film.reset();
   scene.film.reset();
   scene.electrodes.reset();
   scene.geometry.length_m = 1200e-6;
   const double A = kPi * 4e-10;
   const double I = kPi * std::pow(20e-6, 4) / 4.0;
-  const double P = scene.pressure_Pa * A;
+  const double P = kShear_Pa * A;
   const double L = scene.geometry.length_m;
   const double kappa = 6.0 * 1.33 / (7.0 + 6.0 * 0.33);
   const double beam_m =
       P * L * L * L / (3.0 * 1.8e6 * I) + P * L / (kappa * 1.8e6 / (2.0 * 1.33) * A);
-  CHECK(value_of(simulate(scene), "top_displacement") == Approx(beam_m).epsilon(3e-3));
+  CHECK(value_of(simulate_pillar(scene), "top_displacement") == Approx(beam_m).epsilon(3e-3));
 }
 
 TEST_CASE("what quadrants cannot read is refused", "[pillar]") {
-  Scene scene = sideways_scene();
+  PillarScene scene = sideways_scene();
   scene.electrodes->quadrants = false;
-  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("quadrants = true"));
+  CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("quadrants = true"));
   scene = sideways_scene();
   scene.plane = PlaneState::kStress;
-  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("sampled"));
+  CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("sampled"));
 }
 
 TEST_CASE("a film left out under a sideways push is within the error told", "[pillar]") {
-  Scene scene = sideways_scene();
+  PillarScene scene = sideways_scene();
   scene.electrodes.reset();
   scene.geometry.length_m = 60e-6;
   scene.film = isotropic_medium(40e6, .4, 965.0);  // soft enough to matter: 1.8 %
-  const double with_film_m = value_of(simulate_planned(scene), "top_displacement");
+  const double with_film_m = value_of(simulate(scene), "top_displacement");
   scene.effects["film_compliance"] = EffectChoice::kOff;
-  const SceneAnswer without = simulate_planned(scene);
+  const SceneAnswer without = simulate(scene);
   const double missed_m = std::abs(value_of(without, "top_displacement") - with_film_m);
   CHECK(missed_m > 0.01 * with_film_m);
   CHECK(missed_m <= without.results[0].error_estimate);
@@ -146,14 +147,19 @@ namespace {
 
 // Long before the first resonance (16 kHz) all is in step with the load. One mesh for all analyses,
 // so that what differs is not the mesh.
-Scene slow_scene(bool is_sampled) {
-  Scene scene = sideways_scene();
+PillarScene slow_scene(bool is_sampled) {
+  PillarScene scene = sideways_scene();
   scene.pillar.rho_kg_m3 = 965.0;
   if (is_sampled) scene.electrodes->electrode_radius_m = 0.0;
   scene.discretisation = Discretisation{.degree = 4, .layers = 2};
   scene.tolerance = 0.1;
-  scene.kind = AnalysisKind::kHarmonic;
-  scene.frequencies_Hz = {1.0};
+  scene.drive = HarmonicDrive{
+      .direction = LoadDirection::kLateral, .pressure_Pa = kShear_Pa, .frequencies_Hz = {1.0}};
+  return scene;
+}
+
+PillarScene at_rest(PillarScene scene) {
+  scene.drive = StaticDrive{.direction = LoadDirection::kLateral, .pressure_Pa = kShear_Pa};
   return scene;
 }
 
@@ -162,19 +168,17 @@ Scene slow_scene(bool is_sampled) {
 TEST_CASE("quadrants read a slow sideways load as they read one at rest", "[pillar]") {
   const bool is_sampled = GENERATE(false, true);
   const std::string name = is_sampled ? "quadrant_voltage" : "quadrant_charge";
-  Scene scene = slow_scene(is_sampled);
-  const SceneAnswer slow = simulate(scene);
-  scene.kind = AnalysisKind::kStatic;
-  const double at_rest = value_of(simulate(scene), name);
+  PillarScene scene = slow_scene(is_sampled);
+  const SceneAnswer slow = simulate_pillar(scene);
+  const double resting = value_of(simulate_pillar(at_rest(scene)), name);
   // (1 Hz/16 kHz)^2 = 4e-9 apart.
-  CHECK(curve_of(slow, name + "_real").value[0] == Approx(at_rest).epsilon(1e-7));
-  CHECK(std::abs(curve_of(slow, name + "_imaginary").value[0]) < 1e-9 * std::abs(at_rest));
-  scene.kind = AnalysisKind::kTransient;
-  scene.end_time_s = 2e-3;
-  scene.history = {{0.0, 0.0}, {2e-3, scene.pressure_Pa}};
-  scene.pressure_Pa = 0.0;
+  CHECK(curve_of(slow, name + "_real").value[0] == Approx(resting).epsilon(1e-7));
+  CHECK(std::abs(curve_of(slow, name + "_imaginary").value[0]) < 1e-9 * std::abs(resting));
+  scene.drive = TransientDrive{.direction = LoadDirection::kLateral,
+                               .history = {{0.0, 0.0}, {2e-3, kShear_Pa}},
+                               .end_time_s = 2e-3};
   // A ramp of t leaves ringing of 1/(pi f t) = 1 %.
-  CHECK(value_of(simulate(scene), name + "_end") == Approx(at_rest).epsilon(0.015));
+  CHECK(value_of(simulate_pillar(scene), name + "_end") == Approx(resting).epsilon(0.015));
 }
 
 // A shaken beam bends at its foot by rho A a L^2/2, as a force F at its end does by F L; what lies
@@ -182,18 +186,18 @@ TEST_CASE("quadrants read a slow sideways load as they read one at rest", "[pill
 TEST_CASE("quadrants on a shaken base read the pillar's inertia", "[pillar]") {
   const double a_m_s2 = 10.0;
   const auto shaken_C = [&](double length_m) {
-    Scene scene = slow_scene(false);
+    PillarScene scene = slow_scene(false);
     scene.geometry.length_m = length_m;
-    scene.load_place = LoadPlace::kBase;
-    scene.base_acceleration_m_s2 = a_m_s2;
-    scene.pressure_Pa = 0.0;
-    return curve_of(simulate(scene), "quadrant_charge_real").value[0];
+    scene.drive = HarmonicDrive{.load_place = LoadPlace::kBase,
+                                .direction = LoadDirection::kLateral,
+                                .base_acceleration_m_s2 = a_m_s2,
+                                .frequencies_Hz = {1.0}};
+    return curve_of(simulate_pillar(scene), "quadrant_charge_real").value[0];
   };
   const auto pushed_C_N = [&](double length_m) {
-    Scene scene = slow_scene(false);
-    scene.kind = AnalysisKind::kStatic;
+    PillarScene scene = at_rest(slow_scene(false));
     scene.geometry.length_m = length_m;
-    return value_of(simulate(scene), "quadrant_charge") / (scene.pressure_Pa * kPi * 4e-10);
+    return value_of(simulate_pillar(scene), "quadrant_charge") / (kShear_Pa * kPi * 4e-10);
   };
   const double L = 120e-6, longer = 240e-6;
   const double by_moment = (pushed_C_N(longer) - pushed_C_N(L)) / (longer - L);  // C per N m
@@ -207,10 +211,10 @@ TEST_CASE("quadrants on a shaken base read the pillar's inertia", "[pillar]") {
 }
 
 TEST_CASE("a charge amplifier reads a quadrant", "[pillar]") {
-  Scene scene = slow_scene(false);
+  PillarScene scene = slow_scene(false);
   scene.readout = Readout{ReadoutKind::kCharge, 1e10, 1e-12};  // 10 ms: a corner at 16 Hz
-  scene.frequencies_Hz = {1.0, 1000.0};
-  const SceneAnswer answer = simulate(scene);
+  test::as<HarmonicDrive>(scene).frequencies_Hz = {1.0, 1000.0};
+  const SceneAnswer answer = simulate_pillar(scene);
   const double charge_C = curve_of(answer, "quadrant_charge_real").value[0];
   const double x = 2.0 * kPi * 0.01;  // omega T at 1 Hz
   CHECK(curve_of(answer, "reading_imaginary").value[0] ==
@@ -219,8 +223,8 @@ TEST_CASE("a charge amplifier reads a quadrant", "[pillar]") {
         Approx(curve_of(answer, "quadrant_charge_magnitude").value[1] / 1e-12).epsilon(2e-4));
   CHECK(value_of(answer, "readout_time_constant") == Approx(0.01).epsilon(1e-12));
   scene.readout->kind = ReadoutKind::kVoltage;
-  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("width of a gap"));
+  CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("width of a gap"));
   scene.readout->kind = ReadoutKind::kCharge;
   scene.electrodes->quadrants = false;
-  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("quadrants = true"));
+  CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("quadrants = true"));
 }

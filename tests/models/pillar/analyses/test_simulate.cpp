@@ -1,4 +1,6 @@
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/analyses/simulate_pillar.h"
+#include "models/pillar/scene/pillar_scene.h"
+#include "tests/models/pillar/drive_as.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,12 +10,12 @@ using namespace viscard;
 
 namespace {
 
-Scene pillar_scene() {
-  Scene scene;
+PillarScene pillar_scene() {
+  PillarScene scene;
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = 0.33;
   scene.pillar.rho_kg_m3 = 965.0;
-  scene.pressure_Pa = 1e4;
+  test::as<StaticDrive>(scene).pressure_Pa = 1e4;
   return scene;
 }
 
@@ -28,9 +30,9 @@ const SceneResult& result_of(const SceneAnswer& answer, const std::string& name)
 
 TEST_CASE("static answers lie within their error estimate, and that within the tolerance",
           "[pillar]") {
-  Scene scene = pillar_scene();
+  PillarScene scene = pillar_scene();
   scene.tolerance = GENERATE(1e-2, 1e-3, 1e-4);
-  const SceneAnswer answer = simulate(scene);
+  const SceneAnswer answer = simulate_pillar(scene);
   const SceneResult& top = result_of(answer, "top_displacement");
   CHECK(std::abs(top.value + 659.692e-9) <= top.error_estimate + 0.001e-9);  // last digit known
   const SceneResult& base = result_of(answer, "base_stress_at_half_radius");
@@ -38,11 +40,9 @@ TEST_CASE("static answers lie within their error estimate, and that within the t
 }
 
 TEST_CASE("modal answers lie within their error estimates", "[pillar]") {
-  Scene scene = pillar_scene();
-  scene.kind = AnalysisKind::kModal;
-  scene.pressure_Pa = 0.0;
-  scene.modes = 2;
-  const SceneAnswer answer = simulate(scene);
+  PillarScene scene = pillar_scene();
+  scene.drive = ModalDrive{.modes = 2};
+  const SceneAnswer answer = simulate_pillar(scene);
   const std::vector<double> expected_Hz = {16029.18, 77413.28, 90769.96, 268168.4,
                                            55168.42, 165505.3, 449529.6, 493537.6};
   REQUIRE(answer.modes.size() == expected_Hz.size());
@@ -54,57 +54,57 @@ TEST_CASE("modal answers lie within their error estimates", "[pillar]") {
 }
 
 TEST_CASE("a tolerance that is smaller needs no fewer unknowns", "[pillar]") {
-  Scene scene = pillar_scene();
+  PillarScene scene = pillar_scene();
   scene.tolerance = 1e-1;
-  const int few = simulate(scene).unknowns;
+  const int few = simulate_pillar(scene).unknowns;
   scene.tolerance = 1e-4;
-  CHECK(simulate(scene).unknowns > few);
+  CHECK(simulate_pillar(scene).unknowns > few);
 }
 
 TEST_CASE("a load beyond buckling is refused with the buckling pressure", "[pillar]") {
-  Scene scene = pillar_scene();
-  scene.pressure_Pa = 3.2e4;  // the critical pressure is 29.37 kPa
-  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("buckling pressure"));
-  scene.pressure_Pa = 2.8e4;
-  CHECK_NOTHROW(simulate(scene));
+  PillarScene scene = pillar_scene();
+  test::as<StaticDrive>(scene).pressure_Pa = 3.2e4;  // the critical pressure is 29.37 kPa
+  CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("buckling pressure"));
+  test::as<StaticDrive>(scene).pressure_Pa = 2.8e4;
+  CHECK_NOTHROW(simulate_pillar(scene));
 }
 
 TEST_CASE("scenes that contradict themselves are refused by name", "[pillar]") {
-  Scene scene = pillar_scene();
+  PillarScene scene = pillar_scene();
   SECTION("no load") {
-    scene.pressure_Pa = 0.0;
-    CHECK_THROWS_WITH(simulate(scene), Catch::Contains("pressure"));
+    test::as<StaticDrive>(scene).pressure_Pa = 0.0;
+    CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("pressure"));
   }
   SECTION("tolerance of nothing") {
     scene.tolerance = 0.0;
-    CHECK_THROWS_WITH(simulate(scene), Catch::Contains("tolerance"));
+    CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("tolerance"));
   }
   SECTION("an electrode without a film") {
     scene.electrodes = ElectrodeOptions{};
-    CHECK_THROWS_WITH(simulate(scene), Catch::Contains("film"));
+    CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("film"));
   }
   SECTION("creep without a history") {
-    scene.kind = AnalysisKind::kCreep;
-    CHECK_THROWS_WITH(simulate(scene), Catch::Contains("history"));
+    scene.drive = CreepDrive{};
+    CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("history"));
   }
   SECTION("no density") {
-    scene.kind = AnalysisKind::kModal;
+    scene.drive = ModalDrive{};
     scene.pillar.rho_kg_m3 = 0.0;
-    CHECK_THROWS_WITH(simulate(scene), Catch::Contains("density"));
+    CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("density"));
   }
 }
 
 TEST_CASE("a load beyond buckling is refused unless the scene holds its pillar straight",
           "[pillar]") {
-  Scene scene;
+  PillarScene scene;
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = .33;
-  scene.kind = AnalysisKind::kStatic;
-  scene.pressure_Pa = 35e3;  // buckles at 29.37 kPa
-  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("beyond the buckling pressure") &&
-                                         Catch::Contains("geometric_stiffness"));
+  scene.drive = StaticDrive{};
+  test::as<StaticDrive>(scene).pressure_Pa = 35e3;  // buckles at 29.37 kPa
+  CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("beyond the buckling pressure") &&
+                                                Catch::Contains("geometric_stiffness"));
   scene.effects["geometric_stiffness"] = EffectChoice::kOff;
-  const SceneAnswer answer = simulate(scene);
+  const SceneAnswer answer = simulate_pillar(scene);
   REQUIRE(answer.notes.size() == 1);
   CHECK_THAT(answer.notes[0], Catch::Contains("held straight"));
   // Linear: 659.69 nm at 10 kPa.

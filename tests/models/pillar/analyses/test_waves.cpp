@@ -1,8 +1,10 @@
 // Waves in the pillar, whole scenes: against d'Alembert's solution, statics, and the damping of the
 // material.
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/analyses/simulate_pillar.h"
+#include "models/pillar/scene/pillar_scene.h"
 #include "models/pillar/time/modal_response.h"
 #include "tests/models/pillar/analyses/answer_of.h"
+#include "tests/models/pillar/drive_as.h"
 
 #include <catch2/catch.hpp>
 
@@ -24,15 +26,15 @@ constexpr double kLength_m = 120e-6;
 constexpr double kPressure_Pa = 1e3;
 const double kSpeed_m_s = std::sqrt(kModulus_Pa / 965.0);
 
-Scene rod_scene(double nu, double end_s) {
-  Scene scene;
-  scene.kind = AnalysisKind::kTransient;
+PillarScene rod_scene(double nu, double end_s) {
+  PillarScene scene;
+  scene.drive = TransientDrive{};
   scene.pillar.E0_Pa = kModulus_Pa;
   scene.pillar.nu = nu;
   scene.pillar.rho_kg_m3 = 965.0;
   scene.tolerance = 1e-2;
-  scene.end_time_s = end_s;
-  scene.outputs = 400;
+  test::as<TransientDrive>(scene).end_time_s = end_s;
+  test::as<TransientDrive>(scene).outputs = 400;
   return scene;
 }
 
@@ -68,9 +70,9 @@ double wave_error(const SceneAnswer& answer, const std::function<double(double)>
 
 TEST_CASE("a pressure put on at once makes the rod's end a triangular wave of twice the static sag",
           "[pillar]") {
-  Scene scene = rod_scene(0.0, 3e-5);
-  scene.history = {{0.0, kPressure_Pa}, {1.0, kPressure_Pa}};
-  const SceneAnswer answer = simulate(scene);
+  PillarScene scene = rod_scene(0.0, 3e-5);
+  test::as<TransientDrive>(scene).history = {{0.0, kPressure_Pa}, {1.0, kPressure_Pa}};
+  const SceneAnswer answer = simulate_pillar(scene);
   const auto F = [](double t) { return kPressure_Pa * t; };
   CHECK(wave_error(answer, F) <= scene.tolerance);
   CHECK(answer.largest_relative_error <= scene.tolerance);
@@ -85,13 +87,14 @@ TEST_CASE("a pressure put on at once makes the rod's end a triangular wave of tw
 TEST_CASE("a pulse runs up and down the rod as d'Alembert says", "[pillar]") {
   const double duration_s = 3e-6;
   const double pi = std::numbers::pi;
-  Scene scene = rod_scene(0.0, 4e-5);
+  PillarScene scene = rod_scene(0.0, 4e-5);
   scene.tolerance = GENERATE(1e-2, 3e-3);
   for (int i = 0; i <= 256; ++i) {
-    scene.history.push_back({duration_s * i / 256, kPressure_Pa * std::sin(pi * i / 256)});
+    test::as<TransientDrive>(scene).history.push_back(
+        {duration_s * i / 256, kPressure_Pa * std::sin(pi * i / 256)});
   }
-  scene.history.back().value = 0.0;
-  const SceneAnswer answer = simulate(scene);
+  test::as<TransientDrive>(scene).history.back().value = 0.0;
+  const SceneAnswer answer = simulate_pillar(scene);
   const auto F = [&](double t) {
     const double s = std::clamp(t / duration_s, 0.0, 1.0);
     return kPressure_Pa * duration_s / pi * (1.0 - std::cos(pi * s));
@@ -102,37 +105,40 @@ TEST_CASE("a pulse runs up and down the rod as d'Alembert says", "[pillar]") {
 
 TEST_CASE("a load that comes slowly is a static load", "[pillar]") {
   // Over a hundred periods of the lowest mode; what still rings is T/(pi ramp) of the static value.
-  Scene scene = rod_scene(0.33, 2.2e-3);
-  scene.history = {{0.0, 0.0}, {1.1e-3, kPressure_Pa}, {2.2e-3, kPressure_Pa}};
-  const double moving_m = value_of(simulate(scene), "top_displacement_end");
+  PillarScene scene = rod_scene(0.33, 2.2e-3);
+  test::as<TransientDrive>(scene).history = {
+      {0.0, 0.0}, {1.1e-3, kPressure_Pa}, {2.2e-3, kPressure_Pa}};
+  const double moving_m = value_of(simulate_pillar(scene), "top_displacement_end");
   const double static_m = -659.692e-9 * kPressure_Pa / 1e4;  // converged
   const double ringing = 1.1e-5 / (std::numbers::pi * 1.1e-3);
   CHECK(moving_m == Approx(static_m).epsilon(ringing + 1e-3));
 }
 
 TEST_CASE("slow motion of a viscoelastic pillar is its creep", "[pillar]") {
-  Scene scene = rod_scene(0.33, 0.02);
+  PillarScene scene = rod_scene(0.33, 0.02);
   scene.pillar.terms = {{0.3, 0.3, 2e-3}, {0.2, 0.2, 1e-2}};
-  scene.history = {{0.0, 0.0}, {2e-3, kPressure_Pa}, {0.02, kPressure_Pa}};
-  const double moving_m = value_of(simulate(scene), "top_displacement_end");
-  scene.kind = AnalysisKind::kCreep;
-  const double creeping_m = value_of(simulate(scene), "top_displacement_end");
+  test::as<TransientDrive>(scene).history = {
+      {0.0, 0.0}, {2e-3, kPressure_Pa}, {0.02, kPressure_Pa}};
+  const double moving_m = value_of(simulate_pillar(scene), "top_displacement_end");
+  scene.drive = CreepDrive{test::as<TransientDrive>(scene).history};
+  const double creeping_m = value_of(simulate_pillar(scene), "top_displacement_end");
   CHECK(std::abs(creeping_m) > 1.2 * 65.97e-9);  // it has crept by then
   CHECK(moving_m == Approx(creeping_m).epsilon(3e-3));
 }
 
 TEST_CASE("ringing decays by half the loss tangent and never grows", "[pillar]") {
-  Scene scene = rod_scene(0.0, 2e-4);
-  scene.outputs = 4000;
+  PillarScene scene = rod_scene(0.0, 2e-4);
+  test::as<TransientDrive>(scene).outputs = 4000;
   const double g = 0.05;
   const double tau_s = 1.77e-6;  // near the resonance
   scene.pillar.terms = {{g, g, tau_s}};
   const double pi = std::numbers::pi;
   for (int i = 0; i <= 64; ++i) {
-    scene.history.push_back({1.1e-5 * i / 64, kPressure_Pa * std::sin(pi * i / 64)});
+    test::as<TransientDrive>(scene).history.push_back(
+        {1.1e-5 * i / 64, kPressure_Pa * std::sin(pi * i / 64)});
   }
-  scene.history.back().value = 0.0;
-  const SceneAnswer answer = simulate(scene);
+  test::as<TransientDrive>(scene).history.back().value = 0.0;
+  const SceneAnswer answer = simulate_pillar(scene);
   const SceneCurve& u = curve_of(answer, "top_displacement");
   std::vector<double> peaks;  // of each period
   const double period_s = 4.0 * kLength_m / kSpeed_m_s;
@@ -200,9 +206,9 @@ TEST_CASE("one relaxing mode: closed form, Runge-Kutta and extremes", "[pillar][
 }
 
 // What refuses a scene, or nothing.
-std::string refusal_of(const Scene& scene) {
+std::string refusal_of(const PillarScene& scene) {
   try {
-    simulate(scene);
+    simulate_pillar(scene);
   } catch (const std::exception& refused) {
     return refused.what();
   }
@@ -217,19 +223,20 @@ double number_after(const std::string& text, const std::string& words) {
 
 // A step of load at a tolerance it is refused for, then as the refusal says.
 void check_advice(LoadDirection direction, double tolerance) {
-  Scene scene = rod_scene(0.33, 1e-4);
-  scene.direction = direction;
-  scene.history = {{0.0, kPressure_Pa}, {1e-4, kPressure_Pa}};
+  PillarScene scene = rod_scene(0.33, 1e-4);
+  test::as<TransientDrive>(scene).direction = direction;
+  test::as<TransientDrive>(scene).history = {{0.0, kPressure_Pa}, {1e-4, kPressure_Pa}};
   scene.tolerance = tolerance;
   const std::string refusal = refusal_of(scene);
   CAPTURE(tolerance, refusal);
   REQUIRE_THAT(refusal, Catch::Contains("the load jumps"));
   const double rise_s = number_after(refusal, "Let each jump take ");
-  Scene slower = scene;
-  slower.history = {{0.0, 0.0}, {rise_s, kPressure_Pa}, {1e-4, kPressure_Pa}};
-  CHECK(simulate(slower).largest_relative_error <= tolerance);
+  PillarScene slower = scene;
+  test::as<TransientDrive>(slower).history = {
+      {0.0, 0.0}, {rise_s, kPressure_Pa}, {1e-4, kPressure_Pa}};
+  CHECK(simulate_pillar(slower).largest_relative_error <= tolerance);
   scene.tolerance = number_after(refusal, "ask for a tolerance of ");
-  CHECK(simulate(scene).largest_relative_error <= scene.tolerance);
+  CHECK(simulate_pillar(scene).largest_relative_error <= scene.tolerance);
 }
 
 TEST_CASE("a jump too sharp for the tolerance is refused with a rise and a tolerance that do",
@@ -239,19 +246,21 @@ TEST_CASE("a jump too sharp for the tolerance is refused with a rise and a toler
 }
 
 TEST_CASE("a ramp too steep for the tolerance is refused with how far to stretch it", "[pillar]") {
-  Scene scene = rod_scene(0.33, 1e-4);
-  scene.direction = LoadDirection::kLateral;
+  PillarScene scene = rod_scene(0.33, 1e-4);
+  test::as<TransientDrive>(scene).direction = LoadDirection::kLateral;
   scene.tolerance = 1e-3;
   const double rise_s = 2e-7;
-  scene.history = {{0.0, 0.0}, {rise_s, kPressure_Pa}, {1e-4, kPressure_Pa}};
+  test::as<TransientDrive>(scene).history = {
+      {0.0, 0.0}, {rise_s, kPressure_Pa}, {1e-4, kPressure_Pa}};
   const std::string refusal = refusal_of(scene);
   CAPTURE(refusal);
   REQUIRE_THAT(refusal, Catch::Contains("changes its slope suddenly"));
-  Scene slower = scene;
-  slower.history[1].time_s = rise_s * number_after(refusal, "Stretch its ramps ");
-  CHECK(simulate(slower).largest_relative_error <= scene.tolerance);
+  PillarScene slower = scene;
+  test::as<TransientDrive>(slower).history[1].time_s =
+      rise_s * number_after(refusal, "Stretch its ramps ");
+  CHECK(simulate_pillar(slower).largest_relative_error <= scene.tolerance);
   scene.tolerance = number_after(refusal, "ask for a tolerance of ");
-  CHECK(simulate(scene).largest_relative_error <= scene.tolerance);
+  CHECK(simulate_pillar(scene).largest_relative_error <= scene.tolerance);
 }
 
 TEST_CASE("a jump along the axis is answered as its refusal says", "[pillar][slow]") {

@@ -7,7 +7,7 @@
 namespace viscard::test {
 
 // An extreme the solver must survive: how large its relative error is there, and how large it may
-// be. The table in models/README.md is made of these.
+// be. The table in models/pillar/README.md is made of these.
 struct StabilityCase {
   std::string name;
   std::function<double()> error;

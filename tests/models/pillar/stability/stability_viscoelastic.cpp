@@ -1,8 +1,10 @@
 #include "models/material/retardation_spectrum.h"
-#include "models/pillar/scene/scene.h"
+#include "models/pillar/analyses/simulate_pillar.h"
+#include "models/pillar/scene/pillar_scene.h"
 #include "models/pillar/time/load_history.h"
 #include "models/pillar/time/relative_modulus.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
+#include "tests/models/pillar/drive_as.h"
 #include "tests/models/pillar/stability/stability_cases.h"
 
 #include <fmt/format.h>
@@ -96,18 +98,18 @@ double kelvin_voigt_error() {
 // -p tan(k L)/(k E*), k = w sqrt(rho/E*).
 double oscillation_error(double frequency_Hz, double diameter_m, double E0_Pa,
                          const std::vector<MaterialTerm>& terms) {
-  Scene scene;
-  scene.kind = AnalysisKind::kHarmonic;
+  PillarScene scene;
+  scene.drive = HarmonicDrive{};
   scene.geometry.diameter_m = diameter_m;
   scene.geometry.length_m = 3.0 * diameter_m;
   scene.pillar.E0_Pa = E0_Pa;
   scene.pillar.nu = 0.0;
   scene.pillar.rho_kg_m3 = 965.0;
   scene.pillar.terms = terms;
-  scene.pressure_Pa = 1e3;
+  test::as<HarmonicDrive>(scene).pressure_Pa = 1e3;
   scene.tolerance = 5e-4;
-  scene.frequencies_Hz = {frequency_Hz};
-  const SceneAnswer answer = simulate(scene);
+  test::as<HarmonicDrive>(scene).frequencies_Hz = {frequency_Hz};
+  const SceneAnswer answer = simulate_pillar(scene);
   const double omega = 2.0 * std::numbers::pi * frequency_Hz;
   const std::complex<double> modulus_Pa =
       E0_Pa * relative_modulus(terms, &MaterialTerm::g, {0.0, omega});

@@ -2,6 +2,8 @@
 #include "models/pillar/time/inertial_stepper.h"
 #include "models/pillar/time/modal_response.h"
 #include "models/pillar/time/model_reduction.h"
+#include "models/pillar/time/spectrum.h"
+#include "models/pillar/time/transient_run.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
 #include "tests/support/convergence.h"
 

@@ -1,0 +1,74 @@
+#include "io/cli/scene/sweep_run.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/basics/sha256.h"
+#include "io/cli/scene/answer_output.h"
+#include "io/cli/scene/array_sweep.h"
+#include "io/cli/scene/row_pictures.h"
+#include "io/cli/words/progress.h"
+#include "models/scene/simulate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+
+namespace viscard {
+namespace {
+
+// Points that were stored under another key belong to another scene.
+std::string key_of(const ArrayScene& scene, const std::string& path) {
+  return fmt::format("sweep {} tolerance {:.9g} viscard {}", sha256_of_file(path), scene.tolerance,
+                     VISCARD_VERSION);
+}
+
+}  // namespace
+
+SceneAnswer run_sweep(const SceneFile& file, const std::string& path, const SweepOutput& output,
+                      Streams& streams) {
+  const auto& scene = std::get<ArrayScene>(file.scene);
+  const std::vector<SweepPoint> points = points_of(scene, file.sweep);
+  const std::string& folder = output.folder;
+  const bool overwrite = output.overwrite;
+  const std::filesystem::path table = std::filesystem::path(folder) / "sweep.csv";
+  if (!folder.empty() && !overwrite && std::filesystem::exists(table)) {
+    throw std::runtime_error(table.string() + " exists; add --force to overwrite it");
+  }
+  SweepStore store(folder, key_of(scene, path));
+  if (!store.done().empty()) {
+    streams.err << fmt::format("continuing: {} of {} points are done\n", store.done().size(),
+                               points.size());
+  }
+  std::vector<Scene> left;
+  std::vector<std::size_t> number;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (store.done().count(i) > 0) continue;
+    left.push_back(points[i].scene);
+    number.push_back(i);
+  }
+  SceneAnswer sum;
+  Progress progress(streams, "sweep");
+  simulate_all(left, [&](std::size_t i, const SceneAnswer& answer) {
+    SceneAnswer kept = answer;
+    keep_wanted(scene.wanted, kept);
+    store.add(number[i], kept.results);
+    sum.unknowns = std::max(sum.unknowns, answer.unknowns);
+    if (answer.discretisation.degree >= sum.discretisation.degree) {
+      sum.discretisation = answer.discretisation;
+    }
+    sum.effects = answer.effects;
+    progress.show(static_cast<double>(store.done().size()) / static_cast<double>(points.size()),
+                  points[number[i]].label);
+  });
+  progress.clear();
+  if (!folder.empty()) {
+    write_file(table, csv_from_sweep(points, store.done(), output.command), overwrite);
+    write_pictures(pictures_over_sweep(file.sweep, points, store.done()), folder, overwrite);
+    store.remove();
+  }
+  sum.results = joined(file.sweep, points, store.done()).results;
+  return sum;
+}
+
+}  // namespace viscard

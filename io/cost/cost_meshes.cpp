@@ -1,0 +1,105 @@
+#include "io/cost/cost_meshes.h"
+
+#include "models/array/plane/simulate_array.h"
+#include "models/pillar/analyses/analysis.h"
+#include "models/pillar/mesh/mesh_sequence.h"
+
+#include <algorithm>
+
+namespace viscard {
+namespace {
+
+// Far below the tolerance, but not finer than the steps can show.
+double step_tolerance_of(const PillarScene& scene) {
+  const Analysis& analysis = analysis_of(scene);
+  const bool moves = analysis.has_inertia && analysis.relaxes;
+  return moves ? 0.05 * scene.tolerance : std::min(1e-6, scene.tolerance);
+}
+
+CostMeshes meshes_of(const PillarScene& scene) {
+  return {.diameter_m = scene.geometry.diameter_m,
+          .graded = {{2, 1}, {3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}},
+          .highest_uniform = 8,
+          .reference_layers = 4,
+          .step_tolerance = step_tolerance_of(scene)};
+}
+
+CostMeshes meshes_of(const ArrayScene& scene) {
+  return {.diameter_m = scene.geometry.diameter_m,
+          .graded = {{2, 1}, {3, 2}, {4, 2}, {5, 2}, {6, 3}, {7, 3}},
+          .highest_uniform = 7,
+          .reference_layers = 5,
+          .step_tolerance = scene.tolerance};
+}
+
+Discretisation graded(const PillarScene& scene, int degree, int layers) {
+  Discretisation mesh = mesh_sequence(scene.geometry).front();
+  mesh.degree = degree;
+  mesh.layers = layers;
+  return mesh;
+}
+
+Discretisation graded(const ArrayScene& scene, int degree, int layers) {
+  Discretisation mesh = array_meshes(scene).front();
+  mesh.degree = degree;
+  // An electrode's edge takes as many layers as the degree (array_meshes()).
+  mesh.layers = scene.electrodes.is_equipotential ? std::max(degree, layers) : layers;
+  return mesh;
+}
+
+int uniform_layers(const PillarScene&) {
+  return 1;
+}
+
+int uniform_layers(const ArrayScene& scene) {
+  return scene.electrodes.is_equipotential ? 2 : 1;
+}
+
+// A film that is left out needs no elements beside the pillar.
+Discretisation without_effect(const PillarScene& without, Discretisation mesh) {
+  if (!without.film) mesh.film_elements = 1;
+  return mesh;
+}
+
+Discretisation without_effect(const ArrayScene&, Discretisation mesh) {
+  return mesh;
+}
+
+bool steps_through_history(const PillarScene& scene) {
+  return !history(scene).empty();
+}
+
+// Rows are answered by a transform.
+bool steps_through_history(const ArrayScene&) {
+  return false;
+}
+
+}  // namespace
+
+CostMeshes cost_meshes(const Scene& scene) {
+  return std::visit([](const auto& body) { return meshes_of(body); }, scene);
+}
+
+Discretisation graded_mesh(const Scene& scene, int degree, int layers) {
+  return std::visit([&](const auto& body) { return graded(body, degree, layers); }, scene);
+}
+
+Discretisation uniform_mesh(const Scene& scene, int degree) {
+  return std::visit(
+      [&](const auto& body) {
+        Discretisation mesh = graded(body, degree, 1);
+        mesh.layers = uniform_layers(body);
+        return mesh;
+      },
+      scene);
+}
+
+Discretisation mesh_without_effect(const Scene& without, Discretisation mesh) {
+  return std::visit([&](const auto& body) { return without_effect(body, mesh); }, without);
+}
+
+bool takes_time_steps(const Scene& scene) {
+  return std::visit([](const auto& body) { return steps_through_history(body); }, scene);
+}
+
+}  // namespace viscard

@@ -1,0 +1,70 @@
+#include "models/array/plane/array_analysis.h"
+#include "models/array/plane/array_modes.h"
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+const RowModal& row_modal_drive(const ArrayScene& scene) {
+  return std::get<RowModal>(scene.drive);
+}
+
+std::vector<std::string> row_modal_names(const ArrayScene&) {
+  return {"frequency", "lateral", "longitudinal"};
+}
+
+SceneAnswer run_row_modal(const ArrayScene& scene, const Discretisation& mesh) {
+  const ArrayMedia media = media_of(scene);
+  const ArrayModel model(scene.feels_neighbours ? scene.geometry : lone(scene.geometry),
+                         scene.electrodes, media, mesh,
+                         inertia_ports_for(row_modal_drive(scene).modes));
+  SceneAnswer answer;
+  answer.discretisation = mesh;
+  answer.unknowns = model.unknowns();
+  const std::vector<ArrayMode> modes = array_modes(model, row_modal_drive(scene).modes);
+  answer.step_error = film_inertia_error(model, media, modes);
+  const int repeats = scene.feels_neighbours ? 1 : scene.geometry.count;
+  for (const bool is_lateral : {true, false}) {
+    for (const ArrayMode& mode : modes) {
+      if (mode.is_lateral != is_lateral) continue;
+      answer.modes.insert(answer.modes.end(), static_cast<std::size_t>(repeats),
+                          {is_lateral ? "lateral" : "longitudinal", 0, mode.frequency_Hz, 0.0});
+    }
+  }
+  return answer;
+}
+
+// Modes of a row leave the film's own inertia out; no mesh changes that error.
+void refuse_film_modes(const ArrayScene& scene, const SceneAnswer& answer) {
+  const double film_error = answer.step_error;
+  const double tolerance = scene.tolerance;
+  if (film_error <= tolerance) return;
+  char text[260];
+  std::snprintf(text, sizeof text,
+                "the film's own inertia, which the modes of a row leave out, may change the "
+                "frequencies by %.2g of them, more than the tolerance of %.2g; ask for a larger "
+                "tolerance or fewer modes, or for one pillar on its film (kind = \"pillar\")",
+                film_error, tolerance);
+  throw std::runtime_error(text);
+}
+
+PillarDrive row_modal_alone(const ArrayScene& scene) {
+  return ModalDrive{.modes = row_modal_drive(scene).modes};
+}
+
+}  // namespace
+
+ArrayAnalysis array_modal_analysis() {
+  return {.name = "modal",
+          .drive = RowModal{},
+          .has_inertia = true,
+          .is_loaded = false,
+          .result_names = row_modal_names,
+          .run = run_row_modal,
+          .check_answer = refuse_film_modes,
+          .alone = row_modal_alone};
+}
+
+}  // namespace viscard

@@ -1,0 +1,81 @@
+#include "models/array/plane/check_array.h"
+
+#include "models/array/plane/array_analysis.h"
+#include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/mesh/scene_mistake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace viscard {
+namespace {
+
+void check_loaded(const ArrayScene& scene) {
+  for (std::size_t i = 0; i < scene.loaded.size(); ++i) {
+    const int pillar = scene.loaded[i];
+    const std::string key = "analysis.load.pillars." + std::to_string(i + 1);
+    if (pillar < 1 || pillar > scene.geometry.count) {
+      throw SceneMistake(key, "there is no pillar " + std::to_string(pillar) +
+                                  "; they are numbered from 1 to " +
+                                  std::to_string(scene.geometry.count));
+    }
+    const auto here = scene.loaded.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(scene.loaded.begin(), here, pillar) != here) {
+      throw SceneMistake(key, "pillar " + std::to_string(pillar) + " is named twice");
+    }
+  }
+}
+
+void check_density(const ArrayScene& scene) {
+  if (!(scene.pillar.rho_kg_m3 > 0.0)) {
+    throw SceneMistake("materials.pillar", "what moves needs a density, rho");
+  }
+  if (!(scene.film.rho_kg_m3 > 0.0)) {
+    throw SceneMistake("materials", "what moves needs the film's density, rho");
+  }
+}
+
+}  // namespace
+
+void validate(const ArrayScene& scene) {
+  at_key("geometry", [&] { validate(scene.geometry, scene.electrodes); });
+  at_key("materials.pillar", [&] { validate(scene.pillar); });
+  check_tolerance(scene.tolerance, ArrayScene::kTolerances);
+  if (scene.electrodes.is_equipotential && !is_electric(scene)) {
+    throw SceneMistake("geometry.electrode",
+                       "electrodes need a film with a permittivity, such as one from a file");
+  }
+  if (!(scene.surface_energy_J_m2 > 0.0)) {
+    throw SceneMistake("materials.surface_energy", "must be positive");
+  }
+  const ArrayAnalysis& analysis = analysis_of(scene);
+  if (analysis.has_inertia) check_density(scene);
+  if (analysis.is_loaded) check_loaded(scene);
+  if (analysis.check != nullptr) analysis.check(scene);
+}
+
+void check_pressure(const ArrayScene& scene, double pressure_Pa, const char* key) {
+  const double critical_Pa = engesser_pressure_Pa(single_pillar(scene));
+  if (scene.load != ArrayLoad::kPressure || pressure_Pa < critical_Pa) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "a pressure of %.5g Pa is beyond the %.5g Pa at which these pillars buckle (Euler, "
+                "Engesser); load them less, or make them shorter or thicker",
+                pressure_Pa, critical_Pa);
+  throw SceneMistake(key, text);
+}
+
+void check_load(const ArrayScene& scene) {
+  if (scene.load_Pa == 0.0 || !std::isfinite(scene.load_Pa)) {
+    throw SceneMistake("analysis.load",
+                       "needs a pressure or a shear, such as pressure = \"1 kPa\"");
+  }
+  check_pressure(scene, scene.load_Pa, "analysis.load");
+}
+
+std::vector<std::string> result_names(const ArrayScene& scene) {
+  return analysis_of(scene).result_names(scene);
+}
+
+}  // namespace viscard

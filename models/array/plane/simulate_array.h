@@ -1,0 +1,34 @@
+#pragma once
+
+#include "models/array/plane/array_scene.h"
+#include "models/scene/common/scene_answer.h"
+
+#include <vector>
+
+namespace viscard {
+
+// Answers the scene as it stands on meshes of rising degree, as simulate_pillar() does for one
+// pillar. Results of pillar i carry its number:
+//   centre_voltage_i, mean_voltage_i        of a charge-free face
+//   electrode_voltage_i, electrode_charge_i (shorted) of equipotential electrodes
+//   midway_voltage_i                        between pillars i and i + 1
+//   top_displacement_i
+// and in per cent
+//   coupling_percent_i          100 (V_midway/2)/V, V the mean of the two loaded neighbours'
+//   centres crosstalk_percent_i         mean or electrode voltage of an unloaded pillar over that
+//   of the
+//                               loaded one
+//   crosstalk_centre_percent_i  the same of the centres
+//   neighbours_percent_i        what the other loaded pillars add to the centre (electrode) voltage
+//   deviation_percent_i         centre (electrode) voltage against that of a lone pillar on a wide
+//                               film; only if wanted, because it needs a second model
+// Harmonic and transient analyses give curves of the top's displacement and of the voltage of each
+// pillar (array_transfer.h). Throws std::runtime_error if the finest mesh does not meet the
+// tolerance.
+SceneAnswer simulate_array(const ArrayScene& scene);
+
+// The scene on one mesh, without mesh errors, and the meshes that simulate_array() goes through.
+SceneAnswer array_answer_on(const ArrayScene& scene, const Discretisation& mesh);
+std::vector<Discretisation> array_meshes(const ArrayScene& scene);
+
+}  // namespace viscard

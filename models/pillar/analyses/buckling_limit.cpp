@@ -1,0 +1,124 @@
+#include "models/pillar/analyses/buckling_limit.h"
+
+#include "models/pillar/analyses/analysis.h"
+#include "models/pillar/analyses/top_load.h"
+#include "models/pillar/body/pillar_modes.h"
+#include "models/pillar/mesh/mesh_sequence.h"
+#include "models/pillar/mesh/number_text.h"
+#include "models/pillar/mesh/scene_mistake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+// Infinite for a pillar so stubby that it gives way only at the rim of its bond.
+double buckling_pressure_Pa(const PillarModel& axial, const PillarModel& lateral) {
+  try {
+    return buckling(axial, lateral).pressure_Pa;
+  } catch (const std::runtime_error&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
+double buckling_pressure_Pa(const PillarScene& scene) {
+  const Discretisation mesh = mesh_sequence(scene.geometry)[1];
+  const PillarModel axial(scene.geometry, mesh, media_of(scene), {.motion = Motion::kLongitudinal});
+  const PillarModel lateral(scene.geometry, mesh, media_of(scene), {.motion = Motion::kLateral});
+  return buckling_pressure_Pa(axial, lateral);
+}
+
+// How far a plate can press the top down before the pillar buckles below it.
+double buckling_shortening_m(const PillarScene& scene) {
+  const Discretisation mesh = mesh_sequence(scene.geometry)[1];
+  const PillarModel axial(scene.geometry, mesh, media_of(scene),
+                          {.motion = Motion::kLongitudinal, .rigid_top = true});
+  const PillarModel lateral(scene.geometry, mesh, media_of(scene),
+                            {.motion = Motion::kLateral, .rigid_top = true});
+  const Eigen::VectorXd traction = axial.top_traction();
+  const double shortening_m_Pa =
+      traction.dot(axial.solve(traction).unknowns) / traction.sum();  // at 1 Pa
+  return shortening_m_Pa * buckling_pressure_Pa(axial, lateral);
+}
+
+// A plate holds the top upright, so that the pillar buckles between the two.
+std::string beyond_buckling_under_plate(const PillarScene& scene) {
+  const double moved_m = *displacement_m(scene);
+  const double rough_m = engesser_pressure_Pa(scene) / scene.pillar.E0_Pa * scene.geometry.length_m;
+  if (-moved_m < 0.5 * rough_m) return "";
+  const double most_m = scene.plane ? rough_m : buckling_shortening_m(scene);
+  if (-moved_m < most_m) return "";
+  return "a displacement of " + number_text(moved_m * 1e6, 5) + " um is beyond about " +
+         number_text(-most_m * 1e6, 3) +
+         " um, where the pillar buckles between its foot and the plate on its top";
+}
+
+}  // namespace
+
+double engesser_pressure_Pa(const PillarScene& scene) {
+  const double radius_of_gyration_m =
+      scene.plane ? scene.geometry.diameter_m / std::sqrt(12.0) : 0.25 * scene.geometry.diameter_m;
+  // A half wave has twice the pillar's length under a free top, once its length under a plate.
+  const bool is_upright = moves_top(scene) || plate_on_top(scene);
+  const double half_wave_m = (is_upright ? 1.0 : 2.0) * scene.geometry.length_m;
+  const double slenderness = half_wave_m / radius_of_gyration_m;
+  const double euler_Pa =
+      std::numbers::pi * std::numbers::pi * scene.pillar.E0_Pa / (slenderness * slenderness);
+  const double nu = scene.pillar.nu;
+  const double shear_Pa = scene.pillar.E0_Pa / (2.0 * (1.0 + nu));
+  const double kappa = scene.plane ? 5.0 / 6.0 : 6.0 * (1.0 + nu) / (7.0 + 6.0 * nu);
+  return euler_Pa / (1.0 + euler_Pa / (kappa * shear_Pa));
+}
+
+double largest_pressure_Pa(const PillarScene& scene) {
+  const Analysis& analysis = analysis_of(scene);
+  if (analysis.found_pressure_Pa != nullptr) return analysis.found_pressure_Pa(scene);
+  double largest = std::abs(pressure_Pa(scene));
+  if (moves_top(scene) && !is_lateral(scene)) {
+    largest = std::abs(*displacement_m(scene)) / scene.geometry.length_m * scene.pillar.E0_Pa;
+  }
+  if (analysis.history == HistoryOf::kPressure && load_place(scene) == LoadPlace::kTop) {
+    for (const HistoryPoint& p : history(scene)) largest = std::max(largest, std::abs(p.value));
+  }
+  return largest;
+}
+
+std::string beyond_buckling(const PillarScene& scene) {
+  const Analysis& analysis = analysis_of(scene);
+  if (analysis.push_Pa == nullptr || is_lateral(scene)) return "";
+  if (moves_top(scene)) return beyond_buckling_under_plate(scene);
+  const double largest_Pa = analysis.push_Pa(scene);
+  const double slenderness = scene.geometry.diameter_m / scene.geometry.length_m;
+  const double pi = std::numbers::pi;
+  const double euler_Pa = pi * pi / 64.0 * scene.pillar.E0_Pa * slenderness * slenderness;
+  if (largest_Pa < 0.5 * euler_Pa) return "";
+  const double critical_Pa =
+      scene.plane ? engesser_pressure_Pa(scene) : buckling_pressure_Pa(scene);
+  if (largest_Pa < critical_Pa) return "";
+  return "a pressure of " + number_text(largest_Pa, 5) +
+         " Pa is beyond the buckling pressure of about " + number_text(critical_Pa, 5) +
+         " Pa: the straight pillar gives way sideways";
+}
+
+bool holds_straight(const PillarScene& scene) {
+  const auto forced = scene.effects.find("geometric_stiffness");
+  return forced != scene.effects.end() && forced->second == EffectChoice::kOff;
+}
+
+void refuse_beyond_buckling(const PillarScene& scene) {
+  if (holds_straight(scene)) return;
+  const std::string why = beyond_buckling(scene);
+  if (why.empty()) return;
+  throw SceneMistake(has_history(scene) ? "analysis.history"
+                     : moves_top(scene) ? "analysis.load.displacement"
+                                        : "analysis.load",
+                     why +
+                         ". Reduce the load, make the pillar shorter or thicker, or say that it is "
+                         "held straight (geometric_stiffness = \"off\" under [effects])");
+}
+
+}  // namespace viscard

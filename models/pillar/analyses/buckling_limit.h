@@ -1,0 +1,30 @@
+#pragma once
+
+#include "models/pillar/scene/pillar_scene.h"
+
+#include <string>
+
+namespace viscard {
+
+// Pressure at which the pillar buckles, clamped at its foot, by Euler's formula with Engesser's
+// correction for shear, P = P_e/(1 + P_e/(kappa G A)) (eq. E6), in Pa. The top is free; a plate on
+// the top keeps it upright but lets it slide, which makes the pressure four times as large.
+double engesser_pressure_Pa(const PillarScene& scene);
+
+// Largest pressure on the top, Pa; 0 for a history of shortening. A top that is moved counts as
+// E u/L, and an analysis that finds a pressure itself as that pressure.
+double largest_pressure_Pa(const PillarScene& scene);
+
+// A sentence that says how far the load lies beyond the buckling pressure; "" if the straight
+// pillar bears it. The limit is the pillar's own buckling pressure on a coarse mesh where Euler's
+// formula comes near the load, for a strip Engesser's formula (eq. E6).
+std::string beyond_buckling(const PillarScene& scene);
+
+// True if the scene forces geometric_stiffness off: it declares that its pillar stays straight.
+bool holds_straight(const PillarScene& scene);
+
+// Throws SceneMistake if the load lies beyond buckling, where a straight answer has no meaning,
+// unless the scene holds the pillar straight.
+void refuse_beyond_buckling(const PillarScene& scene);
+
+}  // namespace viscard

@@ -1,0 +1,104 @@
+#include "models/pillar/analyses/check_pillar.h"
+
+#include "models/pillar/analyses/analysis.h"
+#include "models/pillar/mesh/number_text.h"
+#include "models/pillar/mesh/scene_mistake.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace viscard {
+namespace {
+
+void check_electrodes(const PillarScene& scene) {
+  if (!scene.electrodes) return;
+  if (!scene.film || !scene.film->is_piezoelectric()) {
+    throw SceneMistake("geometry.electrode", "an electrode needs a film of piezoelectric material");
+  }
+  const double film_m = scene.geometry.film->radius_m;
+  const double electrode_m = scene.electrodes->electrode_radius_m;
+  if (electrode_m > film_m * (1.0 + 1e-9)) {
+    throw SceneMistake("geometry.electrode.radius",
+                       "the electrode's radius of " + number_text(electrode_m * 1e6) +
+                           " um is wider than the film's of " + number_text(film_m * 1e6) + " um");
+  }
+}
+
+// Between the two the bulk modulus is so large that rounding in it spoils the shear (near 0.499999
+// a bent pillar loses about 1e-5), while an incompressible body is computed by itself.
+void check_poisson_ratio(const PillarScene& scene) {
+  constexpr double kNearest = 0.499999;
+  if (!(scene.pillar.nu > kNearest * (1.0 + 1e-9) && scene.pillar.nu < 0.5)) return;
+  throw SceneMistake("materials.pillar.nu",
+                     "a Poisson ratio between 0.499999 and 0.5 cannot be computed well; say 0.5, "
+                     "which is computed exactly");
+}
+
+// A mesh that is asked for has to fit into memory.
+void check_mesh(const PillarScene& scene) {
+  if (!scene.discretisation || !(scene.discretisation->uniform_m > 0.0)) return;
+  const PillarGeometry& g = scene.geometry;
+  const double per_length_1_m = scene.discretisation->degree / scene.discretisation->uniform_m;
+  double section_m2 = 0.5 * g.diameter_m * g.length_m;
+  if (g.film) section_m2 += g.film->radius_m * g.film->thickness_m;
+  const double unknowns = 3.0 * section_m2 * per_length_1_m * per_length_1_m;
+  constexpr double kMost = 1e6;
+  if (unknowns <= kMost) return;
+  throw SceneMistake("discretisation.element_size",
+                     "elements this small make about " + number_text(unknowns, 2) +
+                         " unknowns, where " + number_text(kMost, 2) + " are the most here");
+}
+
+// A body that nothing holds can vibrate, and can bear loads that balance themselves, as the field
+// of an electrode does.
+void check_bottom(const PillarScene& scene) {
+  if (scene.fixed_bottom) return;
+  const char* const key = scene.geometry.film ? "geometry.film.bottom" : "geometry.bottom";
+  const std::string instead =
+      ". A free bottom has modes (kind = \"modal\") and the motion by a voltage (kind = "
+      "\"static\"); for anything else say bottom = \"fixed\"";
+  const Analysis& analysis = analysis_of(scene);
+  if (analysis.free_bottom == FreeBottom::kRefused) {
+    throw SceneMistake(key, std::string("nothing holds a pillar with a free bottom: a ") +
+                                analysis.name + " analysis would move it away as a whole" +
+                                instead);
+  }
+  if (pressure_Pa(scene) != 0.0 || displacement_m(scene)) {
+    throw SceneMistake(
+        key, "nothing holds a pillar with a free bottom against the load on its top" + instead);
+  }
+  if (analysis.free_bottom == FreeBottom::kPinned && drive_V(scene) == 0.0) {
+    throw SceneMistake(
+        key, "a static analysis with a free bottom needs a voltage on an electrode" + instead);
+  }
+}
+
+}  // namespace
+
+void validate(const PillarScene& scene) {
+  at_key("geometry", [&] { validate(scene.geometry); });
+  at_key("materials.pillar", [&] { validate(scene.pillar); });
+  check_poisson_ratio(scene);
+  check_tolerance(scene.tolerance, PillarScene::kTolerances);
+  if (scene.geometry.film.has_value() != scene.film.has_value()) {
+    throw SceneMistake("geometry.film", "a film needs its material, and a material its film");
+  }
+  check_electrodes(scene);
+  check_bottom(scene);
+  check_mesh(scene);
+  if (!std::isfinite(pressure_Pa(scene))) {
+    throw SceneMistake("analysis.load.pressure", "the pressure is not finite");
+  }
+  const Analysis& analysis = analysis_of(scene);
+  if (analysis.has_inertia) {
+    const std::string needs = std::string(analysis.name) + " analysis needs the density of the ";
+    if (!(scene.pillar.rho_kg_m3 > 0.0)) throw SceneMistake("materials.pillar", needs + "pillar");
+    if (scene.film && !(scene.film->rho_kg_m3 > 0.0)) {
+      throw SceneMistake("geometry.film.material", needs + "film");
+    }
+  }
+  at_key("analysis", [&] { analysis.check(scene); });
+}
+
+}  // namespace viscard

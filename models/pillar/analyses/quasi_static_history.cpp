@@ -1,0 +1,125 @@
+#include "models/pillar/analyses/quasi_static_history.h"
+
+#include "models/pillar/analyses/analysis.h"
+#include "models/pillar/analyses/pillar_scales.h"
+#include "models/pillar/analyses/scene_body.h"
+#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/mesh/number_text.h"
+#include "models/pillar/mesh/scene_mistake.h"
+#include "models/pillar/time/model_reduction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace viscard {
+namespace {
+
+double peak_of(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end(),
+                           [](double a, double b) { return std::abs(a) < std::abs(b); });
+}
+
+void add_curve(const std::string& name, const std::string& unit, const std::vector<double>& time_s,
+               const std::vector<double>& values, SceneAnswer& answer) {
+  const double peak = peak_of(values);
+  answer.results.push_back({name + "_end", values.back(), unit, 0.0, std::abs(peak)});
+  answer.results.push_back({name + "_peak", peak, unit, 0.0});
+  answer.curves.push_back({name, unit, time_s, values});
+}
+
+// After every corner of the load, times that show what a readout of this time constant does.
+std::vector<double> times_of_decay(const std::vector<HistoryPoint>& history,
+                                   const ReadoutFilter& filter) {
+  std::vector<double> times_s;
+  if (!std::isfinite(filter.time_constant_s)) return times_s;
+  for (const HistoryPoint& corner : history) {
+    for (const double share : {0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0}) {
+      times_s.push_back(corner.time_s + share * filter.time_constant_s);
+    }
+  }
+  return times_s;
+}
+
+// Sum of |changes| of the history over its largest value.
+double total_variation(const std::vector<HistoryPoint>& points) {
+  double last = 0.0, sum = 0.0, peak = 0.0;
+  for (const HistoryPoint& point : points) {
+    sum += std::abs(point.value - last);
+    last = point.value;
+    peak = std::max(peak, std::abs(last));
+  }
+  return peak > 0.0 ? sum / peak : 1.0;
+}
+
+}  // namespace
+
+void check_quasi_static(const PillarScene& scene) {
+  const std::vector<HistoryPoint>& points = history(scene);
+  if (points.size() < 2) {
+    throw SceneMistake("analysis.history",
+                       "creep and relaxation need a history of at least two points, such as [[\"0 "
+                       "s\", \"10 kPa\"], [\"10 s\", \"10 kPa\"]]");
+  }
+  validate(points);
+  if (points.front().time_s != 0.0 || !(points.back().time_s > 0.0)) {
+    throw SceneMistake("analysis.history", "a history starts at 0 s and ends later");
+  }
+  const auto is_zero = [](const HistoryPoint& point) { return point.value == 0.0; };
+  if (std::all_of(points.begin(), points.end(), is_zero)) {
+    throw SceneMistake("analysis.history", "nothing happens: every value of the history is zero");
+  }
+}
+
+void run_quasi_static(const PillarScene& scene, Control control, SceneAnswer& answer) {
+  const bool is_creep = control == Control::kForce;
+  const SceneBody body = body_of(scene, axial_motion(scene), {.rigid_top = !is_creep}, answer);
+  const double area_m2 = top_area_m2(*body.model);
+  const double small = 0.03 * scene.tolerance;  // of the basis and of the steps, each
+  const ReducedBody reduced = reduce_quasi_static(body.system, small);
+  std::vector<HistoryPoint> points = history(scene);
+  for (HistoryPoint& point : points) point.value *= is_creep ? -area_m2 : -1.0;
+  HistoryOptions options;
+  options.tolerance = small;
+  for (const BodyOutput& output : body.outputs) {
+    options.observers.push_back(reduced.output(output.of));
+  }
+  ReadoutFilter filter;
+  if (scene.readout) {
+    filter = readout_of(scene, body, answer);
+    options.output_times_s = times_of_decay(history(scene), filter);
+    options.first_steps = 32;  // the reading takes the voltage as linear between recorded times
+  }
+  const HistoryResult run = run_history(reduced.system, control, points, options);
+  if (!run.converged) {
+    throw std::runtime_error("the time steps do not settle to the tolerance of " +
+                             number_text(scene.tolerance) + "; ask for a larger one");
+  }
+  answer.step_error = run.error_estimate + reduced.error;
+  if (is_creep) {
+    add_curve("top_displacement", "m", run.time_s, run.observed[0], answer);
+  } else {
+    std::vector<double> pressure_Pa = run.force;
+    for (double& value : pressure_Pa) value *= -1.0 / area_m2;
+    add_curve("top_pressure", "Pa", run.time_s, pressure_Pa, answer);
+  }
+  for (std::size_t i = 1; i < body.outputs.size(); ++i) {
+    add_curve(body.outputs[i].name, body.outputs[i].unit, run.time_s, run.observed[i], answer);
+  }
+  if (scene.readout) {
+    add_curve("reading", "V", run.time_s, reading_of(filter, run.time_s, run.observed[1]), answer);
+  }
+}
+
+EffectEstimate relaxation_over_history(const PillarScene& scene,
+                                       double (*share_at)(const PronySeries& series,
+                                                          double time_s)) {
+  const std::vector<HistoryPoint>& points = history(scene);
+  const double at_end = share_at(largest_relaxation(scene.pillar), points.back().time_s);
+  const double share = at_end * total_variation(points);
+  return {EffectRole::kOptional, share, "relaxed share at the end", share,
+          "the modulus that is lost over the history"};
+}
+
+}  // namespace viscard

@@ -1,0 +1,42 @@
+#include "models/pillar/analyses/simulate_pillar.h"
+
+#include "models/pillar/analyses/analysis.h"
+#include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/analyses/check_pillar.h"
+#include "models/pillar/mesh/mesh_sequence.h"
+
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+SceneAnswer pillar_answer_on(const PillarScene& scene, const Discretisation& mesh) {
+  SceneAnswer answer;
+  answer.discretisation = mesh;
+  analysis_of(scene).run(scene, answer);
+  // Errors are watched only of what is asked for.
+  for (SceneResult& result : answer.results) result.is_wanted = asks_for(scene, result.name);
+  return answer;
+}
+
+SceneAnswer simulate_pillar(const PillarScene& scene) {
+  validate(scene);
+  refuse_beyond_buckling(scene);
+  const std::vector<Discretisation> meshes =
+      scene.discretisation ? refinements_to(*scene.discretisation) : mesh_sequence(scene.geometry);
+  SceneAnswer answer =
+      answer_within({scene.tolerance, meshes, scene.progress, analysis_of(scene).share_left},
+                    [&](const Discretisation& mesh) { return pillar_answer_on(scene, mesh); });
+  const std::string why = holds_straight(scene) ? beyond_buckling(scene) : "";
+  if (!why.empty()) {
+    answer.notes.push_back(why + ", unless it is held straight, as the scene says it is");
+  }
+  return answer;
+}
+
+void finish_pillar(const PillarScene& scene, SceneAnswer& answer) {
+  const Analysis& analysis = analysis_of(scene);
+  if (analysis.finish != nullptr) analysis.finish(scene, answer);
+}
+
+}  // namespace viscard

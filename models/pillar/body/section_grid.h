@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// A solution on a fine grid of the meridian section (x = r) or the half x >= 0 of a strip, to be
+// looked at: the elements are cut into quadrilaterals, each with points of its own.
+struct SectionField {
+  std::string name;
+  std::string unit;
+  // Displacement: amplitudes along r, theta, z; a scalar uses the first.
+  bool is_vector = false;
+  std::vector<std::array<double, 3>> value;  // per point
+};
+
+struct SectionGrid {
+  std::string name;  // of what is shown, "static", "lateral"
+  bool is_round = true;
+  // Fields vary as cos(m theta), the theta part as sin(m theta); a strip counts as 0 (symmetric) or
+  // 1 (antisymmetric), for theta = 0 and pi are its two halves.
+  int harmonic = 0;
+  std::vector<double> x_m, z_m;
+  std::vector<std::array<int, 4>> quads;  // around
+  std::vector<bool> is_film;              // per quad
+  std::vector<SectionField> fields;
+};
+
+// Displacement and scalar of a field at an angle, in Cartesian axes.
+std::array<double, 3> displacement_at(const SectionGrid& grid, const SectionField& field,
+                                      std::size_t point, double theta);
+double scalar_at(const SectionGrid& grid, const SectionField& field, std::size_t point,
+                 double theta);
+
+}  // namespace viscard

@@ -1,0 +1,32 @@
+#include "models/pillar/mesh/mesh_sequence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace viscard {
+
+std::vector<Discretisation> mesh_sequence(const PillarGeometry& geometry) {
+  // Elements of the shaft and the outer film no longer than a few radii, so that long pillars and
+  // wide films are resolved by the same degrees.
+  const double R_m = 0.5 * geometry.diameter_m;
+  const double shaft = (geometry.length_m - 2.0 * R_m) / (4.0 * R_m);
+  const int shaft_elements = std::clamp(static_cast<int>(std::lround(shaft)), 1, 40);
+  int film_elements = 1;
+  if (geometry.film) {
+    const double scale_m = std::min(2.0 * R_m, 2.0 * geometry.film->thickness_m);
+    const double outside_m = geometry.film->radius_m - 2.0 * R_m;
+    film_elements = std::clamp(static_cast<int>(std::ceil(outside_m / scale_m)), 1, 40);
+  }
+  std::vector<Discretisation> meshes;
+  for (const auto& [degree, layers] :
+       {std::pair{3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}, {8, 4}, {9, 4}, {10, 5}}) {
+    meshes.push_back({.degree = degree,
+                      .layers = layers,
+                      .shaft_elements = shaft_elements,
+                      .film_elements = film_elements});
+  }
+  return meshes;
+}
+
+}  // namespace viscard

@@ -1,0 +1,72 @@
+#include "models/pillar/scene/pillar_scene.h"
+
+#include "models/scene/common/drive_parts.h"
+
+namespace viscard {
+namespace {
+
+constexpr auto kReadHistory = [](const auto& d) requires requires {
+  d.history;
+}
+{ return &d.history; };
+
+}  // namespace
+
+LoadPlace load_place(const PillarScene& scene) {
+  return part_of(
+      scene.drive, [](const auto& d) requires requires { d.load_place; } { return d.load_place; },
+      LoadPlace::kTop);
+}
+
+LoadDirection load_direction(const PillarScene& scene) {
+  return part_of(
+      scene.drive, [](const auto& d) requires requires { d.direction; } { return d.direction; },
+      LoadDirection::kAxial);
+}
+
+bool is_lateral(const PillarScene& scene) {
+  return load_direction(scene) == LoadDirection::kLateral;
+}
+
+double pressure_Pa(const PillarScene& scene) {
+  return part_of(
+      scene.drive, [](const auto& d) requires requires { d.pressure_Pa; } { return d.pressure_Pa; },
+      0.0);
+}
+
+std::optional<double> displacement_m(const PillarScene& scene) {
+  return part_of(
+      scene.drive,
+      [](const auto& d) requires requires { d.displacement_m; } { return d.displacement_m; },
+      std::optional<double>());
+}
+
+double base_acceleration_m_s2(const PillarScene& scene) {
+  return part_of(
+      scene.drive, [](const auto& d) requires requires { d.base_acceleration_m_s2; } {
+        return d.base_acceleration_m_s2;
+      },
+      0.0);
+}
+
+double drive_V(const PillarScene& scene) {
+  return part_of(
+      scene.drive, [](const auto& d) requires requires { d.drive_V; } { return d.drive_V; }, 0.0);
+}
+
+bool plate_on_top(const PillarScene& scene) {
+  return part_of(
+      scene.drive,
+      [](const auto& d) requires requires { d.plate_on_top; } { return d.plate_on_top; }, false);
+}
+
+bool has_history(const PillarScene& scene) {
+  return has_part(scene.drive, kReadHistory);
+}
+
+const std::vector<HistoryPoint>& history(const PillarScene& scene) {
+  static const std::vector<HistoryPoint> kNone;
+  return *part_of(scene.drive, kReadHistory, &kNone);
+}
+
+}  // namespace viscard

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "models/pillar/body/piezo_static.h"
+#include "models/pillar/scene/buckling_drive.h"
+#include "models/pillar/scene/creep_drive.h"
+#include "models/pillar/scene/harmonic_drive.h"
+#include "models/pillar/scene/modal_drive.h"
+#include "models/pillar/scene/relaxation_drive.h"
+#include "models/pillar/scene/static_drive.h"
+#include "models/pillar/scene/transient_drive.h"
+#include "models/pillar/time/readout.h"
+#include "models/scene/common/scene_common.h"
+
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace viscard {
+
+// What is done to a pillar: one alternative for each analysis (analyses/analysis.h).
+using PillarDrive = std::variant<StaticDrive, ModalDrive, BucklingDrive, RelaxationDrive,
+                                 CreepDrive, HarmonicDrive, TransientDrive>;
+
+// One pillar, what is done to it, and how well the answer must be known.
+struct PillarScene : SceneCommon {
+  PillarGeometry geometry;
+  std::optional<Medium> film;
+  std::optional<ElectrodeOptions> electrodes;
+  PiezoMatrix film_charge_C_N = PiezoMatrix::Zero();
+  std::optional<PlaneState> plane;  // a strip 1 m thick instead of a cylinder
+  // Of the film, or of the pillar if there is no film. A free body reports its elastic modes, not
+  // its rigid motions, and how a voltage moves the top relative to the middle of the bottom.
+  bool fixed_bottom = true;
+  std::optional<Readout> readout;  // what the electrode is wired to; none: open circuit
+
+  PillarDrive drive;
+  std::optional<Discretisation> discretisation;  // finest mesh; none: the tolerance decides
+
+  // Set by the plan (models/scene/plan.h) for effects that are left out or insisted on:
+  double condense_pressures_from = kNearlyIncompressible;  // Poisson ratio
+  bool one_way_potential = false;  // the film's potential follows its strain and does not act back
+
+  static constexpr const char* kKind = "pillar";  // geometry.kind in a scene file
+  static constexpr ToleranceRange kTolerances{1e-9, "1e-9 and 1"};
+};
+
+// Parts of the drive; zero, empty or the default if the drive has no such part.
+LoadPlace load_place(const PillarScene& scene);
+LoadDirection load_direction(const PillarScene& scene);
+bool is_lateral(const PillarScene& scene);
+double pressure_Pa(const PillarScene& scene);  // at rest or amplitude; lateral: shear
+std::optional<double> displacement_m(const PillarScene& scene);
+double base_acceleration_m_s2(const PillarScene& scene);
+double drive_V(const PillarScene& scene);
+bool plate_on_top(const PillarScene& scene);
+bool has_history(const PillarScene& scene);
+const std::vector<HistoryPoint>& history(const PillarScene& scene);
+
+}  // namespace viscard

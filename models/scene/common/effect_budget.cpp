@@ -1,0 +1,132 @@
+#include "models/scene/common/effect_budget.h"
+
+#include "models/pillar/mesh/number_text.h"
+#include "models/pillar/mesh/scene_mistake.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+EffectChoice choice_of(const EffectChoices& choices, const std::string& name) {
+  const auto found = choices.find(name);
+  return found == choices.end() ? EffectChoice::kAuto : found->second;
+}
+
+void refuse_unknown(const std::vector<NamedEstimate>& estimates, const EffectChoices& choices) {
+  for (const auto& [name, choice] : choices) {
+    const auto is_it = [&name = name](const NamedEstimate& one) { return one.name == name; };
+    if (std::none_of(estimates.begin(), estimates.end(), is_it)) {
+      throw SceneMistake("effects." + name, "there is no effect '" + name + "'");
+    }
+  }
+}
+
+std::string percent(double share) {
+  const bool is_large = std::abs(share) >= 0.995 && std::abs(share) < 1e4;  // "100 %", not 1e+02
+  return number_text(is_large ? std::round(100.0 * share) : 100.0 * share, is_large ? 7 : 2) + " %";
+}
+
+// Fills everything but what the budget decides.
+SceneEffect decided_by_role(const std::string& name, const EffectEstimate& estimate,
+                            EffectChoice choice) {
+  SceneEffect decision{name,           false,           estimate.reason,
+                       estimate.error, estimate.number, estimate.value};
+  decision.is_forced = choice != EffectChoice::kAuto;
+  switch (estimate.role) {
+    case EffectRole::kAbsent:
+      if (choice == EffectChoice::kOn) decision.reason += "; switching it on changes nothing";
+      decision.is_forced = false;
+      break;
+    case EffectRole::kOutside:
+      if (choice == EffectChoice::kOn) {
+        throw SceneMistake("effects." + decision.name,
+                           "cannot be on: no analysis of this kind can have it (" +
+                               estimate.reason + "). It would change the results by up to " +
+                               percent(estimate.error) + "; say \"auto\" to be warned of it");
+      }
+      decision.is_forced = false;
+      break;
+    case EffectRole::kNeeded:
+      if (choice == EffectChoice::kOff) {
+        throw SceneMistake("effects." + decision.name, "cannot be off: " + estimate.reason);
+      }
+      decision.on = true;
+      break;
+    case EffectRole::kOptional:
+      decision.on = choice == EffectChoice::kOn;
+      decision.is_counted = choice == EffectChoice::kOff;
+      break;
+  }
+  return decision;
+}
+
+// Switches on what the budget cannot bear, the least errors being left out first.
+double spend_budget(double tolerance, const std::vector<NamedEstimate>& estimates,
+                    std::vector<SceneEffect>& decisions) {
+  double left_out = 0.0;
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < decisions.size(); ++i) {
+    if (decisions[i].is_counted) left_out += decisions[i].estimate;
+    if (estimates[i].estimate.role == EffectRole::kOptional && !decisions[i].is_forced)
+      open.push_back(i);
+  }
+  std::sort(open.begin(), open.end(),
+            [&](auto a, auto b) { return decisions[a].estimate < decisions[b].estimate; });
+  for (const std::size_t i : open) {
+    SceneEffect& decision = decisions[i];
+    decision.is_counted = left_out + decision.estimate <= (1.0 - kShareOfMesh) * tolerance;
+    decision.on = !decision.is_counted;
+    if (decision.is_counted) left_out += decision.estimate;
+  }
+  return left_out;
+}
+
+void add_left_out(double left_out, SceneAnswer& answer) {
+  for (SceneResult& result : answer.results) {
+    result.error_estimate += left_out * std::max(std::abs(result.value), result.scale);
+  }
+  for (SceneMode& mode : answer.modes) mode.error_estimate += left_out * mode.frequency_Hz;
+  for (SceneCurve& curve : answer.curves) {
+    double peak = 0.0;
+    for (const double value : curve.value) peak = std::max(peak, std::abs(value));
+    for (double& error : curve.error) error += left_out * peak;
+  }
+  answer.largest_relative_error += left_out;
+}
+
+void add_notes(const EffectDecisions& plan, double tolerance, SceneAnswer& answer) {
+  for (const SceneEffect& effect : plan.effects) {
+    if (effect.on || effect.is_counted || effect.estimate <= tolerance) continue;
+    answer.notes.push_back(effect.name + ": up to " + percent(effect.estimate) +
+                           " that the error estimates do not contain (" + effect.number + " = " +
+                           percent(effect.value) + "); " + effect.reason);
+  }
+  if (plan.left_out > tolerance) {
+    answer.notes.push_back("the effects that the scene forces off may change the results by " +
+                           percent(plan.left_out) + ", more than the tolerance");
+  }
+}
+
+}  // namespace
+
+EffectDecisions decide_effects(const std::vector<NamedEstimate>& estimates,
+                               const EffectChoices& choices, double tolerance) {
+  refuse_unknown(estimates, choices);
+  EffectDecisions decisions;
+  for (const NamedEstimate& one : estimates) {
+    decisions.effects.push_back(
+        decided_by_role(one.name, one.estimate, choice_of(choices, one.name)));
+  }
+  decisions.left_out = spend_budget(tolerance, estimates, decisions.effects);
+  return decisions;
+}
+
+void tell_left_out(const EffectDecisions& decisions, double tolerance, SceneAnswer& answer) {
+  add_left_out(decisions.left_out, answer);
+  add_notes(decisions, tolerance, answer);
+  answer.effects = decisions.effects;
+}
+
+}  // namespace viscard

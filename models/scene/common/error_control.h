@@ -1,0 +1,36 @@
+#pragma once
+
+#include "models/scene/common/scene_answer.h"
+
+#include <functional>
+#include <vector>
+
+namespace viscard {
+
+// Everything a scene asks for on one mesh, without mesh errors.
+using MeshAnswer = std::function<SceneAnswer(const Discretisation&)>;
+
+struct ErrorControl {
+  double tolerance = 1e-3;  // relative, of every result, frequency and point of a curve
+  std::vector<Discretisation> meshes;
+  std::function<void(double)> progress;  // fraction of the meshes done; may be empty
+  // Share of the last change that is taken to remain at least, where the mesh gained a layer at the
+  // singular rim with it.
+  double share_left = kShareLeft;
+
+  static constexpr double kShareLeft = 0.1;
+  // Geometric stiffness weighs the squares of gradients by a stress that is singular itself: where
+  // displacements grow as r^lambda its error falls as r^(3 lambda - 1), not r^(2 lambda). lambda is
+  // .60 at a bonded rim of nu -> .5 (Williams, J. Appl. Mech. 19 (1952) 526) and .7 at .33, so that
+  // a layer of ratio .15 leaves up to .23.
+  static constexpr double kShareLeftInBuckling = 0.3;
+};
+
+// Runs through the meshes until the change from the last one, and at least share_left of the change
+// before (two and a half times that if the layers stayed the same), so that a chance agreement of
+// two meshes does not pass, is within the tolerance; that change, plus the answer's own step error,
+// is the error estimate on every number. Throws std::runtime_error saying which number stays how
+// far off when the finest mesh is not enough.
+SceneAnswer answer_within(const ErrorControl& control, const MeshAnswer& answer_on);
+
+}  // namespace viscard

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "models/pillar/mesh/pillar_mesh.h"
+
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+struct SceneResult {
+  std::string name;
+  double value = 0.0;
+  std::string unit;
+  double error_estimate = 0.0;  // absolute, in the unit
+  double scale = 0.0;           // the error is judged against this where |value| is smaller
+  bool is_wanted = true;        // false: not asked for, and its error is not watched
+};
+
+struct SceneMode {
+  std::string family;
+  int harmonic = 0;
+  double frequency_Hz = 0.0;
+  double error_estimate = 0.0;  // Hz
+};
+
+// What the plan decided about one effect.
+struct SceneEffect {
+  std::string name;
+  bool on = false;
+  std::string reason;
+  double estimate = 0.0;    // relative error of leaving it out
+  std::string number;       // the number that decides
+  double value = 0.0;       // of that number
+  bool is_forced = false;   // by the scene
+  bool is_counted = false;  // left out, and its estimate is part of the reported error
+};
+
+// A quantity against time or frequency. The curves of one scene have the same abscissa on every
+// mesh.
+struct SceneCurve {
+  std::string name;  // of the second column
+  std::string unit;
+  std::vector<double> x;
+  std::vector<double> value;
+  std::string x_name = "time_s";
+  std::vector<double> error;    // estimate at each point, in the unit
+  std::vector<double> allowed;  // size at each point that the tolerance refers to; empty: the peak
+  bool is_watched = true;       // false: derived from a watched curve, which sets its error
+};
+
+struct SceneAnswer {
+  std::vector<SceneResult> results;
+  std::vector<SceneMode> modes;
+  std::vector<SceneEffect> effects;
+  std::vector<SceneCurve> curves;
+  std::vector<std::string> notes;  // what a reader should know, plain sentences
+  Discretisation discretisation;   // that met the tolerance
+  int unknowns = 0;                // of the largest system
+  double largest_relative_error = 0.0;
+  double step_error = 0.0;  // relative, of time steps and reduced bases; part of the errors above
+};
+
+}  // namespace viscard

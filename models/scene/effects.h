@@ -1,0 +1,37 @@
+#pragma once
+
+#include "models/scene/common/effect_estimate.h"
+#include "models/scene/scene.h"
+
+#include <tuple>
+#include <vector>
+
+namespace viscard {
+
+// What an effect is to one kind of scene.
+template <typename Body>
+struct EffectOn {
+  EffectEstimate (*estimate)(const Body& scene);
+  void (*leave_out)(Body& scene) = nullptr;  // for optional effects that are off
+  void (*insist)(Body& scene) = nullptr;     // for effects that are forced on
+};
+
+// One effect: what it changes, what it costs, and what it is to each kind of scene.
+struct Effect {
+  const char* name;  // key in a scene's [effects]
+  const char* changes;
+  const char* cost;
+  std::tuple<EffectOn<PillarScene>, EffectOn<ArrayScene>> on;
+  // True for a choice between kinds of elements that give the same answer: studies of accuracy
+  // leave it to the plan.
+  bool is_choice_of_elements = false;
+};
+
+template <typename Body>
+const EffectOn<Body>& effect_on(const Effect& effect) {
+  return std::get<EffectOn<Body>>(effect.on);
+}
+
+const std::vector<Effect>& effects();  // all, in the order they are printed
+
+}  // namespace viscard

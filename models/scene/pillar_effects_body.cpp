@@ -1,0 +1,106 @@
+#include "models/pillar/analyses/analysis.h"
+#include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/analyses/top_load.h"
+#include "models/scene/common/drive_parts.h"
+#include "models/scene/pillar_effects.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+EffectEstimate incompressibility_estimate(const PillarScene& scene) {
+  const double nu = scene.pillar.nu;
+  const double ratio = nu < 0.5 ? 2.0 * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu)) : HUGE_VAL;  // K/G
+  const bool is_plane_stress = scene.plane == PlaneState::kStress;
+  if (is_plane_stress) return {.reason = "plane stress does not lock"};
+  if (nu == 0.5) {
+    return {EffectRole::kNeeded, 1.0, "Poisson ratio", nu,
+            "no displacement alone keeps its volume"};
+  }
+  // Pressures of displacement elements carry K/G times the error of the strains (eq. E4); below the
+  // threshold the mesh error that is watched contains that.
+  EffectEstimate estimate{EffectRole::kOptional, 0.0, "K/G", ratio,
+                          "the mesh error that is watched contains it"};
+  if (nu >= kNearlyIncompressible) {
+    estimate.error = std::max(scene.tolerance, std::min(1.0, scene.tolerance * ratio));
+    estimate.reason = "stresses would lock without pressures of their own";
+  }
+  return estimate;
+}
+
+void leave_out_incompressibility(PillarScene& scene) {
+  scene.condense_pressures_from = 0.5;
+}
+void insist_on_incompressibility(PillarScene& scene) {
+  scene.condense_pressures_from = -1.0;
+}
+
+EffectEstimate three_dimensional_estimate(const PillarScene& scene) {
+  // Radius of gyration d/4 of a disc against d/sqrt(12) of a strip: lateral frequencies and
+  // buckling of slender pillars differ by that; axial answers by the clamped foot (eq. E5).
+  const double foot = scene.pillar.nu * scene.pillar.nu *
+                      std::min(1.0, 0.5 * scene.geometry.diameter_m / scene.geometry.length_m);
+  const bool bends = analysis_of(scene).bends;
+  EffectEstimate estimate{EffectRole::kNeeded, bends ? std::sqrt(4.0 / 3.0) - 1.0 : foot,
+                          bends ? "gyration of strip over disc" : "nu^2 R/L",
+                          bends ? std::sqrt(4.0 / 3.0) : foot,
+                          "a strip instead of a cylinder would save nothing"};
+  if (scene.electrodes) estimate.error = 1.0;
+  if (!scene.plane) return estimate;
+  estimate.role = EffectRole::kOutside;
+  estimate.reason = "the scene asks for a strip; of a cylinder it would be wrong by this";
+  return estimate;
+}
+
+namespace {
+
+// p/p_cr of the load; a straight pillar under a load along its axis shortens without the effect.
+EffectEstimate stiffness_of_straight_pillar(const PillarScene& scene) {
+  const double pressure_Pa = largest_pressure_Pa(scene);
+  if (pressure_Pa == 0.0) return {.reason = "no pressure on the top"};
+  if (is_lateral(scene)) return {.reason = "no pressure along the pillar"};
+  const double share = pressure_Pa / engesser_pressure_Pa(scene);
+  return {EffectRole::kAbsent, 0.0, "p/p_cr", share, "a straight pillar shortens without it"};
+}
+
+}  // namespace
+
+EffectEstimate geometric_stiffness_estimate(const PillarScene& scene) {
+  const EffectEstimate usual = stiffness_of_straight_pillar(scene);
+  const Analysis& analysis = analysis_of(scene);
+  return analysis.geometric_stiffness == nullptr ? usual
+                                                 : analysis.geometric_stiffness(scene, usual);
+}
+
+void leave_out_geometric_stiffness(PillarScene& scene) {
+  set_part(
+      scene.drive, [](auto& d) requires requires { d.pressure_Pa; } { d.pressure_Pa = 0.0; });
+}
+
+EffectEstimate adhesion_estimate(const PillarScene&) {
+  return {.reason = "one pillar with nothing to stick to"};
+}
+
+EffectEstimate finite_strain_estimate(const PillarScene& scene) {
+  double strain = largest_pressure_Pa(scene) / scene.pillar.E0_Pa;
+  if (is_lateral(scene) && moves_top(scene)) {  // 3 u R/L^2 at the foot of a beam
+    const double L_m = scene.geometry.length_m;
+    strain = 1.5 * std::abs(*displacement_m(scene)) * scene.geometry.diameter_m / (L_m * L_m);
+  } else if (is_lateral(scene)) {  // bending at the foot: 4 tau L/R, of a strip 3 tau L/R
+    strain *= (scene.plane ? 6.0 : 8.0) * scene.geometry.length_m / scene.geometry.diameter_m;
+  }
+  if (analysis_of(scene).history == HistoryOf::kShortening) {
+    for (const HistoryPoint& point : history(scene)) {
+      strain = std::max(strain, std::abs(point.value) / scene.geometry.length_m);
+    }
+  }
+  if (strain == 0.0) return {.reason = "small vibrations about the unloaded shape"};
+  return {EffectRole::kOutside, 2.3 * strain, "strain", strain,
+          "small strains are assumed; not in the error"};
+}
+
+EffectEstimate contact_estimate(const PillarScene&) {
+  return {.reason = "no shape presses on the pillar"};
+}
+
+}  // namespace viscard

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "models/array/plane/array_scene.h"
+#include "models/pillar/scene/pillar_scene.h"
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace viscard {
+
+// What a scene file describes, whatever stands in it: one pillar or a row of pillars. Every kind of
+// scene derives from SceneCommon, and has kKind, its word in a scene file, and kTolerances. A new
+// kind is a further alternative here; the compiler then names every place that lacks it.
+using Scene = std::variant<PillarScene, ArrayScene>;
+
+// What all scenes have.
+SceneCommon& common(Scene& scene);
+const SceneCommon& common(const Scene& scene);
+
+const char* kind_of(const Scene& scene);  // "pillar", "array"
+const ToleranceRange& tolerances_of(const Scene& scene);
+
+// Throws std::invalid_argument, mostly SceneMistake, naming what is missing or contradictory.
+void validate(const Scene& scene);
+
+// Throws SceneMistake if the load lies beyond buckling (models/pillar/analyses/buckling_limit.h). A
+// row is validated for that.
+void refuse_beyond_buckling(const Scene& scene);
+
+// Everything that may stand under [want].
+std::vector<std::string> result_names(const Scene& scene);
+
+}  // namespace viscard

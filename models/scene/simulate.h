@@ -1,0 +1,33 @@
+#pragma once
+
+#include "models/pillar/body/section_grid.h"
+#include "models/scene/common/scene_answer.h"
+#include "models/scene/scene.h"
+
+#include <functional>
+#include <vector>
+
+namespace viscard {
+
+// Answers a scene with the effects of its plan (plan.h), on meshes of rising degree until every
+// result meets the tolerance (error_control.h). What the plan leaves out is part of every error
+// estimate; effects that no analysis can compute and that may exceed the tolerance are named in the
+// notes. Throws SceneMistake for a scene that contradicts itself or whose load lies beyond
+// buckling, std::runtime_error with the reason if the finest mesh does not meet the tolerance.
+SceneAnswer simulate(const Scene& scene);
+
+// The scene as it stands, with no plan, on one mesh and without mesh errors.
+SceneAnswer answer_on(const Scene& scene, const Discretisation& mesh);
+
+// The solution on a mesh, with the effects of the scene's plan, to be looked at. Static:
+// displacement (m), axial stress (Pa), with electrodes the potential (V). Modal: the shapes of
+// every family, largest displacement 1. Other analyses and rows of pillars have none. The scene is
+// solved anew.
+std::vector<SectionGrid> solution_fields(const Scene& scene, const Discretisation& mesh);
+
+// Answers all `points` on all cores; done(i, answer) is called for one at a time, in the order in
+// which they end. The first exception is thrown once all running points have ended.
+void simulate_all(const std::vector<Scene>& points,
+                  const std::function<void(std::size_t, const SceneAnswer&)>& done);
+
+}  // namespace viscard
