@@ -119,9 +119,8 @@ std::string as_comments(const std::vector<std::string>& lines, const std::string
 
 namespace {
 
-// A material called "creep" would be a second [creep] block in MOOSE, one called "tau" or "double"
-// a variable or a keyword in MFront's C++. No keyword there has a capital, a digit or an underscore
-// but for a few, and its variables are short.
+// A material called "creep" would be a second [creep] block in MOOSE; "tau" or "double" would be a
+// variable or a keyword in MFront's C++. Names of fewer than four letters may be variables there.
 bool is_word_of_a_solver(const std::string& name) {
   static const std::set<std::string> kWords{
       "creep",      "density",  "materials", "stress",    "strain",    "alignas",  "alignof",

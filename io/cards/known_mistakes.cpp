@@ -33,53 +33,30 @@ void copy_times(CardNumbers& numbers, const CardNumbers& from) {
   }
 }
 
-void add_elastic_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
+// The elastic numbers are those of the other end of the relaxation.
+void add_modulus_mistake(const CardContext& context, const CardNumbers& other,
+                         std::vector<CardMistake>& list) {
   const CardTarget& target = context.target;
-  CardTarget flipped = target;
+  if (target.elastic != ElasticForm::kYoungPoisson && target.elastic != ElasticForm::kBulkShear) {
+    return;
+  }
   const bool is_long_term = target.at == ModulusAt::kLongTerm;
-  flipped.at = is_long_term ? ModulusAt::kInstantaneous : ModulusAt::kLongTerm;
-  const CardNumbers other = context.as(flipped);
-  const bool is_abaqus = target.name == "abaqus";
-  if (target.elastic == ElasticForm::kYoungPoisson || target.elastic == ElasticForm::kBulkShear) {
-    list.push_back(
-        {is_abaqus && is_long_term ? "E0-without-instantaneous"
-         : is_long_term            ? "instantaneous-modulus-as-long-term"
-                                   : "long-term-modulus-as-instantaneous",
-         is_abaqus && is_long_term
-             ? "E is the instantaneous modulus but *ELASTIC lacks MODULI=INSTANTANEOUS; "
-               "Abaqus takes it for the long-term one"
-         : is_long_term
-             ? "the elastic modulus is the instantaneous one; this field wants the long-term "
-               "one"
-             : "the elastic modulus is the long-term one; this field wants the instantaneous "
-               "one",
-         [other](CardNumbers& n) {
-           n.young = other.young;
-           n.poisson = other.poisson;
-           n.bulk = other.bulk;
-           n.shear = other.shear;
-         }});
-  }
-  const double nu = context.material.nu;
   list.push_back(
-      {"plane-strain-modulus",
-       "the modulus is E/(1 - nu^2), the plane-strain modulus an indenter sees, not E",
-       [nu, target](CardNumbers& n) { scale_moduli(n, target, 1.0 / (1.0 - nu * nu)); }});
-  if (target.name == "febio-uncoupled") {
-    list.push_back({"G-for-c1",
-                    "c1 is the shear modulus; c1 of a Mooney-Rivlin child is half of it",
-                    [](CardNumbers& n) { n.shear *= 2.0; }});
-  }
-  list.push_back({"G-for-E", "the shear modulus stands where Young's modulus belongs",
-                  [](CardNumbers& n) { n.young = n.shear; }});
-  list.push_back({"E-for-G", "Young's modulus stands where the shear modulus belongs",
-                  [](CardNumbers& n) { n.shear = n.young; }});
-  for (const double young : {context.as(target).young, other.young}) {
-    list.push_back({"E-for-K", "Young's modulus stands where the bulk modulus belongs",
-                    [young](CardNumbers& n) { n.bulk = young; }});
-  }
-  if (!target.states_equilibrium) return;
-  if (target.branch == BranchNumber::kRelative) {
+      {is_long_term ? "instantaneous-modulus-as-long-term" : "long-term-modulus-as-instantaneous",
+       is_long_term
+           ? "the elastic modulus is the instantaneous one; this field wants the long-term one"
+           : "the elastic modulus is the long-term one; this field wants the instantaneous one",
+       [other](CardNumbers& n) {
+         n.young = other.young;
+         n.poisson = other.poisson;
+         n.bulk = other.bulk;
+         n.shear = other.shear;
+       }});
+}
+
+void add_equilibrium_mistake(const CardContext& context, const CardNumbers& expected,
+                             std::vector<CardMistake>& list) {
+  if (context.target.branch == BranchNumber::kRelative) {
     list.push_back(
         {"g0-left-at-1",
          "g0 is 1 beside the instantaneous modulus: everything is too stiff by (1 + sum g); "
@@ -88,61 +65,66 @@ void add_elastic_mistakes(const CardContext& context, std::vector<CardMistake>& 
     return;
   }
   double sum = 0.0;
-  const CardNumbers expected = context.as(target);
   for (const CardBranch& branch : expected.branches) sum += branch.shear;
   list.push_back(
       {"instantaneous-as-equilibrium",
        "the equilibrium branch carries the instantaneous modulus; the other branches come "
        "on top of it",
        [sum](CardNumbers& n) { n.equilibrium += sum; }});
-  if (target.name == "lsdyna006") {
-    list.push_back(
-        {"branch-modulus-as-GI",
-         "GI is the long-term shear modulus in 006; the branch modulus G0 - G_inf stands "
-         "there (as in 076)",
-         [](CardNumbers& n) {
-           if (!n.branches.empty()) std::swap(n.equilibrium, n.branches[0].shear);
-         }});
+}
+
+void add_elastic_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
+  const CardTarget& target = context.target;
+  CardTarget flipped = target;
+  flipped.at = target.at == ModulusAt::kLongTerm ? ModulusAt::kInstantaneous : ModulusAt::kLongTerm;
+  const CardNumbers expected = context.as(target), other = context.as(flipped);
+  add_modulus_mistake(context, other, list);
+  const double nu = context.material.nu;
+  list.push_back(
+      {"plane-strain-modulus",
+       "the modulus is E/(1 - nu^2), the plane-strain modulus an indenter sees, not E",
+       [nu, target](CardNumbers& n) { scale_moduli(n, target, 1.0 / (1.0 - nu * nu)); }});
+  list.push_back({"G-for-E", "the shear modulus stands where Young's modulus belongs",
+                  [](CardNumbers& n) { n.young = n.shear; }});
+  list.push_back({"E-for-G", "Young's modulus stands where the shear modulus belongs",
+                  [](CardNumbers& n) { n.shear = n.young; }});
+  for (const double young : {expected.young, other.young}) {
+    list.push_back({"E-for-K", "Young's modulus stands where the bulk modulus belongs",
+                    [young](CardNumbers& n) { n.bulk = young; }});
+  }
+  if (target.states_equilibrium) add_equilibrium_mistake(context, expected, list);
+}
+
+// The letter of a branch number in the names of mistakes.
+const char* letter_of(BranchNumber branch) {
+  return branch == BranchNumber::kRelative        ? "g"
+         : branch == BranchNumber::kAbsoluteShear ? "G"
+                                                  : "E_i";
+}
+
+void add_branch_number_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
+  const BranchNumber own = context.target.branch;
+  for (const BranchNumber branch :
+       {BranchNumber::kRelative, BranchNumber::kAbsoluteShear, BranchNumber::kAbsoluteYoung}) {
+    if (branch == own) continue;
+    CardTarget changed = context.target;
+    changed.branch = branch;
+    const CardNumbers numbers = context.as(changed);
+    const std::string letter = letter_of(branch), wanted = letter_of(own);
+    const std::string name = letter + "-for-" + wanted;
+    const std::string text = "the branches carry " + letter + " where this field wants " + wanted +
+                             " (" + to_word(own) + ")";
+    list.push_back({name, text, [numbers](CardNumbers& n) { copy_shear(n, numbers); }});
+    if (!context.target.states_equilibrium) continue;
+    list.push_back({name, text + ", the equilibrium one too", [numbers](CardNumbers& n) {
+                      copy_shear(n, numbers);
+                      n.equilibrium = numbers.equilibrium;
+                    }});
   }
 }
 
 void add_branch_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
-  struct Other {
-    BranchNumber branch;
-    const char* letter;
-  };
-  for (const Other& other :
-       {Other{BranchNumber::kRelative, "g"}, Other{BranchNumber::kAbsoluteShear, "G"},
-        Other{BranchNumber::kAbsoluteYoung, "E_i"}}) {
-    const BranchNumber own = context.target.branch;
-    if (other.branch == own) continue;
-    const std::string wanted = own == BranchNumber::kRelative        ? "g"
-                               : own == BranchNumber::kAbsoluteShear ? "G"
-                                                                     : "E_i";
-    CardTarget changed = context.target;
-    changed.branch = other.branch;
-    const CardNumbers numbers = context.as(changed);
-    const std::string text = std::string("the branches carry ") + other.letter +
-                             " where this field wants " + wanted + " (" + to_word(own) + ")";
-    list.push_back({std::string(other.letter) + "-for-" + wanted, text,
-                    [numbers](CardNumbers& n) { copy_shear(n, numbers); }});
-    // COMSOL's expressions carry units: 0.008[MPa] where g was meant.
-    for (const double unit : {1e3, 1e6, 1e9}) {
-      if (context.target.name != "comsol" || other.branch != BranchNumber::kRelative) continue;
-      list.push_back(
-          {std::string(other.letter) + "-for-" + wanted, text, [numbers, unit](CardNumbers& n) {
-             copy_shear(n, numbers);
-             for (CardBranch& b : n.branches) b.shear *= unit;
-           }});
-    }
-    if (context.target.states_equilibrium) {
-      list.push_back({std::string(other.letter) + "-for-" + wanted,
-                      text + ", the equilibrium one too", [numbers](CardNumbers& n) {
-                        copy_shear(n, numbers);
-                        n.equilibrium = numbers.equilibrium;
-                      }});
-    }
-  }
+  add_branch_number_mistakes(context, list);
   double rest = 1.0;
   for (const MaterialTerm& term : context.material.terms) rest -= term.g;
   if (context.target.branch == BranchNumber::kRelative) {
@@ -170,24 +152,30 @@ void add_branch_mistakes(const CardContext& context, std::vector<CardMistake>& l
                   }});
 }
 
+void add_norton_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
+  list.push_back({"A-without-3", "A is 1/(G tau); the von Mises stress wants 1/(3 G tau)",
+                  [](CardNumbers& n) { scale_times(n, 3.0); }});
+  const double shear_per_young = 0.5 / (1.0 + context.material.nu);
+  list.push_back({"A-from-E", "A is 1/(3 E tau); it wants the shear modulus, 1/(3 G tau)",
+                  [shear_per_young](CardNumbers& n) { scale_times(n, shear_per_young); }});
+  list.push_back({"A-from-E", "A is 1/(E tau); it wants 1/(3 G tau)",
+                  [shear_per_young](CardNumbers& n) { scale_times(n, 3.0 * shear_per_young); }});
+}
+
 void add_time_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
-  struct Other {
-    TimeNumber time;
-    const char* letter;
-  };
   const TimeNumber own = context.target.time;
   const std::string wanted = own == TimeNumber::kTau    ? "tau"
                              : own == TimeNumber::kBeta ? "beta"
                                                         : "A";
-  for (const Other& other : {Other{TimeNumber::kTau, "tau"}, Other{TimeNumber::kBeta, "beta"}}) {
-    if (other.time == own) continue;
+  for (const TimeNumber time : {TimeNumber::kTau, TimeNumber::kBeta}) {
+    if (time == own) continue;
+    const std::string letter = time == TimeNumber::kTau ? "tau" : "beta";
     CardTarget changed = context.target;
-    changed.time = other.time;
+    changed.time = time;
     const CardNumbers numbers = context.as(changed);
-    list.push_back(
-        {std::string(other.letter) + "-for-" + wanted,
-         std::string("the times are ") + other.letter + " where this field wants " + to_word(own),
-         [numbers](CardNumbers& n) { copy_times(n, numbers); }});
+    list.push_back({letter + "-for-" + wanted,
+                    "the times are " + letter + " where this field wants " + to_word(own),
+                    [numbers](CardNumbers& n) { copy_times(n, numbers); }});
   }
   // tau grows by 1000 when written in ms, 1/tau and A shrink.
   const double in_ms = own == TimeNumber::kTau ? 1e3 : 1e-3;
@@ -205,15 +193,7 @@ void add_time_mistakes(const CardContext& context, std::vector<CardMistake>& lis
                      (factor < 1.0) == (own == TimeNumber::kTau) ? "too short" : "too long"),
          [factor](CardNumbers& n) { scale_times(n, factor); }});
   }
-  if (own == TimeNumber::kNortonA) {
-    list.push_back({"A-without-3", "A is 1/(G tau); the von Mises stress wants 1/(3 G tau)",
-                    [](CardNumbers& n) { scale_times(n, 3.0); }});
-    const double shear_per_young = 0.5 / (1.0 + context.material.nu);
-    list.push_back({"A-from-E", "A is 1/(3 E tau); it wants the shear modulus, 1/(3 G tau)",
-                    [shear_per_young](CardNumbers& n) { scale_times(n, shear_per_young); }});
-    list.push_back({"A-from-E", "A is 1/(E tau); it wants 1/(3 G tau)",
-                    [shear_per_young](CardNumbers& n) { scale_times(n, 3.0 * shear_per_young); }});
-  }
+  if (own == TimeNumber::kNortonA) add_norton_mistakes(context, list);
 }
 
 void add_order_mistakes(std::vector<CardMistake>& list) {
@@ -259,6 +239,7 @@ std::vector<CardMistake> known_mistakes(const CardContext& context) {
   std::vector<CardMistake> list;
   add_unit_mistakes(context, list);
   add_elastic_mistakes(context, list);
+  if (context.target.add_mistakes != nullptr) context.target.add_mistakes(context, list);
   add_branch_mistakes(context, list);
   add_time_mistakes(context, list);
   add_order_mistakes(list);

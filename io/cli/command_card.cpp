@@ -1,6 +1,6 @@
 #include "io/cli/command_card.h"
 
-#include "io/cards/conventions.h"
+#include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
 #include "io/cli/card_words.h"
 #include "io/cli/command_line.h"

@@ -1,7 +1,7 @@
 #include "io/cli/command_report.h"
 
 #include "io/atomic_file.h"
-#include "io/cards/conventions.h"
+#include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
 #include "io/cli/command_line.h"
 #include "io/cli/fit_material.h"

@@ -1,5 +1,6 @@
-#include "io/cards/card.h"
 #include "io/cards/check_card.h"
+#include "io/cards/targets/card_targets.h"
+#include "io/cards/write_card.h"
 #include "tests/cards/card_materials.h"
 
 #include <catch2/catch.hpp>
@@ -14,7 +15,7 @@ namespace {
 std::string card_text(const char* target, const char* units = "mm-t-s") {
   Material material = reference_material();
   if (std::string(target) == "lsdyna006") material.terms.resize(1);
-  return write_card(material, {.target = target, .units = units, .is_reproducible = true}).text;
+  return write_card(material, card_target(target), {.units = units, .is_reproducible = true}).text;
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -28,7 +29,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 std::string mistakes(const std::string& text, const std::string& target,
                      const Material& material = reference_material(),
                      const std::string& units = "") {
-  const CardCheck check = check_card(text, {.target = target, .units = units}, &material);
+  const CardCheck check = check_card(text, card_target(target), {.units = units}, &material);
   std::string names;
   for (const CardFinding& finding : check.findings) {
     if (finding.is_mistake) names += (names.empty() ? "" : " ") + finding.name;
@@ -45,7 +46,7 @@ TEST_CASE("cards as written agree with their material and hold no mistake", "[ca
     Material material = reference_material();
     if (target.max_terms == 1) material.terms.resize(1);
     const std::string text = card_text(target.name.c_str());
-    const CardCheck check = check_card(text, {.target = target.name}, &material);
+    const CardCheck check = check_card(text, target, {}, &material);
     CHECK(check.agrees);
     CHECK(check.findings.empty());
     REQUIRE(check.E_difference);
@@ -154,7 +155,7 @@ TEST_CASE("mistakes planted in FEBio, CalculiX, MOOSE and COMSOL cards are named
 TEST_CASE("an edited card of ours betrays itself by its header alone", "[cards]") {
   const auto names = [](const std::string& text, const char* target) {
     std::string out;
-    for (const CardFinding& finding : check_card(text, {.target = target}, nullptr).findings) {
+    for (const CardFinding& finding : check_card(text, card_target(target), {}, nullptr).findings) {
       out += finding.name;
     }
     return out;
@@ -184,7 +185,7 @@ TEST_CASE("rounding to the columns of a card is no mistake in any unit system", 
         if (target.max_terms == 1) material.terms.resize(1);
         std::string text;
         try {
-          text = write_card(material, {.target = target.name, .units = units.name}).text;
+          text = write_card(material, target, {.units = units.name}).text;
         } catch (const std::invalid_argument&) {
           continue;  // refused as not fitting the columns
         }
@@ -202,8 +203,8 @@ TEST_CASE("a card is held against Poisson ratio, density and shift too, not agai
   CHECK(mistakes(replaced(abaqus, "9.65e-10", "1e-9"), "abaqus") == "density");
   CHECK(mistakes(replaced(card_text("febio"), "<v>0.495</v>", "<v>0.45</v>"), "febio") ==
         "poisson-ratio");
-  const CardCheck without =
-      check_card(replaced(abaqus, "*DENSITY\n9.65e-10,\n", ""), {.target = "abaqus"}, &material);
+  const CardCheck without = check_card(replaced(abaqus, "*DENSITY\n9.65e-10,\n", ""),
+                                       card_target("abaqus"), {}, &material);
   CHECK(without.agrees);
   REQUIRE(without.findings.size() == 1);
   CHECK(without.findings[0].name == "density-missing");
@@ -211,7 +212,8 @@ TEST_CASE("a card is held against Poisson ratio, density and shift too, not agai
   material.T_ref_C = 23.0;
   material.shift = TemperatureShift{.T_ref_C = 23.0, .C1 = 8.86, .C2_K = 101.6};
   const std::string shifted =
-      write_card(material, {.target = "abaqus", .units = "mm-t-s", .is_reproducible = true}).text;
+      write_card(material, card_target("abaqus"), {.units = "mm-t-s", .is_reproducible = true})
+          .text;
   const auto found = [&](const std::string& line) {
     return mistakes(replaced(shifted, "23, 8.86, 101.6", line), "abaqus", material);
   };
@@ -237,7 +239,7 @@ TEST_CASE("times a thousand off, negative shares and a doubled c1 are named", "[
 TEST_CASE("other ways to write the same card are read", "[cards]") {
   const Material material = reference_material();
   const auto agrees = [&](const std::string& text, const char* target) {
-    const CardCheck check = check_card(text, {.target = target, .units = "mm-t-s"}, &material);
+    const CardCheck check = check_card(text, card_target(target), {.units = "mm-t-s"}, &material);
     CAPTURE(target, text);
     CHECK(check.agrees);
   };
@@ -259,19 +261,19 @@ TEST_CASE("other ways to write the same card are read", "[cards]") {
 TEST_CASE("numbers typed with fewer digits are called rounded, not mistaken", "[cards]") {
   const Material material = reference_material();
   const std::string text = replaced(card_text("abaqus"), "1.88, 0.495", "1.8803, 0.495");
-  const CardCheck check = check_card(text, {.target = "abaqus"}, &material);
+  const CardCheck check = check_card(text, card_target("abaqus"), {}, &material);
   CHECK_FALSE(check.agrees);
   REQUIRE(check.findings.size() == 1);
   CHECK(check.findings[0].name == "rounded");
   CHECK_FALSE(check.findings[0].is_mistake);
-  CHECK(check_card(text, {.target = "abaqus", .tolerance = 1e-3}, &material).agrees);
+  CHECK(check_card(text, card_target("abaqus"), {.tolerance = 1e-3}, &material).agrees);
 }
 
 TEST_CASE("hand-written cards in each dialect are read", "[cards]") {
   const Material material = reference_material();
   const auto check = [&](const std::string& text, const char* target) {
     const CardCheck found =
-        check_card(text, {.target = target, .units = "mm-t-s", .tolerance = 2e-6}, &material);
+        check_card(text, card_target(target), {.units = "mm-t-s", .tolerance = 2e-6}, &material);
     CAPTURE(target, found.findings.size());
     CHECK(found.agrees);
   };
@@ -306,7 +308,7 @@ TEST_CASE("hand-written cards in each dialect are read", "[cards]") {
 TEST_CASE("what cannot be read names the line and what was expected", "[cards]") {
   const auto fails = [](const std::string& text, const char* target, const char* part) {
     CAPTURE(target);
-    CHECK_THROWS_WITH(check_card(text, {.target = target}, nullptr), Catch::Contains(part));
+    CHECK_THROWS_WITH(check_card(text, card_target(target), {}, nullptr), Catch::Contains(part));
   };
   fails("*MATERIAL, NAME=A\n*ELASTIC\n1.88, abc\n", "abaqus", "line 3: 'abc' is not a number (nu");
   fails("*MATERIAL, NAME=A\n*ELASTIC\n", "abaqus", "no data line");

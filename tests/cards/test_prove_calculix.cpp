@@ -1,6 +1,8 @@
-#include "io/cards/calculix_deck.h"
-#include "io/cards/card.h"
 #include "io/cards/card_numbers.h"
+#include "io/cards/one_element.h"
+#include "io/cards/targets/calculix_proof.h"
+#include "io/cards/targets/card_targets.h"
+#include "io/cards/write_card.h"
 #include "models/hereditary.h"
 #include "models/retardation_spectrum.h"
 #include "tests/cards/card_materials.h"
@@ -23,7 +25,7 @@ bool has_ccx() {
 
 CalculixProof proof_of(const Material& material, const char* units, int steps_per_tau) {
   const Material ruled = with_bulk_rule(material, BulkRule::kConstantBulk);
-  const Card card = write_card(ruled, {.target = "calculix", .units = units});
+  const Card card = write_card(ruled, card_target("calculix"), {.units = units});
   return prove_in_calculix(card.text, ruled, unit_system(units), steps_per_tau);
 }
 
@@ -92,7 +94,7 @@ TEST_CASE("CalculiX takes nine terms over three decades", "[cards][slow]") {
 TEST_CASE("a card that CalculiX would leave elastic fails the proof", "[cards]") {
   if (!has_ccx()) return;
   const Material material = with_bulk_rule(reference_material(), BulkRule::kConstantBulk);
-  const Card card = write_card(material, {.target = "abaqus", .units = "mm-t-s"});
+  const Card card = write_card(material, card_target("abaqus"), {.units = "mm-t-s"});
   const CalculixProof proof = prove_in_calculix(card.text, material, unit_system("mm-t-s"), 10);
   CHECK(proof.relaxation.at_step > 0.02);  // 1/(1 - sum g) - 1 = 2.26e-2
   CHECK_FALSE(proof.holds());
@@ -109,7 +111,7 @@ TEST_CASE("strong relaxation is proven by the error that goes with the step", "[
   Material wrong = material;
   wrong.terms[0].tau_s *= 1.01;
   const Card card = write_card(with_bulk_rule(wrong, BulkRule::kConstantBulk),
-                               {.target = "calculix", .units = "mm-t-s"});
+                               card_target("calculix"), {.units = "mm-t-s"});
   const CalculixProof refused = prove_in_calculix(
       card.text, with_bulk_rule(material, BulkRule::kConstantBulk), unit_system("mm-t-s"));
   CHECK_FALSE(refused.holds());
