@@ -23,6 +23,7 @@ struct CompanionFile {
 };
 
 struct Card {
+  std::string name;  // of the material in the text
   std::string text;
   std::vector<CompanionFile> companions;
   std::vector<FidelityItem> fidelity;
@@ -44,15 +45,8 @@ struct CardOptions {
 };
 
 inline std::string to_word(Mapping mapping) {
-  switch (mapping) {
-    case Mapping::kExact:
-      return "exact";
-    case Mapping::kApproximated:
-      return "approximated";
-    case Mapping::kDropped:
-      return "dropped";
-  }
-  return "";
+  if (mapping == Mapping::kExact) return "exact";
+  return mapping == Mapping::kApproximated ? "approximated" : "dropped";
 }
 
 }  // namespace viscard

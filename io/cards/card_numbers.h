@@ -4,6 +4,7 @@
 #include "io/cards/unit_system.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace viscard {
@@ -36,5 +37,15 @@ CardNumbers numbers_from_material(const Material& material, const CardTarget& ta
 // the numbers describe no solid (the long-term modulus or a time is not positive).
 Material material_from_numbers(const CardNumbers& numbers, const CardTarget& target,
                                const UnitSystem& units);
+
+// What a writer formats: all numbers are ready, so it does no algebra on the material.
+struct CardBody {
+  std::string name;  // an identifier that every code takes: letters, digits, underscores
+  CardNumbers numbers;
+  const CardTarget& target;
+  const UnitSystem& units;
+  const Material& material;  // SI, for targets that write tables of E(t)
+  std::vector<std::string> header;
+};
 
 }  // namespace viscard

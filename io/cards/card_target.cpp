@@ -34,39 +34,19 @@ std::string to_word(ModulusAt at) {
 }
 
 std::string to_word(BranchNumber branch) {
-  switch (branch) {
-    case kRelative:
-      return "relative (g_i = G_i/G_0)";
-    case kAbsoluteShear:
-      return "absolute (G_i)";
-    case kAbsoluteYoung:
-      return "absolute (E_i = g_i E_0)";
-  }
-  return "";
+  if (branch == kRelative) return "relative (g_i = G_i/G_0)";
+  return branch == kAbsoluteShear ? "absolute (G_i)" : "absolute (E_i = g_i E_0)";
 }
 
 std::string to_word(TimeNumber time) {
-  switch (time) {
-    case kTau:
-      return "tau";
-    case kBeta:
-      return "beta = 1/tau";
-    case kNortonA:
-      return "Norton A = 1/(3 G_i tau)";
-  }
-  return "";
+  if (time == kTau) return "tau";
+  return time == kBeta ? "beta = 1/tau" : "Norton A = 1/(3 G_i tau)";
 }
 
 std::string to_word(BulkRule bulk) {
-  switch (bulk) {
-    case kOwnNumbers:
-      return "relaxes with its own k_i";
-    case kConstantBulk:
-      return "does not relax (constant K)";
-    case kConstantPoisson:
-      return "relaxes with the shear (constant nu)";
-  }
-  return "";
+  if (bulk == kOwnNumbers) return "relaxes with its own k_i";
+  return bulk == kConstantBulk ? "does not relax (constant K)"
+                               : "relaxes with the shear (constant nu)";
 }
 
 std::string to_word(Evidence evidence) {

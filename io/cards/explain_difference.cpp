@@ -43,22 +43,12 @@ double mismatch(const CardNumbers& one, const CardNumbers& other, const CardTarg
   const auto compare = [&](double CardNumbers::*member) {
     worst = std::max(worst, mismatch(one.*member, other.*member));
   };
-  switch (target.elastic) {
-    case ElasticForm::kYoungPoisson:
-      compare(&CardNumbers::young);
-      compare(&CardNumbers::poisson);
-      break;
-    case ElasticForm::kBulkShear:
-      compare(&CardNumbers::bulk);
-      compare(&CardNumbers::shear);
-      break;
-    case ElasticForm::kBulkOnly:
-      compare(&CardNumbers::bulk);
-      break;
-    case ElasticForm::kPoissonOnly:
-      compare(&CardNumbers::poisson);
-      break;
-  }
+  using enum ElasticForm;
+  const ElasticForm elastic = target.elastic;
+  if (elastic == kYoungPoisson) compare(&CardNumbers::young);
+  if (elastic == kYoungPoisson || elastic == kPoissonOnly) compare(&CardNumbers::poisson);
+  if (elastic == kBulkShear || elastic == kBulkOnly) compare(&CardNumbers::bulk);
+  if (elastic == kBulkShear) compare(&CardNumbers::shear);
   if (target.states_equilibrium) compare(&CardNumbers::equilibrium);
   if (one.density > 0.0 && other.density > 0.0) compare(&CardNumbers::density);
   return worst;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/cards/card_lines.h"
+#include "io/cards/deck.h"
 #include "io/cards/read_card.h"
 
 #include <string>
@@ -41,5 +42,12 @@ void require(bool is_there, const std::string& what);
 std::string number_of_20(double value);
 // T_ref, C1, C2: the order of Abaqus, ANSYS and FrontISTR.
 std::string wlf_row(const TemperatureShift& shift);
+
+// Parts of a one-element model that Abaqus and CalculiX share: nodes 1 to 8 of the cube with the
+// node sets BASE and TOP; the rollers, and the amplitude RAMP, which rises from 0 to 1 and stays;
+// the pull of a step, a force in creep and a displacement in relaxation.
+std::string keyword_cube();
+std::string keyword_rollers_and_ramp(const DeckInput& input);
+std::string keyword_pull(const DeckInput& input);
 
 }  // namespace viscard

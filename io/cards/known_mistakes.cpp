@@ -8,39 +8,44 @@
 namespace viscard {
 namespace {
 
-void scale_moduli(CardNumbers& numbers, const CardTarget& target, double factor) {
-  numbers.young *= factor;
-  numbers.bulk *= factor;
-  numbers.shear *= factor;
-  if (target.branch == BranchNumber::kRelative) return;
-  numbers.equilibrium *= factor;
-  for (CardBranch& branch : numbers.branches) branch.shear *= factor;
+using Plant = std::function<void(CardNumbers&)>;
+
+Plant moduli_times(double factor, const CardTarget& target) {
+  const bool are_branches_moduli = target.branch != BranchNumber::kRelative;
+  return [factor, are_branches_moduli](CardNumbers& n) {
+    n.young *= factor;
+    n.bulk *= factor;
+    n.shear *= factor;
+    if (!are_branches_moduli) return;
+    n.equilibrium *= factor;
+    for (CardBranch& branch : n.branches) branch.shear *= factor;
+  };
 }
 
-void scale_times(CardNumbers& numbers, double factor) {
-  for (CardBranch& branch : numbers.branches) branch.time *= factor;
+Plant in_branches(const std::function<void(CardBranch&)>& change) {
+  return [change](CardNumbers& n) {
+    for (CardBranch& branch : n.branches) change(branch);
+  };
 }
 
-void copy_shear(CardNumbers& numbers, const CardNumbers& from) {
-  for (std::size_t i = 0; i < numbers.branches.size(); ++i) {
-    numbers.branches[i].shear = from.branches[i].shear;
-  }
+Plant times_times(double factor) {
+  return in_branches([factor](CardBranch& b) { b.time *= factor; });
 }
 
-void copy_times(CardNumbers& numbers, const CardNumbers& from) {
-  for (std::size_t i = 0; i < numbers.branches.size(); ++i) {
-    numbers.branches[i].time = from.branches[i].time;
-  }
+Plant branches_of(const CardNumbers& other, double CardBranch::*member) {
+  return [other, member](CardNumbers& n) {
+    for (std::size_t i = 0; i < n.branches.size(); ++i) {
+      n.branches[i].*member = other.branches[i].*member;
+    }
+  };
 }
 
-// The elastic numbers are those of the other end of the relaxation.
+// The elastic numbers at the other end of the relaxation.
 void add_modulus_mistake(const CardContext& context, const CardNumbers& other,
                          std::vector<CardMistake>& list) {
-  const CardTarget& target = context.target;
-  if (target.elastic != ElasticForm::kYoungPoisson && target.elastic != ElasticForm::kBulkShear) {
-    return;
-  }
-  const bool is_long_term = target.at == ModulusAt::kLongTerm;
+  const ElasticForm elastic = context.target.elastic;
+  if (elastic != ElasticForm::kYoungPoisson && elastic != ElasticForm::kBulkShear) return;
+  const bool is_long_term = context.target.at == ModulusAt::kLongTerm;
   list.push_back(
       {is_long_term ? "instantaneous-modulus-as-long-term" : "long-term-modulus-as-instantaneous",
        is_long_term
@@ -80,10 +85,9 @@ void add_elastic_mistakes(const CardContext& context, std::vector<CardMistake>& 
   const CardNumbers expected = context.as(target), other = context.as(flipped);
   add_modulus_mistake(context, other, list);
   const double nu = context.material.nu;
-  list.push_back(
-      {"plane-strain-modulus",
-       "the modulus is E/(1 - nu^2), the plane-strain modulus an indenter sees, not E",
-       [nu, target](CardNumbers& n) { scale_moduli(n, target, 1.0 / (1.0 - nu * nu)); }});
+  list.push_back({"plane-strain-modulus",
+                  "the modulus is E/(1 - nu^2), the plane-strain modulus an indenter sees, not E",
+                  moduli_times(1.0 / (1.0 - nu * nu), target)});
   list.push_back({"G-for-E", "the shear modulus stands where Young's modulus belongs",
                   [](CardNumbers& n) { n.young = n.shear; }});
   list.push_back({"E-for-G", "Young's modulus stands where the shear modulus belongs",
@@ -114,10 +118,11 @@ void add_branch_number_mistakes(const CardContext& context, std::vector<CardMist
     const std::string name = letter + "-for-" + wanted;
     const std::string text = "the branches carry " + letter + " where this field wants " + wanted +
                              " (" + to_word(own) + ")";
-    list.push_back({name, text, [numbers](CardNumbers& n) { copy_shear(n, numbers); }});
+    const Plant shares = branches_of(numbers, &CardBranch::shear);
+    list.push_back({name, text, shares});
     if (!context.target.states_equilibrium) continue;
-    list.push_back({name, text + ", the equilibrium one too", [numbers](CardNumbers& n) {
-                      copy_shear(n, numbers);
+    list.push_back({name, text + ", the equilibrium one too", [numbers, shares](CardNumbers& n) {
+                      shares(n);
                       n.equilibrium = numbers.equilibrium;
                     }});
   }
@@ -128,38 +133,31 @@ void add_branch_mistakes(const CardContext& context, std::vector<CardMistake>& l
   double rest = 1.0;
   for (const MaterialTerm& term : context.material.terms) rest -= term.g;
   if (context.target.branch == BranchNumber::kRelative) {
-    list.push_back(
-        {"g-relative-to-long-term",
-         "the g_i are relative to the long-term modulus; this field wants them relative to "
-         "the instantaneous one",
-         [rest](CardNumbers& n) {
-           for (CardBranch& b : n.branches) {
-             b.shear /= rest;
-             b.bulk /= rest;
-           }
-         }});
+    list.push_back({"g-relative-to-long-term",
+                    "the g_i are relative to the long-term modulus; this field wants them relative "
+                    "to the instantaneous one",
+                    in_branches([rest](CardBranch& b) {
+                      b.shear /= rest;
+                      b.bulk /= rest;
+                    })});
   }
   if (context.target.bulk != BulkRule::kOwnNumbers) return;
   list.push_back({"bulk-left-out",
                   "k_i is 0: the bulk modulus stays constant, unlike the material's",
-                  [](CardNumbers& n) {
-                    for (CardBranch& b : n.branches) b.bulk = 0.0;
-                  }});
+                  in_branches([](CardBranch& b) { b.bulk = 0.0; })});
   list.push_back({"bulk-as-shear",
                   "k_i equals g_i: the bulk modulus relaxes, unlike the material's",
-                  [](CardNumbers& n) {
-                    for (CardBranch& b : n.branches) b.bulk = b.shear;
-                  }});
+                  in_branches([](CardBranch& b) { b.bulk = b.shear; })});
 }
 
 void add_norton_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
-  list.push_back({"A-without-3", "A is 1/(G tau); the von Mises stress wants 1/(3 G tau)",
-                  [](CardNumbers& n) { scale_times(n, 3.0); }});
   const double shear_per_young = 0.5 / (1.0 + context.material.nu);
+  list.push_back(
+      {"A-without-3", "A is 1/(G tau); the von Mises stress wants 1/(3 G tau)", times_times(3.0)});
   list.push_back({"A-from-E", "A is 1/(3 E tau); it wants the shear modulus, 1/(3 G tau)",
-                  [shear_per_young](CardNumbers& n) { scale_times(n, shear_per_young); }});
-  list.push_back({"A-from-E", "A is 1/(E tau); it wants 1/(3 G tau)",
-                  [shear_per_young](CardNumbers& n) { scale_times(n, 3.0 * shear_per_young); }});
+                  times_times(shear_per_young)});
+  list.push_back(
+      {"A-from-E", "A is 1/(E tau); it wants 1/(3 G tau)", times_times(3.0 * shear_per_young)});
 }
 
 void add_time_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
@@ -172,43 +170,39 @@ void add_time_mistakes(const CardContext& context, std::vector<CardMistake>& lis
     const std::string letter = time == TimeNumber::kTau ? "tau" : "beta";
     CardTarget changed = context.target;
     changed.time = time;
-    const CardNumbers numbers = context.as(changed);
     list.push_back({letter + "-for-" + wanted,
                     "the times are " + letter + " where this field wants " + to_word(own),
-                    [numbers](CardNumbers& n) { copy_times(n, numbers); }});
+                    branches_of(context.as(changed), &CardBranch::time)});
   }
-  // tau grows by 1000 when written in ms, 1/tau and A shrink.
+  // tau in ms is 1000 times that in s; 1/tau and A are smaller.
   const double in_ms = own == TimeNumber::kTau ? 1e3 : 1e-3;
-  const bool card_is_in_ms = context.units.time_exponent == 3;
-  const std::string text = card_is_in_ms ? "the times are in s; the unit system wants ms"
-                                         : "the times are in ms; the unit system wants s";
-  list.push_back(
-      {card_is_in_ms ? "time-in-s" : "time-in-ms", text, [in_ms, card_is_in_ms](CardNumbers& n) {
-         scale_times(n, card_is_in_ms ? 1.0 / in_ms : in_ms);
-       }});
+  if (context.units.time_exponent == 3) {
+    list.push_back(
+        {"time-in-s", "the times are in s; the unit system wants ms", times_times(1.0 / in_ms)});
+  } else {
+    list.push_back(
+        {"time-in-ms", "the times are in ms; the unit system wants s", times_times(in_ms)});
+  }
   for (const double factor : {1e-3, 1e3}) {
+    const bool is_short = (factor < 1.0) == (own == TimeNumber::kTau);
     list.push_back(
         {"time-unit",
-         fmt::format("the times are {} by a factor of 1000",
-                     (factor < 1.0) == (own == TimeNumber::kTau) ? "too short" : "too long"),
-         [factor](CardNumbers& n) { scale_times(n, factor); }});
+         fmt::format("the times are too {} by a factor of 1000", is_short ? "short" : "long"),
+         times_times(factor)});
   }
   if (own == TimeNumber::kNortonA) add_norton_mistakes(context, list);
 }
 
 void add_order_mistakes(std::vector<CardMistake>& list) {
+  const char* name = "columns-swapped";
+  list.push_back({name, "share and time have changed places in the rows",
+                  in_branches([](CardBranch& b) { std::swap(b.shear, b.time); })});
+  list.push_back({name, "the rows are g, tau, k; they must be g, k, tau",
+                  in_branches([](CardBranch& b) { std::swap(b.bulk, b.time); })});
   list.push_back(
-      {"columns-swapped", "share and time have changed places in the rows", [](CardNumbers& n) {
-         for (CardBranch& b : n.branches) std::swap(b.shear, b.time);
-       }});
-  list.push_back(
-      {"columns-swapped", "the rows are g, tau, k; they must be g, k, tau", [](CardNumbers& n) {
-         for (CardBranch& b : n.branches) std::swap(b.bulk, b.time);
-       }});
-  list.push_back(
-      {"columns-swapped", "the rows are tau, g, k; they must be g, k, tau", [](CardNumbers& n) {
-         for (CardBranch& b : n.branches) b = {b.time, b.shear, b.bulk};
-       }});
+      {name, "the rows are tau, g, k; they must be g, k, tau", in_branches([](CardBranch& b) {
+         b = {b.time, b.shear, b.bulk};
+       })});
 }
 
 void add_unit_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
@@ -221,10 +215,8 @@ void add_unit_mistakes(const CardContext& context, std::vector<CardMistake>& lis
          [numbers](CardNumbers& n) { n = numbers; }});
   }
   for (const int power : {-9, -6, -3, -1, 1, 3, 6, 9}) {
-    const CardTarget target = context.target;
-    list.push_back(
-        {"stress-unit", "the moduli are off by 10^" + std::to_string(power),
-         [power, target](CardNumbers& n) { scale_moduli(n, target, std::pow(10.0, power)); }});
+    list.push_back({"stress-unit", "the moduli are off by 10^" + std::to_string(power),
+                    moduli_times(std::pow(10.0, power), context.target)});
   }
   for (int power = -18; power <= 18; power += 3) {
     if (power == 0) continue;

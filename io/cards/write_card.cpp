@@ -1,6 +1,5 @@
 #include "io/cards/write_card.h"
 
-#include "io/cards/card_body.h"
 #include "io/cards/card_header.h"
 #include "io/cards/material_difference.h"
 #include "io/cards/read_card.h"
@@ -157,11 +156,10 @@ void read_back(const std::string& body, const CardTarget& target, const UnitSyst
                     "choose another unit system with --units",
                     units.name, target.code, rounding));
   }
+  card.fidelity.push_back({"numbers", Mapping::kExact, ""});
   if (rounding > kExact) {
-    card.fidelity.push_back({"numbers", Mapping::kApproximated,
-                             fmt::format("rounded to the columns, {:.1e} in E(t)", rounding)});
-  } else {
-    card.fidelity.push_back({"numbers", Mapping::kExact, ""});
+    card.fidelity.back() = {"numbers", Mapping::kApproximated,
+                            fmt::format("rounded to the columns, {:.1e} in E(t)", rounding)};
   }
   card.fidelity.push_back(density_item(read.material, material, target));
 }
@@ -200,6 +198,7 @@ Card write_card(const Material& given, const CardTarget& target, const CardOptio
   card.largest_difference = largest_E_difference(card.written, given, comparison_times_s(given));
   body.header = card_header(material, target, units, options, card.fidelity);
   const std::string comments = as_comments(body.header, target.comment);
+  card.name = body.name;
   card.text = target.comment.empty() ? target.write(body) : comments + target.write(body);
   if (target.companions != nullptr) card.companions = target.companions(body);
   for (CompanionFile& companion : card.companions) companion.text = comments + companion.text;

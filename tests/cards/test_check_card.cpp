@@ -124,7 +124,7 @@ TEST_CASE("mistakes planted in FEBio, CalculiX, MOOSE and COMSOL cards are named
   CHECK(mistakes(replaced(card_text("febio"), "<g0>0.977934</g0>", "<g0>1</g0>"), "febio") ==
         "g0-left-at-1");
   CHECK(mistakes(replaced(card_text("febio"), "<t1>0.1945</t1>", "<t1>194.5</t1>"), "febio") != "");
-  // The other right way to write it: the long-term child, and branches relative to it.
+  // Also right: a long-term child, and branches relative to it.
   std::string relative = replaced(card_text("febio"), "<g0>0.977934</g0>", "");
   relative = replaced(relative, "<E>1.88</E>", "<E>1.83851592</E>");
   relative = replaced(relative, "<g1>0.008206</g1>", "<g1>0.00839115932486160335</g1>");
@@ -152,7 +152,7 @@ TEST_CASE("mistakes planted in FEBio, CalculiX, MOOSE and COMSOL cards are named
                  "comsol") != "");
 }
 
-TEST_CASE("an edited card of ours betrays itself by its header alone", "[cards]") {
+TEST_CASE("an edited card of viscard disagrees with its own header", "[cards]") {
   const auto names = [](const std::string& text, const char* target) {
     std::string out;
     for (const CardFinding& finding : check_card(text, card_target(target), {}, nullptr).findings) {
@@ -195,7 +195,7 @@ TEST_CASE("rounding to the columns of a card is no mistake in any unit system", 
   }
 }
 
-TEST_CASE("a card is held against Poisson ratio, density and shift too, not against E(t) alone",
+TEST_CASE("a card is compared in Poisson ratio, density and shift too, not in E(t) alone",
           "[cards]") {
   Material material = reference_material();
   const std::string abaqus = card_text("abaqus");
@@ -258,7 +258,7 @@ TEST_CASE("other ways to write the same card are read", "[cards]") {
          "febio");
 }
 
-TEST_CASE("numbers typed with fewer digits are called rounded, not mistaken", "[cards]") {
+TEST_CASE("numbers typed with fewer digits are reported as rounded, not as a mistake", "[cards]") {
   const Material material = reference_material();
   const std::string text = replaced(card_text("abaqus"), "1.88, 0.495", "1.8803, 0.495");
   const CardCheck check = check_card(text, card_target("abaqus"), {}, &material);

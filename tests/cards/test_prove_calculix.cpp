@@ -51,9 +51,9 @@ TEST_CASE("the expected curve is the hereditary integral of ramp and hold", "[ca
 TEST_CASE("CalculiX returns the exact relaxation and creep of the reference card", "[cards]") {
   if (!has_ccx()) return;
   const CalculixProof proof = proof_of(reference_material(), "mm-t-s", 40);
-  CHECK(proof.relaxation.at_step <= 1e-4);  // first order in the step, tau/40
+  CHECK(proof.relaxation.at_step <= 1e-4);  // first order in the step tau/40
   CHECK(proof.creep.at_step <= 2e-4);
-  CHECK(proof.relaxation.remaining <= 2e-6);  // second order is left, and ccx's seven digits
+  CHECK(proof.relaxation.remaining <= 2e-6);  // second order remains, and ccx prints seven digits
   CHECK(proof.creep.remaining <= 2e-6);
   CHECK(proof.holds());
   CHECK(proof.increments > 100);
@@ -70,7 +70,7 @@ TEST_CASE("CalculiX converges to the exact relaxation at first order in the step
   CHECK(order == Approx(1.0).margin(0.15));
 }
 
-TEST_CASE("CalculiX takes the overlay in unlike unit systems", "[cards]") {
+TEST_CASE("CalculiX accepts the overlay in different unit systems", "[cards]") {
   if (!has_ccx()) return;
   for (const char* units : {"SI", "mm-kg-ms", "um-kg-s"}) {  // Pa, GPa and ms, uN and um
     CAPTURE(units);
@@ -84,7 +84,7 @@ TEST_CASE("CalculiX takes the overlay in unlike unit systems", "[cards]") {
   }
 }
 
-TEST_CASE("CalculiX takes nine terms over three decades", "[cards][slow]") {
+TEST_CASE("CalculiX accepts nine terms over three decades", "[cards][slow]") {
   if (!has_ccx()) return;
   const CalculixProof proof = proof_of(material_of_terms(9, 0.495), "mm-t-s", 10);
   CHECK(proof.relaxation.at_step <= 4.0 * 6e-3 * 0.6 / 0.4);
@@ -100,13 +100,13 @@ TEST_CASE("a card that CalculiX would leave elastic fails the proof", "[cards]")
   CHECK_FALSE(proof.holds());
 }
 
-TEST_CASE("strong relaxation is proven by the error that goes with the step", "[cards]") {
+TEST_CASE("strong relaxation is proven by an error proportional to the step", "[cards]") {
   if (!has_ccx()) return;
   Material material = reference_material();
   material.terms = {{0.95, 0.95, 2.0}};
   const CalculixProof right = proof_of(material, "mm-t-s", 40);
   CAPTURE(right.relaxation.at_step, right.relaxation.remaining, right.creep.remaining);
-  CHECK(right.relaxation.at_step > 1e-3);  // at tau/40 far above what proves anything
+  CHECK(right.relaxation.at_step > 1e-3);  // at tau/40 the error alone proves nothing
   CHECK(right.holds());
   Material wrong = material;
   wrong.terms[0].tau_s *= 1.01;

@@ -99,7 +99,7 @@ TEST_CASE("a random search around the reduced series finds nothing better", "[ca
   CHECK(best_error >= 0.95 * found);
 }
 
-TEST_CASE("a series that has no more terms than asked stays as it is", "[cards][fit]") {
+TEST_CASE("a series with no more terms than requested is not changed", "[cards][fit]") {
   const PronySeries series = thirty_terms(3);
   const ReducedSeries same = reduce_terms(series, 30, kFrom_s, kTo_s);
   CHECK(same.largest_error == 0.0);
@@ -108,7 +108,8 @@ TEST_CASE("a series that has no more terms than asked stays as it is", "[cards][
   CHECK_THROWS_WITH(reduce_terms(series, 3, 1.0, 0.5), Catch::Contains("t_min < t_max"));
 }
 
-TEST_CASE("six terms hidden among thirty come back to rounding", "[cards][fit][reduction]") {
+TEST_CASE("thirty terms that are six split ones are reduced to six with no error but rounding",
+          "[cards][fit][reduction]") {
   PronySeries series{2e5, {}};
   for (int i = 0; i < 6; ++i) {
     // Each split into five equal parts of the same time: a 30-term series that is a 6-term one.

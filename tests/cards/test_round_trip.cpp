@@ -36,7 +36,7 @@ double worst_of_ten_columns(const Material& material, const CardTarget& target,
 
 }  // namespace
 
-TEST_CASE("ten columns of LS-DYNA keep E(t) within 2e-6 wherever the columns hold the numbers",
+TEST_CASE("ten columns of LS-DYNA keep E(t) within 2e-6 if the numbers fit the columns",
           "[cards]") {
   int held = 0, tried = 0;
   for (const char* name : {"lsdyna", "lsdyna006"}) {
@@ -75,7 +75,7 @@ TEST_CASE("every target and unit system reads back as it was written", "[cards]"
           try {
             card = write_card(material, target, options);
           } catch (const std::invalid_argument& error) {
-            // Ten columns do not hold every number in every system; then the card is refused.
+            // Ten columns are too few for some numbers in some systems; then the card is refused.
             REQUIRE(is_ten_columns);
             CHECK(std::string(error.what()).find("do not fit") != std::string::npos);
             continue;
@@ -102,7 +102,8 @@ TEST_CASE("every target and unit system reads back as it was written", "[cards]"
   }
 }
 
-TEST_CASE("bulk terms of their own survive where the target has a place for them", "[cards]") {
+TEST_CASE("a bulk relaxation of its own reads back from every target that has a place for it",
+          "[cards]") {
   Material material = material_of_terms(4, 0.3);
   for (std::size_t i = 0; i < 4; ++i) material.terms[i].k = 0.05 * static_cast<double>(i);
   for (const char* target : {"abaqus", "ansys", "mfront", "json"}) {

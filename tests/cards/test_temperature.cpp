@@ -28,7 +28,7 @@ std::string temperature_mapping(const Card& card) {
 
 }  // namespace
 
-TEST_CASE("a WLF shift stands in every card that has a place for it, and reads back", "[cards]") {
+TEST_CASE("every card that has a place for a WLF shift contains it, and it reads back", "[cards]") {
   for (const CardTarget& target : card_targets()) {
     if (target.max_terms == 1 || target.name == "csv") continue;
     CAPTURE(target.name);
@@ -53,7 +53,7 @@ TEST_CASE("the WLF lines are those of the manuals", "[cards]") {
   CHECK_THAT(text_of("comsol"), Contains("PDMS_C2 101.6[K]"));
 }
 
-TEST_CASE("an Arrhenius shift is not written as something else, and the header says so",
+TEST_CASE("an Arrhenius shift is not written as another law, and the header states that",
           "[cards]") {
   const Card card = write_card(shifted_material(ShiftLaw::kArrhenius), card_target("abaqus"));
   CHECK(temperature_mapping(card) == "dropped");

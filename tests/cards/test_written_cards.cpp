@@ -20,7 +20,7 @@ std::string text_of(const char* target, const char* units, const Material& mater
   return write_card(material, card_target(target), {.units = units, .is_reproducible = true}).text;
 }
 
-// All numbers between two places of a text, without any of viscard's own readers.
+// All numbers after a place in the text, found without viscard's readers.
 std::vector<double> numbers_after(const std::string& text, const std::string& from) {
   std::vector<double> out;
   const std::size_t at = text.find(from);
@@ -113,7 +113,7 @@ TEST_CASE("E(t) recomputed from the shares of a CalculiX overlay is the material
   }
 }
 
-TEST_CASE("cards of the reference material are the kept ones", "[cards][golden]") {
+TEST_CASE("cards of the reference material equal the golden files", "[cards][golden]") {
   for (const CardTarget& target : card_targets()) {
     CAPTURE(target.name);
     CardOptions options{.units = "mm-t-s", .is_reproducible = true};
@@ -179,7 +179,8 @@ TEST_CASE("headers never break the comment syntax of the target", "[cards]") {
   }
 }
 
-TEST_CASE("what a target cannot take is refused with one line that says what to do", "[cards]") {
+TEST_CASE("a material that a target cannot take is refused with one line that says what to do",
+          "[cards]") {
   const auto refused = [](const Material& material, const char* target, const std::string& part,
                           const CardOptions& options = {}) {
     CHECK_THROWS_WITH(write_card(material, card_target(target), options), Catch::Contains(part));
@@ -223,8 +224,9 @@ TEST_CASE("what a target cannot take is refused with one line that says what to 
   refused(material, "calculix", "--approximate");
 }
 
-TEST_CASE("an assumed bulk part gives way to the target's rule and the header says by how much",
-          "[cards]") {
+TEST_CASE(
+    "an assumed bulk part is replaced by the target's rule and the header states the difference",
+    "[cards]") {
   const Card card = write_card(reference_material(), card_target("calculix"), {.units = "mm-t-s"});
   // Constant K instead of constant nu: 7.36e-5 in the long-term modulus at nu = .495.
   CHECK(card.largest_difference == Approx(7.36e-5).epsilon(5e-3));

@@ -1,10 +1,8 @@
 // Abaqus. Sources: Keywords Reference (*ELASTIC: MODULI defaults to LONG TERM; *VISCOELASTIC,
 // TIME=PRONY: rows g_i, k_i, tau_i); Analysis User's Manual, time domain viscoelasticity (*TRS).
-#include "io/cards/card_body.h"
-#include "io/cards/keyword_deck.h"
 #include "io/cards/keyword_lines.h"
 #include "io/cards/known_mistakes.h"
-#include "io/cards/targets/target_rows.h"
+#include "io/cards/targets/card_targets.h"
 
 #include <fmt/format.h>
 
@@ -69,13 +67,9 @@ void read_abaqus(const std::string& text, ReadCard& card) {
 
 std::vector<DeckFile> abaqus_deck(const DeckInput& input, const std::string& name) {
   const auto number = number_of_20;
-  std::string material;
-  for (const KeywordBlock& block : keyword_blocks(card_lines(input.card.text, "**"), '*')) {
-    if (block.keyword == "*MATERIAL" && material.empty()) material = block.name();
-  }
   std::string out = keyword_cube() + "*ELEMENT, TYPE=C3D8H, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n" +
-                    input.card.text + "*SOLID SECTION, ELSET=E, MATERIAL=" + material + "\n,\n" +
-                    keyword_rollers_and_ramp(input);
+                    input.card.text + "*SOLID SECTION, ELSET=E, MATERIAL=" + input.card.name +
+                    "\n,\n" + keyword_rollers_and_ramp(input);
   for (const DeckBlock& block : input.blocks()) {
     out += fmt::format("*STEP, INC=1000000\n*VISCO\n{0}, {1}, {0}, {0}\n", number(block.step),
                        number(block.length));

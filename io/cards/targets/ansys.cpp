@@ -1,10 +1,8 @@
 // ANSYS MAPDL. Sources: Command Reference (TB,PRONY,MATID,NTEMP,NPTS,SHEAR|BULK: NPTS pairs
 // alpha_i, tau_i; without a BULK table the bulk modulus is constant); Material Reference,
 // viscoelasticity, shift functions.
-#include "io/cards/card_body.h"
-#include "io/cards/deck.h"
 #include "io/cards/keyword_lines.h"
-#include "io/cards/targets/target_rows.h"
+#include "io/cards/targets/card_targets.h"
 
 #include <fmt/format.h>
 

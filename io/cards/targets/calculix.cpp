@@ -1,10 +1,8 @@
 // CalculiX. It has no Prony keyword: a generalised Maxwell solid is one elastic material and one
 // per branch with linear Norton creep, on coincident elements. Norton flow is deviatoric, so the
 // bulk modulus, the sum of all shares, stays constant. Source: CalculiX manual, *CREEP, LAW=NORTON.
-#include "io/cards/card_body.h"
-#include "io/cards/keyword_deck.h"
 #include "io/cards/keyword_lines.h"
-#include "io/cards/targets/target_rows.h"
+#include "io/cards/targets/card_targets.h"
 
 #include <fmt/format.h>
 
@@ -72,16 +70,6 @@ void read_creep(const KeywordBlock& block, Part& part, ReadCard& card) {
   }
 }
 
-void add_parts(const std::vector<Part>& parts, ReadCard& card) {
-  for (const Part& part : parts) {
-    if (part.creeps) {
-      card.numbers.branches.push_back({part.young, 0.0, part.creep});
-    } else {
-      card.numbers.equilibrium += part.young;
-    }
-  }
-}
-
 void read_calculix(const std::string& text, ReadCard& card) {
   std::vector<Part> parts;
   for (const KeywordBlock& block : keyword_blocks(card_lines(text, "**"), '*')) {
@@ -106,7 +94,10 @@ void read_calculix(const std::string& text, ReadCard& card) {
     check_static_step(block, "*VISCO", card);
   }
   require(!parts.empty(), "*MATERIAL");
-  add_parts(parts, card);
+  for (const Part& part : parts) {
+    if (part.creeps) card.numbers.branches.push_back({part.young, 0.0, part.creep});
+    if (!part.creeps) card.numbers.equilibrium += part.young;
+  }
   // A card by viscard names its first material NAME_INF.
   if (card.name.size() > 4 && card.name.ends_with("_INF")) card.name.resize(card.name.size() - 4);
 }

@@ -2,7 +2,7 @@
 
 #include "io/cards/card_lines.h"
 #include "io/cards/deck.h"
-#include "io/cards/targets/target_rows.h"
+#include "io/cards/targets/card_targets.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,7 +1,5 @@
 #include "io/cards/targets/card_targets.h"
 
-#include "io/cards/targets/target_rows.h"
-
 #include <stdexcept>
 
 namespace viscard {

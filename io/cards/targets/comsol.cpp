@@ -1,12 +1,11 @@
 // COMSOL, linear elastic material with Viscoelasticity. Source: public documentation; the Java
 // calls of the one-element model are those of exported model files, and COMSOL has not run it here.
-#include "io/cards/card_body.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/deck.h"
 #include "io/cards/known_mistakes.h"
 #include "io/cards/material_difference.h"
 #include "io/cards/read_card.h"
-#include "io/cards/targets/target_rows.h"
+#include "io/cards/targets/card_targets.h"
 #include "models/prony_series.h"
 
 #include <fmt/format.h>
@@ -135,12 +134,6 @@ std::string java_names(const char* array, const char* number, std::size_t branch
   return out + "};\n";
 }
 
-// The prefix of the card's parameter names.
-std::string prefix_in(const std::string& card) {
-  const std::string before = card.substr(0, card.find("_Einf"));
-  return before.substr(before.find_last_of('\n') + 1);
-}
-
 // Calls before the load: parameters, block, material, rollers.
 constexpr const char* kSetup = R"java(    Model model = ModelUtil.create("Model");
     model.param().loadFile("card.txt");
@@ -204,7 +197,7 @@ std::vector<DeckFile> comsol_deck(const DeckInput& input, const std::string& nam
   std::string out = fmt::format(
       "import com.comsol.model.*;\nimport com.comsol.model.util.*;\n\npublic class {} {{\n"
       "  public static Model run() {{\n    String prefix = \"{}\";\n",
-      name, prefix_in(input.card.text));
+      name, input.card.name);
   out += java_names("moduli", "G", written.terms.size());
   out += java_names("times", "tau", written.terms.size());
   out += fmt::format(kSetup, input.test.amplitude, input.test.ramp_s, written.E0_Pa);

@@ -1,8 +1,8 @@
 // A table of E(t), J(t), E'(f), E''(f): units stand in the column names.
-#include "io/cards/card_body.h"
 #include "io/cards/card_lines.h"
+#include "io/cards/card_numbers.h"
 #include "io/cards/material_difference.h"
-#include "io/cards/targets/target_rows.h"
+#include "io/cards/targets/card_targets.h"
 #include "models/retardation_spectrum.h"
 
 #include <fmt/format.h>
@@ -85,9 +85,7 @@ CardTarget csv_target() {
           .read = refuse_csv,
           .table_difference = csv_difference,
           .takes_incompressible = true,
-          .evidence = Evidence::kOurs,
-          .evidence_note = "read back by viscard; units stand in the column names",
-          .advice = ""};
+          .evidence_note = "read back by viscard; units stand in the column names"};
 }
 
 }  // namespace viscard

@@ -1,11 +1,10 @@
 // FEBio, "viscoelastic" and "uncoupled viscoelastic". Sources: FEViscoElasticMaterial.cpp; FEBio 4
 // format specification.
-#include "io/cards/card_body.h"
 #include "io/cards/deck.h"
 #include "io/cards/known_mistakes.h"
 #include "io/cards/named_values.h"
 #include "io/cards/read_card.h"
-#include "io/cards/targets/target_rows.h"
+#include "io/cards/targets/card_targets.h"
 
 #include <fmt/format.h>
 
@@ -190,14 +189,11 @@ std::string steps(const DeckInput& input) {
 }
 
 std::vector<DeckFile> febio_deck(const DeckInput& input, const std::string& name) {
-  const std::string& card = input.card.text;
-  const std::size_t at = card.find("name=\"") + 6;
-  const std::string material = card.substr(at, card.find('"', at) - at);
   return {{name + ".feb",
            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<febio_spec version=\"4.0\">\n"
            "<Module type=\"solid\"/>\n<Material>\n" +
-               card + "</Material>\n" + mesh(material) + pull(input) + steps(input) +
-               "<Output><logfile>" +
+               input.card.text + "</Material>\n" + mesh(input.card.name) + pull(input) +
+               steps(input) + "<Output><logfile>" +
                (input.is_creep() ? "<node_data data=\"uz\" file=\"uz.txt\">7</node_data>"
                                  : "<element_data data=\"sz\" file=\"sz.txt\">1</element_data>") +
                "</logfile></Output>\n</febio_spec>\n"}};

@@ -1,8 +1,6 @@
 // FrontISTR. Sources: manual and fstr_ctrl_material.f90 (rows mu_i, tau_i).
-#include "io/cards/card_body.h"
-#include "io/cards/deck.h"
 #include "io/cards/keyword_lines.h"
-#include "io/cards/targets/target_rows.h"
+#include "io/cards/targets/card_targets.h"
 
 #include <fmt/format.h>
 

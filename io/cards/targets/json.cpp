@@ -1,7 +1,6 @@
 // Neutral JSON, schema viscard-card/1: units stand beside the numbers.
-#include "io/cards/card_body.h"
 #include "io/cards/read_card.h"
-#include "io/cards/targets/target_rows.h"
+#include "io/cards/targets/card_targets.h"
 
 #include <nlohmann/json.hpp>
 
@@ -93,14 +92,11 @@ CardTarget json_target() {
   return {.name = "json",
           .code = "neutral JSON",
           .extension = ".json",
-          .comment = "",
           .write = write_json,
           .read = read_json,
           .takes_incompressible = true,
           .takes_wlf = true,
-          .evidence = Evidence::kOurs,
-          .evidence_note = "read back by viscard; units stand beside the numbers",
-          .advice = ""};
+          .evidence_note = "read back by viscard; units stand beside the numbers"};
 }
 
 }  // namespace viscard

@@ -2,13 +2,12 @@
 // Manual R13, vol. II for the materials, vol. I for the one-element model (*CONTROL_IMPLICIT_*,
 // *BOUNDARY_*, *DEFINE_CURVE), which LS-DYNA has not run here. OpenRadioss and PyDYNA readers agree
 // on the fields.
-#include "io/cards/card_body.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/column_fields.h"
 #include "io/cards/known_mistakes.h"
 #include "io/cards/number_text.h"
 #include "io/cards/read_card.h"
-#include "io/cards/targets/target_rows.h"
+#include "io/cards/targets/card_targets.h"
 
 #include <fmt/format.h>
 
@@ -66,7 +65,6 @@ std::string write_006(const CardBody& body) {
 struct KeywordCards {
   std::vector<CardLine> lines;
   std::size_t width = 10;
-  std::string title;
 };
 
 // Reads the title, RO and BULK too.
@@ -83,7 +81,7 @@ KeywordCards material_cards(const std::string& text, const std::string& long_nam
       wants_title = inside && word.find("_TITLE") != std::string::npos;
       if (is_long_deck || word.back() == '+') cards.width = 20;
     } else if (inside && wants_title) {
-      cards.title = trimmed(line.text);
+      card.name = trimmed(line.text);
       wants_title = false;
     } else if (inside) {
       cards.lines.push_back(line);
@@ -92,7 +90,6 @@ KeywordCards material_cards(const std::string& text, const std::string& long_nam
   if (cards.lines.empty()) {
     throw std::runtime_error("the card has no " + long_name + " (or " + short_name + ") with data");
   }
-  card.name = cards.title;
   const CardLine& first = cards.lines.front();
   const auto row = columns(first.text, cards.width);
   card.numbers.density = cell_number_or_zero(row, 1, first, "RO");

@@ -1,9 +1,8 @@
 // MFront behaviour. Source of the property names: TFEL's gallery, GeneralizedMaxwell.mfront.
-#include "io/cards/card_body.h"
 #include "io/cards/deck.h"
 #include "io/cards/named_values.h"
 #include "io/cards/read_card.h"
-#include "io/cards/targets/target_rows.h"
+#include "io/cards/targets/card_targets.h"
 
 #include <fmt/format.h>
 
@@ -141,21 +140,19 @@ void read_mfront(const std::string& commented, ReadCard& card) {
 
 // MTest drives one material point; the behaviour needs no material property.
 std::vector<DeckFile> mfront_deck(const DeckInput& input, const std::string& name) {
-  const std::string& card = input.card.text;
-  const std::size_t at = card.find("@Behaviour ") + 11;
   const double top = input.is_creep() ? input.stress() : input.test.amplitude;
   std::string out = fmt::format(
       "@ModellingHypothesis 'Tridimensional';\n@Behaviour<generic> 'src/libBehaviour.so' '{}';\n"
       "@ExternalStateVariable 'Temperature' 293.15;\n"
       "@Imposed{} {{0. : 0., {} : {}, {} : {}}};\n@StrainEpsilon {};\n@StressEpsilon {};\n"
       "@Times {{0.",
-      card.substr(at, card.find(';', at) - at),
-      input.is_creep() ? "Stress<evolution> 'SZZ'" : "Strain<evolution> 'EZZ'", input.ramp(), top,
-      2.0 * input.end(), top, 1e-11 * input.test.amplitude, 1e-11 * input.stress());
+      input.card.name, input.is_creep() ? "Stress<evolution> 'SZZ'" : "Strain<evolution> 'EZZ'",
+      input.ramp(), top, 2.0 * input.end(), top, 1e-11 * input.test.amplitude,
+      1e-11 * input.stress());
   for (const DeckBlock& block : input.blocks()) {
     out += fmt::format(", {} in {}", block.end, block.increments);
   }
-  return {{name + ".mtest", out + "};\n"}, {"card.mfront", card}};
+  return {{name + ".mtest", out + "};\n"}, {"card.mfront", input.card.text}};
 }
 
 }  // namespace

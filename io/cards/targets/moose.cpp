@@ -1,10 +1,9 @@
 // MOOSE GeneralizedMaxwellModel. Sources: GeneralizedMaxwellModel.C; the solid mechanics module's
 // test gen_maxwell_relax.i for the one-element model, which MOOSE has not run here.
-#include "io/cards/card_body.h"
 #include "io/cards/deck.h"
 #include "io/cards/named_values.h"
 #include "io/cards/read_card.h"
-#include "io/cards/targets/target_rows.h"
+#include "io/cards/targets/card_targets.h"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,10 @@
 // OpenRadioss, /MAT/LAW40 (KELVINMAX): K, long-term shear modulus, five branches. The only target
 // that declares its units. Source: Radioss Reference Guide (/MAT/LAW40, /PROP/TYPE14, /IMPDISP,
 // /CLOAD, /TH); OpenRadioss has not run the one-element model here.
-#include "io/cards/card_body.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/column_fields.h"
 #include "io/cards/read_card.h"
-#include "io/cards/targets/target_rows.h"
+#include "io/cards/targets/card_targets.h"
 
 #include <fmt/format.h>
 
