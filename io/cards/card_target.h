@@ -95,7 +95,7 @@ struct CardTarget {
   BulkRule bulk = BulkRule::kOwnNumbers;
   bool states_equilibrium = false;   // the share that never relaxes stands in the card
   bool states_density = true;        // false: the density is a comment
-  bool numbers_carry_units = false;  // each number names its unit, whatever the unit system
+  bool numbers_carry_units = false;  // each number states its own unit
   int max_terms = 0;                 // 0: no limit known
   bool takes_incompressible = false;
   bool takes_wlf = false;  // has a place for log10 a_T = -C1 (T - T_ref)/(C2 + T - T_ref)
