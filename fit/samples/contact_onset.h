@@ -17,7 +17,7 @@ struct QuietForce {
   // Standard deviation of one sample about a straight line through its stretch; not below the
   // converter's step/sqrt(12) if readings differ at all.
   double sigma_N = 0.0;
-  std::size_t n = 0;      // number of samples used
+  std::size_t n = 0;  // number of samples used
 };
 QuietForce quiet_force(const IndentationData& data);
 

@@ -36,9 +36,9 @@ struct IndentationData {
   std::vector<StageMove> moves;
   double start_early_s = 0.0;
   double start_late_s = 0.0;
-  double first_reading_s = 0.0;  // of the whole run; the gain is still the calibrated one
-  double contact_from_s = 0.0;   // samples from here ...
-  double contact_to_s = 0.0;     // ... to here belong to ramp and holds; others: no contact
+  double first_reading_s = 0.0;      // of the whole run; the gain is still the calibrated one
+  double contact_from_s = 0.0;       // samples from here ...
+  double contact_to_s = 0.0;         // ... to here belong to ramp and holds; others: no contact
   double frame_stiffness_N_m = 0.0;  // 0: rigid
   double frame_stiffness_relative_u = 0.0;
   double force_relative_u = 0.0;  // relative standard uncertainty of the calibration

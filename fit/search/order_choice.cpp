@@ -141,8 +141,8 @@ std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralS
 }
 
 bool is_within_range(const SpectralModel& model, const SpectralState& state) {
-  return state.n_terms() == 0 || !(model.is_shortest(state.ln_tau.minCoeff()) ||
-                                   model.is_longest(state.ln_tau.maxCoeff()));
+  return state.n_terms() == 0 ||
+         !(model.is_shortest(state.ln_tau.minCoeff()) || model.is_longest(state.ln_tau.maxCoeff()));
 }
 
 namespace {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "io/cards/conventions.h"
-#include "io/cards/unit_system.h"
 #include "models/material/material.h"
 
 #include <optional>
@@ -10,7 +8,7 @@
 
 namespace viscard {
 
-// How one part of the material came through.
+// How one part of the material was written.
 enum class Mapping { kExact, kApproximated, kDropped };
 
 struct FidelityItem {
@@ -20,45 +18,35 @@ struct FidelityItem {
 };
 
 struct CompanionFile {
-  std::string suffix;  // stands in place of the card's extension: "_relaxation.txt"
+  std::string suffix;  // replaces the card's extension: "_relaxation.txt"
   std::string text;
 };
 
 struct Card {
+  std::string name;  // of the material in the text
   std::string text;
   std::vector<CompanionFile> companions;
   std::vector<FidelityItem> fidelity;
-  Material written;                 // the material a reader of the card gets, SI
+  Material written;                 // what a reader of the card gets, SI
   double largest_difference = 0.0;  // of E(t) from the given material, relative, over the window
 };
 
 struct CardOptions {
-  std::string target = "abaqus";
   std::string units = "SI";
   bool is_reproducible = false;      // no date and no command line: byte-identical output
-  bool may_approximate = false;      // write what the target cannot take exactly, and say so
-  bool accepts_flags = false;        // write terms the fit has flagged
+  bool may_approximate = false;      // write what the target cannot take exactly, with the error
+  bool accepts_flags = false;        // write terms that the fit has flagged
   std::optional<double> clamped_nu;  // use this Poisson ratio instead of a larger one
   std::string created_at;            // ISO 8601
   std::string command;               // command line
   std::string material_sha256;
-  std::vector<FidelityItem>
-      done_before;                 // what was done to the material already (terms reduced ...)
-  std::vector<std::string> notes;  // further header lines
+  std::vector<FidelityItem> done_before;  // changes made to the material (terms reduced ...)
+  std::vector<std::string> notes;         // further header lines
 };
 
-// Writes the card in memory, reads it back and compares before handing it out.
-// Throws std::invalid_argument with one line that says what to do: unknown target or unit system,
-// unphysical material, nu = 0.5 where K must be finite, too many terms, a stated bulk relaxation
-// the target has no place for, flagged terms, numbers that do not fit the columns.
-Card write_card(const Material& material, const CardOptions& options);
-
-std::string to_word(Mapping mapping);
-
-// Times over which E(t) of two materials is compared: the validity window, or where it is unknown
-// two decades beyond the relaxation times; logarithmic.
-std::vector<double> comparison_times_s(const Material& material, int count = 400);
-double largest_E_difference(const Material& one, const Material& reference,
-                            const std::vector<double>& times_s);
+inline std::string to_word(Mapping mapping) {
+  if (mapping == Mapping::kExact) return "exact";
+  return mapping == Mapping::kApproximated ? "approximated" : "dropped";
+}
 
 }  // namespace viscard

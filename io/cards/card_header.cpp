@@ -78,6 +78,27 @@ void add_provenance(std::vector<std::string>& lines, const Material& material,
   }
 }
 
+// A material called "creep" would be a second [creep] block in MOOSE; "tau" or "double" would be a
+// variable or a keyword in MFront's C++. Names of fewer than four letters may be variables there.
+bool is_word_of_a_solver(const std::string& name) {
+  static const std::set<std::string> kWords{
+      "creep",      "density",  "materials", "stress",    "strain",    "alignas",  "alignof",
+      "auto",       "bool",     "break",     "case",      "catch",     "char",     "class",
+      "concept",    "const",    "continue",  "default",   "delete",    "double",   "else",
+      "enum",       "explicit", "export",    "extern",    "false",     "float",    "friend",
+      "goto",       "inline",   "long",      "mutable",   "namespace", "new",      "noexcept",
+      "nullptr",    "operator", "private",   "protected", "public",    "real",     "register",
+      "requires",   "return",   "short",     "signed",    "sizeof",    "static",   "struct",
+      "switch",     "template", "this",      "throw",     "true",      "typedef",  "typename",
+      "union",      "unsigned", "using",     "virtual",   "void",      "volatile", "while",
+      "integrator", "deto",     "time",      "behaviour"};
+  std::string lower;
+  for (const char c : name) {
+    lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return name.size() < 4 || kWords.count(lower) > 0;
+}
+
 }  // namespace
 
 std::vector<std::string> card_header(const Material& material, const CardTarget& target,
@@ -116,32 +137,6 @@ std::string as_comments(const std::vector<std::string>& lines, const std::string
   }
   return out;
 }
-
-namespace {
-
-// A material called "creep" would be a second [creep] block in MOOSE, one called "tau" or "double"
-// a variable or a keyword in MFront's C++. No keyword there has a capital, a digit or an underscore
-// but for a few, and its variables are short.
-bool is_word_of_a_solver(const std::string& name) {
-  static const std::set<std::string> kWords{
-      "creep",      "density",  "materials", "stress",    "strain",    "alignas",  "alignof",
-      "auto",       "bool",     "break",     "case",      "catch",     "char",     "class",
-      "concept",    "const",    "continue",  "default",   "delete",    "double",   "else",
-      "enum",       "explicit", "export",    "extern",    "false",     "float",    "friend",
-      "goto",       "inline",   "long",      "mutable",   "namespace", "new",      "noexcept",
-      "nullptr",    "operator", "private",   "protected", "public",    "real",     "register",
-      "requires",   "return",   "short",     "signed",    "sizeof",    "static",   "struct",
-      "switch",     "template", "this",      "throw",     "true",      "typedef",  "typename",
-      "union",      "unsigned", "using",     "virtual",   "void",      "volatile", "while",
-      "integrator", "deto",     "time",      "behaviour"};
-  std::string lower;
-  for (const char c : name) {
-    lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return name.size() < 4 || kWords.count(lower) > 0;
-}
-
-}  // namespace
 
 std::string card_identifier(const std::string& name) {
   std::string out;

@@ -14,10 +14,6 @@ double sum_of(const CardNumbers& numbers, double CardBranch::*member) {
   return sum;
 }
 
-double sum_of_shear(const CardNumbers& numbers) {
-  return sum_of(numbers, &CardBranch::shear);
-}
-
 int time_exponent(TimeNumber time, const UnitSystem& units) {
   switch (time) {
     case TimeNumber::kTau:
@@ -30,7 +26,7 @@ int time_exponent(TimeNumber time, const UnitSystem& units) {
   return 0;
 }
 
-// Instantaneous moduli in SI, whatever the card states.
+// Instantaneous moduli in SI, also for a card that states long-term ones.
 struct Instantaneous {
   double G0_Pa = 0.0;
   double K0_Pa = 0.0;  // infinity at nu = 0.5
@@ -55,11 +51,12 @@ Instantaneous instantaneous_moduli(const CardNumbers& numbers, const CardTarget&
       moduli = {from_card(numbers.shear, stress), from_card(numbers.bulk, stress)};
       break;
     case ElasticForm::kBulkOnly:
-      return {from_card(numbers.equilibrium + sum_of_shear(numbers), stress),
+      return {from_card(numbers.equilibrium + sum_of(numbers, &CardBranch::shear), stress),
               from_card(numbers.bulk, stress)};
     case ElasticForm::kPoissonOnly:
-      return shear_and_bulk_Pa(from_card(numbers.equilibrium + sum_of_shear(numbers), stress),
-                               numbers.poisson);
+      return shear_and_bulk_Pa(
+          from_card(numbers.equilibrium + sum_of(numbers, &CardBranch::shear), stress),
+          numbers.poisson);
   }
   if (target.at == ModulusAt::kLongTerm) {
     if (target.branch == BranchNumber::kAbsoluteShear) {
@@ -71,16 +68,16 @@ Instantaneous instantaneous_moduli(const CardNumbers& numbers, const CardTarget&
     }
   } else if (target.states_equilibrium && target.branch == BranchNumber::kRelative) {
     // FEBio scales its elastic child by g0 + sum g_i at time zero.
-    const double scale = numbers.equilibrium + sum_of_shear(numbers);
+    const double scale = numbers.equilibrium + sum_of(numbers, &CardBranch::shear);
     moduli.G0_Pa *= scale;
     if (target.bulk != BulkRule::kConstantBulk) moduli.K0_Pa *= scale;
   }
   return moduli;
 }
 
-// What divides a branch number to make it g_i.
+// A branch number divided by this is g_i.
 double relative_to(const CardNumbers& numbers, const CardTarget& target) {
-  const double sum = sum_of_shear(numbers);
+  const double sum = sum_of(numbers, &CardBranch::shear);
   if (target.branch == BranchNumber::kRelative) {
     return target.states_equilibrium ? numbers.equilibrium + sum : 1.0;
   }
@@ -93,14 +90,8 @@ double relative_to(const CardNumbers& numbers, const CardTarget& target) {
 double tau_s(const CardBranch& branch, const CardNumbers& numbers, const CardTarget& target,
              const UnitSystem& units) {
   const double time = from_card(branch.time, time_exponent(target.time, units));
-  switch (target.time) {
-    case TimeNumber::kTau:
-      return time;
-    case TimeNumber::kBeta:
-      return 1.0 / time;
-    case TimeNumber::kNortonA:
-      break;
-  }
+  if (target.time == TimeNumber::kTau) return time;
+  if (target.time == TimeNumber::kBeta) return 1.0 / time;
   const double branch_G_Pa =
       from_card(branch.shear, units.stress_exponent) / (2.0 * (1.0 + numbers.poisson));
   return 1.0 / (3.0 * branch_G_Pa * time);
@@ -131,17 +122,10 @@ CardNumbers numbers_from_material(const Material& given, const CardTarget& targe
   if (material.shift && material.shift->law == ShiftLaw::kWlf && target.takes_wlf) {
     numbers.shift = material.shift;
   }
-  switch (target.branch) {
-    case BranchNumber::kRelative:
-      numbers.equilibrium = 1.0 - moduli.sum_g;
-      break;
-    case BranchNumber::kAbsoluteShear:
-      numbers.equilibrium = to_card(moduli.G_inf_Pa, stress);
-      break;
-    case BranchNumber::kAbsoluteYoung:
-      numbers.equilibrium = to_card(moduli.E_rest_Pa, stress);
-      break;
-  }
+  numbers.equilibrium = target.branch == BranchNumber::kRelative ? 1.0 - moduli.sum_g
+                        : target.branch == BranchNumber::kAbsoluteShear
+                            ? to_card(moduli.G_inf_Pa, stress)
+                            : to_card(moduli.E_rest_Pa, stress);
   for (std::size_t i = 0; i < material.terms.size(); ++i) {
     const MaterialTerm& term = material.terms[i];
     CardBranch branch{term.g, term.k, 0.0};

@@ -1,16 +1,16 @@
 #pragma once
 
-#include "io/cards/conventions.h"
+#include "io/cards/card_target.h"
 #include "io/cards/unit_system.h"
-#include "models/material/material.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace viscard {
 
-// The numbers as they stand in a card: in its unit system and by its target's conventions. Which of
-// them a target states is for its writer and reader; these two functions are the only algebra.
+// The numbers as they stand in a card: in its unit system and by its target's conventions. A writer
+// and a reader choose those that their target states. All algebra is in the two functions below.
 struct CardBranch {
   double shear = 0.0;  // g_i, G_i or E_i      (CardTarget::branch)
   double bulk = 0.0;   // k_i or K_i; kOwnNumbers only
@@ -23,8 +23,7 @@ struct CardNumbers {
   double equilibrium = 0.0;           // like CardBranch::shear, of the branch that never relaxes
   double density = 0.0;               // 0: not given
   std::vector<CardBranch> branches;
-  // Temperatures in C: they have one unit in all our unit systems. Only if the target takes the
-  // law.
+  // Temperatures are in C in all unit systems. Set only if the target takes the law.
   std::optional<TemperatureShift> shift;
 };
 
@@ -34,9 +33,19 @@ Material with_bulk_rule(Material material, BulkRule rule);
 CardNumbers numbers_from_material(const Material& material, const CardTarget& target,
                                   const UnitSystem& units);
 
-// The way back, SI. Only E0, nu, rho and terms are filled. Throws std::invalid_argument when the
-// numbers describe no solid (nothing of the modulus left, a time that is not positive).
+// The inverse, in SI. Fills E0, nu, rho, terms and shift only. Throws std::invalid_argument when
+// the numbers describe no solid (the long-term modulus or a time is not positive).
 Material material_from_numbers(const CardNumbers& numbers, const CardTarget& target,
                                const UnitSystem& units);
+
+// What a writer formats: all numbers are ready, so it does no algebra on the material.
+struct CardBody {
+  std::string name;  // an identifier that every code takes: letters, digits, underscores
+  CardNumbers numbers;
+  const CardTarget& target;
+  const UnitSystem& units;
+  const Material& material;  // SI, for targets that write tables of E(t)
+  std::vector<std::string> header;
+};
 
 }  // namespace viscard

@@ -1,36 +1,25 @@
 #include "io/cards/check_card.h"
 
-#include "io/cards/card.h"
-#include "io/cards/card_lines.h"
+#include "io/cards/explain_difference.h"
+#include "io/cards/material_difference.h"
+#include "io/cards/write_card.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <stdexcept>
 
 namespace viscard {
 namespace {
 
 constexpr double kExactEnough = 1e-6;  // of E(t): seven digits typed by hand
-constexpr double kHandTyped = 2e-3;    // of a single number: digits a hand may leave out
+constexpr double kHandTyped = 2e-3;    // of a single number, which may have few digits
 
 bool has_mistake(const std::vector<CardFinding>& findings) {
   return std::any_of(findings.begin(), findings.end(),
                      [](const CardFinding& finding) { return finding.is_mistake; });
-}
-
-double largest_G_difference(const Material& one, const Material& reference,
-                            const std::vector<double>& times_s) {
-  const PronySeries first = shear_series(one), second = shear_series(reference);
-  double largest = 0.0;
-  for (const double time_s : times_s) {
-    const double expected_Pa = relaxation_modulus_Pa(second, time_s);
-    largest = std::max(largest, std::abs(relaxation_modulus_Pa(first, time_s) / expected_Pa - 1.0));
-  }
-  return largest;
 }
 
 void note_times_outside_window(const Material& reference, CardCheck& check) {
@@ -45,13 +34,15 @@ void note_times_outside_window(const Material& reference, CardCheck& check) {
   }
 }
 
-// What the target's fixed columns alone make of E(t), and no mistake of anybody's.
-double rounding_of_columns(const Material& reference, const ReadCard& read) {
+// The error of E(t) in a right card, which the target's fixed columns cause.
+double rounding_of_columns(const Material& reference, const CardTarget& target,
+                           const ReadCard& read) {
+  // The two forms of FEBio are distinguished by the card itself.
+  const bool is_of_target = read.understood.name == target.name;
   try {
-    const Card card = write_card(reference, {.target = read.understood.name,
-                                             .units = read.units.name,
-                                             .may_approximate = true,
-                                             .accepts_flags = true});
+    const Card card =
+        write_card(reference, is_of_target ? target : read.understood,
+                   {.units = read.units.name, .may_approximate = true, .accepts_flags = true});
     const Material ruled = with_bulk_rule(reference, read.understood.bulk);
     return largest_E_difference(card.written, ruled, comparison_times_s(reference));
   } catch (const std::invalid_argument&) {
@@ -59,8 +50,8 @@ double rounding_of_columns(const Material& reference, const ReadCard& read) {
   }
 }
 
-// E(t) of a nearly incompressible polymer hardly depends on its bulk modulus; what the solver makes
-// of a pillar or a layer does.
+// E(t) of a nearly incompressible polymer hardly depends on its bulk modulus, but the deformation
+// of a layer or a pillar does.
 std::optional<CardFinding> bulk_finding(const ReadCard& read, const Material& reference) {
   const auto bulk_Pa = [](const Material& material) {
     return material.E0_Pa / (3.0 * (1.0 - 2.0 * material.nu));  // infinite at 0.5
@@ -80,7 +71,7 @@ std::optional<CardFinding> bulk_finding(const ReadCard& read, const Material& re
 
 std::optional<CardFinding> density_finding(const ReadCard& read, const Material& reference) {
   const double found = read.material.rho_kg_m3, expected = reference.rho_kg_m3;
-  const bool has_place = read.understood.name != "mfront";
+  const bool has_place = read.understood.states_density;
   if (!(expected > 0.0) || !has_place || !(read.material.E0_Pa > 0.0)) return std::nullopt;
   if (!(found > 0.0)) {
     return CardFinding{"density-missing",
@@ -151,7 +142,7 @@ void compare(const Material& reference, CardCheck& check) {
     add(density, check);
     return;
   }
-  // A cause that explains every number at once comes before what each number says alone.
+  // One cause that explains all numbers is reported instead of one finding for each number.
   const std::vector<CardFinding> causes = explain_difference(check.read, reference);
   check.findings.insert(check.findings.end(), causes.begin(), causes.end());
   if (has_mistake(causes)) return;
@@ -163,68 +154,35 @@ void compare(const Material& reference, CardCheck& check) {
   }
 }
 
-// Our own headers state E0 and E_inf, so a card that was edited below betrays itself even when no
-// material is named.
+// The header of a card by viscard states E0. It shows that the numbers below were edited, even if
+// no material is given.
 void compare_with_header(const std::string& text, CardCheck& check) {
   const std::string mark = "E0 (instantaneous) = ";
   const std::size_t at = text.find(mark);
   const double found_Pa = check.read.material.E0_Pa;
-  // COMSOL's expressions carry their own units, the header's number does not.
-  const bool is_comparable = check.read.understood.name != "comsol" && found_Pa > 0.0;
+  // The header's number is in the unit system, which the reader of such a card does not know.
+  const bool is_comparable = !check.read.understood.numbers_carry_units && found_Pa > 0.0;
   if (at == std::string::npos || !is_comparable) return;
   const double stated = std::strtod(text.c_str() + at + mark.size(), nullptr);
   const double stated_Pa = from_card(stated, check.read.units.stress_exponent);
   // The header has ten digits; columns round E(t) by up to 1e-4 before a card is refused.
   if (std::abs(found_Pa / stated_Pa - 1.0) <= 2e-4) return;
-  const bool is_abaqus_default =
-      check.read.understood.name == "abaqus" && check.read.understood.at == ModulusAt::kLongTerm;
+  const std::string& missing = check.read.missing_keyword;
   check.findings.push_back(
-      {is_abaqus_default ? "E0-without-instantaneous" : "header-disagrees",
+      {missing.empty() ? "header-disagrees" : "E0-without-instantaneous",
        fmt::format("the header says E0 = {:g} Pa and the numbers below mean {:g} Pa{}", stated_Pa,
-                   found_Pa, is_abaqus_default ? "; *ELASTIC lacks MODULI=INSTANTANEOUS" : ""),
+                   found_Pa, missing.empty() ? "" : "; " + missing),
        true});
 }
 
-// CSV tables of ours: the unit stands in the column name.
-double largest_table_difference(const std::string& text, const Material& reference) {
-  const std::vector<CardLine> lines = card_lines(text, "#");
-  if (lines.empty()) throw std::runtime_error("the table is empty");
-  const std::vector<std::string> names = cells(lines[0].text, ',');
-  if (names.size() < 2 || names[0].rfind("time_", 0) != 0 || names[1].rfind("modulus_", 0) != 0) {
-    throw std::runtime_error("line " + std::to_string(lines[0].number) +
-                             ": expected the columns time_UNIT, modulus_UNIT, ...");
-  }
-  const std::string time = names[0].substr(5), stress = names[1].substr(8);
-  const UnitSystem* units = nullptr;
-  for (const UnitSystem& system : unit_systems()) {
-    if (units == nullptr && time == system.time && stress == system.stress) units = &system;
-  }
-  if (units == nullptr)
-    throw std::runtime_error("no unit system has times in " + time + " and stresses in " + stress);
-  const PronySeries series = young_series(reference);
-  double largest = 0.0;
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    if (trimmed(lines[i].text).empty()) continue;
-    const auto row = cells(lines[i].text, ',');
-    const double time_s = from_card(cell_number(row, 0, lines[i], "time"), units->time_exponent);
-    const double found_Pa =
-        from_card(cell_number(row, 1, lines[i], "modulus"), units->stress_exponent);
-    largest = std::max(largest, std::abs(found_Pa / relaxation_modulus_Pa(series, time_s) - 1.0));
-  }
-  return largest;
-}
-
-CardCheck check_table(const std::string& text, const CheckOptions& options,
-                      const Material* reference) {
-  CardCheck check;
-  check.read.understood = card_target(options.target);
-  check.read.units = unit_system("SI");
-  check.read.units_were_stated = true;
+CardCheck check_table(const std::string& text, const CardTarget& target,
+                      const CheckOptions& options, const Material* reference) {
+  CardCheck check{.read = {target, unit_system("SI"), true}};
   if (reference == nullptr) {
     throw std::invalid_argument(
         "a CSV card holds E(t), not a material; name a material file to compare it with");
   }
-  check.E_difference = largest_table_difference(text, *reference);
+  check.E_difference = target.table_difference(text, *reference);
   check.E_difference_with_bulk = check.E_difference;
   check.tolerance = options.tolerance.value_or(kExactEnough);
   check.agrees = *check.E_difference <= check.tolerance;
@@ -236,28 +194,27 @@ CardCheck check_table(const std::string& text, const CheckOptions& options,
 
 }  // namespace
 
-CardCheck check_card(const std::string& text, const CheckOptions& options,
+CardCheck check_card(const std::string& text, const CardTarget& target, const CheckOptions& options,
                      const Material* reference) {
-  if (options.target == "csv") return check_table(text, options, reference);
-  CardCheck check;
-  check.read = read_card(text, options.target, options.units);
+  if (target.table_difference != nullptr) return check_table(text, target, options, reference);
+  CardCheck check{.read = read_card(text, target, options.units)};
   check.findings = check.read.findings;
   if (!check.read.units_were_stated && options.units.empty()) {
     check.findings.push_back(
         {"units-not-stated",
-         "the card does not say its units; it is read as SI (--units names others)", false});
+         "the card does not state its units; it is read as SI (--units names others)", false});
   }
   if (reference != nullptr) {
     check.tolerance =
         options.tolerance
             ? *options.tolerance
-            : std::max(kExactEnough, 1.01 * rounding_of_columns(*reference, check.read));
+            : std::max(kExactEnough, 1.01 * rounding_of_columns(*reference, target, check.read));
     compare(*reference, check);
     note_times_outside_window(*reference, check);
   } else {
     compare_with_header(text, check);
   }
-  // Where a cause is known, that nothing solid is left is only its consequence.
+  // If another mistake is known, "no-solid" is only its consequence.
   const bool has_cause = std::any_of(
       check.findings.begin(), check.findings.end(),
       [](const CardFinding& finding) { return finding.is_mistake && finding.name != "no-solid"; });

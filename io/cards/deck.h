@@ -1,14 +1,16 @@
 #pragma once
 
 #include "io/cards/card.h"
+#include "io/cards/card_target.h"
 #include "io/cards/one_element.h"
+#include "io/cards/unit_system.h"
 
 #include <string>
 #include <vector>
 
 namespace viscard {
 
-// A one-element model that holds the card, so that a user can try it in their own solver in one
+// A one-element model that holds the card: it lets users try the card in their own solver in one
 // run.
 struct DeckFile {
   std::string name;  // "relaxation.feb"
@@ -20,28 +22,36 @@ struct Deck {
   std::string how_to_run;
 };
 
-// Throws std::invalid_argument naming the targets when there is no deck for this one.
-Deck one_element_deck(const Card& card, const std::string& target, const UnitSystem& units,
+Deck one_element_deck(const Card& card, const DeckWriter& writer, const UnitSystem& units,
                       ElementTestKind kind);
 
-// One writer per dialect; the strain or stress reaches test.amplitude at the end of the ramp.
+// A block of equal increments, in the card's unit of time.
+struct DeckBlock {
+  double length = 0.0;
+  double step = 0.0;
+  double end = 0.0;
+  int increments = 0;
+};
+
+// What the deck writer of a target formats. The model is a unit cube from the origin with rollers
+// on its faces x = 0, y = 0 and z = 0, pulled in z at its face z = 1.
 struct DeckInput {
   const Card& card;
   const ElementTest& test;
   const UnitSystem& units;
-  double stress = 0.0;  // amplitude times E0 in card units, the load of a creep test
+
+  bool is_creep() const { return test.kind == ElementTestKind::kCreep; }
+  double time(double time_s) const { return to_card(time_s, units.time_exponent); }
+  double ramp() const { return time(test.ramp_s); }
+  double end() const { return time(test.end_s()); }
+  // The load of a creep test, amplitude times E0.
+  double stress() const {
+    return to_card(test.amplitude * card.written.E0_Pa, units.stress_exponent);
+  }
+  // Held after the ramp: the displacement of the face z = 1, or the force on each of its four
+  // nodes.
+  double pull() const { return is_creep() ? 0.25 * stress() : test.amplitude; }
+  std::vector<DeckBlock> blocks() const;
 };
-double in_card_time(const DeckInput& input, double time_s);
-std::string abaqus_deck(const DeckInput& input);
-std::string ansys_deck(const DeckInput& input);
-std::string febio_deck(const DeckInput& input);
-std::string mtest_deck(const DeckInput& input);
-std::string frontistr_control(const DeckInput& input);
-std::string frontistr_mesh();
-std::string lsdyna_deck(const DeckInput& input);
-std::string openradioss_starter(const DeckInput& input, const std::string& run_name);
-std::string openradioss_engine(const DeckInput& input, const std::string& run_name);
-std::string moose_deck(const DeckInput& input);
-std::string comsol_model(const DeckInput& input, const std::string& class_name);
 
 }  // namespace viscard

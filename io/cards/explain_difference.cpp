@@ -1,6 +1,5 @@
-// Which mistake turns the material that was meant into the card that was found? Each known mistake
-// is planted into the expected numbers; the one that reproduces the card is named.
-#include "io/cards/check_card.h"
+#include "io/cards/explain_difference.h"
+
 #include "io/cards/known_mistakes.h"
 
 #include <algorithm>
@@ -10,7 +9,7 @@
 namespace viscard {
 namespace {
 
-// Digits a hand may leave out: numbers this close are the same number.
+// Numbers typed by hand have fewer digits: relative differences below this do not count.
 constexpr double kHandTyped = 2e-3;
 
 double mismatch(double a, double b) {
@@ -38,34 +37,24 @@ double branch_mismatch(const CardNumbers& one, const CardNumbers& other, const C
   return worst;
 }
 
-// Largest relative difference of the numbers this target states.
+// Largest relative difference among the numbers that the target states.
 double mismatch(const CardNumbers& one, const CardNumbers& other, const CardTarget& target) {
   double worst = branch_mismatch(one, other, target);
   const auto compare = [&](double CardNumbers::*member) {
     worst = std::max(worst, mismatch(one.*member, other.*member));
   };
-  switch (target.elastic) {
-    case ElasticForm::kYoungPoisson:
-      compare(&CardNumbers::young);
-      compare(&CardNumbers::poisson);
-      break;
-    case ElasticForm::kBulkShear:
-      compare(&CardNumbers::bulk);
-      compare(&CardNumbers::shear);
-      break;
-    case ElasticForm::kBulkOnly:
-      compare(&CardNumbers::bulk);
-      break;
-    case ElasticForm::kPoissonOnly:
-      compare(&CardNumbers::poisson);
-      break;
-  }
+  using enum ElasticForm;
+  const ElasticForm elastic = target.elastic;
+  if (elastic == kYoungPoisson) compare(&CardNumbers::young);
+  if (elastic == kYoungPoisson || elastic == kPoissonOnly) compare(&CardNumbers::poisson);
+  if (elastic == kBulkShear || elastic == kBulkOnly) compare(&CardNumbers::bulk);
+  if (elastic == kBulkShear) compare(&CardNumbers::shear);
   if (target.states_equilibrium) compare(&CardNumbers::equilibrium);
   if (one.density > 0.0 && other.density > 0.0) compare(&CardNumbers::density);
   return worst;
 }
 
-// The right shares and the right times, but not with each other.
+// The shares and the times are right, but not their pairs.
 bool are_terms_swapped(const CardNumbers& found, const CardNumbers& expected,
                        const CardTarget& target) {
   if (found.branches.size() != expected.branches.size()) return false;

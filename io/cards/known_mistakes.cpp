@@ -8,78 +8,60 @@
 namespace viscard {
 namespace {
 
-void scale_moduli(CardNumbers& numbers, const CardTarget& target, double factor) {
-  numbers.young *= factor;
-  numbers.bulk *= factor;
-  numbers.shear *= factor;
-  if (target.branch == BranchNumber::kRelative) return;
-  numbers.equilibrium *= factor;
-  for (CardBranch& branch : numbers.branches) branch.shear *= factor;
+using Plant = std::function<void(CardNumbers&)>;
+
+Plant moduli_times(double factor, const CardTarget& target) {
+  const bool are_branches_moduli = target.branch != BranchNumber::kRelative;
+  return [factor, are_branches_moduli](CardNumbers& n) {
+    n.young *= factor;
+    n.bulk *= factor;
+    n.shear *= factor;
+    if (!are_branches_moduli) return;
+    n.equilibrium *= factor;
+    for (CardBranch& branch : n.branches) branch.shear *= factor;
+  };
 }
 
-void scale_times(CardNumbers& numbers, double factor) {
-  for (CardBranch& branch : numbers.branches) branch.time *= factor;
+Plant in_branches(const std::function<void(CardBranch&)>& change) {
+  return [change](CardNumbers& n) {
+    for (CardBranch& branch : n.branches) change(branch);
+  };
 }
 
-void copy_shear(CardNumbers& numbers, const CardNumbers& from) {
-  for (std::size_t i = 0; i < numbers.branches.size(); ++i) {
-    numbers.branches[i].shear = from.branches[i].shear;
-  }
+Plant times_times(double factor) {
+  return in_branches([factor](CardBranch& b) { b.time *= factor; });
 }
 
-void copy_times(CardNumbers& numbers, const CardNumbers& from) {
-  for (std::size_t i = 0; i < numbers.branches.size(); ++i) {
-    numbers.branches[i].time = from.branches[i].time;
-  }
+Plant branches_of(const CardNumbers& other, double CardBranch::*member) {
+  return [other, member](CardNumbers& n) {
+    for (std::size_t i = 0; i < n.branches.size(); ++i) {
+      n.branches[i].*member = other.branches[i].*member;
+    }
+  };
 }
 
-void add_elastic_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
-  const CardTarget& target = context.target;
-  CardTarget flipped = target;
-  const bool is_long_term = target.at == ModulusAt::kLongTerm;
-  flipped.at = is_long_term ? ModulusAt::kInstantaneous : ModulusAt::kLongTerm;
-  const CardNumbers other = context.as(flipped);
-  const bool is_abaqus = target.name == "abaqus";
-  if (target.elastic == ElasticForm::kYoungPoisson || target.elastic == ElasticForm::kBulkShear) {
-    list.push_back(
-        {is_abaqus && is_long_term ? "E0-without-instantaneous"
-         : is_long_term            ? "instantaneous-modulus-as-long-term"
-                                   : "long-term-modulus-as-instantaneous",
-         is_abaqus && is_long_term
-             ? "E is the instantaneous modulus but *ELASTIC lacks MODULI=INSTANTANEOUS; "
-               "Abaqus takes it for the long-term one"
-         : is_long_term
-             ? "the elastic modulus is the instantaneous one; this field wants the long-term "
-               "one"
-             : "the elastic modulus is the long-term one; this field wants the instantaneous "
-               "one",
-         [other](CardNumbers& n) {
-           n.young = other.young;
-           n.poisson = other.poisson;
-           n.bulk = other.bulk;
-           n.shear = other.shear;
-         }});
-  }
-  const double nu = context.material.nu;
+// The elastic numbers at the other end of the relaxation.
+void add_modulus_mistake(const CardContext& context, const CardNumbers& other,
+                         std::vector<CardMistake>& list) {
+  const ElasticForm elastic = context.target.elastic;
+  if (elastic != ElasticForm::kYoungPoisson && elastic != ElasticForm::kBulkShear) return;
+  const bool is_long_term = context.target.at == ModulusAt::kLongTerm;
   list.push_back(
-      {"plane-strain-modulus",
-       "the modulus is E/(1 - nu^2), the plane-strain modulus an indenter sees, not E",
-       [nu, target](CardNumbers& n) { scale_moduli(n, target, 1.0 / (1.0 - nu * nu)); }});
-  if (target.name == "febio-uncoupled") {
-    list.push_back({"G-for-c1",
-                    "c1 is the shear modulus; c1 of a Mooney-Rivlin child is half of it",
-                    [](CardNumbers& n) { n.shear *= 2.0; }});
-  }
-  list.push_back({"G-for-E", "the shear modulus stands where Young's modulus belongs",
-                  [](CardNumbers& n) { n.young = n.shear; }});
-  list.push_back({"E-for-G", "Young's modulus stands where the shear modulus belongs",
-                  [](CardNumbers& n) { n.shear = n.young; }});
-  for (const double young : {context.as(target).young, other.young}) {
-    list.push_back({"E-for-K", "Young's modulus stands where the bulk modulus belongs",
-                    [young](CardNumbers& n) { n.bulk = young; }});
-  }
-  if (!target.states_equilibrium) return;
-  if (target.branch == BranchNumber::kRelative) {
+      {is_long_term ? "instantaneous-modulus-as-long-term" : "long-term-modulus-as-instantaneous",
+       is_long_term
+           ? "the elastic modulus is the instantaneous one; this field wants the long-term one"
+           : "the elastic modulus is the long-term one; this field wants the instantaneous one",
+       [other](CardNumbers& n) {
+         n.young = other.young;
+         n.poisson = other.poisson;
+         n.bulk = other.bulk;
+         n.shear = other.shear;
+       }});
+}
+
+void add_equilibrium_mistake(const CardContext& context, const CardNumbers& expected,
+                             std::vector<CardMistake>& list) {
+  if (context.target.branch == BranchNumber::kRelative) {
     list.push_back(
         {"g0-left-at-1",
          "g0 is 1 beside the instantaneous modulus: everything is too stiff by (1 + sum g); "
@@ -88,147 +70,139 @@ void add_elastic_mistakes(const CardContext& context, std::vector<CardMistake>& 
     return;
   }
   double sum = 0.0;
-  const CardNumbers expected = context.as(target);
   for (const CardBranch& branch : expected.branches) sum += branch.shear;
   list.push_back(
       {"instantaneous-as-equilibrium",
        "the equilibrium branch carries the instantaneous modulus; the other branches come "
        "on top of it",
        [sum](CardNumbers& n) { n.equilibrium += sum; }});
-  if (target.name == "lsdyna006") {
-    list.push_back(
-        {"branch-modulus-as-GI",
-         "GI is the long-term shear modulus in 006; the branch modulus G0 - G_inf stands "
-         "there (as in 076)",
-         [](CardNumbers& n) {
-           if (!n.branches.empty()) std::swap(n.equilibrium, n.branches[0].shear);
-         }});
+}
+
+void add_elastic_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
+  const CardTarget& target = context.target;
+  CardTarget flipped = target;
+  flipped.at = target.at == ModulusAt::kLongTerm ? ModulusAt::kInstantaneous : ModulusAt::kLongTerm;
+  const CardNumbers expected = context.as(target), other = context.as(flipped);
+  add_modulus_mistake(context, other, list);
+  const double nu = context.material.nu;
+  list.push_back({"plane-strain-modulus",
+                  "the modulus is E/(1 - nu^2), the plane-strain modulus an indenter sees, not E",
+                  moduli_times(1.0 / (1.0 - nu * nu), target)});
+  list.push_back({"G-for-E", "the shear modulus stands where Young's modulus belongs",
+                  [](CardNumbers& n) { n.young = n.shear; }});
+  list.push_back({"E-for-G", "Young's modulus stands where the shear modulus belongs",
+                  [](CardNumbers& n) { n.shear = n.young; }});
+  for (const double young : {expected.young, other.young}) {
+    list.push_back({"E-for-K", "Young's modulus stands where the bulk modulus belongs",
+                    [young](CardNumbers& n) { n.bulk = young; }});
+  }
+  if (target.states_equilibrium) add_equilibrium_mistake(context, expected, list);
+}
+
+// The letter of a branch number in the names of mistakes.
+const char* letter_of(BranchNumber branch) {
+  return branch == BranchNumber::kRelative        ? "g"
+         : branch == BranchNumber::kAbsoluteShear ? "G"
+                                                  : "E_i";
+}
+
+void add_branch_number_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
+  const BranchNumber own = context.target.branch;
+  for (const BranchNumber branch :
+       {BranchNumber::kRelative, BranchNumber::kAbsoluteShear, BranchNumber::kAbsoluteYoung}) {
+    if (branch == own) continue;
+    CardTarget changed = context.target;
+    changed.branch = branch;
+    const CardNumbers numbers = context.as(changed);
+    const std::string letter = letter_of(branch), wanted = letter_of(own);
+    const std::string name = letter + "-for-" + wanted;
+    const std::string text = "the branches carry " + letter + " where this field wants " + wanted +
+                             " (" + to_word(own) + ")";
+    const Plant shares = branches_of(numbers, &CardBranch::shear);
+    list.push_back({name, text, shares});
+    if (!context.target.states_equilibrium) continue;
+    list.push_back({name, text + ", the equilibrium one too", [numbers, shares](CardNumbers& n) {
+                      shares(n);
+                      n.equilibrium = numbers.equilibrium;
+                    }});
   }
 }
 
 void add_branch_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
-  struct Other {
-    BranchNumber branch;
-    const char* letter;
-  };
-  for (const Other& other :
-       {Other{BranchNumber::kRelative, "g"}, Other{BranchNumber::kAbsoluteShear, "G"},
-        Other{BranchNumber::kAbsoluteYoung, "E_i"}}) {
-    const BranchNumber own = context.target.branch;
-    if (other.branch == own) continue;
-    const std::string wanted = own == BranchNumber::kRelative        ? "g"
-                               : own == BranchNumber::kAbsoluteShear ? "G"
-                                                                     : "E_i";
-    CardTarget changed = context.target;
-    changed.branch = other.branch;
-    const CardNumbers numbers = context.as(changed);
-    const std::string text = std::string("the branches carry ") + other.letter +
-                             " where this field wants " + wanted + " (" + to_word(own) + ")";
-    list.push_back({std::string(other.letter) + "-for-" + wanted, text,
-                    [numbers](CardNumbers& n) { copy_shear(n, numbers); }});
-    // COMSOL's expressions carry units: 0.008[MPa] where g was meant.
-    for (const double unit : {1e3, 1e6, 1e9}) {
-      if (context.target.name != "comsol" || other.branch != BranchNumber::kRelative) continue;
-      list.push_back(
-          {std::string(other.letter) + "-for-" + wanted, text, [numbers, unit](CardNumbers& n) {
-             copy_shear(n, numbers);
-             for (CardBranch& b : n.branches) b.shear *= unit;
-           }});
-    }
-    if (context.target.states_equilibrium) {
-      list.push_back({std::string(other.letter) + "-for-" + wanted,
-                      text + ", the equilibrium one too", [numbers](CardNumbers& n) {
-                        copy_shear(n, numbers);
-                        n.equilibrium = numbers.equilibrium;
-                      }});
-    }
-  }
+  add_branch_number_mistakes(context, list);
   double rest = 1.0;
   for (const MaterialTerm& term : context.material.terms) rest -= term.g;
   if (context.target.branch == BranchNumber::kRelative) {
-    list.push_back(
-        {"g-relative-to-long-term",
-         "the g_i are relative to the long-term modulus; this field wants them relative to "
-         "the instantaneous one",
-         [rest](CardNumbers& n) {
-           for (CardBranch& b : n.branches) {
-             b.shear /= rest;
-             b.bulk /= rest;
-           }
-         }});
+    list.push_back({"g-relative-to-long-term",
+                    "the g_i are relative to the long-term modulus; this field wants them relative "
+                    "to the instantaneous one",
+                    in_branches([rest](CardBranch& b) {
+                      b.shear /= rest;
+                      b.bulk /= rest;
+                    })});
   }
   if (context.target.bulk != BulkRule::kOwnNumbers) return;
   list.push_back({"bulk-left-out",
                   "k_i is 0: the bulk modulus stays constant, unlike the material's",
-                  [](CardNumbers& n) {
-                    for (CardBranch& b : n.branches) b.bulk = 0.0;
-                  }});
+                  in_branches([](CardBranch& b) { b.bulk = 0.0; })});
   list.push_back({"bulk-as-shear",
                   "k_i equals g_i: the bulk modulus relaxes, unlike the material's",
-                  [](CardNumbers& n) {
-                    for (CardBranch& b : n.branches) b.bulk = b.shear;
-                  }});
+                  in_branches([](CardBranch& b) { b.bulk = b.shear; })});
+}
+
+void add_norton_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
+  const double shear_per_young = 0.5 / (1.0 + context.material.nu);
+  list.push_back(
+      {"A-without-3", "A is 1/(G tau); the von Mises stress wants 1/(3 G tau)", times_times(3.0)});
+  list.push_back({"A-from-E", "A is 1/(3 E tau); it wants the shear modulus, 1/(3 G tau)",
+                  times_times(shear_per_young)});
+  list.push_back(
+      {"A-from-E", "A is 1/(E tau); it wants 1/(3 G tau)", times_times(3.0 * shear_per_young)});
 }
 
 void add_time_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
-  struct Other {
-    TimeNumber time;
-    const char* letter;
-  };
   const TimeNumber own = context.target.time;
   const std::string wanted = own == TimeNumber::kTau    ? "tau"
                              : own == TimeNumber::kBeta ? "beta"
                                                         : "A";
-  for (const Other& other : {Other{TimeNumber::kTau, "tau"}, Other{TimeNumber::kBeta, "beta"}}) {
-    if (other.time == own) continue;
+  for (const TimeNumber time : {TimeNumber::kTau, TimeNumber::kBeta}) {
+    if (time == own) continue;
+    const std::string letter = time == TimeNumber::kTau ? "tau" : "beta";
     CardTarget changed = context.target;
-    changed.time = other.time;
-    const CardNumbers numbers = context.as(changed);
-    list.push_back(
-        {std::string(other.letter) + "-for-" + wanted,
-         std::string("the times are ") + other.letter + " where this field wants " + to_word(own),
-         [numbers](CardNumbers& n) { copy_times(n, numbers); }});
+    changed.time = time;
+    list.push_back({letter + "-for-" + wanted,
+                    "the times are " + letter + " where this field wants " + to_word(own),
+                    branches_of(context.as(changed), &CardBranch::time)});
   }
-  // tau grows by 1000 when written in ms, 1/tau and A shrink.
+  // tau in ms is 1000 times that in s; 1/tau and A are smaller.
   const double in_ms = own == TimeNumber::kTau ? 1e3 : 1e-3;
-  const bool card_is_in_ms = context.units.time_exponent == 3;
-  const std::string text = card_is_in_ms ? "the times are in s; the unit system wants ms"
-                                         : "the times are in ms; the unit system wants s";
-  list.push_back(
-      {card_is_in_ms ? "time-in-s" : "time-in-ms", text, [in_ms, card_is_in_ms](CardNumbers& n) {
-         scale_times(n, card_is_in_ms ? 1.0 / in_ms : in_ms);
-       }});
+  if (context.units.time_exponent == 3) {
+    list.push_back(
+        {"time-in-s", "the times are in s; the unit system wants ms", times_times(1.0 / in_ms)});
+  } else {
+    list.push_back(
+        {"time-in-ms", "the times are in ms; the unit system wants s", times_times(in_ms)});
+  }
   for (const double factor : {1e-3, 1e3}) {
+    const bool is_short = (factor < 1.0) == (own == TimeNumber::kTau);
     list.push_back(
         {"time-unit",
-         fmt::format("the times are {} by a factor of 1000",
-                     (factor < 1.0) == (own == TimeNumber::kTau) ? "too short" : "too long"),
-         [factor](CardNumbers& n) { scale_times(n, factor); }});
+         fmt::format("the times are too {} by a factor of 1000", is_short ? "short" : "long"),
+         times_times(factor)});
   }
-  if (own == TimeNumber::kNortonA) {
-    list.push_back({"A-without-3", "A is 1/(G tau); the von Mises stress wants 1/(3 G tau)",
-                    [](CardNumbers& n) { scale_times(n, 3.0); }});
-    const double shear_per_young = 0.5 / (1.0 + context.material.nu);
-    list.push_back({"A-from-E", "A is 1/(3 E tau); it wants the shear modulus, 1/(3 G tau)",
-                    [shear_per_young](CardNumbers& n) { scale_times(n, shear_per_young); }});
-    list.push_back({"A-from-E", "A is 1/(E tau); it wants 1/(3 G tau)",
-                    [shear_per_young](CardNumbers& n) { scale_times(n, 3.0 * shear_per_young); }});
-  }
+  if (own == TimeNumber::kNortonA) add_norton_mistakes(context, list);
 }
 
 void add_order_mistakes(std::vector<CardMistake>& list) {
+  const char* name = "columns-swapped";
+  list.push_back({name, "share and time have changed places in the rows",
+                  in_branches([](CardBranch& b) { std::swap(b.shear, b.time); })});
+  list.push_back({name, "the rows are g, tau, k; they must be g, k, tau",
+                  in_branches([](CardBranch& b) { std::swap(b.bulk, b.time); })});
   list.push_back(
-      {"columns-swapped", "share and time have changed places in the rows", [](CardNumbers& n) {
-         for (CardBranch& b : n.branches) std::swap(b.shear, b.time);
-       }});
-  list.push_back(
-      {"columns-swapped", "the rows are g, tau, k; they must be g, k, tau", [](CardNumbers& n) {
-         for (CardBranch& b : n.branches) std::swap(b.bulk, b.time);
-       }});
-  list.push_back(
-      {"columns-swapped", "the rows are tau, g, k; they must be g, k, tau", [](CardNumbers& n) {
-         for (CardBranch& b : n.branches) b = {b.time, b.shear, b.bulk};
-       }});
+      {name, "the rows are tau, g, k; they must be g, k, tau", in_branches([](CardBranch& b) {
+         b = {b.time, b.shear, b.bulk};
+       })});
 }
 
 void add_unit_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
@@ -241,10 +215,8 @@ void add_unit_mistakes(const CardContext& context, std::vector<CardMistake>& lis
          [numbers](CardNumbers& n) { n = numbers; }});
   }
   for (const int power : {-9, -6, -3, -1, 1, 3, 6, 9}) {
-    const CardTarget target = context.target;
-    list.push_back(
-        {"stress-unit", "the moduli are off by 10^" + std::to_string(power),
-         [power, target](CardNumbers& n) { scale_moduli(n, target, std::pow(10.0, power)); }});
+    list.push_back({"stress-unit", "the moduli are off by 10^" + std::to_string(power),
+                    moduli_times(std::pow(10.0, power), context.target)});
   }
   for (int power = -18; power <= 18; power += 3) {
     if (power == 0) continue;
@@ -259,6 +231,7 @@ std::vector<CardMistake> known_mistakes(const CardContext& context) {
   std::vector<CardMistake> list;
   add_unit_mistakes(context, list);
   add_elastic_mistakes(context, list);
+  if (context.target.add_mistakes != nullptr) context.target.add_mistakes(context, list);
   add_branch_mistakes(context, list);
   add_time_mistakes(context, list);
   add_order_mistakes(list);

@@ -1,8 +1,6 @@
 #pragma once
 
 #include "io/cards/card_numbers.h"
-#include "io/cards/conventions.h"
-#include "io/cards/unit_system.h"
 
 #include <functional>
 #include <string>
@@ -21,14 +19,15 @@ struct CardContext {
   }
 };
 
-// One way people get a card wrong, as a change of the right numbers.
+// A common mistake in cards, as a change of the right numbers.
 struct CardMistake {
   std::string name;  // "tau-for-beta"
   std::string text;
   std::function<void(CardNumbers&)> plant;
 };
 
-// All that make sense for the target.
+// Those that are possible in a card of the target. Of mistakes that explain a card equally well
+// the first is reported.
 std::vector<CardMistake> known_mistakes(const CardContext& context);
 
 }  // namespace viscard

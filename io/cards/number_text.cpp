@@ -33,12 +33,8 @@ std::string squeezed(std::string text) {
 
 }  // namespace
 
-std::string shortest_number(double value) {
-  return fmt::format("{}", value);
-}
-
 std::string number_within(double value, int columns) {
-  std::string text = shortest_number(value);
+  std::string text = fmt::format("{}", value);
   for (int digits = 17; static_cast<int>(text.size()) > columns && digits > 1; --digits) {
     text = fmt::format("{:.{}g}", value, digits);
   }

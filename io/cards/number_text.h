@@ -4,13 +4,11 @@
 
 namespace viscard {
 
-// Numbers as solvers read them. All are locale-free and ASCII.
+// Numbers as solvers read them, locale-free and ASCII, in a limited width. Without a limit, writers
+// use fmt's "{}": the shortest text that reads back as exactly the same double.
 
-// The shortest text that reads back as exactly this double: "1.88", "9.65e-10".
-std::string shortest_number(double value);
-
-// At most `columns` characters, as many digits as fit, for free formats that cut longer numbers
-// silently: Abaqus and CalculiX read 20 characters of a field and no more.
+// At most `columns` characters, with as many digits as fit, for free formats that silently cut
+// longer numbers.
 std::string number_within(double value, int columns);
 
 // The text of at most `columns` characters that reads back nearest to value, for fixed columns: no

@@ -1,7 +1,8 @@
 #include "io/cards/one_element.h"
 
-#include "io/cards/number_text.h"
 #include "models/material/retardation_spectrum.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +15,8 @@ struct Decay {
   double constant = 0.0;
   std::vector<MaxwellTerm> terms;
 
-  // Mean over the last `ramp_s` before t (over 0..t while the ramp runs, and then less than 1): the
-  // response to a linear rise. Written as products, so that nothing cancels at long times.
+  // The response to a linear rise: the mean over the last `ramp_s` before t, or during the ramp the
+  // integral over 0..t divided by ramp_s. Written as products to avoid cancellation at long times.
   double after_ramp(double t_s, double ramp_s) const {
     const double rise_s = std::min(t_s, ramp_s), held_s = t_s - rise_s;
     double sum = constant * rise_s;
@@ -78,8 +79,7 @@ std::string expected_curve_csv(const Material& material, const ElementTest& test
     constexpr int kPoints = 4;
     for (int i = 1; i <= kPoints; ++i) {
       const double time_s = from_s + (block.end_s - from_s) * i / kPoints;
-      out += shortest_number(time_s * time_factor) + "," +
-             shortest_number(exact_response(material, test, time_s)) + "\n";
+      out += fmt::format("{},{}\n", time_s * time_factor, exact_response(material, test, time_s));
     }
     from_s = block.end_s;
   }

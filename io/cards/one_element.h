@@ -7,9 +7,8 @@
 
 namespace viscard {
 
-// The test that proves a card: a unit cube, its sides free, in simple tension. Relaxation: the
-// strain rises linearly during the ramp and is held. Creep: the stress does. Both have closed
-// answers.
+// The test that proves a card: a unit cube in simple tension, its sides free. In relaxation the
+// strain rises linearly during the ramp and is held, in creep the stress. Both have closed answers.
 enum class ElementTestKind { kRelaxation, kCreep };
 
 struct TimeBlock {
@@ -29,10 +28,9 @@ struct ElementTest {
 struct ElementTestOptions {
   ElementTestKind kind = ElementTestKind::kRelaxation;
   double amplitude = 1e-6;
-  int steps_per_tau = 40;  // in the shortest relaxation time; few do for exponential rules
-  double longest_step_tau =
-      1e30;                     // no increment is longer than this many shortest relaxation times
-  int most_increments = 20000;  // the hold ends early where it would need more
+  int steps_per_tau = 40;          // in the shortest relaxation time
+  double longest_step_tau = 1e30;  // limit of an increment, in shortest relaxation times
+  int most_increments = 20000;     // the hold ends early if it would need more
 };
 
 // Ramp of half the shortest relaxation time, hold to ten times the longest; increments grow with
@@ -43,8 +41,8 @@ ElementTest element_test(const Material& material, const ElementTestOptions& opt
 // E(t) or the creep compliance J(t), integrated over the ramp (models/README.md, eq. 1, 3, 5).
 double exact_response(const Material& material, const ElementTest& test, double time_s);
 
-// "time_s,expected" in card units for the deck: times at the end of every block and inside it, and
-// the stress or strain expected there.
+// The header, then rows of time and expected response, four for each block. time_factor turns s
+// into the card's unit.
 std::string expected_curve_csv(const Material& material, const ElementTest& test,
                                double time_factor, const std::string& header);
 

@@ -7,10 +7,10 @@
 
 namespace viscard {
 
-// Something a reader saw that the solver would take differently from what was meant.
+// Text in a card that the solver would take differently from what its author meant.
 struct CardFinding {
   std::string name;  // short and stable: "missing-equilibrium-row"
-  std::string text;  // what it does and what to write instead
+  std::string text;  // the effect, and what to write instead
   bool is_mistake = true;
 };
 
@@ -18,16 +18,22 @@ struct ReadCard {
   CardTarget understood;  // the target's conventions, changed where the card says otherwise
   UnitSystem units;
   bool units_were_stated = false;  // in the card's header or in its own unit block
-  std::string name;
-  CardNumbers numbers;
-  Material material;  // SI; what the solver would simulate
-  std::vector<CardFinding> findings;
+  std::string name = "";
+  CardNumbers numbers = {};
+  Material material = {};  // SI; what the solver would simulate
+  std::vector<CardFinding> findings = {};
+  // A keyword whose absence makes the elastic modulus the long-term one; "" if it is there.
+  std::string missing_keyword = "";
+
+  void add(const char* finding, const std::string& text, bool is_mistake = true) {
+    findings.push_back({finding, text, is_mistake});
+  }
 };
 
-// Reads a card of one dialect, ours or hand-written. `units` names the unit system; empty: the one
-// the header states, else SI. CSV tables hold no material: see check_table. Throws
-// std::runtime_error naming the line and what was expected there, std::invalid_argument for an
-// unknown target or unit system.
-ReadCard read_card(const std::string& text, const std::string& target, const std::string& units);
+// Reads a card, written by viscard or by hand, as the target's solver would. `units` names the unit
+// system; empty: the one the header states, else SI. Throws std::runtime_error naming the line and
+// what was expected there, std::invalid_argument for an unknown unit system or a card that is a
+// table (csv).
+ReadCard read_card(const std::string& text, const CardTarget& target, const std::string& units);
 
 }  // namespace viscard

@@ -5,9 +5,9 @@
 
 namespace viscard {
 
-// A consistent set of units a card is written in. Every conversion is a power of ten, kept as its
-// exponent so that 965 kg/m3 becomes exactly the double 9.65e-10 t/mm3: a negative exponent
-// divides.
+// A consistent set of units for a card. Every conversion is a power of ten. It is stored as its
+// exponent, and a negative one divides, so that 965 kg/m3 becomes exactly the double 9.65e-10
+// t/mm3.
 //   number in the card = SI number * 10^exponent
 struct UnitSystem {
   const char* name;         // as on the command line: "mm-t-s"

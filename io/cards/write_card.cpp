@@ -1,6 +1,7 @@
-#include "io/cards/card.h"
-#include "io/cards/card_body.h"
+#include "io/cards/write_card.h"
+
 #include "io/cards/card_header.h"
+#include "io/cards/material_difference.h"
 #include "io/cards/read_card.h"
 #include "models/material/fit_defects.h"
 #include "models/maths/text_of_number.h"
@@ -14,7 +15,8 @@
 namespace viscard {
 namespace {
 
-// Beyond this a rounded card is refused; beyond kExact the header states the rounding.
+// Of E(t), relative. A card that is rounded by more is refused; above kExact the header states the
+// rounding.
 constexpr double kWorstRounding = 1e-4;
 constexpr double kExact = 1e-9;
 
@@ -23,15 +25,14 @@ void check_flags(const Material& material, const CardOptions& options) {
   for (const MaterialFlag& flag : material.flags) {
     if (flag.term > 0) {
       throw std::invalid_argument(
-          fmt::format("the fit has flagged term {} ({}: {}); pass --accept-flags to write it all "
-                      "the same, or fit "
-                      "again with fewer terms",
+          fmt::format("the fit has flagged term {} ({}: {}); pass --accept-flags to write it "
+                      "anyway, or fit again with fewer terms",
                       flag.term, flag.name, flag.text));
     }
     if (is_defect(flag.name)) {
       throw std::invalid_argument(
-          fmt::format("the fit is not to be trusted ({}: {}); pass --accept-flags to write it all "
-                      "the same, or repeat the measurement",
+          fmt::format("the fit is not to be trusted ({}: {}); pass --accept-flags to write it "
+                      "anyway, or repeat the measurement",
                       flag.name, flag.text));
     }
   }
@@ -47,8 +48,7 @@ void settle_nu(Material& material, const CardTarget& target, const CardOptions& 
   if (material.nu == 0.5 && !target.takes_incompressible) {
     throw std::invalid_argument("nu is 0.5 and " + target.code +
                                 " needs a finite bulk modulus; pass --clamp-nu 0.4995 (the header "
-                                "will say so) or set nu in "
-                                "the material file");
+                                "states it) or set nu in the material file");
   }
 }
 
@@ -64,9 +64,9 @@ void settle_terms(Material& material, const CardTarget& target) {
   }
 }
 
-// The bulk part was rarely measured: where it is the default assumption (k = g) the target's own
-// rule may stand in its place, with the difference stated. A bulk part that was stated or measured
-// may not.
+// The bulk relaxation is rarely measured. If it is the default assumption (k = g), the target's own
+// rule replaces it and the header states the difference. A stated or measured one is not replaced
+// without --approximate.
 void settle_bulk(Material& material, const CardTarget& target, const CardOptions& options,
                  std::vector<FidelityItem>& fidelity) {
   const Material mapped = with_bulk_rule(material, target.bulk);
@@ -85,7 +85,7 @@ void settle_bulk(Material& material, const CardTarget& target, const CardOptions
   if (!is_assumed && !options.may_approximate) {
     throw std::invalid_argument(fmt::format(
         "the bulk relaxation of this material is stated, and in {} the bulk modulus {} ({:.1e} in "
-        "E(t)); pass --approximate to write it so, or choose another target",
+        "E(t)); pass --approximate to accept that, or choose another target",
         target.code, rule, difference));
   }
   fidelity.push_back(
@@ -97,7 +97,7 @@ void settle_bulk(Material& material, const CardTarget& target, const CardOptions
   material = mapped;
 }
 
-// Only WLF has a common form; what else is known of temperature stands in the header alone.
+// Only WLF has a form that solvers share; the header alone states an Arrhenius shift.
 void settle_shift(const Material& material, const CardTarget& target,
                   std::vector<FidelityItem>& fidelity) {
   if (!material.shift) return;
@@ -116,55 +116,57 @@ void settle_shift(const Material& material, const CardTarget& target,
   }
 }
 
-// What a reader of the body gets, and how far the printed digits take E(t) and the density from the
-// numbers they stand for.
+// Throws unless the shift was written wherever the target has a place for it.
+void check_shift(const Material& read, const Material& material, const CardTarget& target) {
+  if (!target.takes_wlf || !material.shift || material.shift->law != ShiftLaw::kWlf) return;
+  const auto is_same = [](double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(b); };
+  if (!read.shift || !is_same(read.shift->C1, material.shift->C1) ||
+      !is_same(read.shift->C2_K, material.shift->C2_K)) {
+    throw std::logic_error("viscard wrote a wrong temperature shift for " + target.name);
+  }
+}
+
+FidelityItem density_item(const Material& read, const Material& material,
+                          const CardTarget& target) {
+  if (!target.states_density) {
+    return {"density", Mapping::kDropped, "the behaviour has none; its value is a comment"};
+  }
+  if (!(material.rho_kg_m3 > 0.0)) {
+    return {"density", Mapping::kDropped, "not given by the material"};
+  }
+  const double off = std::abs(read.rho_kg_m3 / material.rho_kg_m3 - 1.0);
+  if (!(off > kExact)) return {"density", Mapping::kExact, ""};
+  return {"density", Mapping::kApproximated, fmt::format("rounded to the columns, {:.1e}", off)};
+}
+
+// Reads the body as the solver would and reports the rounding of E(t) and of the density.
 void read_back(const std::string& body, const CardTarget& target, const UnitSystem& units,
                const Material& material, Card& card) {
-  const ReadCard read = read_card(body, target.name, units.name);
+  const ReadCard read = read_card(body, target, units.name);
   for (const CardFinding& finding : read.findings) {
     if (finding.is_mistake) throw std::logic_error("viscard wrote a wrong card: " + finding.text);
   }
   card.written = read.material;
-  if (target.takes_wlf && material.shift && material.shift->law == ShiftLaw::kWlf) {
-    const auto& back = read.material.shift;
-    const auto is_same = [](double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(b); };
-    if (!back || !is_same(back->C1, material.shift->C1) ||
-        !is_same(back->C2_K, material.shift->C2_K)) {
-      throw std::logic_error("viscard wrote a wrong temperature shift for " + target.name);
-    }
-  }
+  check_shift(read.material, material, target);
   const double rounding =
       largest_E_difference(read.material, material, comparison_times_s(material));
   if (!(rounding <= kWorstRounding)) {
     throw std::invalid_argument(
         fmt::format("in {} the numbers do not fit the columns of {} (E(t) would be off by {:.1e}); "
-                    "choose another "
-                    "unit system with --units",
+                    "choose another unit system with --units",
                     units.name, target.code, rounding));
   }
+  card.fidelity.push_back({"numbers", Mapping::kExact, ""});
   if (rounding > kExact) {
-    card.fidelity.push_back({"numbers", Mapping::kApproximated,
-                             fmt::format("rounded to the columns, {:.1e} in E(t)", rounding)});
-  } else {
-    card.fidelity.push_back({"numbers", Mapping::kExact, ""});
+    card.fidelity.back() = {"numbers", Mapping::kApproximated,
+                            fmt::format("rounded to the columns, {:.1e} in E(t)", rounding)};
   }
-  const bool states_density = target.name != "mfront";
-  if (material.rho_kg_m3 > 0.0 && states_density) {
-    const double off = std::abs(read.material.rho_kg_m3 / material.rho_kg_m3 - 1.0);
-    card.fidelity.push_back(
-        {"density", off > kExact ? Mapping::kApproximated : Mapping::kExact,
-         off > kExact ? fmt::format("rounded to the columns, {:.1e}", off) : ""});
-  } else {
-    card.fidelity.push_back({"density", Mapping::kDropped,
-                             states_density ? "not given by the material"
-                                            : "the behaviour has none; its value is a comment"});
-  }
+  card.fidelity.push_back(density_item(read.material, material, target));
 }
 
 }  // namespace
 
-Card write_card(const Material& given, const CardOptions& options) {
-  const CardTarget& target = card_target(options.target);
+Card write_card(const Material& given, const CardTarget& target, const CardOptions& options) {
   const UnitSystem& units = unit_system(options.units);
   validate(given);
   check_flags(given, options);
@@ -188,62 +190,19 @@ Card write_card(const Material& given, const CardOptions& options) {
                 units,
                 material,
                 {}};
-  if (target.name == "csv") {
+  if (target.table_difference != nullptr) {
     card.written = material;
   } else {
-    read_back(card_body(body), target, units, material, card);
+    read_back(target.write(body), target, units, material, card);
   }
   card.largest_difference = largest_E_difference(card.written, given, comparison_times_s(given));
   body.header = card_header(material, target, units, options, card.fidelity);
   const std::string comments = as_comments(body.header, target.comment);
-  card.text = target.comment.empty() ? card_body(body) : comments + card_body(body);
-  card.companions = card_companions(body);
+  card.name = body.name;
+  card.text = target.comment.empty() ? target.write(body) : comments + target.write(body);
+  if (target.companions != nullptr) card.companions = target.companions(body);
   for (CompanionFile& companion : card.companions) companion.text = comments + companion.text;
   return card;
-}
-
-std::string to_word(Mapping mapping) {
-  switch (mapping) {
-    case Mapping::kExact:
-      return "exact";
-    case Mapping::kApproximated:
-      return "approximated";
-    case Mapping::kDropped:
-      return "dropped";
-  }
-  return "";
-}
-
-std::vector<double> comparison_times_s(const Material& material, int count) {
-  double from_s = material.valid.t_min_s, to_s = material.valid.t_max_s;
-  if (!(to_s > 0.0)) {
-    from_s = 1e-2;
-    to_s = 1e2;
-    for (std::size_t i = 0; i < material.terms.size(); ++i) {
-      const double tau_s = material.terms[i].tau_s;
-      from_s = i == 0 ? tau_s / 100.0 : std::min(from_s, tau_s / 100.0);
-      to_s = i == 0 ? tau_s * 100.0 : std::max(to_s, tau_s * 100.0);
-    }
-  }
-  if (!(from_s > 0.0)) from_s = to_s * 1e-6;
-  std::vector<double> times_s;
-  for (int i = 0; i < count; ++i) {
-    times_s.push_back(from_s * std::pow(to_s / from_s, static_cast<double>(i) / (count - 1)));
-  }
-  return times_s;
-}
-
-double largest_E_difference(const Material& one, const Material& reference,
-                            const std::vector<double>& times_s) {
-  const PronySeries first = young_series(one), second = young_series(reference);
-  double largest = 0.0;
-  for (const double time_s : times_s) {
-    const double expected_Pa = relaxation_modulus_Pa(second, time_s);
-    const double difference =
-        std::abs(relaxation_modulus_Pa(first, time_s) - expected_Pa) / expected_Pa;
-    if (!(difference <= largest)) largest = difference;  // NaN counts as the largest
-  }
-  return largest;
 }
 
 }  // namespace viscard

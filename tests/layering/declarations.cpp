@@ -71,7 +71,8 @@ std::string called_name(const std::string& text) {
   if (std::regex_search(text, kOther) || !std::regex_search(text, match, kName)) return "";
   // An initialised variable is no function.
   const std::size_t equals = text.find('=');
-  if (equals != std::string::npos && equals < static_cast<std::size_t>(match.position(0))) return "";
+  if (equals != std::string::npos && equals < static_cast<std::size_t>(match.position(0)))
+    return "";
   return match[1];
 }
 

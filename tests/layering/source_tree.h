@@ -18,7 +18,7 @@ struct SourceFile {
 
 // A folder whose CMakeLists.txt calls viscard_room().
 struct Room {
-  std::set<std::string> uses;  // folders that stand behind USES
+  std::set<std::string> uses;       // folders that stand behind USES
   std::vector<std::string> readme;  // lines; empty without a README.md
 };
 

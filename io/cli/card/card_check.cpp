@@ -1,6 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/cards/check_card.h"
-#include "io/cards/conventions.h"
+#include "io/cards/targets/card_targets.h"
 #include "io/cli/card/card_words.h"
 
 #include <fmt/format.h>
@@ -150,14 +150,15 @@ int check_card_file(const CardWords& words, Streams& streams) {
   const std::string text = read_file(words.check);
   std::optional<PreparedMaterial> reference;
   if (!words.material.empty()) reference = prepare_card_material(words);
-  CardCheck check;
-  try {
-    check = check_card(text,
-                       {.target = words.target, .units = words.units, .tolerance = words.tolerance},
-                       reference ? &reference->material : nullptr);
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(words.check + ": " + error.what());
-  }
+  const CardCheck check = [&] {
+    try {
+      return check_card(text, card_target(words.target),
+                        {.units = words.units, .tolerance = words.tolerance},
+                        reference ? &reference->material : nullptr);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(words.check + ": " + error.what());
+    }
+  }();
   if (words.json) {
     streams.out << json_of(check, words).dump(2) << "\n";
   } else {

@@ -1,8 +1,10 @@
 #include "io/basics/atomic_file.h"
-#include "io/cards/calculix_deck.h"
 #include "io/cards/card_numbers.h"
 #include "io/cards/deck.h"
 #include "io/cards/read_card.h"
+#include "io/cards/targets/calculix_proof.h"
+#include "io/cards/targets/card_targets.h"
+#include "io/cards/write_card.h"
 #include "io/cli/card/card_words.h"
 
 #include <fmt/format.h>
@@ -34,7 +36,7 @@ int prove_card_file(const CardWords& words, Streams& streams) {
         "--prove runs cards for calculix only; for other solvers --deck writes a model");
   }
   const std::string text = read_file(words.prove);
-  const ReadCard read = read_card(text, "calculix", words.units);
+  const ReadCard read = read_card(text, card_target("calculix"), words.units);
   Material material = read.material;
   if (!words.material.empty()) material = prepare_card_material(words).material;
   material = with_bulk_rule(material, BulkRule::kConstantBulk);
@@ -65,10 +67,11 @@ int prove_card_file(const CardWords& words, Streams& streams) {
 int write_deck_files(const CardWords& words, Streams& streams) {
   if (words.out.empty()) throw UsageError("--deck needs --out FOLDER");
   const PreparedMaterial prepared = prepare_card_material(words);
-  const Card card = write_card(prepared.material, card_options(words, prepared));
+  const Card card =
+      write_card(prepared.material, card_target(words.target), card_options(words, prepared));
   const ElementTestKind kind =
       words.deck == "creep" ? ElementTestKind::kCreep : ElementTestKind::kRelaxation;
-  const Deck deck = one_element_deck(card, words.target,
+  const Deck deck = one_element_deck(card, card_deck(words.target),
                                      unit_system(words.units.empty() ? "SI" : words.units), kind);
   const std::filesystem::path folder = words.out;
   std::error_code error;

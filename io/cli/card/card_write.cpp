@@ -1,7 +1,8 @@
 #include "fit/reduce_terms.h"
 #include "io/basics/atomic_file.h"
 #include "io/basics/sha256.h"
-#include "io/cards/card.h"
+#include "io/cards/targets/card_targets.h"
+#include "io/cards/write_card.h"
 #include "io/cli/card/card_words.h"
 #include "io/materials/material_file.h"
 #include "io/materials/ratio_file.h"
@@ -193,7 +194,6 @@ PreparedMaterial prepare_card_material(const CardWords& words) {
 
 CardOptions card_options(const CardWords& words, const PreparedMaterial& prepared) {
   CardOptions options;
-  options.target = words.target;
   options.units = words.units.empty() ? "SI" : words.units;
   options.is_reproducible = words.is_reproducible;
   options.may_approximate = words.may_approximate;
@@ -213,7 +213,8 @@ CardOptions card_options(const CardWords& words, const PreparedMaterial& prepare
 
 int write_card_file(const CardWords& words, Streams& streams) {
   const PreparedMaterial prepared = prepare_card_material(words);
-  const Card card = write_card(prepared.material, card_options(words, prepared));
+  const Card card =
+      write_card(prepared.material, card_target(words.target), card_options(words, prepared));
   if (!words.out.empty()) {
     // The companions first: they are refused before the card itself appears.
     for (const CompanionFile& companion : card.companions) {

@@ -1,7 +1,7 @@
 #include "io/cli/report/command_report.h"
 
 #include "io/basics/atomic_file.h"
-#include "io/cards/conventions.h"
+#include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
 #include "io/cli/fit/fit_material.h"
 #include "io/cli/report/report_law.h"

@@ -5,14 +5,13 @@
 #include "io/basics/parallel.h"
 #include "io/basics/sha256.h"
 #include "io/capture/capture_file.h"
-#include "io/cards/card.h"
-#include "io/cards/conventions.h"
+#include "io/cards/targets/card_targets.h"
+#include "io/cards/write_card.h"
 #include "io/cli/fit/fit_material.h"
 #include "io/cli/words/streams.h"
 #include "io/config/config_file.h"
 #include "io/materials/material_file.h"
 #include "io/materials/ratio_file.h"
-#include "models/maths/text_of_number.h"
 #include "models/pillar/validate_material.h"
 
 #include <fmt/format.h>
@@ -181,12 +180,11 @@ ReportCard card_of(const Material& material, const std::string& target, const Re
                    const std::string& stem) {
   ReportCard card{target, words.card_units, stem + card_target(target).extension, "", ""};
   CardOptions options;
-  options.target = target;
   options.units = words.card_units;
   options.created_at = words.created_at;
   options.command = words.command;
   try {
-    card.text = write_card(material, options).text;
+    card.text = write_card(material, card_target(target), options).text;
   } catch (const std::invalid_argument& error) {
     card.refusal = error.what();
   }

@@ -1,14 +1,58 @@
-#include "io/cards/card.h"
 #include "io/cards/card_numbers.h"
 #include "io/cards/number_text.h"
+#include "io/cards/read_card.h"
+#include "io/cards/targets/card_targets.h"
+#include "io/cards/write_card.h"
 #include "tests/io/cards/card_materials.h"
 
 #include <catch2/catch.hpp>
 
 #include <set>
+#include <type_traits>
 
 using namespace viscard;
 using namespace viscard::test;
+
+namespace {
+
+// A row without a writer or a reader does not compile, so no target can get those of another.
+static_assert(!std::is_default_constructible_v<decltype(CardTarget::write)>);
+static_assert(!std::is_default_constructible_v<decltype(CardTarget::read)>);
+static_assert(!std::is_default_constructible_v<decltype(DeckWriter::files)>);
+
+std::string write_made_up(const CardBody& body) {
+  return "made-up card of " + body.name + "\n";
+}
+
+void read_made_up(const std::string& text, ReadCard& card) {
+  if (text.find("made-up card") == std::string::npos) throw std::runtime_error("another card");
+  card.numbers = numbers_from_material(reference_material(), card.understood, card.units);
+}
+
+}  // namespace
+
+TEST_CASE("a target is written and read by its own functions and never as another", "[cards]") {
+  CardTarget made_up = card_target("json");
+  made_up.name = "made-up";
+  made_up.write = write_made_up;
+  made_up.read = read_made_up;
+  const Card card = write_card(reference_material(), made_up);
+  CHECK(card.text == "made-up card of PDMS\n");
+  CHECK(read_card(card.text, made_up, "").material.E0_Pa == Approx(1.88e6).epsilon(1e-12));
+  CHECK_THROWS_WITH(card_target("made-up"), Catch::Contains("no card target 'made-up'"));
+  CHECK_THROWS_WITH(card_deck("made-up"), Catch::Contains("no one-element model for made-up"));
+
+  std::set<std::string> names, bodies;
+  for (const CardTarget& target : card_targets()) {
+    CAPTURE(target.name);
+    CHECK(names.insert(target.name).second);
+    Material material = reference_material();
+    if (target.max_terms == 1) material.terms.resize(1);
+    const UnitSystem& units = unit_system("SI");
+    const CardNumbers numbers = numbers_from_material(material, target, units);
+    CHECK(bodies.insert(target.write({"PDMS", numbers, target, units, material, {}})).second);
+  }
+}
 
 TEST_CASE("the four choices of every target are the published ones", "[cards]") {
   struct Row {
@@ -102,7 +146,9 @@ TEST_CASE("absolute branches and Norton coefficients are the published ones", "[
   CHECK(calculix.branches[0].shear == Approx(0.01542728).epsilon(1e-12));
   CHECK(calculix.branches[0].time == Approx(332.155131314).epsilon(1e-11));
   CHECK(calculix.branches[1].time == Approx(15.9175082365).epsilon(1e-11));
-  const CardNumbers gallery = numbers_from_material(material, mfront_gallery_target(), units);
+  const Card mfront = write_card(material, card_target("mfront"), {.units = "mm-t-s"});
+  const CardNumbers gallery =
+      read_card(mfront.companions.at(0).text, card_target("mfront"), "").numbers;
   CHECK(gallery.bulk == Approx(61.283864).epsilon(1e-12));
   CHECK(gallery.branches[0].bulk == Approx(0.5142426666666667).epsilon(1e-12));
 }

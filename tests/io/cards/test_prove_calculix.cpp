@@ -1,6 +1,8 @@
-#include "io/cards/calculix_deck.h"
-#include "io/cards/card.h"
 #include "io/cards/card_numbers.h"
+#include "io/cards/one_element.h"
+#include "io/cards/targets/calculix_proof.h"
+#include "io/cards/targets/card_targets.h"
+#include "io/cards/write_card.h"
 #include "models/material/hereditary.h"
 #include "models/material/retardation_spectrum.h"
 #include "tests/io/cards/card_materials.h"
@@ -23,7 +25,7 @@ bool has_ccx() {
 
 CalculixProof proof_of(const Material& material, const char* units, int steps_per_tau) {
   const Material ruled = with_bulk_rule(material, BulkRule::kConstantBulk);
-  const Card card = write_card(ruled, {.target = "calculix", .units = units});
+  const Card card = write_card(ruled, card_target("calculix"), {.units = units});
   return prove_in_calculix(card.text, ruled, unit_system(units), steps_per_tau);
 }
 
@@ -49,9 +51,9 @@ TEST_CASE("the expected curve is the hereditary integral of ramp and hold", "[ca
 TEST_CASE("CalculiX returns the exact relaxation and creep of the reference card", "[cards]") {
   if (!has_ccx()) return;
   const CalculixProof proof = proof_of(reference_material(), "mm-t-s", 40);
-  CHECK(proof.relaxation.at_step <= 1e-4);  // first order in the step, tau/40
+  CHECK(proof.relaxation.at_step <= 1e-4);  // first order in the step tau/40
   CHECK(proof.creep.at_step <= 2e-4);
-  CHECK(proof.relaxation.remaining <= 2e-6);  // second order is left, and ccx's seven digits
+  CHECK(proof.relaxation.remaining <= 2e-6);  // second order remains, and ccx prints seven digits
   CHECK(proof.creep.remaining <= 2e-6);
   CHECK(proof.holds());
   CHECK(proof.increments > 100);
@@ -68,7 +70,7 @@ TEST_CASE("CalculiX converges to the exact relaxation at first order in the step
   CHECK(order == Approx(1.0).margin(0.15));
 }
 
-TEST_CASE("CalculiX takes the overlay in unlike unit systems", "[cards]") {
+TEST_CASE("CalculiX accepts the overlay in different unit systems", "[cards]") {
   if (!has_ccx()) return;
   for (const char* units : {"SI", "mm-kg-ms", "um-kg-s"}) {  // Pa, GPa and ms, uN and um
     CAPTURE(units);
@@ -82,7 +84,7 @@ TEST_CASE("CalculiX takes the overlay in unlike unit systems", "[cards]") {
   }
 }
 
-TEST_CASE("CalculiX takes nine terms over three decades", "[cards][slow]") {
+TEST_CASE("CalculiX accepts nine terms over three decades", "[cards][slow]") {
   if (!has_ccx()) return;
   const CalculixProof proof = proof_of(material_of_terms(9, 0.495), "mm-t-s", 10);
   CHECK(proof.relaxation.at_step <= 4.0 * 6e-3 * 0.6 / 0.4);
@@ -92,24 +94,24 @@ TEST_CASE("CalculiX takes nine terms over three decades", "[cards][slow]") {
 TEST_CASE("a card that CalculiX would leave elastic fails the proof", "[cards]") {
   if (!has_ccx()) return;
   const Material material = with_bulk_rule(reference_material(), BulkRule::kConstantBulk);
-  const Card card = write_card(material, {.target = "abaqus", .units = "mm-t-s"});
+  const Card card = write_card(material, card_target("abaqus"), {.units = "mm-t-s"});
   const CalculixProof proof = prove_in_calculix(card.text, material, unit_system("mm-t-s"), 10);
   CHECK(proof.relaxation.at_step > 0.02);  // 1/(1 - sum g) - 1 = 2.26e-2
   CHECK_FALSE(proof.holds());
 }
 
-TEST_CASE("strong relaxation is proven by the error that goes with the step", "[cards]") {
+TEST_CASE("strong relaxation is proven by an error proportional to the step", "[cards]") {
   if (!has_ccx()) return;
   Material material = reference_material();
   material.terms = {{0.95, 0.95, 2.0}};
   const CalculixProof right = proof_of(material, "mm-t-s", 40);
   CAPTURE(right.relaxation.at_step, right.relaxation.remaining, right.creep.remaining);
-  CHECK(right.relaxation.at_step > 1e-3);  // at tau/40 far above what proves anything
+  CHECK(right.relaxation.at_step > 1e-3);  // at tau/40 the error alone proves nothing
   CHECK(right.holds());
   Material wrong = material;
   wrong.terms[0].tau_s *= 1.01;
   const Card card = write_card(with_bulk_rule(wrong, BulkRule::kConstantBulk),
-                               {.target = "calculix", .units = "mm-t-s"});
+                               card_target("calculix"), {.units = "mm-t-s"});
   const CalculixProof refused = prove_in_calculix(
       card.text, with_bulk_rule(material, BulkRule::kConstantBulk), unit_system("mm-t-s"));
   CHECK_FALSE(refused.holds());

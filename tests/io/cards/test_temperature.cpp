@@ -1,5 +1,6 @@
-#include "io/cards/card.h"
 #include "io/cards/read_card.h"
+#include "io/cards/targets/card_targets.h"
+#include "io/cards/write_card.h"
 #include "tests/io/cards/card_materials.h"
 
 #include <catch2/catch.hpp>
@@ -27,13 +28,13 @@ std::string temperature_mapping(const Card& card) {
 
 }  // namespace
 
-TEST_CASE("a WLF shift stands in every card that has a place for it, and reads back", "[cards]") {
+TEST_CASE("every card that has a place for a WLF shift contains it, and it reads back", "[cards]") {
   for (const CardTarget& target : card_targets()) {
     if (target.max_terms == 1 || target.name == "csv") continue;
     CAPTURE(target.name);
-    const Card card = write_card(shifted_material(ShiftLaw::kWlf), {.target = target.name});
+    const Card card = write_card(shifted_material(ShiftLaw::kWlf), target);
     CHECK(temperature_mapping(card) == (target.takes_wlf ? "exact" : "dropped"));
-    const ReadCard read = read_card(card.text, target.name, "");
+    const ReadCard read = read_card(card.text, target, "");
     REQUIRE(read.material.shift.has_value() == target.takes_wlf);
     if (!target.takes_wlf) continue;
     CHECK(read.material.shift->C1 == 8.86);
@@ -44,7 +45,7 @@ TEST_CASE("a WLF shift stands in every card that has a place for it, and reads b
 
 TEST_CASE("the WLF lines are those of the manuals", "[cards]") {
   const auto text_of = [](const char* target) {
-    return write_card(shifted_material(ShiftLaw::kWlf), {.target = target}).text;
+    return write_card(shifted_material(ShiftLaw::kWlf), card_target(target)).text;
   };
   CHECK_THAT(text_of("abaqus"), Contains("\n*TRS, DEFINITION=WLF\n23, 8.86, 101.6\n"));
   CHECK_THAT(text_of("ansys"), Contains("\nTB,SHIFT,1,1,3,WLF\nTBDATA,1,23,8.86,101.6\n"));
@@ -52,9 +53,9 @@ TEST_CASE("the WLF lines are those of the manuals", "[cards]") {
   CHECK_THAT(text_of("comsol"), Contains("PDMS_C2 101.6[K]"));
 }
 
-TEST_CASE("an Arrhenius shift is not written as something else, and the header says so",
+TEST_CASE("an Arrhenius shift is not written as another law, and the header states that",
           "[cards]") {
-  const Card card = write_card(shifted_material(ShiftLaw::kArrhenius), {.target = "abaqus"});
+  const Card card = write_card(shifted_material(ShiftLaw::kArrhenius), card_target("abaqus"));
   CHECK(temperature_mapping(card) == "dropped");
   CHECK_THAT(card.text, Contains("temperature: dropped, Arrhenius, 52000 J/mol at 23 C"));
   CHECK_THAT(card.text, !Contains("*TRS"));

@@ -93,7 +93,8 @@ TEST_CASE("a column that is not there is named with those that are", "[io][csv]"
         "t.csv: has no column for force_N; there are 1 't', 2 'x'");
   CHECK(error_of("t,x\ns,mm\n1,2\n", "force_N") ==
         "t.csv: has no column for force_N; there are 1 't' in s, 2 'x' in mm");
-  CHECK(contains(error_of("1 2\n", "force_N"), "there is no header, so give the column by its number"));
+  CHECK(contains(error_of("1 2\n", "force_N"),
+                 "there is no header, so give the column by its number"));
   CHECK(contains(error_of("t,f\n1,2\n", "force_N", {"force_N=Force"}), "has no column 'Force'"));
   CHECK(contains(error_of("t,f\n1,2\n", "force_N", {"force_N=3"}), "has no column '3'"));
   CHECK(contains(error_of("t (s),x (mm)\n1,2\n", "force_N", {"force_N=x"}),
@@ -123,8 +124,10 @@ TEST_CASE("rows of one segment are taken by name", "[io][csv]") {
 }
 
 TEST_CASE("bad words of --column are refused", "[io][csv]") {
-  CHECK(contains(error_text([] { column_map_from_words({"time_s"}); }), "is not of the form NAME=COLUMN"));
-  CHECK(contains(error_text([] { column_map_from_words({"time_s="}); }), "is not of the form NAME=COLUMN"));
+  CHECK(contains(error_text([] { column_map_from_words({"time_s"}); }),
+                 "is not of the form NAME=COLUMN"));
+  CHECK(contains(error_text([] { column_map_from_words({"time_s="}); }),
+                 "is not of the form NAME=COLUMN"));
   CHECK(contains(error_text([] { column_map_from_words({"tme_s=1"}); }), "did you mean 'time_s'?"));
   CHECK(contains(error_text([] { column_map_from_words({"time_s=1", "time_s=2"}); }), "twice"));
 }

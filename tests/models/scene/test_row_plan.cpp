@@ -2,8 +2,8 @@
 #include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
-#include "tests/models/scene/random_rows.h"
 #include "tests/models/array/plane/seed_array.h"
+#include "tests/models/scene/random_rows.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 #include "fit/reduce_terms.h"
 #include "io/basics/atomic_file.h"
-#include "io/cards/conventions.h"
 #include "io/cards/read_card.h"
+#include "io/cards/targets/card_targets.h"
 #include "io/cli/card/command_card.h"
 #include "io/materials/material_file.h"
 #include "tests/io/cards/card_materials.h"
@@ -191,7 +191,7 @@ TEST_CASE("viscard card --bound writes both ends of the intervals", "[cards][cli
   // Terms keep their part of what relaxes.
   const std::string text = nlohmann::json::parse(card.out).at("card").get<std::string>();
   const double part = material.terms[0].g / (material.terms[0].g + material.terms[1].g);
-  const ReadCard read = read_card(text, "abaqus", "");
+  const ReadCard read = read_card(text, card_target("abaqus"), "");
   const double g_1 = read.material.terms[0].g, g_2 = read.material.terms[1].g;
   CHECK(g_1 / (g_1 + g_2) == Approx(part).epsilon(1e-12));
 

@@ -1,5 +1,8 @@
-#include "io/cards/calculix_deck.h"
+#include "io/cards/targets/calculix_proof.h"
+
 #include "io/cards/card_lines.h"
+#include "io/cards/deck.h"
+#include "io/cards/targets/card_targets.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -22,7 +25,7 @@ namespace {
 
 constexpr auto kLongestRun = std::chrono::minutes(10);
 
-// A folder of its own, removed when done.
+// Removed with its files by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -45,7 +48,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// In the child: never returns.
+// Runs in the child process and never returns.
 [[noreturn]] void become_ccx(const std::filesystem::path& folder) {
   if (::chdir(folder.c_str()) != 0) ::_exit(126);
   const int log = ::open("log", O_WRONLY | O_CREAT | O_TRUNC, 0644);
@@ -113,18 +116,16 @@ std::vector<Sample> samples_in(const std::string& dat) {
   return samples;
 }
 
-// One response for every increment, over the amplitude.
-std::vector<Sample> run_test(const std::string& card_text, const Material& material,
-                             const UnitSystem& units, const ElementTest& test) {
+// The response after every increment, divided by the amplitude.
+std::vector<Sample> run_test(const Card& card, const UnitSystem& units, const ElementTest& test) {
   const TemporaryFolder folder;
+  const DeckInput input{card, test, units};
   std::ofstream(folder.path() / "deck.inp")
-      << calculix_deck(card_text, test, material.E0_Pa, units);
+      << calculix_target().deck->files(input, "deck").front().text;
   run_ccx(folder.path());
   std::vector<Sample> samples = samples_in(file_text(folder.path() / "deck.dat"));
   if (samples.empty()) throw std::runtime_error("ccx ran but printed no result");
-  const double scale = test.kind == ElementTestKind::kCreep
-                           ? test.amplitude
-                           : to_card(test.amplitude * material.E0_Pa, units.stress_exponent);
+  const double scale = input.is_creep() ? test.amplitude : input.stress();
   for (Sample& sample : samples) {
     sample.time = from_card(sample.time, units.time_exponent);
     sample.value = std::abs(sample.value) / scale;
@@ -132,8 +133,8 @@ std::vector<Sample> run_test(const std::string& card_text, const Material& mater
   return samples;
 }
 
-// ccx prints seven digits of the time, and takes an elastic step in one increment whatever it is
-// told, so that samples are paired by time.
+// Pairs samples by time: ccx prints seven digits of it and takes an elastic step in one increment
+// even if it should take more.
 StepError compare(const std::vector<Sample>& coarse, const std::vector<Sample>& fine,
                   const Material& material, const ElementTest& test) {
   StepError error;
@@ -141,7 +142,7 @@ StepError compare(const std::vector<Sample>& coarse, const std::vector<Sample>& 
   for (const Sample& sample : coarse) {
     const double margin_s = 1e-6 * sample.time;
     while (half != fine.end() && half->time < sample.time - margin_s) ++half;
-    // The hold is what is compared; on the ramp the first increments are all but nothing.
+    // Only the hold is compared: the response to the first increments of the ramp is close to zero.
     if (sample.time < test.ramp_s * (1.0 - 1e-6)) continue;
     if (half == fine.end() || half->time > sample.time + margin_s) {
       throw std::runtime_error(
@@ -159,17 +160,6 @@ StepError compare(const std::vector<Sample>& coarse, const std::vector<Sample>& 
   return error;
 }
 
-// ccx solves the creep increment of a point to absolute bounds: von Mises stresses below 1e-10
-// units are raised to that, and creep strains above 100 are refused (incplas.f). So the strain of
-// this linear test is 1, and increments stay within a few times the shortest relaxation time.
-ElementTest calculix_test(const Material& material, ElementTestKind kind, int steps_per_tau) {
-  return element_test(material, {.kind = kind,
-                                 .amplitude = 1.0,
-                                 .steps_per_tau = steps_per_tau,
-                                 .longest_step_tau = 5.0,
-                                 .most_increments = 4000});
-}
-
 }  // namespace
 
 bool StepError::vanishes_with_step() const {
@@ -179,11 +169,15 @@ bool StepError::vanishes_with_step() const {
 CalculixProof prove_in_calculix(const std::string& card_text, const Material& material,
                                 const UnitSystem& units, int steps_per_tau) {
   CalculixProof proof;
+  const Card card{.text = card_text, .written = material};
   const auto run = [&](ElementTestKind kind) {
-    ElementTest test = calculix_test(material, kind, steps_per_tau);
-    const std::vector<Sample> coarse = run_test(card_text, material, units, test);
+    ElementTestOptions options = calculix_target().deck->test;
+    options.kind = kind;
+    options.steps_per_tau = steps_per_tau;
+    ElementTest test = element_test(material, options);
+    const std::vector<Sample> coarse = run_test(card, units, test);
     for (TimeBlock& block : test.blocks) block.increments *= 2;
-    const std::vector<Sample> fine = run_test(card_text, material, units, test);
+    const std::vector<Sample> fine = run_test(card, units, test);
     proof.end_s = test.end_s();
     proof.increments = static_cast<int>(coarse.size());
     return compare(coarse, fine, material, test);

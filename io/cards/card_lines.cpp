@@ -1,0 +1,83 @@
+#include "io/cards/card_lines.h"
+
+#include <cctype>
+#include <cstdlib>
+#include <sstream>
+#include <stdexcept>
+
+namespace viscard {
+
+std::vector<CardLine> card_lines(const std::string& text, const std::string& comment) {
+  std::vector<CardLine> lines;
+  std::istringstream stream(text);
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (trimmed(line).rfind(comment, 0) == 0) continue;
+    lines.push_back({number, line});
+  }
+  return lines;
+}
+
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r");
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
+std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::vector<std::string> cells(const std::string& line, char separator) {
+  std::vector<std::string> out;
+  std::size_t begin = 0;
+  while (true) {
+    const std::size_t end = line.find(separator, begin);
+    out.push_back(trimmed(line.substr(begin, end - begin)));
+    if (end == std::string::npos) return out;
+    begin = end + 1;
+  }
+}
+
+std::string at_line(const CardLine& line, const std::string& text) {
+  return "line " + std::to_string(line.number) + ": " + text;
+}
+
+double card_number(const std::string& cell, const CardLine& line, const std::string& expected) {
+  std::string text = cell;
+  for (char& c : text) {
+    if (c == 'D' || c == 'd') c = 'e';
+  }
+  // Fortran allows an exponent without its letter: "1.2-5".
+  const std::size_t sign = text.find_first_of("+-", 1);
+  if (sign != std::string::npos && text.find_first_of("eE") == std::string::npos) {
+    text.insert(sign, "e");
+  }
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  const bool is_decimal = text.find_first_of("xXnNiI") == std::string::npos;
+  if (text.empty() || *end != '\0' || !is_decimal) {
+    throw std::runtime_error(
+        at_line(line, "'" + cell + "' is not a number (" + expected + " expected)"));
+  }
+  return value;
+}
+
+double cell_number(const std::vector<std::string>& row, std::size_t index, const CardLine& line,
+                   const std::string& expected) {
+  if (index >= row.size()) {
+    throw std::runtime_error(
+        at_line(line, expected + " is missing (field " + std::to_string(index + 1) + ")"));
+  }
+  return card_number(row[index], line, expected);
+}
+
+double cell_number_or_zero(const std::vector<std::string>& row, std::size_t index,
+                           const CardLine& line, const std::string& expected) {
+  if (index >= row.size() || row[index].empty()) return 0.0;
+  return card_number(row[index], line, expected);
+}
+
+}  // namespace viscard

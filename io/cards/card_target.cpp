@@ -1,0 +1,68 @@
+#include "io/cards/card_target.h"
+
+namespace viscard {
+
+using enum ElasticForm;
+using enum ModulusAt;
+using enum BranchNumber;
+using enum TimeNumber;
+using enum BulkRule;
+using enum Evidence;
+
+std::string conventions_in_words(const CardTarget& target) {
+  return to_word(target.at) + " " + to_word(target.elastic) + "; branches " +
+         to_word(target.branch) + "; time " + to_word(target.time) + "; bulk " +
+         to_word(target.bulk);
+}
+
+std::string to_word(ElasticForm form) {
+  switch (form) {
+    case kYoungPoisson:
+      return "E, nu";
+    case kBulkShear:
+      return "K, G";
+    case kBulkOnly:
+      return "K, with G the sum of the branches";
+    case kPoissonOnly:
+      return "nu, with E the sum of the shares";
+  }
+  return "";
+}
+
+std::string to_word(ModulusAt at) {
+  return at == kInstantaneous ? "instantaneous" : "long-term";
+}
+
+std::string to_word(BranchNumber branch) {
+  if (branch == kRelative) return "relative (g_i = G_i/G_0)";
+  return branch == kAbsoluteShear ? "absolute (G_i)" : "absolute (E_i = g_i E_0)";
+}
+
+std::string to_word(TimeNumber time) {
+  if (time == kTau) return "tau";
+  return time == kBeta ? "beta = 1/tau" : "Norton A = 1/(3 G_i tau)";
+}
+
+std::string to_word(BulkRule bulk) {
+  if (bulk == kOwnNumbers) return "relaxes with its own k_i";
+  return bulk == kConstantBulk ? "does not relax (constant K)"
+                               : "relaxes with the shear (constant nu)";
+}
+
+std::string to_word(Evidence evidence) {
+  switch (evidence) {
+    case kRun:
+      return "run";
+    case kParsed:
+      return "parsed";
+    case kSource:
+      return "source";
+    case kDocumentation:
+      return "documentation";
+    case kOurs:
+      return "ours";
+  }
+  return "";
+}
+
+}  // namespace viscard

@@ -1,0 +1,116 @@
+#pragma once
+
+#include "io/cards/one_element.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+struct CardBody;
+struct CardContext;
+struct CardMistake;
+struct CompanionFile;
+struct DeckFile;
+struct DeckInput;
+struct ReadCard;
+
+// A solver that cards are written for. Four conventions decide whether a card is right: is the
+// elastic number the instantaneous or the long-term one, are branches relative or absolute, is time
+// tau or 1/tau, does the bulk modulus relax. Each solver states them, and the functions that write
+// and read its text, in one file of targets/.
+
+// Which elastic numbers the card states.
+enum class ElasticForm {
+  kYoungPoisson,  // E and nu
+  kBulkShear,     // K and G
+  kBulkOnly,      // K; the shear modulus is the sum of all branches and the equilibrium row
+  kPoissonOnly,   // nu; Young's modulus is the sum of the shares of the overlaid materials
+};
+
+enum class ModulusAt { kInstantaneous, kLongTerm };
+
+enum class BranchNumber {
+  kRelative,       // g_i, of the instantaneous modulus
+  kAbsoluteShear,  // G_i = g_i G_0
+  kAbsoluteYoung,  // E_i = g_i E_0, at the Poisson ratio of the whole
+};
+
+enum class TimeNumber {
+  kTau,
+  kBeta,     // 1/tau
+  kNortonA,  // 1/(3 G tau), the linear creep law of a Maxwell element
+};
+
+enum class BulkRule {
+  kOwnNumbers,       // k_i stand in the card
+  kConstantBulk,     // K does not relax
+  kConstantPoisson,  // the whole stress relaxes: k_i = g_i, even if the material has other k_i
+};
+
+// How the format is known.
+enum class Evidence {
+  kRun,            // the solver itself returned the exact answer for cards of this form
+  kParsed,         // independent readers of the format found the numbers
+  kSource,         // the solver's own source or format definition, not run
+  kDocumentation,  // public manual only
+  kOurs,           // viscard defines the format
+};
+
+// The one-element model of a solver.
+struct DeckWriter {
+  std::reference_wrapper<std::vector<DeckFile>(const DeckInput& input, const std::string& name)>
+      files;               // all but the expected curve; the first is the one to run
+  const char* how_to_run;  // {} stands for the name
+  // Exponential integrators are exact for strain that is linear in the step, so a few increments
+  // suffice; finite-strain codes need a small strain.
+  ElementTestOptions test{.amplitude = 1e-6, .steps_per_tau = 8};
+};
+
+// A target without a writer or a reader does not compile, so none can take that of another.
+struct CardTarget {
+  std::string name;          // as on the command line
+  std::string code;          // "Abaqus"
+  std::string extension;     // ".inp"
+  std::string comment = "";  // opens a comment line; "<!--" closes with "-->"; "": no comments
+
+  std::reference_wrapper<std::string(const CardBody& body)> write;  // the text after the header
+  // Fills numbers, findings and understood. Throws std::runtime_error with the line and what was
+  // expected there.
+  std::reference_wrapper<void(const std::string& text, ReadCard& card)> read;
+  // For a card that is a table of E(t): its largest relative difference from E(t) of a material.
+  double (*table_difference)(const std::string& text, const Material& material) = nullptr;
+  std::vector<CompanionFile> (*companions)(const CardBody& body) = nullptr;
+  std::optional<DeckWriter> deck = std::nullopt;
+  // Mistakes that only this solver's cards have, put into or renamed in the list of those of the
+  // elastic numbers.
+  void (*add_mistakes)(const CardContext& context, std::vector<CardMistake>& list) = nullptr;
+
+  ElasticForm elastic = ElasticForm::kYoungPoisson;
+  ModulusAt at = ModulusAt::kInstantaneous;
+  BranchNumber branch = BranchNumber::kRelative;
+  TimeNumber time = TimeNumber::kTau;
+  BulkRule bulk = BulkRule::kOwnNumbers;
+  bool states_equilibrium = false;   // the share that never relaxes stands in the card
+  bool states_density = true;        // false: the density is a comment
+  bool numbers_carry_units = false;  // each number states its own unit
+  int max_terms = 0;                 // 0: no limit known
+  bool takes_incompressible = false;
+  bool takes_wlf = false;  // has a place for log10 a_T = -C1 (T - T_ref)/(C2 + T - T_ref)
+  Evidence evidence = Evidence::kOurs;
+  std::string evidence_note;
+  std::string advice = "";  // what the user of this code must do besides pasting the card
+};
+
+// "instantaneous E, nu; branches relative (g_i = G_i/G_0); time tau; bulk relaxes with its own k_i"
+std::string conventions_in_words(const CardTarget& target);
+std::string to_word(ElasticForm form);
+std::string to_word(ModulusAt at);
+std::string to_word(BranchNumber branch);
+std::string to_word(TimeNumber time);
+std::string to_word(BulkRule bulk);
+std::string to_word(Evidence evidence);
+
+}  // namespace viscard

@@ -1,0 +1,137 @@
+#include "io/cards/keyword_lines.h"
+
+#include "io/cards/number_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+void add_words(const std::string& text, KeywordBlock& block) {
+  for (std::string word : cells(text, ',')) {
+    word = upper(word);
+    if (block.keyword.empty()) {
+      block.keyword = word;
+    } else if (std::erase(word, ' '); !word.empty()) {
+      block.parameters.push_back(word);
+    }
+  }
+}
+
+}  // namespace
+
+bool KeywordBlock::has(const std::string& parameter) const {
+  return std::find(parameters.begin(), parameters.end(), parameter) != parameters.end();
+}
+
+std::string KeywordBlock::name() const {
+  for (const std::string& word : cells(line.text, ',')) {
+    const std::size_t equals = word.find('=');
+    if (equals != std::string::npos && upper(trimmed(word.substr(0, equals))) == "NAME") {
+      return trimmed(word.substr(equals + 1));
+    }
+  }
+  return "";
+}
+
+const CardLine& KeywordBlock::first_data() const {
+  if (data.empty()) throw std::runtime_error(at_line(line, keyword + " has no data line"));
+  return data.front();
+}
+
+std::vector<KeywordBlock> keyword_blocks(const std::vector<CardLine>& lines, char mark) {
+  std::vector<KeywordBlock> blocks;
+  for (const CardLine& line : lines) {
+    const std::string text = trimmed(line.text);
+    if (text.empty()) continue;
+    // A keyword line that ends with a comma continues on the next line.
+    const bool continues = !blocks.empty() && blocks.back().data.empty() &&
+                           trimmed(blocks.back().line.text).ends_with(',');
+    if (text[0] != mark && !continues) {
+      if (!blocks.empty()) blocks.back().data.push_back(line);
+      continue;
+    }
+    if (continues) {
+      blocks.back().line.text = trimmed(blocks.back().line.text) + text;
+      add_words(text, blocks.back());
+    } else {
+      KeywordBlock block{line, "", {}, {}};
+      add_words(text, block);
+      blocks.push_back(block);
+    }
+  }
+  return blocks;
+}
+
+double density_in(const KeywordBlock& block) {
+  const CardLine& line = block.first_data();
+  return cell_number(cells(line.text, ','), 0, line, "density");
+}
+
+void read_elastic(const KeywordBlock& block, ReadCard& card, CardNumbers& numbers) {
+  const CardLine& line = block.first_data();
+  const auto row = cells(line.text, ',');
+  numbers.young = cell_number(row, 0, line, "E");
+  numbers.poisson = cell_number(row, 1, line, "nu");
+  if (block.data.size() < 2) return;
+  card.add("more-elastic-rows",
+           at_line(block.data[1], "only the first row of " + block.keyword +
+                                      " is read; the others hold at other temperatures"),
+           false);
+}
+
+void read_wlf(const KeywordBlock& block, ReadCard& card) {
+  if (!block.parameters.empty() && !block.has("DEFINITION=WLF")) {
+    card.add("shift-not-read",
+             at_line(block.line, "only DEFINITION=WLF is read; the shift is left out"), false);
+    return;
+  }
+  const CardLine& line = block.first_data();
+  const auto row = cells(line.text, ',');
+  card.numbers.shift = TemperatureShift{.T_ref_C = cell_number(row, 0, line, "T_ref"),
+                                        .C1 = cell_number(row, 1, line, "C1"),
+                                        .C2_K = cell_number(row, 2, line, "C2")};
+}
+
+void check_static_step(const KeywordBlock& block, const char* wanted, ReadCard& card) {
+  if (block.keyword != "*STATIC" || block.has("LONGTERM")) return;
+  card.add("static-step",
+           at_line(block.line, std::string("a *STATIC step does not relax; use ") + wanted));
+}
+
+void require(bool is_there, const std::string& what) {
+  if (!is_there) throw std::runtime_error("the card has no " + what);
+}
+
+std::string number_of_20(double value) {
+  return number_within(value, 20);
+}
+
+std::string wlf_row(const TemperatureShift& shift) {
+  return fmt::format("{}, {}, {}\n", number_of_20(shift.T_ref_C), number_of_20(shift.C1),
+                     number_of_20(shift.C2_K));
+}
+
+std::string keyword_cube() {
+  return "*NODE, NSET=NALL\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n"
+         "5, 0., 0., 1.\n6, 1., 0., 1.\n7, 1., 1., 1.\n8, 0., 1., 1.\n"
+         "*NSET, NSET=BASE\n1, 2, 3, 4\n*NSET, NSET=TOP\n5, 6, 7, 8\n";
+}
+
+std::string keyword_rollers_and_ramp(const DeckInput& input) {
+  return fmt::format(
+      "*BOUNDARY\nBASE, 3, 3\n1, 1, 2\n4, 1, 1\n5, 1, 2\n8, 1, 1\n2, 2, 2\n6, 2, 2\n"
+      "*AMPLITUDE, NAME=RAMP, TIME=TOTAL TIME\n0., 0., {}, 1.\n{}, 1.\n",
+      number_of_20(input.ramp()), number_of_20(2.0 * input.end()));
+}
+
+std::string keyword_pull(const DeckInput& input) {
+  return fmt::format("{}, AMPLITUDE=RAMP\nTOP, 3, {}{}\n",
+                     input.is_creep() ? "*CLOAD" : "*BOUNDARY", input.is_creep() ? "" : "3, ",
+                     number_of_20(input.pull()));
+}
+
+}  // namespace viscard

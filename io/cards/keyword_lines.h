@@ -1,0 +1,53 @@
+#pragma once
+
+#include "io/cards/card_lines.h"
+#include "io/cards/deck.h"
+#include "io/cards/read_card.h"
+
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// Keyword files with free-format numbers: Abaqus, CalculiX ("*KEYWORD, PARAMETER=VALUE") and
+// FrontISTR ("!KEYWORD"). Readers throw std::runtime_error naming the line.
+
+// A keyword line, its parameters upper-cased without blanks, and the data lines below it.
+struct KeywordBlock {
+  CardLine line;
+  std::string keyword;                  // "*ELASTIC"
+  std::vector<std::string> parameters;  // "MODULI=INSTANTANEOUS"
+  std::vector<CardLine> data;
+
+  bool has(const std::string& parameter) const;
+  std::string name() const;            // the value of NAME=, or ""
+  const CardLine& first_data() const;  // throws if there is none
+};
+
+// The blocks whose keywords start with `mark`; lines above the first keyword are left out.
+std::vector<KeywordBlock> keyword_blocks(const std::vector<CardLine>& lines, char mark);
+
+double density_in(const KeywordBlock& block);
+// Young's modulus and Poisson ratio of the first row; other rows are noted as a finding.
+void read_elastic(const KeywordBlock& block, ReadCard& card, CardNumbers& numbers);
+// T_ref, C1, C2 of a WLF law; another law is noted as a finding.
+void read_wlf(const KeywordBlock& block, ReadCard& card);
+// A mistake if the block is a *STATIC step; `wanted` is what relaxes instead.
+void check_static_step(const KeywordBlock& block, const char* wanted, ReadCard& card);
+// Throws "the card has no *ELASTIC".
+void require(bool is_there, const std::string& what);
+
+// At most 20 characters: Abaqus and CalculiX read 20 characters of a number and drop the rest,
+// including the exponent.
+std::string number_of_20(double value);
+// T_ref, C1, C2: the order of Abaqus, ANSYS and FrontISTR.
+std::string wlf_row(const TemperatureShift& shift);
+
+// Parts of a one-element model that Abaqus and CalculiX share: nodes 1 to 8 of the cube with the
+// node sets BASE and TOP; the rollers, and the amplitude RAMP, which rises from 0 to 1 and stays;
+// the pull of a step, a force in creep and a displacement in relaxation.
+std::string keyword_cube();
+std::string keyword_rollers_and_ramp(const DeckInput& input);
+std::string keyword_pull(const DeckInput& input);
+
+}  // namespace viscard

@@ -1,0 +1,115 @@
+// Abaqus. Sources: Keywords Reference (*ELASTIC: MODULI defaults to LONG TERM; *VISCOELASTIC,
+// TIME=PRONY: rows g_i, k_i, tau_i); Analysis User's Manual, time domain viscoelasticity (*TRS).
+#include "io/cards/keyword_lines.h"
+#include "io/cards/known_mistakes.h"
+#include "io/cards/targets/card_targets.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+constexpr const char* kMissingKeyword = "*ELASTIC lacks MODULI=INSTANTANEOUS";
+
+std::string write_abaqus(const CardBody& body) {
+  const auto number = number_of_20;
+  const CardNumbers& numbers = body.numbers;
+  std::string out = "*MATERIAL, NAME=" + body.name + "\n";
+  if (numbers.density > 0.0) out += "*DENSITY\n" + number(numbers.density) + ",\n";
+  out += fmt::format("*ELASTIC, MODULI=INSTANTANEOUS\n{}, {}\n", number(numbers.young),
+                     number(numbers.poisson));
+  if (!numbers.branches.empty()) out += "*VISCOELASTIC, TIME=PRONY\n";
+  for (const CardBranch& branch : numbers.branches) {
+    out += number(branch.shear) + ", " + number(branch.bulk) + ", " + number(branch.time) + "\n";
+  }
+  // log10 a_T = -C1 (T - T0)/(C2 + T - T0)
+  if (numbers.shift) out += "*TRS, DEFINITION=WLF\n" + wlf_row(*numbers.shift);
+  return out;
+}
+
+void read_prony(const KeywordBlock& block, ReadCard& card) {
+  if (!block.has("TIME=PRONY")) {
+    throw std::runtime_error(at_line(block.line, "only *VISCOELASTIC, TIME=PRONY can be read"));
+  }
+  for (const CardLine& line : block.data) {
+    const auto row = cells(line.text, ',');
+    card.numbers.branches.push_back({cell_number(row, 0, line, "g_i"),
+                                     cell_number_or_zero(row, 1, line, "k_i"),
+                                     cell_number(row, 2, line, "tau_i")});
+  }
+}
+
+void read_abaqus(const std::string& text, ReadCard& card) {
+  bool has_elastic = false, is_instantaneous = false;
+  for (const KeywordBlock& block : keyword_blocks(card_lines(text, "**"), '*')) {
+    if (block.keyword == "*MATERIAL") {
+      card.name = block.name();
+    } else if (block.keyword == "*DENSITY") {
+      card.numbers.density = density_in(block);
+    } else if (block.keyword == "*ELASTIC") {
+      has_elastic = true;
+      is_instantaneous = block.has("MODULI=INSTANTANEOUS");
+      read_elastic(block, card, card.numbers);
+    } else if (block.keyword == "*TRS") {
+      read_wlf(block, card);
+    } else if (block.keyword == "*VISCOELASTIC") {
+      read_prony(block, card);
+    }
+    check_static_step(block, "*VISCO or a dynamic step", card);
+  }
+  require(has_elastic, "*ELASTIC");
+  if (is_instantaneous || card.numbers.branches.empty()) return;
+  card.understood.at = ModulusAt::kLongTerm;
+  card.missing_keyword = kMissingKeyword;
+}
+
+std::vector<DeckFile> abaqus_deck(const DeckInput& input, const std::string& name) {
+  const auto number = number_of_20;
+  std::string out = keyword_cube() + "*ELEMENT, TYPE=C3D8H, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n" +
+                    input.card.text + "*SOLID SECTION, ELSET=E, MATERIAL=" + input.card.name +
+                    "\n,\n" + keyword_rollers_and_ramp(input);
+  for (const DeckBlock& block : input.blocks()) {
+    out += fmt::format("*STEP, INC=1000000\n*VISCO\n{0}, {1}, {0}, {0}\n", number(block.step),
+                       number(block.length));
+    out += keyword_pull(input);
+    out += input.is_creep() ? "*NODE PRINT, NSET=TOP\nU3\n"
+                            : "*NODE PRINT, NSET=BASE, TOTALS=YES\nRF3\n";
+    out += "*END STEP\n";
+  }
+  return {{name + ".inp", out}};
+}
+
+// The only way to get the long-term modulus here is to leave the keyword out.
+void add_abaqus_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
+  if (context.target.at != ModulusAt::kLongTerm) return;
+  for (CardMistake& mistake : list) {
+    if (mistake.name != "instantaneous-modulus-as-long-term") continue;
+    mistake.name = "E0-without-instantaneous";
+    mistake.text = std::string("E is the instantaneous modulus but ") + kMissingKeyword +
+                   "; Abaqus takes it for the long-term one";
+  }
+}
+
+}  // namespace
+
+CardTarget abaqus_target() {
+  return {.name = "abaqus",
+          .code = "Abaqus",
+          .extension = ".inp",
+          .comment = "**",
+          .write = write_abaqus,
+          .read = read_abaqus,
+          .deck = DeckWriter{abaqus_deck, "abaqus job={}"},
+          .add_mistakes = add_abaqus_mistakes,
+          .takes_incompressible = true,
+          .takes_wlf = true,
+          .evidence = Evidence::kParsed,
+          .evidence_note = "public keyword manual; an independent reader found the numbers",
+          .advice =
+              "Use *VISCO or dynamic steps: *STATIC does not relax. Above nu = .475 use hybrid "
+              "elements (C3D8H, C3D10H)."};
+}
+
+}  // namespace viscard

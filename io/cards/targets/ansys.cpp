@@ -1,0 +1,207 @@
+// ANSYS MAPDL. Sources: Command Reference (TB,PRONY,MATID,NTEMP,NPTS,SHEAR|BULK: NPTS pairs
+// alpha_i, tau_i; without a BULK table the bulk modulus is constant); Material Reference,
+// viscoelasticity, shift functions.
+#include "io/cards/keyword_lines.h"
+#include "io/cards/targets/card_targets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+std::string prony_table(const char* kind, const std::vector<CardBranch>& branches,
+                        double CardBranch::*share) {
+  std::string out = fmt::format("TB,PRONY,1,1,{},{}\n", branches.size(), kind);
+  for (std::size_t i = 0; i < branches.size(); ++i) {
+    // Each row has its own location: a second row with the same one overwrites the first.
+    out += fmt::format("TBDATA,{},{},{}\n", 2 * i + 1, number_of_20(branches[i].*share),
+                       number_of_20(branches[i].time));
+  }
+  return out;
+}
+
+std::string write_ansys(const CardBody& body) {
+  const CardNumbers& numbers = body.numbers;
+  std::string out = "MP,EX,1," + number_of_20(numbers.young) + "\nMP,PRXY,1," +
+                    number_of_20(numbers.poisson) + "\n";
+  if (numbers.density > 0.0) out += "MP,DENS,1," + number_of_20(numbers.density) + "\n";
+  const std::vector<CardBranch>& branches = numbers.branches;
+  if (!branches.empty()) out += prony_table("SHEAR", branches, &CardBranch::shear);
+  if (std::any_of(branches.begin(), branches.end(),
+                  [](const CardBranch& branch) { return branch.bulk != 0.0; })) {
+    out += prony_table("BULK", branches, &CardBranch::bulk);
+  }
+  // MAPDL multiplies time by A = 1/a_T, log10 A = C1 (T - Tref)/(C2 + T - Tref): the usual
+  // constants keep their sign.
+  if (numbers.shift) {
+    std::string row = wlf_row(*numbers.shift);
+    std::erase(row, ' ');
+    out += "TB,SHIFT,1,1,3,WLF\nTBDATA,1," + row;
+  }
+  return out;
+}
+
+// One TB,PRONY table and the constants of its TBDATA lines.
+struct PronyTable {
+  CardLine line;
+  bool is_bulk = false;
+  int pairs = 0;
+  int next_location = 1;
+  std::map<int, double> constants;
+};
+
+std::vector<CardBranch> pairs_of(const PronyTable& table) {
+  std::vector<CardBranch> out;
+  for (int pair = 0; pair < table.pairs; ++pair) {
+    const auto alpha = table.constants.find(2 * pair + 1), tau = table.constants.find(2 * pair + 2);
+    if (alpha == table.constants.end() || tau == table.constants.end()) break;
+    out.push_back({alpha->second, 0.0, tau->second});
+  }
+  return out;
+}
+
+void add_constants(const std::vector<std::string>& row, const CardLine& line, PronyTable& table,
+                   ReadCard& card) {
+  int location = row.size() > 1 && !row[1].empty()
+                     ? static_cast<int>(card_number(row[1], line, "location"))
+                     : table.next_location;
+  for (std::size_t i = 2; i < row.size(); ++i, ++location) {
+    if (row[i].empty()) continue;
+    if (!table.constants.emplace(location, card_number(row[i], line, "constant")).second) {
+      card.add("tbdata-overwritten",
+               at_line(line, "constant " + std::to_string(location) +
+                                 " was given before and is overwritten; increase the location "
+                                 "(1, 3, 5 ...)"));
+      table.constants[location] = card_number(row[i], line, "constant");
+    }
+  }
+  table.next_location = location;
+}
+
+void check_pairs(const PronyTable& table, ReadCard& card) {
+  const std::size_t given = (table.constants.size() + 1) / 2;
+  if (static_cast<int>(given) == table.pairs) return;
+  card.add("npts-mismatch",
+           at_line(table.line, "TB,PRONY announces " + std::to_string(table.pairs) + " pairs and " +
+                                   std::to_string(given) + " are given"));
+}
+
+// Pairs of the shear and the bulk table with the same time are one branch.
+void add_tables(const std::vector<PronyTable>& tables, ReadCard& card) {
+  for (const PronyTable& table : tables) {
+    check_pairs(table, card);
+    for (const CardBranch& pair : pairs_of(table)) {
+      auto& branches = card.numbers.branches;
+      auto same = std::find_if(branches.begin(), branches.end(), [&](const CardBranch& b) {
+        return b.time == pair.time && (table.is_bulk ? b.bulk : b.shear) == 0.0;
+      });
+      if (same == branches.end()) same = branches.insert(same, {0.0, 0.0, pair.time});
+      CardBranch& branch = *same;
+      (table.is_bulk ? branch.bulk : branch.shear) = pair.shear;
+    }
+  }
+}
+
+// Commands without comments; "$" separates commands on one line.
+std::vector<CardLine> ansys_commands(const std::string& text) {
+  std::vector<CardLine> commands;
+  for (const CardLine& line : card_lines(text, "!")) {
+    for (const std::string& command : cells(line.text.substr(0, line.text.find('!')), '$')) {
+      commands.push_back({line.number, command});
+    }
+  }
+  return commands;
+}
+
+void read_property(const std::vector<std::string>& row, const CardLine& line, ReadCard& card,
+                   bool& has_young) {
+  const std::string property = upper(row.size() > 1 ? row[1] : "");
+  const double value = cell_number(row, 3, line, property);
+  if (property == "EX") {
+    card.numbers.young = value;
+    has_young = true;
+  } else if (property == "PRXY" || property == "NUXY") {
+    card.numbers.poisson = value;
+  } else if (property == "DENS") {
+    card.numbers.density = value;
+  }
+}
+
+PronyTable table_of(const std::vector<std::string>& row, const CardLine& line) {
+  const std::string part = upper(row.size() > 5 ? row[5] : "SHEAR").substr(0, 4);
+  return {.line = line,
+          .is_bulk = part == "BULK",
+          .pairs = static_cast<int>(cell_number(row, 4, line, "number of pairs"))};
+}
+
+void read_ansys(const std::string& text, ReadCard& card) {
+  std::vector<PronyTable> tables;
+  bool in_elastic = false, in_shift = false, has_young = false;
+  for (const CardLine& line : ansys_commands(text)) {
+    const std::vector<std::string> row = cells(line.text, ',');
+    const std::string command = upper(row[0]);
+    if (command == "MP") {
+      read_property(row, line, card, has_young);
+    } else if (command == "TB") {
+      const std::string kind = upper(row.size() > 1 ? row[1] : "").substr(0, 4);
+      in_elastic = kind == "ELAS";
+      in_shift = kind == "SHIF" && upper(row.size() > 5 ? row[5] : "") == "WLF";
+      if (kind == "PRON") tables.push_back(table_of(row, line));
+    } else if (command == "TBDATA" && in_elastic) {
+      card.numbers.young = cell_number(row, 2, line, "E");
+      card.numbers.poisson = cell_number(row, 3, line, "nu");
+      has_young = true;
+    } else if (command == "TBDATA" && in_shift) {
+      card.numbers.shift = TemperatureShift{.T_ref_C = cell_number(row, 2, line, "Tref"),
+                                            .C1 = cell_number(row, 3, line, "C1"),
+                                            .C2_K = cell_number(row, 4, line, "C2")};
+    } else if (command == "TBDATA" && !tables.empty()) {
+      add_constants(row, line, tables.back(), card);
+    }
+  }
+  if (!has_young) throw std::runtime_error("the card has no MP,EX and no TB,ELASTIC");
+  add_tables(tables, card);
+}
+
+std::vector<DeckFile> ansys_deck(const DeckInput& input, const std::string& name) {
+  std::string out = "/PREP7\nET,1,SOLID185\nKEYOPT,1,6,1\n" + input.card.text;
+  out +=
+      "BLOCK,0,1,0,1,0,1\nESIZE,1\nVMESH,1\nNSEL,S,LOC,X,0\nD,ALL,UX,0\nNSEL,S,LOC,Y,0\n"
+      "D,ALL,UY,0\nNSEL,S,LOC,Z,0\nD,ALL,UZ,0\nALLSEL\nFINISH\n/SOLU\nANTYPE,STATIC\n"
+      "NLGEOM,OFF\nKBC,0\nOUTRES,ALL,ALL\nNSEL,S,LOC,Z,1\n";
+  out += (input.is_creep() ? "F,ALL,FZ," : "D,ALL,UZ,") + number_of_20(input.pull()) + "\n";
+  out += "ALLSEL\n";
+  for (const DeckBlock& block : input.blocks()) {
+    out += fmt::format("TIME,{0}\nNSUBST,{1},{1},{1}\nSOLVE\n", number_of_20(block.end),
+                       block.increments);
+  }
+  out += "FINISH\n/POST26\n";
+  out += input.is_creep() ? "NSOL,2,NODE(1,1,1),U,Z,UZ\nPRVAR,2\n"
+                          : "NSEL,S,LOC,Z,0\n! the sum of the FZ of these nodes is the force\n"
+                            "RFORCE,2,NODE(0,0,0),F,Z,FZ\nPRVAR,2\n";
+  return {{name + ".mac", out + "FINISH\n"}};
+}
+
+}  // namespace
+
+CardTarget ansys_target() {
+  return {.name = "ansys",
+          .code = "ANSYS MAPDL",
+          .extension = ".mac",
+          .comment = "!",
+          .write = write_ansys,
+          .read = read_ansys,
+          .deck = DeckWriter{ansys_deck, "mapdl -b -i {}.mac"},
+          .max_terms = 100,
+          .takes_wlf = true,
+          .evidence = Evidence::kParsed,
+          .evidence_note = "public command manual; an independent reader found the numbers",
+          .advice =
+              "EX is always instantaneous. Near nu = .5 use SOLID185/186/187 with KEYOPT(6) = 1."};
+}
+
+}  // namespace viscard

@@ -1,0 +1,163 @@
+// CalculiX. It has no Prony keyword: a generalised Maxwell solid is one elastic material and one
+// per branch with linear Norton creep, on coincident elements. Norton flow is deviatoric, so the
+// bulk modulus, the sum of all shares, stays constant. Source: CalculiX manual, *CREEP, LAW=NORTON.
+#include "io/cards/keyword_lines.h"
+#include "io/cards/targets/card_targets.h"
+
+#include <fmt/format.h>
+
+namespace viscard {
+namespace {
+
+std::string material_lines(const std::string& name, double density, double share, double poisson) {
+  std::string out = "*MATERIAL, NAME=" + name + "\n";
+  if (density > 0.0) out += "*DENSITY\n" + number_of_20(density) + "\n";
+  return out + "*ELASTIC\n" + number_of_20(share) + ", " + number_of_20(poisson) + "\n";
+}
+
+std::string recipe(const std::string& name, std::size_t branches) {
+  std::string out =
+      "** Element copies: every element of the part once per material, on the same nodes, for\n"
+      "** example for C3D8 element 1 with nodes 1-8:\n";
+  for (std::size_t i = 0; i <= branches; ++i) {
+    const std::string material = i == 0 ? name + "_INF" : fmt::format("{}_M{}", name, i);
+    out += fmt::format(
+        "** *ELEMENT, TYPE=C3D8, ELSET=E_{0}\n** {1}, 1, 2, 3, 4, 5, 6, 7, 8\n"
+        "** *SOLID SECTION, ELSET=E_{0}, MATERIAL={0}\n",
+        material, i + 1);
+  }
+  return out;
+}
+
+std::string write_calculix(const CardBody& body) {
+  const CardNumbers& numbers = body.numbers;
+  std::string out =
+      material_lines(body.name + "_INF", numbers.density, numbers.equilibrium, numbers.poisson);
+  for (std::size_t i = 0; i < numbers.branches.size(); ++i) {
+    const CardBranch& branch = numbers.branches[i];
+    // The first material carries the mass; ccx wants a density in all materials or in none.
+    out += material_lines(fmt::format("{}_M{}", body.name, i + 1),
+                          numbers.density > 0.0 ? 1e-30 : 0.0, branch.shear, numbers.poisson);
+    out += "*CREEP, LAW=NORTON\n" + number_of_20(branch.time) + ", 1., 0.\n";
+  }
+  return out + recipe(body.name, numbers.branches.size());
+}
+
+// One of the overlaid materials.
+struct Part {
+  double young = 0.0, creep = 0.0;
+  bool creeps = false;
+};
+
+void read_share(const KeywordBlock& block, bool is_first, Part& part, ReadCard& card) {
+  CardNumbers share;
+  read_elastic(block, card, share);
+  part.young = share.young;
+  if (!is_first && share.poisson != card.numbers.poisson) {
+    card.add("poisson-differs", "line " + std::to_string(block.line.number + 1) +
+                                    ": all overlaid materials need the same Poisson ratio");
+  }
+  card.numbers.poisson = share.poisson;
+}
+
+void read_creep(const KeywordBlock& block, Part& part, ReadCard& card) {
+  const CardLine& line = block.first_data();
+  const auto row = cells(line.text, ',');
+  part.creeps = true;
+  part.creep = cell_number(row, 0, line, "A");
+  if (cell_number(row, 1, line, "n") != 1.0 || cell_number_or_zero(row, 2, line, "m") != 0.0) {
+    card.add("creep-not-linear", at_line(line, "a Maxwell branch needs n = 1 and m = 0"));
+  }
+}
+
+void read_calculix(const std::string& text, ReadCard& card) {
+  std::vector<Part> parts;
+  for (const KeywordBlock& block : keyword_blocks(card_lines(text, "**"), '*')) {
+    if (block.keyword == "*MATERIAL") {
+      parts.emplace_back();
+      if (card.name.empty()) card.name = block.name();
+    } else if (parts.empty()) {
+      continue;  // mesh and sections before the materials
+    } else if (block.keyword == "*DENSITY") {
+      card.numbers.density += density_in(block);
+    } else if (block.keyword == "*ELASTIC") {
+      read_share(block, parts.size() == 1, parts.back(), card);
+    } else if (block.keyword == "*CREEP") {
+      read_creep(block, parts.back(), card);
+    }
+    if (block.keyword == "*VISCOELASTIC" || block.has("MODULI=INSTANTANEOUS")) {
+      card.add("calculix-ignores-prony",
+               at_line(block.line,
+                       "CalculiX drops this line with a warning and stays elastic; use an overlay "
+                       "of Norton-creep materials"));
+    }
+    check_static_step(block, "*VISCO", card);
+  }
+  require(!parts.empty(), "*MATERIAL");
+  for (const Part& part : parts) {
+    if (part.creeps) card.numbers.branches.push_back({part.young, 0.0, part.creep});
+    if (!part.creeps) card.numbers.equilibrium += part.young;
+  }
+  // A card by viscard names its first material NAME_INF.
+  if (card.name.size() > 4 && card.name.ends_with("_INF")) card.name.resize(card.name.size() - 4);
+}
+
+// One element per material of the card on the same eight nodes, and one *VISCO step of fixed
+// increments per block. Prints the reaction of the base (relaxation) or the displacement of the top
+// (creep) after every increment.
+std::vector<DeckFile> calculix_deck(const DeckInput& input, const std::string& name) {
+  std::string elements, sections;
+  int id = 0;
+  for (const KeywordBlock& block : keyword_blocks(card_lines(input.card.text, "**"), '*')) {
+    if (block.keyword != "*MATERIAL") continue;
+    const std::string material = block.name();
+    elements += fmt::format("*ELEMENT, TYPE=C3D8, ELSET=E_{}\n{}, 1, 2, 3, 4, 5, 6, 7, 8\n",
+                            material, ++id);
+    sections += fmt::format("*SOLID SECTION, ELSET=E_{0}, MATERIAL={0}\n", material);
+  }
+  std::string out =
+      keyword_cube() + elements + input.card.text + sections + keyword_rollers_and_ramp(input);
+  for (const DeckBlock& block : input.blocks()) {
+    // CalculiX asks for CETOL even with fixed increments.
+    out += fmt::format("*STEP, INC=1000000\n*VISCO, DIRECT, CETOL=1.\n{}, {}\n",
+                       number_of_20(block.step), number_of_20(block.length));
+    out += keyword_pull(input);
+    out += input.is_creep() ? "*NODE PRINT, NSET=TOP\nU\n"
+                            : "*NODE PRINT, NSET=BASE, TOTALS=ONLY\nRF\n";
+    out += "*END STEP\n";
+  }
+  return {{name + ".inp", out}};
+}
+
+}  // namespace
+
+CardTarget calculix_target() {
+  return {.name = "calculix",
+          .code = "CalculiX overlay",
+          .extension = ".inp",
+          .comment = "**",
+          .write = write_calculix,
+          .read = read_calculix,
+          // First order in time. ccx solves the creep increment of a point to absolute bounds: von
+          // Mises stresses below 1e-10 units are raised to that, and creep strains above 100 are
+          // refused (incplas.f). So the strain of this linear test is 1, and increments stay within
+          // a few times the shortest relaxation time.
+          .deck = DeckWriter{calculix_deck,
+                             "ccx {}",
+                             {.amplitude = 1.0,
+                              .steps_per_tau = 40,
+                              .longest_step_tau = 5.0,
+                              .most_increments = 4000}},
+          .elastic = ElasticForm::kPoissonOnly,
+          .branch = BranchNumber::kAbsoluteYoung,
+          .time = TimeNumber::kNortonA,
+          .bulk = BulkRule::kConstantBulk,
+          .states_equilibrium = true,
+          .evidence = Evidence::kRun,
+          .evidence_note = "run by viscard's tests with Debian's ccx",
+          .advice =
+              "CalculiX has no Prony keyword: one element copy per material, all on the same "
+              "nodes, and *VISCO steps; it integrates to first order in the time step."};
+}
+
+}  // namespace viscard

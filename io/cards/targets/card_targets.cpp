@@ -1,0 +1,38 @@
+#include "io/cards/targets/card_targets.h"
+
+#include <stdexcept>
+
+namespace viscard {
+
+const std::vector<CardTarget>& card_targets() {
+  static const std::vector<CardTarget> table{
+      abaqus_target(),    ansys_target(),    lsdyna_target(),
+      lsdyna006_target(), febio_target(),    febio_uncoupled_target(),
+      mfront_target(),    calculix_target(), openradioss_target(),
+      comsol_target(),    moose_target(),    frontistr_target(),
+      json_target(),      csv_target(),
+  };
+  return table;
+}
+
+const CardTarget& card_target(const std::string& name) {
+  std::string names;
+  for (const CardTarget& target : card_targets()) {
+    if (target.name == name) return target;
+    names += names.empty() ? target.name : ", " + target.name;
+  }
+  throw std::invalid_argument("there is no card target '" + name + "'; there are " + names);
+}
+
+const DeckWriter& card_deck(const std::string& name) {
+  std::string names;
+  for (const CardTarget& target : card_targets()) {
+    if (!target.deck) continue;
+    if (target.name == name) return *target.deck;
+    names += names.empty() ? target.name : ", " + target.name;
+  }
+  throw std::invalid_argument("there is no one-element model for " + name + "; there are for " +
+                              names);
+}
+
+}  // namespace viscard

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "io/cards/card_target.h"
+
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// The table of targets, in the order of --list.
+const std::vector<CardTarget>& card_targets();
+
+// Throws std::invalid_argument listing the targets.
+const CardTarget& card_target(const std::string& name);
+
+// The one-element model of a target. Throws std::invalid_argument listing the targets that have
+// one.
+const DeckWriter& card_deck(const std::string& name);
+
+// The rows of the table, each defined in the file of its solver.
+CardTarget abaqus_target();
+CardTarget ansys_target();
+CardTarget lsdyna_target();
+CardTarget lsdyna006_target();
+CardTarget febio_target();
+CardTarget febio_uncoupled_target();
+CardTarget mfront_target();
+CardTarget calculix_target();
+CardTarget openradioss_target();
+CardTarget comsol_target();
+CardTarget moose_target();
+CardTarget frontistr_target();
+CardTarget json_target();
+CardTarget csv_target();
+
+}  // namespace viscard

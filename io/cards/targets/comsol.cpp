@@ -1,0 +1,253 @@
+// COMSOL, linear elastic material with Viscoelasticity. Source: public documentation; the Java
+// calls of the one-element model are those of exported model files, and COMSOL has not run it here.
+#include "io/cards/card_lines.h"
+#include "io/cards/deck.h"
+#include "io/cards/known_mistakes.h"
+#include "io/cards/material_difference.h"
+#include "io/cards/read_card.h"
+#include "io/cards/targets/card_targets.h"
+#include "models/material/prony_series.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <regex>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+// COMSOL's unit syntax: "MPa", "t/mm^3".
+std::string comsol_unit(std::string unit) {
+  if (unit == "Ba") return "dyn/cm^2";
+  if (unit.back() == '3') unit.insert(unit.size() - 1, "^");
+  return unit;
+}
+
+std::string write_comsol(const CardBody& body) {
+  const CardNumbers& numbers = body.numbers;
+  const std::string stress = comsol_unit(body.units.stress), time = comsol_unit(body.units.time);
+  const auto row = [&](const std::string& suffix, double value, const std::string& unit,
+                       const std::string& text) {
+    return fmt::format("{}_{} {}{} \"{}\"\n", body.name, suffix, value,
+                       unit.empty() ? "" : "[" + unit + "]", text);
+  };
+  std::string out = row("Einf", numbers.young, stress, "long-term Young modulus");
+  out += row("nuinf", numbers.poisson, "", "long-term Poisson ratio");
+  if (numbers.density > 0.0) {
+    out += row("rho", numbers.density, comsol_unit(body.units.density), "density");
+  }
+  for (std::size_t i = 0; i < numbers.branches.size(); ++i) {
+    const std::string index = std::to_string(i + 1);
+    out +=
+        row("G" + index, numbers.branches[i].shear, stress, "branch " + index + " shear modulus");
+    out +=
+        row("tau" + index, numbers.branches[i].time, time, "branch " + index + " relaxation time");
+  }
+  if (numbers.shift) {
+    out += row("Tref", numbers.shift->T_ref_C, "degC", "WLF reference temperature");
+    out += row("C1", numbers.shift->C1, "", "WLF constant C1");
+    out += row("C2", numbers.shift->C2_K, "K", "WLF constant C2");
+  }
+  return out;
+}
+
+// Spreadsheet data format: "%" opens a comment, columns are blank-separated.
+std::vector<CompanionFile> comsol_companions(const CardBody& body) {
+  std::string out = fmt::format("% t [{}]  E(t) [{}]\n", body.units.time, body.units.stress);
+  const PronySeries series = young_series(body.material);
+  for (const double time_s : comparison_times_s(body.material, 101)) {
+    out += fmt::format("{} {}\n", to_card(time_s, body.units.time_exponent),
+                       to_card(relaxation_modulus_Pa(series, time_s), body.units.stress_exponent));
+  }
+  return {{"_relaxation.txt", out}};
+}
+
+// Units that COMSOL users write in these expressions, as a factor to SI.
+double unit_factor(const std::string& unit, const CardLine& line) {
+  static const std::map<std::string, double> kFactors{
+      {"", 1.0},       {"Pa", 1.0},      {"kPa", 1e3},      {"MPa", 1e6},      {"GPa", 1e9},
+      {"N/m^2", 1.0},  {"N/mm^2", 1e6},  {"dyn/cm^2", 0.1}, {"s", 1.0},        {"ms", 1e-3},
+      {"us", 1e-6},    {"min", 60.0},    {"h", 3600.0},     {"kg/m^3", 1.0},   {"g/cm^3", 1e3},
+      {"g/mm^3", 1e6}, {"kg/mm^3", 1e9}, {"t/mm^3", 1e12},  {"kg/um^3", 1e18}, {"1", 1.0}};
+  const auto found = kFactors.find(unit);
+  if (found == kFactors.end()) {
+    throw std::runtime_error(at_line(line, "unit [" + unit + "] is not known"));
+  }
+  return found->second;
+}
+
+// A constant of the WLF law.
+void read_shift(const std::string& kind, double value, const std::string& unit, ReadCard& card) {
+  if (!card.numbers.shift) card.numbers.shift.emplace();
+  if (kind == "C1") card.numbers.shift->C1 = value;
+  if (kind == "C2") card.numbers.shift->C2_K = value;
+  if (kind != "Tref") return;
+  card.numbers.shift->T_ref_C = unit == "K" ? value + kAbsoluteZero_C : value;
+}
+
+void read_comsol(const std::string& text, ReadCard& card) {
+  card.units = unit_system("SI");  // each expression carries its own
+  card.units_were_stated = true;
+  std::map<int, CardBranch> branches;
+  bool has_young = false;
+  const std::regex row("^\\s*(\\w+)\\s+([-+.\\deE]+)(?:\\[([^\\]]*)\\])?(?:\\s.*)?$");
+  const std::regex suffix("^(.*_)?(Einf|E_inf|nuinf|nu|rho|Tref|C1|C2|G\\d+|tau\\d+)$");
+  for (const CardLine& line : card_lines(text, "%")) {
+    std::smatch match, role;
+    if (!std::regex_match(line.text, match, row)) continue;
+    const std::string name = match[1].str(), unit = match[3].str();
+    if (!std::regex_match(name, role, suffix)) continue;
+    const std::string kind = role[2].str();
+    if (kind == "Tref" || kind == "C1" || kind == "C2") {
+      read_shift(kind, card_number(match[2].str(), line, name), unit, card);
+      continue;
+    }
+    const double factor = unit_factor(unit, line);
+    const double number = card_number(match[2].str(), line, name);
+    const double value = factor < 1.0 ? number / std::round(1.0 / factor) : number * factor;
+    if (kind == "Einf" || kind == "E_inf") {
+      card.numbers.young = value;
+      has_young = true;
+      if (role[1].length() > 0) card.name = role[1].str().substr(0, role[1].str().size() - 1);
+    } else if (kind == "nuinf" || kind == "nu") {
+      card.numbers.poisson = value;
+    } else if (kind == "rho") {
+      card.numbers.density = value;
+    } else if (kind[0] == 'G') {
+      branches[std::stoi(kind.substr(1))].shear = value;
+    } else {
+      branches[std::stoi(kind.substr(3))].time = value;
+    }
+  }
+  if (!has_young) throw std::runtime_error("the card has no parameter ending in Einf or E_inf");
+  for (const auto& [index, branch] : branches) card.numbers.branches.push_back(branch);
+}
+
+// The parameter names of a branch number, as a Java array: {prefix + "_G1", prefix + "_G2"}.
+std::string java_names(const char* array, const char* number, std::size_t branches) {
+  std::string out = std::string("    String[] ") + array + " = {";
+  for (std::size_t i = 1; i <= branches; ++i) {
+    out += fmt::format("{}prefix + \"_{}{}\"", i == 1 ? "" : ", ", number, i);
+  }
+  return out + "};\n";
+}
+
+// Calls before the load: parameters, block, material, rollers.
+constexpr const char* kSetup = R"java(    Model model = ModelUtil.create("Model");
+    model.param().loadFile("card.txt");
+    model.param().set("amplitude", "{}");
+    model.param().set("rise", "{}[s]");
+    model.param().set("E0", "{}[Pa]");
+    model.component().create("comp1", true);
+    model.component("comp1").geom().create("geom1", 3);
+    model.component("comp1").geom("geom1").create("blk1", "Block");
+    model.component("comp1").geom("geom1").run();
+    model.component("comp1").mesh().create("mesh1");
+    model.component("comp1").physics().create("solid", "SolidMechanics", "geom1");
+    PhysicsFeature elastic = model.component("comp1").physics("solid").feature("lemm1");
+    elastic.set("E_mat", "userdef");
+    elastic.set("E", prefix + "_Einf");
+    elastic.set("nu_mat", "userdef");
+    elastic.set("nu", prefix + "_nuinf");
+    elastic.set("rho_mat", "userdef");
+    elastic.set("rho", prefix + "_rho");
+    elastic.create("vis1", "Viscoelasticity", 3);
+    elastic.feature("vis1").set("Gvm", moduli);
+    elastic.feature("vis1").set("tauvm", times);
+    model.component("comp1").physics("solid").create("roll1", "Roller", 2);
+    model.component("comp1").physics("solid").feature("roll1").selection().set(1, 2, 3);
+)java";
+
+constexpr const char* kForce =
+    R"java(    model.component("comp1").physics("solid").create("pull", "BoundaryLoad", 2);
+    model.component("comp1").physics("solid").feature("pull").set("FperArea", new String[]{"0", "0", "amplitude*E0*min(t/rise,1)"});
+)java";
+constexpr const char* kDisplacement =
+    R"java(    model.component("comp1").physics("solid").create("pull", "Displacement2", 2);
+    model.component("comp1").physics("solid").feature("pull").set("Direction", new String[]{"free", "free", "prescribed"});
+    model.component("comp1").physics("solid").feature("pull").set("U0", new String[]{"0", "0", "amplitude*min(t/rise,1)*1[m]"});
+)java";
+
+// A block's faces are numbered x = 0, y = 0, z = 0, z = 1, y = 1, x = 1.
+constexpr const char* kStudy =
+    R"java(    model.component("comp1").physics("solid").feature("pull").selection().set(4);
+    model.component("comp1").physics("solid").prop("StructuralTransientBehavior").set("StructuralTransientBehavior", "Quasistatic");
+    model.study().create("std1");
+    model.study("std1").create("time", "Transient");
+    model.study("std1").feature("time").set("tlist", "{}");
+    model.study("std1").feature("time").set("usertol", true);
+    model.study("std1").feature("time").set("rtol", "1e-6");
+    model.study("std1").run();
+    // compare {} with the expected curve
+    return model;
+  }}
+
+  public static void main(String[] args) {{
+    run();
+  }}
+}}
+)java";
+
+std::vector<DeckFile> comsol_deck(const DeckInput& input, const std::string& name) {
+  const Material& written = input.card.written;
+  std::string times = "0";
+  for (const TimeBlock& part : input.test.blocks) times += fmt::format(" {}", part.end_s);
+  std::string out = fmt::format(
+      "import com.comsol.model.*;\nimport com.comsol.model.util.*;\n\npublic class {} {{\n"
+      "  public static Model run() {{\n    String prefix = \"{}\";\n",
+      name, input.card.name);
+  out += java_names("moduli", "G", written.terms.size());
+  out += java_names("times", "tau", written.terms.size());
+  out += fmt::format(kSetup, input.test.amplitude, input.test.ramp_s, written.E0_Pa);
+  out += input.is_creep() ? kForce : kDisplacement;
+  out += fmt::format(
+      kStudy, times,
+      input.is_creep() ? "w/(amplitude*1[m]) of the face z = 1" : "solid.sz/(amplitude*E0)");
+  return {{name + ".java", out}, {"card.txt", input.card.text}};
+}
+
+// Expressions carry units: 0.008[MPa] where g was meant.
+void add_comsol_mistakes(const CardContext& context, std::vector<CardMistake>& list) {
+  CardTarget relative = context.target;
+  relative.branch = BranchNumber::kRelative;
+  const std::vector<CardBranch> branches = context.as(relative).branches;
+  for (const double unit : {1e3, 1e6, 1e9}) {
+    list.push_back(
+        {"g-for-G",
+         "the branches carry g where this field wants G (" + to_word(context.target.branch) + ")",
+         [branches, unit](CardNumbers& n) {
+           for (std::size_t i = 0; i < n.branches.size(); ++i) {
+             n.branches[i].shear = branches[i].shear * unit;
+           }
+         }});
+  }
+}
+
+}  // namespace
+
+CardTarget comsol_target() {
+  return {.name = "comsol",
+          .code = "COMSOL linear elastic with Viscoelasticity",
+          .extension = ".txt",
+          .comment = "%",
+          .write = write_comsol,
+          .read = read_comsol,
+          .companions = comsol_companions,
+          .deck = DeckWriter{comsol_deck,
+                             "comsol compile {0}.java && comsol batch -inputfile {0}.class"},
+          .add_mistakes = add_comsol_mistakes,
+          .at = ModulusAt::kLongTerm,
+          .branch = BranchNumber::kAbsoluteShear,
+          .bulk = BulkRule::kConstantBulk,
+          .numbers_carry_units = true,
+          .takes_wlf = true,
+          .evidence = Evidence::kDocumentation,
+          .evidence_note = "public documentation and published model files; not run",
+          .advice =
+              "Parameters > Load from File; E and nu are long-term, Gvm = G_i, tauvm = tau_i. "
+              "Near nu = .5 use the pressure formulation."};
+}
+
+}  // namespace viscard

@@ -1,0 +1,264 @@
+// LS-DYNA, *MAT_GENERAL_VISCOELASTIC (076) and *MAT_VISCOELASTIC (006). Sources: Keyword User's
+// Manual R13, vol. II for the materials, vol. I for the one-element model (*CONTROL_IMPLICIT_*,
+// *BOUNDARY_*, *DEFINE_CURVE), which LS-DYNA has not run here. OpenRadioss and PyDYNA readers agree
+// on the fields.
+#include "io/cards/card_lines.h"
+#include "io/cards/column_fields.h"
+#include "io/cards/known_mistakes.h"
+#include "io/cards/number_text.h"
+#include "io/cards/read_card.h"
+#include "io/cards/targets/card_targets.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+// Nine of the ten columns if that costs no more than 1e-7 of the number: then neighbours do not
+// touch and people can read them.
+std::string field(double value) {
+  const std::string nine = nearest_number(value, 9);
+  const bool is_near =
+      std::abs(std::strtod(nine.c_str(), nullptr) - value) <= 1e-7 * std::abs(value);
+  return right(is_near ? nine : nearest_number(value, 10), 10);
+}
+
+// MID, RO, BULK. LS-DYNA refuses a density of 0 (not given); a blank field shows that it is
+// missing.
+std::string first_fields(const CardNumbers& numbers) {
+  return right("1", 10) + (numbers.density > 0.0 ? field(numbers.density) : right("", 10)) +
+         field(numbers.bulk);
+}
+
+// G(t) = sum G_i exp(-beta_i t), so the equilibrium modulus is a row with beta = 0. Card 2 (a fit
+// by LS-DYNA itself) is empty but must be there. KI is blank: the bulk modulus is constant.
+std::string write_076(const CardBody& body) {
+  const CardNumbers& numbers = body.numbers;
+  std::string out = "*MAT_GENERAL_VISCOELASTIC_TITLE\n" + body.name + "\n";
+  out += "$      MID        RO      BULK       PCF        EF      TREF         A         B\n";
+  out += first_fields(numbers) + "\n";
+  out += "$     LCID        NT    BSTART     TRAMP     LCIDK       NTK   BSTARTK    TRAMPK\n\n";
+  out += "$       GI     BETAI        KI    BETAKI\n";
+  out += field(numbers.equilibrium) + field(0.0) + "\n";
+  for (const CardBranch& branch : numbers.branches) {
+    out += field(branch.shear) + field(branch.time) + "\n";
+  }
+  return out;
+}
+
+// G(t) = GI + (G0 - GI) exp(-BETA t); GI is the long-term modulus, unlike in 076.
+std::string write_006(const CardBody& body) {
+  const CardNumbers& numbers = body.numbers;
+  const CardBranch branch = numbers.branches.empty() ? CardBranch{} : numbers.branches[0];
+  return "*MAT_VISCOELASTIC_TITLE\n" + body.name +
+         "\n$      MID        RO      BULK        G0        GI      BETA\n" +
+         first_fields(numbers) + field(numbers.equilibrium + branch.shear) +
+         field(numbers.equilibrium) + field(branch.time) + "\n";
+}
+
+// The lines below the first keyword that starts with one of the names, up to the next keyword.
+struct KeywordCards {
+  std::vector<CardLine> lines;
+  std::size_t width = 10;
+};
+
+// Reads the title, RO and BULK too.
+KeywordCards material_cards(const std::string& text, const std::string& long_name,
+                            const std::string& short_name, ReadCard& card) {
+  KeywordCards cards;
+  bool inside = false, wants_title = false, is_long_deck = false;
+  for (const CardLine& line : card_lines(text, "$")) {
+    const std::string word = upper(trimmed(line.text));
+    if (!word.empty() && word[0] == '*') {
+      if (inside) break;
+      if (word.rfind("*KEYWORD", 0) == 0) is_long_deck = word.find("LONG=Y") != std::string::npos;
+      inside = word.rfind(long_name, 0) == 0 || word.rfind(short_name, 0) == 0;
+      wants_title = inside && word.find("_TITLE") != std::string::npos;
+      if (is_long_deck || word.back() == '+') cards.width = 20;
+    } else if (inside && wants_title) {
+      card.name = trimmed(line.text);
+      wants_title = false;
+    } else if (inside) {
+      cards.lines.push_back(line);
+    }
+  }
+  if (cards.lines.empty()) {
+    throw std::runtime_error("the card has no " + long_name + " (or " + short_name + ") with data");
+  }
+  const CardLine& first = cards.lines.front();
+  const auto row = columns(first.text, cards.width);
+  card.numbers.density = cell_number_or_zero(row, 1, first, "RO");
+  card.numbers.bulk = cell_number(row, 2, first, "BULK");
+  return cards;
+}
+
+// A row of moduli where card 2 belongs has a decimal point in its first field; LCID is an integer.
+bool is_row_of_moduli(const CardLine& line, std::size_t width) {
+  const std::vector<std::string> row = columns(line.text, width);
+  return !row.empty() && row[0].find_first_of(".eE") != std::string::npos;
+}
+
+// Card 2, or its absence. Returns the index of the first row of moduli.
+std::size_t read_card_2(const KeywordCards& cards, ReadCard& card) {
+  if (cards.lines.size() < 2) return 1;
+  const CardLine& line = cards.lines[1];
+  if (is_row_of_moduli(line, cards.width)) {
+    card.add("missing-blank-card",
+             at_line(line,
+                     "card 2 (LCID ...) is missing, an empty line; LS-DYNA takes this row for it "
+                     "and all rows shift"));
+    return 1;
+  }
+  if (cell_number_or_zero(columns(line.text, cards.width), 0, line, "LCID") != 0.0) {
+    card.add("fit-by-solver",
+             at_line(line, "LCID is set, so LS-DYNA fits a curve and ignores the rows"));
+  }
+  return 2;
+}
+
+void read_076(const std::string& text, ReadCard& card) {
+  const KeywordCards cards = material_cards(text, "*MAT_GENERAL_VISCOELASTIC", "*MAT_076", card);
+  bool has_equilibrium = false;
+  for (std::size_t next = read_card_2(cards, card); next < cards.lines.size(); ++next) {
+    const CardLine& line = cards.lines[next];
+    if (trimmed(line.text).empty()) continue;
+    const auto fields = columns(line.text, cards.width);
+    const double shear = cell_number_or_zero(fields, 0, line, "GI");
+    const double beta = cell_number_or_zero(fields, 1, line, "BETAI");
+    if (cell_number_or_zero(fields, 2, line, "KI") != 0.0) {
+      card.add(
+          "bulk-rows",
+          at_line(line, "KI is set; whether BULK adds to it is not documented, so it is not read"),
+          false);
+    }
+    if (beta == 0.0) {
+      has_equilibrium = true;
+      card.numbers.equilibrium += shear;
+    } else {
+      card.numbers.branches.push_back({shear, 0.0, beta});
+    }
+  }
+  if (has_equilibrium) return;
+  card.add("missing-equilibrium-row",
+           "no row has BETA = 0: the material flows like a liquid; add the row G_inf, 0");
+}
+
+void read_006(const std::string& text, ReadCard& card) {
+  const KeywordCards cards = material_cards(text, "*MAT_VISCOELASTIC", "*MAT_006", card);
+  const CardLine& line = cards.lines.front();
+  const auto row = columns(line.text, cards.width);
+  const double instantaneous = cell_number(row, 3, line, "G0");
+  card.numbers.equilibrium = cell_number(row, 4, line, "GI");
+  const double beta = cell_number_or_zero(row, 5, line, "BETA");
+  if (!(instantaneous >= card.numbers.equilibrium)) {
+    card.add("g0-below-gi", at_line(line, "G0 (instantaneous) is below GI (long-term): swapped?"));
+  }
+  if (beta != 0.0) {
+    card.numbers.branches.push_back({instantaneous - card.numbers.equilibrium, 0.0, beta});
+  }
+}
+
+// Size of the increment against time: two points per block, a step between blocks.
+std::string increment_rows(const DeckInput& input) {
+  std::string out;
+  double from_s = 0.0;
+  for (const TimeBlock& block : input.test.blocks) {
+    const std::string size = real(input.time((block.end_s - from_s) / block.increments), 20) + "\n";
+    out += real(input.time(from_s == 0.0 ? 0.0 : from_s * (1.0 + 1e-9)), 20) + size;
+    out += real(input.time(block.end_s), 20) + size;
+    from_s = block.end_s;
+  }
+  return out;
+}
+
+// Implicit, with increments that follow curve 2 (DTMAX = -2).
+std::string control(const DeckInput& input) {
+  const std::string first =
+      real(input.time(input.test.blocks[0].end_s) / input.test.blocks[0].increments, 10) + "\n";
+  return "*KEYWORD\n*CONTROL_TERMINATION\n" + real(input.end(), 10) +
+         "\n*CONTROL_IMPLICIT_GENERAL\n$   IMFLAG       DT0\n         1" + first +
+         "*CONTROL_IMPLICIT_AUTO\n$    IAUTO    ITEOPT    ITEWIN     DTMIN     DTMAX\n"
+         "         1        11         5       0.0      -2.0\n"
+         "*CONTROL_IMPLICIT_SOLUTION\n$   NSOLVR    ILIMIT    MAXREF     DCTOL     ECTOL\n"
+         "        12         1        15   1.0E-10   1.0E-10\n"
+         "*DATABASE_ELOUT\n" +
+         first + "*DATABASE_NODOUT\n" + first +
+         "*DATABASE_HISTORY_SOLID\n         1\n*DATABASE_HISTORY_NODE\n         7\n";
+}
+
+std::vector<DeckFile> lsdyna_deck(const DeckInput& input, const std::string& name) {
+  std::string out = control(input) + input.card.text;
+  out +=
+      "*SECTION_SOLID\n$    SECID    ELFORM\n         1         2\n*PART\ncube\n"
+      "$      PID     SECID       MID\n         1         1         1\n*NODE\n" +
+      node_rows(8, 16) +
+      "*ELEMENT_SOLID\n       1       1       1       2       3       4       5       6       7"
+      "       8\n";
+  for (int face = 0; face < kFaces; ++face) {
+    out += fmt::format("*SET_NODE_LIST\n{:10d}\n", face + 1) + face_nodes(face);
+  }
+  for (int face = 0; face < 3; ++face) {
+    out += fmt::format("*BOUNDARY_SPC_SET\n{:10d}         0{:10d}{:10d}{:10d}\n", face + 1,
+                       face == 0 ? 1 : 0, face == 1 ? 1 : 0, face == 2 ? 1 : 0);
+  }
+  out += input.is_creep() ? "*LOAD_NODE_SET\n         4         3         1       1.0\n"
+                          : "*BOUNDARY_PRESCRIBED_MOTION_SET\n"
+                            "         4         3         2         1       1.0\n";
+  out += "*DEFINE_CURVE\n         1\n" + ramp_rows(input) + "*DEFINE_CURVE\n         2\n" +
+         increment_rows(input) + "*END\n";
+  return {{name + ".k", out}};
+}
+
+void add_006_mistakes(const CardContext&, std::vector<CardMistake>& list) {
+  list.push_back({"branch-modulus-as-GI",
+                  "GI is the long-term shear modulus in 006; the branch modulus G0 - G_inf stands "
+                  "there (as in 076)",
+                  [](CardNumbers& n) {
+                    if (!n.branches.empty()) std::swap(n.equilibrium, n.branches[0].shear);
+                  }});
+}
+
+}  // namespace
+
+CardTarget lsdyna_target() {
+  return {.name = "lsdyna",
+          .code = "LS-DYNA *MAT_GENERAL_VISCOELASTIC (076)",
+          .extension = ".k",
+          .comment = "$",
+          .write = write_076,
+          .read = read_076,
+          .deck = DeckWriter{lsdyna_deck, "ls-dyna_double i={}.k"},
+          .elastic = ElasticForm::kBulkOnly,
+          .at = ModulusAt::kLongTerm,
+          .branch = BranchNumber::kAbsoluteShear,
+          .time = TimeNumber::kBeta,
+          .bulk = BulkRule::kConstantBulk,
+          .states_equilibrium = true,
+          .max_terms = 17,
+          .evidence = Evidence::kParsed,
+          .evidence_note =
+              "independent readers found the numbers; "
+              "18 rows in newer versions (6 in old ones), one of them the equilibrium row beta = 0",
+          .advice =
+              "Numbers are rounded to ten columns. The empty line after the first card is card 2."};
+}
+
+CardTarget lsdyna006_target() {
+  CardTarget target = lsdyna_target();
+  target.name = "lsdyna006";
+  target.code = "LS-DYNA *MAT_VISCOELASTIC (006)";
+  target.write = write_006;
+  target.read = read_006;
+  target.add_mistakes = add_006_mistakes;
+  target.max_terms = 1;
+  target.evidence_note = "independent readers found the numbers";
+  target.advice = "GI is the long-term shear modulus here. Numbers are rounded to ten columns.";
+  return target;
+}
+
+}  // namespace viscard

@@ -1,0 +1,176 @@
+// MFront behaviour. Source of the property names: TFEL's gallery, GeneralizedMaxwell.mfront.
+#include "io/cards/deck.h"
+#include "io/cards/named_values.h"
+#include "io/cards/read_card.h"
+#include "io/cards/targets/card_targets.h"
+
+#include <fmt/format.h>
+
+#include <regex>
+
+namespace viscard {
+namespace {
+
+// Stress at the end of a step in which strain is linear in time: each branch decays by exp(-dt/tau)
+// and gains its modulus times phi_1(dt/tau) = (1 - exp(-x))/x of the strain increment, exactly
+// (Taylor, Pister & Goudreau, IJNME 2 (1970) 45). dt = 0 is a jump: phi_1 = 1.
+constexpr const char* kMfrontIntegrator = R"(@StateVariable StressStensor q[Nt];
+q.setEntryName("BranchStress");
+
+@ProvidesSymmetricTangentOperator;
+@Integrator {
+  const real K0 = E0 / (3 * (1 - 2 * nu0));
+  const real G0 = E0 / (2 * (1 + nu0));
+  real Kt = K0;
+  real Gt = G0;
+  for (unsigned short i = 0; i != Nt; ++i) {
+    Kt -= k[i] * K0;
+    Gt -= g[i] * G0;
+  }
+  const StrainStensor e1 = eto + deto;
+  sig = (Kt - 2 * Gt / 3) * trace(e1) * StrainStensor::Id() + 2 * Gt * e1;
+  for (unsigned short i = 0; i != Nt; ++i) {
+    const real x = dt / tau[i];
+    const real phi = x > 1.e-300 ? -std::expm1(-x) / x : real(1);
+    const real Kb = k[i] * K0 * phi;
+    const real Gb = g[i] * G0 * phi;
+    q[i] = std::exp(-x) * q[i] + (Kb - 2 * Gb / 3) * trace(deto) * StrainStensor::Id() +
+           2 * Gb * deto;
+    sig += q[i];
+    Kt += Kb;
+    Gt += Gb;
+  }
+  if (computeTangentOperator_) {
+    Dt = (Kt - 2 * Gt / 3) * Stensor4::IxI() + 2 * Gt * Stensor4::Id();
+  }
+}
+)";
+
+std::string write_mfront(const CardBody& body) {
+  CardNumbers numbers = body.numbers;
+  // MFront makes an array of one a scalar; a branch without stiffness keeps it an array.
+  while (numbers.branches.size() < 2) {
+    const double time = numbers.branches.empty() ? 1.0 : numbers.branches.back().time;
+    numbers.branches.push_back({0.0, 0.0, time});
+  }
+  std::string out = "@DSL Default;\n@Behaviour " + body.name + ";\n\n";
+  if (numbers.density > 0.0) {
+    out += fmt::format("// mass density {} {}\n", numbers.density, body.units.density);
+  }
+  return out +
+         fmt::format(
+             "@IntegerConstant Nt = {};\n@Parameter real E0 = {};\n@Parameter real nu0 = {};\n"
+             "@Parameter real g[Nt] = {{{}}};\n@Parameter real k[Nt] = {{{}}};\n"
+             "@Parameter real tau[Nt] = {{{}}};\n\n",
+             numbers.branches.size(), numbers.young, numbers.poisson,
+             joined(numbers.branches, &CardBranch::shear, ", "),
+             joined(numbers.branches, &CardBranch::bulk, ", "),
+             joined(numbers.branches, &CardBranch::time, ", ")) +
+         kMfrontIntegrator;
+}
+
+// The gallery's law: long-term bulk and shear moduli, absolute branches.
+CardTarget gallery_target() {
+  CardTarget target = mfront_target();
+  target.elastic = ElasticForm::kBulkShear;
+  target.at = ModulusAt::kLongTerm;
+  target.branch = BranchNumber::kAbsoluteShear;
+  return target;
+}
+
+// The properties of the gallery's law, as MTest takes them.
+std::string gallery_properties(const CardNumbers& numbers) {
+  const auto property = [](const std::string& name, double value) {
+    return fmt::format("@MaterialProperty<constant> '{}' {};\n", name, value);
+  };
+  std::string out = fmt::format(
+      "// for the gallery's GeneralizedMaxwell compiled with @IntegerConstant Nv = {};\n",
+      numbers.branches.size());
+  out += property("BulkModulus", numbers.bulk) + property("ShearModulus", numbers.shear);
+  for (std::size_t i = 0; i < numbers.branches.size(); ++i) {
+    const std::string index = "[" + std::to_string(i) + "]";
+    out += property("ViscoelasticBulkModulus" + index, numbers.branches[i].bulk);
+    out += property("ViscoelasticShearModulus" + index, numbers.branches[i].shear);
+    out += property("TimeScale" + index, numbers.branches[i].time);
+  }
+  return out;
+}
+
+std::vector<CompanionFile> mfront_companions(const CardBody& body) {
+  if (!(body.material.nu < 0.5)) return {};
+  return {{"_gallery.mtest",
+           gallery_properties(numbers_from_material(body.material, gallery_target(), body.units))}};
+}
+
+void read_gallery(const std::string& text, ReadCard& card) {
+  card.understood = gallery_target();
+  const NamedNumbers named = named_lists(
+      text, "@MaterialProperty\\s*<\\s*constant\\s*>\\s*['\"]([^'\"]*)['\"]\\s*([^;]*);");
+  card.numbers.bulk = one_of(named, "BulkModulus");
+  card.numbers.shear = one_of(named, "ShearModulus");
+  for (std::size_t i = 0;; ++i) {
+    const std::string index = "[" + std::to_string(i) + "]";
+    if (named.count("TimeScale" + index) == 0) break;
+    card.numbers.branches.push_back({one_of(named, "ViscoelasticShearModulus" + index),
+                                     one_of(named, "ViscoelasticBulkModulus" + index),
+                                     one_of(named, "TimeScale" + index)});
+  }
+}
+
+void read_mfront(const std::string& commented, ReadCard& card) {
+  const std::string text = without_line_comments(commented, "//");
+  if (text.find("@MaterialProperty") != std::string::npos &&
+      text.find("ViscoelasticShearModulus[") != std::string::npos) {
+    return read_gallery(text, card);
+  }
+  const NamedNumbers named =
+      named_lists(text, "@Parameter\\s+\\w+\\s+(\\w+)\\s*(?:\\[\\s*\\w+\\s*\\])?\\s*=\\s*([^;]*);");
+  std::smatch match;
+  if (std::regex_search(text, match, std::regex("@Behaviour\\s+(\\w+)")))
+    card.name = match[1].str();
+  card.numbers.young = one_of(named, "E0");
+  card.numbers.poisson = one_of(named, "nu0");
+  const std::size_t count = named.count("tau") > 0 ? named.at("tau").size() : 0;
+  const auto& g = list_of(named, "g", count);
+  const auto& k = list_of(named, "k", count);
+  for (std::size_t i = 0; i < count; ++i) {
+    card.numbers.branches.push_back({g[i], k[i], named.at("tau")[i]});
+  }
+}
+
+// MTest drives one material point; the behaviour needs no material property.
+std::vector<DeckFile> mfront_deck(const DeckInput& input, const std::string& name) {
+  const double top = input.is_creep() ? input.stress() : input.test.amplitude;
+  std::string out = fmt::format(
+      "@ModellingHypothesis 'Tridimensional';\n@Behaviour<generic> 'src/libBehaviour.so' '{}';\n"
+      "@ExternalStateVariable 'Temperature' 293.15;\n"
+      "@Imposed{} {{0. : 0., {} : {}, {} : {}}};\n@StrainEpsilon {};\n@StressEpsilon {};\n"
+      "@Times {{0.",
+      input.card.name, input.is_creep() ? "Stress<evolution> 'SZZ'" : "Strain<evolution> 'EZZ'",
+      input.ramp(), top, 2.0 * input.end(), top, 1e-11 * input.test.amplitude,
+      1e-11 * input.stress());
+  for (const DeckBlock& block : input.blocks()) {
+    out += fmt::format(", {} in {}", block.end, block.increments);
+  }
+  return {{name + ".mtest", out + "};\n"}, {"card.mfront", input.card.text}};
+}
+
+}  // namespace
+
+CardTarget mfront_target() {
+  return {.name = "mfront",
+          .code = "MFront behaviour",
+          .extension = ".mfront",
+          .comment = "//",
+          .write = write_mfront,
+          .read = read_mfront,
+          .companions = mfront_companions,
+          .deck = DeckWriter{mfront_deck,
+                             "mfront --obuild --interface=generic card.mfront && mtest {}.mtest"},
+          .states_density = false,
+          .evidence = Evidence::kRun,
+          .evidence_note = "MTest, ramp and hold: 2e-15",
+          .advice = "mfront --obuild --interface=generic (or aster, abaqus, calculix, ansys ...)."};
+}
+
+}  // namespace viscard

@@ -1,0 +1,195 @@
+// MOOSE GeneralizedMaxwellModel. Sources: GeneralizedMaxwellModel.C; the solid mechanics module's
+// test gen_maxwell_relax.i for the one-element model, which MOOSE has not run here.
+#include "io/cards/deck.h"
+#include "io/cards/named_values.h"
+#include "io/cards/read_card.h"
+#include "io/cards/targets/card_targets.h"
+
+#include <fmt/format.h>
+
+#include <regex>
+
+namespace viscard {
+namespace {
+
+// young_modulus is instantaneous and each branch is subtracted from it; creep_viscosity is the
+// relaxation time; branches take poisson_ratio.
+std::string write_moose(const CardBody& body) {
+  const CardNumbers& numbers = body.numbers;
+  std::string out;
+  if (numbers.branches.empty()) {
+    out = fmt::format(
+        "[Materials]\n  [{}]\n    type = ComputeIsotropicElasticityTensor\n"
+        "    youngs_modulus = {}\n    poissons_ratio = {}\n  []\n"
+        "  [stress]\n    type = ComputeLinearElasticStress\n  []\n"
+        "  [strain]\n    type = ComputeSmallStrain\n",
+        body.name, numbers.young, numbers.poisson);
+  } else {
+    // The default rule, backward Euler, is first order; this one takes stress linear in the step.
+    out = fmt::format(
+        "[Materials]\n  [{}]\n    type = GeneralizedMaxwellModel\n"
+        "    young_modulus = {}\n    poisson_ratio = {}\n    integration_rule = zienkiewicz\n"
+        "    creep_modulus = '{}'\n    creep_viscosity = '{}'\n  []\n"
+        "  [creep]\n    type = LinearViscoelasticStressUpdate\n  []\n"
+        "  [stress]\n    type = ComputeMultipleInelasticStress\n    inelastic_models = 'creep'\n"
+        "  []\n  [strain]\n    type = ComputeIncrementalSmallStrain\n",
+        body.name, numbers.young, numbers.poisson,
+        joined(numbers.branches, &CardBranch::shear, " "),
+        joined(numbers.branches, &CardBranch::time, " "));
+  }
+  out += "    displacements = 'disp_x disp_y disp_z'\n  []\n";
+  if (numbers.density > 0.0) {
+    out += fmt::format(
+        "  [density]\n    type = GenericConstantMaterial\n    prop_names = 'density'\n"
+        "    prop_values = '{}'\n  []\n",
+        numbers.density);
+  }
+  out += "[]\n";
+  if (numbers.branches.empty()) return out;
+  return out +
+         "[UserObjects]\n  [update]\n    type = LinearViscoelasticityManager\n"
+         "    viscoelastic_model = " +
+         body.name + "\n  []\n[]\n";
+}
+
+void read_moose(const std::string& commented, ReadCard& card) {
+  const std::string text = without_line_comments(commented, "#");
+  const NamedNumbers named = named_lists(
+      text,
+      "(young_modulus|youngs_modulus|poisson_ratio|poissons_ratio|creep_modulus|"
+      "creep_viscosity|creep_ratio|prop_values)\\s*=\\s*('[^']*'|\"[^\"]*\"|[^\\s\\[]+)");
+  std::smatch match;
+  if (std::regex_search(text, match,
+                        std::regex("\\[(?:\\./)?(\\w+)\\]\\s*type\\s*=\\s*(Gen|ComputeIso)"))) {
+    card.name = match[1].str();
+  }
+  const bool is_elastic = named.count("young_modulus") == 0;
+  card.numbers.young = one_of(named, is_elastic ? "youngs_modulus" : "young_modulus");
+  card.numbers.poisson = one_of(named, is_elastic ? "poissons_ratio" : "poisson_ratio");
+  if (std::regex_search(text, std::regex("prop_names\\s*=\\s*['\"]?density"))) {
+    card.numbers.density = one_of(named, "prop_values");
+  }
+  const std::size_t count =
+      named.count("creep_viscosity") > 0 ? named.at("creep_viscosity").size() : 0;
+  const auto& modulus = list_of(named, "creep_modulus", count);
+  for (std::size_t i = 0; i < count; ++i) {
+    card.numbers.branches.push_back({modulus[i], 0.0, named.at("creep_viscosity")[i]});
+  }
+  if (named.count("creep_ratio") > 0) {
+    card.add("creep-ratio", "creep_ratio is set; the branches are read with poisson_ratio", false);
+  }
+  if (!is_elastic && text.find("LinearViscoelasticityManager") == std::string::npos) {
+    card.add("missing-user-object",
+             "there is no LinearViscoelasticityManager: the coefficients of time stepping stay "
+             "frozen");
+  }
+}
+
+std::string block(const std::string& name, const std::string& lines) {
+  return "  [" + name + "]\n" + lines + "  []\n";
+}
+
+std::string for_each_axis(std::string (*entry)(char axis)) {
+  return entry('x') + entry('y') + entry('z');
+}
+
+// The size at the start of a step is used, so a size stays until just before the next block.
+std::string step_sizes(const DeckInput& input) {
+  std::string times = "0", sizes;
+  double from_s = 0.0;
+  for (const TimeBlock& part : input.test.blocks) {
+    sizes += fmt::format("{0}{1} {1}", sizes.empty() ? "" : " ",
+                         input.time((part.end_s - from_s) / part.increments));
+    times += fmt::format(" {}", input.time(part.end_s * (1.0 - 1e-9)));
+    if (&part != &input.test.blocks.back()) {
+      times += fmt::format(" {}", input.time(part.end_s * (1.0 - 0.5e-9)));
+    }
+    from_s = part.end_s;
+  }
+  return "    type = PiecewiseLinear\n    x = '" + times + "'\n    y = '" + sizes + "'\n";
+}
+
+std::string mesh_and_kernels() {
+  std::string out =
+      "[Mesh]\n  type = GeneratedMesh\n  dim = 3\n  nx = 1\n  ny = 1\n  nz = 1\n"
+      "  elem_type = HEX8\n[]\n[GlobalParams]\n  displacements = 'disp_x disp_y disp_z'\n[]\n"
+      "[Variables]\n";
+  out += for_each_axis([](char axis) { return fmt::format("  [disp_{}]\n  []\n", axis); });
+  out += "[]\n[Kernels]\n";
+  out += for_each_axis([](char axis) {
+    return block(fmt::format("balance_{}", axis),
+                 fmt::format("    type = StressDivergenceTensors\n    variable = disp_{}\n"
+                             "    component = {}\n",
+                             axis, axis - 'x'));
+  });
+  return out +
+         "[]\n[AuxVariables]\n  [stress_zz]\n    order = CONSTANT\n    family = MONOMIAL\n  "
+         "[]\n[]\n"
+         "[AuxKernels]\n" +
+         block("stress_zz",
+               "    type = RankTwoAux\n    variable = stress_zz\n    rank_two_tensor = stress\n"
+               "    index_i = 2\n    index_j = 2\n    execute_on = timestep_end\n") +
+         "[]\n";
+}
+
+std::string boundaries(const DeckInput& input) {
+  // GeneratedMesh names the faces x = 0 left, y = 0 bottom, z = 0 back, z = 1 front.
+  std::string out =
+      "[BCs]\n" + for_each_axis([](char axis) {
+        return block(
+            fmt::format("roller_{}", axis),
+            fmt::format("    type = DirichletBC\n    variable = disp_{}\n    boundary = {}\n"
+                        "    value = 0\n",
+                        axis,
+                        axis == 'x'   ? "left"
+                        : axis == 'y' ? "bottom"
+                                      : "back"));
+      });
+  return out +
+         block("pull", fmt::format("    type = Function{}BC\n    variable = disp_z\n"
+                                   "    boundary = front\n    function = ramp\n",
+                                   input.is_creep() ? "Neumann" : "Dirichlet")) +
+         "[]\n";
+}
+
+std::vector<DeckFile> moose_deck(const DeckInput& input, const std::string& name) {
+  std::string out =
+      mesh_and_kernels() + "[Functions]\n" +
+      block("ramp", fmt::format("    type = PiecewiseLinear\n    x = '0 {0} {1}'\n"
+                                "    y = '0 {2} {2}'\n",
+                                input.ramp(), 2.0 * input.end(),
+                                input.is_creep() ? input.stress() : input.test.amplitude)) +
+      block("step_size", step_sizes(input)) + "[]\n" + boundaries(input) + input.card.text +
+      "[Postprocessors]\n";
+  out += block("stress", "    type = ElementAverageValue\n    variable = stress_zz\n");
+  out +=
+      block("strain", "    type = SideAverageValue\n    variable = disp_z\n    boundary = front\n");
+  out += fmt::format(
+      "[]\n[Executioner]\n  type = Transient\n  solve_type = NEWTON\n"
+      "  petsc_options_iname = '-pc_type'\n  petsc_options_value = 'lu'\n"
+      "  nl_rel_tol = 1e-12\n  nl_abs_tol = 1e-30\n  end_time = {}\n"
+      "  [TimeStepper]\n    type = FunctionDT\n    function = step_size\n  []\n[]\n"
+      "[Outputs]\n  csv = true\n[]\n",
+      input.end());
+  return {{name + ".i", out}};
+}
+
+}  // namespace
+
+CardTarget moose_target() {
+  return {
+      .name = "moose",
+      .code = "MOOSE GeneralizedMaxwellModel",
+      .extension = ".i",
+      .comment = "#",
+      .write = write_moose,
+      .read = read_moose,
+      .deck = DeckWriter{moose_deck, "solid_mechanics-opt -i {}.i"},
+      .branch = BranchNumber::kAbsoluteYoung,
+      .bulk = BulkRule::kConstantPoisson,
+      .evidence = Evidence::kSource,
+      .evidence_note = "source of the class; not run",
+      .advice = "creep_viscosity is the relaxation time. Keep the UserObject, or nothing relaxes."};
+}
+
+}  // namespace viscard

@@ -1,0 +1,169 @@
+// OpenRadioss, /MAT/LAW40 (KELVINMAX): K, long-term shear modulus, five branches. The only target
+// that declares its units. Source: Radioss Reference Guide (/MAT/LAW40, /PROP/TYPE14, /IMPDISP,
+// /CLOAD, /TH); OpenRadioss has not run the one-element model here.
+#include "io/cards/card_lines.h"
+#include "io/cards/column_fields.h"
+#include "io/cards/read_card.h"
+#include "io/cards/targets/card_targets.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+std::string row20(const std::vector<double>& values) {
+  std::string out;
+  for (const double value : values) out += real(value, 20);
+  return out + "\n";
+}
+
+// MUNIT, LUNIT, TUNIT.
+std::string unit_row(const UnitSystem& units) {
+  return right(units.mass, 20) + right(units.length, 20) + right(units.time, 20) + "\n";
+}
+
+std::string write_openradioss(const CardBody& body) {
+  const CardNumbers& numbers = body.numbers;
+  std::vector<double> shear(5, 0.0), decay(5, 0.0);
+  for (std::size_t i = 0; i < numbers.branches.size(); ++i) {
+    shear[i] = numbers.branches[i].shear;
+    decay[i] = numbers.branches[i].time;
+  }
+  return fmt::format("/UNIT/1\n{}\n", body.units.name) +
+         "#              MUNIT               LUNIT               TUNIT\n" + unit_row(body.units) +
+         "/MAT/LAW40/1/1\n" + body.name + "\n#              RHO_I\n" + row20({numbers.density}) +
+         "#                  K               G_inf              Astass              Bstass"
+         "                 Kvm\n" +
+         row20({numbers.bulk, numbers.equilibrium, 0.0, 0.0, 0.0}) +
+         "#                 G1                  G2                  G3                  G4"
+         "                  G5\n" +
+         row20(shear) +
+         "#              BETA1               BETA2               BETA3               BETA4"
+         "               BETA5\n" +
+         row20(decay);
+}
+
+// The unit block at line `at`: the first unit system that it matches.
+void read_units(const std::vector<CardLine>& lines, std::size_t at, ReadCard& card) {
+  if (at + 2 >= lines.size()) return;
+  const auto row = columns(lines[at + 2].text, 20);
+  if (row.size() < 3) return;
+  for (const UnitSystem& system : unit_systems()) {
+    const bool is_mass = row[0] == system.mass || (row[0] == "t" && system.name[0] == 'm' &&
+                                                   std::string(system.mass) == "Mg");
+    if (is_mass && row[1] == system.length && row[2] == system.time) {
+      card.units = system;
+      card.units_were_stated = true;
+      return;
+    }
+  }
+  throw std::runtime_error(at_line(lines[at + 2], "the units " + row[0] + ", " + row[1] + ", " +
+                                                      row[2] + " are of no known unit system"));
+}
+
+void read_openradioss(const std::string& text, ReadCard& card) {
+  const std::vector<CardLine> lines = card_lines(text, "#");
+  std::size_t at = lines.size();
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::string word = upper(trimmed(lines[i].text));
+    if (word.rfind("/UNIT/", 0) == 0) read_units(lines, i, card);
+    if (word.rfind("/MAT/LAW40", 0) == 0 || word.rfind("/MAT/KELVINMAX", 0) == 0) at = i;
+  }
+  if (at + 5 >= lines.size()) {
+    throw std::runtime_error(
+        "the card has no complete /MAT/LAW40 (title and four lines of numbers)");
+  }
+  card.name = trimmed(lines[at + 1].text);
+  const auto row = [&](std::size_t offset) { return columns(lines[at + offset].text, 20); };
+  card.numbers.density = cell_number_or_zero(row(2), 0, lines[at + 2], "RHO_I");
+  card.numbers.bulk = cell_number(row(3), 0, lines[at + 3], "K");
+  card.numbers.equilibrium = cell_number(row(3), 1, lines[at + 3], "G_inf");
+  for (std::size_t i = 0; i < 5; ++i) {
+    const double shear = cell_number_or_zero(row(4), i, lines[at + 4], "G");
+    if (shear == 0.0) continue;
+    card.numbers.branches.push_back(
+        {shear, 0.0, cell_number_or_zero(row(5), i, lines[at + 5], "BETA")});
+  }
+}
+
+std::string boundaries(const DeckInput& input) {
+  std::string out;
+  for (int face = 0; face < kFaces; ++face) {
+    out += fmt::format("/GRNOD/NODE/{0}\nface {0}\n", face + 1) + face_nodes(face);
+  }
+  const char* codes[] = {"100", "010", "001"};
+  for (int face = 0; face < 3; ++face) {
+    out +=
+        fmt::format("/BCS/{0}\nroller {0}\n   {1} 000         0{0:10d}\n", face + 1, codes[face]);
+  }
+  out += "/FUNCT/1\nramp and hold\n" + ramp_rows(input);
+  return out + (input.is_creep()
+                    ? "/CLOAD/1\npull\n"
+                      "#  funct_ID       Dir   skew_ID sensor_ID  grnod_ID            Ascale_x"
+                      "            Fscale_Y\n"
+                      "         1         Z         0         0         4                 1.0"
+                      "                 1.0\n"
+                    : "/IMPDISP/1\npull\n"
+                      "#  funct_ID       Dir   skew_ID sensor_ID  grnod_ID  frame_ID\n"
+                      "         1         Z         0         0         4         0\n"
+                      "                 1.0                 1.0                 0.0              "
+                      "1.0E30\n");
+}
+
+// Explicit: about (end time) * (wave speed) / (edge) cycles, half a minute for a few seconds of
+// PDMS on one element with an edge of 1 mm.
+std::string starter(const DeckInput& input, const std::string& name) {
+  std::string out = "#RADIOSS STARTER\n/BEGIN\n" + name + "\n      2022         0\n" +
+                    unit_row(input.units) + unit_row(input.units) + input.card.text + "/NODE\n" +
+                    node_rows(10, 20) + "/BRICK/1\n         1";
+  for (int node = 1; node <= 8; ++node) out += fmt::format("{:10d}", node);
+  return out +
+         "\n/PART/1\ncube\n#  prop_ID    mat_ID subset_ID\n         1         1         0\n"
+         "/PROP/TYPE14/1\nsolid\n"
+         "#   Isolid    Ismstr               Icpre  Itetra10     Inpts   Itetra4    Iframe"
+         "                  dn\n"
+         "        17         1                   0         0         0         0         0"
+         "                 0.0\n"
+         "                 1.1                0.05                 0.0                 0.0"
+         "                 0.0\n"
+         "                 0.0                 0.0                 0.0                 0.0"
+         "                 0.0\n"
+         "         0         0         0\n" +
+         boundaries(input) +
+         "/TH/NODE/1\nlength\nDZ\n         7         0\n/TH/BRIC/2\nstress\nSZ\n         1\n"
+         "/END\n";
+}
+
+std::vector<DeckFile> openradioss_deck(const DeckInput& input, const std::string& name) {
+  const double end = input.end();
+  return {{name + "_0000.rad", starter(input, name)},
+          {name + "_0001.rad", "#RADIOSS ENGINE\n/RUN/" + name + "/1\n" + real(end, 20) +
+                                   "\n/VERS/2022\n/TFILE\n" + real(end / 1000.0, 20) +
+                                   "\n/PRINT/-100000\n"}};
+}
+
+}  // namespace
+
+CardTarget openradioss_target() {
+  return {.name = "openradioss",
+          .code = "OpenRadioss /MAT/LAW40",
+          .extension = ".rad",
+          .comment = "#",
+          .write = write_openradioss,
+          .read = read_openradioss,
+          .deck = DeckWriter{openradioss_deck, "starter -i {0}_0000.rad && engine -i {0}_0001.rad"},
+          .elastic = ElasticForm::kBulkOnly,
+          .at = ModulusAt::kLongTerm,
+          .branch = BranchNumber::kAbsoluteShear,
+          .time = TimeNumber::kBeta,
+          .bulk = BulkRule::kConstantBulk,
+          .states_equilibrium = true,
+          .max_terms = 5,
+          .evidence = Evidence::kSource,
+          .evidence_note = "format definition of the open source code; not run",
+          .advice = "The card declares its units in /UNIT; solid elements only."};
+}
+
+}  // namespace viscard
