@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rig/emulator/fault_proxy.h"
+#include "rig/emulator/fault_rates.h"
 
 #include <cstddef>
 #include <cstdint>

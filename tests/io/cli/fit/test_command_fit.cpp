@@ -1,11 +1,11 @@
 #include "io/capture/capture_file.h"
-#include "io/cli/command.h"
 #include "io/materials/material_file.h"
 #include "tests/support/in_memory_run.h"
+#include "tests/support/run_command.h"
+#include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -19,37 +19,13 @@ using Catch::Contains;
 
 namespace {
 
-struct Ran {
-  int status = 0;
-  std::string out, err;
-};
-
-Ran run(const std::vector<std::string>& words) {
-  std::ostringstream out, err;
-  Streams streams{out, err, false};
-  const int status = run_viscard(words, streams);
-  return {status, out.str(), err.str()};
-}
-
-class Folder {
+class Folder : public ScratchFolder {
  public:
-  Folder()
-      : path_(std::filesystem::temp_directory_path() /
-              ("viscard_test_fit_" + std::to_string(getpid()))) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  std::string file(const std::string& name) const { return (*this / name).string(); }
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(file(name)) << text;
     return file(name);
   }
-
- private:
-  std::filesystem::path path_;
 };
 
 std::string relaxation_table() {
@@ -69,7 +45,7 @@ std::string relaxation_table() {
 TEST_CASE("a table with a row of units becomes JSON with the promised keys", "[cli]") {
   const Folder folder;
   const std::string file = folder.write("E.csv", relaxation_table());
-  const Ran ran = run({"fit", file, "--json"});
+  const auto ran = run_command({"fit", file, "--json"});
   CHECK(ran.err == "");
   REQUIRE(ran.status == kDone);
   const auto json = nlohmann::json::parse(ran.out);
@@ -104,7 +80,7 @@ TEST_CASE("a capture becomes a material file that names its raw data", "[cli]") 
     for (const CommandedMove& move : captured.moves) writer.append(move);
     writer.finish("finished");
   }
-  const Ran ran = run({"fit", folder.file("run.viscap"), "--out", folder.file("m.json")});
+  const auto ran = run_command({"fit", folder.file("run.viscap"), "--out", folder.file("m.json")});
   CHECK(ran.err == "");
   REQUIRE(ran.status == kDone);
   CHECK_THAT(ran.out, Contains("E0") && Contains("MPa") && Contains("systematic"));
@@ -121,7 +97,8 @@ TEST_CASE("a capture becomes a material file that names its raw data", "[cli]") 
   CHECK(material.provenance.raw_files[0].sha256.size() == 64);
   CHECK(material.valid.t_max_s > 80.0);
 
-  const Ran again = run({"fit", folder.file("run.viscap"), "--out", folder.file("m.json")});
+  const auto again =
+      run_command({"fit", folder.file("run.viscap"), "--out", folder.file("m.json")});
   CHECK(again.status == kFailed);
   CHECK_THAT(again.err, Contains("exists already") && Contains("--force"));
 }
@@ -131,8 +108,8 @@ TEST_CASE("a column without header and a scaled one can be named", "[cli]") {
   std::string text = relaxation_table();
   text = text.substr(text.find("MPa\n") + 4);
   const std::string file = folder.write("plain.csv", text);
-  const Ran ran =
-      run({"fit", file, "--column", "time_s=1", "--column", "modulus_Pa=1e6*2", "--json"});
+  const auto ran =
+      run_command({"fit", file, "--column", "time_s=1", "--column", "modulus_Pa=1e6*2", "--json"});
   CHECK(ran.err == "");
   REQUIRE(ran.status == kDone);
   CHECK(nlohmann::json::parse(ran.out)["E0_Pa"].get<double>() == Approx(1.8e6).epsilon(1e-4));
@@ -148,17 +125,17 @@ TEST_CASE("force and depth without geometry are called stiffness, and give no ma
     text << t << "," << 2.0e4 * depth * (1.0 + 1e-5 * ((7 * i) % 11)) << "," << depth << "\n";
   }
   const std::string file = folder.write("fd.csv", text.str());
-  const Ran plain = run({"fit", file, "--json"});
+  const auto plain = run_command({"fit", file, "--json"});
   REQUIRE(plain.status == kDone);
   const auto json = nlohmann::json::parse(plain.out);
   CHECK(json["K0_N_m"].get<double>() == Approx(2e4).epsilon(1e-3));
   CHECK_FALSE(json.contains("E0_Pa"));
-  const Ran refused = run({"fit", file, "--out", folder.file("m.json")});
+  const auto refused = run_command({"fit", file, "--out", folder.file("m.json")});
   CHECK(refused.status == kFailed);
   CHECK(refused.out == "");  // refused before any work
   CHECK_THAT(refused.err, Contains("--punch-diameter"));
-  const Ran given = run({"fit", file, "--punch-diameter", "4.4 mm", "--layer-thickness", "11 mm",
-                         "--out", folder.file("m.json"), "--json"});
+  const auto given = run_command({"fit", file, "--punch-diameter", "4.4 mm", "--layer-thickness",
+                                  "11 mm", "--out", folder.file("m.json"), "--json"});
   CHECK(given.err == "");
   CHECK(given.status == kDone);
   CHECK(nlohmann::json::parse(given.out).contains("E0_Pa"));
@@ -181,7 +158,7 @@ TEST_CASE("wrong words give one line and exit status 2", "[cli]") {
       {{"fit", file, "--liquid", "--terms", "0"}, "at least one term"},
       {{"fit", file, file, "--out", folder.file("m.json")}, "one input file"}};
   for (const auto& [words, expected] : cases) {
-    const Ran ran = run(words);
+    const auto ran = run_command(words);
     CAPTURE(ran.err);
     CHECK(ran.status == kBadWords);
     CHECK(ran.out == "");
@@ -198,7 +175,7 @@ TEST_CASE("data that cannot be fitted give one line with the file and exit statu
       {folder.write("text.csv", "time_s,modulus_Pa\n0,1\n1,abc\n2,1\n3,1\n4,1\n"), "abc"},
       {folder.write("other.csv", "a,b\n0,1\n1,2\n2,3\n3,4\n"), "--column"}};
   for (const auto& [file, expected] : cases) {
-    const Ran ran = run({"fit", file});
+    const auto ran = run_command({"fit", file});
     CAPTURE(ran.err);
     CHECK(ran.status == kFailed);
     CHECK(ran.out == "");
@@ -238,7 +215,7 @@ TEST_CASE("bad data get a clear refusal or a flagged answer", "[cli]") {
         {pressed_table([](double, double force) { return -force; }, all), "--column force_N=-NAME"},
         {"time_s,force_N,depth_m\n0,0,0\n1,1,1e-4\n", "at least"}};
     for (const auto& [table, expected] : cases) {
-      const Ran ran = run({"fit", folder.write("bad.csv", table)});
+      const auto ran = run_command({"fit", folder.write("bad.csv", table)});
       CAPTURE(ran.err);
       CHECK(ran.status == kFailed);
       CHECK(ran.out == "");
@@ -252,7 +229,7 @@ TEST_CASE("bad data get a clear refusal or a flagged answer", "[cli]") {
         {pressed_table([](double, double force) { return std::min(force, 1.85); }, all),
          "saturated"}};
     for (const auto& [table, flag] : cases) {
-      const Ran ran = run({"fit", folder.write("bad.csv", table), "--json"});
+      const auto ran = run_command({"fit", folder.write("bad.csv", table), "--json"});
       CHECK(ran.status == kFailed);
       CHECK_THAT(ran.err, Contains("not to be trusted"));
       const auto json = nlohmann::json::parse(ran.out);
@@ -265,7 +242,8 @@ TEST_CASE("bad data get a clear refusal or a flagged answer", "[cli]") {
 TEST_CASE("profiles and a bootstrap are part of the JSON when asked for", "[cli]") {
   const Folder folder;
   const std::string file = folder.write("E.csv", relaxation_table());
-  const Ran ran = run({"fit", file, "--profiles", "--bootstrap", "40", "--terms", "1", "--json"});
+  const auto ran =
+      run_command({"fit", file, "--profiles", "--bootstrap", "40", "--terms", "1", "--json"});
   CHECK(ran.err == "");
   REQUIRE(ran.status == kDone);
   const auto json = nlohmann::json::parse(ran.out);
@@ -279,7 +257,7 @@ TEST_CASE("several files are fitted together, in their order", "[cli]") {
   const Folder folder;
   const std::string a = folder.write("a.csv", relaxation_table());
   const std::string b = folder.write("b.csv", relaxation_table());
-  const Ran ran = run({"fit", b, a, "--json"});
+  const auto ran = run_command({"fit", b, a, "--json"});
   REQUIRE(ran.status == kDone);
   const auto json = nlohmann::json::parse(ran.out);
   REQUIRE(json["fits"].size() == 2);
@@ -290,7 +268,7 @@ TEST_CASE("several files are fitted together, in their order", "[cli]") {
 TEST_CASE("what is called a capture and is none is not taken for a table", "[cli]") {
   const Folder folder;
   const std::string file = folder.write("run.viscap", "SQLxte format 3\n0.1,0.2\n0.3,0.4\n");
-  const Ran ran = run({"fit", file});
+  const auto ran = run_command({"fit", file});
   CHECK(ran.status == kFailed);
   CHECK_THAT(ran.err, Contains(file) && Contains("not a capture") && !Contains("column"));
 }
@@ -298,14 +276,14 @@ TEST_CASE("what is called a capture and is none is not taken for a table", "[cli
 TEST_CASE("a series is compared with a power law where asked, and only where it can be", "[cli]") {
   const Folder folder;
   const std::string file = folder.write("E.csv", relaxation_table());
-  const Ran ran = run({"fit", file, "--diagnose", "--json"});
+  const auto ran = run_command({"fit", file, "--diagnose", "--json"});
   REQUIRE(ran.status == kDone);
   const auto fractional = nlohmann::json::parse(ran.out).at("fractional_zener");
   CHECK(fractional.at("alpha").get<double>() == Approx(1.0).margin(0.01));  // one term
   CHECK(fractional.at("tau_s").get<double>() == Approx(3.0).epsilon(0.02));
   const std::string creep =
       folder.write("J.csv", "time_s,compliance_1_Pa\n0.1,1e-6\n1,1.1e-6\n10,1.2e-6\n100,1.21e-6\n");
-  const Ran refused = run({"fit", creep, "--diagnose"});
+  const auto refused = run_command({"fit", creep, "--diagnose"});
   CHECK(refused.status == kFailed);
   CHECK_THAT(refused.err, Contains("--diagnose compares relaxation"));
 }
@@ -317,7 +295,7 @@ TEST_CASE("a density or ratio that cannot be is refused before the fit", "[cli]"
        {std::vector<std::string>{"--density", "-5 kg/m3"}, {"--ratio", "0"}, {"--ratio", "-10"}}) {
     std::vector<std::string> line{"fit", file, "--out", folder.file("m.json")};
     line.insert(line.end(), words.begin(), words.end());
-    const Ran ran = run(line);
+    const auto ran = run_command(line);
     CAPTURE(words, ran.err);
     CHECK(ran.status == kBadWords);
     CHECK_THAT(ran.err, Contains(words[0] + " must be positive"));
