@@ -15,7 +15,6 @@ namespace viscard {
 namespace {
 
 constexpr double kExactEnough = 1e-6;  // of E(t): seven digits typed by hand
-constexpr double kHandTyped = 2e-3;    // of a single number, which may have few digits
 
 bool has_mistake(const std::vector<CardFinding>& findings) {
   return std::any_of(findings.begin(), findings.end(),

@@ -9,8 +9,6 @@
 namespace viscard {
 namespace {
 
-// Numbers typed by hand have fewer digits: relative differences below this do not count.
-constexpr double kHandTyped = 2e-3;
 
 double mismatch(double a, double b) {
   if (a == b) return 0.0;

@@ -131,7 +131,7 @@ void read_febio(const std::string& commented, ReadCard& card) {
 }
 
 // The unit cube and its rollers.
-std::string mesh(const std::string& material) {
+std::string febio_mesh(const std::string& material) {
   std::string out = "<Mesh>\n<Nodes name=\"nodes\">\n";
   const char* corners[] = {"0,0,0", "1,0,0", "1,1,0", "0,1,0", "0,0,1", "1,0,1", "1,1,1", "0,1,1"};
   for (int i = 0; i < 8; ++i) out += fmt::format("<node id=\"{}\">{}</node>\n", i + 1, corners[i]);
@@ -192,7 +192,7 @@ std::vector<DeckFile> febio_deck(const DeckInput& input, const std::string& name
   return {{name + ".feb",
            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<febio_spec version=\"4.0\">\n"
            "<Module type=\"solid\"/>\n<Material>\n" +
-               input.card.text + "</Material>\n" + mesh(input.card.name) + pull(input) +
+               input.card.text + "</Material>\n" + febio_mesh(input.card.name) + pull(input) +
                steps(input) + "<Output><logfile>" +
                (input.is_creep() ? "<node_data data=\"uz\" file=\"uz.txt\">7</node_data>"
                                  : "<element_data data=\"sz\" file=\"sz.txt\">1</element_data>") +

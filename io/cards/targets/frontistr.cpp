@@ -49,7 +49,7 @@ void read_frontistr(const std::string& text, ReadCard& card) {
   require(has_elastic, "!ELASTIC");
 }
 
-std::string mesh() {
+std::string frontistr_mesh() {
   std::string out = "!HEADER\n one element\n!NODE\n";
   const char* corners[] = {"0., 0., 0.", "1., 0., 0.", "1., 1., 0.", "0., 1., 0.",
                            "0., 0., 1.", "1., 0., 1.", "1., 1., 1.", "0., 1., 1."};
@@ -61,7 +61,7 @@ std::string mesh() {
          "!NGROUP, NGRP=Z0\n 1, 2, 3, 4\n!NGROUP, NGRP=Z1\n 5, 6, 7, 8\n!END\n";
 }
 
-std::string control(const DeckInput& input) {
+std::string frontistr_control(const DeckInput& input) {
   std::string card = input.card.text;
   // The mesh calls the material of its section M.
   const std::size_t at = card.find("!MATERIAL, NAME=");
@@ -82,8 +82,8 @@ std::string control(const DeckInput& input) {
 }
 
 std::vector<DeckFile> frontistr_deck(const DeckInput& input, const std::string& name) {
-  return {{name + ".cnt", control(input)},
-          {name + ".msh", mesh()},
+  return {{name + ".cnt", frontistr_control(input)},
+          {name + ".msh", frontistr_mesh()},
           {"hecmw_ctrl.dat", "!MESH, NAME=fstrMSH, TYPE=HECMW-ENTIRE\n " + name +
                                  ".msh\n!CONTROL, NAME=fstrCNT\n " + name +
                                  ".cnt\n!RESULT, NAME=fstrRES, IO=OUT\n " + name + ".res\n"}};

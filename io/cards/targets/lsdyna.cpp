@@ -177,7 +177,7 @@ std::string increment_rows(const DeckInput& input) {
 }
 
 // Implicit, with increments that follow curve 2 (DTMAX = -2).
-std::string control(const DeckInput& input) {
+std::string lsdyna_control(const DeckInput& input) {
   const std::string first =
       real(input.time(input.test.blocks[0].end_s) / input.test.blocks[0].increments, 10) + "\n";
   return "*KEYWORD\n*CONTROL_TERMINATION\n" + real(input.end(), 10) +
@@ -192,7 +192,7 @@ std::string control(const DeckInput& input) {
 }
 
 std::vector<DeckFile> lsdyna_deck(const DeckInput& input, const std::string& name) {
-  std::string out = control(input) + input.card.text;
+  std::string out = lsdyna_control(input) + input.card.text;
   out +=
       "*SECTION_SOLID\n$    SECID    ELFORM\n         1         2\n*PART\ncube\n"
       "$      PID     SECID       MID\n         1         1         1\n*NODE\n" +

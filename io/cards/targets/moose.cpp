@@ -132,7 +132,7 @@ std::string mesh_and_kernels() {
          "[]\n";
 }
 
-std::string boundaries(const DeckInput& input) {
+std::string moose_boundaries(const DeckInput& input) {
   // GeneratedMesh names the faces x = 0 left, y = 0 bottom, z = 0 back, z = 1 front.
   std::string out =
       "[BCs]\n" + for_each_axis([](char axis) {
@@ -159,7 +159,7 @@ std::vector<DeckFile> moose_deck(const DeckInput& input, const std::string& name
                                 "    y = '0 {2} {2}'\n",
                                 input.ramp(), 2.0 * input.end(),
                                 input.is_creep() ? input.stress() : input.test.amplitude)) +
-      block("step_size", step_sizes(input)) + "[]\n" + boundaries(input) + input.card.text +
+      block("step_size", step_sizes(input)) + "[]\n" + moose_boundaries(input) + input.card.text +
       "[Postprocessors]\n";
   out += block("stress", "    type = ElementAverageValue\n    variable = stress_zz\n");
   out +=

@@ -88,7 +88,7 @@ void read_openradioss(const std::string& text, ReadCard& card) {
   }
 }
 
-std::string boundaries(const DeckInput& input) {
+std::string radioss_boundaries(const DeckInput& input) {
   std::string out;
   for (int face = 0; face < kFaces; ++face) {
     out += fmt::format("/GRNOD/NODE/{0}\nface {0}\n", face + 1) + face_nodes(face);
@@ -131,7 +131,7 @@ std::string starter(const DeckInput& input, const std::string& name) {
          "                 0.0                 0.0                 0.0                 0.0"
          "                 0.0\n"
          "         0         0         0\n" +
-         boundaries(input) +
+         radioss_boundaries(input) +
          "/TH/NODE/1\nlength\nDZ\n         7         0\n/TH/BRIC/2\nstress\nSZ\n         1\n"
          "/END\n";
 }

@@ -1,5 +1,6 @@
 #include "io/cli/card/command_card.h"
 
+#include "io/basics/nearest_word.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
 #include "io/cli/card/card_words.h"
