@@ -71,10 +71,10 @@ struct DeckWriter {
 
 // A target without a writer or a reader does not compile, so none can take that of another.
 struct CardTarget {
-  std::string name;          // as on the command line
-  std::string code;          // "Abaqus"
-  std::string extension;     // ".inp"
-  std::string comment = "";  // opens a comment line; "<!--" closes with "-->"; "": no comments
+  std::string name;       // as on the command line
+  std::string code;       // "Abaqus"
+  std::string extension;  // ".inp"
+  std::string comment;    // opens a comment line; "<!--" closes with "-->"; "": no comments
 
   std::reference_wrapper<std::string(const CardBody& body)> write;  // the text after the header
   // Fills numbers, findings and understood. Throws std::runtime_error with the line and what was
@@ -101,7 +101,7 @@ struct CardTarget {
   bool takes_wlf = false;  // has a place for log10 a_T = -C1 (T - T_ref)/(C2 + T - T_ref)
   Evidence evidence = Evidence::kOurs;
   std::string evidence_note;
-  std::string advice = "";  // what the user of this code must do besides pasting the card
+  std::string advice;  // what the user of this code must do besides pasting the card
 };
 
 // "instantaneous E, nu; branches relative (g_i = G_i/G_0); time tau; bulk relaxes with its own k_i"

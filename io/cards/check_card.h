@@ -21,7 +21,7 @@ struct CardCheck {
 };
 
 struct CheckOptions {
-  std::string units = "";  // empty: those that the card states, else SI
+  std::string units;  // empty: those that the card states, else SI
   // Of E(t), relative. Default: the larger of 1e-6 and the error that write_card makes when it
   // rounds the reference to the target's columns.
   std::optional<double> tolerance = {};

@@ -21,12 +21,12 @@ struct ReadCard {
   CardTarget understood;  // the target's conventions, changed where the card says otherwise
   UnitSystem units;
   bool units_were_stated = false;  // in the card's header or in its own unit block
-  std::string name = "";
+  std::string name;
   CardNumbers numbers = {};
   Material material = {};  // SI; what the solver would simulate
   std::vector<CardFinding> findings = {};
   // A keyword whose absence makes the elastic modulus the long-term one; "" if it is there.
-  std::string missing_keyword = "";
+  std::string missing_keyword;
 
   void add(const char* finding, const std::string& text, bool is_mistake = true) {
     findings.push_back({finding, text, is_mistake});
