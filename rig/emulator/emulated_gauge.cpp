@@ -31,7 +31,7 @@ std::string formatted(const char* format, double value) {
 
 }  // namespace
 
-// One row per polled instrument (rig/protocols/gauge_protocol.cpp).
+// One row per polled instrument (rig/protocols/gauge_drivers.cpp).
 const EmulatedGauge::Instrument& EmulatedGauge::instrument_of(const std::string& driver) {
   static const std::array<Instrument, 3> kInstruments{
       {{"scpi",

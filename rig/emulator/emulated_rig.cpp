@@ -1,5 +1,6 @@
 #include "rig/emulator/emulated_rig.h"
 
+#include "rig/emulator/controller_drivers.h"
 #include "rig/emulator/emulated_specimen.h"
 #include "rig/emulator/pty_port.h"
 #include "rig/lines/rig_clock.h"
@@ -32,33 +33,6 @@ enum Incident : unsigned {
   kRestartStage = 32,
 };
 
-std::unique_ptr<EmulatedController> emulated_grbl(const EmulatedRigOptions& options) {
-  const StageConfig& stage = options.config.stage;
-  return std::make_unique<EmulatedGrbl>(options.truth, stage.axis, stage.toward_specimen,
-                                        options.grbl);
-}
-
-std::unique_ptr<EmulatedController> emulated_zaber(const EmulatedRigOptions& options) {
-  const StageConfig& stage = options.config.stage;
-  return std::make_unique<EmulatedZaber>(options.truth, stage.toward_specimen, stage.device,
-                                         options.zaber);
-}
-
-struct Controller {
-  const char* driver;
-  std::unique_ptr<EmulatedController> (*make)(const EmulatedRigOptions&);
-};
-
-// One row per value of driver under [stage] (rig/open_devices.cpp).
-constexpr Controller kControllers[] = {{"grbl", emulated_grbl}, {"zaber", emulated_zaber}};
-
-std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions& options) {
-  for (const Controller& controller : kControllers) {
-    if (options.config.stage.driver == controller.driver) return controller.make(options);
-  }
-  return emulated_grbl(options);  // the driver then refuses the rig file
-}
-
 }  // namespace
 
 class EmulatedRig::Impl {
@@ -67,7 +41,8 @@ class EmulatedRig::Impl {
       : options_(options),
         clock_(options.config.clock_speed),
         specimen_(options.truth),
-        stage_(emulated_controller(options)),
+        stage_(
+            emulated_controller(options.config.stage, options.truth, options.grbl, options.zaber)),
         gauge_(options.truth, options.config.calibration, options.config.load_cell.driver,
                options.gauge),
         amplifier_(options.truth, options.config.calibration,

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "models/experiment/rig_config.h"
-
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -33,9 +31,5 @@ struct GaugeProtocol {
   // Returns nothing for text that is no answer.
   std::function<std::optional<GaugeAnswer>(std::string_view)> parse;
 };
-
-// The row for a rig file's driver ("scpi", "mark10", "sauter") with its dialect and unit. Throws
-// RigError on an unknown word; the message lists the known ones.
-GaugeProtocol gauge_protocol(const LoadCellConfig& config);
 
 }  // namespace viscard
