@@ -2,7 +2,7 @@
 
 #include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
-#include "rig/protocols/gauge_protocols.h"
+#include "rig/protocols/gauge_drivers.h"
 #include "rig/protocols/scpi_protocol.h"
 
 #include <algorithm>

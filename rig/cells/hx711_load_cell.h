@@ -32,6 +32,9 @@ class Hx711LoadCell final : public LoadCell {
   double last_arrival_s() const override { return last_arrival_s_; }
   double made_at_s(const LoadSample& sample) const override;
 
+  // Declared or learnt; kAuto before connect() has learnt it.
+  Hx711Format format() const { return format_; }
+
  private:
   void take_line(const ReceivedLine& line);
   void learn(const ReceivedLine& line);

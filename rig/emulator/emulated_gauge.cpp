@@ -31,28 +31,28 @@ std::string formatted(const char* format, double value) {
 
 }  // namespace
 
-// One row per polled instrument (rig/protocols/gauge_protocol.cpp).
+// One row per polled instrument (rig/protocols/gauge_drivers.cpp).
 const EmulatedGauge::Instrument& EmulatedGauge::instrument_of(const std::string& driver) {
-  static const std::array<Instrument, 3> kInstruments{
-      {{"scpi",
-        {"READ?", "VAL1?", "MEAS1?"},
-        true,
-        "",
-        [](const Shown& shown) {
-          return formatted("%+.8E\r\n", shown.is_overload ? 9.9e37 : shown.volts);
-        }},
-       {"mark10",
-        {"?"},
-        true,
-        "*10\r\n",
-        [](const Shown& shown) {
-          return text_from_number(shown.force, 4) + (shown.unit.empty() ? "" : " " + shown.unit) +
-                 "\r\n";
-        }},
-       {"sauter", {"9"}, false, "", [](const Shown& shown) {
-          return (shown.force >= 0.0 ? "0" : "1") +
-                 formatted("%06.3f", std::min(std::abs(shown.force), 99.999));
-        }}}};
+  static const std::vector<Instrument> kInstruments{
+      {"scpi",
+       {"READ?", "VAL1?", "MEAS1?"},
+       true,
+       "",
+       [](const Shown& shown) {
+         return formatted("%+.8E\r\n", shown.is_overload ? 9.9e37 : shown.volts);
+       }},
+      {"mark10",
+       {"?"},
+       true,
+       "*10\r\n",
+       [](const Shown& shown) {
+         return text_from_number(shown.force, 4) + (shown.unit.empty() ? "" : " " + shown.unit) +
+                "\r\n";
+       }},
+      {"sauter", {"9"}, false, "", [](const Shown& shown) {
+         return (shown.force >= 0.0 ? "0" : "1") +
+                formatted("%06.3f", std::min(std::abs(shown.force), 99.999));
+       }}};
   for (const Instrument& row : kInstruments) {
     if (driver == row.driver) return row;
   }

@@ -1,6 +1,6 @@
 #include "rig/emulator/emulated_rig.h"
 
-#include "rig/emulator/emulated_controllers.h"
+#include "rig/emulator/controller_drivers.h"
 #include "rig/emulator/emulated_specimen.h"
 #include "rig/emulator/pty_port.h"
 #include "rig/lines/rig_clock.h"
@@ -41,7 +41,8 @@ class EmulatedRig::Impl {
       : options_(options),
         clock_(options.config.clock_speed),
         specimen_(options.truth),
-        stage_(emulated_controller(options)),
+        stage_(
+            emulated_controller(options.config.stage, options.truth, options.grbl, options.zaber)),
         gauge_(options.truth, options.config.calibration, options.config.load_cell.driver,
                options.gauge),
         amplifier_(options.truth, options.config.calibration,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rig/emulator/fault_rates.h"
+#include "rig/emulator/line_faults.h"
 
 #include <cstddef>
 #include <cstdint>

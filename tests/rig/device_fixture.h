@@ -32,7 +32,7 @@ struct DeviceFixture {
     result.config.clock_speed = speed;
     result.config.stage.driver = stage;
     result.config.load_cell.driver = cell;
-    if (cell == "mark10" || cell == "sauter") result.config.calibration.volts_per_newton = 1.0;
+    if (cell != "hx711" && cell != "scpi") result.config.calibration.volts_per_newton = 1.0;
     return result;
   }
 

@@ -1,4 +1,4 @@
-#include "rig/protocols/gauge_protocols.h"
+#include "rig/protocols/gauge_drivers.h"
 
 #include "rig/lines/rig_error.h"
 #include "rig/protocols/force_gauge_protocols.h"

@@ -5,8 +5,8 @@
 
 namespace viscard {
 
-// The row for a rig file's driver ("scpi", "mark10", "sauter") with its dialect and unit. Throws
-// RigError on an unknown word; the message lists the known ones.
+// The protocol for a rig file's driver ("scpi", "mark10", "sauter") with its dialect and unit.
+// Throws RigError on an unknown word; the message lists the known ones.
 GaugeProtocol gauge_protocol(const LoadCellConfig& config);
 
 }  // namespace viscard
