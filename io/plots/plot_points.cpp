@@ -28,8 +28,16 @@ double power_of_ten(double exponent) {
   return std::max(std::pow(10.0, exponent), std::numeric_limits<double>::min());
 }
 
-// Whole decades, as gnuplot draws them.
-void widen_to_decades(AxisSpan& span) {
+// gnuplot extends a logarithmic axis to whole decades, which can leave most of it empty, and labels
+// powers of ten only. So the axis gets a margin of 4 % if two powers of ten remain on it.
+void add_log_margin(AxisSpan& span) {
+  const double margin = std::pow(span.high / span.low, 0.04);
+  const double low = span.low / margin, high = span.high * margin;
+  if (std::floor(std::log10(high)) - std::ceil(std::log10(low)) >= 1.0) {
+    span.low = low;
+    span.high = high;
+    return;
+  }
   span.low = power_of_ten(std::floor(std::log10(span.low)));
   span.high = power_of_ten(std::ceil(std::log10(span.high)));
   if (!(span.high > span.low)) span.high = 10.0 * span.low;
@@ -156,7 +164,7 @@ AxisSpan axis_span(const PlotAxis& axis, const std::vector<double>& values) {
     span.low = axis.is_log ? 1.0 : 0.0;
     span.high = axis.is_log ? 10.0 : 1.0;
   }
-  if (span.is_log) widen_to_decades(span);
+  if (span.is_log) add_log_margin(span);
   if (axis.min && can_show(span, *axis.min)) span.low = *axis.min;
   if (axis.max && can_show(span, *axis.max)) span.high = *axis.max;
   if (span.low > span.high) std::swap(span.low, span.high);

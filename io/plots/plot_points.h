@@ -6,9 +6,9 @@
 
 namespace viscard {
 
-// The part of an axis that the data need, low < high; both positive on a logarithmic axis, where
-// they are powers of ten as gnuplot chooses them. An end that the axis gives replaces that of the
-// data.
+// The part of an axis that the data need, low < high; both positive on a logarithmic axis, where it
+// includes a margin: 4 % of the length, or whole decades if fewer than two powers of ten are in the
+// range. An end that the axis gives replaces that of the data.
 struct AxisSpan {
   double low = 0.0;
   double high = 1.0;

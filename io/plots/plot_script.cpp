@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -22,6 +24,10 @@ constexpr double kNoteCharacter_px = 6.0;  // mean width of a character of the 1
 constexpr int kLeftMargin = 10;
 constexpr int kRightMargin = 2;
 constexpr double kCharacter_px = 8.2;  // gnuplot's character of the 12 px font
+
+constexpr double kLabelWidth_px = 64.0;  // of a tick label with the gap to the next
+constexpr double kLabelHeight_px = 18.0;
+constexpr double kLinesBesideData_px = 100.0;  // legend above, labels below the data
 
 using Out = std::back_insert_iterator<std::string>;
 
@@ -97,19 +103,34 @@ std::string range_end(const std::optional<double>& end, bool is_usable) {
   return end && is_usable ? fmt::format("{:.12g}", *end) : "*";
 }
 
-void write_axis(Out out, char name, const PlotAxis& axis, const AxisSpan& span, bool has_labels) {
-  // The second axis carries the names of phases and follows the first, except in its scale.
-  fmt::format_to(out, "{0} logscale {1}\n{0} logscale {1}2\n", axis.is_log ? "set" : "unset", name);
+std::string range_of(const PlotAxis& axis, const AxisSpan& span) {
+  if (axis.is_log) return fmt::format("[{:.12g}:{:.12g}]", span.low, span.high);
   std::optional<double> min = axis.min, max = axis.max;
   if (min && max && *min > *max) std::swap(min, max);
-  fmt::format_to(out, "set {}range [{}:{}]\n", name,
-                 range_end(min, min && can_show(span, *min) && *min < span.high),
-                 range_end(max, max && can_show(span, *max) && *max > span.low));
-  // Powers of ten only where plain numbers would be long, and never within one decade, where
-  // gnuplot puts ticks between the powers.
-  const bool is_long = span.low < 1e-3 || span.high > 1e4;
-  const bool has_powers = axis.is_log && is_long && span.high > 10.0 * span.low;
-  const char* format = has_powers ? "10^{%L}" : "%h";
+  return fmt::format("[{}:{}]", range_end(min, min && *min < span.high),
+                     range_end(max, max && *max > span.low));
+}
+
+// gnuplot makes about ten ticks on a linear axis of any length. On a short axis their labels would
+// overlap, so it gets a wider step: 1, 2 or 5 times a power of ten.
+std::string tick_step(const AxisSpan& span, double length_px, double label_px) {
+  constexpr double kUsualTicks = 10.0;
+  const double n_labels = std::max(2.0, length_px / label_px);
+  if (span.is_log || n_labels >= kUsualTicks) return "autofreq";
+  const double least = (span.high - span.low) / n_labels;
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  const double factor = least <= power ? 1.0 : least <= 2.0 * power ? 2.0 : 5.0;
+  return fmt::format("{:.12g}", least <= 5.0 * power ? factor * power : 10.0 * power);
+}
+
+void write_axis(Out out, char name, const PlotAxis& axis, const AxisSpan& span, double length_px,
+                bool has_labels) {
+  // The second axis carries the names of phases and follows the first, except in its scale.
+  fmt::format_to(out, "{0} logscale {1}\n{0} logscale {1}2\n", axis.is_log ? "set" : "unset", name);
+  fmt::format_to(out, "set {}range {}\n", name, range_of(axis, span));
+  fmt::format_to(out, "set {}tics {}\n", name,
+                 tick_step(span, length_px, name == 'x' ? kLabelWidth_px : kLabelHeight_px));
+  const char* format = axis.is_log && (span.low < 1e-3 || span.high > 2e4) ? "10^{%L}" : "%h";
   fmt::format_to(out, "set format {} '{}'\n", name, has_labels ? format : "");
   fmt::format_to(out, "set {}label {} noenhanced textcolor rgb '{}'\n", name,
                  quoted(has_labels ? axis.label : ""), kTextColour);
@@ -216,16 +237,16 @@ void write_panel(Out out, const Plot& plot, const PlotPanel& panel, const PanelP
   const PanelSpans spans = panel_spans(panel);
   const double width_px =
       place.width * plot.width_px - (kLeftMargin + kRightMargin) * kCharacter_px;
+  const double height_px = place.height * plot.height_px - kLinesBesideData_px;
   fmt::format_to(out, "unset arrow\nunset x2tics\n");
   fmt::format_to(out, "set origin {:.6f},{:.6f}\nset size {:.6f},{:.6f}\n", place.left,
                  place.bottom, place.width, place.height);
   fmt::format_to(out, "set bmargin {}\n", panel.shares_x_with_below ? 1 : -1);
-  write_axis(out, 'x', panel.x, spans.x, !panel.shares_x_with_below);
-  write_axis(out, 'y', panel.y, spans.y, true);
+  write_axis(out, 'x', panel.x, spans.x, width_px, !panel.shares_x_with_below);
+  write_axis(out, 'y', panel.y, spans.y, height_px, true);
   write_titles(out, panel);
   write_notes(out, panel, spans.x, width_px);
-  write_curves(out, panel, spans, static_cast<int>(width_px),
-               static_cast<int>(place.height * plot.height_px));
+  write_curves(out, panel, spans, static_cast<int>(width_px), plot.height_px);
 }
 
 }  // namespace

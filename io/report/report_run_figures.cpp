@@ -138,7 +138,7 @@ std::optional<Plot> run_plot(const RunSeries& series) {
   if (!series.flagged_s.empty()) volts.series.push_back(flagged_dots(series, volt.per_si));
   Plot plot{.title = "Recorded run",
             .description = "Output of the load cell and position of the stage over time.",
-            .height_px = 500};
+            .height_px = 430};
   PlotPanel way;
   way.x.label = volts.x.label;
   way.series.push_back({.ink = Ink::kGreen, .size = 0.8});
@@ -178,7 +178,7 @@ std::optional<Plot> fit_plot(const FitResult& fit) {
       .title = "Data and fit",
       .description = "Measured and fitted values and their difference over the logarithm of time.",
       .columns = static_cast<int>(motions.size()),
-      .height_px = 520};
+      .height_px = 430};
   std::vector<PlotPanel> residuals;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     FitColumns columns = columns_of(curves, motions[k], unit.per_si);

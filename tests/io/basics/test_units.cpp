@@ -64,7 +64,7 @@ TEST_CASE("radians per second become hertz through two pi", "[io][units]") {
   CHECK(scale_to_si("kHz", "Hz").factor == Approx(1e3).epsilon(1e-15));
 }
 
-TEST_CASE("scales of table headers", "[io][units]") {
+TEST_CASE("units of table headers give the scale to SI", "[io][units]") {
   CHECK(scale_to_si("MPa", "Pa").factor == 1e6);
   CHECK(scale_to_si("nN", "N").factor == Approx(1e-9).epsilon(1e-15));
   CHECK(scale_to_si("1/MPa", "1/Pa").factor == Approx(1e-6).epsilon(1e-15));
@@ -76,7 +76,7 @@ TEST_CASE("scales of table headers", "[io][units]") {
   CHECK_FALSE(is_unit_of("s", "Hz"));
 }
 
-TEST_CASE("what is not a quantity is refused with the text, the unit and an example",
+TEST_CASE("a text that is not a quantity is refused with the text, the unit and an example",
           "[io][units]") {
   CHECK(error_of("40 MPa", "m") == "'MPa' is not a unit of m; write it like \"40 um\"");
   CHECK(error_of("40 furlongz", "m") ==

@@ -117,7 +117,7 @@ TEST_CASE("configurations written as TOML read back the same", "[io][config]") {
   CHECK(test_from_toml(toml_from_test(plan), "again").depth_m == plan.depth_m);
 }
 
-TEST_CASE("what is left out of a rig keeps its default", "[io][config]") {
+TEST_CASE("keys missing from a rig file keep their defaults", "[io][config]") {
   const RigConfig rig = rig_from_toml(kMinimalRig, "rig.toml");
   CHECK(rig.stage.baud == 115200);
   CHECK(rig.load_cell.expected_rate_Hz == 80.0);
@@ -125,7 +125,7 @@ TEST_CASE("what is left out of a rig keeps its default", "[io][config]") {
   CHECK(rig.frame.stiffness_N_m == 0.0);
 }
 
-TEST_CASE("a misspelt key is refused with its line and the nearest one", "[io][config]") {
+TEST_CASE("a misspelt key is refused with its line and the nearest key", "[io][config]") {
   const std::string error = rig_error(std::string(kMinimalRig) + "[stage]\nprot = \"/dev/x\"\n");
   CHECK(error.find("rig.toml:7: there is no key 'stage.prot'; did you mean 'port'?") == 0);
   CHECK(rig_error(std::string(kMinimalRig) + "[saftey]\n").find("did you mean 'safety'?") !=
@@ -152,7 +152,7 @@ TEST_CASE("a value that does not fit is refused with line, key and what is expec
   CHECK(rig_error("stage = 1\n" + minimal).find("expected a section [stage]") != std::string::npos);
 }
 
-TEST_CASE("a missing key is named with what belongs there", "[io][config]") {
+TEST_CASE("a missing key is refused with the expected value", "[io][config]") {
   CHECK(rig_error("[frame]\nstiffness = 1e4\n[calibration]\ncapacity = 2.45\n") ==
         "rig.toml:3: 'calibration.volts_per_newton' is missing; expected a finite number with a "
         "unit of V/N");

@@ -91,7 +91,7 @@ TEST_CASE("a material written by hand needs a modulus, a Poisson ratio and its t
   CHECK_FALSE(material.uncertainty.has_value());
 }
 
-TEST_CASE("keys viscard does not know survive, at every depth", "[io][material]") {
+TEST_CASE("unknown keys survive at every depth", "[io][material]") {
   MaterialFile file = material_from_json(
       R"({"E0_Pa": 2e6, "nu": 0.45, "colour": {"r": 0.1}, "valid": {"t_max_s": 3, "why": "short"},
           "terms": [{"g": 0.1, "tau_s": 2, "origin": "batch 7"}],
@@ -108,14 +108,14 @@ TEST_CASE("keys viscard does not know survive, at every depth", "[io][material]"
   CHECK(json_from_material(again) == text);
 }
 
-TEST_CASE("a known key that was taken out does not come back from the original", "[io][material]") {
+TEST_CASE("a known key that was removed does not return from the original", "[io][material]") {
   MaterialFile file =
       material_from_json(R"({"E0_Pa": 2e6, "nu": 0.45, "terms": [], "T_ref_C": 20})", "m");
   file.material.T_ref_C.reset();
   CHECK_FALSE(contains(json_from_material(file), "T_ref_C"));
 }
 
-TEST_CASE("a material file that cannot be right is refused with file and key", "[io][material]") {
+TEST_CASE("an impossible material file is refused with file and key", "[io][material]") {
   CHECK(contains(error_of("{\"E0_Pa\": 1e6,\n  nu: 3}"),
                  "m.json: is not JSON: parse error at line 2"));
   CHECK(contains(error_of(""), "m.json: is not JSON"));

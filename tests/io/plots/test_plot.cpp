@@ -65,7 +65,7 @@ Frame frame_of(const std::string& svg) {
 
 }  // namespace
 
-TEST_CASE("a plot is well-formed SVG that says what it shows", "[io][report]") {
+TEST_CASE("a plot is well-formed SVG with a title and a description", "[io][report]") {
   const std::string svg = svg_from_plot(small_plot(), "fig-1");
   CHECK(first_fault(svg) == "");
   CHECK(svg.rfind("<svg ", 0) == 0);
@@ -122,7 +122,7 @@ TEST_CASE("names of any spelling stay text in a plot", "[io][report]") {
   CHECK(count_of(text_of(svg), nasty) == 5);
 }
 
-TEST_CASE("what is not finite never reaches the picture", "[io][report]") {
+TEST_CASE("values that are not finite never reach the picture", "[io][report]") {
   Plot plot = small_plot();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   PlotSeries& series = plot.panels[0].series[0];
@@ -177,7 +177,7 @@ TEST_CASE("an error of gnuplot comes back as one line with its reason", "[io][re
       Catch::Contains("undefined variable: nothing_of_that_name") && !Catch::Contains("\n"));
 }
 
-TEST_CASE("a script and an output larger than any pipe go through", "[io][report]") {
+TEST_CASE("a script and an output larger than any pipe are handled", "[io][report]") {
   std::string script = "set terminal svg\n$d << EOD\n";
   for (int i = 0; i < 60000; ++i) script += std::to_string(i) + " " + std::to_string(i % 97) + "\n";
   script += "EOD\nplot $d with lines\n";
@@ -187,7 +187,7 @@ TEST_CASE("a script and an output larger than any pipe go through", "[io][report
   CHECK(svg.find("</svg>") != std::string::npos);
 }
 
-TEST_CASE("text becomes safe markup, whatever bytes it holds", "[io][report]") {
+TEST_CASE("any bytes become safe markup", "[io][report]") {
   CHECK(escaped_markup("a<b>&\"'") == "a&lt;b&gt;&amp;&quot;&#39;");
   CHECK(escaped_markup("E₀ = 1·10⁶ 𝛼") == "E₀ = 1·10⁶ 𝛼");
   CHECK(escaped_markup(std::string("x\0y\x1b", 4)) == "x y ");

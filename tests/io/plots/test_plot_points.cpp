@@ -22,14 +22,19 @@ TEST_CASE("an axis spans its finite values and obeys given ends", "[io][report]"
   CHECK(axis_span(zero, {2.0, 12.0}).low == 0.0);
 }
 
-TEST_CASE("a logarithmic axis spans whole decades and ignores values it cannot show",
-          "[io][report]") {
+TEST_CASE("a logarithmic axis has a margin and ignores values it cannot show", "[io][report]") {
   const PlotAxis axis{.is_log = true};
-  const AxisSpan span = axis_span(axis, {-3.0, 0.0, 2e-3, 5e2, kNaN});
-  CHECK(span.low == Approx(1e-3).epsilon(1e-12));  // rounding only
-  CHECK(span.high == Approx(1e3).epsilon(1e-12));
+  const AxisSpan span = axis_span(axis, {-3.0, 0.0, 1e-3, 1e3, kNaN});
+  CHECK(span.low == Approx(1e-3 * std::pow(1e6, -0.04)).epsilon(1e-12));  // rounding only
+  CHECK(span.high == Approx(1e3 * std::pow(1e6, 0.04)).epsilon(1e-12));
   CHECK(fraction_of(span, 1.0) == Approx(0.5).epsilon(1e-12));
   CHECK_FALSE(std::isfinite(fraction_of(span, -1.0)));
+}
+
+TEST_CASE("a logarithmic axis within a decade is extended to whole decades", "[io][report]") {
+  const AxisSpan span = axis_span({.is_log = true}, {130.0, 400.0});
+  CHECK(span.low == Approx(100.0).epsilon(1e-12));  // rounding only
+  CHECK(span.high == Approx(1000.0).epsilon(1e-12));
 }
 
 TEST_CASE("an axis over one value, or none, still has a length", "[io][report]") {

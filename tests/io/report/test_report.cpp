@@ -93,7 +93,7 @@ TEST_CASE("numbers on the page are those of the input", "[io][report]") {
   }
 }
 
-TEST_CASE("what is shown agrees with the number behind it to the digits shown", "[io][report]") {
+TEST_CASE("every shown number agrees with its full value to the digits shown", "[io][report]") {
   // moduli stand in MPa or kPa, shares in per cent, all else in SI
   int n_checked = 0;
   for (const ShownNumber& number : numbers_of(full_page())) {
@@ -109,7 +109,7 @@ TEST_CASE("what is shown agrees with the number behind it to the digits shown", 
   CHECK(n_checked > 60);
 }
 
-TEST_CASE("truth, estimate, interval and verdict stand side by side", "[io][report]") {
+TEST_CASE("truth, estimate, interval and verdict are in one row", "[io][report]") {
   const std::string words = words_of(full_page());
   CHECK(has(words, "Truth Estimate 95 % interval Difference Truth inside?"));
   ReportInput input = synthetic_report();
@@ -183,7 +183,7 @@ TEST_CASE("NaN and infinity are never printed", "[io][report]") {
   CHECK(has(words, "unbounded"));
 }
 
-TEST_CASE("missing parts are left out together with their headings", "[io][report]") {
+TEST_CASE("missing parts are omitted with their headings", "[io][report]") {
   const std::string html = html_of(bare_report());
   CHECK(first_fault(html) == "");
   const std::string words = words_of(html);
@@ -213,7 +213,7 @@ TEST_CASE("each optional part can be missing by itself", "[io][report]") {
   CHECK(first_fault(html_of(input)) == "");
 }
 
-TEST_CASE("stiffnesses are called so and claim no modulus", "[io][report]") {
+TEST_CASE("the page calls stiffnesses stiffnesses and claims no modulus", "[io][report]") {
   ReportInput input = synthetic_report();
   input.specimens.resize(1);
   input.specimens[0].fit->is_stiffness = true;
@@ -261,7 +261,7 @@ TEST_CASE("tables have headers for rows and columns, figures a description", "[i
   CHECK(n_captions == n_svg);
 }
 
-TEST_CASE("an interrupted run says so, a refused card says why", "[io][report]") {
+TEST_CASE("the page reports an interrupted run and the reason of a refused card", "[io][report]") {
   ReportInput input = synthetic_report();
   input.specimens.resize(1);
   input.specimens[0].run->status = "interrupted";

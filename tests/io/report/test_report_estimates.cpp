@@ -57,7 +57,7 @@ TEST_CASE("stiffnesses have the same band as moduli", "[io][report]") {
   CHECK(relaxation_band(estimates, {3.0}, false).high[0] == moduli.high[0]);
 }
 
-TEST_CASE("a common factor of all moduli leaves the relative band without width", "[io][report]") {
+TEST_CASE("a common factor of all moduli gives the relative band no width", "[io][report]") {
   SpecimenEstimates estimates = one_term();
   Eigen::VectorXd scale(4);
   scale << 6.0, 4.0, 0.0, 0.0;  // E_inf and E_1 move together
@@ -143,7 +143,8 @@ TEST_CASE("units take the prefix of the largest value", "[io][report]") {
   CHECK(shown_unit("Pa", {std::numeric_limits<double>::quiet_NaN()}).text == "Pa");
 }
 
-TEST_CASE("depth is the stage's way below contact less the frame's deflection", "[io][report]") {
+TEST_CASE("depth is the stage's position below contact minus the frame's deflection",
+          "[io][report]") {
   const ReportInput input = test::synthetic_report();
   const CapturedRun& run = *input.specimens[0].run;
   const RunSeries series = series_from_run(run, input.specimens[0].fit->contact_position_m);
@@ -174,7 +175,7 @@ TEST_CASE("a cell whose reading falls in compression gives the same depth", "[io
   CHECK(turned_m[4000] == Approx(depth_m[4000]).epsilon(1e-12));
 }
 
-TEST_CASE("a move that began later than recorded is put where the fit found it", "[io][report]") {
+TEST_CASE("a move that began later than recorded is shifted to its fitted start", "[io][report]") {
   CapturedRun run = *test::synthetic_report().specimens[0].run;
   const std::vector<double> depth_m = series_from_run(run, 1e-3).depth_m;
   const double unload_s = run.moves[1].move.start_time_s;

@@ -50,7 +50,7 @@ TEST_CASE("angular frequency becomes frequency", "[io][csv]") {
   CHECK(first("f (rad/s),G'\n3,1\n", "frequency_Hz") == Approx(3.0 / two_pi).epsilon(1e-15));
 }
 
-TEST_CASE("time and temperature, force and frequency are told apart by case", "[io][csv]") {
+TEST_CASE("case distinguishes time from temperature and force from frequency", "[io][csv]") {
   const std::string text = "t,T,f,F\n1,2,3,4\n";
   CHECK(first(text, "time_s") == 1.0);
   CHECK(first(text, "temperature_C") == 2.0);
@@ -73,14 +73,15 @@ TEST_CASE("the command line names, flips, scales and numbers columns", "[io][csv
   CHECK(first("load_cell_mN,x\n2,3\n", "force_N", {"force_N=load_cell_mN"}) == 2.0 * 1e-3);
 }
 
-TEST_CASE("how a column was understood can be told", "[io][csv]") {
+TEST_CASE("a found column describes its name, number and scale", "[io][csv]") {
   const CsvTable table = csv_from_text("t (ms),Force [nN]\n1,2\n", "t.csv");
   CHECK(find_column(table, "force_N")->description == "force_N: column 2 'Force [nN]' x 1e-09");
   CHECK(find_column(table, "force_N")->index == 1);
   CHECK_FALSE(find_column(table, "depth_m").has_value());
 }
 
-TEST_CASE("a viscard name goes before an alias, and two equals are refused", "[io][csv]") {
+TEST_CASE("a viscard name is preferred to an alias, and two equal matches are refused",
+          "[io][csv]") {
   CHECK(first("force_N,Load (N)\n2,3\n", "force_N") == 2.0);
   CHECK(first("Load (N),Force (N)\n2,3\n", "force_N") == 3.0);  // its own name before another
   CHECK(contains(error_of("Load (N),Kraft (N)\n2,3\n", "force_N"),
@@ -88,7 +89,7 @@ TEST_CASE("a viscard name goes before an alias, and two equals are refused", "[i
                  "with --column force_N=2"));
 }
 
-TEST_CASE("a column that is not there is named with those that are", "[io][csv]") {
+TEST_CASE("a missing column is refused with a list of the columns", "[io][csv]") {
   CHECK(error_of("t,x\n1,2\n", "force_N") ==
         "t.csv: has no column for force_N; there are 1 't', 2 'x'");
   CHECK(error_of("t,x\ns,mm\n1,2\n", "force_N") ==
@@ -101,7 +102,7 @@ TEST_CASE("a column that is not there is named with those that are", "[io][csv]"
                  "t.csv: column 'x (mm)' for force_N: 'mm' is not a unit of N"));
 }
 
-TEST_CASE("a bad cell is named with file, line, column and what stands there", "[io][csv]") {
+TEST_CASE("a bad cell is refused with file, line, column and its text", "[io][csv]") {
   CHECK(error_of("time_s,force_N\n0,1\n1,abc\n", "force_N") ==
         "t.csv:3: column 2 'force_N' for force_N: 'abc' is not a finite number; expected a number");
   CHECK(contains(error_of("time_s,force_N\n0,1\n1,\n", "force_N"), "the cell is empty"));
@@ -109,7 +110,7 @@ TEST_CASE("a bad cell is named with file, line, column and what stands there", "
   CHECK(first("time_s,force_N\n0,1\n1,abc\n", "time_s") == 0.0);  // the other column is good
 }
 
-TEST_CASE("rows of one segment are taken by name", "[io][csv]") {
+TEST_CASE("rows of one segment are selected by name", "[io][csv]") {
   const CsvTable table =
       csv_from_text("segment,time_s\nextend,oops\npause,1\npause,2\nretract,3\n", "t.csv");
   const CsvTable pause = rows_of_segment(table, "pause");

@@ -29,7 +29,7 @@ std::string utf16(const std::string& ascii, bool is_big_endian, bool has_bom) {
   return out;
 }
 
-TEST_CASE("the same table is read however it is written", "[io][csv]") {
+TEST_CASE("the same table is read from every way of writing it", "[io][csv]") {
   const std::string comma = "time_s,force_N\n0,1.5\n0.25,-2e-3\n";
   const auto text = GENERATE_COPY(
       as<std::string>{}, comma, "time_s;force_N\n0;1,5\n0,25;-2e-3\n",
@@ -53,7 +53,7 @@ TEST_CASE("the same table is read however it is written", "[io][csv]") {
   CHECK(table.columns[1].values == std::vector<double>{1.5, -2e-3});
 }
 
-TEST_CASE("units stand in brackets, behind a slash or in a row of their own", "[io][csv]") {
+TEST_CASE("units are read from brackets, after a slash or from a row of units", "[io][csv]") {
   const auto unit_of = [](const std::string& header) {
     return read(header + "\n1;2\n").columns[0].unit;
   };
@@ -83,7 +83,7 @@ TEST_CASE("units stand in brackets, behind a slash or in a row of their own", "[
   CHECK(blanks.columns[1].unit == "N");
 }
 
-TEST_CASE("lines before the header are notes, and kept", "[io][csv]") {
+TEST_CASE("lines before the header are kept as notes", "[io][csv]") {
   const CsvTable table =
       read("Sample;PDMS 1:10\nDiameter;4,4\nRelaxation\n\nt [s];F [N];h [mm]\n0,0;1,0;2,5\n");
   REQUIRE(table.columns.size() == 3);
@@ -111,7 +111,7 @@ TEST_CASE("columns of text stay text, and bad cells of numbers are remembered", 
   CHECK(read("a,b\n1,1e-999\n").columns[1].values == std::vector<double>{0.0});
 }
 
-TEST_CASE("what is no table is refused with file and line", "[io][csv]") {
+TEST_CASE("a file that is not a table is refused with file and line", "[io][csv]") {
   CHECK(error_of("") == "t.csv: is empty; expected a table of numbers");
   CHECK(error_of("\n# only a comment\n") == "t.csv: is empty; expected a table of numbers");
   CHECK(contains(error_of("a,b\nc,d\n"), "t.csv: has no line with a number"));

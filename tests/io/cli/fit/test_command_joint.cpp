@@ -51,8 +51,9 @@ std::vector<std::string> joined(std::vector<std::string> words,
 
 }  // namespace
 
-TEST_CASE("tables of six specimens become a joint file, and it cards for any ratio between",
-          "[cli][joint]") {
+TEST_CASE(
+    "tables of six specimens become a joint file, which gives cards for any ratio between them",
+    "[cli][joint]") {
   const ScratchFolder folder;
   const Tables tables = write_tables(folder);
   const std::string joint = (folder.path() / "joint.json").string();
@@ -108,7 +109,7 @@ TEST_CASE("tables of six specimens become a joint file, and it cards for any rat
   }
 }
 
-TEST_CASE("bad words of a joint fit end in one clear line", "[cli][joint]") {
+TEST_CASE("a wrong command line of a joint fit gives one clear line", "[cli][joint]") {
   const ScratchFolder folder;
   const Tables tables = write_tables(folder);
   const auto err_of = [](const std::vector<std::string>& words) {

@@ -62,8 +62,9 @@ TEST_CASE("a table of several temperatures becomes a material with its shift, an
   CHECK_THAT(card.out, Contains("*TRS, DEFINITION=WLF\n20, 8.8"));
 }
 
-TEST_CASE("a reference temperature that was not measured is refused with those that were",
-          "[cli][master]") {
+TEST_CASE(
+    "a reference temperature that was not measured is refused with a list of the measured ones",
+    "[cli][master]") {
   const ScratchFolder folder;
   const CommandOutcome ran =
       run_command({"fit", write_table(folder), "--reference-temperature", "25 degC"});

@@ -110,7 +110,7 @@ TEST_CASE("a material file alone makes a page, and its capture joins it", "[cli]
   CHECK(json["specimens"][0]["notes"].empty());
 }
 
-TEST_CASE("a material file from other options of the fit is said to differ", "[cli][report]") {
+TEST_CASE("the page reports that a material file was fitted with other options", "[cli][report]") {
   const test::ScratchFolder folder;
   const std::string capture = (folder / "run.viscap").string();
   const std::string fitted = (folder / "run.json").string();
@@ -124,7 +124,7 @@ TEST_CASE("a material file from other options of the fit is said to differ", "[c
   CHECK(contains(json["specimens"][0]["notes"][0].get<std::string>(), "other options"));
 }
 
-TEST_CASE("a table of the user's is fitted on the way", "[cli][report]") {
+TEST_CASE("a table is fitted for the page", "[cli][report]") {
   const test::ScratchFolder folder;
   const std::string table = (folder / "relaxation.csv").string();
   std::string text = "time_s,modulus_Pa\n";
@@ -154,7 +154,7 @@ TEST_CASE("reproducible pages are the same bytes twice", "[cli][report]") {
   CHECK(contents_of(page) == first);
 }
 
-TEST_CASE("wrong words to report get one clear line", "[cli][report]") {
+TEST_CASE("a wrong command line of report gives one clear line", "[cli][report]") {
   const test::ScratchFolder folder;
   const std::string material = write_material(folder), page = (folder / "page.html").string();
   const auto fails = [&](std::vector<std::string> words, int status, const std::string& part) {

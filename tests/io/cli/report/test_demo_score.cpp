@@ -30,7 +30,7 @@ Material estimate_of(std::size_t n_terms) {
 
 }  // namespace
 
-TEST_CASE("a score says for each parameter whether its interval holds the truth", "[flow]") {
+TEST_CASE("a score states for each parameter whether its interval contains the truth", "[flow]") {
   const std::vector<ScoreRow> rows = score_rows("1:10", truth_of_two_terms(), estimate_of(2));
   REQUIRE(rows.size() == 5);
   CHECK(rows[0].quantity == "E0");

@@ -43,8 +43,7 @@ TEST_CASE("the overview lists every command in the order of the flow", "[cli]") 
   CHECK(run_command({"help"}).out == help.out);
 }
 
-TEST_CASE("without words the overview goes to stderr and the status is that of bad words",
-          "[cli]") {
+TEST_CASE("without a command the overview goes to stderr and the status is 2", "[cli]") {
   const auto nothing = run_command({});
   CHECK(nothing.status == kBadWords);
   CHECK(nothing.out.empty());
@@ -55,7 +54,7 @@ TEST_CASE("the version is one line", "[cli]") {
   CHECK(run_command({"--version"}).out == "viscard " VISCARD_VERSION "\n");
 }
 
-TEST_CASE("a misspelt command gets one line with the nearest one, and status 2", "[cli]") {
+TEST_CASE("a misspelt command gives one line with the nearest command, and status 2", "[cli]") {
   const auto outcome = run_command({"exprot", "run.viscap"});
   CHECK(outcome.status == kBadWords);
   CHECK(outcome.out.empty());
@@ -94,7 +93,7 @@ TEST_CASE("the options in every example exist", "[cli]") {
   }
 }
 
-TEST_CASE("a misspelt option gets one line with the nearest one, and status 2", "[cli]") {
+TEST_CASE("a misspelt option gives one line with the nearest option, and status 2", "[cli]") {
   for (const Command& command : commands()) {
     CAPTURE(command.name);
     for (const char* option : {"--jsno", "--no-such-option-at-all"}) {
@@ -109,7 +108,7 @@ TEST_CASE("a misspelt option gets one line with the nearest one, and status 2", 
   }
 }
 
-TEST_CASE("a shortened option is not guessed", "[cli]") {
+TEST_CASE("a shortened option is refused", "[cli]") {
   for (const Command& command : commands()) {
     CAPTURE(command.name);
     CHECK(run_command({command.name, "--hel"}).status == kBadWords);
@@ -128,7 +127,7 @@ TEST_CASE("a command that fails prints nothing on stdout, with --json either", "
   }
 }
 
-TEST_CASE("command lines are recorded as a shell wants them", "[cli]") {
+TEST_CASE("command lines are recorded quoted for a shell", "[cli]") {
   CHECK(quoted_command_line("fit", {"a b.csv", "--column", "time_s=Time (s)", "it's", ""}) ==
         "viscard fit 'a b.csv' --column 'time_s=Time (s)' 'it'\\''s' ''");
 }

@@ -55,14 +55,14 @@ TEST_CASE("two outputs of one command cannot share a file", "[cli]") {
   CHECK(contains(outcome.err, "is also --"));
 }
 
-TEST_CASE("a word that is no file may be the name of an output", "[cli]") {
+TEST_CASE("an output may have the name of a word that is not a file", "[cli]") {
   const test::ScratchFolder folder;
   const auto outcome = run_command(
       {"fit", (folder / "missing.csv").string(), "--kind", "relaxation", "--out", "relaxation"});
   CHECK_FALSE(contains(outcome.err, "is also"));
 }
 
-TEST_CASE("an output without a place to go is told before any work", "[cli]") {
+TEST_CASE("an output that cannot be written is refused before the work starts", "[cli]") {
   const test::ScratchFolder folder;
   const std::string file = (folder / "file").string();
   write_file(file, "x", false);
@@ -79,7 +79,7 @@ TEST_CASE("a folder that cannot be made is one clear line", "[cli]") {
   CHECK_FALSE(contains(outcome.err, "filesystem error"));
 }
 
-TEST_CASE("a device or pipe is not replaced by a file, even with --force", "[cli][io]") {
+TEST_CASE("a device or pipe is never replaced by a file, even with --force", "[cli][io]") {
   const test::ScratchFolder folder;
   const std::filesystem::path pipe = folder / "pipe";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);

@@ -1,0 +1,137 @@
+#include "tests/io/cli/fit/table_folder.h"
+#include "tests/support/run_command.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <sstream>
+
+using namespace viscard;
+using namespace viscard::test;
+using Catch::Contains;
+
+TEST_CASE("a wrong command line gives one line and exit status 2", "[cli]") {
+  const TableFolder folder;
+  const std::string file = folder.write("E.csv", relaxation_table());
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{"fit"}, "which file?"},
+      {{"fit", file, "--term", "3"}, "did you mean '--terms'"},
+      {{"fit", file, "--terms", "-1"}, "outside 0 to 100"},
+      {{"fit", file, "--terms", "two"}, "two"},
+      {{"fit", file, "--kind", "relaxtion"}, "did you mean 'relaxation'"},
+      {{"fit", file, "--noise", "pink"}, "auto or white"},
+      {{"fit", file, "--punch-diameter", "4.4 kg"}, "--punch-diameter"},
+      {{"fit", file, "--layer-thickness", "1 mm"}, "need --punch-diameter"},
+      {{"fit", file, "--column", "modulus=2"}, "modulus"},
+      {{"fit", file, "--bootstrap", "5"}, "outside 20 to 100000"},
+      {{"fit", file, "--liquid", "--terms", "0"}, "at least one term"},
+      {{"fit", file, file, "--out", folder.file("m.json")}, "one input file"}};
+  for (const auto& [words, expected] : cases) {
+    const CommandOutcome ran = run_command(words);
+    CAPTURE(ran.err);
+    CHECK(ran.status == kBadWords);
+    CHECK(ran.out == "");
+    CHECK_THAT(ran.err, Contains(expected));
+    CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
+  }
+}
+
+TEST_CASE("data that cannot be fitted give one line with the file and exit status 1", "[cli]") {
+  const TableFolder folder;
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {folder.file("missing.csv"), "missing.csv"},
+      {folder.write("two.csv", "time_s,modulus_Pa\n0,1\n1,0.9\n"), "at least 4"},
+      {folder.write("text.csv", "time_s,modulus_Pa\n0,1\n1,abc\n2,1\n3,1\n4,1\n"), "abc"},
+      {folder.write("other.csv", "a,b\n0,1\n1,2\n2,3\n3,4\n"), "--column"}};
+  for (const auto& [file, expected] : cases) {
+    const CommandOutcome ran = run_command({"fit", file});
+    CAPTURE(ran.err);
+    CHECK(ran.status == kFailed);
+    CHECK(ran.out == "");
+    CHECK_THAT(ran.err, Contains(expected) && Contains(file));
+    CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
+  }
+}
+
+namespace {
+
+// Ramp of 1 s and hold, 2e4 N/m, a trace of the last digits in place of noise.
+std::string pressed_table(const std::function<double(double, double)>& force_of,
+                          const std::function<bool(double)>& is_kept) {
+  std::ostringstream text;
+  text.precision(12);
+  text << "time_s,force_N,depth_m\n";
+  for (int i = 0; i <= 800; ++i) {
+    const double t = 0.02 * i;
+    if (!is_kept(t)) continue;
+    const double depth = 1e-4 * std::min(1.0, t);
+    const double force = 2.0e4 * depth * (0.9 + 0.1 * std::exp(-t / 2.0) + 1e-5 * ((7 * i) % 11));
+    text << t << "," << force_of(t, force) << "," << depth << "\n";
+  }
+  return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("bad data get a clear refusal or a flagged answer", "[cli]") {
+  const TableFolder folder;
+  const auto all = [](double) { return true; };
+  const auto as_is = [](double, double force) { return force; };
+  SECTION("refusals") {
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {"time_s,modulus_Pa\n0,nan\n1,nan\n2,nan\n3,nan\n4,nan\n", "nan"},
+        {pressed_table([](double, double) { return 0.5; }, all), "constant"},
+        {pressed_table([](double, double force) { return -force; }, all), "--column force_N=-NAME"},
+        {"time_s,force_N,depth_m\n0,0,0\n1,1,1e-4\n", "at least"}};
+    for (const auto& [table, expected] : cases) {
+      const CommandOutcome ran = run_command({"fit", folder.write("bad.csv", table)});
+      CAPTURE(ran.err);
+      CHECK(ran.status == kFailed);
+      CHECK(ran.out == "");
+      CHECK_THAT(ran.err, Contains(expected));
+      CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
+    }
+  }
+  SECTION("flagged") {
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {pressed_table(as_is, [](double t) { return t < 0.3 || t > 0.7; }), "gap-in-ramp"},
+        {pressed_table([](double, double force) { return std::min(force, 1.85); }, all),
+         "saturated"}};
+    for (const auto& [table, flag] : cases) {
+      const CommandOutcome ran = run_command({"fit", folder.write("bad.csv", table), "--json"});
+      CHECK(ran.status == kFailed);
+      CHECK_THAT(ran.err, Contains("not to be trusted"));
+      const auto json = nlohmann::json::parse(ran.out);
+      CHECK_FALSE(json["trustworthy"].get<bool>());
+      CHECK_THAT(json["flags"].dump(), Contains(flag));
+    }
+  }
+}
+
+TEST_CASE("a file with the suffix of a capture that is not one is not read as a table", "[cli]") {
+  const TableFolder folder;
+  const std::string file = folder.write("run.viscap", "SQLxte format 3\n0.1,0.2\n0.3,0.4\n");
+  const CommandOutcome ran = run_command({"fit", file});
+  CHECK(ran.status == kFailed);
+  CHECK_THAT(ran.err, Contains(file) && Contains("not a capture") && !Contains("column"));
+}
+
+TEST_CASE("an impossible density or mixing ratio is refused before the fit", "[cli]") {
+  const TableFolder folder;
+  const std::string file = folder.write("E.csv", relaxation_table());
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--density", "-5 kg/m3"}, {"--ratio", "0"}, {"--ratio", "-10"}}) {
+    std::vector<std::string> line{"fit", file, "--out", folder.file("m.json")};
+    line.insert(line.end(), words.begin(), words.end());
+    const CommandOutcome ran = run_command(line);
+    CAPTURE(words, ran.err);
+    CHECK(ran.status == kBadWords);
+    CHECK_THAT(ran.err, Contains(words[0] + " must be positive"));
+    CHECK(ran.out.empty());
+    CHECK_FALSE(std::filesystem::exists(folder.file("m.json")));
+  }
+}
