@@ -9,7 +9,6 @@
 namespace viscard {
 namespace {
 
-
 double mismatch(double a, double b) {
   if (a == b) return 0.0;
   const double size = std::max(std::abs(a), std::abs(b));
