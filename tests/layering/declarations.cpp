@@ -33,9 +33,15 @@ std::vector<Statement> statements_at_namespace_level(const std::string& code) {
   int unnamed = 0;
   int depth = 0;  // of braces inside the innermost namespace
   std::string current;
-  for (const char c : code) {
+  for (std::size_t i = 0; i < code.size(); ++i) {
+    const char c = code[i];
     if (depth > 0) {
       depth += c == '{' ? 1 : c == '}' ? -1 : 0;
+      continue;
+    }
+    // A brace without a blank before it initialises a value: the statement goes on behind it.
+    if (c == '{' && i > 0 && std::isspace(static_cast<unsigned char>(code[i - 1])) == 0) {
+      depth = 1;
       continue;
     }
     if (c != ';' && c != '{' && c != '}') {

@@ -267,7 +267,7 @@ TEST_CASE("reading an interrupted capture changes neither the file nor its journ
   CHECK(part.status == "interrupted");
   REQUIRE(part.events.size() == 1);
   CHECK(part.events[0].name == "gap");
-  CHECK(contains(part.events[0].text, "-wal is not there"));
+  CHECK(contains(part.events[0].text, "-wal is missing"));
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST_CASE("a viscard name is preferred to an alias, and two equal matches are re
   CHECK(first("force_N,Load (N)\n2,3\n", "force_N") == 2.0);
   CHECK(first("Load (N),Force (N)\n2,3\n", "force_N") == 3.0);  // its own name before another
   CHECK(contains(error_of("Load (N),Kraft (N)\n2,3\n", "force_N"),
-                 "t.csv: columns 1 'Load (N)' and 2 'Kraft (N)' could both be force_N; say which "
+                 "t.csv: columns 1 'Load (N)' and 2 'Kraft (N)' could both be force_N; choose one "
                  "with --column force_N=2"));
 }
 

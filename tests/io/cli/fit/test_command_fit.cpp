@@ -144,7 +144,7 @@ TEST_CASE("several files are fitted together, in their order", "[cli]") {
   CHECK(json["fits"][0]["E0_Pa"] == json["fits"][1]["E0_Pa"]);
 }
 
-TEST_CASE("--diagnose compares a relaxation with a power law and refuses other data", "[cli]") {
+TEST_CASE("fit --diagnose compares a relaxation with a power law and refuses other data", "[cli]") {
   const TableFolder folder;
   const std::string file = folder.write("E.csv", relaxation_table());
   const CommandOutcome ran = run_command({"fit", file, "--diagnose", "--json"});

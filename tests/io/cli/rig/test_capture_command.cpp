@@ -119,7 +119,7 @@ TEST_CASE("a series is resumed with the unfinished captures, and nothing is over
   for (const auto& run : json["runs"]) CHECK(run["status"] == "finished before");
 }
 
-TEST_CASE("--resume skips a single finished capture", "[cli][capture][pty]") {
+TEST_CASE("capture --resume skips a single finished capture", "[cli][capture][pty]") {
   const ScratchFolder folder;
   const std::string out = folder / "run.viscap";
   const std::string test_file = folder / "test.toml";
