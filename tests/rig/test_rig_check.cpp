@@ -46,7 +46,7 @@ TEST_CASE("numbers with a decimal point and no unit are read as volts, and the a
   options.amplifier.format = AmplifierFormat::kVolts;
   const auto advised = [](const RigCheck& check) {
     return std::any_of(check.advice.begin(), check.advice.end(), [](const std::string& text) {
-      return text.find("taken for volts") != std::string::npos;
+      return text.find("are read as volts") != std::string::npos;
     });
   };
   RigFixture rig(options);
@@ -54,8 +54,8 @@ TEST_CASE("numbers with a decimal point and no unit are read as volts, and the a
   CHECK(check.reads_as == "volts");
   CHECK(advised(check));
   options.config.load_cell.line_format = "volts";
-  RigFixture told(options);
-  CHECK_FALSE(advised(check_rig(told.stage, told.load_cell, told.config, told.clock, 5.0)));
+  RigFixture stated(options);
+  CHECK_FALSE(advised(check_rig(stated.stage, stated.load_cell, stated.config, stated.clock, 5.0)));
 }
 
 TEST_CASE("the state of a port is reported without opening it", "[rig][pty]") {
