@@ -11,9 +11,7 @@
 namespace viscard {
 namespace {
 
-using nlohmann::json;
-
-double number_in(const json& object, const char* key) {
+double number_in(const nlohmann::json& object, const char* key) {
   if (!object.contains(key)) throw std::invalid_argument(std::string("'") + key + "' is missing");
   if (!object[key].is_number()) {
     throw std::invalid_argument(std::string("'") + key + "' must be a number");
@@ -21,11 +19,11 @@ double number_in(const json& object, const char* key) {
   return object[key].get<double>();
 }
 
-double number_in(const json& object, const char* key, double otherwise) {
+double number_in(const nlohmann::json& object, const char* key, double otherwise) {
   return object.contains(key) ? number_in(object, key) : otherwise;
 }
 
-Matrix6d stiffness_from(const json& elastic) {
+Matrix6d stiffness_from(const nlohmann::json& elastic) {
   if (elastic.contains("E_Pa")) {
     return isotropic_moduli_Pa(number_in(elastic, "E_Pa"), number_in(elastic, "nu"));
   }
@@ -40,7 +38,7 @@ Matrix6d stiffness_from(const json& elastic) {
   return 0.5 * (inverse + inverse.transpose()) / s11;
 }
 
-MediumFile medium_from(const json& object) {
+MediumFile medium_from(const nlohmann::json& object) {
   static const std::set<std::string> kKnown = {
       "schema", "name", "rho_kg_m3", "elastic", "charge_C_N", "relative_permittivity", "source"};
   for (const auto& [key, value] : object.items()) {
@@ -59,13 +57,14 @@ MediumFile medium_from(const json& object) {
     file.medium.rho_kg_m3 = rho;
     return file;
   }
-  const json& d = object["charge_C_N"];
+  const nlohmann::json& d = object["charge_C_N"];
   file.charge_C_N(2, 0) = number_in(d, "d31");
   file.charge_C_N(2, 1) = number_in(d, "d32", file.charge_C_N(2, 0));
   file.charge_C_N(2, 2) = number_in(d, "d33");
   file.charge_C_N(0, 4) = number_in(d, "d15", 0.0);
   file.charge_C_N(1, 3) = number_in(d, "d24", file.charge_C_N(0, 4));
-  const json permittivity = object.value("relative_permittivity", json::array());
+  const nlohmann::json permittivity =
+      object.value("relative_permittivity", nlohmann::json::array());
   if (!permittivity.is_array() || permittivity.size() != 3) {
     throw std::invalid_argument("'relative_permittivity' must be three numbers");
   }
@@ -83,8 +82,8 @@ MediumFile medium_from(const json& object) {
 MediumFile read_medium(const std::filesystem::path& path) {
   const std::string text = read_file(path);
   try {
-    return medium_from(json::parse(text));
-  } catch (const json::exception& error) {
+    return medium_from(nlohmann::json::parse(text));
+  } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(path.string() + ": is not a medium file: " + error.what());
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(path.string() + ": " + error.what());

@@ -149,7 +149,7 @@ int list_card_targets(const CardWords& words, Streams& streams) {
 int check_card_file(const CardWords& words, Streams& streams) {
   const std::string text = read_file(words.check);
   std::optional<PreparedMaterial> reference;
-  if (!words.material.empty()) reference = prepare_card_material(words);
+  if (!words.material.empty()) reference = prepared_material(words);
   const CardCheck check = [&] {
     try {
       return check_card(text, card_target(words.target),

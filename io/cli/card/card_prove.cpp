@@ -38,7 +38,7 @@ int prove_card_file(const CardWords& words, Streams& streams) {
   const std::string text = read_file(words.prove);
   const ReadCard read = read_card(text, card_target("calculix"), words.units);
   Material material = read.material;
-  if (!words.material.empty()) material = prepare_card_material(words).material;
+  if (!words.material.empty()) material = prepared_material(words).material;
   material = with_bulk_rule(material, BulkRule::kConstantBulk);
   const CalculixProof proof = prove_in_calculix(text, material, read.units);
   if (words.json) {
@@ -66,7 +66,7 @@ int prove_card_file(const CardWords& words, Streams& streams) {
 
 int write_deck_files(const CardWords& words, Streams& streams) {
   if (words.out.empty()) throw UsageError("--deck needs --out FOLDER");
-  const PreparedMaterial prepared = prepare_card_material(words);
+  const PreparedMaterial prepared = prepared_material(words);
   const Card card =
       write_card(prepared.material, card_target(words.target), card_options(words, prepared));
   const ElementTestKind kind =

@@ -2,7 +2,7 @@
 
 #include "io/cards/card.h"
 #include "io/cli/words/streams.h"
-#include "models/material/material.h"
+#include "io/flow/card_material.h"
 
 #include <optional>
 #include <string>
@@ -29,16 +29,9 @@ struct CardWords {
   std::string command_line;
 };
 
-// The material of words.material after --bound, --elastic-only and, with --approximate, the
-// reduction to the terms the target takes; notes say what was done.
-struct PreparedMaterial {
-  Material material;
-  std::string sha256;
-  std::vector<std::string> notes;           // header lines
-  std::optional<std::string> terms_change;  // "approximated" text of the terms, if reduced
-  bool are_terms_dropped = false;
-};
-PreparedMaterial prepare_card_material(const CardWords& words);
+// The material that the words name; checks that a mixing ratio is given where it is needed. Throws
+// UsageError, and what prepare_card_material() throws.
+PreparedMaterial prepared_material(const CardWords& words);
 CardOptions card_options(const CardWords& words, const PreparedMaterial& prepared);
 
 int list_card_targets(const CardWords& words, Streams& streams);

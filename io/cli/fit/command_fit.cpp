@@ -2,12 +2,13 @@
 
 #include "fit/intervals/flags.h"
 #include "io/basics/atomic_file.h"
-#include "io/cli/fit/fit_batch.h"
 #include "io/cli/fit/fit_joint.h"
-#include "io/cli/fit/fit_material.h"
 #include "io/cli/fit/fit_options.h"
 #include "io/cli/fit/fit_output.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/progress.h"
+#include "io/flow/fit_files.h"
+#include "io/flow/material_from_fitted.h"
 #include "io/materials/material_file.h"
 
 #include <nlohmann/json.hpp>
@@ -164,11 +165,14 @@ int run_fit(const Words& words, Streams& streams) {
         "' exists already. Choose another --out, or add --force to replace it");
   }
   if (is_joint) return run_joint(*values, files, quoted_command_line("fit", words), streams);
-  FitWords fit_words = words_from(*values);
+  FitRequest fit_words = words_from(*values);
   fit_words.needs_modulus = has_out;
-  const FittedMaterialWords about = material_words(
+  const MaterialRequest about = material_words(
       *values, quoted_command_line("fit", words));  // refuses bad words before the fit
-  const std::vector<FittedFile> fitted = fit_files(files, fit_words, streams);
+  Progress progress(streams, "fit");
+  const std::vector<FittedFile> fitted = fit_files(
+      files, fit_words, [&](double done, const std::string& file) { progress.show(done, file); });
+  progress.clear();
   print(fitted, values->count("json") > 0, streams.out);
   if (has_out) {
     Material material = material_from_fitted(fitted.front(), about);

@@ -2,79 +2,18 @@
 
 #include "fit/laws/fit_mixing_ratio.h"
 #include "io/basics/atomic_file.h"
-#include "io/basics/sha256.h"
-#include "io/capture/capture_file.h"
-#include "io/cli/fit/fit_batch.h"
-#include "io/materials/material_file.h"
+#include "io/cli/words/progress.h"
+#include "io/flow/joint_fit.h"
 #include "io/materials/ratio_file.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <map>
 #include <ostream>
 
 namespace viscard {
 namespace {
-
-bool is_material_file(const std::string& file) {
-  return std::filesystem::path(file).extension() == ".json" && !looks_like_capture(file);
-}
-
-// The law compares the terms one by one, so all specimens need the same number of terms: that of
-// the material files, or the most frequent choice among the measured specimens (the smallest if
-// several are equally frequent).
-int common_order(const std::vector<FittedFile>& fitted, const std::vector<Material>& given) {
-  if (!given.empty()) return static_cast<int>(given.front().terms.size());
-  std::map<int, int> votes;
-  for (const FittedFile& one : fitted) ++votes[static_cast<int>(one.result.terms.size())];
-  return std::max_element(votes.begin(), votes.end(),
-                          [](const auto& a, const auto& b) { return a.second < b.second; })
-      ->first;
-}
-
-void refit_others(std::vector<FittedFile>& fitted, int order, const JointWords& words,
-                  Streams& streams) {
-  FitWords forced = words.fit;
-  forced.options.n_terms = order;
-  for (FittedFile& one : fitted) {
-    if (static_cast<int>(one.result.terms.size()) == order) continue;
-    streams.err << fmt::format(
-        "viscard: {}: fitted again with {}, as the other specimens, instead of {}\n", one.path,
-        counted(static_cast<std::size_t>(order), "term"), one.result.terms.size());
-    one = fit_file(one.path, forced);
-  }
-}
-
-std::vector<Material> specimens_of(const JointWords& words, Streams& streams) {
-  std::vector<std::string> measured;
-  std::vector<Material> given;
-  for (const std::string& file : words.files) {
-    if (is_material_file(file)) {
-      given.push_back(read_material(file).material);
-      if (given.back().name.empty()) {
-        given.back().name = std::filesystem::path(file).stem().string();
-      }
-    } else {
-      measured.push_back(file);
-    }
-  }
-  std::vector<FittedFile> fitted = fit_files(measured, words.fit, streams);
-  if (!fitted.empty()) refit_others(fitted, common_order(fitted, given), words, streams);
-  // In the order of the files.
-  std::vector<Material> specimens;
-  auto next_given = given.begin();
-  auto next_fitted = fitted.begin();
-  for (std::size_t i = 0; i < words.files.size(); ++i) {
-    specimens.push_back(is_material_file(words.files[i])
-                            ? *next_given++
-                            : material_from_fitted(*next_fitted++, words.material));
-    if (!words.ratios.empty()) specimens.back().mixing_ratio = words.ratios[i];
-  }
-  return specimens;
-}
 
 void print(const RatioFit& fit, std::ostream& out) {
   out << fmt::format("{} at {}\n\n", counted(fit.specimens.size(), "specimen"),
@@ -137,7 +76,16 @@ int run_joint_fit(const JointWords& words, Streams& streams) {
                        " is not known; use E0, g, tau, or g_i and tau_i of single terms");
     }
   }
-  const RatioFit fit = fit_mixing_ratio(specimens_of(words, streams), options);
+  Progress progress(streams, "fit");
+  const RatioFit fit = fit_jointly(
+      {.files = words.files,
+       .ratios = words.ratios,
+       .fit = words.fit,
+       .material = words.material,
+       .options = options,
+       .progress = [&](double done, const std::string& file) { progress.show(done, file); },
+       .note = [&](const std::string& text) { streams.err << "viscard: " << text << "\n"; }});
+  progress.clear();
   if (words.json) {
     streams.out << json_from_ratio_fit(fit);
   } else {

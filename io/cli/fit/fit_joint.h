@@ -1,8 +1,8 @@
 #pragma once
 
-#include "io/cli/fit/fit_input.h"
-#include "io/cli/fit/fit_material.h"
 #include "io/cli/words/streams.h"
+#include "io/flow/fit_file.h"
+#include "io/flow/material_from_fitted.h"
 
 #include <string>
 #include <vector>
@@ -14,8 +14,8 @@ struct JointWords {
   std::vector<std::string> files;   // captures, tables, material files
   std::vector<double> ratios;       // --ratio, one for each file; empty: from the files
   std::vector<std::string> shared;  // --share: E0, g, tau
-  FitWords fit;
-  FittedMaterialWords material;
+  FitRequest fit;
+  MaterialRequest material;
   std::string out;
   bool overwrite = false, json = false;
 };

@@ -3,6 +3,7 @@
 #include "fit/assembly/constraints.h"
 #include "io/basics/atomic_file.h"
 #include "io/basics/nearest_word.h"
+#include "io/basics/timestamp.h"
 #include "io/basics/units.h"
 #include "io/cli/words/command_line.h"
 #include "io/config/config_file.h"
@@ -136,8 +137,8 @@ std::optional<Specimen> specimen_from(const po::variables_map& values) {
 
 }  // namespace
 
-FitWords words_from(const po::variables_map& values) {
-  FitWords words;
+FitRequest words_from(const po::variables_map& values) {
+  FitRequest words;
   if (values.count("kind") > 0) words.kind = kind_from_word(values["kind"].as<std::string>());
   words.options = options_from(values);
   words.diagnose = values.count("diagnose") > 0;
@@ -163,8 +164,8 @@ FitWords words_from(const po::variables_map& values) {
   return words;
 }
 
-FittedMaterialWords material_words(const po::variables_map& values, const std::string& command) {
-  FittedMaterialWords words{.command = command, .created_at = now_iso8601()};
+MaterialRequest material_words(const po::variables_map& values, const std::string& command) {
+  MaterialRequest words{.command = command, .created_at = now_iso8601()};
   if (values.count("poisson-ratio") > 0) words.nu = values["poisson-ratio"].as<double>();
   if (values.count("density") > 0) {
     words.rho_kg_m3 = quantity(values, "density", "kg/m3");

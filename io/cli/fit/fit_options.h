@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/cli/fit/fit_input.h"
-#include "io/cli/fit/fit_material.h"
+#include "io/flow/fit_file.h"
+#include "io/flow/material_from_fitted.h"
 
 #include <boost/program_options.hpp>
 
@@ -10,10 +10,10 @@
 namespace viscard {
 
 // Convert the options of viscard fit. Both throw UsageError for values that are not allowed.
-FitWords words_from(const boost::program_options::variables_map& values);
+FitRequest words_from(const boost::program_options::variables_map& values);
 
 // command: the whole command line, for the provenance of the material.
-FittedMaterialWords material_words(const boost::program_options::variables_map& values,
-                                   const std::string& command);
+MaterialRequest material_words(const boost::program_options::variables_map& values,
+                               const std::string& command);
 
 }  // namespace viscard

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/cli/fit/fit_input.h"
+#include "io/flow/fit_file.h"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,13 +1,15 @@
 #include "io/cli/report/command_report.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/basics/timestamp.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
-#include "io/cli/fit/fit_material.h"
-#include "io/cli/report/report_law.h"
-#include "io/cli/report/report_specimens.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/progress.h"
+#include "io/flow/material_from_fitted.h"
+#include "io/flow/mixing_law.h"
+#include "io/flow/specimen_reports.h"
+#include "io/report/report.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -50,18 +52,18 @@ CommandSyntax report_syntax() {
   return syntax;
 }
 
-ReportWords checked_words(const po::variables_map& values, const std::vector<std::string>& words,
-                          const char* usage) {
+ReportRequest checked_words(const po::variables_map& values, const std::vector<std::string>& words,
+                            const char* usage) {
   const auto list = [&](const char* name) {
     return values.count(name) > 0 ? values[name].as<std::vector<std::string>>()
                                   : std::vector<std::string>{};
   };
-  ReportWords report{list("files"),
-                     list("truth"),
-                     list("card"),
-                     values["units"].as<std::string>(),
-                     "",
-                     quoted_command_line("report", words)};
+  ReportRequest report{list("files"),
+                       list("truth"),
+                       list("card"),
+                       values["units"].as<std::string>(),
+                       "",
+                       quoted_command_line("report", words)};
   if (report.files.empty()) throw UsageError(std::string("which files? usage: ") + usage);
   if (values.count("out") == 0) {
     throw UsageError("which page? name it with --out report.html");
@@ -73,11 +75,17 @@ ReportWords checked_words(const po::variables_map& values, const std::vector<std
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
+  if (!report.truth_files.empty() && report.truth_files.size() != measured_count(report.files)) {
+    throw UsageError(fmt::format("{} for {}: give one --truth for each, in the same order, or none",
+                                 counted(report.truth_files.size(), "truth file"),
+                                 counted(measured_count(report.files), "capture")));
+  }
   if (values.count("reproducible") == 0) report.created_at = now_iso8601();
   return report;
 }
 
-ReportInput input_from_words(const ReportWords& words, const std::string& title, Streams& streams) {
+ReportInput input_from_words(const ReportRequest& words, const std::string& title,
+                             Streams& streams) {
   ReportInput input;
   input.title = title;
   input.created_by = "viscard " VISCARD_VERSION;
@@ -161,7 +169,7 @@ int run_report(const std::vector<std::string>& words, Streams& streams) {
   CommandSyntax syntax = report_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
-  const ReportWords report = checked_words(*values, words, syntax.usage);
+  const ReportRequest report = checked_words(*values, words, syntax.usage);
   const fs::path page = (*values)["out"].as<std::string>();
   const bool is_forced = values->count("force") > 0;
   refuse_existing(page, is_forced);

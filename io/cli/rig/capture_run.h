@@ -2,16 +2,14 @@
 
 #include "io/cli/rig/capture_setup.h"
 #include "io/cli/words/streams.h"
-#include "rig/run_indentation.h"
+#include "rig/run/run_outcome.h"
 
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace viscard {
 
-// Extensions of the files beside a capture: the truth of an emulated rig, and the live page.
-inline constexpr const char* kTruthEnding = ".truth.json";
+// Extension of the live page beside a capture.
 inline constexpr const char* kPageEnding = ".live.html";
 
 // How one capture ended, and its forces for the summary.
@@ -21,9 +19,8 @@ struct CaptureOutcome {
   std::vector<double> force_N;  // thinned out
 };
 
-// Opens both ports (or makes an emulated rig), creates the file and runs one test. SIGINT, SIGTERM
-// and SIGHUP first stop the stage. `command` is recorded in the file as its origin. Throws
-// std::runtime_error if the test could not begin.
+// capture_to_file() with a live view on the terminal and, if asked for, a page. SIGINT, SIGTERM and
+// SIGHUP first stop the stage.
 CaptureOutcome capture_once(const CaptureWords& words, const CaptureSetup& setup,
                             const std::string& command, Streams& streams);
 

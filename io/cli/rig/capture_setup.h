@@ -1,9 +1,6 @@
 #pragma once
 
-#include "models/experiment/emulated_specimen.h"
-#include "models/experiment/rig_config.h"
-#include "models/experiment/specimen.h"
-#include "models/experiment/test_plan.h"
+#include "io/flow/capture_to_file.h"
 
 #include <cstdint>
 #include <optional>
@@ -29,23 +26,11 @@ struct CaptureWords {
   bool acknowledges = false;     // report on stderr how many records are safe
 };
 
-// All that one run needs, read from files; an emulated rig has defaults for files that are left
-// out.
-struct CaptureSetup {
-  RigConfig rig;
-  TestPlan plan;
-  Specimen specimen;
-  std::optional<EmulatedTruth> truth;  // of an emulated rig
-};
-
 // Throws UsageError on options that cannot be combined.
 void check_words(const CaptureWords& words);
 
 // The setup for one specimen (empty: the emulated rig's own). Throws std::runtime_error on a bad
 // file.
 CaptureSetup capture_setup(const CaptureWords& words, const std::string& specimen_file);
-
-// The truth as JSON for the file beside the capture: the result that a fit of the run should find.
-std::string json_from_truth(const EmulatedTruth& truth);
 
 }  // namespace viscard

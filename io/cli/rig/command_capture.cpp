@@ -6,6 +6,7 @@
 #include "io/cli/rig/capture_setup.h"
 #include "io/cli/rig/live_picture.h"
 #include "io/cli/words/command_line.h"
+#include "io/flow/emulated_truth.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "io/cli/fit/fit_input.h"
+#include "io/flow/fit_file.h"
 
 #include "fit/fit_creep.h"
 #include "fit/fit_dma.h"
@@ -16,10 +16,10 @@ namespace {
 
 using Column = std::vector<double>;
 
-FitKind kind_of_table(const CsvTable& table, const FitWords& words) {
-  if (words.kind) return *words.kind;
+FitKind kind_of_table(const CsvTable& table, const FitRequest& request) {
+  if (request.kind) return *request.kind;
   const auto has = [&](const char* name) {
-    return find_column(table, name, words.columns).has_value();
+    return find_column(table, name, request.columns).has_value();
   };
   if (has("force_N") && has("depth_m")) return FitKind::kIndentation;
   if (has("modulus_Pa") || has("stress_Pa")) return FitKind::kRelaxation;
@@ -33,11 +33,11 @@ FitKind kind_of_table(const CsvTable& table, const FitWords& words) {
 }
 
 // The rows of the chosen segments, in the order of the file.
-CsvTable rows_of_segments(const CsvTable& table, const FitWords& words) {
-  if (words.segments.empty()) return table;
+CsvTable rows_of_segments(const CsvTable& table, const FitRequest& request) {
+  if (request.segments.empty()) return table;
   std::vector<CsvTable> parts;
-  for (const std::string& segment : words.segments) {
-    parts.push_back(rows_of_segment(table, segment, words.columns));
+  for (const std::string& segment : request.segments) {
+    parts.push_back(rows_of_segment(table, segment, request.columns));
   }
   std::stable_sort(parts.begin(), parts.end(), [](const CsvTable& a, const CsvTable& b) {
     return !a.lines.empty() && !b.lines.empty() && a.lines.front() < b.lines.front();
@@ -55,73 +55,73 @@ CsvTable rows_of_segments(const CsvTable& table, const FitWords& words) {
   return all;
 }
 
-Column time_of(const CsvTable& table, const FitWords& words) {
-  Column time_s = column_SI(table, "time_s", words.columns);
-  for (double& time : time_s) time -= words.time_zero_s;
+Column time_of(const CsvTable& table, const FitRequest& request) {
+  Column time_s = column_SI(table, "time_s", request.columns);
+  for (double& time : time_s) time -= request.time_zero_s;
   return time_s;
 }
 
-FitResult fit_relaxation_table(const CsvTable& table, const FitWords& words) {
+FitResult fit_relaxation_table(const CsvTable& table, const FitRequest& request) {
   RelaxationData data;
-  data.time_s = time_of(table, words);
-  const bool has_modulus = find_column(table, "modulus_Pa", words.columns).has_value();
-  data.value = column_SI(table, has_modulus ? "modulus_Pa" : "stress_Pa", words.columns);
-  if (!has_modulus && find_column(table, "strain", words.columns)) {
-    data.strain = column_SI(table, "strain", words.columns);
+  data.time_s = time_of(table, request);
+  const bool has_modulus = find_column(table, "modulus_Pa", request.columns).has_value();
+  data.value = column_SI(table, has_modulus ? "modulus_Pa" : "stress_Pa", request.columns);
+  if (!has_modulus && find_column(table, "strain", request.columns)) {
+    data.strain = column_SI(table, "strain", request.columns);
   }
-  return fit_relaxation(data, words.options);
+  return fit_relaxation(data, request.options);
 }
 
-FitResult fit_indentation_table(const CsvTable& table, const FitWords& words) {
-  if (words.needs_modulus && !words.specimen) {
+FitResult fit_indentation_table(const CsvTable& table, const FitRequest& request) {
+  if (request.needs_modulus && !request.specimen) {
     throw std::runtime_error(
         "--out writes moduli, but an indentation without punch geometry gives only stiffnesses; "
         "add "
         "--specimen FILE, or --punch-diameter (and --layer-thickness)");
   }
   IndentationData data;
-  data.time_s = time_of(table, words);
-  data.force_N = column_SI(table, "force_N", words.columns);
-  data.depth_m = column_SI(table, "depth_m", words.columns);
-  data.frame_stiffness_N_m = words.frame_stiffness_N_m;
-  if (words.specimen) data.contact = words.specimen->contact;
-  return fit_indentation(data, words.options);
+  data.time_s = time_of(table, request);
+  data.force_N = column_SI(table, "force_N", request.columns);
+  data.depth_m = column_SI(table, "depth_m", request.columns);
+  data.frame_stiffness_N_m = request.frame_stiffness_N_m;
+  if (request.specimen) data.contact = request.specimen->contact;
+  return fit_indentation(data, request.options);
 }
 
 // Fits a master curve if a table of relaxation moduli or of frequency sweeps has several
 // temperatures.
 std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
-                                            const FitWords& words) {
+                                            const FitRequest& request) {
   const bool is_step =
-      kind == FitKind::kRelaxation && find_column(table, "modulus_Pa", words.columns);
-  const bool has_temperature = find_column(table, "temperature_C", words.columns).has_value();
+      kind == FitKind::kRelaxation && find_column(table, "modulus_Pa", request.columns);
+  const bool has_temperature = find_column(table, "temperature_C", request.columns).has_value();
   MasterData data;
-  if (has_temperature) data.temperature_C = column_SI(table, "temperature_C", words.columns);
+  if (has_temperature) data.temperature_C = column_SI(table, "temperature_C", request.columns);
   if ((!is_step && kind != FitKind::kDma) || !has_several_temperatures(data.temperature_C)) {
-    if (!words.T_ref_C) return std::nullopt;
+    if (!request.T_ref_C) return std::nullopt;
     throw std::runtime_error(
         "--reference-temperature applies only to tables of modulus_Pa, or of storage and loss "
         "moduli, "
         "with several temperatures in a column temperature_C; omit it");
   }
   if (is_step) {
-    data.argument = time_of(table, words);
-    data.modulus_Pa = column_SI(table, "modulus_Pa", words.columns);
+    data.argument = time_of(table, request);
+    data.modulus_Pa = column_SI(table, "modulus_Pa", request.columns);
   } else {
-    data.argument = column_SI(table, "frequency_Hz", words.columns);
-    data.modulus_Pa = column_SI(table, "storage_modulus_Pa", words.columns);
-    data.loss_Pa = column_SI(table, "loss_modulus_Pa", words.columns);
+    data.argument = column_SI(table, "frequency_Hz", request.columns);
+    data.modulus_Pa = column_SI(table, "storage_modulus_Pa", request.columns);
+    data.loss_Pa = column_SI(table, "loss_modulus_Pa", request.columns);
   }
-  data.T_ref_C = words.T_ref_C;
-  return fit_master_curve(data, words.options);
+  data.T_ref_C = request.T_ref_C;
+  return fit_master_curve(data, request.options);
 }
 
-FittedFile fit_table(const std::string& path, const FitWords& words) {
-  const CsvTable table = rows_of_segments(read_csv(path), words);
+FittedFile fit_table(const std::string& path, const FitRequest& request) {
+  const CsvTable table = rows_of_segments(read_csv(path), request);
   FittedFile fitted;
-  if (words.specimen) fitted.specimen = *words.specimen;
-  const FitKind kind = kind_of_table(table, words);
-  fitted.master = fit_temperatures(table, kind, words);
+  if (request.specimen) fitted.specimen = *request.specimen;
+  const FitKind kind = kind_of_table(table, request);
+  fitted.master = fit_temperatures(table, kind, request);
   if (fitted.master) {
     fitted.result = fitted.master->fit;
     fitted.fitted_unit = "Pa";
@@ -129,46 +129,46 @@ FittedFile fit_table(const std::string& path, const FitWords& words) {
   }
   switch (kind) {
     case FitKind::kIndentation:
-      fitted.result = fit_indentation_table(table, words);
+      fitted.result = fit_indentation_table(table, request);
       fitted.fitted_unit = "N";
       break;
     case FitKind::kRelaxation:
-      fitted.result = fit_relaxation_table(table, words);
+      fitted.result = fit_relaxation_table(table, request);
       fitted.fitted_unit = "Pa";
       break;
     case FitKind::kCreep:
       fitted.result =
-          fit_creep({time_of(table, words), column_SI(table, "compliance_1_Pa", words.columns)},
-                    words.options);
+          fit_creep({time_of(table, request), column_SI(table, "compliance_1_Pa", request.columns)},
+                    request.options);
       fitted.fitted_unit = "1/Pa";
       break;
     case FitKind::kDma:
-      fitted.result = fit_dma({column_SI(table, "frequency_Hz", words.columns),
-                               column_SI(table, "storage_modulus_Pa", words.columns),
-                               column_SI(table, "loss_modulus_Pa", words.columns)},
-                              words.options);
+      fitted.result = fit_dma({column_SI(table, "frequency_Hz", request.columns),
+                               column_SI(table, "storage_modulus_Pa", request.columns),
+                               column_SI(table, "loss_modulus_Pa", request.columns)},
+                              request.options);
       fitted.fitted_unit = "Pa";
       break;
   }
   return fitted;
 }
 
-FittedFile fit_capture(const std::string& path, const FitWords& words) {
-  if (words.kind && *words.kind != FitKind::kIndentation) {
+FittedFile fit_capture(const std::string& path, const FitRequest& request) {
+  if (request.kind && *request.kind != FitKind::kIndentation) {
     throw std::runtime_error(path + ": a capture is an indentation; omit --kind");
   }
-  if (!words.columns.empty() || !words.segments.empty() || words.time_zero_s != 0.0) {
+  if (!request.columns.empty() || !request.segments.empty() || request.time_zero_s != 0.0) {
     throw std::runtime_error(
         path +
         ": --column, --segment and --time-zero apply only to tables; omit them for a capture");
   }
   CapturedRun run = read_capture(path);
-  if (words.specimen) run.specimen = *words.specimen;
-  if (words.frame_stiffness_N_m > 0.0) run.rig.frame.stiffness_N_m = words.frame_stiffness_N_m;
+  if (request.specimen) run.specimen = *request.specimen;
+  if (request.frame_stiffness_N_m > 0.0) run.rig.frame.stiffness_N_m = request.frame_stiffness_N_m;
   FittedFile fitted;
   fitted.specimen = run.specimen;
   fitted.fitted_unit = "N";
-  fitted.result = fit_indentation(indentation_from_capture(run), words.options);
+  fitted.result = fit_indentation(indentation_from_capture(run), request.options);
   if (run.status != "finished") {
     fitted.result.flags.push_back(
         {"run-" + run.status, 0,
@@ -186,13 +186,13 @@ FittedFile fit_capture(const std::string& path, const FitWords& words) {
 
 }  // namespace
 
-FittedFile fit_file(const std::string& path, const FitWords& words) {
+FittedFile fit_file(const std::string& path, const FitRequest& request) {
   const bool is_capture = looks_like_capture(path);
   // Readers name the file in their messages; the fit does not know it.
   try {
-    FittedFile fitted = is_capture ? fit_capture(path, words) : fit_table(path, words);
+    FittedFile fitted = is_capture ? fit_capture(path, request) : fit_table(path, request);
     fitted.path = path;
-    if (words.diagnose) {
+    if (request.diagnose) {
       fitted.fractional = diagnose_fractional(fitted.result);
       if (!fitted.fractional) {
         throw std::runtime_error(

@@ -1,15 +1,16 @@
 #pragma once
 
-#include "io/report/report.h"
+#include "io/flow/flow_progress.h"
+#include "io/report/report_input.h"
 
-#include <functional>
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace viscard {
 
-// The options of `viscard report`.
-struct ReportWords {
+// What a report is made of.
+struct ReportRequest {
   std::vector<std::string> files;  // captures, tables and material files
   // One per capture or table, in their order. Empty: the truth files beside the captures, if any.
   std::vector<std::string> truth_files;
@@ -24,8 +25,11 @@ struct ReportWords {
 // raw file) becomes part of its specimen. A file that cannot be fitted stops the command; a pillar
 // that cannot be run or a card that is refused only adds a note. progress is called with the
 // fraction done and the name of the last finished step. Throws std::runtime_error naming the file;
-// UsageError if the number of truth files differs from that of the captures and tables.
-std::vector<SpecimenReport> read_specimens(
-    const ReportWords& words, const std::function<void(double, const std::string&)>& progress);
+// std::invalid_argument if the number of truth files differs from measured_count().
+std::vector<SpecimenReport> read_specimens(const ReportRequest& request,
+                                           const FlowProgress& progress);
+
+// How many of the files are captures or tables. Throws std::runtime_error if a file does not exist.
+std::size_t measured_count(const std::vector<std::string>& files);
 
 }  // namespace viscard

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/cli/fit/fit_input.h"
+#include "io/flow/fit_file.h"
 #include "models/material/material.h"
 
 #include <optional>
@@ -9,7 +9,7 @@
 namespace viscard {
 
 // Properties of the material that the fit does not determine.
-struct FittedMaterialWords {
+struct MaterialRequest {
   std::optional<double> nu;         // none: that of the specimen, or 0.495 without punch geometry
   std::optional<double> rho_kg_m3;  // none: that of the specimen
   std::string command;
@@ -19,9 +19,6 @@ struct FittedMaterialWords {
 // Makes the material of one fitted capture or table, with its name, validity window and provenance
 // (including the SHA-256 of the raw file). Throws std::invalid_argument if the fit gave
 // stiffnesses, std::runtime_error if the raw file cannot be read.
-Material material_from_fitted(const FittedFile& fitted, const FittedMaterialWords& words);
-
-// The current time in UTC, "2026-01-05T10:00:00Z".
-std::string now_iso8601();
+Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& request);
 
 }  // namespace viscard

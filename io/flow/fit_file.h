@@ -13,8 +13,8 @@
 
 namespace viscard {
 
-// The options of `viscard fit`.
-struct FitWords {
+// What to fit in a capture or a table, and how.
+struct FitRequest {
   std::optional<FitKind> kind;  // none: the columns decide
   FitOptions options;
   ColumnMap columns;
@@ -35,10 +35,10 @@ struct FittedFile {
   std::string fitted_unit;  // unit of the fitted column: "N", "Pa", "1/Pa"
   // For a table of several temperatures; `result` is then the fit at the reference temperature.
   std::optional<MasterCurve> master;
-  std::optional<FractionalDiagnosis> fractional;  // if FitWords::diagnose is set
+  std::optional<FractionalDiagnosis> fractional;  // if FitRequest::diagnose is set
 };
 
 // Reads a capture or a table and fits it. Throws std::runtime_error naming the file.
-FittedFile fit_file(const std::string& path, const FitWords& words);
+FittedFile fit_file(const std::string& path, const FitRequest& request);
 
 }  // namespace viscard

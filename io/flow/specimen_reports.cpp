@@ -1,4 +1,4 @@
-#include "io/cli/report/report_specimens.h"
+#include "io/flow/specimen_reports.h"
 
 #include "fit/indentation_from_capture.h"
 #include "io/basics/atomic_file.h"
@@ -7,11 +7,12 @@
 #include "io/capture/capture_file.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/write_card.h"
-#include "io/cli/fit/fit_material.h"
-#include "io/cli/words/streams.h"
 #include "io/config/config_file.h"
+#include "io/flow/emulated_truth.h"
+#include "io/flow/material_from_fitted.h"
 #include "io/materials/material_file.h"
 #include "io/materials/ratio_file.h"
+#include "models/maths/text_of_number.h"
 #include "models/pillar/validate_material.h"
 
 #include <fmt/format.h>
@@ -49,21 +50,9 @@ InputFiles sorted_by_kind(const std::vector<std::string>& files) {
   return sorted;
 }
 
-// Reads a truth file written by a user (TOML) or by `viscard capture --emulate` (JSON).
-EmulatedTruth truth_from_file(const std::string& path) {
-  if (fs::path(path).extension() != ".json") return read_truth(path);
-  nlohmann::json json = nlohmann::json::parse(read_file(path), nullptr, false);
-  if (!json.is_object())
-    throw std::runtime_error(path + ": is not a truth file; expected a JSON object");
-  json["schema"] = "viscard-material/1";  // its material has the same keys
-  EmulatedTruth truth;
-  truth.material = material_from_json(json.dump(), path).material;
-  return truth;
-}
-
-std::optional<std::string> truth_file_of(const ReportWords& words, const std::string& capture,
+std::optional<std::string> truth_file_of(const ReportRequest& request, const std::string& capture,
                                          std::size_t index) {
-  if (!words.truth_files.empty()) return words.truth_files[index];
+  if (!request.truth_files.empty()) return request.truth_files[index];
   if (!looks_like_capture(capture)) return std::nullopt;
   const std::string beside = fs::path(capture).replace_extension(".truth.json").string();
   if (fs::exists(beside)) return beside;
@@ -90,13 +79,13 @@ FittedFile fit_for_page(const std::string& path) {
   constexpr std::size_t kFewTerms = 6;
   const FittedFile fitted = fit_file(path, {});
   if (fitted.result.terms.size() > kFewTerms) return fitted;
-  FitWords words;
-  words.options.with_profiles = true;
-  return fit_file(path, words);
+  FitRequest request;
+  request.options.with_profiles = true;
+  return fit_file(path, request);
 }
 
 // Fits a capture or a table as `viscard fit FILE` does.
-SpecimenReport specimen_from_fit(const ReportWords& words, const std::string& path) {
+SpecimenReport specimen_from_fit(const ReportRequest& request, const std::string& path) {
   SpecimenReport report;
   const FittedFile fitted = fit_for_page(path);
   report.fit = fitted.result;
@@ -108,8 +97,8 @@ SpecimenReport specimen_from_fit(const ReportWords& words, const std::string& pa
   }
   report.files = {{path, sha256_of_file(path)}};
   if (!report.fit->is_stiffness) {
-    report.material =
-        material_from_fitted(fitted, {.command = words.command, .created_at = words.created_at});
+    report.material = material_from_fitted(
+        fitted, {.command = request.command, .created_at = request.created_at});
   }
   return report;
 }
@@ -176,13 +165,13 @@ PillarCheck pillar_of(const Material& material) {
   return check;
 }
 
-ReportCard card_of(const Material& material, const std::string& target, const ReportWords& words,
-                   const std::string& stem) {
-  ReportCard card{target, words.card_units, stem + card_target(target).extension, "", ""};
+ReportCard card_of(const Material& material, const std::string& target,
+                   const ReportRequest& request, const std::string& stem) {
+  ReportCard card{target, request.card_units, stem + card_target(target).extension, "", ""};
   CardOptions options;
-  options.units = words.card_units;
-  options.created_at = words.created_at;
-  options.command = words.command;
+  options.units = request.card_units;
+  options.created_at = request.created_at;
+  options.command = request.command;
   try {
     card.text = write_card(material, card_target(target), options).text;
   } catch (const std::invalid_argument& error) {
@@ -191,7 +180,7 @@ ReportCard card_of(const Material& material, const std::string& target, const Re
   return card;
 }
 
-void add_pillar_and_cards(SpecimenReport& specimen, const ReportWords& words) {
+void add_pillar_and_cards(SpecimenReport& specimen, const ReportRequest& request) {
   if (!specimen.material) return;
   try {
     specimen.pillar = pillar_of(*specimen.material);
@@ -199,20 +188,22 @@ void add_pillar_and_cards(SpecimenReport& specimen, const ReportWords& words) {
     specimen.notes.push_back(std::string("The pillar was not run: ") + error.what());
   }
   const std::string stem = fs::path(specimen.files.front().path).stem().string();
-  for (const std::string& target : words.card_targets) {
-    specimen.cards.push_back(card_of(*specimen.material, target, words, stem));
+  for (const std::string& target : request.card_targets) {
+    specimen.cards.push_back(card_of(*specimen.material, target, request, stem));
   }
 }
 
 }  // namespace
 
-std::vector<SpecimenReport> read_specimens(
-    const ReportWords& words, const std::function<void(double, const std::string&)>& progress) {
-  const InputFiles files = sorted_by_kind(words.files);
-  if (!words.truth_files.empty() && words.truth_files.size() != files.measured.size()) {
-    throw UsageError(fmt::format("{} for {}: give one --truth for each, in the same order, or none",
-                                 counted(words.truth_files.size(), "truth file"),
-                                 counted(files.measured.size(), "capture")));
+std::size_t measured_count(const std::vector<std::string>& files) {
+  return sorted_by_kind(files).measured.size();
+}
+
+std::vector<SpecimenReport> read_specimens(const ReportRequest& request,
+                                           const FlowProgress& progress) {
+  const InputFiles files = sorted_by_kind(request.files);
+  if (!request.truth_files.empty() && request.truth_files.size() != files.measured.size()) {
+    throw std::invalid_argument("there must be one truth file for each capture or table");
   }
   const std::size_t n_steps = 2 * files.measured.size() + files.materials.size();
   std::mutex mutex;
@@ -223,8 +214,8 @@ std::vector<SpecimenReport> read_specimens(
   };
   std::vector<SpecimenReport> specimens(files.measured.size());
   for_each_in_parallel(specimens.size(), [&](std::size_t i) {
-    specimens[i] = specimen_from_fit(words, files.measured[i]);
-    if (const auto truth = truth_file_of(words, files.measured[i], i))
+    specimens[i] = specimen_from_fit(request, files.measured[i]);
+    if (const auto truth = truth_file_of(request, files.measured[i], i))
       add_truth(specimens[i], *truth);
     step_done(files.measured[i]);
   });
@@ -232,7 +223,7 @@ std::vector<SpecimenReport> read_specimens(
     join_or_append(specimens, specimen_from_material(path));
   }
   for_each_in_parallel(specimens.size(), [&](std::size_t i) {
-    add_pillar_and_cards(specimens[i], words);
+    add_pillar_and_cards(specimens[i], request);
     step_done(specimens[i].specimen.id);
   });
   return specimens;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/report/report.h"
+#include "io/report/report_input.h"
 
 #include <optional>
 #include <string>

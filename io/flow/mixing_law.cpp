@@ -1,4 +1,4 @@
-#include "io/cli/report/report_law.h"
+#include "io/flow/mixing_law.h"
 
 #include "fit/laws/fit_mixing_ratio.h"
 #include "io/materials/ratio_file.h"

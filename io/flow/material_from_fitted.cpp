@@ -1,9 +1,8 @@
-#include "io/cli/fit/fit_material.h"
+#include "io/flow/material_from_fitted.h"
 
 #include "io/basics/sha256.h"
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 
 namespace viscard {
@@ -25,20 +24,12 @@ ValidityWindow window_of(const FitResult& fit) {
 
 }  // namespace
 
-std::string now_iso8601() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc)};
-}
-
-Material material_from_fitted(const FittedFile& fitted, const FittedMaterialWords& words) {
+Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& request) {
   const Specimen& specimen = fitted.specimen;
   const bool has_contact = specimen.contact.punch_radius_m > 0.0;
-  const double nu = words.nu.value_or(has_contact ? specimen.contact.poisson_ratio : kUsualNu);
+  const double nu = request.nu.value_or(has_contact ? specimen.contact.poisson_ratio : kUsualNu);
   Material material =
-      material_from_fit(fitted.result, nu, words.rho_kg_m3.value_or(specimen.rho_kg_m3));
+      material_from_fit(fitted.result, nu, request.rho_kg_m3.value_or(specimen.rho_kg_m3));
   material.name =
       specimen.id.empty() ? std::filesystem::path(fitted.path).stem().string() : specimen.id;
   if (!specimen.id.empty()) material.T_ref_C = specimen.temperature_C;
@@ -49,8 +40,8 @@ Material material_from_fitted(const FittedFile& fitted, const FittedMaterialWord
   }
   material.valid = window_of(fitted.result);
   material.provenance.created_by = "viscard " VISCARD_VERSION;
-  material.provenance.created_at = words.created_at;
-  material.provenance.command = words.command;
+  material.provenance.created_at = request.created_at;
+  material.provenance.command = request.command;
   material.provenance.raw_files = {{fitted.path, sha256_of_file(fitted.path)}};
   return material;
 }

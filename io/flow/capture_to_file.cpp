@@ -1,0 +1,99 @@
+#include "io/flow/capture_to_file.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/capture/previous_capture.h"
+#include "io/flow/emulated_truth.h"
+#include "rig/emulator/emulated_rig.h"
+#include "rig/open_devices.h"
+#include "rig/run_indentation.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+
+namespace viscard {
+namespace {
+
+CapturedRun about_run(const CaptureRequest& request, const RigConfig& rig) {
+  CapturedRun about;
+  about.rig = rig;
+  about.plan = request.setup.plan;
+  about.specimen = request.setup.specimen;
+  about.program = "viscard " VISCARD_VERSION;
+  about.command = request.command;
+  return about;
+}
+
+// Ends the file. A run that lost records because of a slow disk counts as interrupted.
+void close_file(CaptureWriter& writer, RunOutcome& outcome) {
+  try {
+    writer.finish(outcome.status == "finished" ? "finished" : "interrupted");
+  } catch (const std::exception& error) {
+    if (outcome.reason.empty()) throw;  // otherwise the reason is this failure
+  }
+  const std::size_t dropped = writer.counts().dropped;
+  if (dropped == 0 || outcome.status != "finished") return;
+  outcome.status = "interrupted";
+  outcome.reason = fmt::format(
+      "{} records were lost because the disk did not keep up. Write to a faster disk", dropped);
+}
+
+// Calls `closing` at the end of its scope, whatever ended it.
+class ClosingCall {
+ public:
+  explicit ClosingCall(const CaptureWatch& watch) : watch_(watch) {}
+  ~ClosingCall() {
+    if (watch_.closing) watch_.closing();
+  }
+  ClosingCall(const ClosingCall&) = delete;
+  ClosingCall& operator=(const ClosingCall&) = delete;
+
+ private:
+  const CaptureWatch& watch_;
+};
+
+RunOutcome capture_with(const RigConfig& rig, const CaptureRequest& request,
+                        const CaptureWatch& watch) {
+  const CaptureSetup& setup = request.setup;
+  const RigClock clock(rig.clock_speed);
+  RigDevices devices = open_ports(rig, clock);
+  CaptureOptions options;
+  options.overwrite = request.overwrite;
+  PreviousCapture previous(request.path, request.overwrite);
+  CaptureWriter writer(request.path, about_run(request, rig), options);
+  if (setup.truth) {
+    std::filesystem::path path = request.path;
+    write_file(path.replace_extension(kTruthEnding), json_from_truth(*setup.truth), true);
+  }
+  const RecordSink sink =
+      failing_once([&writer](const RunRecord& record) { writer.append(record); });
+  add_drivers(devices, rig, clock, sink);
+  const ClosingCall closing(watch);
+  if (watch.opened) watch.opened(rig, writer);
+  RunControl control;
+  control.clock = &clock;
+  control.stop = watch.stop;
+  control.progress = watch.progress;
+  RunOutcome outcome = run_indentation(*devices.stage, *devices.load_cell, rig, setup.plan,
+                                       setup.specimen, sink, control);
+  if (outcome.has_begun) {
+    previous.drop();
+  } else if (previous.is_aside()) {
+    outcome.reason += ". Nothing was moved: the record that --force was to replace is kept";
+  }
+  close_file(writer, outcome);
+  return outcome;
+}
+
+}  // namespace
+
+RunOutcome capture_to_file(const CaptureRequest& request, const CaptureWatch& watch) {
+  if (!request.setup.truth) return capture_with(request.setup.rig, request, watch);
+  EmulatedRigOptions options;
+  options.truth = *request.setup.truth;
+  options.config = request.setup.rig;
+  const EmulatedRig emulated(options);
+  return capture_with(emulated.config(), request, watch);
+}
+
+}  // namespace viscard

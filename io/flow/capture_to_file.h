@@ -1,0 +1,50 @@
+#pragma once
+
+#include "io/capture/capture_file.h"
+#include "models/experiment/emulated_specimen.h"
+#include "models/experiment/rig_config.h"
+#include "models/experiment/specimen.h"
+#include "models/experiment/test_plan.h"
+#include "rig/run/run_control.h"
+#include "rig/run/run_outcome.h"
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace viscard {
+
+// All that one run needs, read from files; an emulated rig has defaults for files that are left
+// out.
+struct CaptureSetup {
+  RigConfig rig;
+  TestPlan plan;
+  Specimen specimen;
+  std::optional<EmulatedTruth> truth;  // of an emulated rig
+};
+
+// One capture: what is run, and the file it goes to.
+struct CaptureRequest {
+  CaptureSetup setup;
+  std::filesystem::path path;
+  bool overwrite = false;
+  std::string command;  // recorded in the file as its origin
+};
+
+// Who watches a capture while it runs. Any of these may be empty.
+struct CaptureWatch {
+  const std::atomic<bool>* stop = nullptr;  // ends the run when set
+  // The file is open and the drivers are ready; the writer lives until `closing` has returned.
+  std::function<void(const RigConfig& rig, const CaptureWriter& writer)> opened;
+  std::function<void(const RunProgress& now)> progress;
+  std::function<void()> closing;  // the run is over, also if it threw
+};
+
+// Opens both ports (or makes an emulated rig), creates the file and runs one test. A capture that
+// is replaced is kept until the stage has moved. Beside a capture of an emulated rig its truth is
+// written (emulated_truth.h). Throws std::runtime_error if the test could not begin.
+RunOutcome capture_to_file(const CaptureRequest& request, const CaptureWatch& watch);
+
+}  // namespace viscard

@@ -1,0 +1,140 @@
+#include "io/flow/card_material.h"
+
+#include "fit/reduce_terms.h"
+#include "io/basics/sha256.h"
+#include "io/cards/targets/card_targets.h"
+#include "io/materials/material_file.h"
+#include "io/materials/ratio_file.h"
+#include "models/maths/text_of_number.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+// E0 and E_inf at the same end of their own intervals, what lies between them shared among the
+// terms as fitted. Every modulus at its own end would be further out than any interval says, for
+// the moduli of one fit are correlated.
+void take_bound(const CardMaterialRequest& request, PreparedMaterial& prepared) {
+  Material& material = prepared.material;
+  const bool is_lower = request.bound == "lower";
+  if (!material.uncertainty || !(material.uncertainty->E0_Pa_95.high > 0.0)) {
+    throw std::runtime_error(request.material +
+                             " states no intervals, so it has no bounds; fit it from data first");
+  }
+  const MaterialUncertainty& found = *material.uncertainty;
+  const auto end_Pa = [&](const Interval& interval) {
+    const double scale = 1.0 + (is_lower ? -1.0 : 1.0) * found.systematic_relative;
+    return (is_lower ? interval.low : interval.high) * scale;
+  };
+  const double E0_Pa = end_Pa(found.E0_Pa_95), E_inf_Pa = end_Pa(found.E_inf_Pa_95);
+  if (!(E0_Pa > 0.0) || !std::isfinite(E0_Pa)) {
+    throw std::runtime_error("the " + request.bound + " bound of E0 is no modulus (" +
+                             fmt::format("{:g}", E0_Pa) + " Pa); the data do not tell it");
+  }
+  const double sum_g = derived_moduli(material).sum_g;
+  const double relaxing = 1.0 - E_inf_Pa / E0_Pa;  // share of E0
+  const bool is_between = E_inf_Pa > 0.0 && relaxing > 0.0 && sum_g > 0.0;
+  for (MaterialTerm& term : material.terms) {
+    if (!is_between) break;  // the ends cross: the shares stay as fitted
+    term.g *= relaxing / sum_g;
+    term.k *= relaxing / sum_g;
+  }
+  material.E0_Pa = E0_Pa;
+  prepared.notes.push_back(fmt::format(
+      "bound: E0 {}at the {} end of the 95 % interval{}{}", is_between ? "and E_inf " : "",
+      request.bound, found.systematic_relative > 0.0 ? ", systematic part included" : "",
+      is_between ? "" : "; the shares g are as fitted"));
+  material.uncertainty.reset();
+}
+
+void leave_relaxation_out(const CardMaterialRequest& request, PreparedMaterial& prepared) {
+  Material& material = prepared.material;
+  const DerivedModuli moduli = derived_moduli(material);
+  if (request.elastic_only == "long-term") {
+    material.E0_Pa = moduli.E_inf_Pa;
+    material.nu = moduli.nu_inf;
+  }
+  prepared.terms_change = fmt::format("{} relaxation terms left out, the {} modulus kept",
+                                      material.terms.size(), request.elastic_only);
+  prepared.are_terms_dropped = true;
+  material.terms.clear();
+  material.uncertainty.reset();
+  material.flags.clear();
+}
+
+void reduce_to_target(const CardMaterialRequest& request, PreparedMaterial& prepared) {
+  const int limit = card_target(request.target).max_terms;
+  const int given = static_cast<int>(prepared.material.terms.size());
+  int wanted = request.terms.value_or(given);
+  if (limit > 0) wanted = std::min(wanted, limit);
+  if (request.terms && *request.terms > given) {
+    prepared.notes.push_back(fmt::format("--terms {} left the material as it is, with {}",
+                                         *request.terms,
+                                         counted(static_cast<std::size_t>(given), "term")));
+  }
+  if (!request.may_approximate || wanted >= given) return;
+  const ReducedMaterial reduced = reduce_material(prepared.material, wanted);
+  prepared.terms_change =
+      fmt::format("{} refitted to {}, E(t) within {:.2e} from {:g} s to {:g} s", given, wanted,
+                  reduced.largest_error, reduced.t_min_s, reduced.t_max_s);
+  prepared.material = reduced.material;
+  prepared.material.valid.t_min_s = reduced.t_min_s;
+  prepared.material.valid.t_max_s = reduced.t_max_s;
+}
+
+// The material of a joint fit at one ratio, and what the header should say of it.
+void take_ratio(const CardMaterialRequest& request, PreparedMaterial& prepared) {
+  const RatioFit fit = read_ratio_fit(request.material);
+  if (!request.ratio)
+    throw std::invalid_argument(request.material + " is a joint fit; it needs a ratio");
+  prepared.material = material_at_ratio(fit, *request.ratio, request.may_extrapolate);
+  const auto& ratios = fit.best.ratios;
+  const bool is_measured = std::find(ratios.begin(), ratios.end(), *request.ratio) != ratios.end();
+  const bool is_outside = *request.ratio < ratios.front() || *request.ratio > ratios.back();
+  const RatioModel& model = is_measured ? fit.best : fit.law;
+  prepared.notes.push_back(
+      fmt::format("mixing ratio {:g}: {}, from {} at {} ({:g} to {:g})", *request.ratio,
+                  is_measured  ? "measured"
+                  : is_outside ? "EXTRAPOLATED by the law in the ratio"
+                               : "interpolated by the law in the ratio",
+                  counted(static_cast<std::size_t>(model.n_specimens), "specimen"),
+                  counted(ratios.size(), "ratio"), ratios.front(), ratios.back()));
+  prepared.notes.push_back("form: " + form_in_words(model.form));
+  const auto& flags = prepared.material.flags;
+  const bool is_spread_known = std::none_of(
+      flags.begin(), flags.end(), [](const MaterialFlag& f) { return f.name == "spread-unknown"; });
+  if (is_spread_known) {
+    prepared.notes.push_back(
+        "the intervals are those of a new specimen: error of the law and scatter between "
+        "specimens");
+  }
+}
+
+}  // namespace
+
+PreparedMaterial prepare_card_material(const CardMaterialRequest& request) {
+  PreparedMaterial prepared;
+  if (looks_like_ratio_file(request.material)) {
+    take_ratio(request, prepared);
+  } else {
+    if (request.ratio)
+      throw std::invalid_argument(request.material + " is one material; it has no ratio");
+    prepared.material = read_material(request.material).material;
+  }
+  prepared.sha256 = sha256_of_file(request.material);
+  if (prepared.material.name.empty()) {
+    prepared.material.name = std::filesystem::path(request.material).stem().string();
+  }
+  if (!request.bound.empty()) take_bound(request, prepared);
+  if (!request.elastic_only.empty()) leave_relaxation_out(request, prepared);
+  reduce_to_target(request, prepared);
+  return prepared;
+}
+
+}  // namespace viscard

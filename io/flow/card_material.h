@@ -1,0 +1,36 @@
+#pragma once
+
+#include "models/material/material.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// Which material a card is written of.
+struct CardMaterialRequest {
+  std::string material;         // path of a material or joint file
+  std::string target;           // name of the card's target
+  std::string bound;            // "", "lower", "upper": an end of the 95 % interval
+  std::string elastic_only;     // "", "instantaneous", "long-term"
+  std::optional<int> terms;     // at most this many, with may_approximate
+  std::optional<double> ratio;  // of a joint file
+  bool may_extrapolate = false;
+  bool may_approximate = false;  // refit the terms to the number that the target takes
+};
+
+// The material after all that, with notes of what was done to it.
+struct PreparedMaterial {
+  Material material;
+  std::string sha256;
+  std::vector<std::string> notes;           // header lines
+  std::optional<std::string> terms_change;  // "approximated" text of the terms, if reduced
+  bool are_terms_dropped = false;
+};
+
+// Throws std::runtime_error naming the file, std::invalid_argument if a joint file has no ratio or
+// a material file has one.
+PreparedMaterial prepare_card_material(const CardMaterialRequest& request);
+
+}  // namespace viscard

@@ -1,0 +1,52 @@
+#include "io/flow/emulated_truth.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/config/config_file.h"
+#include "io/materials/material_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <stdexcept>
+
+namespace fs = std::filesystem;
+
+namespace viscard {
+
+std::string json_from_truth(const EmulatedTruth& truth) {
+  nlohmann::ordered_json json;
+  json["schema"] = "viscard-truth/1";
+  json["name"] = truth.material.name;
+  json["E0_Pa"] = truth.material.E0_Pa;
+  json["nu"] = truth.material.nu;
+  json["terms"] = nlohmann::ordered_json::array();
+  for (const MaterialTerm& term : truth.material.terms) {
+    json["terms"].push_back({{"g", term.g}, {"k", term.k}, {"tau_s", term.tau_s}});
+  }
+  json["punch_radius_m"] = truth.contact.punch_radius_m;
+  json["layer_thickness_m"] = truth.contact.layer_thickness_m;
+  json["frame_stiffness_N_m"] = truth.frame_stiffness_N_m;
+  json["surface_position_m"] = truth.surface_position_m;
+  json["force_noise_N"] = truth.force_noise_N;
+  json["force_offset_N"] = truth.force_offset_N;
+  json["drift_relative_per_s"] = truth.drift_relative_per_s;
+  json["overload_N"] = truth.overload_N;
+  json["sample_rate_Hz"] = truth.sample_rate_Hz;
+  json["steps_per_m"] = truth.steps_per_m;
+  json["acceleration_m_s2"] = truth.acceleration_m_s2;
+  json["seed"] = truth.seed;
+  return json.dump(2) + "\n";
+}
+
+EmulatedTruth truth_from_file(const std::string& path) {
+  if (fs::path(path).extension() != ".json") return read_truth(path);
+  nlohmann::json json = nlohmann::json::parse(read_file(path), nullptr, false);
+  if (!json.is_object())
+    throw std::runtime_error(path + ": is not a truth file; expected a JSON object");
+  json["schema"] = "viscard-material/1";  // its material has the same keys
+  EmulatedTruth truth;
+  truth.material = material_from_json(json.dump(), path).material;
+  return truth;
+}
+
+}  // namespace viscard
