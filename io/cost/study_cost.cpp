@@ -40,7 +40,7 @@ double relative_error(const SceneAnswer& answer, const SceneAnswer& reference) {
   return largest;
 }
 
-// A line of /proc/self/status in bytes; 0 where there is none.
+// A line of /proc/self/status in bytes; 0 if it is not there.
 double status_B(const std::string& key) {
   std::ifstream status("/proc/self/status");
   std::string word;

@@ -61,7 +61,7 @@ void draw_mirrors(SceneDrawing& d, const ArrayGeometry& g, const ShownRow& row) 
   }
 }
 
-// Pillars are numbered below the film where there is room for the numbers.
+// The numbers of the pillars stand below the film.
 void draw_row(SceneDrawing& d, const ArrayScene& scene, const ShownRow& row) {
   const ArrayGeometry& g = scene.geometry;
   const double half_m = electrode_half_width_m(g, scene.electrodes);

@@ -137,7 +137,7 @@ void fill_film(const RawScene& raw, const std::filesystem::path& folder, PillarS
   }
 }
 
-// Of the film, or of the pillar if there is none.
+// The bottom of the film, or of the pillar if there is no film.
 void fill_bottom(const RawScene& raw, PillarScene& scene) {
   if (scene.film && !raw.bottom.empty()) {
     throw SceneMistake("geometry.bottom",

@@ -8,8 +8,8 @@
 
 namespace viscard {
 
-// Scene files are TOML; data/scenes/ holds commented examples. Material files are looked for beside
-// the scene. Throws std::runtime_error with file:line, key and what is expected, or naming the
+// Scene files are TOML; data/scenes/ holds commented examples. Material files are looked for in the
+// folder of the scene. Throws std::runtime_error with file:line, key and what is expected, or naming the
 // material file that is wrong.
 SceneFile read_scene(const std::filesystem::path& path);
 

@@ -55,8 +55,8 @@ double nearest_over_thickness(const ArrayScene& scene) {
 }  // namespace
 
 // Field between plates decays as exp(-pi x/(2 t)) with one face free of charge, strain of a held
-// layer as exp(-.9215 x/t), the slowest root of (3 - 4 nu) cosh 2x + 2 x^2 + 5 - 12 nu + 8 nu^2 at
-// nu = .29 (eq. A4). The amplitudes are 1.5 times the largest that rows of the thesis' film have.
+// layer as exp(-0.9215 x/t), the slowest root of (3 - 4 nu) cosh 2x + 2 x^2 + 5 - 12 nu + 8 nu^2 at
+// nu = 0.29 (eq. A4). The amplitudes are 1.5 times the largest that rows of the thesis' film have.
 EffectEstimate crosstalk_estimate(const ArrayScene& scene) {
   const double x = nearest_over_thickness(scene);
   if (std::isinf(x)) return {.reason = "no neighbour and no end of the film"};

@@ -54,7 +54,7 @@ SceneAnswer simulate(const Scene& scene) {
         return solved;
       },
       plan.reduced);
-  tell_left_out({plan.effects, plan.left_out}, common(scene).tolerance, answer);
+  report_left_out({plan.effects, plan.left_out}, common(scene).tolerance, answer);
   return answer;
 }
 

@@ -37,7 +37,7 @@ nlohmann::json json_from_study(const CostStudy& study) {
                       {"row", one.row < 0 ? nlohmann::json() : nlohmann::json(one.row)},
                       {"text", one.text}});
   }
-  nlohmann::json linear;  // null where it cannot be told
+  nlohmann::json linear;  // null if the rows do not give it
   if (const auto factor = factor_over_linear(study, 1e-3)) {
     linear = {{"error", factor->error},
               {"factor", factor->factor},

@@ -101,7 +101,7 @@ SweepKey key_with_most_values(const ArraySweep& sweep) {
                            [](const auto& a, const auto& b) { return a.values < b.values; });
 }
 
-// What varies beside the abscissa, as text: the lines' names.
+// The names of the lines: what varies apart from the abscissa.
 std::string others_of(const ArraySweep& sweep, const ArrayGeometry& g, const SweepKey& abscissa) {
   std::string text;
   const auto add = [&](const char* name, std::size_t values, double ArrayGeometry::*of) {

@@ -18,7 +18,7 @@ namespace viscard {
 std::vector<std::pair<std::string, std::string>> pictures_over_pillars(const SceneAnswer& answer);
 
 // Each result of a sweep over the parameter with the most values, one line for each combination of
-// the others; the limit on the deviation is drawn where there is one.
+// the others; the limit on the deviation is drawn if the sweep has one.
 std::vector<std::pair<std::string, std::string>> pictures_over_sweep(
     const ArraySweep& sweep, const std::vector<SweepPoint>& points,
     const std::map<std::size_t, SweepRow>& rows);

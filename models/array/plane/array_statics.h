@@ -28,7 +28,7 @@ class ArrayModel {
   int mean_port(int pillar) const;              // its mean over the electrode's width
   int electrode_port(int pillar) const;         // voltage of an equipotential electrode; -1: none
   // Potential of the read face midway between pillar i and its right neighbour (or, for the last
-  // pillar before a mirror, at the mirror); -1 where there is none.
+  // pillar before a mirror, at the mirror); -1 if there is none.
   int midway_port(int pillar) const;
 
   // Unknowns of all pieces before condensation, repeated pieces counted once, and of the joints.

@@ -21,7 +21,7 @@ PillarGeometry with_electrode_edge(const PillarScene& scene) {
 }
 
 // A voltage on the electrode, and the pressure if there is one (actuator). The stiffness of the
-// pillar on its film is told with the electrode shorted (or driven) and open, and how a drive
+// pillar on its film is given with the electrode shorted (or driven) and open, and how a drive
 // changes it by changing length and cross-section of the film under it,
 //   dk/k = (d31 + d32 - d33) V/t   (eq. 25, from k = E A/L).
 void add_driven(const PillarScene& scene, const PillarModel& model, SceneAnswer& answer) {

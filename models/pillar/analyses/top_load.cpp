@@ -26,7 +26,8 @@ double top_pressure_Pa(const PillarScene& scene, const PiezoAnswer& per_Pa) {
 
 void add_top_force(const PillarScene& scene, double force_N, double stiffness_N_m,
                    SceneAnswer& answer) {
-  // Of a drive that cancels most of it the error is judged against what the displacement takes.
+  // If a drive cancels most of the force, the error is still judged against the force that the
+  // displacement alone takes.
   const double scale_N = std::abs(stiffness_N_m * *displacement_m(scene));
   answer.results.push_back({"top_force", force_N, scene.plane ? "N/m" : "N", 0.0, scale_N});
   answer.results.push_back({"top_stiffness", stiffness_N_m, scene.plane ? "N/m2" : "N/m"});

@@ -17,7 +17,7 @@ using Complex = std::complex<double>;
 
 // More elements than this, at the highest degree, would be too many unknowns.
 constexpr double kMostCells = 400.0;
-// Of the answer's tolerance, what may be left of a wave where elements begin to grow.
+// Share of the tolerance that may be left of a wave where elements begin to grow.
 constexpr double kLeftOfTolerance = 0.1;
 
 struct Waves {

@@ -123,7 +123,7 @@ EffectDecisions decide_effects(const std::vector<NamedEstimate>& estimates,
   return decisions;
 }
 
-void tell_left_out(const EffectDecisions& decisions, double tolerance, SceneAnswer& answer) {
+void report_left_out(const EffectDecisions& decisions, double tolerance, SceneAnswer& answer) {
   add_left_out(decisions.left_out, answer);
   add_notes(decisions, tolerance, answer);
   answer.effects = decisions.effects;

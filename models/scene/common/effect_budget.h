@@ -28,8 +28,8 @@ constexpr double kShareOfMesh = 0.5;
 EffectDecisions decide_effects(const std::vector<NamedEstimate>& estimates,
                                const EffectChoices& choices, double tolerance);
 
-// What is left out becomes part of every error estimate; what the estimates cannot contain is told
-// in the notes.
-void tell_left_out(const EffectDecisions& decisions, double tolerance, SceneAnswer& answer);
+// Adds what is left out to every error estimate, and a note for each effect that the estimates
+// cannot contain.
+void report_left_out(const EffectDecisions& decisions, double tolerance, SceneAnswer& answer);
 
 }  // namespace viscard

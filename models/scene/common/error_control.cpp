@@ -45,8 +45,8 @@ std::vector<Number> numbers_of(SceneAnswer& answer) {
 }
 
 // How much more of the last change is taken to remain where the layers at the singular rim stayed
-// the same: a layer more leaves ratio^(2 lambda) = .07 (.15 at an electrode's edge) of that part of
-// the error, and over random scenes twice as much was seen (tests/scenes).
+// the same: a layer more leaves ratio^(2 lambda) = 0.07 (0.15 at an electrode's edge) of that part of
+// the error, and over random scenes twice as much was seen (tests/models/scene).
 constexpr double kWithoutLayers = 2.5;
 
 // What a geometric sequence of changes still has to go, where it falls by less than half per mesh;

@@ -19,11 +19,6 @@ struct ErrorControl {
   double share_left = kShareLeft;
 
   static constexpr double kShareLeft = 0.1;
-  // Geometric stiffness weighs the squares of gradients by a stress that is singular itself: where
-  // displacements grow as r^lambda its error falls as r^(3 lambda - 1), not r^(2 lambda). lambda is
-  // .60 at a bonded rim of nu -> .5 (Williams, J. Appl. Mech. 19 (1952) 526) and .7 at .33, so that
-  // a layer of ratio .15 leaves up to .23.
-  static constexpr double kShareLeftInBuckling = 0.3;
 };
 
 // Runs through the meshes until the change from the last one, and at least share_left of the change
