@@ -1,5 +1,6 @@
 #include "fit/curves/history_model.h"
 
+#include "fit/samples/log_bins.h"
 #include "models/material/hereditary.h"
 
 #include <algorithm>
