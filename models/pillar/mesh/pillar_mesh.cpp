@@ -197,7 +197,7 @@ void validate(const PillarGeometry& g) {
   require_length(g.film->thickness_m, "the film's thickness");
   require_length(g.film->radius_m, "the film's radius");
   constexpr double kThinnest =
-      1e-6;  // of the diameter: below it rounding in places of nodes counts
+      1e-6;  // of the diameter; below it rounding of node positions matters
   if (g.film->thickness_m < kThinnest * g.diameter_m) {
     throw SceneMistake("geometry.film.thickness",
                        "the film is thinner than a millionth of the pillar's diameter, which no "
