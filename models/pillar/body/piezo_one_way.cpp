@@ -6,7 +6,7 @@
 namespace viscard {
 namespace {
 
-// The potentials' own system, and what strain puts into it.
+// The linear system of the potentials alone, and its right-hand side from strain.
 class FilmPotential {
  public:
   explicit FilmPotential(const PillarModel& electric) : electric_(electric) {
@@ -47,7 +47,7 @@ class FilmPotential {
       dof_.push_back(dof);
     }
   }
-  // The form's electric block is negative definite; its opposite is factored.
+  // The electric block of the form is negative definite, so its negative is factored.
   SymmetricSparse potential_block() const {
     std::vector<Eigen::Triplet<double>> entries;
     for (Eigen::Index column = 0; column < form_.outerSize(); ++column) {
@@ -76,8 +76,8 @@ class FilmPotential {
 
   const PillarModel& electric_;
   SymmetricSparse form_;
-  std::vector<int> dof_;    // of each potential
-  std::vector<int> place_;  // and back, -1 for displacements
+  std::vector<int> dof_;    // dof of each potential
+  std::vector<int> place_;  // index of the potential of each dof; -1 for displacements
   StiffnessFactor factor_;
 };
 

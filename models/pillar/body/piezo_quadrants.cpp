@@ -22,12 +22,12 @@ QuadrantAnswer piezo_quadrants(const PillarModel& lateral, double force_N) {
   QuadrantAnswer answer;
   PillarState& state = answer.shorted;
   state.unknowns = factor.solve(force_N * push, &state.pressure_source);
-  // As much charge as brings the amplitude of the potential back to zero.
+  // The charge that brings the amplitude of the potential back to zero.
   const double charge = -state.unknowns[electrode] / by_charge[electrode];
   state.unknowns += charge * by_charge;
   state.pressure_source += charge * source_by_charge;
-  // The load of a charge Q is -Q scale (piezo_static.cpp), and what works on the amplitude is pi
-  // int D r dr.
+  // The load of a charge Q is -Q scale (piezo_static.cpp), and the charge conjugate to the
+  // amplitude is pi int D r dr.
   const double scale_V = lateral.potential_scale_V();
   answer.charge_C = -charge / scale_V / std::numbers::pi;
   answer.top_displacement_m = push.dot(state.unknowns);

@@ -4,10 +4,10 @@
 
 namespace viscard {
 
-// A round electrode cut into four quadrants along x and y, under loads along x. The pillar then
-// moves as cos(theta) does, and so do field and charge on the film's face. Opposite halves read
-// opposite values, so one quadrant on the side of +x says all: its charge is int_0^(pi/2)
-// cos(theta) = 1 times int D r dr, its mean voltage 2/pi of the amplitude's.
+// A round electrode divided into four quadrants along x and y, under loads along x. The motion of
+// the pillar, the field and the charge on the film's face then vary as cos(theta). Opposite halves
+// read opposite values, so one quadrant on the +x side is enough: its charge is int_0^(pi/2)
+// cos(theta) = 1 times int D r dr, and its mean voltage is 2/pi of the amplitude.
 struct QuadrantAnswer {
   double charge_C = 0.0;  // all shorted: flows onto each of the two quadrants toward +x
   double displacement_per_V_m =
@@ -17,14 +17,14 @@ struct QuadrantAnswer {
   PillarState driven_per_V;  // without force, 1 and -1 V on the halves
 };
 
-// Under a force along x on the top, of a lateral model whose electrode has a radius. A potential of
-// +-1 V on two halves has the first harmonic 4/pi cos(theta); no other moves the pillar as a whole,
-// and under the force, all quadrants shorted, there are no others: gaps may be left out. Throws
-// std::invalid_argument for another model.
+// Solution under a force along x on the top, for a lateral model whose electrode has a radius. A
+// potential of +-1 V on the two halves has the first harmonic 4/pi cos(theta); no other harmonic
+// moves the pillar as a whole. Under the force, with all quadrants shorted, there are no other
+// harmonics, so the gaps can be ignored. Throws std::invalid_argument for another model.
 QuadrantAnswer piezo_quadrants(const PillarModel& lateral, double force_N);
 
 // The same charge as a functional of a motion with all quadrants shorted: charge_C = row.dot(u)
-// with the entry of the electrode itself left out. `stiffness` is the model's.
+// without the entry of the electrode itself. `stiffness` is that of the model.
 Eigen::VectorXd quadrant_charge_row(const PillarModel& lateral, const SymmetricSparse& stiffness);
 
 // Mean over one quadrant (in the plane: the half toward +x) of the potential of a charge-free face.

@@ -15,7 +15,7 @@ PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa) {
   unit_charge[electrode] = 1.0;
   StiffnessFactor factor;
   model.factor(model.stiffness(), factor);
-  // Row of the electrode: (charge that leaves it) * scale, since phi = scale * unknown and the
+  // Row of the electrode: (charge that leaves it) * scale, because phi = scale * unknown and the
   // electric part of the form is negative.
   const double scale_V = model.potential_scale_V();
   PiezoAnswer answer;

@@ -4,8 +4,8 @@
 
 namespace viscard {
 
-// What a pillar on a piezoelectric film answers, elasticity and potential solved together (eq. 20).
-// Charges in C, for a strip of the plane motions per metre of thickness.
+// Static response of a pillar on a piezoelectric film, with elasticity and potential solved
+// together (eq. 20). Charges are in C; for the strip of plane motions, per metre of thickness.
 struct PiezoAnswer {
   double voltage_V = 0.0;             // electrode open (no charge flows)
   double charge_C = 0.0;              // electrode shorted to ground: charge that flows onto it
@@ -21,7 +21,7 @@ PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa);
 // Solution with a charge-free face instead of an electrode; potential_at() reads it.
 PillarState piezo_sampled(const PillarModel& model, double pressure_Pa);
 double potential_at_V(const PillarModel& model, const PillarState& state, double x, double z);
-// Mean over the disc (half-width in the plane) x <= radius of the film at height z.
+// Mean potential over the disc (half-width in the plane) x <= radius of the film at height z.
 double mean_potential_V(const PillarModel& model, const PillarState& state, double z,
                         double radius_m);
 

@@ -8,8 +8,8 @@
 namespace viscard {
 namespace {
 
-// The intervals on either side of a break, in `layers` pieces that shrink toward it; what has been
-// cut for the rim of the bond already stays.
+// Cuts the intervals on either side of a break into `layers` pieces that shrink toward the break.
+// An interval that is already cut for the rim of the bond stays as it is.
 void grade_toward(double at, const Discretisation& d, std::vector<double>& breaks) {
   const double near = 1e-9 * (breaks.back() - breaks.front());
   std::vector<double> graded{breaks.front()};

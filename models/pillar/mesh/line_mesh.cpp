@@ -19,7 +19,8 @@ std::vector<double> lobatto_points(int degree) {
   }
   std::vector<double> points;
   for (int i = 0; i <= degree; ++i) {
-    // Newton for (1 - x^2) P_p'(x) = 0 from the Chebyshev-Lobatto points; the ends stay put.
+    // Newton's method for (1 - x^2) P_p'(x) = 0 from the Chebyshev-Lobatto points; the ends are
+    // fixed.
     double x = -std::cos(std::numbers::pi * i / degree);
     for (int iteration = 0; iteration < 100; ++iteration) {
       double previous = 1.0;
@@ -82,7 +83,7 @@ std::vector<double> graded_breaks(double a, double b, int n, double ratio, bool 
   std::vector<double> breaks;
   for (int i = 0; i <= n; ++i) {
     const int k = toward_end ? i : n - i;
-    // Distance from the coarse end; a ratio of 1 stands for equal elements.
+    // Fraction of the length, from the coarse end; a ratio of 1 means equal elements.
     const double share = k == 0         ? 0.0
                          : k == n       ? 1.0
                          : ratio == 1.0 ? static_cast<double>(k) / n
@@ -102,7 +103,8 @@ LineMesh::LineMesh(std::vector<double> breaks, int degree)
                                   " m has no positive length");
     }
   }
-  // p + 1 points integrate r N N exactly; three more serve the 1/r of off-axis elements.
+  // p + 1 points integrate r N N exactly; three more are for the 1/r of elements away from the
+  // axis.
   const QuadratureRule gauss = gauss_legendre(degree + 4);
   reference_points_ = gauss.points;
   reference_weights_ = Eigen::Map<const Eigen::VectorXd>(

@@ -6,9 +6,9 @@
 
 namespace viscard {
 
-// Points 0 = x_0 < ... < x_p = 1 of the Gauss-Lobatto rule, where Lagrange polynomials of degree p
-// stay well conditioned. Source: Abramowitz & Stegun (1964), 25.4.32. Throws std::invalid_argument
-// for a degree outside 1 to 20.
+// Points 0 = x_0 < ... < x_p = 1 of the Gauss-Lobatto rule. Lagrange polynomials of degree p
+// through them stay well conditioned. Source: Abramowitz & Stegun (1964), 25.4.32. Throws
+// std::invalid_argument for a degree outside 1 to 20.
 std::vector<double> lobatto_points(int degree);
 
 // Lagrange polynomials through `nodes`, and their derivatives, at `points`: points x nodes.
@@ -21,15 +21,15 @@ BasisValues lagrange_basis(const std::vector<double>& nodes, const std::vector<d
 // Legendre polynomials of degree 0 to `degree` on (0, 1): points x (degree + 1).
 Eigen::MatrixXd legendre_values(int degree, const std::vector<double>& points);
 
-// Geometric grading: breaks from a to b in n elements whose size shrinks by `ratio` toward b
-// (toward a when toward_end is false). n >= 1.
+// Geometric grading: breaks from a to b of n >= 1 elements whose size shrinks by `ratio` toward b
+// (toward a if toward_end is false).
 std::vector<double> graded_breaks(double a, double b, int n, double ratio, bool toward_end);
 
-// Elements of degree p on the intervals between breaks, one direction of a tensor-product mesh.
+// Elements of degree p on the intervals between breaks: one direction of a tensor-product mesh.
 // Nodes are numbered along the line, p per element and one at the end.
 class LineMesh {
  public:
-  // Throws std::invalid_argument unless the breaks ascend strictly and there are at least two.
+  // Throws std::invalid_argument unless there are at least two breaks and they ascend strictly.
   LineMesh(std::vector<double> breaks, int degree);
 
   int degree() const { return degree_; }
@@ -39,16 +39,16 @@ class LineMesh {
   const std::vector<double>& nodes() const { return nodes_; }
   double length(int element) const;
 
-  // int x^power N_i^(di) N_j^(dj) dx over one element, (p + 1) x (p + 1). Exact for power >= 0; for
-  // power -1 exact where both functions vanish at x = 0 or, to rounding, where the element lies
-  // further from 0 than its own length.
+  // int x^power N_i^(di) N_j^(dj) dx over one element, (p + 1) x (p + 1). Exact for power >= 0. For
+  // power -1 it is exact if both functions vanish at x = 0, and correct to rounding if the element
+  // lies further from 0 than its own length.
   Eigen::MatrixXd integral(int element, int power, int di, int dj) const;
   // int x^power L_k N_j^(dj) dx with Legendre polynomials L_0 to L_q, (q + 1) x (p + 1).
   Eigen::MatrixXd legendre_integral(int element, int power, int q, int dj) const;
   // int x^power L_k L_l dx, (q + 1) x (q + 1).
   Eigen::MatrixXd legendre_mass(int element, int power, int q) const;
 
-  // Quadrature points of one element, their weights (with the length), and the basis there.
+  // Quadrature points of one element, their weights (including the length) and the basis there.
   struct ElementRule {
     Eigen::VectorXd x;
     Eigen::VectorXd weight;
@@ -57,7 +57,7 @@ class LineMesh {
   };
   ElementRule rule(int element) const;
 
-  // Element that holds x; the one before a break when prefer_left, else the one after it.
+  // Element that contains x. At a break: the one before it if prefer_left, else the one after it.
   int element_at(double x, bool prefer_left) const;
   // Basis and derivative of one element at x: row vectors of p + 1.
   BasisValues basis_at(int element, double x) const;

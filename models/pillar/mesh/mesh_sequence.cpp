@@ -7,8 +7,8 @@
 namespace viscard {
 
 std::vector<Discretisation> mesh_sequence(const PillarGeometry& geometry) {
-  // Elements of the shaft and the outer film no longer than a few radii, so that long pillars and
-  // wide films are resolved by the same degrees.
+  // Elements of the shaft and of the outer film are at most a few radii long, so that the same
+  // degrees resolve long pillars and wide films.
   const double R_m = 0.5 * geometry.diameter_m;
   const double shaft = (geometry.length_m - 2.0 * R_m) / (4.0 * R_m);
   const int shaft_elements = std::clamp(static_cast<int>(std::lround(shaft)), 1, 40);

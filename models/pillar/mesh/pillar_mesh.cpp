@@ -19,7 +19,7 @@ void require_length(double value_m, const char* what) {
   }
 }
 
-// Adds the breaks beyond the last one.
+// Appends the breaks beyond the last one.
 void append(std::vector<double>& breaks, const std::vector<double>& more) {
   const double same = more.empty() ? 0.0 : 1e-9 * std::abs(more.back() - more.front());
   for (const double x : more) {
@@ -27,7 +27,7 @@ void append(std::vector<double>& breaks, const std::vector<double>& more) {
   }
 }
 
-// Adds a break where none is near.
+// Inserts a break unless one is close to it.
 void insert(std::vector<double>& breaks, double at) {
   const double near = 1e-9 * (breaks.back() - breaks.front());
   const bool is_there =
@@ -35,7 +35,7 @@ void insert(std::vector<double>& breaks, double at) {
   if (!is_there) breaks.insert(std::upper_bound(breaks.begin(), breaks.end(), at), at);
 }
 
-// Cuts every interval into equal pieces no longer than `size`.
+// Divides every interval into equal pieces no longer than `size`.
 std::vector<double> cut(const std::vector<double>& breaks, double size) {
   std::vector<double> fine;
   for (std::size_t i = 1; i < breaks.size(); ++i) {
@@ -46,7 +46,7 @@ std::vector<double> cut(const std::vector<double>& breaks, double size) {
   return fine;
 }
 
-// The same between two breaks only, with sizes that may grow away from one end: see skin_m.
+// Divides the range between two breaks into pieces that may grow away from one end: see skin_m.
 class WaveBreaks {
  public:
   WaveBreaks(const Discretisation& d, double end_m)
@@ -63,7 +63,7 @@ class WaveBreaks {
   }
 
  private:
-  // Number of elements from the end to a distance from it, int ds/size(s).
+  // Number of elements between the end and a point at this distance, int ds/size(s).
   double count_to(double distance_m) const {
     if (skin_m_ == 0.0 || distance_m <= skin_m_) return distance_m / size_m_;
     return skin_m_ / size_m_ + std::log1p((distance_m - skin_m_) / size_m_);
@@ -73,7 +73,7 @@ class WaveBreaks {
     if (skin_m_ == 0.0 || count <= in_skin) return count * size_m_;
     return skin_m_ + size_m_ * std::expm1(count - in_skin);
   }
-  // Breaks within (from, to): equal shares of the elements between them.
+  // Breaks within (from, to) that divide the number of elements between them equally.
   void cut(double from, double to, std::vector<double>& all) const {
     const double a = count_to(std::abs(from - end_m_));
     const double b = count_to(std::abs(to - end_m_));
@@ -123,7 +123,7 @@ void validate_flare(const Flare& flare, const char* key, const char* what, doubl
   }
 }
 
-// 1 at the end, falling to 0 at the flare's height.
+// 1 at the end; falls to 0 at the height of the flare.
 double share_of(const Flare& flare, double from_end_m) {
   if (flare.width_m == 0.0) return 0.0;
   return std::max(1.0 - from_end_m / flare.height_m, 0.0);
@@ -142,7 +142,7 @@ bool has_flares(const PillarGeometry& g) {
   return g.foot.width_m != 0.0 || g.tip.width_m != 0.0;
 }
 
-// Lines that the mesh must meet whatever its kind.
+// Lines that every mesh must contain, graded or uniform.
 struct Breaks {
   std::vector<double> x, z;
 };
@@ -197,7 +197,7 @@ void validate(const PillarGeometry& g) {
   require_length(g.film->thickness_m, "the film's thickness");
   require_length(g.film->radius_m, "the film's radius");
   constexpr double kThinnest =
-      1e-6;  // of the diameter: below it rounding in places of nodes counts
+      1e-6;  // of the diameter; below it rounding of node positions matters
   if (g.film->thickness_m < kThinnest * g.diameter_m) {
     throw SceneMistake("geometry.film.thickness",
                        "the film is thinner than a millionth of the pillar's diameter, which no "

@@ -10,15 +10,16 @@ namespace viscard {
 double radius_at_m(const PillarGeometry& geometry, double z_m);  // z = 0 at the foot
 double bond_radius_m(const PillarGeometry& geometry);
 
-// Three meshes that end with the given one: elements half as large each time on uniform meshes, a
-// degree more each time on graded ones, whose degree must be 3 or more.
+// Three meshes that end with the given one. On uniform meshes each has elements half as large as
+// the one before; on graded meshes each has one degree more, and `finest` must have degree 3 or
+// more.
 std::vector<Discretisation> refinements_to(const Discretisation& finest);
 
 constexpr int kPillarRegion = 0;
 constexpr int kFilmRegion = 1;
 
 // The meridian section with z = 0 at the bond. Columns [0, pillar_columns) lie under the pillar;
-// rows from bond_row up are the pillar's.
+// rows from bond_row upward belong to the pillar.
 struct PillarMesh {
   Section section;
   int pillar_columns = 0;
@@ -26,12 +27,12 @@ struct PillarMesh {
   int top_row = 0;   // number of the break z = length
 };
 
-// Throws std::invalid_argument naming the length that is not positive and finite, or the film that
-// is narrower than the pillar.
+// Throws std::invalid_argument with the name of the length that is not positive and finite, or if
+// the film is narrower than the pillar.
 void validate(const PillarGeometry& geometry);
 PillarMesh pillar_mesh(const PillarGeometry& geometry, const Discretisation& discretisation);
 
-// Nodes on the horizontal line at a break, in the columns given.
+// Nodes on the horizontal line at a break, within the given columns.
 std::vector<int> nodes_on_break(const Section& section, int break_row, int first_column,
                                 int last_column);
 

@@ -5,8 +5,8 @@
 
 namespace viscard {
 
-// A scene that contradicts itself or is incomplete. `key` is the place in a scene file that has to
-// change, "geometry.electrode.radius", so that a reader can tell the line.
+// A scene that contradicts itself or is incomplete. `key` is the entry of a scene file that must be
+// changed, such as "geometry.electrode.radius", so that the scene reader can report its line.
 class SceneMistake : public std::invalid_argument {
  public:
   SceneMistake(std::string key, const std::string& text)
@@ -17,7 +17,7 @@ class SceneMistake : public std::invalid_argument {
   std::string key_;
 };
 
-// Runs a check of one part of the scene and says where in a file that part stands.
+// Runs a check of one part of the scene and adds to its error the key of that part in a file.
 template <typename Check>
 void at_key(const char* key, const Check& check) {
   try {

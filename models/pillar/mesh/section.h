@@ -7,11 +7,11 @@
 
 namespace viscard {
 
-// A meridian (r, z) or plane (x, z) section: cells of a rectilinear grid, each filled with one
-// region or empty, with tensor-product elements of degree p. Rectangles make every matrix a sum of
-// Kronecker products of one-dimensional ones (models/pillar/README.md, eq. 13).
-// Where a region's outline is not straight, its cells are stretched along x: x = scale(z) times the
-// x of the grid.
+// A meridian (r, z) or plane (x, z) section: the cells of a rectilinear grid, each filled with one
+// region or empty, with tensor-product elements of degree p. On rectangles every matrix is a sum of
+// Kronecker products of one-dimensional matrices (models/pillar/README.md, eq. 13). Where the
+// outline of a region is not straight, its cells are stretched along x: x = scale(z) times the x of
+// the grid.
 struct Stretch {
   double scale = 1.0;
   double slope_1_m = 0.0;  // d scale/dz
@@ -28,7 +28,7 @@ class Section {
  public:
   static constexpr int kEmpty = -1;
 
-  // region_at(x, z) at the middle of a cell: a region number, or kEmpty.
+  // region_at(x, z) returns the region number at the middle of a cell, or kEmpty.
   // Throws std::invalid_argument if every cell is empty.
   Section(LineMesh x, LineMesh z, const std::function<int(double, double)>& region_at);
 
@@ -40,8 +40,8 @@ class Section {
   double node_x(int node) const { return node_x_[static_cast<std::size_t>(node)]; }
   double node_z(int node) const { return node_z_[static_cast<std::size_t>(node)]; }
 
-  // Stretches one region. Throws std::invalid_argument where the scale is not positive at a break
-  // or a node, for the elements there would be turned inside out.
+  // Stretches one region. Throws std::invalid_argument if the scale is not positive at a break or a
+  // node, because elements there would be turned inside out.
   void stretch(int region, std::function<Stretch(double z)> of_height);
   bool is_stretched(int region) const { return region == stretched_region_; }
   Stretch stretch_at(int region, double z) const {
@@ -50,14 +50,14 @@ class Section {
 
   // Region of a cell, or kEmpty.
   int region(int column, int row) const;
-  // Node at a place of the grid, or -1.
+  // Node at a grid position, or -1.
   int node(int ix, int iz) const;
 
  private:
   LineMesh x_;
   LineMesh z_;
   std::vector<int> region_;  // columns fastest
-  std::vector<int> node_;    // x fastest; -1 where no element is
+  std::vector<int> node_;    // x fastest; -1 where there is no element
   std::vector<double> node_x_;
   std::vector<double> node_z_;
   std::vector<SectionElement> elements_;

@@ -14,8 +14,8 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-// Largest share of zeros in a merged block. It is higher for small blocks, which cost more in
-// handling than in arithmetic.
+// Largest fraction of zeros in a merged block. It is higher for small blocks, whose overhead costs
+// more than their arithmetic.
 constexpr int kSmallBlock = 12;
 constexpr double kZerosInSmall = 0.4;
 constexpr double kZerosInLarge = 0.08;
@@ -27,8 +27,8 @@ struct Groups {
   std::vector<std::vector<int>> neighbours;  // other groups
 };
 
-// A sum of random keys over each unknown and its neighbours: two sums are equal if and (but for a
-// chance of 2^-64) only if the two neighbourhoods are.
+// A sum of random keys over each unknown and its neighbours. Two sums are equal if the two
+// neighbourhoods are equal, and otherwise only with a probability of 2^-64.
 std::vector<std::uint64_t> neighbourhood_sums(const Sparse& lower) {
   std::vector<std::uint64_t> key(static_cast<std::size_t>(lower.rows()));
   std::mt19937_64 random(1);
@@ -84,7 +84,7 @@ Groups groups_of(const Sparse& lower) {
   return groups;
 }
 
-// The place of each group in the order of elimination.
+// The position of each group in the elimination order.
 std::vector<int> minimum_degree_places(const Groups& groups) {
   const auto n = static_cast<int>(groups.size.size());
   std::vector<int> outer{0};
@@ -106,7 +106,7 @@ std::vector<int> minimum_degree_places(const Groups& groups) {
   return place;
 }
 
-// For each place, the places of the neighbours that are eliminated earlier.
+// For each position, the positions of its neighbours that are eliminated earlier.
 std::vector<std::vector<int>> earlier_neighbours(const Groups& groups,
                                                  const std::vector<int>& place) {
   std::vector<std::vector<int>> earlier(place.size());
@@ -161,7 +161,8 @@ std::vector<int> postorder(const std::vector<int>& parent) {
   return place;
 }
 
-// Places below each place's own in L: those of the matrix and those its children hand up.
+// Positions below the diagonal of each column of L: those of the matrix and those that its children
+// pass up.
 std::vector<std::vector<int>> factor_columns(const std::vector<std::vector<int>>& earlier,
                                              const std::vector<int>& parent) {
   const std::size_t n = earlier.size();

@@ -126,7 +126,7 @@ void DiscreteSystem::order_elements() {
 
 void DiscreteSystem::build_pattern() {
   std::vector<std::vector<int>> elements_of(static_cast<std::size_t>(size()));
-  std::size_t most = 0;  // entries of all elements, those of several counted several times
+  std::size_t most = 0;  // entries of all elements; entries that elements share are counted several times
   for (std::size_t e = 0; e < local_.size(); ++e) {
     most += local_[e].dofs.size() * (local_[e].dofs.size() + 1) / 2;
     int last = -1;
@@ -140,8 +140,8 @@ void DiscreteSystem::build_pattern() {
   std::vector<int> seen(elements_of.size(), -1);
   std::vector<int> rows;
   for (int column = 0; column < size(); ++column) {
-    // Neighbours in number are mostly in the same elements (fields of a node, nodes of an edge):
-    // their columns differ in where they begin.
+    // Unknowns with consecutive numbers mostly belong to the same elements (fields of a node, nodes
+    // of an edge), so their columns differ only in the first row.
     const auto own = elements_of.begin() + column;
     if (column == 0 || *own != *(own - 1)) {
       rows.clear();
@@ -175,12 +175,12 @@ void DiscreteSystem::scatter(std::size_t element, const Eigen::MatrixXd& block,
   const int* outer = matrix.outerIndexPtr();
   const int* inner = matrix.innerIndexPtr();
   double* values = matrix.valuePtr();
-  std::size_t first = 0;  // of the unknowns tied to the column's
+  std::size_t first = 0;  // first of the unknowns tied to the column's unknown
   for (std::size_t j = 0; j < dofs.size(); ++j) {
     if (dofs[j] != dofs[first]) first = j;
     int at = outer[dofs[j]];
     for (std::size_t i = first; i < dofs.size(); ++i) {
-      while (inner[at] < dofs[i]) ++at;  // rows ascend: one walk down the column meets them all
+      while (inner[at] < dofs[i]) ++at;  // rows ascend: one pass finds them all
       values[at] += block(std::max(local[i], local[j]), std::min(local[i], local[j]));
     }
   }

@@ -14,9 +14,10 @@ namespace viscard {
 // Symmetric; only the lower triangle is stored.
 using SymmetricSparse = Eigen::SparseMatrix<double>;
 
-// Quadratic forms over a section (eq. 13): sum_ij D_ij int row_i(u) row_j(v) measure x^x_power dx
-// dz, assembled element by element from Kronecker products of one-dimensional matrices. All
-// matrices of one system share one sparsity pattern, so they may be added value by value.
+// Quadratic forms over a section (eq. 13):
+//  sum_ij D_ij int row_i(u) row_j(v) measure x^x_power dx dz,
+// assembled element by element from Kronecker products of one-dimensional matrices. All matrices of
+// one system share one sparsity pattern, so their stored values may be added directly.
 class DiscreteSystem {
  public:
   // The section must outlive the system.
@@ -31,15 +32,15 @@ class DiscreteSystem {
   SymmetricSparse form(const std::vector<OperatorRow>& rows,
                        const std::vector<Eigen::MatrixXd>& per_region) const;
 
-  // factor * int (div u)(div v) per region; with a projection, div u enters through its L2
-  // projection on discontinuous Q_(p-2), which is a pressure of that space condensed element by
-  // element (eq. 14). Source: Stenberg & Suri, Math. Comp. 65 (1996) 1. Degree 1 projects on
-  // constants.
+  // factor * int (div u)(div v) per region. With a projection, div u enters through its L2
+  // projection on discontinuous Q_(p-2); this is a pressure of that space, condensed element by
+  // element (eq. 14). Degree 1 projects on constants. Source: Stenberg & Suri, Math. Comp. 65
+  // (1996) 1.
   SymmetricSparse volume_form(const std::vector<double>& per_region, bool projected) const;
 
-  // int value(field) over the part of the horizontal line z = breaks[row] between columns
-  // [first, last), seen from the elements below (from_below) or above: force per unit traction,
-  // m^2.
+  // int value(field) over the part of the horizontal line z = breaks[row] between the columns
+  // [first, last), evaluated in the elements below the line (from_below) or above it: force per
+  // unit traction, m^2.
   Eigen::VectorXd line_load(int field, int break_row, int first_column, int last_column) const;
 
   // rows(u) at one point (x, z) of the body, which must lie in the element.
@@ -62,7 +63,7 @@ class DiscreteSystem {
  private:
   void order_elements();
   void build_pattern();
-  // Adds an element matrix, of which the lower triangle is read, to a matrix of this system.
+  // Adds an element matrix to a matrix of this system; only its lower triangle is read.
   void scatter(std::size_t element, const Eigen::MatrixXd& local, SymmetricSparse& matrix) const;
   // int L (div N) and int L L of one element, L the Legendre products of Q_(p-2).
   struct Projection {
@@ -81,8 +82,8 @@ class DiscreteSystem {
   DofMap dofs_;
   std::vector<int> column_start_;  // the pattern of all matrices, as they store it
   std::vector<int> row_;
-  // Unknowns of an element that are not held, ascending (tied ones several times), and the local
-  // number of each: its place among element_dofs().
+  // Unknowns of an element that are not held, ascending (tied ones appear several times), and the
+  // local number of each, which is its index in element_dofs().
   struct LocalOrder {
     std::vector<int> dofs;
     std::vector<int> local;

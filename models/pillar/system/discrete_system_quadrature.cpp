@@ -1,12 +1,12 @@
-// What the products of one-dimensional matrices cannot do: coefficients that vary, elements that
-// are stretched, and values at single points.
+// Operations that products of one-dimensional matrices cannot express: varying coefficients,
+// stretched elements and values at single points.
 #include "models/pillar/system/discrete_system.h"
 
 namespace viscard {
 namespace {
 
-// Basis functions of an element at one point, and their derivatives along x and z of the body. With
-// x = scale(z) xi: d/dx = (1/scale) d/dxi, d/dz = d/dzeta - xi (slope/scale) d/dxi.
+// Basis functions of an element at one point, and their derivatives along x and z of the body.
+// With x = scale(z) xi: d/dx = (1/scale) d/dxi, d/dz = d/dzeta - xi (slope/scale) d/dxi.
 struct PointBasis {
   double x = 0.0;
   Eigen::RowVectorXd value, d_dx, d_dz;

@@ -1,4 +1,4 @@
-// What is read from a solution, and loads.
+// Values of a solution, and loads.
 #include "models/pillar/system/discrete_system.h"
 
 #include <Eigen/Cholesky>
@@ -40,7 +40,7 @@ Eigen::VectorXd DiscreteSystem::line_load(int field, int break_row, int first_co
   Eigen::VectorXd load = Eigen::VectorXd::Zero(size());
   const double z = section_->z().breaks()[static_cast<std::size_t>(break_row)];
   for (int column = first_column; column < last_column; ++column) {
-    // At a bond both sides have one width, so either region tells it.
+    // At a bond both sides have the same width, so the stretch of either region is correct.
     const int below = section_->region(column, break_row - 1);
     const int region = below != Section::kEmpty ? below : section_->region(column, break_row);
     const double scale = std::pow(section_->stretch_at(region, z).scale, kinematics_.x_power + 1);

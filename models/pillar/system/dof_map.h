@@ -5,15 +5,15 @@
 
 namespace viscard {
 
-// Which unknown each field at each node belongs to: -1 where it is held at zero, a shared number
-// where several are tied (a rigid plate, an electrode).
+// Maps each field at each node to its unknown: -1 if it is held at zero, and a shared number if
+// several are tied together (a rigid plate, an electrode).
 class DofMap {
  public:
   DofMap(int field_count, int node_count);
   void fix(int field, int node);
   // Ties one field at several nodes to one unknown; returns a handle for tied_dof().
   int tie(int field, const std::vector<int>& nodes);
-  void number();  // call once, last
+  void number();  // call once, after all other changes
 
   int dof(int field, int node) const { return dof_[index(field, node)]; }
   int tied_dof(int handle) const { return tied_[static_cast<std::size_t>(handle)]; }

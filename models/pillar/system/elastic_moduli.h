@@ -13,8 +13,8 @@ Matrix6d volumetric_form();
 // Pa. Throws std::invalid_argument unless E > 0 and -1 < nu < 0.5.
 Matrix6d isotropic_moduli_Pa(double young_modulus_Pa, double poisson_ratio);
 
-// Moduli with sigma_yy = 0 condensed out: the yy row and column become zero. Works for any linear
-// medium; with piezoelectric rows appended (9 x 9) those are condensed alike.
+// Condenses sigma_yy = 0 out of the moduli: the yy row and column become zero. Works for any linear
+// medium; in a 9 x 9 matrix with piezoelectric rows appended, those rows are condensed as well.
 Eigen::MatrixXd plane_stress_moduli(const Eigen::MatrixXd& moduli);
 
 }  // namespace viscard

@@ -81,7 +81,7 @@ Kinematics fourier_kinematics(int harmonic) {
                 {over_x(2, -m)},
                 {d_dz(2)}};
   strain_from_gradient(k);
-  // m = 1: b carries the sideways motion of the axis itself.
+  // For m = 1, field b is the sideways motion of the axis itself.
   k.zero_on_axis = harmonic == 1 ? std::vector<int>{0, 2} : std::vector<int>{0, 1, 2};
   return k;
 }

@@ -4,8 +4,8 @@
 
 namespace viscard {
 
-// One term of a linear differential operator on a section: factor * x^-inverse_x * d^dx d^dz
-// (field).
+// One term of a linear differential operator on a section:
+//  factor * x^-inverse_x * d^dx d^dz (field).
 struct OperatorTerm {
   int field = 0;
   int inverse_x = 0;  // 0 or 1
@@ -15,12 +15,12 @@ struct OperatorTerm {
 };
 using OperatorRow = std::vector<OperatorTerm>;
 
-// How the unknown fields of a family of motions make displacement, strain and electric field. Every
-// matrix of the solver is a quadratic form in such rows, so a new family is a new table, no new
-// code. The x of plane motion is the r of axisymmetric motion.
+// How the unknown fields of a family of motion form displacement, strain and electric field. Every
+// matrix of the solver is a quadratic form in such rows, so a new family needs a new table but no
+// new code. The x of plane motion is the r of axisymmetric motion.
 //
 // Fourier family m >= 1: u_r = (a + b)/2 cos(m t), u_t = (a - b)/2 sin(m t), u_z = w cos(m t) with
-// fields a, b, w: regularity on the axis is then a plain condition on single fields (eq. 12).
+// the fields a, b, w. Regularity on the axis is then a condition on single fields (eq. 12).
 // Source: Bernardi, Dauge & Maday, Spectral Methods for Axisymmetric Domains (1999), ch. II.
 struct Kinematics {
   int field_count = 0;
@@ -33,13 +33,13 @@ struct Kinematics {
   OperatorRow divergence;                   // xx + yy + zz
   std::vector<OperatorRow> electric_field;  // 3: -grad phi; empty without a potential
   int potential_field = -1;
-  // Fields that vanish on x = 0: for a smooth displacement on an axis (eq. 12), by symmetry in a
-  // plane.
+  // Fields that vanish on x = 0: on an axis because the displacement is smooth (eq. 12), in a plane
+  // by symmetry.
   std::vector<int> zero_on_axis;
 };
 
-// The families of motion of a pillar. Plane ones are for the half x >= 0 of a strip that is loaded
-// symmetrically or antisymmetrically; `measure` counts both halves, 1 m thick.
+// The families of motion of a pillar. Plane families describe the half x >= 0 of a strip under
+// symmetric or antisymmetric loads; `measure` counts both halves, 1 m thick.
 enum class Motion {
   kLongitudinal,       // m = 0, fields u_r, u_z
   kTorsion,            // m = 0, field u_theta
@@ -49,11 +49,11 @@ enum class Motion {
   kPlaneAntisymmetric  // "lateral" of a strip
 };
 Kinematics kinematics_of(Motion motion);
-Kinematics fourier_kinematics(int harmonic);  // any m >= 1; throws std::invalid_argument below
+Kinematics fourier_kinematics(int harmonic);  // any m >= 1; otherwise throws std::invalid_argument
 
-// The same family with an electric potential as its last field, in units of scale_V: a scale of
-// sqrt(stiffness/permittivity) times a length of 1 m makes the blocks of the matrix comparable,
-// without which elimination loses all digits.
+// The same family with an electric potential as its last field, in units of scale_V. A scale of
+// sqrt(stiffness/permittivity) times a length of 1 m makes the blocks of the matrix comparable;
+// without it elimination loses all digits.
 Kinematics with_potential(Kinematics kinematics, double scale_V);
 
 }  // namespace viscard

@@ -18,13 +18,13 @@ namespace {
 using ConstMap = Eigen::Map<const Eigen::VectorXd>;
 using Map = Eigen::Map<Eigen::VectorXd>;
 
-// Rounding in a stiff system (a slender body, a stiff volume) may hold residuals above the
-// tolerance. Values with residuals below this one, so that their own error is below its square,
-// are taken when a larger space leaves them where they were.
+// Rounding in a stiff system (a slender body, a stiff volume) can keep residuals above the
+// tolerance. If an eigenvalue has a residual below this limit (so its own error is below the square
+// of it) and does not change in a larger space, it is accepted.
 constexpr double kSettledResidual = 1e-4;
 constexpr double kSettledChange = 1e-11;
 
-// The shapes in which Spectra wants y = B x and y = op x.
+// The interfaces through which Spectra asks for y = B x and y = op x.
 struct InnerProduct {
   using Scalar = double;
   const LinearMap& B;
@@ -46,8 +46,8 @@ struct ScaledOperator {
   }
 };
 
-// SymGEigsShiftSolver without its transformation of the values, and with a look at those that have
-// not converged.
+// Like SymGEigsShiftSolver, but it does not transform the eigenvalues, and it gives access to those
+// that have not converged.
 class Lanczos : public Spectra::SymEigsBase<ScaledOperator, InnerProduct> {
  public:
   Lanczos(ScaledOperator op, const InnerProduct& B, int count, int space)
@@ -58,17 +58,17 @@ class Lanczos : public Spectra::SymEigsBase<ScaledOperator, InnerProduct> {
 class LanczosSearch {
  public:
   LanczosSearch(const PencilMap& op, const LinearMap& B, int size) : op_(op), B_{B, size} {
-    std::mt19937_64 random(1);  // a fixed start: the same answer every time
+    std::mt19937_64 random(1);  // a fixed seed, so that results are reproducible
     std::normal_distribution<double> normal;
     Eigen::VectorXd start(size);
     for (double& x : start) x = normal(random);
     const Eigen::VectorXd B_start = B(start);
-    image_ = op(start, B_start);  // has no part outside op's range
+    image_ = op(start, B_start);  // lies entirely in the range of op
     // Spectra's tolerance is relative only for values above 4e-11, so op is scaled to about 1.
     scale_ = std::abs(B_start.dot(image_)) / B_start.dot(start);
   }
 
-  // `checks` of the residuals, with a restart between them.
+  // Checks the residuals `checks` times, with a restart between checks.
   EigenPairs in_space(int space, int checks, int count, double tolerance) const {
     Lanczos lanczos({op_, B_.B, B_.size, scale_}, B_, count,
                     std::clamp(space, count + 1, static_cast<int>(B_.size)));
@@ -88,8 +88,8 @@ class LanczosSearch {
   double scale_ = 1.0;
 };
 
-// All eigenpairs of a small op, from its matrix: Lanczos' method cannot give as many as there are
-// unknowns.
+// All eigenpairs of a small op, from its matrix: the Lanczos method cannot find as many eigenpairs
+// as there are unknowns.
 EigenPairs all_eigenpairs(const PencilMap& op, const LinearMap& B, int size) {
   Eigen::MatrixXd matrix(size, size);
   for (int i = 0; i < size; ++i) {

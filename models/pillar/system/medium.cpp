@@ -21,8 +21,8 @@ void require_density(double rho_kg_m3) {
   }
 }
 
-// Turns Voigt stresses about z (Auld, Acoustic Fields and Waves in Solids (1973), ch. 3); strains
-// turn with the inverse transpose.
+// Rotates Voigt stresses about z (Auld, Acoustic Fields and Waves in Solids (1973), ch. 3); strains
+// rotate with the inverse transpose.
 Matrix6d stress_rotation(double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
@@ -42,7 +42,7 @@ Medium isotropic_medium(double young_modulus_Pa, double poisson_ratio, double rh
   medium.poisson_ratio = poisson_ratio;
   medium.shear_Pa = young_modulus_Pa / (2.0 * (1.0 + poisson_ratio));
   if (poisson_ratio == 0.5) {
-    isotropic_moduli_Pa(young_modulus_Pa, 0.0);  // for its check of the modulus
+    isotropic_moduli_Pa(young_modulus_Pa, 0.0);  // called to check the modulus
     medium.bulk_Pa = std::numeric_limits<double>::infinity();
     medium.stiffness_Pa = medium.shear_Pa * deviatoric_form();
   } else {
@@ -61,7 +61,7 @@ Medium piezo_medium(const Matrix6d& stiffness_Pa, const PiezoMatrix& charge_C_N,
   medium.piezo_C_m2 = charge_C_N * stiffness_Pa;
   medium.permittivity_F_m =
       permittivity_stress_F_m - charge_C_N * stiffness_Pa * charge_C_N.transpose();
-  // LLT sees only one triangle, so compare the other.
+  // LLT reads only one triangle, so check the symmetry separately.
   if (!stiffness_Pa.isApprox(stiffness_Pa.transpose(), 1e-9) ||
       stiffness_Pa.llt().info() != Eigen::Success) {
     throw std::invalid_argument("the elastic constants are not symmetric and positive definite");

@@ -6,8 +6,8 @@
 
 namespace viscard {
 
-// Poisson ratio from which displacements alone would lose their stresses to locking, so that
-// pressures are condensed (eq. 14).
+// Poisson ratio from which pressures are condensed (eq. 14), because stresses from displacements
+// alone become wrong through locking.
 constexpr double kNearlyIncompressible = 0.45;
 
 using PiezoMatrix = Eigen::Matrix<double, 3, 6>;
@@ -20,7 +20,7 @@ struct Medium {
   PiezoMatrix piezo_C_m2 = PiezoMatrix::Zero();                // e
   Eigen::Matrix3d permittivity_F_m = Eigen::Matrix3d::Zero();  // eps at constant strain; 0: none
 
-  // Set for an isotropic medium, so that its bulk part can be treated apart near nu = 0.5.
+  // Set for an isotropic medium, so that its bulk part can be treated separately near nu = 0.5.
   bool is_isotropic = false;
   double shear_Pa = 0.0;
   double bulk_Pa = 0.0;  // infinite at nu = 0.5
@@ -29,21 +29,21 @@ struct Medium {
   bool is_piezoelectric() const { return !piezo_C_m2.isZero(0.0); }
 };
 
-// Throws std::invalid_argument unless E > 0, -1 < nu <= 0.5, rho >= 0. At nu = 0.5 stiffness_Pa
-// holds the shear part only and bulk_Pa is infinite.
+// Throws std::invalid_argument unless E > 0, -1 < nu <= 0.5 and rho >= 0. At nu = 0.5 stiffness_Pa
+// contains only the shear part and bulk_Pa is infinite.
 Medium isotropic_medium(double young_modulus_Pa, double poisson_ratio, double rho_kg_m3);
 
-// From compliances s (1/Pa) or stiffness, charge constants d (C/N) and permittivity at constant
-// stress (F/m): e = d c, eps^S = eps^T - d c d^t. Throws std::invalid_argument if the stiffness or
-// the resulting permittivity is not positive definite (constants that cannot belong to one medium).
+// From stiffness (Pa), charge constants d (C/N) and permittivity at constant stress (F/m): e = d c,
+// eps^S = eps^T - d c d^t. Throws std::invalid_argument if the stiffness or the resulting
+// permittivity is not positive definite (the constants cannot belong to one medium).
 Medium piezo_medium(const Matrix6d& stiffness_Pa, const PiezoMatrix& charge_C_N,
                     const Eigen::Matrix3d& permittivity_stress_F_m, double rho_kg_m3);
 
 // Poled along -z instead of +z: e changes sign.
 Medium with_reversed_poling(Medium medium);
 
-// The mean of the medium over all directions about z: what an axisymmetric model can see of an
-// orthotropic film. Exact on the axis for loads without direction.
+// The mean of the medium over all directions about z, which is all that an axisymmetric model can
+// represent of an orthotropic film. Exact on the axis for loads without direction.
 Medium averaged_about_z(const Medium& medium);
 
 // The 9 x 9 form [c, -e^t; -e, -eps] for rows [strain; electric field] with E = -grad phi.

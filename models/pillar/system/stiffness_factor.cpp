@@ -7,7 +7,7 @@
 
 namespace viscard {
 
-// Every stored entry serves two rows. Sums in two parts do not wait for one another.
+// Every stored entry serves two rows. Two partial sums let additions overlap.
 Eigen::VectorXd times(const SymmetricSparse& matrix, const Eigen::VectorXd& x) {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(matrix.rows());
   const int* outer = matrix.outerIndexPtr();
@@ -59,8 +59,8 @@ Eigen::VectorXd StiffnessFactor::solve(const Eigen::VectorXd& right_side,
   return u;
 }
 
-// Conjugate gradients for the pressures, whose force is C added beside the penalty's C u; u itself
-// stands for the residual. Rounding is reached when the violation of the constraint stops falling.
+// Conjugate gradients for the pressures, whose force adds to the penalty force C u; u itself serves
+// as the residual. Rounding is reached when the violation of the constraint stops falling.
 void StiffnessFactor::constrain_solution(Eigen::VectorXd& u, Eigen::VectorXd& added) const {
   double violation = u.dot(times(penalty_, u));
   Eigen::VectorXd direction = u;

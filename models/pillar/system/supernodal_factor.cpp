@@ -103,7 +103,7 @@ void SupernodalFactor::place_entries(const Sparse& lower) {
   std::vector<std::size_t> next(first_entry_.begin(), first_entry_.end() - 1);
   entries_.resize(static_cast<std::size_t>(lower.nonZeros()));
   each([&](int value, std::size_t column, int row) { entries_[next[column]++] = {value, row}; });
-  std::vector<int> in_front(position_.size());  // place of each row in the current block's front
+  std::vector<int> in_front(position_.size());  // index of each row in the current block's front
   for (const Block& block : blocks_) {
     const auto first = static_cast<std::size_t>(block.first);
     std::iota(in_front.begin() + block.first, in_front.begin() + block.first + block.count, 0);

@@ -10,11 +10,12 @@
 namespace viscard {
 
 // Multifrontal L D L^T without pivoting of a sparse symmetric matrix that is definite or
-// quasi-definite, so that the factors exist in any order of elimination. Columns with the same rows
-// below them are eliminated together as a dense block, and each block passes its update (Schur
+// quasi-definite, so that the factors exist in any elimination order. Columns with the same rows
+// below them are eliminated together as a dense block. Each block passes its update (Schur
 // complement) to its parent as one dense matrix. High-order elements give large blocks, so nearly
-// all work is dense. `./run bench pillar` times it beside CHOLMOD and Eigen (models/README.md).
-// Source: Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302; order and blocks: block_order.h.
+// all work is dense. `./run bench pillar` compares its time with CHOLMOD and Eigen
+// (models/README.md). Source: Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302; order and blocks:
+// block_order.h.
 class SupernodalFactor {
  public:
   // Chooses the order and the blocks from the pattern of the lower triangle.
@@ -23,32 +24,32 @@ class SupernodalFactor {
   bool factor(const Eigen::SparseMatrix<double>& lower);
   Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const;
 
-  // L^-1 P B for many right sides at once, with rows in the order of elimination, as pivots() has
-  // them. If X comes from B and Y from C, then X' D^-1 Y = B' A^-1 C.
+  // L^-1 P B for many right-hand sides at once, with rows in elimination order, as in pivots(). If
+  // X comes from B and Y from C, then X' D^-1 Y = B' A^-1 C.
   Eigen::MatrixXd forward(const Eigen::MatrixXd& right_sides) const;
 
   const Eigen::VectorXd& pivots() const { return pivots_; }
-  Eigen::Index entries() const;  // of L, including the zeros that merged blocks store
+  Eigen::Index entries() const;  // entries of L, including the zeros that merged blocks store
 
  private:
   struct Block : ColumnBlock {
     int parent = -1;             // block
-    std::vector<int> to_parent;  // place of each row in the parent's front
+    std::vector<int> to_parent;  // index of each row in the parent's front
     Eigen::MatrixXd L;           // (count + rows) x count; unit diagonal not stored
-    int height() const { return count + static_cast<int>(rows.size()); }  // of its front
+    int height() const { return count + static_cast<int>(rows.size()); }  // rows of its front
   };
   struct Entry {
     int value;  // number of the stored value in the matrix
-    int place;  // in the front, column-major
+    int place;  // index in the front, column-major
   };
 
   void find_parents();
   void place_entries(const Eigen::SparseMatrix<double>& lower);
 
-  std::vector<int> position_;             // unknown -> place in the order of elimination
+  std::vector<int> position_;             // unknown -> position in the elimination order
   std::vector<Block> blocks_;             // children before parents
-  std::vector<Entry> entries_;            // column by column in the order of elimination
-  std::vector<std::size_t> first_entry_;  // of each column, and one past the last
+  std::vector<Entry> entries_;            // column by column in elimination order
+  std::vector<std::size_t> first_entry_;  // start of each column, and one past the last
   Eigen::Index largest_front_ = 0;        // rows
   Eigen::VectorXd pivots_;
 };
