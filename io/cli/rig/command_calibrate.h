@@ -2,6 +2,9 @@
 
 #include "io/cli/words/streams.h"
 
+#include <string>
+#include <vector>
+
 namespace viscard {
 
 // viscard calibrate: the load cell with dead weights, or the frame with a rigid block.
