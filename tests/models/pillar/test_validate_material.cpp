@@ -46,7 +46,8 @@ TEST_CASE("the pillar relaxes and creeps by the correspondence principle", "[pil
   check_passes(pdms_1to10(nu, k_over_g));
 }
 
-TEST_CASE("thirty terms over twenty decades pass, for a solid and for almost a liquid", "[pillar][stability]") {
+TEST_CASE("thirty terms over twenty decades pass, for a solid and for almost a liquid",
+          "[pillar][stability]") {
   SECTION("constant Poisson ratio") {
     check_passes(thirty_terms(0.33, 1.0, 0.01));
   }

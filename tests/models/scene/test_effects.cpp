@@ -111,7 +111,7 @@ TEST_CASE("an effect forced off although a result needs it is refused by name", 
   CHECK_THROWS_WITH(plan_effects(scene), Catch::Contains("film_complience"));
 }
 
-TEST_CASE("the error of effects left out stays within half the tolerance and is part of the estimate",
+TEST_CASE("the error of effects left out stays within half the tolerance and enters the estimate",
           "[pillar][plan]") {
   PillarScene scene = pillar_on_film();
   scene.wanted = {"top_displacement"};

@@ -139,7 +139,8 @@ TEST_CASE("neighbours too far to matter are left out and then cost nothing",
   CHECK(effect_of(plan_effects(scene), "crosstalk").on);  // asked for
 }
 
-TEST_CASE("the cross-talk estimate covers the cross-talk of rows on the thesis' film", "[array][plan]") {
+TEST_CASE("the cross-talk estimate covers the cross-talk of rows on the thesis' film",
+          "[array][plan]") {
   const double diameter_t = GENERATE(0.4, 1.6, 6.4);
   const double spacing_t = GENERATE(0.5, 1.5, 3.0, 5.0);
   const PlaneState plane = GENERATE(PlaneState::kStress, PlaneState::kStrain);

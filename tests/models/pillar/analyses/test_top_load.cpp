@@ -133,7 +133,8 @@ TEST_CASE("a film under a moved pillar: open, shorted and held answers are recip
         Approx(-value_of(open, "electrode_charge") / -1e-6).epsilon(1e-7));
 }
 
-TEST_CASE("a pillar on its film moves nearly as far under the pressure of the same force", "[pillar]") {
+TEST_CASE("a pillar on its film moves nearly as far under the pressure of the same force",
+          "[pillar]") {
   const PillarScene scene = on_piezo_film(moved_pillar(-1e-6, .33));
   const SceneAnswer moved = simulate_pillar(scene);
   PillarScene pressed = scene;

@@ -68,7 +68,7 @@ double wave_error(const SceneAnswer& answer, const std::function<double(double)>
 
 }  // namespace
 
-TEST_CASE("a sudden pressure moves the rod's end in a triangular wave of twice the static displacement",
+TEST_CASE("a sudden pressure moves the rod's end in a wave of twice the static displacement",
           "[pillar]") {
   PillarScene scene = rod_scene(0.0, 3e-5);
   test::as<TransientDrive>(scene).history = {{0.0, kPressure_Pa}, {1.0, kPressure_Pa}};
@@ -239,13 +239,14 @@ void check_advice(LoadDirection direction, double tolerance) {
   CHECK(simulate_pillar(scene).largest_relative_error <= scene.tolerance);
 }
 
-TEST_CASE("a jump too sharp for the tolerance is refused with a rise time and a tolerance that work",
+TEST_CASE("a jump too sharp for the tolerance is refused with a rise time and tolerance that work",
           "[pillar]") {
   check_advice(LoadDirection::kLateral, 3e-3);
   check_advice(LoadDirection::kLateral, 3e-4);
 }
 
-TEST_CASE("a ramp too steep for the tolerance is refused with a longer rise time that works", "[pillar]") {
+TEST_CASE("a ramp too steep for the tolerance is refused with a longer rise time that works",
+          "[pillar]") {
   PillarScene scene = rod_scene(0.33, 1e-4);
   test::as<TransientDrive>(scene).direction = LoadDirection::kLateral;
   scene.tolerance = 1e-3;

@@ -43,7 +43,8 @@ const Discretisation kFine{.degree = 7, .layers = 3, .shaft_elements = 2};
 
 TEST_CASE("the modes of the pillar have their converged frequencies, with and without a film",
           "[pillar][golden]") {
-  // Two orders of an independent program agree to the digits given, Hz; nu 0.33, E 1.8 MPa, rho 965.
+  // Two orders of an independent program agree to the digits given, Hz; nu 0.33, E 1.8 MPa,
+  // rho 965.
   struct Case {
     Motion motion;
     bool film;

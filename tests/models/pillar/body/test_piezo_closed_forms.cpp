@@ -216,7 +216,7 @@ TEST_CASE("uniform pressure on a wide film gives the tabulated voltages", "[pill
         printed(c.millivolt, 1.0, c.plane ? 0.5 : 1.5));
 }
 
-TEST_CASE("a full electrode reads a small part of the voltage, and one-way coupling overestimates it",
+TEST_CASE("a full electrode reads a small part of the voltage; one-way coupling overestimates it",
           "[pillar][golden]") {
   // d31 = d32 = 23, d33 = -33 pC/N, 10 kPa, t = 25 um; bottom grounded.
   PillarGeometry geometry;

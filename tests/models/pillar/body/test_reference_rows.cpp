@@ -74,7 +74,8 @@ TEST_CASE("the first lateral mode follows the film's thickness by its last digit
                   kMesh) == Approx(c.lateral_Hz).epsilon(2e-6));
 }
 
-TEST_CASE("torsion distinguishes the modulus and Poisson's ratio of the seed from others", "[pillar]") {
+TEST_CASE("torsion distinguishes the modulus and Poisson's ratio of the seed from others",
+          "[pillar]") {
   struct Case {
     double E_Pa, nu, torsion_Hz;
   };
@@ -84,7 +85,8 @@ TEST_CASE("torsion distinguishes the modulus and Poisson's ratio of the seed fro
         Approx(c.torsion_Hz).epsilon(1e-5));
 }
 
-TEST_CASE("stress near the rim of the bond, at 0.95 R, at five Poisson ratios", "[pillar][golden]") {
+TEST_CASE("stress near the rim of the bond, at 0.95 R, at five Poisson ratios",
+          "[pillar][golden]") {
   struct Case {
     double nu, at_95;
   };
