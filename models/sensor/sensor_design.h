@@ -10,7 +10,7 @@ namespace viscard {
 // pressure p.
 
 // How the pillars are arranged decides the share of the area they carry the load on
-// (models/array/README.md, eq. D1).
+// (models/array/plane/README.md, eq. D1).
 enum class Lattice {
   kSquare,     // unit cell (d + s)^2
   kHexagonal,  // unit cell sqrt(3)/2 (d + s)^2

@@ -1,4 +1,4 @@
-// Rows of pillars inside one process: processor time of static voltage maps to .1 %, and wall time
+// Rows of pillars inside one process: processor time of static voltage maps to 0.1 %, and wall time
 // of a sweep over diameters and spacings on all cores.
 #include "models/array/plane/simulate_array.h"
 #include "models/scene/simulate.h"

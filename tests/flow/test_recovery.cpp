@@ -105,7 +105,7 @@ TEST_CASE("the emulated rig's truth is recovered for all three ratios", "[flow][
   CHECK(tally.n_inside >= 24);
 }
 
-TEST_CASE("600 intervals over 40 seeds and three ratios cover the truth as they claim",
+TEST_CASE("600 intervals over 40 seeds and three ratios cover the truth at their stated rate",
           "[flow][pty][slow]") {
   const Tally tally = study(40);
   REQUIRE(tally.n_intervals == 600);

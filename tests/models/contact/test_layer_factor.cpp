@@ -15,7 +15,7 @@ TEST_CASE("the layer factor agrees with an independent solution to its printed d
   // Hayes et al. (1972) agree within 0.3 %.
   struct Row {
     double ratio;
-    std::vector<double> kappa;  // at nu = .30, .33, .40, .45, .49, .50
+    std::vector<double> kappa;  // at nu = 0.30, 0.33, 0.40, 0.45, 0.49, 0.50
   };
   const Row row =
       GENERATE(values<Row>({{0.1, {1.0954, 1.0981, 1.1063, 1.1146, 1.1234, 1.1260}},
@@ -46,7 +46,7 @@ TEST_CASE("a thick layer is a half-space", "[models][reduction]") {
   CHECK(layer_factor(0.01, 0.3) == Approx(1.0 + 0.884 * 0.01).epsilon(2e-4));
 }
 
-TEST_CASE("the layer factor refuses what it was not made for", "[models]") {
+TEST_CASE("the layer factor refuses arguments outside its range", "[models]") {
   CHECK_THROWS_AS(layer_factor(-0.1, 0.4), std::invalid_argument);
   CHECK_THROWS_AS(layer_factor(11.0, 0.4), std::invalid_argument);
   CHECK_THROWS_AS(layer_factor(0.1, 0.51), std::invalid_argument);
@@ -54,7 +54,7 @@ TEST_CASE("the layer factor refuses what it was not made for", "[models]") {
 }
 
 TEST_CASE("a flat punch on a half-space takes 2 a E* h", "[models]") {
-  // The seed's numbers: E = 1.88 MPa, nu = .5, d = 4.4 mm, h = .25 mm give 2.7573 N.
+  // The seed's numbers: E = 1.88 MPa, nu = 0.5, d = 4.4 mm, h = 0.25 mm give 2.7573 N.
   const PunchContact contact{.punch_radius_m = 2.2e-3, .poisson_ratio = 0.5};
   CHECK(force_per_modulus_and_depth_m(contact) * 1.88e6 * 0.25e-3 == Approx(2.7573).epsilon(2e-5));
 }

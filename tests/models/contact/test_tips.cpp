@@ -25,7 +25,7 @@ TEST_CASE("a sticking punch on a half-space takes Mossakovskii's force", "[model
 }
 
 TEST_CASE("a sticking punch on a bonded layer agrees with finite elements", "[models]") {
-  // Axisymmetric finite elements, four to five digits printed; at nu = .499 the last is uncertain.
+  // Axisymmetric finite elements, four to five digits printed; at nu = 0.499 the last is uncertain.
   CHECK(sticking_layer_factor(0.25, 0.499) == test::printed("1.3694"));
   CHECK(sticking_layer_factor(0.5, 0.3) == test::printed("1.6605"));
   CHECK(sticking_layer_factor(1.0, 0.45) == test::printed("3.1599"));
@@ -33,10 +33,10 @@ TEST_CASE("a sticking punch on a bonded layer agrees with finite elements", "[mo
   CHECK(sticking_layer_factor(2.0, 0.499) == test::printed("12.25"));
 }
 
-// On thick layers the gain is that of the half-space, .3 % at nu = .45; it first falls a little
+// On thick layers the gain is that of the half-space, 0.3 % at nu = 0.45; it first falls a little
 // with a/H, because the coupling of pressure and shear changes sign, then grows
 // until the layer is squeezed as a column, sticking or not.
-TEST_CASE("sticking always stiffens, and on thin layers the more the thinner", "[models]") {
+TEST_CASE("sticking always stiffens, and the more the thinner the layer is", "[models]") {
   CHECK(sticking_layer_factor(0.1, 0.45) > layer_factor(0.1, 0.45));
   CHECK(sticking_layer_factor(0.5, 0.45) > layer_factor(0.5, 0.45));
   double before = 0.0;
@@ -51,7 +51,7 @@ TEST_CASE("sticking always stiffens, and on thin layers the more the thinner", "
   CHECK_THROWS_AS(sticking_layer_factor(1.0, 0.51), std::invalid_argument);
 }
 
-TEST_CASE("a very thin sticking layer of nu below .5 is squeezed like a column",
+TEST_CASE("a very thin sticking layer of nu below 0.5 is squeezed like a column",
           "[models][reduction]") {
   // Confined modulus over the punch's area: F/h -> M pi a^2/H, so kappa (2 a E/(1 - nu^2)) tends to
   // it; the edge adds a few per cent at a/H = 10, less than a third of the difference at 5.
@@ -102,7 +102,7 @@ TEST_CASE("the table of layer factors in data/reference is what the program comp
 TEST_CASE("sphere and cone follow Hertz and Sneddon", "[models]") {
   const PunchContact sphere{
       .punch_radius_m = 1e-3, .poisson_ratio = 0.5, .shape = TipShape::kSphere};
-  // F = (4/3) E* sqrt(R) h^(3/2) = 4/3 x (4/3 MPa) x .0316228 x (1e-4)^1.5
+  // F = (4/3) E* sqrt(R) h^(3/2) = 4/3 x (4/3 MPa) x 0.0316228 x (1e-4)^1.5
   CHECK(depth_law(sphere).factor * 1e6 * std::pow(1e-4, depth_law(sphere).power) ==
         Approx(4.0 / 3.0 * 4.0 / 3.0 * 1e6 * 0.0316227766 * 1e-6).epsilon(1e-9));
   const PunchContact cone{
@@ -122,7 +122,7 @@ TEST_CASE("uncertain tips scale the modulus by their sensitivity", "[models]") {
   CHECK(relative_uncertainty(cone) == Approx(0.02).epsilon(1e-3));
 }
 
-TEST_CASE("tips are refused where no formula holds", "[models]") {
+TEST_CASE("tips are refused if no formula holds", "[models]") {
   PunchContact contact{.punch_radius_m = 1e-3, .shape = TipShape::kSphere};
   CHECK(error_text([&] { force_per_modulus_and_depth_m(contact); }).find("flat punch") !=
         std::string::npos);

@@ -7,7 +7,7 @@
 
 using namespace viscard;
 
-TEST_CASE("a trapezoid takes distance over speed plus speed over acceleration", "[models]") {
+TEST_CASE("a trapezoidal move takes distance over speed plus speed over acceleration", "[models]") {
   const StageMove move{.start_time_s = 1.0,
                        .from_m = 0.0,
                        .to_m = 1e-3,
@@ -22,7 +22,7 @@ TEST_CASE("a trapezoid takes distance over speed plus speed over acceleration", 
   CHECK(knots_s(move).size() == 4);
 }
 
-TEST_CASE("a way too short for full speed makes a triangle", "[models]") {
+TEST_CASE("a distance too short for full speed gives a triangular velocity profile", "[models]") {
   const StageMove move{.from_m = 1e-4, .to_m = 0.0, .speed_m_s = 1.0, .acceleration_m_s2 = 1.0};
   CHECK(duration_s(move) == Approx(2.0 * 0.01).epsilon(1e-14));
   CHECK(position_m(move, 0.01) == Approx(0.5e-4).epsilon(1e-12));
@@ -48,7 +48,7 @@ TEST_CASE("a list of moves is followed one after another", "[models]") {
 }
 
 TEST_CASE("a stage stands at whole steps only", "[models]") {
-  // GRBL's default of 250 steps/mm turns .25 mm into 63 steps, .252 mm.
+  // GRBL's default of 250 steps/mm turns 0.25 mm into 63 steps, 0.252 mm.
   CHECK(quantised_m(0.25e-3, 250e3) == Approx(0.252e-3).epsilon(1e-12));
 }
 

@@ -15,11 +15,11 @@ RigConfig rig_of(double gain, double zero) {
 
 }  // namespace
 
-TEST_CASE("Counts, volts and newtons of one load give one force", "[models]") {
+TEST_CASE("counts, volts and newtons of one load give one force", "[models]") {
   RigConfig rig = rig_of(0.5, 0.25);
   LoadSample sample;
   sample.volts = 1.25;
-  CHECK(*force_N_from_sample(sample, rig) == Approx(2.0).epsilon(1e-14));  // (1.25 - .25)/.5
+  CHECK(*force_N_from_sample(sample, rig) == Approx(2.0).epsilon(1e-14));  // (1.25 - 0.25)/0.5
   sample.volts.reset();
   sample.counts = 625000.0;  // times 2 uV
   CHECK(*force_N_from_sample(sample, rig) == Approx(2.0).epsilon(1e-14));
@@ -30,7 +30,8 @@ TEST_CASE("Counts, volts and newtons of one load give one force", "[models]") {
   CHECK(*force_N_from_sample(sample, rig) == Approx(-2.0).epsilon(1e-14));
 }
 
-TEST_CASE("A sample without number, or counts without their volts, has no force", "[models]") {
+TEST_CASE("a sample without a number, or counts without volts per count, has no force",
+          "[models]") {
   RigConfig rig = rig_of(0.5, 0.0);
   LoadSample sample;
   CHECK_FALSE(force_N_from_sample(sample, rig).has_value());

@@ -19,7 +19,7 @@ std::string names_of(const std::vector<TestPhase>& phases) {
 
 }  // namespace
 
-TEST_CASE("Ramp and hold is the list of phases it has always been", "[models]") {
+TEST_CASE("ramp and hold keeps its list of phases", "[models]") {
   TestPlan plan;
   CHECK(names_of(phases_from_plan(plan)) ==
         "tare approach baseline ramp hold unload recovery retract baseline_after");
@@ -29,7 +29,7 @@ TEST_CASE("Ramp and hold is the list of phases it has always been", "[models]") 
         "tare approach baseline preload preload_hold ramp hold retract baseline_after");
 }
 
-TEST_CASE("Levels, cycles and stairs are numbered and go where they should", "[models]") {
+TEST_CASE("levels, cycles and stairs are numbered and reach their depths", "[models]") {
   TestPlan plan;
   plan.protocol = "levels";
   plan.levels = {{0.1e-3, 1.0, 5.0}, {0.2e-3, 1.0, 5.0}, {0.05e-3, 2.0, 5.0}};
@@ -54,7 +54,7 @@ TEST_CASE("Levels, cycles and stairs are numbered and go where they should", "[m
   CHECK(stairs[7].depth_m == Approx(0.05e-3).epsilon(1e-12));
 }
 
-TEST_CASE("Creep loads to its force and holds it", "[models]") {
+TEST_CASE("creep loads to its force and holds it", "[models]") {
   TestPlan plan;
   plan.protocol = "creep";
   plan.creep.force_N = 1.0;
@@ -66,7 +66,7 @@ TEST_CASE("Creep loads to its force and holds it", "[models]") {
   CHECK(planned_s(phases, 0, 7.0) == Approx(150.0).epsilon(1e-12));
 }
 
-TEST_CASE("A plan that makes no sense names the key to change", "[models]") {
+TEST_CASE("a contradictory plan is refused with the key to change", "[models]") {
   TestPlan plan;
   plan.protocol = "lvels";
   CHECK_THROWS_WITH(phases_from_plan(plan), Contains("'lvels'") && Contains("staircase"));

@@ -15,7 +15,7 @@ PronySeries pdms_1to10() {
 }
 }  // namespace
 
-TEST_CASE("phi functions keep every digit from nothing to infinity", "[models][stability]") {
+TEST_CASE("phi functions keep every digit from zero to infinity", "[models][stability]") {
   CHECK(phi1(0.0) == 1.0);
   CHECK(phi2(0.0) == 0.5);
   CHECK(phi1(1e-12) == Approx(1.0 - 0.5e-12).epsilon(1e-15));

@@ -22,7 +22,7 @@ Material reference_material(bool constant_bulk) {
 }
 }  // namespace
 
-TEST_CASE("derived moduli of the reference material are the published ones", "[models]") {
+TEST_CASE("derived moduli of the reference material equal the published ones", "[models]") {
   const DerivedModuli moduli = derived_moduli(reference_material(false));
   CHECK(moduli.sum_g == Approx(0.022066).epsilon(1e-14));
   CHECK(moduli.E_inf_Pa == Approx(1.83851592e6).epsilon(1e-12));
@@ -48,8 +48,8 @@ TEST_CASE("constant bulk modulus changes the long-term Young's modulus by 7.36e-
 }
 
 TEST_CASE("one relaxing shear term makes one Young's term with its time stretched", "[models]") {
-  // Constant K, g = .022066: tau_E/tau = (3K + G0)/(3K + G_inf) = 1.00250708 and
-  // E_inf/E0 = .98038576 at nu = .33.
+  // Constant K, g = 0.022066: tau_E/tau = (3K + G0)/(3K + G_inf) = 1.00250708 and
+  // E_inf/E0 = 0.98038576 at nu = 0.33.
   Material material;
   material.E0_Pa = 1.8e6;
   material.nu = 0.33;
@@ -60,7 +60,7 @@ TEST_CASE("one relaxing shear term makes one Young's term with its time stretche
   CHECK(young.equilibrium_modulus_Pa / 1.8e6 == test::printed("0.98038576"));
 }
 
-TEST_CASE("unphysical materials are refused with the value named", "[models]") {
+TEST_CASE("unphysical materials are refused with their value", "[models]") {
   Material material = reference_material(false);
   material.terms[1].g = 0.995;
   CHECK_THROWS_WITH(validate(material), Catch::Contains("must stay below 1"));

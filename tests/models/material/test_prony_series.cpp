@@ -12,7 +12,7 @@ using namespace viscard;
 
 namespace {
 
-// The seed's 1:10 PDMS in MPa and s: E0 = 1.88, a = (.008206, .01386), tau = (.1945, 2.403).
+// The seed's 1:10 PDMS in MPa and s: E0 = 1.88, a = (0.008206, 0.01386), tau = (0.1945, 2.403).
 PronySeries pdms_1to10() {
   const double E0 = 1.88;
   return {E0 * (1.0 - 0.008206 - 0.01386), {{E0 * 0.008206, 0.1945}, {E0 * 0.01386, 2.403}}};

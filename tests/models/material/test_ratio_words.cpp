@@ -24,8 +24,8 @@ RatioFit power_law(double exponent_se) {
 
 }  // namespace
 
-TEST_CASE("a law is told with the digits that its standard errors allow", "[models]") {
-  // ln of the factor: .01 and 2.30 times the exponent's error, added in squares.
+TEST_CASE("a law is printed with the digits that its standard errors allow", "[models]") {
+  // ln of the factor: 0.01 and 2.30 times the exponent's error, added in squares.
   CHECK_THAT(law_in_words(power_law(0.02)),
              Contains("E0 = 18.76 MPa x ratio^-0.988 (exponent +- 0.02)"));
   CHECK_THAT(law_in_words(power_law(0.15)),

@@ -142,7 +142,7 @@ TEST_CASE("the Mittag-Leffler decay of order one half is exp(x^2) erfc(x)", "[mo
   CHECK_THROWS_AS(mittag_leffler_decay(1.1, 1.0), std::invalid_argument);
 }
 
-TEST_CASE("models refuse parameters that are no material", "[models]") {
+TEST_CASE("models refuse unphysical parameters", "[models]") {
   CHECK_THROWS_AS(validate(ViscoelasticModel(ElasticModel{-1.0})), std::invalid_argument);
   CHECK_THROWS_AS(validate(ViscoelasticModel(MaxwellModel{1.0, std::nan("")})),
                   std::invalid_argument);

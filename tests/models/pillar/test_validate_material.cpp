@@ -40,13 +40,14 @@ void check_passes(const Material& material) {
 
 }  // namespace
 
-TEST_CASE("the pillar relaxes and creeps as the correspondence principle says", "[pillar]") {
+TEST_CASE("the pillar relaxes and creeps by the correspondence principle", "[pillar]") {
   const double nu = GENERATE(0.0, 0.33, 0.45, 0.495, 0.4999, 0.5);
   const double k_over_g = GENERATE(0.0, 0.5, 1.0);
   check_passes(pdms_1to10(nu, k_over_g));
 }
 
-TEST_CASE("thirty terms over twenty decades pass, almost a liquid or not", "[pillar][stability]") {
+TEST_CASE("thirty terms over twenty decades pass, for a solid and for almost a liquid",
+          "[pillar][stability]") {
   SECTION("constant Poisson ratio") {
     check_passes(thirty_terms(0.33, 1.0, 0.01));
   }
@@ -58,7 +59,7 @@ TEST_CASE("thirty terms over twenty decades pass, almost a liquid or not", "[pil
   }
 }
 
-TEST_CASE("a pillar that creeps by its own relaxation function would be found out", "[pillar]") {
+TEST_CASE("a pillar that creeps by its own relaxation function fails the validation", "[pillar]") {
   // The bound is sharp: the curves end where E_inf says, and 1/E(t) is not J(t).
   const ValidationResult result = validate_material(pdms_1to10(0.33, 1.0));
   const auto& creep = result.creep;
@@ -73,7 +74,7 @@ TEST_CASE("a pillar that creeps by its own relaxation function would be found ou
   CHECK(largest > 1e-5);
 }
 
-TEST_CASE("a material without terms is validated as elastic, and said to be so", "[pillar]") {
+TEST_CASE("a material without terms is validated and reported as elastic", "[pillar]") {
   Material material;
   material.E0_Pa = 1e6;
   material.nu = 0.3;
@@ -83,7 +84,7 @@ TEST_CASE("a material without terms is validated as elastic, and said to be so",
   CHECK_THAT(result.notes[0], Catch::Contains("elastic"));
 }
 
-TEST_CASE("the validation refuses what it cannot run", "[pillar]") {
+TEST_CASE("the validation refuses materials that it cannot run", "[pillar]") {
   Material material = pdms_1to10(0.33, 1.0);
   material.terms[0].g = 1.2;
   CHECK_THROWS_WITH(validate_material(material), Catch::Contains("below 1"));

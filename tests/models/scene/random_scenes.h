@@ -9,7 +9,7 @@ namespace viscard::test {
 
 // A scene of one pillar drawn at random over wide ranges: all analyses that rest on a plane
 // section, with and without film and electrode, stiffness contrasts of 10 to 1e5, Poisson ratios to
-// .4995, pillars from squat to slender (from 1.5 diameters for buckling), tolerances from 1e-4 to
+// 0.4995, pillars from squat to slender (from 1.5 diameters for buckling), tolerances from 1e-4 to
 // 1e-1. Never above its buckling load.
 struct Ranges {
   double least_tolerance = 1e-4;

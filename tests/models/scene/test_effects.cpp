@@ -48,7 +48,7 @@ double value_of(const SceneAnswer& answer, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a film that is left out costs what a scene without film costs", "[pillar][plan]") {
+TEST_CASE("a film that is left out costs the same as a scene without film", "[pillar][plan]") {
   PillarScene with_film = pillar_on_film();
   with_film.wanted = {"top_displacement"};
   PillarScene without = with_film;
@@ -102,7 +102,7 @@ TEST_CASE("the film's estimates exceed its true shares, by less than four times"
   CHECK(estimate <= 4.0 * share);
 }
 
-TEST_CASE("what is forced off though it is asked for is refused by name", "[pillar][plan]") {
+TEST_CASE("an effect forced off although a result needs it is refused by name", "[pillar][plan]") {
   PillarScene scene = pillar_on_film();
   scene.wanted = {"film_bottom_stress_mean"};
   scene.effects["film_compliance"] = EffectChoice::kOff;
@@ -111,7 +111,7 @@ TEST_CASE("what is forced off though it is asked for is refused by name", "[pill
   CHECK_THROWS_WITH(plan_effects(scene), Catch::Contains("film_complience"));
 }
 
-TEST_CASE("what is left out stays within half the tolerance and is part of the error",
+TEST_CASE("the error of effects left out stays within half the tolerance and enters the estimate",
           "[pillar][plan]") {
   PillarScene scene = pillar_on_film();
   scene.wanted = {"top_displacement"};
@@ -145,7 +145,7 @@ TEST_CASE("one-way potentials differ from coupled ones by about k^2", "[pillar][
   CHECK(one_way.unknowns < coupled.unknowns);
 }
 
-TEST_CASE("without piezoelectric constants one way is both ways, and gives nothing",
+TEST_CASE("without piezoelectric constants one-way and two-way coupling agree, with no voltage",
           "[pillar][plan]") {
   // Weak coupling: the one-way error falls with the square of the charge constants.
   const auto change_for = [](double factor) {
@@ -164,7 +164,7 @@ TEST_CASE("without piezoelectric constants one way is both ways, and gives nothi
   CHECK(change_for(0.1) / change_for(1.0) == Approx(0.01).epsilon(0.1));
 }
 
-TEST_CASE("relaxation that a history is too short to see is left out", "[pillar][plan]") {
+TEST_CASE("relaxation too slow for a history is left out", "[pillar][plan]") {
   PillarScene scene = pillar_on_film();
   scene.film.reset();
   scene.geometry.film.reset();
@@ -178,7 +178,7 @@ TEST_CASE("relaxation that a history is too short to see is left out", "[pillar]
   CHECK(effect_of(plan_effects(scene).effects, "relaxation").on);
 }
 
-TEST_CASE("modes of a solid that has relaxed vibrate with what is left of its modulus",
+TEST_CASE("modes of a relaxed solid vibrate with its remaining modulus",
           "[pillar][plan]") {
   PillarScene scene = pillar_on_film();
   scene.film.reset();
@@ -193,11 +193,11 @@ TEST_CASE("modes of a solid that has relaxed vibrate with what is left of its mo
   REQUIRE(relaxed.modes.size() == instantaneous.modes.size());
   for (std::size_t i = 0; i < relaxed.modes.size(); ++i) {
     CHECK(relaxed.modes[i].frequency_Hz / instantaneous.modes[i].frequency_Hz ==
-          Approx(0.9).epsilon(1e-9));  // sqrt(1 - .19)
+          Approx(0.9).epsilon(1e-9));  // sqrt(1 - 0.19)
   }
 }
 
-TEST_CASE("Engesser's pressure is the solver's within two per cent at three diameters",
+TEST_CASE("Engesser's pressure agrees with the solver's within 2 % at three diameters",
           "[pillar][plan]") {
   CHECK(engesser_pressure_Pa(pillar_on_film()) == Approx(29368.9).epsilon(0.02));
 }
@@ -213,7 +213,7 @@ TEST_CASE("every effect says what it changes and costs, under a name of its own"
   CHECK(names.size() == 12);
 }
 
-TEST_CASE("sideways loads bend, however they come: no pressure buckles, and bending is the strain",
+TEST_CASE("every kind of sideways load bends without buckling, and bending gives the strain",
           "[pillar][plan]") {
   PillarScene scene = pillar_on_film();
   const double shear_Pa = 1e5;  // along the pillar it would be beyond buckling
@@ -236,7 +236,7 @@ TEST_CASE("sideways loads bend, however they come: no pressure buckles, and bend
   CHECK(strain.value == Approx(4.0 * 1e5 * 120.0 / 20.0 / 1.8e6).epsilon(1e-9));
 }
 
-TEST_CASE("a transient push beyond buckling is told", "[pillar][plan]") {
+TEST_CASE("a transient push beyond buckling is reported", "[pillar][plan]") {
   PillarScene scene = pillar_on_film();
   scene.drive = TransientDrive{.history = {{0.0, 0.0}, {1e-3, 1e5}}, .end_time_s = 2e-3};
   const SceneEffect buckling = effect_of(plan_effects(scene).effects, "geometric_stiffness");
@@ -246,7 +246,7 @@ TEST_CASE("a transient push beyond buckling is told", "[pillar][plan]") {
   CHECK(effect_of(plan_effects(scene).effects, "geometric_stiffness").estimate == 0.0);
 }
 
-TEST_CASE("an oscillating push is judged by its size", "[pillar][plan]") {
+TEST_CASE("an oscillating push is judged by its amplitude", "[pillar][plan]") {
   PillarScene scene = pillar_on_film();
   scene.drive = HarmonicDrive{.pressure_Pa = -1e5, .frequencies_Hz = {1.0}};
   CHECK_THROWS_WITH(refuse_beyond_buckling(scene), Catch::Contains("buckling"));

@@ -143,7 +143,7 @@ TEST_CASE("an effect of one pillar that is off costs nothing", "[pillar][plan]")
   if (one.adds_unknowns) CHECK(off.unknowns < on.unknowns);
 }
 
-TEST_CASE("a static answer knows no mass, and an open electrode no readout", "[pillar][plan]") {
+TEST_CASE("a static answer assembles no mass, and an open electrode no readout", "[pillar][plan]") {
   PillarScene scene = pillar_on_film();
   scene.electrodes = ElectrodeOptions{FilmFace::kBottom, 20e-6};
   scene.wanted = {"electrode_voltage"};

@@ -103,7 +103,7 @@ void study(int count, unsigned long seed, int fine_degree = 8) {
 
 }  // namespace
 
-TEST_CASE("neighbours are not left out where shear is read", "[array][plan]") {
+TEST_CASE("neighbours are not left out if shear is read", "[array][plan]") {
   ArrayScene scene = seed_scene();
   scene.geometry.spacing_m = 400e-6;
   scene.geometry.film_edge_m = 400e-6;
@@ -117,7 +117,7 @@ TEST_CASE("neighbours are not left out where shear is read", "[array][plan]") {
   CHECK_FALSE(effect_of(plan_effects(scene), "crosstalk").on);
 }
 
-TEST_CASE("neighbours are left out where they are too far to matter, and cost nothing then",
+TEST_CASE("neighbours too far to matter are left out and then cost nothing",
           "[array][plan]") {
   ArrayScene scene = seed_scene();
   scene.wanted = {"centre_voltage"};
@@ -139,7 +139,8 @@ TEST_CASE("neighbours are left out where they are too far to matter, and cost no
   CHECK(effect_of(plan_effects(scene), "crosstalk").on);  // asked for
 }
 
-TEST_CASE("the cross-talk estimate covers what rows of the thesis' film have", "[array][plan]") {
+TEST_CASE("the cross-talk estimate covers the cross-talk of rows on the thesis' film",
+          "[array][plan]") {
   const double diameter_t = GENERATE(0.4, 1.6, 6.4);
   const double spacing_t = GENERATE(0.5, 1.5, 3.0, 5.0);
   const PlaneState plane = GENERATE(PlaneState::kStress, PlaneState::kStrain);
@@ -171,7 +172,7 @@ TEST_CASE("modes and deflections of a row need its film only at tight tolerances
   CHECK_THROWS_AS(plan_effects(scene), SceneMistake);
 }
 
-TEST_CASE("modes of a row whose film would vibrate itself are refused with the reason",
+TEST_CASE("modes of a row are refused with the reason if the film would vibrate too",
           "[array][plan]") {
   ArrayScene scene = seed_scene();
   scene.drive = RowModal{.modes = 2};
@@ -183,7 +184,7 @@ TEST_CASE("modes of a row whose film would vibrate itself are refused with the r
   CHECK_NOTHROW(simulate(scene));
 }
 
-TEST_CASE("pillars long enough to stick to their neighbours are told so", "[array][plan]") {
+TEST_CASE("pillars long enough to stick to their neighbours are reported", "[array][plan]") {
   ArrayScene scene = seed_scene();
   scene.geometry.diameter_m = 10e-6;
   scene.geometry.spacing_m = 10e-6;

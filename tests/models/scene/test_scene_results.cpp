@@ -48,7 +48,7 @@ void check_listed(const PillarScene& scene) {
 
 }  // namespace
 
-TEST_CASE("every static result can be asked for", "[pillar][plan]") {
+TEST_CASE("every static result can be requested", "[pillar][plan]") {
   PillarScene scene = sensor();
   SECTION("electrode") {}
   SECTION("driven electrode") {
@@ -86,7 +86,7 @@ TEST_CASE("every static result can be asked for", "[pillar][plan]") {
   check_listed(scene);
 }
 
-TEST_CASE("every result in time and frequency can be asked for", "[pillar][plan]") {
+TEST_CASE("every result in time and frequency can be requested", "[pillar][plan]") {
   PillarScene scene = sensor();
   SECTION("creep") {
     scene.drive = CreepDrive{{{0.0, 0.0}, {1e-2, 1e3}, {1.0, 1e3}}};

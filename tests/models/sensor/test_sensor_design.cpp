@@ -31,7 +31,7 @@ TEST_CASE("stress concentration follows the lattice", "[models][design]") {
         Approx(4.0 / std::numbers::pi).epsilon(1e-12));
 }
 
-TEST_CASE("buckling limits the length as Euler's formula has it", "[models][design]") {
+TEST_CASE("buckling limits the length by Euler's formula", "[models][design]") {
   const auto longest_um = [](double K) {
     SensorRequirements r;
     r.end_factor = K;
@@ -131,7 +131,7 @@ TEST_CASE("buckling and matting exchange near a spacing of 20 um", "[models][des
   CHECK(longest_unmatted_m(kD, 20e-6, {}) == Approx(250e-6).epsilon(0.01));  // read off a figure
 }
 
-TEST_CASE("limits of diameter and spacing rule a design out whatever its length",
+TEST_CASE("limits of diameter and spacing exclude a design of any length",
           "[models][design]") {
   SensorRequirements r;
   r.coarsest_pitch_m = 90e-6;

@@ -69,7 +69,7 @@ TEST_CASE("a slow load on a row gives its static answer", "[array]") {
   }
 }
 
-TEST_CASE("a row resounds at its modes", "[array]") {
+TEST_CASE("a row resonates at its modes", "[array]") {
   const Row row({.count = 3, .spacing_m = 20e-6});
   const std::vector<ArrayMode> modes = array_modes(row.model, 1);
   const ArrayTransfer transfer(row.model, ArrayLoad::kShear, {0}, pdms());
@@ -82,7 +82,7 @@ TEST_CASE("a row resounds at its modes", "[array]") {
   }
 }
 
-TEST_CASE("one pillar of a row vibrates as the solver of one pillar has it", "[array]") {
+TEST_CASE("one pillar of a row vibrates as in the solver of one pillar", "[array]") {
   // A strip on a film: its frequency response away from resonance, elastic and relaxing.
   const std::vector<MaterialTerm> terms =
       GENERATE(std::vector<MaterialTerm>{}, std::vector<MaterialTerm>{{0.2, 0.2, 2e-6}});
@@ -171,7 +171,8 @@ TEST_CASE("only one pillar of a row is tapped and its neighbours answer", "[arra
   CHECK(curve_of(answer, "top_displacement_2_spectrum").x.size() > 50);
 }
 
-TEST_CASE("linear elements answer a tap too, with the few modes they have right", "[array]") {
+TEST_CASE("linear elements solve a tap too, with the few modes that they represent accurately",
+          "[array]") {
   ArrayScene scene = row_in_time(RowTransient{
       .history = {{0.0, 0.0}, {5e-6, 1e3}, {1e-5, 0.0}}, .end_time_s = 5e-5, .outputs = 200});
   const auto peak_on = [&](const Discretisation& mesh) {

@@ -62,7 +62,7 @@ TEST_CASE("modes of the seed's row come in clusters of eight", "[array]") {
   CHECK(axial[8].frequency_Hz == Approx(2.68e5).epsilon(2e-3));  // printed with three digits
 }
 
-TEST_CASE("neighbours at 20 um split the clusters as an independent code has it", "[array]") {
+TEST_CASE("neighbours at 20 um split the clusters as in an independent code", "[array]") {
   // Reference: plane p-elements of the whole array, film elastic, 10 um of film beyond the ends.
   ArrayMedia media = seed_media();
   media.film = isotropic_medium(2e9, 0.29, 1780.0);

@@ -42,7 +42,7 @@ TEST_CASE("answers of a row lie within their estimates, and those within the tol
   }
 }
 
-TEST_CASE("per cents of a scene are those of its voltages", "[array]") {
+TEST_CASE("percentages of a scene are those of its voltages", "[array]") {
   ArrayScene scene = seed_scene();
   scene.loaded = {4};
   const SceneAnswer one = simulate_array(scene);
@@ -84,7 +84,7 @@ TEST_CASE("equipotential electrodes: open, shorted and driven answers agree", "[
   CHECK(V[0] == Approx(V[2]).margin(1e-6 * std::abs(V[1])));  // rounding of a deeply graded mesh
 }
 
-TEST_CASE("a row whose film is cheap has no unknown for what it does not ask", "[array]") {
+TEST_CASE("a row without wanted voltages has no unknowns for them", "[array]") {
   ArrayScene scene = seed_scene();
   const int with_potential = simulate_array(scene).unknowns;
   scene.film = isotropic_medium(2e9, 0.29, 1780.0);
@@ -92,7 +92,7 @@ TEST_CASE("a row whose film is cheap has no unknown for what it does not ask", "
   CHECK(simulate_array(scene).unknowns < with_potential);
 }
 
-TEST_CASE("contradictory rows name the place that has to change", "[array]") {
+TEST_CASE("contradictory rows are refused with the key to change", "[array]") {
   const auto key_of = [](const ArrayScene& scene) {
     try {
       validate(scene);

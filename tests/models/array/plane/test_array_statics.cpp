@@ -39,7 +39,7 @@ TEST_CASE("a row of one pillar equals the solver of one pillar", "[array]") {
   }
 }
 
-TEST_CASE("three pillars between mirrors, all loaded, answer as one does", "[array]") {
+TEST_CASE("three pillars between mirrors, all loaded, respond as one does", "[array]") {
   ArrayGeometry row = endless_row(30e-6);
   const ArrayResponse one = seed_response(row);
   row.count = 3;
@@ -71,8 +71,7 @@ TEST_CASE("responses of a row are reciprocal and mirror-symmetric", "[array]") {
   }
 }
 
-TEST_CASE("an electrode that covers the pillar and more is cut into other pieces, alike",
-          "[array]") {
+TEST_CASE("an electrode wider than the pillar reads the same on different cells", "[array]") {
   // A reading of the same width on the same face, once with cells that end at the rim and once with
   // cells that reach beyond it.
   const ArrayGeometry row{.count = 2, .spacing_m = 30e-6};
@@ -86,7 +85,7 @@ TEST_CASE("an electrode that covers the pillar and more is cut into other pieces
   CHECK((at_rim - beyond).norm() < 2e-5 * at_rim.norm());  // both within 1e-5 at this degree
 }
 
-TEST_CASE("rows of pillars refuse geometry that cannot be", "[array]") {
+TEST_CASE("rows of pillars refuse impossible geometry", "[array]") {
   const auto refused = [](const ArrayGeometry& g, const ArrayElectrodes& e, const char* word) {
     CHECK_THROWS_WITH(validate(g, e), Catch::Contains(word));
   };

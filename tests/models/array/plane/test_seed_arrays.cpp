@@ -47,7 +47,7 @@ TEST_CASE("voltage against spacing", "[array]") {
   }
 }
 
-TEST_CASE("voltage and per cent coupling against the film's thickness", "[array]") {
+TEST_CASE("voltage and percentage of coupling against the film's thickness", "[array]") {
   const std::map<double, std::pair<double, double>> expected = {
       {5, {1.0792, -0.06}}, {10, {2.1095, -0.28}}, {25, {4.1225, 6.92}}, {40, {5.1417, 20.45}},
       {50, {5.6846, 29.2}}, {75, {7.2263, 43.2}},  {100, {9.1451, 48.1}}};
@@ -74,7 +74,7 @@ TEST_CASE("the deviation of an endless row changes sign near 60 um", "[array]") 
   CHECK(100.0 * (strain_mV / far_strain_mV - 1.0) == Approx(-1.42).margin(kPoints));
 }
 
-TEST_CASE("the spacing of .1 % by diameter crosses where the thesis' map does", "[array]") {
+TEST_CASE("the spacing at 0.1 % against diameter crosses where the thesis' map does", "[array]") {
   struct Row {
     double diameter_um, far_mV;
     int first_below_um;  // 0: none between 30 and 80 um
@@ -83,7 +83,7 @@ TEST_CASE("the spacing of .1 % by diameter crosses where the thesis' map does", 
                            Row{50, 4.5298, 45}, Row{60, 4.8022, 40}, Row{80, 5.1174, 0});
   CAPTURE(row.diameter_um);
   const double d = row.diameter_um * 1e-6;
-  // A fine mesh: at 40 um .1005 % remain at a spacing of 55 um, at 50 um .0995 % at 45 um.
+  // A fine mesh: at 40 um 0.1005 % remain at a spacing of 55 um, at 50 um 0.0995 % at 45 um.
   const ArrayGeometry far = endless_row(kFar_m, 25e-6, d);
   const double far_mV = centre_mV(far, PlaneState::kStress, kFineMesh);
   CHECK(far_mV == Approx(row.far_mV).epsilon(kVoltage));

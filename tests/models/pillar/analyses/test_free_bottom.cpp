@@ -102,7 +102,7 @@ TEST_CASE("torsion of the free bar is exact", "[pillar]") {
 // Love's correction of the rod for the motion across it, 1 - (n pi nu R/L)^2/4; what is left is of
 // fourth order, (2 R/L)^4 times numbers of order one. Source: Love, Mathematical Theory of
 // Elasticity (1927), art. 278 (Pochhammer).
-TEST_CASE("the free bar vibrates lengthwise as Pochhammer's long waves", "[pillar]") {
+TEST_CASE("the free bar vibrates axially as Pochhammer's long waves", "[pillar]") {
   const double rod_Hz = std::sqrt(kE_Pa / kRho) / (2.0 * 400e-6);
   const double nu = GENERATE(.33, .49, .5);
   const double x = kPi * nu * 20e-6 / 400e-6;
@@ -129,7 +129,7 @@ TEST_CASE("free bars and strips bend as free beams in the limit", "[pillar]") {
   CHECK(1.0 - at_40 > 1e-3);                                        // and not there yet
 }
 
-// Kirchhoff's free plate at nu = .33: roots of the Bessel equation of its edge; Leissa, Vibration
+// Kirchhoff's free plate at nu = 0.33: roots of the Bessel equation of its edge; Leissa, Vibration
 // of Plates, NASA SP-160 (1969), 2.1.3, has 5.253 (m = 2), 9.084 (0) and 20.52 (1) with fewer
 // digits.
 TEST_CASE("a free disc vibrates as a free plate as it becomes thin", "[pillar]") {
@@ -153,7 +153,7 @@ TEST_CASE("a free disc vibrates as a free plate as it becomes thin", "[pillar]")
 
 // Freeing the bottom takes constraints away: by Rayleigh no frequency rises, counted with the rigid
 // ones. The pillar swings faster against a film that gives way the other way.
-TEST_CASE("a freed pillar's modes lie among those of the held one", "[pillar]") {
+TEST_CASE("the modes of a free pillar interlace with those of the held one", "[pillar]") {
   const Discretisation mesh{.degree = 6, .layers = 2};
   const PillarMedia media{isotropic_medium(kE_Pa, .33, kRho), isotropic_medium(2e9, .29, 1780.0)};
   const Motion motion = GENERATE(Motion::kLongitudinal, Motion::kLateral, Motion::kTorsion);
@@ -170,7 +170,7 @@ TEST_CASE("a freed pillar's modes lie among those of the held one", "[pillar]") 
   CHECK(freed[0].frequency_Hz > held[0].frequency_Hz);
 }
 
-TEST_CASE("the six rigid motions of a free body, three of a strip, are told and left out",
+TEST_CASE("the six rigid motions of a free body, three of a strip, are counted and removed",
           "[pillar]") {
   PillarScene scene;
   scene.tolerance = 1e-2;
@@ -214,7 +214,7 @@ TEST_CASE("a film that is held moves less under a voltage", "[pillar]") {
   CHECK(value_of(simulate_pillar(scene), "top_displacement") == Approx(12.03e-12).epsilon(1e-3));
 }
 
-TEST_CASE("what needs to be held is refused of a free bottom, with the reason", "[pillar]") {
+TEST_CASE("analyses that need support are refused for a free bottom, with the reason", "[pillar]") {
   PillarScene scene = disc_under_voltage();
   const auto key_of = [](const PillarScene& refused) {
     try {

@@ -77,7 +77,7 @@ TEST_CASE("a rod without Poisson effect is shaken as 1/cos(k l) with the complex
   CHECK(std::abs(gain - exact) <= 1e-6 * std::abs(exact));  // of the mesh
 }
 
-TEST_CASE("the reduced body answers as the whole one, within its estimate", "[pillar]") {
+TEST_CASE("the reduced body agrees with the whole one within its estimate", "[pillar]") {
   const bool shear_only = GENERATE(false, true);
   const Motion motion = GENERATE(Motion::kLongitudinal, Motion::kLateral);
   const Body body(damped_material(shear_only), motion);
@@ -197,7 +197,7 @@ TEST_CASE(
   const SceneCurve& real = curve_of(answer, "top_displacement_real");
   for (const double value : real.value) CHECK(std::isfinite(value));
   CHECK(answer.largest_relative_error <= scene.tolerance);
-  // Slow enough, it is the static answer with the relaxed modulus, .35 of the shear gone.
+  // Slow enough, it is the static answer with the relaxed modulus, 0.35 of the shear gone.
   const Body body(scene.pillar, Motion::kLongitudinal, {.degree = 7, .layers = 3});
   const double area_m2 = top_area_m2(body.model);
   const SymmetricSparse relaxed = stiffness_at(body.system, 0.65, 1.0);
@@ -214,7 +214,7 @@ TEST_CASE(
   CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("ascend"));
 }
 
-TEST_CASE("waves that die out are meshed where they live, up to a gigahertz",
+TEST_CASE("waves that decay near the load are meshed there, up to a gigahertz",
           "[pillar][stability]") {
   PillarScene scene = sweep_scene(damped_material(true));
   scene.pillar.E0_Pa = 1e9;
@@ -250,7 +250,7 @@ TEST_CASE("waves that die out are meshed where they live, up to a gigahertz",
   CHECK(std::abs(value_of(answer) / plane - 1.0) < 5e-3);
 }
 
-TEST_CASE("a sweep too wide for its basis ends with the frequency up to which it is sound",
+TEST_CASE("a sweep too wide for its basis is refused with the highest reliable frequency",
           "[pillar]") {
   PillarScene scene = sweep_scene(damped_material(true));
   for (int i = 1; i <= 40; ++i) test::as<HarmonicDrive>(scene).frequencies_Hz.push_back(2e5 * i);

@@ -121,7 +121,7 @@ TEST_CASE("a sideways push bends the pillar as a beam", "[pillar]") {
   CHECK(value_of(simulate_pillar(scene), "top_displacement") == Approx(beam_m).epsilon(3e-3));
 }
 
-TEST_CASE("what quadrants cannot read is refused", "[pillar]") {
+TEST_CASE("results that quadrants cannot read are refused", "[pillar]") {
   PillarScene scene = sideways_scene();
   scene.electrodes->quadrants = false;
   CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("quadrants = true"));
@@ -130,7 +130,7 @@ TEST_CASE("what quadrants cannot read is refused", "[pillar]") {
   CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("sampled"));
 }
 
-TEST_CASE("a film left out under a sideways push is within the error told", "[pillar]") {
+TEST_CASE("a film left out under a sideways push stays within the reported error", "[pillar]") {
   PillarScene scene = sideways_scene();
   scene.electrodes.reset();
   scene.geometry.length_m = 60e-6;
@@ -165,7 +165,7 @@ PillarScene at_rest(PillarScene scene) {
 
 }  // namespace
 
-TEST_CASE("quadrants read a slow sideways load as they read one at rest", "[pillar]") {
+TEST_CASE("quadrants read a slow sideways load as they read a static one", "[pillar]") {
   const bool is_sampled = GENERATE(false, true);
   const std::string name = is_sampled ? "quadrant_voltage" : "quadrant_charge";
   PillarScene scene = slow_scene(is_sampled);

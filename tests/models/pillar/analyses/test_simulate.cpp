@@ -53,7 +53,7 @@ TEST_CASE("modal answers lie within their error estimates", "[pillar]") {
   }
 }
 
-TEST_CASE("a tolerance that is smaller needs no fewer unknowns", "[pillar]") {
+TEST_CASE("a smaller tolerance needs no fewer unknowns", "[pillar]") {
   PillarScene scene = pillar_scene();
   scene.tolerance = 1e-1;
   const int few = simulate_pillar(scene).unknowns;
@@ -69,7 +69,7 @@ TEST_CASE("a load beyond buckling is refused with the buckling pressure", "[pill
   CHECK_NOTHROW(simulate_pillar(scene));
 }
 
-TEST_CASE("scenes that contradict themselves are refused by name", "[pillar]") {
+TEST_CASE("contradictory scenes are refused with the key", "[pillar]") {
   PillarScene scene = pillar_scene();
   SECTION("no load") {
     test::as<StaticDrive>(scene).pressure_Pa = 0.0;

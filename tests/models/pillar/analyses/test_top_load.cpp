@@ -49,7 +49,7 @@ double area_m2(const PillarScene& scene) {
 
 }  // namespace
 
-TEST_CASE("a pillar of Poisson ratio 0 takes E A u/L, and bears it evenly", "[pillar]") {
+TEST_CASE("a pillar of Poisson ratio 0 takes the force E A u/L, evenly distributed", "[pillar]") {
   const PillarScene scene = moved_pillar(-1e-6, 0.0);
   const SceneAnswer answer = simulate_pillar(scene);
   const double stiffness_N_m = 1.8e6 * area_m2(scene) / 120e-6;
@@ -133,7 +133,8 @@ TEST_CASE("a film under a moved pillar: open, shorted and held answers are recip
         Approx(-value_of(open, "electrode_charge") / -1e-6).epsilon(1e-7));
 }
 
-TEST_CASE("pressed by the force it took, a pillar on its film moves nearly as far", "[pillar]") {
+TEST_CASE("a pillar on its film moves nearly as far under the pressure of the same force",
+          "[pillar]") {
   const PillarScene scene = on_piezo_film(moved_pillar(-1e-6, .33));
   const SceneAnswer moved = simulate_pillar(scene);
   PillarScene pressed = scene;
@@ -151,7 +152,7 @@ TEST_CASE("pressed by the force it took, a pillar on its film moves nearly as fa
         Approx(value_of(moved, "electrode_voltage")).epsilon(0.05));
 }
 
-TEST_CASE("a top moved sideways takes the shear that moves it as far", "[pillar]") {
+TEST_CASE("a top moved sideways takes the shear that causes the same displacement", "[pillar]") {
   PillarScene moved = moved_pillar(1e-6, .33);
   test::as<StaticDrive>(moved).direction = LoadDirection::kLateral;
   if (GENERATE(false, true)) {
@@ -194,7 +195,7 @@ TEST_CASE("a strip takes E b u/L per metre, and a film left out changes force wi
   }
 }
 
-TEST_CASE("a newton on a wider tip is a newton", "[pillar]") {
+TEST_CASE("a force on a wider tip stays the same force", "[pillar]") {
   PillarScene scene = moved_pillar(-1e-6, .33);
   scene.geometry.tip = {10e-6, 10e-6};
   SceneAnswer on_mesh;
@@ -203,7 +204,7 @@ TEST_CASE("a newton on a wider tip is a newton", "[pillar]") {
   CHECK(unit_top_force(model).sum() == Approx(1.0).epsilon(1e-12));
 }
 
-TEST_CASE("moved scenes that cannot be are refused by name", "[pillar]") {
+TEST_CASE("impossible displacements are refused with the reason", "[pillar]") {
   PillarScene scene = moved_pillar(-1e-6, .33);
   SECTION("beyond buckling between foot and plate") {
     test::as<StaticDrive>(scene).displacement_m = -9e-6;  // Engesser: 7.2 um
@@ -246,7 +247,7 @@ TEST_CASE("a slender pillar under a plate buckles as an upright column", "[pilla
   CHECK(upright_Pa / free_Pa == Approx(4.0).epsilon(1e-2));
 }
 
-TEST_CASE("a plate may press a pillar as far as it buckles, not beyond", "[pillar]") {
+TEST_CASE("a plate presses a pillar up to buckling but not beyond", "[pillar]") {
   PillarScene scene;
   scene.pillar.E0_Pa = 1.8e6;
   scene.pillar.nu = .33;

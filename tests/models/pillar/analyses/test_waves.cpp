@@ -68,7 +68,7 @@ double wave_error(const SceneAnswer& answer, const std::function<double(double)>
 
 }  // namespace
 
-TEST_CASE("a pressure put on at once makes the rod's end a triangular wave of twice the static sag",
+TEST_CASE("a sudden pressure moves the rod's end in a wave of twice the static displacement",
           "[pillar]") {
   PillarScene scene = rod_scene(0.0, 3e-5);
   test::as<TransientDrive>(scene).history = {{0.0, kPressure_Pa}, {1.0, kPressure_Pa}};
@@ -84,7 +84,7 @@ TEST_CASE("a pressure put on at once makes the rod's end a triangular wave of tw
   CHECK(std::abs(u.value[at]) <= 0.02 * 2.0 * static_m);  // back where it began
 }
 
-TEST_CASE("a pulse runs up and down the rod as d'Alembert says", "[pillar]") {
+TEST_CASE("a pulse runs up and down the rod by d'Alembert's solution", "[pillar]") {
   const double duration_s = 3e-6;
   const double pi = std::numbers::pi;
   PillarScene scene = rod_scene(0.0, 4e-5);
@@ -103,7 +103,7 @@ TEST_CASE("a pulse runs up and down the rod as d'Alembert says", "[pillar]") {
   CHECK(wave_error(answer, F) <= scene.tolerance);
 }
 
-TEST_CASE("a load that comes slowly is a static load", "[pillar]") {
+TEST_CASE("a slow load gives the static answer", "[pillar]") {
   // Over a hundred periods of the lowest mode; what still rings is T/(pi ramp) of the static value.
   PillarScene scene = rod_scene(0.33, 2.2e-3);
   test::as<TransientDrive>(scene).history = {
@@ -167,7 +167,7 @@ TEST_CASE("one relaxing mode: closed form, Runge-Kutta and extremes", "[pillar][
     CHECK(mode.displacement() == Approx((1.0 - std::cos(4.5)) / 9.0).epsilon(1e-13));
   }
   SECTION("with one term it is the solution of its differential equation") {
-    // u'' + .5 u + .5 d = f, d' = u' - d/.7, f a ramp from 1 to 3 over 2 s.
+    // u'' + 0.5 u + 0.5 d = f, d' = u' - d/0.7, f a ramp from 1 to 3 over 2 s.
     RelaxingMode mode(1.0, {{0.5, 0.5, 0.7}});
     mode.advance(0.5, 1.0, 1.5);
     mode.advance(1.5, 1.5, 3.0);
@@ -201,7 +201,7 @@ TEST_CASE("one relaxing mode: closed form, Runge-Kutta and extremes", "[pillar][
     mode.advance(1e-9, 1.0, 1.0);
     CHECK(mode.displacement() == Approx(0.5e-18).epsilon(1e-3));  // f t^2/2: mass alone
     mode.advance(1e14, 1.0, 1.0);
-    CHECK(mode.displacement() == Approx(1e-6 / 0.1).epsilon(1e-6));  // E_inf = .1
+    CHECK(mode.displacement() == Approx(1e-6 / 0.1).epsilon(1e-6));  // E_inf = 0.1
   }
 }
 
@@ -239,13 +239,14 @@ void check_advice(LoadDirection direction, double tolerance) {
   CHECK(simulate_pillar(scene).largest_relative_error <= scene.tolerance);
 }
 
-TEST_CASE("a jump too sharp for the tolerance is refused with a rise and a tolerance that do",
+TEST_CASE("a jump too sharp for the tolerance is refused with a rise time and tolerance that work",
           "[pillar]") {
   check_advice(LoadDirection::kLateral, 3e-3);
   check_advice(LoadDirection::kLateral, 3e-4);
 }
 
-TEST_CASE("a ramp too steep for the tolerance is refused with how far to stretch it", "[pillar]") {
+TEST_CASE("a ramp too steep for the tolerance is refused with a longer rise time that works",
+          "[pillar]") {
   PillarScene scene = rod_scene(0.33, 1e-4);
   test::as<TransientDrive>(scene).direction = LoadDirection::kLateral;
   scene.tolerance = 1e-3;
@@ -263,6 +264,6 @@ TEST_CASE("a ramp too steep for the tolerance is refused with how far to stretch
   CHECK(simulate_pillar(scene).largest_relative_error <= scene.tolerance);
 }
 
-TEST_CASE("a jump along the axis is answered as its refusal says", "[pillar][slow]") {
+TEST_CASE("a jump along the axis can be solved as its refusal proposes", "[pillar][slow]") {
   check_advice(LoadDirection::kAxial, 1e-3);
 }

@@ -31,7 +31,7 @@ SymmetricSparse isotropic_stiffness(const SmallBody& body, double E_Pa, double n
 
 }  // namespace
 
-TEST_CASE("a confined bar has the oedometric modulus up to nu = .4999", "[pillar][stability]") {
+TEST_CASE("a confined bar has the oedometric modulus up to nu = 0.4999", "[pillar][stability]") {
   struct Case {
     double nu;
     const char* M_over_E;
@@ -50,7 +50,7 @@ TEST_CASE("a confined bar has the oedometric modulus up to nu = .4999", "[pillar
 }
 
 TEST_CASE("a thick tube under inner pressure follows Lame", "[pillar]") {
-  // a = 1, b = 2, p = 1, plane strain, E = 1.8, nu = .33. Lame (1852); Timoshenko & Goodier,
+  // a = 1, b = 2, p = 1, plane strain, E = 1.8, nu = 0.33. Lame (1852); Timoshenko & Goodier,
   // art. 28.
   SmallBody body(kinematics_of(Motion::kLongitudinal), {1, 1.4, 2}, {0, 1}, 10);
   body.hold(1, everywhere());
@@ -68,7 +68,7 @@ TEST_CASE("a thick tube under inner pressure follows Lame", "[pillar]") {
   CHECK(stress(1.5)[2] == Approx(.22).epsilon(1e-7));
 }
 
-TEST_CASE("a bonded disc is as stiff as tabulated for rubber bearings", "[pillar][stability]") {
+TEST_CASE("a bonded disc has the tabulated stiffness of rubber bearings", "[pillar][stability]") {
   // E_a/E of a disc bonded to two rigid plates, R/h, by another finite-element program, whose last
   // digit is uncertain by two;
   // Gent & Lindley's 1 + 2 S^2 (1959) is 2 to 6 % off.
@@ -155,7 +155,7 @@ TEST_CASE("a sticking punch is stiffer by the tabulated amount", "[pillar]") {
 }
 
 TEST_CASE("a bonded layer under a wave of pressure sinks by the kernel of the layer", "[pillar]") {
-  // Plane strain, w = 2 (1 - nu^2) K(kt)/(E k) p cos kx (eq. 10), nu = .29.
+  // Plane strain, w = 2 (1 - nu^2) K(kt)/(E k) p cos kx (eq. 10), nu = 0.29.
   struct Case {
     double kt;
     const char* K;
@@ -186,7 +186,7 @@ TEST_CASE("a bar without Poisson contraction vibrates at odd multiples of c/4L",
   CHECK(modes[2].frequency_Hz == Approx(5.0 * modes[0].frequency_Hz).epsilon(1e-9));
 }
 
-TEST_CASE("a slender cantilever bends as Timoshenko says", "[pillar][reduction]") {
+TEST_CASE("a slender cantilever bends by Timoshenko's formula", "[pillar][reduction]") {
   // P L^3/(3 E I) + P L/(k G A), Cowper's k = 6 (1 + nu)/(7 + 6 nu), J. Appl. Mech. 33 (1966) 335.
   const double slenderness = GENERATE(3.0, 12.0, 48.0);
   const double d = 40e-6;
@@ -216,7 +216,7 @@ TEST_CASE("a slender cantilever bends as Timoshenko says", "[pillar][reduction]"
 
 TEST_CASE("a slender pillar buckles at Euler's load", "[pillar][reduction]") {
   // Symmetry makes a clamped-free pillar (K = 2) half of one hinged at both ends (K = 1) and a
-  // quarter of one clamped at both (K = .5), so that a pillar of three diameters buckles at these.
+  // quarter of one clamped at both (K = 0.5), so that a pillar of three diameters buckles at these.
   const double force_N = std::pow(kPi, 3) * kModulus_Pa * std::pow(40e-6, 4) / 64.0;
   const auto euler_N = [&](double K) { return force_N / std::pow(K * 120e-6, 2); };
   CHECK(euler_N(2.0) == printed("3.875785e-5"));
@@ -230,7 +230,7 @@ TEST_CASE("a slender pillar buckles at Euler's load", "[pillar][reduction]") {
   const double euler_Pa = kPi * kPi * kModulus_Pa / (64.0 * slenderness * slenderness);
   if (slenderness == 3.0) CHECK(euler_Pa == printed("30842.51"));
   CAPTURE(slenderness, buckling(axial, lateral).pressure_Pa / euler_Pa);
-  // Shear takes pi^2 E I/(4 k G A L^2) = .46/slenderness^2 off; the clamp gives a little back.
+  // Shear takes pi^2 E I/(4 k G A L^2) = 0.46/slenderness^2 off; the clamp gives a little back.
   CHECK(buckling(axial, lateral).pressure_Pa ==
         Approx(euler_Pa).epsilon(0.1 / slenderness + 0.2 / (slenderness * slenderness)));
 }

@@ -39,8 +39,8 @@ TEST_CASE("frequencies of smooth modes converge with twice the degree in h",
 
 TEST_CASE("the rim of the bond holds uniform meshes to h^1.4, whatever their degree",
           "[pillar][convergence]") {
-  // Energy error h^(2 lambda) with the corner's exponent lambda = .692 at nu = .33 (clamped-free 90
-  // degrees; Williams, J. Appl. Mech. 19 (1952) 526).
+  // Energy error h^(2 lambda) with the corner's exponent lambda = 0.692 at nu = 0.33 (clamped-free
+  // 90 degrees; Williams, J. Appl. Mech. 19 (1952) 526).
   const int degree = GENERATE(1, 2, 4);
   const auto error = [&](double size_m) {
     return std::abs(top_m({.degree = degree, .uniform_m = size_m}) / kTop_m - 1.0);

@@ -41,9 +41,10 @@ const Discretisation kFine{.degree = 7, .layers = 3, .shaft_elements = 2};
 
 }  // namespace
 
-TEST_CASE("the modes of the pillar have their converged frequencies, on a film and without",
+TEST_CASE("the modes of the pillar have their converged frequencies, with and without a film",
           "[pillar][golden]") {
-  // Two orders of an independent program agree to the digits given, Hz; nu .33, E 1.8 MPa, rho 965.
+  // Two orders of an independent program agree to the digits given, Hz; nu 0.33, E 1.8 MPa,
+  // rho 965.
   struct Case {
     Motion motion;
     bool film;
@@ -99,7 +100,7 @@ TEST_CASE("first modes follow Poisson ratio up to the incompressible limit",
   const auto c =
       GENERATE(Case{.45, 16190.4, 91590.2, 52834.0}, Case{.49, 16270.0, 91972.1, 52120.0},
                Case{.499, 16290.1, 92067.4, 51963.3}, Case{.4999, 16292.2, 92077.1, 51947.8},
-               // limits: the step from .4999 to .5 is a ninth of that from .499 to .4999
+               // limits: the step from 0.4999 to 0.5 is a ninth of that from 0.499 to 0.4999
                Case{.499999, 16292.43, 92078.2, 51946.1}, Case{.5, 16292.43, 92078.2, 51946.1});
   const auto first = [&](Motion motion) {
     const PillarModel model(geometry(true), kFine, media(c.nu, true), {.motion = motion});
@@ -126,7 +127,7 @@ TEST_CASE("higher modes of an incompressible pillar continue those of nearly inc
   }
 }
 
-TEST_CASE("buckling pressures are the converged ones", "[pillar][golden]") {
+TEST_CASE("buckling pressures equal the converged ones", "[pillar][golden]") {
   struct Case {
     double nu;
     bool film;
@@ -181,7 +182,7 @@ TEST_CASE("a pressed pillar softens as the root of one minus its share of the bu
 }
 
 // Ovalling modes of a long pillar lie close together above the cut-off of its section.
-TEST_CASE("modes of slender pillars are found, however close they lie", "[pillar][stability]") {
+TEST_CASE("closely spaced modes of slender pillars are all found", "[pillar][stability]") {
   const double slenderness = GENERATE(40.0, 100.0);
   const PillarGeometry geometry{.diameter_m = 40e-6, .length_m = slenderness * 40e-6};
   const Discretisation mesh{.degree = 4, .layers = 2, .longest_m = 20e-6};

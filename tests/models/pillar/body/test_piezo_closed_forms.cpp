@@ -17,7 +17,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kThickness_m = 25e-6;
 
-// PVDF: E 2 GPa, nu .29, eps_r 12, rho 1780; charge constants in pC/N.
+// PVDF: E 2 GPa, nu 0.29, eps_r 12, rho 1780; charge constants in pC/N.
 Medium pvdf(double d31, double d32, double d33) {
   PiezoMatrix d = PiezoMatrix::Zero();
   d(2, 0) = d31 * 1e-12;
@@ -104,7 +104,7 @@ TEST_CASE("a plate clamped sideways gives a third less", "[pillar]") {
   CHECK(std::abs(answer.displacement_m_V) == printed("19.78873e-12"));
 }
 
-TEST_CASE("a strip clamped sideways in plane stress gives V/(p t) = .224349", "[pillar]") {
+TEST_CASE("a strip clamped sideways in plane stress gives V/(p t) = 0.224349", "[pillar]") {
   const Plate plate(Motion::kPlaneSymmetric, pvdf(22, 3, -30), true);
   const Eigen::MatrixXd form = plane_stress_moduli(coupled_form(pvdf(22, 3, -30)));
   const double voltage_V = answer_of(plate, form, 1e3).voltage_V;
@@ -216,7 +216,7 @@ TEST_CASE("uniform pressure on a wide film gives the tabulated voltages", "[pill
         printed(c.millivolt, 1.0, c.plane ? 0.5 : 1.5));
 }
 
-TEST_CASE("a full electrode gives a small part of the voltage, one way too much",
+TEST_CASE("a full electrode reads a small part of the voltage; one-way coupling overestimates it",
           "[pillar][golden]") {
   // d31 = d32 = 23, d33 = -33 pC/N, 10 kPa, t = 25 um; bottom grounded.
   PillarGeometry geometry;

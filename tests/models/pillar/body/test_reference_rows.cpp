@@ -1,5 +1,5 @@
 // Rows of converged values by an independent program that vary one number of the pillar at a time:
-// d 40, l 120 um, nu .33, rho 965 unless said; film of PVDF, radius 60 um.
+// d 40, l 120 um, nu 0.33, rho 965 unless said; film of PVDF, radius 60 um.
 #include "models/maths/gauss_legendre.h"
 #include "models/pillar/body/pillar_modes.h"
 
@@ -74,7 +74,8 @@ TEST_CASE("the first lateral mode follows the film's thickness by its last digit
                   kMesh) == Approx(c.lateral_Hz).epsilon(2e-6));
 }
 
-TEST_CASE("torsion tells the modulus and Poisson's ratio of the seed from others", "[pillar]") {
+TEST_CASE("torsion distinguishes the modulus and Poisson's ratio of the seed from others",
+          "[pillar]") {
   struct Case {
     double E_Pa, nu, torsion_Hz;
   };
@@ -84,7 +85,8 @@ TEST_CASE("torsion tells the modulus and Poisson's ratio of the seed from others
         Approx(c.torsion_Hz).epsilon(1e-5));
 }
 
-TEST_CASE("stress near the rim of the bond, at .95 R, at five Poisson ratios", "[pillar][golden]") {
+TEST_CASE("stress near the rim of the bond, at 0.95 R, at five Poisson ratios",
+          "[pillar][golden]") {
   struct Case {
     double nu, at_95;
   };
@@ -95,7 +97,7 @@ TEST_CASE("stress near the rim of the bond, at .95 R, at five Poisson ratios", "
                           {});
   const PillarState state = model.solve(-1e4 * model.top_traction());
   const double r = 0.95 * model.radius_m();
-  // The reference itself is good to .05 % there from nu = .45 on.
+  // The reference itself is good to 0.05 % there from nu = 0.45 on.
   CHECK(-model.stress_at(state, model.element_at(r, 0.0, kPillarRegion), r, 0.0)[2] ==
         Approx(c.at_95).epsilon(2e-3));
 }

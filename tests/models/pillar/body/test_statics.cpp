@@ -69,7 +69,7 @@ TEST_CASE(
     const auto base = [&](double r) {
       return -model.stress_at(state, model.element_at(r, 0.0, kPillarRegion), r, 0.0)[2];
     };
-    // Near the rim the reference itself is good to .05 %.
+    // Near the rim the reference itself is good to 0.05 %.
     CHECK(base(0.5 * R) == Approx(c.base_half).epsilon(1e-4));
     CHECK(base(0.9 * R) == Approx(c.base_nine).epsilon(2e-3));
     CHECK(-model.mean_stress(state, 2, 0.0, kPillarRegion, R) == Approx(1e4).epsilon(2e-3));

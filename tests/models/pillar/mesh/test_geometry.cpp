@@ -54,7 +54,7 @@ TEST_CASE("a flared pillar has the volume of its outline", "[pillar]") {
   CHECK(model.top_traction().sum() == Approx(kPi * 35e-6 * 35e-6).epsilon(1e-12));
 }
 
-TEST_CASE("rigid motions of a flared pillar cost nothing, uniform strain what it must",
+TEST_CASE("rigid motions of a flared pillar have no energy, uniform strain the exact energy",
           "[pillar]") {
   // Both fields lie in the stretched elements, so this is a patch test of the map.
   const double nu = GENERATE(.33, .49);
@@ -76,7 +76,7 @@ TEST_CASE("rigid motions of a flared pillar cost nothing, uniform strain what it
   CHECK(energy(axial.stiffness(), widen) == Approx(density * volume).epsilon(1e-10));
 }
 
-TEST_CASE("a mushroom tip slows the pillar, a fillet stiffens it", "[pillar]") {
+TEST_CASE("a mushroom tip lowers the frequency, and a fillet raises it", "[pillar]") {
   const Discretisation mesh{.degree = 6, .layers = 2, .shaft_elements = 2};
   const auto lateral_Hz = [&](const PillarGeometry& geometry) {
     const PillarModel model(geometry, mesh, kSoft, {.motion = Motion::kLateral});
@@ -87,7 +87,7 @@ TEST_CASE("a mushroom tip slows the pillar, a fillet stiffens it", "[pillar]") {
   PillarGeometry fillet;
   fillet.foot = {10e-6, 20e-6};
   const double plain_Hz = lateral_Hz({});
-  // Rayleigh: the added tip mass over the modal mass of .24 m L halves into the frequency.
+  // Rayleigh: the added tip mass over the modal mass of 0.24 m L halves into the frequency.
   const double added = 12e-6 * (2.0 * 20e-6 * 15e-6 / 3.0 + 225e-12 / 5.0) / (120e-6 * 400e-12);
   CHECK(lateral_Hz(mushroom) == Approx(plain_Hz / std::sqrt(1.0 + added / 0.25)).epsilon(0.03));
   CHECK(lateral_Hz(fillet) > 1.05 * plain_Hz);
@@ -107,7 +107,7 @@ TEST_CASE("stresses in a flared pillar balance the load on every level", "[pilla
   }
 }
 
-TEST_CASE("a film just as wide as the pillar, or its foot, is meshed", "[pillar]") {
+TEST_CASE("a film exactly as wide as the pillar or its foot is meshed", "[pillar]") {
   PillarGeometry geometry;
   geometry.film = FilmGeometry{25e-6, 20e-6};
   PillarMedia media = kSoft;
@@ -118,7 +118,7 @@ TEST_CASE("a film just as wide as the pillar, or its foot, is meshed", "[pillar]
   CHECK(top_m == Approx(659.8e-9).epsilon(1e-3));
 }
 
-TEST_CASE("impossible outlines are refused by name", "[pillar]") {
+TEST_CASE("impossible outlines are refused with the key", "[pillar]") {
   const auto mesh = [](const PillarGeometry& geometry) { return pillar_mesh(geometry, {}); };
   PillarGeometry g;
   SECTION("a tip thinned to nothing") {

@@ -37,7 +37,7 @@ std::vector<double> heights(double far) {
 
 }  // namespace
 
-TEST_CASE("a disc of pressure sinks a half-space by 2(1-nu^2)pa/E, its rim by 2/pi of that",
+TEST_CASE("a half-space sinks by 2(1-nu^2)pa/E under a pressed disc, by 2/pi of that at the rim",
           "[pillar]") {
   // w(0) = 2 (1 - nu^2) p a/E, w(a) = 4 (1 - nu^2) p a/(pi E), mean over the disc
   // 16 (1 - nu^2) p a/(3 pi E). Johnson, Contact Mechanics (1985), 3.4. The edge of the body is

@@ -48,7 +48,7 @@ Diagonal string_like(int size, double scale = 1.0) {
 
 }  // namespace
 
-TEST_CASE("modes are found to the residual asked for, in any unit", "[pillar]") {
+TEST_CASE("modes are found to the requested residual, in any unit", "[pillar]") {
   const double scale = GENERATE(1.0, 1e-13, 1e9);  // of 1/omega^2 in s^2
   const Diagonal body = string_like(300, scale);
   for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
@@ -72,7 +72,7 @@ TEST_CASE("modes that are nearly equal are all found", "[pillar]") {
   for (int i = 0; i < 4; ++i) CHECK(pairs.values[i] == Approx(body.value[i]).epsilon(1e-12));
 }
 
-TEST_CASE("a small system gives all its modes, and a small space too few for many", "[pillar]") {
+TEST_CASE("a small system gives all its modes, and a small space stops with too few", "[pillar]") {
   const Diagonal small = string_like(7);
   const EigenPairs all = small.largest(7, {});
   REQUIRE(all.converged);
@@ -86,7 +86,7 @@ TEST_CASE("a small system gives all its modes, and a small space too few for man
   CHECK(stopped.values[0] == Approx(1.0).epsilon(1e-3));  // rough
 }
 
-TEST_CASE("an operator of low rank gives the few modes that it has", "[pillar]") {
+TEST_CASE("an operator of low rank gives its few modes", "[pillar]") {
   Diagonal body = string_like(120);
   body.value.tail(117).setZero();  // all starts lie in a space of three
   const EigenPairs pairs = body.largest(3, {});

@@ -18,7 +18,7 @@ namespace {
 constexpr double kShare = 0.022066;  // g of the one term
 constexpr double kTime_s = 2.0;
 
-// One relaxing shear term at constant bulk modulus, E 1.8 MPa, nu .33.
+// One relaxing shear term at constant bulk modulus, E 1.8 MPa, nu 0.33.
 Material one_term() {
   Material material;
   material.E0_Pa = 1.8e6;
@@ -64,7 +64,7 @@ TEST_CASE("a confined bar relaxes from M_0 to M_inf at constant bulk modulus", "
 
 TEST_CASE("a free bar of one shear term relaxes with its time stretched", "[pillar]") {
   // E = 9 K G/(3 K + G) is again one term: tau_E/tau = (3K + G_0)/(3K + G_inf) = 1.00250708,
-  // E_inf/E_0 = .98038576. Tschoegl (1989), ch. 3, by partial fractions.
+  // E_inf/E_0 = 0.98038576. Tschoegl (1989), ch. 3, by partial fractions.
   const Bar bar(false);
   const ExactViscoelasticBody exact(bar.system);
   const double tau_s = 1.00250708 * kTime_s;

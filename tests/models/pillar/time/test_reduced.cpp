@@ -38,7 +38,7 @@ ViscoelasticPillar pillar_on_film(const Material& material) {
 
 }  // namespace
 
-TEST_CASE("creep with a film and shear that relaxes alone is the whole body's to 1e-5",
+TEST_CASE("reduced creep with a film and shear relaxation alone is the whole body's to 1e-5",
           "[pillar]") {
   const ViscoelasticPillar pillar = pillar_on_film(soft(true));
   const ReducedBody reduced = reduce_quasi_static(pillar.system(), 1e-5);
@@ -66,7 +66,7 @@ TEST_CASE("with constant Poisson ratio and no film one vector is exact", "[pilla
   CHECK(reduced.error <= 1e-8);
 }
 
-TEST_CASE("a dynamic basis that its limit stops says so, and how wrong it is", "[pillar]") {
+TEST_CASE("a dynamic basis stopped by its size limit reports that and its error", "[pillar]") {
   const PillarModel model({}, {.degree = 4, .layers = 1},
                           {isotropic_medium(1.8e6, 0.33, 965.0), {}}, {.motion = Motion::kLateral});
   const ViscoelasticSystem system = viscoelastic_system(model, soft(true), true);
@@ -94,7 +94,7 @@ TEST_CASE("a dynamic basis that its limit stops says so, and how wrong it is", "
   }
 }
 
-TEST_CASE("the body's mass as a whole is what an acceleration acts on", "[pillar]") {
+TEST_CASE("an acceleration acts on the whole mass of the body", "[pillar]") {
   // Free to move, so that no mass is lost in the held nodes.
   const Motion motion = GENERATE(Motion::kLongitudinal, Motion::kLateral);
   const PillarModel model({}, {.degree = 3, .layers = 1}, {isotropic_medium(1.8e6, 0.3, 965.0), {}},

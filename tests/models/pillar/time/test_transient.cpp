@@ -126,7 +126,7 @@ TEST_CASE("energy never grows without work, whatever the step", "[pillar][stabil
   CHECK(std::isfinite(energy));
 }
 
-TEST_CASE("exact modes and steps of rising fineness give one answer", "[pillar]") {
+TEST_CASE("exact modes and increasingly fine steps give one answer", "[pillar]") {
   // Under a jump, a ramp and a jump back, with two relaxation times near the resonance.
   const Body body(rod_material({{0.3, 0.3, 1e-6}, {0.2, 0.2, 2e-5}}));
   TransientRequest request{.load = body.reduced.system.load, .end_s = 3e-5};

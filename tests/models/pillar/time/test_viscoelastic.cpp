@@ -182,7 +182,7 @@ TEST_CASE(
   CHECK(largest <= 1e-8 * size);
 }
 
-TEST_CASE("modes with retardation spectra and Laplace inversion give one creep", "[pillar]") {
+TEST_CASE("modes with retardation spectra and Laplace inversion give the same creep", "[pillar]") {
   Material material = soft_material();
   material.terms[0].k = 0.1;  // neither constant bulk nor constant Poisson ratio
   material.terms[1].k = 0.4;
@@ -204,8 +204,8 @@ TEST_CASE("Laplace inversion returns known functions", "[pillar]") {
 
 TEST_CASE("a pillar on PVDF creeps under 10 kPa as tabulated, shear alone or bulk too",
           "[pillar]") {
-  // Converged by an independent program to its steps, nm: 0, .01, .1, 1, 3, 10, 30 s; film 25 um
-  // thick, 60 um in radius, E 2 GPa, nu .29.
+  // Converged by an independent program to its steps, nm: 0, 0.01, 0.1, 1, 3, 10, 30 s; film 25 um
+  // thick, 60 um in radius, E 2 GPa, nu 0.29.
   const bool shear_only = GENERATE(false, true);
   const std::vector<double> expected_nm =
       shear_only
