@@ -178,8 +178,7 @@ TEST_CASE("relaxation too slow for a history is left out", "[pillar][plan]") {
   CHECK(effect_of(plan_effects(scene).effects, "relaxation").on);
 }
 
-TEST_CASE("modes of a relaxed solid vibrate with its remaining modulus",
-          "[pillar][plan]") {
+TEST_CASE("modes of a relaxed solid vibrate with its remaining modulus", "[pillar][plan]") {
   PillarScene scene = pillar_on_film();
   scene.film.reset();
   scene.geometry.film.reset();

@@ -117,8 +117,7 @@ TEST_CASE("neighbours are not left out if shear is read", "[array][plan]") {
   CHECK_FALSE(effect_of(plan_effects(scene), "crosstalk").on);
 }
 
-TEST_CASE("neighbours too far to matter are left out and then cost nothing",
-          "[array][plan]") {
+TEST_CASE("neighbours too far to matter are left out and then cost nothing", "[array][plan]") {
   ArrayScene scene = seed_scene();
   scene.wanted = {"centre_voltage"};
   scene.tolerance = 1e-2;

@@ -131,8 +131,7 @@ TEST_CASE("buckling and matting exchange near a spacing of 20 um", "[models][des
   CHECK(longest_unmatted_m(kD, 20e-6, {}) == Approx(250e-6).epsilon(0.01));  // read off a figure
 }
 
-TEST_CASE("limits of diameter and spacing exclude a design of any length",
-          "[models][design]") {
+TEST_CASE("limits of diameter and spacing exclude a design of any length", "[models][design]") {
   SensorRequirements r;
   r.coarsest_pitch_m = 90e-6;
   CHECK(longest_pillar(kD, kS, {}, r).limited_by == "resolution");

@@ -36,7 +36,8 @@ TEST_CASE("readings far slower than in the rig file end the run before the appro
   plan.baseline_s = 2.0;
   const RunOutcome outcome = rig.run(plan);
   CHECK(outcome.status == "interrupted");
-  CHECK_THAT(outcome.reason, Contains("10.0 readings/s") && Contains("expected_rate in the rig file is 80.0 Hz"));
+  CHECK_THAT(outcome.reason,
+             Contains("10.0 readings/s") && Contains("expected_rate in the rig file is 80.0 Hz"));
   CHECK(rig.has_event("phase", "tare"));
   CHECK_FALSE(rig.has_event("phase", "approach"));
   CHECK(rig.emulated.outcome().final_position_m == 0.0);
