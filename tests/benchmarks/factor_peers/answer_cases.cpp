@@ -222,7 +222,6 @@ std::vector<AnswerCase> answer_cases() {
           scene_case("free disc, modes to 0.1 %", free_disc_scene()),
           scene_case("buckling to 0.01 %", buckling_scene()),
           scene_case("film voltage to 0.1 %", sensor_scene()),
-          scene_case("film voltage, coupled", with_all_effects_on(sensor_scene())),
           scene_case("film voltage, nu = 0.5", incompressible_scene()),
           scene_case("creep to 0.01 %", creep_scene()),
           scene_case("touch and readout", touch_scene()),
