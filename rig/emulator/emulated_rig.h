@@ -28,7 +28,7 @@ struct EmulatedRigOptions {
   bool keeps_lines = false;  // keeps the lines of the amplifier for sent_lines()
 };
 
-// What really happened on the bench, whatever was sent over the wires.
+// What really happened on the bench, independent of the bytes on the wires.
 struct EmulatedOutcome {
   double peak_force_N = 0.0;
   double peak_depth_m = 0.0;

@@ -65,7 +65,7 @@ void check_sign(const TestRun& run, double touched_N) {
 }
 
 // With the stiffness measured at the touch, a ramp that reaches the soft limit must come to a stop
-// before the capacity of the cell, whatever modulus was guessed.
+// before the capacity of the cell, independent of the guessed modulus.
 void check_stiffness(TestRun& run, double least_N_m) {
   const Preflight& expected = run.outcome.expected;
   const double least_peak_N = least_N_m * expected.stage_travel_of(deepest_m(run.phases));

@@ -61,7 +61,7 @@ void doubt_line(RunSession& session, RunOutcome& outcome) {
   session.event("doubt", "line_noise", outcome.doubts.back());
 }
 
-// Every record says which errors would have been detected, even if none was found.
+// Every record states which errors would have been detected, even if none was found.
 void record_hidden_error(RunSession& session, RunOutcome& outcome) {
   if (outcome.noise_N <= 0.0) return;  // ended before the noise was measured
   outcome.hidden_error_N = SpikeWatch::kSurelyFound * outcome.noise_N;

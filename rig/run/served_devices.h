@@ -57,7 +57,7 @@ class ServedDevices {
   LoadCell& load_cell_;
   const RigClock& clock_;
   SilenceWatch silence_;
-  double last_arrival_s_ = 0.0;  // of the newest reading that silence_ was told of
+  double last_arrival_s_ = 0.0;  // of the newest reading passed to silence_
   bool is_cell_connected_ = false;
   bool is_cell_lost_ = false;
   bool is_cell_restarted_ = false;

@@ -25,7 +25,7 @@ struct Span {
   double from_s = 0.0, to_s = 0.0;
 };
 
-// From a phase's event to the next one's.
+// The time from the event of a phase to the next phase event.
 Span span_of(const DeviceFixture& rig, const std::string& phase) {
   Span span;
   for (const RunEvent& event : rig.all<RunEvent>()) {
@@ -65,7 +65,7 @@ TEST_CASE("creep holds its force within the tolerance without overshoot, even wi
   const RunOutcome outcome = rig.run(plan);
   INFO("E0 " << options.truth.material.E0_Pa << ": " << outcome.reason);
   REQUIRE(outcome.status == "finished");
-  // Overshoot: a decelerating stop takes 60 ms, at this speed up to 4 % of the way.
+  // Overshoot: a decelerating stop takes 60 ms, at this speed up to 4 % of the distance.
   CHECK(rig.emulated.outcome().peak_force_N < 1.05 * 0.8);
   Span creep = span_of(rig, "creep");
   creep.from_s += 3.0;

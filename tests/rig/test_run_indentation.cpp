@@ -29,7 +29,7 @@ TEST_CASE("a whole run reaches its depth, records every reading and leaves the s
   INFO(outcome.reason);
   REQUIRE(outcome.status == "finished");
   CHECK(is_at_rest_and_lifted(rig));
-  // Contact is found live to a few um; the depth inherits that.
+  // The live contact is known to a few um, and so is the depth.
   CHECK(outcome.achieved_depth_m == Approx(0.13e-3).margin(3e-6));
   const EmulatedOutcome bench = rig.emulated.outcome();
   CHECK(bench.peak_depth_m == Approx(0.13e-3).margin(6e-6));
@@ -89,7 +89,7 @@ TEST_CASE("readings follow the physics at the times of the commanded moves", "[r
   const RunOutcome outcome = rig.run(short_plan());
   REQUIRE(outcome.status == "finished");
   const EmulatedTruth truth = demo_truth(10.0, 7);
-  // Long after the ramp only its depth counts: the relaxed stiffness in series with the frame.
+  // Long after the ramp only the depth matters: the relaxed stiffness in series with the frame.
   const auto moves = rig.all<CommandedMove>();
   const auto ramp = std::find_if(moves.begin(), moves.end(),
                                  [](const CommandedMove& move) { return move.purpose == "ramp"; });
@@ -142,7 +142,7 @@ TEST_CASE("a limit first stops the stage gently; a reset follows only if the for
   CHECK(outcome.status == "stopped");
   CHECK(rig.has_event("limit", "soft"));
   CHECK(rig.has_event("limit", "hard") == rig.has_event("stage_alarm", "3"));
-  // Stopped on the way, some of the depth was reached.
+  // The ramp was stopped after a part of the depth.
   CHECK(outcome.achieved_depth_m > 0.02e-3);
   CHECK_THAT(outcome.reason, Contains("stopped and lifted by"));
   CHECK(is_at_rest_and_lifted(rig));
@@ -247,7 +247,7 @@ TEST_CASE("a host that is busy when the run ends still receives the readings mad
     std::this_thread::sleep_for(std::chrono::milliseconds(160));
   };
   TestPlan plan = short_plan();
-  plan.baseline_s = 3.0;  // 150 ms of wall time: progress is told every 100 ms
+  plan.baseline_s = 3.0;  // 150 ms of wall time: progress is reported every 100 ms
   REQUIRE(rig.run(plan).status == "finished");
   REQUIRE(has_slept);
   double begun_s = 0.0;
@@ -255,7 +255,7 @@ TEST_CASE("a host that is busy when the run ends still receives the readings mad
     if (event.name == "phase" && event.value == "baseline_after") begun_s = event.host_time_s;
   }
   const LoadSample last = rig.all<LoadSample>().back();
-  // Two readings, and what the smallest delay of a line may be.
+  // Two readings, and the smallest delay of a line.
   CHECK(rig.load_cell.made_at_s(last) > begun_s + plan.baseline_s - 0.1);
 }
 

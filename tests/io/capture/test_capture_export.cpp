@@ -10,7 +10,7 @@
 namespace viscard {
 namespace {
 
-// A short run with everything in it that the table shows.
+// A short run with everything that the table shows.
 CapturedRun short_run() {
   CapturedRun run = test::demo_run();
   run.status = "interrupted";
@@ -46,7 +46,7 @@ TEST_CASE("force, stage position and depth of the CSV follow calibration, moves 
           "[io][capture]") {
   const CapturedRun run = short_run();
   const CsvTable table = rows_of_segment(csv_from_text(csv_from_capture(run), "run.csv"), "tare");
-  // By hand: 1001 counts of 20 V/2^24 each through 0.7255 V/N, less the tare of 20 mN. 1e-14:
+  // By hand: 1001 counts of 20 V/2^24 each through 0.7255 V/N, minus the tare of 20 mN. 1e-14:
   // rounding.
   const double force_N = 1001.0 * 20.0 / 16777216.0 / 0.7255 - 0.02;
   CHECK(column_SI(table, "force_N").at(1) == Approx(force_N).epsilon(1e-14));

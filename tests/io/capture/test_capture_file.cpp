@@ -111,7 +111,7 @@ TEST_CASE("records are committed within the interval without a call of sync", "[
   const ScratchFolder folder;
   CaptureWriter writer(folder / "run.viscap", demo_run());
   writer.append(sample(0));
-  // Waits for the event and not for a time; the test's own timeout ends it should it never come.
+  // Waits for the commit and not for a time; the timeout of the test ends it if it never comes.
   while (writer.counts().committed == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   CHECK(writer.counts().committed == 1);
   while (writer.counts().synced == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -247,7 +247,7 @@ TEST_CASE("reading an interrupted capture changes neither the file nor its journ
     CaptureWriter writer(live, demo_run());
     for (int i = 0; i < 500; ++i) writer.append(sample(i));
     writer.sync();
-    // What a kill -9 now would leave behind.
+    // The files that a kill -9 would leave now.
     std::filesystem::copy_file(live, path);
     std::filesystem::copy_file(live.string() + "-wal", path.string() + "-wal");
   }
@@ -260,7 +260,7 @@ TEST_CASE("reading an interrupted capture changes neither the file nor its journ
   CHECK(read_file(path.string() + "-wal") == journal_before);
   CHECK(read_capture(path).load_samples.size() == 500);
 
-  // Only the main file was copied: what it holds is read, and the rest is said to be missing.
+  // Only the main file was copied: its contents are read, and an event reports the missing part.
   const auto alone = folder / "alone.viscap";
   std::filesystem::copy_file(path, alone);
   const CapturedRun part = read_capture(alone);

@@ -23,8 +23,8 @@ using test::error_text;
 using test::sample;
 using test::ScratchFolder;
 
-// The child: appends samples as fast as a quick load cell, and tells the parent over a pipe how
-// many the writer has acknowledged. Never returns.
+// The child process: appends samples as fast as a quick load cell and reports over a pipe how many
+// the writer has acknowledged. Never returns.
 [[noreturn]] void capture_until_killed(const std::filesystem::path& path, int pipe_end) {
   CaptureWriter writer(path, demo_run(), {.commit_interval_s = 0.005, .sync_interval_s = 0.02});
   for (std::int64_t i = 0;; ++i) {
@@ -57,7 +57,7 @@ KillOutcome kill_once(const ScratchFolder& folder, int number, int after_us) {
   }
   ::close(ends[1]);
   KillOutcome outcome;
-  // Killed a random time after its first word, so that the moment falls into the writing.
+  // Killed at a random time after its first report, so that it is writing at that moment.
   std::size_t word = 0;
   REQUIRE(::read(ends[0], &word, sizeof word) == sizeof word);
   std::thread killer([&] {

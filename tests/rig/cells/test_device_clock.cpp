@@ -58,7 +58,7 @@ TEST_CASE("a time garbled forward is found by the next reading", "[rig]") {
   };
   for (int i = 0; i < 5; ++i) REQUIRE(take(1e6 + 12500.0 * i, i) == Verdict::kGood);
   const double before_s = clock.time_s();
-  REQUIRE(take(1e6 + 12500.0 * 5 + 200000.0, 5) == Verdict::kGood);  // cannot be told
+  REQUIRE(take(1e6 + 12500.0 * 5 + 200000.0, 5) == Verdict::kGood);  // not detected yet
   CHECK(take(1e6 + 12500.0 * 6, 6) == Verdict::kLastWasBad);
   CHECK(clock.time_s() - before_s == Approx(2 * kPeriod_s).margin(1e-9));
   CHECK(take(1e6 + 12500.0 * 7, 7) == Verdict::kGood);

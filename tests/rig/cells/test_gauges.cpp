@@ -80,10 +80,10 @@ TEST_CASE("each kind of load cell is identified and measured by a rig check", "[
   const RigCheck check =
       check_rig(*rig.devices.stage, *rig.devices.load_cell, rig.config, rig.clock, 1.0);
   INFO(driver);
-  // A question takes its time besides the reading; a busy machine takes more.
+  // A query takes time in addition to the reading, and more on a busy machine.
   CHECK(check.rate_Hz > 20.0);
   CHECK(check.rate_Hz < 40.5);
-  // 1 mN is the last digit of the emulated Sauter; noise .5 mN.
+  // 1 mN is the last digit of the emulated Sauter; noise 0.5 mN.
   CHECK(check.force_N == Approx(options.truth.force_offset_N).margin(1e-3));
   CHECK(check.stream.unreadable == 0);
 }
@@ -108,8 +108,8 @@ TEST_CASE("lost and late answers are never taken for the answer to another query
   DeviceFixture rig(options);
   LoadCell& cell = *rig.devices.load_cell;
   cell.connect(rig.pump());
-  // The load steps while answers are on their way; every reading must have been made after it was
-  // asked for.
+  // The load steps while answers are on their way; every reading must have been made after its
+  // query.
   std::vector<std::pair<double, double>> steps;
   for (int i = 0; i < 5; ++i) {
     rig.emulated.hang_weight(0.1 * i);

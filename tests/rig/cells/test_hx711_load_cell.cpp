@@ -159,7 +159,7 @@ TEST_CASE("a missing converter is an error in the middle of a stream too", "[rig
 }
 
 TEST_CASE("a wrong baud rate is suspected from unprintable bytes", "[rig][pty]") {
-  // 115200 read at 57600: mostly bytes that no text has.
+  // 115200 baud read at 57600: mostly bytes that no text contains.
   const std::string noise("\xf8\x1e\xe6\x80\x00\xfe\x66\x98\xe0\x86\x80\x78\x9e\x00\xf8\x86", 16);
   PtyPort device;
   const RigClock clock;

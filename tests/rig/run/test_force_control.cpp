@@ -35,7 +35,7 @@ TEST_CASE("force control reaches its target for any true stiffness, with bounded
   const std::vector<double> forces = forces_of(control, ratio * 6e3, start_N, 0.0, 60);
   INFO("ratio " << ratio << " start " << start_N);
   CHECK(forces.back() == Approx(1.0).margin(1e-3));
-  // The first step may be .7 ratio of the gap; none after that is taken blindly.
+  // The first step may be 0.7 ratio of the gap; later ones know the stiffness.
   const double most_N = std::max(start_N, 1.0 + std::max(0.0, 0.7 * ratio - 1.0) * (1.0 - start_N));
   CHECK(*std::max_element(forces.begin(), forces.end()) <= most_N + 1e-9);
 }
@@ -46,7 +46,7 @@ TEST_CASE("force control follows relaxation and leaves a small error", "[rig]") 
                         .tolerance_N = 1e-4,
                         .largest_step_m = 25e-6,
                         .noise_N = 1e-5});
-  // .2 % lost each step: the gap settles where .7 of it is what is lost, .0029 N.
+  // 0.2 % is lost in each step: the gap settles where 0.7 of it equals the loss, at 0.0029 N.
   const std::vector<double> forces = forces_of(control, 6e3, 1.0, 0.002, 200);
   CHECK(forces.back() == Approx(1.0 - 0.002 / 0.7).margin(2e-4));
 }

@@ -1,6 +1,6 @@
 // Short captures over lines that drop, double, split, delay, garble and add bytes, and hang up.
-// Each must end with a record that agrees with what the emulated amplifier said, or with a clear
-// error; never with the stage moving, the punch pressing unsaid, or a wrong reading unmarked.
+// Each must end with a record that agrees with the lines of the emulated amplifier, or with a clear
+// error; never with a moving stage, an unreported pressing punch, or an unmarked wrong reading.
 #include "models/maths/text_of_number.h"
 #include "rig/protocols/hx711_protocol.h"
 #include "tests/rig/rig_fixture.h"
@@ -68,7 +68,7 @@ TestPlan shortest_plan() {
   return plan;
 }
 
-// What the amplifier really said: counts by its own clock.
+// The true readings of the amplifier: counts by its own clock.
 std::map<long long, double> truth_of(const RigFixture& rig) {
   std::map<long long, double> truth;
   for (const std::string& text : rig.emulated.sent_lines()) {
@@ -78,8 +78,8 @@ std::map<long long, double> truth_of(const RigFixture& rig) {
   return truth;
 }
 
-// The largest step between true readings near a time: an error below that cannot be told from a
-// reading made early or late, or from the corner of a move.
+// The largest step between true readings near a time: a smaller error cannot be distinguished from
+// a reading made early or late, or from the corner of a move.
 double unevenness(const std::map<long long, double>& truth, long long micros) {
   auto at = truth.lower_bound(micros);
   std::vector<double> around;
@@ -95,11 +95,11 @@ double unevenness(const std::map<long long, double>& truth, long long micros) {
 struct Tally {
   int finished = 0, ended = 0, refused = 0, hung_up = 0;
   long long readings = 0, marked = 0, below_notice = 0, faults = 0, unsaid = 0;
-  double worst = 0.0;  // of the wrong ones that were not marked, in times of what is noticed
+  double worst = 0.0;  // largest error of unmarked readings over the detection threshold
 };
 
-// Every reading handed out is a true one, is marked, or differs by less than can be noticed; and
-// where one differs, the run says that some may.
+// Every reading handed out is true, is marked, or differs by less than the detection threshold. If
+// one differs, the run reports that some may.
 void check_readings(const RigFixture& rig, bool has_doubt, Tally& tally) {
   const auto truth = truth_of(rig);
   std::set<long long> marked;
@@ -129,8 +129,8 @@ void check_readings(const RigFixture& rig, bool has_doubt, Tally& tally) {
     CHECK(off <= notice);
   }
   tally.below_notice += n_unmarked;
-  // A lower digit or two, in a run whose line showed no other sign, nothing can tell; what the
-  // record says of every reading ("checked") has to cover it.
+  // If only one or two lower digits are wrong and the line shows no other sign, only the event
+  // "checked" of the record covers the error.
   if (n_unmarked > 0 && !has_doubt) ++tally.unsaid;
 }
 
@@ -163,7 +163,7 @@ void run_one(std::uint64_t seed, Tally& tally) {
     status = outcome.status;
     reason = outcome.reason;
     has_doubt = rig.has_event("doubt", "line_noise");
-    // Every record whose noise is known says what its readings are vouched for.
+    // Every record with known noise states the errors that would have been detected.
     CHECK(outcome.hidden_error_N == Approx(kNoticed * outcome.noise_N).epsilon(1e-12));
     CHECK(is_checked(rig) == (outcome.noise_N > 0.0));
     ++(status == "finished" ? tally.finished : tally.ended);
@@ -236,7 +236,7 @@ TEST_CASE("12 runs over disturbed lines end well or give the reason", "[rig][pty
   run_seeds(1, 12);
 }
 
-// VISCARD_FIRST_SEED and VISCARD_LAST_SEED pick others.
+// VISCARD_FIRST_SEED and VISCARD_LAST_SEED select others.
 TEST_CASE("500 runs over disturbed lines end well or give the reason", "[rig][pty][faults][slow]") {
   const char* from = std::getenv("VISCARD_FIRST_SEED");
   const char* to = std::getenv("VISCARD_LAST_SEED");

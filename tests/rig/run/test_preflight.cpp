@@ -32,7 +32,7 @@ TEST_CASE("a speed below the smallest of the stage is a warning with the speed u
   CHECK(says("the move 'ramp' goes at that") == 1);
   coarse.min_speed_m_s = 0.0;
   const Preflight free = preflight(demo_rig(), plan, demo_specimen(10.0), coarse);
-  // The overshoot is that of the speed it really approaches with.
+  // The overshoot is that of the true speed of the approach.
   CHECK(slow.approach_overshoot_N > 1.5 * free.approach_overshoot_N);
 }
 
@@ -43,7 +43,7 @@ TEST_CASE("a depth of 0.25 mm is refused for all three mixing ratios, and a safe
   plan.depth_m = 0.25e-3;
   const Preflight result = preflight(demo_rig(), plan, demo_specimen(ratio));
   // Independent of punch_contact.h: 2 a E h/(1 - nu^2), raised by the layer; kappa is above 1.27 at
-  // a/H = .2 and nu = .495 (Hayes et al. 1972: 1.28 at nu = .5).
+  // a/H = 0.2 and nu = 0.495 (Hayes et al. 1972: 1.28 at nu = 0.5).
   const double half_space_N =
       2 * 2.2e-3 * demo_specimen(ratio).modulus_guess_Pa * 0.25e-3 / (1 - 0.495 * 0.495);
   CHECK(result.peak_force_N > 1.27 * half_space_N);
@@ -53,7 +53,7 @@ TEST_CASE("a depth of 0.25 mm is refused for all three mixing ratios, and a safe
   REQUIRE(result.problems.size() == 1);
   CHECK(result.problems[0].find("above the cell's rating") != std::string::npos);
   CHECK(result.problems[0].find("Lower depth") != std::string::npos);
-  // The depth it names is accepted.
+  // The depth in the message is accepted.
   const std::string text = result.problems[0];
   const std::size_t at = text.rfind(" to ");
   plan.depth_m = std::stod(text.substr(at + 4)) * 1e-3;
@@ -71,9 +71,9 @@ TEST_CASE("the demonstration's depth of 0.13 mm passes with an expected force of
 }
 
 TEST_CASE("the distance of a gentle stop is GRBL's queue and the deceleration", "[rig]") {
-  // 250 steps/mm: 7.5 steps are 30 um whatever the speed.
+  // 250 steps/mm: 7.5 steps are 30 um at any speed.
   CHECK(stop_distance_m(0.1e-3, {250e3, 0.2, 1e-2}) == Approx(30e-6 + 0.025e-6).epsilon(1e-9));
-  // 3200 steps/mm at 2 mm/s and 10 mm/s2: 60 ms, then v^2/(2a) = .2 mm.
+  // 3200 steps/mm at 2 mm/s and 10 mm/s2: 60 ms, then v^2/(2a) = 0.2 mm.
   CHECK(stop_distance_m(2e-3, {3200e3, 0.01, 1e-2}) == Approx(120e-6 + 200e-6).epsilon(1e-9));
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("an approach that would overshoot the limit is refused", "[rig]") {
       preflight(demo_rig(), plan, demo_specimen(10.0), StageDynamics{250e3, 0.01, 10e-3});
   REQUIRE_FALSE(result.problems.empty());
   CHECK(result.problems[0].find("speed under [approach]") != std::string::npos);
-  // The speed it names is accepted, and a little more is not.
+  // The speed in the message is accepted, and a slightly larger one is not.
   const std::size_t at = result.problems[0].rfind(" to ");
   const double named_m_s = std::stod(result.problems[0].substr(at + 4)) * 1e-3;
   const auto problems_at = [&](double speed_m_s) {

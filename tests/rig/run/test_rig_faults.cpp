@@ -1,4 +1,4 @@
-// What a rig that is set up wrongly does to a run, and what the run says about it.
+// Runs on a rig that is set up wrongly, and what they report.
 #include "tests/rig/rig_fixture.h"
 
 #include <catch2/catch.hpp>
@@ -19,7 +19,7 @@ TEST_CASE(
   CHECK(outcome.status == "interrupted");
   CHECK_THAT(outcome.reason, Contains("compression_is_positive = true"));
   const EmulatedOutcome bench = rig.emulated.outcome();
-  // Contact force .015 N, a jog of 25 um and 8.8 N/mm: far from the limit of 1.96 N.
+  // Contact force 0.015 N, a jog of 25 um and 8.8 N/mm: far from the limit of 1.96 N.
   CHECK(bench.peak_force_N > 0.005);
   CHECK(bench.peak_force_N < 0.4);
   CHECK_FALSE(bench.is_moving);
@@ -123,7 +123,7 @@ TEST_CASE("a lost answer leaves questions and answers in step", "[rig][pty]") {
   options.grbl.lose_status_every = 12;
   RigFixture rig(options);
   rig.stage.connect(rig.pump());
-  // An answer that may be an older question's has no latency: out of step, n would stay below 12.
+  // A report that may answer an older question has no latency; out of step, n stays below 12.
   const double deadline_s = monotonic_s() + 20.0;
   while (rig.stage.report_latency().n < 30 && monotonic_s() < deadline_s) rig.pump()();
   CHECK(rig.stage.report_latency().n == 30);

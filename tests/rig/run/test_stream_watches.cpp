@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kPeriod_s = 0.0125;
 
-// Listens in passes of 5 ms, a reading every period until quiet_from_s; returns when the stream is
-// called silent.
+// Listens in passes of 5 ms, with a reading every period until quiet_from_s; returns the time at
+// which the stream counts as silent.
 double silent_at_s(SilenceWatch& watch, double quiet_from_s, bool is_moving) {
   double next_s = 0.0;
   for (double t = 0.0; t < 10.0; t += 0.005) {
@@ -46,7 +46,7 @@ std::vector<std::int64_t> spikes_in(const std::vector<double>& values) {
   return found;
 }
 
-// Rest, ramp, hold with relaxation, quick unloading, peak: what a force does.
+// The forces of a test: rest, ramp, hold with relaxation, quick unloading, peak.
 std::vector<double> force_like() {
   std::vector<double> values(200, 1000.0);
   for (int i = 0; i < 80; ++i) values.push_back(1000.0 + 3000.0 * i);
@@ -82,7 +82,7 @@ TEST_CASE(
 TEST_CASE("a pause of the machine itself is not taken for silence", "[rig]") {
   SilenceWatch watch;
   watch.pass(0.0, true, true);
-  watch.pass(3.0, false, true);  // nobody listened for 3 s
+  watch.pass(3.0, false, true);  // no pass for 3 s
   CHECK_FALSE(watch.is_silent(kPeriod_s));
   CHECK(watch.silent_s() <= 0.010 + 1e-12);
 }
@@ -104,7 +104,7 @@ TEST_CASE("a garbled digit that stands out is found, wherever it is", "[rig]") {
 
 TEST_CASE("garbled digits are found at the beginning, at the end and side by side", "[rig]") {
   std::vector<double> values = noisy(std::vector<double>(300, 84213.0), 300.0);
-  // 20 times the noise, in either direction; 30 where there are neighbours on one side only.
+  // 20 times the noise, in either direction; 30 if there are neighbours on one side only.
   for (const std::size_t at : {0u, 298u, 299u}) values[at] += 9000.0;
   for (const std::size_t at : {4u, 9u, 150u}) values[at] += 6000.0;
   values[151] -= 6000.0;
@@ -137,7 +137,7 @@ TEST_CASE("readings made a little early or late on a ramp are no spikes", "[rig]
 }
 
 TEST_CASE("the staircase of a coarse stage has no spikes", "[rig]") {
-  // One step of 4 um at 4.7 N/mm is 38 times a noise of .5 mN.
+  // One step of 4 um at 4.7 N/mm is 38 times a noise of 0.5 mN.
   for (const double steps_per_reading : {0.02, 0.1, 0.2, 0.38, 0.66, 0.9, 1.3, 2.2}) {
     CAPTURE(steps_per_reading);
     std::vector<double> values(100, 0.0);

@@ -1,6 +1,5 @@
-// The wall clock steps (network time, daylight saving, a battery gone flat) while a run goes on.
-// This program has a wall clock of its own, so that it can be set; the monotonic clock is the
-// system's.
+// The system clock steps (network time, daylight saving, a flat battery) during a run. This program
+// replaces that clock by one that it can set; the monotonic clock is the real one.
 #include "tests/rig/rig_fixture.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// What real controllers do besides what is documented: each habit of the emulator on its own.
+// What real controllers do beyond their documentation: each habit of the emulator by itself.
 #include "rig/stages/travel_limit.h"
 #include "tests/rig/rig_fixture.h"
 
@@ -41,7 +41,7 @@ TEST_CASE("reports in inches give the same metres", "[rig][pty]") {
 
 TEST_CASE("a speed below the smallest of the firmware is recorded as that smallest speed",
           "[rig][pty]") {
-  // 30.5 steps/s at 250 steps/mm is .1221 mm/s (gnea/grbl stepper.c), whatever is asked.
+  // 30.5 steps/s at 250 steps/mm is 0.1221 mm/s (gnea/grbl stepper.c), for any slower speed.
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.truth.steps_per_m = 250e3;
   RigFixture rig(options);
@@ -118,7 +118,7 @@ TEST_CASE("a question answered by two lines, or after the next question, ends no
     CHECK(stands_where_it_says(rig));
     CHECK(rig.stage.position_m() == Approx(to_m).margin(0.5 / 3200e3));
   }
-  // What the late reports say must not contradict the moves as they were.
+  // The late reports must not contradict the moves.
   for (const CommandedMove& move : rig.all<CommandedMove>()) CHECK(move.start_uncertainty_s > 0.0);
   CHECK_FALSE(rig.has_event("move_doubtful", "test"));
 }

@@ -5,7 +5,7 @@
 namespace viscard {
 
 TEST_CASE("position reports narrow down when a move began", "[rig]") {
-  // Written at 10 s, answered at 10.3 s, truly begun at 10.05 s.
+  // The command was written at 10 s and answered at 10.3 s; the move began at 10.05 s.
   const StageMove move{10.0, 0.0, 1e-3, 0.5e-3, 0.2};
   StageMove truth = move;
   truth.start_time_s = 10.05;
@@ -18,7 +18,7 @@ TEST_CASE("position reports narrow down when a move began", "[rig]") {
   const CommandedMove best = tracker.best(1e-3);
   CHECK(best.move.start_time_s <= 10.05);
   CHECK(best.move.start_time_s + best.start_uncertainty_s >= 10.05);
-  // 8 ms between question and answer, and 2 x .8 um at .5 mm/s.
+  // 8 ms between question and answer, and 2 x 0.8 um at 0.5 mm/s.
   CHECK(best.start_uncertainty_s <= 0.008 + 2 * 0.8e-6 / 0.5e-3 + 1e-6);
 }
 

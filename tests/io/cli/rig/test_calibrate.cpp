@@ -35,7 +35,7 @@ void write(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path) << text;
 }
 
-// A cell that is not as its data sheet says: gain 2 % high, a bow and a loop, noise, and zero off.
+// A cell that differs from its data sheet: gain 2 % high, nonlinearity, hysteresis, noise, zero.
 std::string truth_file(const ScratchFolder& folder) {
   write(
       folder / "truth.toml",
@@ -69,7 +69,7 @@ TEST_CASE("dead weights on the emulated rig recover gain and hysteresis within t
   CHECK(found["repeatability"].get<double>() < 1e-4);
   CHECK(found["n_series"] == 2);
   CHECK(found["budget"].size() == 5);
-  // The record is what a rig file can name.
+  // A rig file can name the record.
   const CalibrationRecord record = read_calibration(out);
   REQUIRE(record.calibration.has_value());
   CHECK(record.calibration->volts_per_newton == gain);

@@ -1,4 +1,4 @@
-// viscard capture as a user calls it: series, resuming, pictures.
+// viscard capture and viscard rig as a user calls them: series, resuming, refusals.
 #include "io/basics/atomic_file.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/sqlite_database.h"
@@ -69,7 +69,7 @@ std::vector<std::string> with(std::vector<std::string> words, const std::string&
   return words;
 }
 
-// A capture that somebody's crash left behind.
+// A capture that a crash left unfinished.
 void leave_interrupted(const std::filesystem::path& path) {
   CapturedRun about;
   about.rig.calibration.volts_per_newton = 0.7255;

@@ -28,7 +28,7 @@ namespace {
 using test::contains;
 using test::ScratchFolder;
 
-// A viscard of its own; its stderr is kept.
+// A viscard process; its stderr is kept.
 class Program {
  public:
   explicit Program(std::vector<std::string> words, rlim_t most_bytes = RLIM_INFINITY) {
@@ -154,7 +154,7 @@ std::size_t records_in(const std::filesystem::path& path) {
   return n;
 }
 
-// "123 records are safe", the last of them.
+// The number of the last "123 records are safe".
 std::size_t last_acknowledged(const std::string& said) {
   const std::size_t end = said.rfind(" records are safe");
   if (end == std::string::npos) return 0;
@@ -173,7 +173,7 @@ void kill_captures(int n_kills) {
     while (!program.has_ended() && last_acknowledged(program.said()) == 0) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    // Anywhere in what is a run of some seconds.
+    // At a random time of a run of some seconds.
     const int after_us = std::uniform_int_distribution<int>(0, 1'500'000)(random);
     std::this_thread::sleep_for(std::chrono::microseconds(after_us));
     program.send(SIGKILL);
