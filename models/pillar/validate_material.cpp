@@ -13,7 +13,7 @@
 namespace viscard {
 namespace {
 
-// Relaxation force per displacement and creep displacement per force, exactly.
+// Relaxation force per displacement and creep displacement per force, both exact.
 struct ExactAnswer {
   std::function<double(double)> relaxation;
   std::function<double(double)> creep;
@@ -41,7 +41,8 @@ ExactAnswer exact_answer(const Material& material, const ViscoelasticSystem& sys
           "Laplace domain"};
 }
 
-// Creep outlasts relaxation: the slowest retardation time of G(t), and of K(t) if it relaxes.
+// End of the creep test. Creep is slower than relaxation, so it uses the slowest retardation time
+// of G(t), and of K(t) if K relaxes.
 double end_of_creep_s(const Material& material) {
   double slowest_s = 0.0;
   for (auto share : {&MaterialTerm::g, &MaterialTerm::k}) {
@@ -101,7 +102,7 @@ ValidationResult validate_material(const Material& material, const ValidateOptio
   result.unknowns = pillar.model().system().size();
 
   HistoryOptions history;
-  history.tolerance = 0.02 * options.tolerance;  // so that the comparison judges it, not itself
+  history.tolerance = 0.02 * options.tolerance;  // well below the tolerance that the comparison tests
   history.relative_floor = 0.0;                  // relative at every time
   const auto part = [&](double offset) {
     return [&, offset](double fraction) {

@@ -9,14 +9,14 @@
 
 namespace viscard {
 
-// One test of the pillar, solver beside exact answer.
+// One test of the pillar: the solver's result and the exact one.
 struct ValidationCurve {
   std::vector<double> time_s;
   std::vector<double> solver;  // relaxation: stress in Pa; creep: shortening in m
   std::vector<double> exact;
   double largest_relative_error = 0.0;
-  double at_time_s = 0.0;              // where that is
-  double solver_error_estimate = 0.0;  // what the solver itself says of its steps, relative
+  double at_time_s = 0.0;              // time of the largest error
+  double solver_error_estimate = 0.0;  // the solver's own estimate of its step error, relative
   int steps = 0;                       // time steps taken, all levels together
 };
 
@@ -30,7 +30,7 @@ struct ValidationResult {
   double tolerance = 0.0;
   bool passed = false;  // both errors at most the tolerance
   int unknowns = 0;
-  std::vector<std::string> notes;  // what a reader should know, plain sentences
+  std::vector<std::string> notes;  // remarks for the reader, plain sentences
 };
 
 struct ValidateOptions {
@@ -44,13 +44,13 @@ struct ValidateOptions {
 };
 
 // Runs the pillar in relaxation and in creep with the material through the time-stepping solver
-// (load_history.h) and compares with the exact correspondence-principle answer on the same
-// elements, so that the difference is the error of the stepping alone:
-//   constant Poisson ratio (or nu = 0.5): E(t) and J(t) from the retardation spectrum, scaled by
-//   the elastic answer; otherwise the common modes of shear and bulk stiffness
-//   (viscoelastic_exact.h).
-// A rigid frictionless plate presses the top in both tests.
-// Throws std::invalid_argument for a material or geometry that cannot be run.
+// (load_history.h). It compares the results with the exact solution by the correspondence principle
+// on the same elements, so the difference is the error of the time stepping alone.
+//  Constant Poisson ratio (or nu = 0.5): E(t) and J(t) from the retardation spectrum, times the
+//  elastic solution.
+//  Otherwise: the common modes of shear and bulk stiffness (viscoelastic_exact.h).
+// A rigid frictionless plate presses the top in both tests. Throws std::invalid_argument for a
+// material or geometry that cannot be run.
 ValidationResult validate_material(const Material& material, const ValidateOptions& options = {});
 
 }  // namespace viscard

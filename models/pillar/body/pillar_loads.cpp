@@ -6,9 +6,9 @@
 namespace viscard {
 namespace {
 
-// The field that carries the motion as a whole, whose virtual work under a unit traction (force per
-// volume) in that direction is measure * int field x^x_power: for m = 1, u_x has the mean b/2 over
-// the angle and the measure is pi instead of 2 pi (eq. 12).
+// The field that carries the motion of the whole pillar. Its virtual work under a unit traction
+// (force per volume) in that direction is measure * int field x^x_power: for m = 1, u_x has the
+// mean b/2 over the angle, and the measure is pi instead of 2 pi (eq. 12).
 int carrying_field(const PillarModel& model) {
   switch (model.options().motion) {
     case Motion::kLongitudinal:
@@ -25,7 +25,7 @@ int carrying_field(const PillarModel& model) {
 }  // namespace
 
 double top_area_m2(const PillarModel& model) {
-  const double R_m = radius_at_m(model.geometry(), model.geometry().length_m);  // of a wider tip
+  const double R_m = radius_at_m(model.geometry(), model.geometry().length_m);  // including a wider tip
   return model.system().kinematics().x_power == 1 ? std::numbers::pi * R_m * R_m : 2.0 * R_m;
 }
 

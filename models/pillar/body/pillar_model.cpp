@@ -24,7 +24,7 @@ bool is_plane(Motion motion) {
   return motion == Motion::kPlaneSymmetric || motion == Motion::kPlaneAntisymmetric;
 }
 
-// Breaks of the mesh must meet the electrode's edge.
+// The mesh needs a break at the electrode's edge.
 PillarGeometry with_electrode(PillarGeometry geometry, const ModelOptions& options) {
   if (options.electrodes && geometry.film) {
     geometry.film->electrode_radius_m = options.electrodes->electrode_radius_m;
@@ -77,7 +77,7 @@ DofMap PillarModel::make_dofs(const Kinematics& kinematics) {
   if (options_.electrodes) {
     const bool top_grounded = options_.electrodes->grounded == FilmFace::kTop;
     for (int node = 0; node < section.node_count(); ++node) {
-      if (section.node_z(node) > 0.0) dofs.fix(phi, node);  // the pillar carries no field
+      if (section.node_z(node) > 0.0) dofs.fix(phi, node);  // the pillar has no electric field
     }
     const int electrode_row = top_grounded ? 0 : mesh_.bond_row;
     std::vector<int> electrode;

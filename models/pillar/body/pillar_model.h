@@ -11,8 +11,9 @@
 
 namespace viscard {
 
-// Penalty of the augmented Lagrangian at nu = 0.5, over the shear modulus. It sets the number of
-// iterations, not the answer; larger ones would carry the rounding of nearly rigid motions into it.
+// Penalty of the augmented Lagrangian at nu = 0.5, over the shear modulus. It determines the number
+// of iterations, not the solution. Larger values would add the rounding errors of nearly rigid
+// motions to the solution.
 constexpr double kPenaltyOverShear = 10.0;
 
 enum class PlaneState { kStrain, kStress };  // of the plane motions
@@ -20,26 +21,26 @@ enum class PlaneState { kStrain, kStress };  // of the plane motions
 // Faces of the film: z = -thickness (bottom) and z = 0 (top).
 enum class FilmFace { kBottom, kTop };
 
-// The film's potential: one whole face is grounded; on the other either a disc (half-width in the
-// plane) is an electrode, or nothing is, and the potential is read where wanted.
+// The film's potential: one whole face is grounded. The other face has a disc (half-width in the
+// plane) as an electrode, or no electrode; then the potential is read at the points of interest.
 struct ElectrodeOptions {
   FilmFace grounded = FilmFace::kTop;
   double electrode_radius_m = 0.0;  // 0: charge-free face
-  bool quadrants = false;           // cut along x and y: tells sideways loads (piezo_quadrants.h)
+  bool quadrants = false;           // cut along x and y: detects sideways loads (piezo_quadrants.h)
 };
 
 struct ModelOptions {
   Motion motion = Motion::kLongitudinal;
   PlaneState plane = PlaneState::kStrain;
   bool fixed_bottom = true;
-  // A free bottom in statics, under loads that balance themselves: motion is seen from the middle
-  // of the bottom (sideways: and from its rim, which stays level), see rigid_motion.h.
+  // A free bottom in statics, under loads that balance themselves. Motion is relative to the middle
+  // of the bottom and, sideways, also to its rim, which stays level; see rigid_motion.h.
   bool pin_bottom = false;
-  // A rigid plate without friction on the top: ties its axial displacement; sideways the plate
-  // keeps the top upright and lets it slide.
+  // A rigid plate without friction on the top. It ties the axial displacement; under sideways
+  // motion the plate keeps the top upright and lets it slide.
   bool rigid_top = false;
   std::optional<ElectrodeOptions> electrodes;  // present: the film's potential is unknown too
-  double condense_pressures_from = kNearlyIncompressible;  // Poisson ratio; 0.5 always does
+  double condense_pressures_from = kNearlyIncompressible;  // Poisson ratio; always at 0.5
 };
 
 struct PillarMedia {
@@ -47,17 +48,17 @@ struct PillarMedia {
   std::optional<Medium> film;  // present exactly when the geometry has a film
 };
 
-// Unknowns of a static solution. Below nu = 0.5 the pressure follows from the displacement itself.
+// Unknowns of a static solution. Below nu = 0.5 the displacement itself determines the pressure.
 struct PillarState {
   Eigen::VectorXd unknowns;
   Eigen::VectorXd pressure_source;  // its projected divergence gives the pressure, StiffnessFactor
 };
 
-// Mesh, unknowns and matrices of one pillar in one family of motion. Does not move once made.
+// Mesh, unknowns and matrices of one pillar in one family of motion. Cannot be moved or copied.
 class PillarModel {
  public:
-  // Throws std::invalid_argument for a bad geometry, a film without medium or the other way round,
-  // or a rigid top or electrodes in a family that has none (torsion, ovalling).
+  // Throws std::invalid_argument for a bad geometry, a film without a medium or a medium without a
+  // film, or a rigid top or electrodes in a family that does not support them (torsion, ovalling).
   PillarModel(const PillarGeometry& geometry, const Discretisation& discretisation,
               const PillarMedia& media, const ModelOptions& options);
   PillarModel(const PillarModel&) = delete;
@@ -70,11 +71,11 @@ class PillarModel {
   double radius_m() const { return 0.5 * geometry_.diameter_m; }
   const PillarGeometry& geometry() const { return geometry_; }
 
-  // Stiffness; media from nu = 0.45 on have their pressures condensed. At nu = 0.5 the bulk part is
-  // a penalty that factor() iterates away.
+  // Stiffness. The pressures of media with nu >= 0.45 are condensed. At nu = 0.5 the bulk part is a
+  // penalty; the iteration that factor() sets up removes its error.
   SymmetricSparse stiffness() const;
   SymmetricSparse mass() const;
-  // Factors a matrix of this model (stiffness plus what the caller added).
+  // Factors a matrix of this model (its stiffness plus terms that the caller added).
   void factor(const SymmetricSparse& matrix, StiffnessFactor& factor) const;
 
   // Force per unit pressure pulling along +z on the top; axial families only. N per Pa.
@@ -82,13 +83,13 @@ class PillarModel {
   int electrode_dof() const;  // -1: none
   double potential_scale_V() const { return potential_scale_V_; }
 
-  // Solution under the given forces, with what the pressures follow from.
+  // Solution under the given forces, including the source of the pressures.
   PillarState solve(const Eigen::VectorXd& forces) const;
 
-  // Stress (Voigt, Pa) at a point of an element; condensed pressures where they are condensed.
+  // Stress (Voigt, Pa) at a point of an element, from condensed pressures if they are condensed.
   Eigen::VectorXd stress_at(const PillarState& state, const SectionElement& element, double x,
                             double z) const;
-  // Mean of one stress component over the disc x <= radius at height z, on the side of `region`.
+  // Mean of one stress component over the disc x <= radius at height z, evaluated in `region`.
   double mean_stress(const PillarState& state, int component, double z, int region,
                      double radius_m) const;
   const SectionElement& element_at(double x, double z, int region) const;

@@ -30,8 +30,8 @@ SymmetricSparse stress_stiffness_per_Pa(const PillarModel& axial, const PillarMo
   return lateral.system().varying_form(lateral.system().kinematics().gradient, form);
 }
 
-// What is left of a motion without its rigid part: x - R (R'MR)^-1 R'M x. A free body's elastic
-// modes are those of its stiffness among the motions that are left.
+// A motion without its rigid part: x - R (R'MR)^-1 R'M x. The elastic modes of a free body are
+// those of its stiffness among these remaining motions.
 class WithoutRigidMotion {
  public:
   WithoutRigidMotion(const PillarModel& model, const SymmetricSparse& mass) {
@@ -50,9 +50,10 @@ class WithoutRigidMotion {
   Eigen::LLT<Eigen::MatrixXd> masses_;
 };
 
-// A free body's stiffness is singular; adding this much of its mass mends that. Far below the
-// square of its first elastic frequency, of the order of the slowest medium's wave across the
-// largest extent, and far above rounding, which is that of the fastest medium.
+// The stiffness of a free body is singular; adding this multiple of the mass makes it regular. The
+// shift is far below the square of the first elastic frequency, which is of the order of the
+// slowest medium's wave across the largest extent. It is also far above rounding, which is
+// determined by the fastest medium.
 double free_shift_1_s2(const PillarModel& model) {
   double slowest = std::numeric_limits<double>::infinity();  // squares of wave speeds
   double fastest = 0.0;
@@ -70,17 +71,18 @@ double free_shift_1_s2(const PillarModel& model) {
   return std::max(1e-4 * slowest, 1e-11 * fastest) / (extent_m * extent_m);
 }
 
-// Where the rim of the bond makes the stress singular, modes that live at the rim alone come down
-// without bound as meshes are refined: they belong to the idealised corner, not to the pillar. So
-// many modes above a shift are looked through for the one that bends the pillar as a whole.
+// Where the rim of the bond makes the stress singular, the values of modes localised at the rim
+// decrease without bound as meshes are refined. These modes belong to the idealised corner, not to
+// the pillar. Therefore this many modes above a shift are searched for the one that bends the whole
+// pillar.
 constexpr int kMostModes = 8;
 
-// The pencil K, M of a model, searched from a shift on: pairs of largest 1/(omega^2 + shift).
+// The pencil K, M of a model, searched from a shift upward: pairs of largest 1/(omega^2 + shift).
 class ModeSearch {
  public:
   ModeSearch(const PillarModel& model, const SymmetricSparse& stiffness)
       : model_(model), stiffness_(stiffness), mass_(model.mass()), elastic_(model, mass_) {
-    mass_.prune(0.0);  // it has the stiffness' pattern, where most fields do not meet in it
+    mass_.prune(0.0);  // has the pattern of the stiffness, with zeros where fields do not couple
   }
 
   EigenPairs from(double shift_1_s2, int count, int largest_space) {
@@ -95,11 +97,11 @@ class ModeSearch {
     const PencilMap op = [&](const Eigen::VectorXd&, const Eigen::VectorXd& Mx) {
       return elastic_.of(factor_.solve(Mx));
     };
-    // The frequencies' own error is the square of the residual: far below that of any mesh.
+    // The error of the frequencies is the square of the residual, far below that of any mesh.
     return largest_eigenpairs(op, B, model_.system().size(), count,
                               {.tolerance = 1e-6, .largest_space = largest_space});
   }
-  // Modes that lie below the last search's shift (Sylvester), rigid motions not counted.
+  // Number of modes below the last search's shift (Sylvester), without the rigid motions.
   int left_below() const {
     const auto& options = model_.options();
     return factor_.negative_pivots() -
@@ -115,10 +117,10 @@ class ModeSearch {
 };
 
 // Modes of a slender body's section lie so close together above their cut-off that a search from
-// zero cannot tell them apart; one from just below the lowest of them can.
+// zero cannot separate them; a search from just below the lowest of them can.
 EigenPairs search_from_below(ModeSearch& search, const EigenPairs& rough, double& shift_1_s2,
                              int count) {
-  constexpr double kJustBelow = 0.98;  // of omega^2, which is known to some 1e-3 by now
+  constexpr double kJustBelow = 0.98;  // of omega^2, which is known to about 1e-3 at this point
   if (!(rough.values.size() > 0 && rough.values[0] > 0.0)) return rough;
   shift_1_s2 -= kJustBelow / rough.values[0];
   EigenPairs pairs = search.from(shift_1_s2, count, 200 + 10 * count);
@@ -153,22 +155,22 @@ std::vector<PillarMode> lowest_modes(const PillarModel& model, int count) {
 
 namespace {
 
-// The pencil K + p K_sigma of a lateral model, and what tells a mode of the whole pillar.
+// The pencil K + p K_sigma of a lateral model, and the criterion for a mode of the whole pillar.
 struct BucklingPencil {
   const PillarModel& lateral;
   SymmetricSparse stiffness, stress;
   Eigen::VectorXd side;  // unit force sideways on the top
   double side_compliance = 0.0;
 
-  // Vectors of unit energy: (f.v)^2 is what the mode adds to the compliance under a side force.
+  // For vectors of unit energy, (f.v)^2 is the part of the side-force compliance due to the mode.
   bool is_of_the_pillar(const Eigen::VectorXd& mode) const {
     const double moved = side.dot(mode);
     return moved * moved > 0.5 * side_compliance;
   }
 };
 
-// Modes of largest theta in [K + shift K_sigma]^-1 K v = theta v, p = shift/(1 - 1/theta): those
-// above the shift, from there on upward. The pillar's own is marked if it is among them.
+// Modes of largest theta in [K + shift K_sigma]^-1 K v = theta v, p = shift/(1 - 1/theta): the
+// modes above the shift, ascending. Marks the pillar's own mode if it is among them.
 Buckling buckling_above(const BucklingPencil& pencil, double shift_Pa, int count) {
   SymmetricSparse shifted = pencil.stiffness;
   shifted.coeffs() += shift_Pa * pencil.stress.coeffs();
@@ -191,7 +193,7 @@ Buckling buckling_above(const BucklingPencil& pencil, double shift_Pa, int count
   return result;
 }
 
-// Without a pressure if there is none for the pillar as a whole.
+// Leaves the pressure unset if no mode of the whole pillar is found.
 Buckling search_buckling(const PillarModel& axial, const PillarModel& lateral, int count) {
   BucklingPencil pencil{lateral, lateral.stiffness(), stress_stiffness_per_Pa(axial, lateral),
                         unit_top_force(lateral)};
@@ -203,8 +205,8 @@ Buckling search_buckling(const PillarModel& axial, const PillarModel& lateral, i
   const LinearMap op = [&](const Eigen::VectorXd& x) {
     return factor.solve(-times(pencil.stress, x));
   };
-  // The factor's own error is the square of the residual; stiff volume leaves some noise in the
-  // latter.
+  // The error of the buckling factor is the square of the residual; a stiff volume leaves some
+  // rounding noise in the residual.
   const EigenPairs pairs =
       largest_eigenpairs(op, B, lateral.system().size(), count, {.tolerance = 1e-6});
   Buckling result;
@@ -216,8 +218,8 @@ Buckling search_buckling(const PillarModel& axial, const PillarModel& lateral, i
     }
   }
   if (result.pressure_Pa > 0.0) return result;
-  // Rayleigh's quotient of the pillar bent by a side force lies above its buckling pressure; local
-  // modes far below it are out of the way of a search that begins not far under it.
+  // The Rayleigh quotient of the pillar bent by a side force lies above its buckling pressure. A
+  // search that starts a little below the quotient avoids local modes far below it.
   const double quotient_Pa = -pencil.side_compliance / bent.dot(times(pencil.stress, bent));
   for (const double share : {0.9, 0.8, 0.6, 0.4}) {
     if (!(quotient_Pa > 0.0)) break;

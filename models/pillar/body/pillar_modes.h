@@ -11,28 +11,27 @@ struct PillarMode {
   Eigen::VectorXd shape;  // unknowns of the model, unit mass norm
 };
 
-// The lowest undamped modes of one family of motion, ascending. Of a body whose
-// bottom is free the rigid motions are left out: these are its elastic modes, orthogonal to them.
-// Each mode of a harmonic m >= 1 stands for two. Throws std::runtime_error if the iteration does
-// not converge.
+// The lowest undamped modes of one family of motion, ascending. For a body with a free bottom the
+// rigid motions are removed: the modes are its elastic ones, orthogonal to the rigid motions. Each
+// mode of a harmonic m >= 1 represents two. Throws std::runtime_error if the iteration does not
+// converge.
 std::vector<PillarMode> lowest_modes(const PillarModel& model, int count);
 
 // Load, as a multiple of `unit_pressure_Pa` on the top, at which the straight pillar buckles
 // sideways (linear buckling with the full stress field of the loaded pillar, dead load):
 //   (K + factor K_sigma) v = 0, K_sigma = int sigma_ij (d_i u_k)(d_j u_k) dV   (eq. 21)
 // Source: Washizu, Variational Methods in Elasticity and Plasticity (1982), ch. 5.
-// The axial model gives the stresses; the lateral one must have the same mesh.
-// Modes that live at the singular rim of the bond alone are passed over: the pillar's own mode is
-// the lowest one that holds more than half of its compliance under a side force. Throws
-// std::runtime_error where there is none near Rayleigh's quotient of the pillar bent by a side
-// force.
+// The axial model provides the stresses; the lateral one must have the same mesh. Modes localised
+// at the singular rim of the bond are skipped: the pillar's own mode is the lowest one that has
+// more than half of its compliance under a side force. Throws std::runtime_error if there is no
+// such mode near the Rayleigh quotient of the pillar bent by a side force.
 struct Buckling {
   double pressure_Pa = 0.0;          // at which the pillar as a whole buckles
-  std::vector<double> pressures_Pa;  // lowest of all modes, ascending, local ones included
+  std::vector<double> pressures_Pa;  // of the lowest modes, ascending, including local ones
 };
 Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int count = 1);
 
-// Lowest modes of the lateral family under a pressure on the top. Throws std::runtime_error naming
+// Lowest modes of the lateral family under a pressure on the top. Throws std::runtime_error with
 // the critical pressure if the pillar would buckle.
 std::vector<PillarMode> modes_under_pressure(const PillarModel& axial, const PillarModel& lateral,
                                              double pressure_Pa, int count);

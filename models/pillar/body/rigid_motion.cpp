@@ -5,7 +5,7 @@
 namespace viscard {
 namespace {
 
-// One field of a rigid motion against the place, u(x, z - bottom).
+// One field of a rigid motion as a function of position, u(x, z - bottom).
 struct RigidPart {
   int field = 0;
   std::function<double(double x, double height)> value;
@@ -16,7 +16,7 @@ double one(double, double) {
   return 1.0;
 }
 
-// Sideways by 1 m: u_x = 1 is b = 2 (eq. 12); a turn is u_x = height, u_z = -x.
+// Sideways by 1 m: u_x = 1 is b = 2 (eq. 12). A rotation is u_x = height, u_z = -x.
 std::vector<RigidMotion> motions_of(Motion motion) {
   const auto back = [](double x, double) { return -x; };
   switch (motion) {

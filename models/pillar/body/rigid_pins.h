@@ -6,8 +6,8 @@
 
 namespace viscard {
 
-// One held unknown per rigid motion, so that the statics of a free body under loads that balance
-// themselves have one answer: a field at the middle of the bottom, or at its rim.
+// One held unknown per rigid motion (a field at the middle or at the rim of the bottom), so that
+// the statics of a free body under loads that balance themselves have a unique solution.
 struct RigidPin {
   int field = 0;
   bool at_rim = false;

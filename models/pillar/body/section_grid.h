@@ -6,8 +6,8 @@
 
 namespace viscard {
 
-// A solution on a fine grid of the meridian section (x = r) or the half x >= 0 of a strip, to be
-// looked at: the elements are cut into quadrilaterals, each with points of its own.
+// A solution on a fine grid of the meridian section (x = r) or of the half x >= 0 of a strip, for
+// pictures. The elements are divided into quadrilaterals, and each element has its own points.
 struct SectionField {
   std::string name;
   std::string unit;
@@ -17,18 +17,18 @@ struct SectionField {
 };
 
 struct SectionGrid {
-  std::string name;  // of what is shown, "static", "lateral"
+  std::string name;  // name of the field, such as "static" or "lateral"
   bool is_round = true;
-  // Fields vary as cos(m theta), the theta part as sin(m theta); a strip counts as 0 (symmetric) or
-  // 1 (antisymmetric), for theta = 0 and pi are its two halves.
+  // Fields vary as cos(m theta), the theta component as sin(m theta). A strip has 0 (symmetric) or
+  // 1 (antisymmetric), because theta = 0 and pi are its two halves.
   int harmonic = 0;
   std::vector<double> x_m, z_m;
-  std::vector<std::array<int, 4>> quads;  // around
+  std::vector<std::array<int, 4>> quads;  // corners in order around the quadrilateral
   std::vector<bool> is_film;              // per quad
   std::vector<SectionField> fields;
 };
 
-// Displacement and scalar of a field at an angle, in Cartesian axes.
+// Displacement of a field at an angle, with its scalar, in Cartesian axes.
 std::array<double, 3> displacement_at(const SectionGrid& grid, const SectionField& field,
                                       std::size_t point, double theta);
 double scalar_at(const SectionGrid& grid, const SectionField& field, std::size_t point,

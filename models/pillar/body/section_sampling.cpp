@@ -6,7 +6,8 @@
 namespace viscard {
 namespace {
 
-// Pieces of an element along one way: short against the radius, so that curves look like curves.
+// Number of pieces of an element in one direction, short against the radius so that curves look
+// smooth.
 int pieces_of(double length_m, double radius_m) {
   return std::clamp(static_cast<int>(std::ceil(6.0 * length_m / radius_m)), 2, 16);
 }
@@ -68,7 +69,7 @@ void normalise(int harmonic, SectionField& field) {
 
 SectionField stress_field(const PillarModel& model, const Sampling& at, const PillarState& state) {
   SectionField field{"stress_zz_Pa", "Pa", false, {}};
-  const double off_axis_m = 1e-6 * model.radius_m();  // u_r/r has its limit there
+  const double off_axis_m = 1e-6 * model.radius_m();  // u_r/r has a finite limit there
   for (std::size_t i = 0; i < at.element.size(); ++i) {
     const double x = std::max(at.grid.x_m[i], off_axis_m);
     field.value.push_back({model.stress_at(state, *at.element[i], x, at.grid.z_m[i])[2], 0.0, 0.0});

@@ -8,7 +8,7 @@
 
 namespace viscard {
 
-// The grid of a model, and for every point its element.
+// The grid of a model, and the element of every point.
 struct Sampling {
   SectionGrid grid;
   std::vector<const SectionElement*> element;
@@ -22,8 +22,8 @@ SectionField stress_field(const PillarModel& model, const Sampling& at, const Pi
 SectionField potential_field(const PillarModel& model, const Sampling& at,
                              const PillarState& state);
 
-// Scales a displacement so that its largest value over all angles is 1; a field has a cosine and a
-// sine part, of which only one is nonzero at the angle of the largest value.
+// Scales a displacement so that its largest value over all angles is 1. A field has a cosine and a
+// sine part; only one of them is nonzero at the angle of the largest value.
 void normalise(int harmonic, SectionField& field);
 
 }  // namespace viscard

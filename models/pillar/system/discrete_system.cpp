@@ -126,7 +126,7 @@ void DiscreteSystem::order_elements() {
 
 void DiscreteSystem::build_pattern() {
   std::vector<std::vector<int>> elements_of(static_cast<std::size_t>(size()));
-  std::size_t most = 0;  // entries of all elements; entries that elements share are counted several times
+  std::size_t most = 0;  // entries of all elements; shared ones count repeatedly
   for (std::size_t e = 0; e < local_.size(); ++e) {
     most += local_[e].dofs.size() * (local_[e].dofs.size() + 1) / 2;
     int last = -1;

@@ -27,7 +27,7 @@ PointBasis point_basis(double xi, const Stretch& stretch, const Row& bx, const R
   return basis;
 }
 
-// rows on all unknowns of an element: rows.size() x (field_count * n).
+// Operator rows on all unknowns of an element: rows.size() x (field_count * n).
 void fill_rows(const std::vector<OperatorRow>& rows, const PointBasis& at,
                Eigen::Ref<Eigen::MatrixXd> B) {
   const Eigen::Index n = at.value.size();

@@ -13,17 +13,17 @@ namespace viscard {
 //   [elastic + G*(omega)/G_0 shear + K*(omega)/K_0 bulk - omega^2 M] u = load.
 // Source: Christensen, Theory of Viscoelasticity (1982), ch. 2.
 
-// By sparse elimination of the whole body, tens of ms each: for few frequencies, and as a check.
-// Throws std::invalid_argument for an incompressible body (its pressures are unknowns of their own;
-// reduce it first) and std::runtime_error exactly on an undamped pole.
+// Sparse elimination of the whole body, tens of ms per frequency: for few frequencies, and as a
+// check. Throws std::invalid_argument for an incompressible body (its pressures are separate
+// unknowns; reduce it first) and std::runtime_error exactly on an undamped pole.
 Eigen::VectorXcd solve_harmonic(const ViscoelasticSystem& body, const Eigen::VectorXd& load,
                                 double omega_rad_s);
 
-// Of a small body (ReducedBody), by dense elimination, microseconds each.
+// Solves a small body (ReducedBody) by dense elimination, in microseconds per frequency.
 class HarmonicSolver {
  public:
   explicit HarmonicSolver(const ViscoelasticSystem& small);
-  // Columns of `loads` give columns of the answer, which is huge (or not finite) on an undamped
+  // Columns of `loads` give columns of the solution, which is huge (or not finite) at an undamped
   // pole.
   Eigen::MatrixXcd solve(double omega_rad_s, const Eigen::MatrixXcd& loads) const;
 

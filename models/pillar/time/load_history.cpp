@@ -12,8 +12,8 @@
 namespace viscard {
 namespace {
 
-// Length of the first block after a corner over the fastest relaxation time: there the polynomials
-// of the stepper are of low order, and only so short a start keeps that from showing.
+// Length of the first block after a corner over the fastest relaxation time. The polynomials of the
+// stepper have a low order there, so the start must be this short to keep their error negligible.
 constexpr double kFirstBlock = 1e-3;
 
 // Equal steps from start to end, during which the controlled value is linear.
@@ -37,13 +37,13 @@ double fastest_time_s(const std::vector<MaterialTerm>& terms) {
   return fastest_s;
 }
 
-// Ends of blocks in (start, end]: doubling from the fastest time, and through the wanted times.
+// Ends of blocks in (start, end]: doubling from the fastest time, and including the wanted times.
 std::vector<double> block_ends(double start_s, double end_s, double first_s,
                                const std::vector<double>& wanted_s) {
   std::vector<double> ends;
   for (double length_s = first_s; start_s + length_s < end_s && length_s < end_s - start_s;
        length_s *= 2.0) {
-    // A time that no double can tell from the last one would make an empty step.
+    // A time that equals the last one in double precision would make an empty step.
     if (start_s + length_s > (ends.empty() ? start_s : ends.back()))
       ends.push_back(start_s + length_s);
   }
@@ -52,7 +52,7 @@ std::vector<double> block_ends(double start_s, double end_s, double first_s,
   }
   ends.push_back(end_s);
   std::sort(ends.begin(), ends.end());
-  // Merge neighbours so close that a step between them would be lost in rounding.
+  // Merge times so close that a step between them would be lost in rounding.
   std::vector<double> kept;
   for (const double time_s : ends) {
     if (!kept.empty() && time_s - kept.back() <= 1e-12 * time_s)
@@ -92,7 +92,7 @@ std::vector<Block> blocks_of(const std::vector<HistoryPoint>& history, double fi
   return blocks;
 }
 
-// Outputs x times of one run with n steps per block, kept at the coarsest level's times.
+// Outputs x times of one run with n steps per block, at the times of the coarsest level.
 struct Run {
   Eigen::MatrixXd values;  // force, displacement, observers
   std::vector<double> time_s;
@@ -183,7 +183,7 @@ HistoryResult run_history(const ViscoelasticSystem& system, Control control,
       blocks_of(history, kFirstBlock * fastest_time_s(system.terms), options.output_times_s);
   HistoryResult result;
   Eigen::MatrixXd values;
-  // One order less than the stepper's, for it shows where the spectrum is dense.
+  // One order less than that of the stepper: the order observed for a dense spectrum.
   const double gain_of_halving = std::max(1.0, std::exp2(options.order - 1) - 1.0);
   bool has_stalled = false;
   for (int level = 0; level < options.max_levels && !result.converged && !has_stalled; ++level) {

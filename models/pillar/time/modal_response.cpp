@@ -30,8 +30,8 @@ std::vector<MaterialTerm> sorted_terms(const std::vector<MaterialTerm>& terms) {
   return merged;
 }
 
-// D(s)/omega^2 at s = -1/tau_i + offset, every 1 + s tau_j taken as a difference of rates so that
-// offsets far below the rate itself keep their digits.
+// D(s)/omega^2 at s = -1/tau_i + offset. Every 1 + s tau_j is computed as a difference of rates, so
+// that offsets far below the rate itself keep their digits.
 double characteristic(const std::vector<MaterialTerm>& terms, std::size_t i, double offset,
                       double omega) {
   const double rate = 1.0 / terms[i].tau_s;
@@ -44,8 +44,8 @@ double characteristic(const std::vector<MaterialTerm>& terms, std::size_t i, dou
   return value;
 }
 
-// Distance of the real root from the pole -1/tau_i to its left; D runs from minus to plus infinity
-// (or to its value at 0) between that pole and the next. Bisection in the logarithm first, since
+// Distance of the real root from the pole -1/tau_i to its left. D runs from minus to plus infinity
+// (or to its value at 0) between that pole and the next. Bisects in the logarithm first, because
 // the offset may be tiny.
 double root_offset(const std::vector<MaterialTerm>& terms, std::size_t i, double omega) {
   const double rate = 1.0 / terms[i].tau_s;
@@ -59,12 +59,12 @@ double root_offset(const std::vector<MaterialTerm>& terms, std::size_t i, double
   return std::exp(0.5 * (low + high));
 }
 
-// int_0^1 exp(z (1 - x)) (1 - x or x) dx, the shares of a load's first and last value.
+// int_0^1 exp(z (1 - x)) (1 - x or x) dx: the weights of the first and last value of a load.
 struct Shares {
   Complex first, last;
 };
 Shares load_shares(Complex z) {
-  if (std::abs(z) < 0.1) {  // series, for the closed forms cancel
+  if (std::abs(z) < 0.1) {  // series, because the closed forms cancel
     Complex term = 1.0;
     Complex first = 0.0;
     Complex last = 0.0;
@@ -95,7 +95,7 @@ RelaxingMode::RelaxingMode(double omega, const std::vector<MaterialTerm>& terms)
     sum_of_offsets += offset;
     product *= rate / (rate - offset);
   }
-  // What is left after the real roots: s^2 + (sum of offsets) s + omega^2 E_inf/E_0 product.
+  // The factor without the real roots: s^2 + (sum of offsets) s + omega^2 E_inf/E_0 product.
   const double half = 0.5 * sum_of_offsets;
   const double rest = omega * omega * lasting * product;
   const double discriminant = half * half - rest;

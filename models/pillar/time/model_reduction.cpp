@@ -22,7 +22,7 @@ RelativeModuli laplace_moduli_at(const ViscoelasticSystem& body, double s) {
           body.incompressible ? 1.0 : std::real(relative_modulus(body.terms, &MaterialTerm::k, s))};
 }
 
-// Laplace variables that meet every relaxation time: one per decade from well below the slowest
+// Laplace variables that cover every relaxation time: one per decade from well below the slowest
 // rate to well above the fastest, and zero for a solid.
 std::vector<double> laplace_points(const std::vector<MaterialTerm>& terms) {
   double slowest_s = 0.0;
@@ -38,8 +38,7 @@ std::vector<double> laplace_points(const std::vector<MaterialTerm>& terms) {
   return points;
 }
 
-// Error of the restricted answer at one s in the energy norm, relative; `answer` is its
-// coefficients.
+// Relative error of the restricted solution at one s, in the energy norm.
 double error_at(const ReducedSpan& span, const ViscoelasticSystem& body, double s) {
   const RelativeModuli m = laplace_moduli_at(body, s);
   const Eigen::MatrixXd image = span.image(m.shear, m.bulk);

@@ -6,12 +6,12 @@
 
 namespace viscard {
 
-// What the electrode of a film is wired to. The film is a voltage source (its open-circuit voltage)
-// behind its capacitance (Thevenin); whatever the circuit,
-//   reading' + reading/T = a open_voltage'   (eq. 23)
-//   voltage amplifier of input R, C_in:  a = C/(C + C_in), 1/T = (1/R + C/(rho eps))/(C + C_in)
-//   charge amplifier of feedback R_f, C_f: a = C/C_f, 1/T = 1/(R_f C_f), the electrode held at 0 V
-// where rho eps is the film's own time of leakage, whatever its shape. Sources: Measurement
+// The circuit connected to the electrode of a film. The film is a voltage source (its open-circuit
+// voltage) behind its capacitance (Thevenin). For every circuit here,
+//  reading' + reading/T = a open_voltage'   (eq. 23)
+//  voltage amplifier of input R, C_in:  a = C/(C + C_in), 1/T = (1/R + C/(rho eps))/(C + C_in)
+//  charge amplifier of feedback R_f, C_f: a = C/C_f, 1/T = 1/(R_f C_f), the electrode held at 0 V
+// where rho eps is the film's own leakage time, independent of its shape. Sources: Measurement
 // Specialties, Piezo Film Sensors Technical Manual (1999); Horowitz & Hill, The Art of Electronics.
 enum class ReadoutKind { kVoltage, kCharge };
 
@@ -22,7 +22,7 @@ struct Readout {
   double film_leakage_s = std::numeric_limits<double>::infinity();  // rho eps
 };
 
-// Throws std::invalid_argument naming what is not positive, or a charge amplifier without C_f.
+// Throws std::invalid_argument for a value that is not positive or a charge amplifier without C_f.
 void validate(const Readout& readout);
 
 struct ReadoutFilter {
@@ -34,8 +34,8 @@ ReadoutFilter readout_filter(const Readout& readout, double film_capacitance_F);
 // Reading over open-circuit voltage at one frequency.
 std::complex<double> response(const ReadoutFilter& filter, double omega_rad_s);
 
-// Reading from an open-circuit voltage that is linear between the times given (two equal times are
-// a jump), from rest; exact for such a voltage, whatever the steps.
+// Reading from an open-circuit voltage that is linear between the given times (two equal times are
+// a jump), from rest. Exact for such a voltage with any steps.
 std::vector<double> reading_of(const ReadoutFilter& filter, const std::vector<double>& time_s,
                                const std::vector<double>& open_voltage_V);
 

@@ -16,8 +16,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Distance to a pole below which a residual is not held against the basis: there every answer is as
-// uncertain as the frequency of the pole itself.
+// Relative distance to a pole below which a residual is not counted against the basis: there every
+// solution is as uncertain as the frequency of the pole itself.
 constexpr double kNearestPole = 0.02;
 constexpr int kMostAnswers = 10;  // of the whole body; each costs a sparse complex elimination
 
@@ -31,8 +31,8 @@ ComplexModuli oscillating_moduli_at(const ViscoelasticSystem& body, double omega
           relative_modulus(body.terms, &MaterialTerm::k, s)};
 }
 
-// Smallest singular value of a factored matrix, by a few inverse iterations (from above, close
-// enough for an estimate). Source: Golub & Van Loan, Matrix Computations (2013), 8.2.
+// Smallest singular value of a factored matrix, by a few inverse iterations (converges from above,
+// accurate enough for an estimate). Source: Golub & Van Loan, Matrix Computations (2013), 8.2.
 double smallest_singular_value(const Eigen::PartialPivLU<Eigen::MatrixXcd>& lu) {
   Eigen::VectorXcd v =
       Eigen::VectorXcd::LinSpaced(lu.rows(), Complex(1.0, 0.5), Complex(2.0, -0.5));
@@ -46,8 +46,8 @@ double smallest_singular_value(const Eigen::PartialPivLU<Eigen::MatrixXcd>& lu) 
   return value;
 }
 
-// Largest relative error of the restricted answers in the energy norm at one frequency, by their
-// residuals and the smallest singular value of the restricted dynamic stiffness.
+// Largest relative error of the restricted solutions in the energy norm at one frequency, from
+// their residuals and the smallest singular value of the restricted dynamic stiffness.
 double error_at(const ReducedSpan& span, const ViscoelasticSystem& body,
                 const std::vector<Eigen::VectorXd>& loads, double omega_rad_s) {
   const ComplexModuli m = oscillating_moduli_at(body, omega_rad_s);
@@ -66,7 +66,7 @@ double error_at(const ReducedSpan& span, const ViscoelasticSystem& body,
   return largest;
 }
 
-// Densest near the top, where the basis is weakest.
+// Test frequencies, densest near the top, where the basis is weakest.
 std::vector<double> test_frequencies(const DynamicRange& range) {
   std::vector<double> test;
   for (const double share : {1.0, 0.87, 0.71, 0.53, 0.36, 0.2, 0.1}) {
@@ -80,14 +80,14 @@ std::vector<double> test_frequencies(const DynamicRange& range) {
   return test;
 }
 
-// What the test of a basis found.
+// Result of the test of a basis.
 struct Verdict {
-  double error = 0.0;              // largest over what is allowed there, times the tolerance
-  double worst_rad_s = 0.0;        // where that is
-  double sound_up_to_rad_s = 0.0;  // below this every test frequency is met
+  double error = 0.0;              // largest error over the tolerance allowed there, times the tolerance
+  double worst_rad_s = 0.0;        // frequency of that error
+  double sound_up_to_rad_s = 0.0;  // all test frequencies below this one meet the tolerance
 };
 
-// By how much the tolerance is larger there than at rest.
+// Factor by which the tolerance at this frequency is larger than at rest.
 double allowance(const DynamicRange& range, double omega_rad_s) {
   const auto beyond = [omega_rad_s](double corner_rad_s) {
     return corner_rad_s > 0.0 ? std::max(1.0, omega_rad_s / corner_rad_s) : 1.0;
@@ -119,7 +119,7 @@ struct Chain {
   bool is_exhausted = false;
 };
 
-// True when the shape of the answers depends on how far the material has relaxed: shear and bulk
+// True if the shape of the solutions depends on how far the material has relaxed: shear and bulk
 // relax differently, or the body has an elastic part.
 bool shape_relaxes(const ViscoelasticSystem& system, const DynamicRange& range) {
   const ComplexModuli slow = oscillating_moduli_at(system, range.lowest_rad_s);
@@ -178,7 +178,8 @@ ReducedBody reduce_dynamic(const ViscoelasticSystem& system,
     if (!is_last && span.count() < next_check) continue;
     verdict = test_basis(span, system, loads, range);
     if (verdict.error <= range.tolerance) break;
-    // Chains do not know how shapes relax: where they stall, the whole body's answer helps.
+    // Krylov chains do not include the relaxation of shapes. If they stall, a whole-body solution
+    // helps.
     if (answers_left > 0 && verdict.error > 0.1 * last_error) {
       grows = add_answers(system, loads, verdict.worst_rad_s, span) || grows;
       --answers_left;

@@ -22,7 +22,7 @@ void append(Eigen::MatrixXd& matrix, const Eigen::VectorXd& column) {
   matrix.col(matrix.cols() - 1) = column;
 }
 
-// basis' image, one row and column larger than before.
+// Extends basis' * image by one row and column.
 void border(Eigen::MatrixXd& small, const Eigen::MatrixXd& basis, const Eigen::MatrixXd& image) {
   const Eigen::Index n = basis.cols();
   small.conservativeResize(n, n);

@@ -9,8 +9,7 @@
 
 namespace viscard {
 
-// The span that a ReducedBody is made of while it grows, with what every matrix of the body makes
-// of its basis.
+// The growing span of a ReducedBody, with the product of every matrix of the body and the basis.
 class ReducedSpan {
  public:
   // The body must outlive the span.
@@ -23,7 +22,7 @@ class ReducedSpan {
   const Eigen::MatrixXd& basis() const { return basis_; }
   bool has_mass() const { return body_.mass.size() > 0; }
 
-  // Adds the part of v that is new; false if there is none to rounding.
+  // Adds the component of v orthogonal to the basis; returns false if it is zero to rounding.
   bool add(Eigen::VectorXd v);
 
   // (elastic + shear S + bulk B - omega^2 M) basis.
@@ -36,7 +35,7 @@ class ReducedSpan {
     return sum;
   }
 
-  // The same seen from the basis: basis' (elastic + shear S + bulk B - omega^2 M) basis.
+  // The same projected on the basis: basis' (elastic + shear S + bulk B - omega^2 M) basis.
   Eigen::MatrixXcd restricted(std::complex<double> shear, std::complex<double> bulk,
                               double omega2) const;
   // (elastic + shear S + bulk B - omega^2 M) basis c, without forming the sum.
@@ -54,7 +53,7 @@ class ReducedSpan {
   const ViscoelasticSystem& body_;
   StiffnessFactor instantaneous_;
   Eigen::MatrixXd basis_, elastic_, shear_, bulk_, mass_;  // unknowns x count()
-  // count() x count(): basis' times these.
+  // basis' times the matrices above, count() x count().
   Eigen::MatrixXd small_elastic_, small_shear_, small_bulk_, small_mass_;
 };
 

@@ -4,7 +4,8 @@ namespace viscard {
 
 std::complex<double> relative_modulus(const std::vector<MaterialTerm>& terms,
                                       double MaterialTerm::*share, std::complex<double> s) {
-  // Moduli that remain plus those that wait, without the cancellation of 1 - sum m/(1 + s tau).
+  // Sum of the lasting part and the relaxing parts, without the cancellation of 1 - sum m/(1 + s
+  // tau).
   double rest = 1.0;
   for (const MaterialTerm& term : terms) rest -= term.*share;
   std::complex<double> modulus = rest;

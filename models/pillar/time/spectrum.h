@@ -4,9 +4,9 @@
 
 namespace viscard {
 
-// Amplitude spectrum of equally spaced samples, mean removed, Hann window, so that a steady sine of
-// amplitude A gives a peak of about A: frequencies k/(n dt). Source: Harris, Proc. IEEE 66
-// (1978) 51.
+// Amplitude spectrum of equally spaced samples at the frequencies k/(n dt). The mean is removed and
+// a Hann window applied, scaled so that a steady sine of amplitude A gives a peak of about A.
+// Source: Harris, Proc. IEEE 66 (1978) 51.
 struct Spectrum {
   std::vector<double> frequency_Hz;
   std::vector<double> amplitude;

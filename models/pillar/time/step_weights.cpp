@@ -9,7 +9,7 @@ namespace viscard {
 
 Eigen::VectorXd exponential_moments(double x, int highest) {
   Eigen::VectorXd moments = Eigen::VectorXd::Zero(highest + 1);
-  // Upward recursion loses digits below x of about the power; there the integrand is tame.
+  // The upward recursion loses digits for small x; there the integrand is smooth, so integrate it.
   constexpr double kRecursionFrom = 6.0;
   if (x < kRecursionFrom) {
     static const QuadratureRule rule = gauss_legendre(14);

@@ -6,15 +6,15 @@
 
 namespace viscard {
 
-// int_0^1 exp(-x e) e^p de for p = 0 to highest, x >= 0, to a few rounding errors.
+// int_0^1 exp(-x e) e^p de for p = 0 to highest and x >= 0, accurate to a few rounding errors.
 Eigen::VectorXd exponential_moments(double x, int highest);
 
-// A step of length h ends at t_1; before it lie steps of the lengths in earlier_over_h * h, latest
-// first. Displacement is the polynomial through the end of all of them, and
-//   int_step exp(-(t_1 - s)/tau) u'(s) ds = sum_m weight_m (increment of step m),  m = 0 the new
-//   step,
-// with x = h/tau (eq. 17). One earlier step gives degree 2, none degree 1 (weight phi_1).
-// For x -> infinity h/tau * weight tends to the backward differentiation formula of that order.
+// A step of length h ends at t_1. The steps before it have the lengths earlier_over_h * h, latest
+// first. The displacement is the polynomial through the ends of all these steps, and
+//  int_step exp(-(t_1 - s)/tau) u'(s) ds = sum_m weight_m (increment of step m)
+// with m = 0 for the new step and x = h/tau (eq. 17). One earlier step gives degree 2, none gives
+// degree 1 (weight phi_1). For x -> infinity, h/tau * weight tends to the backward differentiation
+// formula of that order.
 class StepWeights {
  public:
   explicit StepWeights(const std::vector<double>& earlier_over_h);

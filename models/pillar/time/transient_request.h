@@ -6,9 +6,9 @@
 
 namespace viscard {
 
-// A load factor against time, linear between points; two points of one time are a jump.
+// A load factor against time, linear between points; two points at the same time are a jump.
 struct TransientRequest {
-  Eigen::VectorXd load;               // of the small body, times the factor
+  Eigen::VectorXd load;               // of the small body; multiplied by the factor
   std::vector<double> corner_time_s;  // of the load factor, ascending
   std::vector<double> corner_value;
   double end_s = 0.0;
@@ -21,7 +21,7 @@ struct TransientRequest {
 struct TransientResult {
   std::vector<double> time_s;   // outputs + 1 equal steps from 0
   Eigen::MatrixXd values;       // observers x times
-  double error_estimate = 0.0;  // relative to the largest of each
+  double error_estimate = 0.0;  // relative to the largest value of each output
   bool converged = false;
   int steps = 0;  // all levels together
 };

@@ -5,13 +5,13 @@
 
 namespace viscard {
 
-// Runs from rest. Rows of `observers` are linear outputs. Bodies whose stiffness relaxes all alike
-// are answered exactly (modal_response.h), others by steps.
+// Runs from rest. Rows of `observers` are linear outputs. A body whose whole stiffness relaxes with
+// one relative modulus is solved exactly (modal_response.h), any other by time steps.
 TransientResult run_transient(const ViscoelasticSystem& small, const TransientRequest& request,
                               const Eigen::MatrixXd& observers);
 
-// By steps: all are halved until the extrapolated answer (Richardson, fourth order) changes by less
-// than the tolerance.
+// Runs by time steps. All steps are halved until the extrapolated answer (Richardson, fourth order)
+// changes by less than the tolerance.
 TransientResult run_by_steps(const ViscoelasticSystem& small, const TransientRequest& request,
                              const Eigen::MatrixXd& observers);
 

@@ -38,7 +38,7 @@ std::vector<TransientPiece> pieces_of(const TransientRequest& r) {
   double at_s = 0.0;
   for (const TransientStop& stop : stops_of(r)) {
     double length_s = stop.time_s - at_s;
-    if (length_s <= 0.0) continue;  // a jump between outputs stands there twice
+    if (length_s <= 0.0) continue;  // a jump between outputs appears twice
     if (std::abs(length_s - spacing_s) <= 1e-9 * spacing_s) length_s = spacing_s;
     pieces.push_back({length_s, factor_at(r, at_s * (1.0 + 1e-12), true),
                       factor_at(r, stop.time_s * (1.0 - 1e-12), false), stop.is_output});

@@ -9,15 +9,15 @@
 
 namespace viscard {
 
-// Stiffness (and, with_mass, mass) of any model of one pillar of a viscoelastic material: any
-// family of motion, with or without film and electrodes, whose part is elastic. The model must have
-// been made with the material's instantaneous moduli; the load is left empty. Throws
-// std::invalid_argument for plane stress with shear and bulk moduli that relax differently, where
-// the condensed moduli are no sum of the two.
+// Stiffness (and, with_mass, mass) of a model of a pillar of one viscoelastic material, in any
+// family of motion, with or without film and electrodes; the film's part is elastic. The model must
+// have been made with the instantaneous moduli of the material. The load is left empty. Throws
+// std::invalid_argument for plane stress if shear and bulk moduli relax differently, because the
+// condensed moduli are then no sum of the two.
 ViscoelasticSystem viscoelastic_system(const PillarModel& model, const Material& material,
                                        bool with_mass);
 
-// How the top of the pillar is loaded along its axis.
+// The kind of axial load on the top of the pillar.
 enum class TopLoad {
   kRigidPlate,  // a rigid frictionless plate: one displacement
   kPressure     // uniform pressure, free top: load.u is the mean displacement
@@ -28,9 +28,8 @@ enum class TopLoad {
 // of the top in m.
 class ViscoelasticPillar {
  public:
-  // `film` is needed exactly when the geometry has one. Throws std::invalid_argument for
-  // a bad geometry or material. Near nu = 0.5 (from 0.45) pressures are condensed, see
-  // volume_form().
+  // `film` must be given if and only if the geometry has a film. Throws std::invalid_argument for a
+  // bad geometry or material. Near nu = 0.5 (from 0.45) pressures are condensed, see volume_form().
   ViscoelasticPillar(const PillarGeometry& geometry, const Discretisation& discretisation,
                      const Material& material, TopLoad top,
                      const std::optional<Medium>& film = std::nullopt);

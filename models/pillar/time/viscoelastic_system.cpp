@@ -39,7 +39,7 @@ ViscoelasticStepper::ViscoelasticStepper(const ViscoelasticSystem& system, int o
 }
 
 void ViscoelasticStepper::prepare(double dt_s) {
-  if (dt_s == 0.0) earlier_s_.clear();  // a jump has no slope to share with its neighbours
+  if (dt_s == 0.0) earlier_s_.clear();  // a jump has no slope in common with its neighbours
   std::vector<double> lengths_s{dt_s};
   lengths_s.insert(lengths_s.end(), earlier_s_.begin(), earlier_s_.end());
   if (lengths_s == factored_s_) return;
@@ -74,7 +74,7 @@ void ViscoelasticStepper::advance(double dt_s, Control control, double value) {
   if (n_earlier > 0) {
     memory_ += increments_.leftCols(n_earlier) * weights_.bottomRows(n_earlier);
   }
-  // What the body carries at the end of the step if it does not move: the residual to restore.
+  // Force of the body at the end of the step without motion: the residual to be balanced.
   const Eigen::VectorXd& u = displacement_vector_;
   Eigen::VectorXd carried = times(system_->elastic, u);
   carried += times(system_->shear, (1.0 - g_.sum()) * u + memory_ * g_);

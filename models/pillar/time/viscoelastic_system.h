@@ -10,9 +10,9 @@
 
 namespace viscard {
 
-// Matrices of a body in which one viscoelastic material may stand on elastic ones:
-//   force(t) = elastic u + int [G(t-s)/G_0 shear + K(t-s)/K_0 bulk] du(s)   (eq. 16)
-// with the instantaneous moduli in `shear` (G_0) and `bulk` (K_0), all on one pattern.
+// Matrices of a body of one viscoelastic material, possibly joined to elastic ones:
+//  force(t) = elastic u + int [G(t-s)/G_0 shear + K(t-s)/K_0 bulk] du(s)   (eq. 16)
+// with the instantaneous moduli in `shear` (G_0) and `bulk` (K_0), all with one sparsity pattern.
 struct ViscoelasticSystem {
   SymmetricSparse elastic;
   SymmetricSparse shear;
@@ -20,20 +20,21 @@ struct ViscoelasticSystem {
   bool incompressible = false;
   SymmetricSparse mass;  // empty: quasi-static
   std::vector<MaterialTerm> terms;
-  Eigen::VectorXd load;  // force vector of a unit load; load.u is the displacement it works on
+  Eigen::VectorXd load;  // force vector of a unit load; load.u is the conjugate displacement
 };
 
-// elastic + shear_factor shear + bulk_factor bulk; an incompressible body's penalty keeps factor 1.
+// elastic + shear_factor shear + bulk_factor bulk; the penalty of an incompressible body keeps
+// factor 1.
 SymmetricSparse stiffness_at(const ViscoelasticSystem& system, double shear_factor,
                              double bulk_factor);
 
 enum class Control { kForce, kDisplacement };
 
-// Steps the body with internal variables d_i = int exp(-(t-s)/tau_i) du(s), which the recursion
-//   d_i <- exp(-x) d_i + sum_m weight_m(x) (increment of step m), x = dt/tau_i   (eq. 17)
-// integrates exactly, whatever x, for displacement that is a polynomial through the last `order` +
-// 1 points: order 1 is the usual recursion for strain linear per step, exact for relaxation at
-// constant Poisson ratio. For steps that outrun all relaxation times it becomes the backward
+// Steps the body with internal variables d_i = int exp(-(t-s)/tau_i) du(s). The recursion
+//  d_i <- exp(-x) d_i + sum_m weight_m(x) (increment of step m), x = dt/tau_i   (eq. 17)
+// integrates them exactly, for any x, if the displacement is a polynomial through the last `order`
+// + 1 points. Order 1 is the usual recursion for strain linear per step, exact for relaxation at
+// constant Poisson ratio. For steps much longer than all relaxation times it becomes the backward
 // differentiation formula of that order. Sources: Taylor, Pister & Goudreau, IJNME 2 (1970) 45;
 // Simo & Hughes, Computational Inelasticity (1998), ch. 10; Hairer & Wanner, Solving ODEs II
 // (1996), V.1.
@@ -43,11 +44,11 @@ class ViscoelasticStepper {
   explicit ViscoelasticStepper(const ViscoelasticSystem& system, int order = 1);
 
   // A step of dt_s >= 0 to the given multiple of the unit load, or to the given load.u; dt_s = 0 is
-  // a jump. Factors the matrix anew only when dt_s differs from the last step's. Throws
-  // std::invalid_argument if dt_s < 0 or not finite.
+  // a jump. Factors the matrix again only if dt_s differs from that of the last step. Throws
+  // std::invalid_argument if dt_s is negative or not finite.
   void advance(double dt_s, Control control, double value);
 
-  // Forgets the earlier points of the polynomial: the rate of loading is about to jump.
+  // Drops the earlier points of the polynomial, because the rate of loading is about to jump.
   void start_anew() { earlier_s_.clear(); }
 
   double force() const { return force_; }  // multiple of load
@@ -66,7 +67,7 @@ class ViscoelasticStepper {
   std::vector<double>
       factored_s_;  // lengths of the new step and those before it at the last factoring
   std::vector<double> earlier_s_;  // lengths of earlier steps in use, latest first
-  Eigen::MatrixXd increments_;     // unknowns x (order - 1): their increments of displacement
+  Eigen::MatrixXd increments_;     // unknowns x (order - 1): displacement increments of these
   Eigen::VectorXd decay_;          // exp(-x_i)
   Eigen::MatrixXd weights_;        // steps x terms
   Eigen::VectorXd g_, k_;          // relative moduli
