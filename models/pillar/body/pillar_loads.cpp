@@ -25,7 +25,7 @@ int carrying_field(const PillarModel& model) {
 }  // namespace
 
 double top_area_m2(const PillarModel& model) {
-  const double R_m = radius_at_m(model.geometry(), model.geometry().length_m);  // including a wider tip
+  const double R_m = radius_at_m(model.geometry(), model.geometry().length_m);  // of a wider tip
   return model.system().kinematics().x_power == 1 ? std::numbers::pi * R_m * R_m : 2.0 * R_m;
 }
 
