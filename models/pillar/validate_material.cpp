@@ -102,7 +102,7 @@ ValidationResult validate_material(const Material& material, const ValidateOptio
   result.unknowns = pillar.model().system().size();
 
   HistoryOptions history;
-  history.tolerance = 0.02 * options.tolerance;  // well below what is tested
+  history.tolerance = 0.02 * options.tolerance;  // well below the tested one
   history.relative_floor = 0.0;                  // relative at every time
   const auto part = [&](double offset) {
     return [&, offset](double fraction) {

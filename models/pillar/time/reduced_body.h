@@ -17,7 +17,7 @@ namespace viscard {
 struct ReducedBody {
   ViscoelasticSystem system;       // full lower triangles, basis.cols() unknowns
   Eigen::MatrixXd basis;           // unknowns x size, orthonormal in the instantaneous stiffness
-  double error = 0.0;              // largest tested estimate, relative, energy norm
+  double error = 0.0;              // largest tested estimate, relative in the energy norm
   double sound_up_to_rad_s = 0.0;  // dynamics: the highest tested frequency that met the tolerance
 
   // A linear output of the full body as a vector for the small one.

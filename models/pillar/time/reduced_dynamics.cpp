@@ -82,7 +82,7 @@ std::vector<double> test_frequencies(const DynamicRange& range) {
 
 // Result of the test of a basis.
 struct Verdict {
-  double error = 0.0;              // largest error over its allowance, times the tolerance
+  double error = 0.0;              // largest ratio to the allowed error, times the tolerance
   double worst_rad_s = 0.0;        // frequency of that error
   double sound_up_to_rad_s = 0.0;  // all test frequencies below this one meet the tolerance
 };

@@ -9,7 +9,8 @@ namespace viscard {
 
 Eigen::VectorXd exponential_moments(double x, int highest) {
   Eigen::VectorXd moments = Eigen::VectorXd::Zero(highest + 1);
-  // The upward recursion loses digits for small x; there the integrand is smooth, so integrate it.
+  // The upward recursion loses digits for x below about the power. The integrand is smooth there,
+  // so use quadrature.
   constexpr double kRecursionFrom = 6.0;
   if (x < kRecursionFrom) {
     static const QuadratureRule rule = gauss_legendre(14);
