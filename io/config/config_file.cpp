@@ -88,6 +88,8 @@ EmulatedTruth truth_from_toml(const std::string& text, const std::string& name) 
   return config_from_toml<EmulatedTruth>(text, name, unset, show_truth, check_truth);
 }
 
+namespace {
+
 // Checks that apply only to a rig about to be used; the rig in an old capture is read without them.
 void check_before_use(const RigConfig& rig, const std::string& name) {
   const LoadCellConfig& cell = rig.load_cell;
@@ -104,6 +106,8 @@ void check_before_use(const RigConfig& rig, const std::string& name) {
     throw std::runtime_error(name + ": " + error.what());
   }
 }
+
+}  // namespace
 
 RigConfig read_rig(const std::filesystem::path& path) {
   RigConfig rig = rig_from_toml(read_file(path), path.string());

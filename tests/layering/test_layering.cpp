@@ -168,8 +168,9 @@ TEST_CASE("what x.h declares is defined in x.cpp or in a file of that room witho
       for (const std::string& name : names) {
         CAPTURE(name);
         const auto place = headers.find(name);
-        REQUIRE(place != headers.end());  // defined for others, but no header declares it
         ++checked;
+        CHECK(place != headers.end());  // else defined for others, but no header declares it
+        if (place == headers.end()) continue;
         CHECK(std::any_of(place->second.begin(), place->second.end(),
                           [&](const std::string& header) { return is_in_place(path, header); }));
       }
