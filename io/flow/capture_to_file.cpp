@@ -38,7 +38,7 @@ void close_file(CaptureWriter& writer, RunOutcome& outcome) {
       "{} records were lost because the disk did not keep up. Write to a faster disk", dropped);
 }
 
-// Calls `closing` at the end of its scope, whatever ended it.
+// Calls `closing` at the end of its scope, also after an exception.
 class ClosingCall {
  public:
   explicit ClosingCall(const CaptureWatch& watch) : watch_(watch) {}

@@ -128,7 +128,7 @@ std::string figure_from_gnuplot_svg(const std::string& document, const std::stri
   body = std::regex_replace(body, curve_id, "");
   replace_all(body, "id='gp", "id='" + id + "-gp");
   replace_all(body, "href='#gp", "href='#" + id + "-gp");
-  // Grid lines come dashed whatever the script says.
+  // gnuplot dashes grid lines even if the script asks for solid ones.
   replace_all(body, "stroke-dasharray='2,4' class=\"gridline\"", "class=\"gridline\"");
   // "family:Bold" is split only in enhanced text, which would need escapes in every name.
   replace_all(body, "font-family=\"sans-serif:Bold\"",

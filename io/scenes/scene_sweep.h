@@ -12,7 +12,7 @@ namespace viscard {
 // value.
 struct ArraySweep {
   std::vector<double> diameter_m, spacing_m, thickness_m;
-  double length_over_diameter = 0.0;  // 0: the scene's length whatever the diameter
+  double length_over_diameter = 0.0;  // 0: the scene's length at every diameter
   double limit_percent =
       0.0;  // report the first spacing whose deviation lies below this; 0: do not
   bool is_empty() const { return diameter_m.empty() && spacing_m.empty() && thickness_m.empty(); }

@@ -24,7 +24,7 @@ void require(bool is_good, const char* what, double value, const char* expected)
                               expected);
 }
 
-// Limits that diameter and spacing meet or break whatever the length.
+// Limits that diameter and spacing meet or break at any length.
 std::vector<DesignLimit> limits_in_plane(double diameter_m, double spacing_m,
                                          const SensorMaterial& m, const SensorRequirements& r) {
   std::vector<DesignLimit> limits = {

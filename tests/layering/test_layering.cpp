@@ -35,7 +35,7 @@ bool begins_with_any(const std::string& text, const std::vector<std::string>& be
                      [&](const std::string& b) { return text.rfind(b, 0) == 0; });
 }
 
-// What the folders at the top may know of each other, whatever their rooms say.
+// What the folders at the top may know of each other, even if their rooms list more.
 struct Border {
   const char* folder;
   std::vector<std::string> may_know;  // beginnings of folders

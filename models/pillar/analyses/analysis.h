@@ -32,7 +32,7 @@ struct Analysis {
 
   bool has_inertia = false;  // vibration: needs densities
   bool relaxes = false;      // uses the Prony series; the others use the instantaneous moduli
-  bool bends = false;        // the answer is how the pillar bends, whatever the load
+  bool bends = false;        // the answer is how the pillar bends, under any load
   HistoryOf history = HistoryOf::kNothing;
   FreeBottom free_bottom = FreeBottom::kRefused;
   double share_left = ErrorControl::kShareLeft;  // error_control.h

@@ -269,7 +269,7 @@ std::vector<std::string> harmonic_names(const PillarScene& scene) {
   return moving_names(scene, is_base ? "transmissibility" : "top_displacement", endings);
 }
 
-// An oscillating load pushes half of the time, whatever its sign.
+// An oscillating load pushes half of the time with either sign.
 double harmonic_push_Pa(const PillarScene& scene) {
   return std::abs(harmonic_drive(scene).pressure_Pa);
 }

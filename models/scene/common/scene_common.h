@@ -9,7 +9,7 @@
 
 namespace viscard {
 
-// What every scene has, whatever stands in it. Each kind of scene derives from this.
+// What every kind of scene has. Each kind of scene derives from this.
 struct SceneCommon {
   double tolerance = 1e-3;          // relative error of the results
   Material pillar;                  // of every pillar
