@@ -1,6 +1,8 @@
 #include "fit/chebyshev_series.h"
 
-#include <Eigen/Dense>
+#include "models/maths/dense.h"
+
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -84,7 +86,7 @@ Parameters least_squares(const Problem& problem, Parameters p, const Eigen::Vect
     const Eigen::VectorXd gradient = weighted.transpose() * (r.array() * weights.array()).matrix();
     normal.diagonal() *= 1.0 + damping;
     normal.diagonal().array() += 1e-30 + 1e-14 * normal.diagonal().maxCoeff();
-    Parameters trial = p - normal.ldlt().solve(gradient);
+    Parameters trial = p - SymmetricFactor(normal).solve(gradient);
     clamp(problem, trial);
     const double then = cost(trial);
     if (then < now) {
@@ -158,7 +160,7 @@ Parameters equalise(const Problem& problem, Parameters p) {
       system(row, p.size()) = r[peaks[j]] > 0.0 ? -1.0 : 1.0;
       right[row] = -r[peaks[j]];
     }
-    Eigen::VectorXd step = system.colPivHouseholderQr().solve(right);
+    Eigen::VectorXd step = PivotedQr(system).solve(right);
     const double size = step.head(p.size()).lpNorm<Eigen::Infinity>();
     if (!std::isfinite(size)) break;
     p += step.head(p.size()) * std::min(1.0, 0.3 / size);

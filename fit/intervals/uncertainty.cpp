@@ -1,6 +1,8 @@
 #include "fit/intervals/uncertainty.h"
 
-#include <Eigen/Dense>
+#include "models/maths/dense.h"
+
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -110,14 +112,12 @@ Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralS
     seen.push_back(j);
   }
   const auto used = static_cast<Index>(seen.size());
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled.leftCols(used));
-  const Eigen::MatrixXd upper = qr.matrixQR().topRows(used).triangularView<Eigen::Upper>();
-  const Eigen::MatrixXd inverse =
-      upper.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(used, used));
+  const HouseholderQr qr(scaled.leftCols(used));
+  const Eigen::MatrixXd inverse = qr.upper_inverse();
   Eigen::MatrixXd part = variance * inverse * inverse.transpose();
   if (!noise.phi.empty()) {
     // (J^T J)^-1 J^T = R^-1 Q^T; the middle is Q^T C Q.
-    const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(scaled.rows(), used);
+    const Eigen::MatrixXd q = qr.basis();
     const Eigen::MatrixXd middle = q.transpose() * correlated(q, model.row_begins(), noise);
     part = variance * inverse * middle * inverse.transpose();
   }

@@ -1,9 +1,10 @@
 #include "fit/laws/fit_mixing_ratio.h"
 
 #include "fit/laws/ratio_estimates.h"
+#include "models/maths/dense.h"
 #include "models/maths/text_of_number.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
@@ -45,22 +46,22 @@ class Likelihood {
         const std::size_t kind = k == 0 ? 0 : (k <= n_terms_ ? 1 : 2);
         variance(k, k) += spreads[kind] * spreads[kind];
       }
-      const Eigen::LLT<Eigen::MatrixXd> factor(variance);
-      if (factor.info() != Eigen::Success) return {};
-      const Eigen::MatrixXd design = factor.matrixL().solve(designs_[s]);
-      const Eigen::VectorXd theta = factor.matrixL().solve(estimates_[s].theta);
+      const Cholesky factor(variance);
+      if (!factor.is_definite()) return {};
+      const Eigen::MatrixXd design = factor.solve_lower(designs_[s]);
+      const Eigen::VectorXd theta = factor.solve_lower(estimates_[s].theta);
       normal += design.transpose() * design;
       right += design.transpose() * theta;
       twice += theta.squaredNorm() + static_cast<double>(theta.size()) * std::log(kTwoPi) +
-               2.0 * factor.matrixLLT().diagonal().array().log().sum();
+               factor.log_determinant();
     }
-    const Eigen::LDLT<Eigen::MatrixXd> solver(normal);
+    const SymmetricFactor solver(normal);
     Solution out;
     out.beta = solver.solve(right);
-    out.covariance = solver.solve(Eigen::MatrixXd::Identity(size, size));
+    out.covariance = solver.solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(size, size)));
     twice -= right.dot(out.beta);
     if (restricted_) {
-      twice += solver.vectorD().array().log().sum() - static_cast<double>(size) * std::log(kTwoPi);
+      twice += solver.log_determinant() - static_cast<double>(size) * std::log(kTwoPi);
     }
     out.log_likelihood = -0.5 * twice;
     return out;

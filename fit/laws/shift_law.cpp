@@ -1,8 +1,10 @@
 #include "fit/laws/shift_law.h"
 
 #include "models/material/ratio_model.h"
+#include "models/maths/dense.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +19,9 @@ using Index = Eigen::Index;
 
 // y and the columns whitened by the covariance, so that ordinary least squares apply.
 struct Whitened {
-  Eigen::LLT<Eigen::MatrixXd> factor;
+  Cholesky factor;
   Eigen::VectorXd y;
-  Eigen::VectorXd of(const Eigen::VectorXd& column) const { return factor.matrixL().solve(column); }
+  Eigen::VectorXd of(const Eigen::VectorXd& column) const { return factor.solve_lower(column); }
 };
 
 struct Line {  // y = slope * column
@@ -124,11 +126,11 @@ ShiftLaws fit_shift_laws(const std::vector<ShiftFactor>& factors, const Eigen::M
     temperature_C[i] = factors[static_cast<std::size_t>(i)].temperature_C;
   }
   Whitened data;
-  data.factor.compute(covariance + 1e-14 * Eigen::MatrixXd::Identity(n, n));
-  if (data.factor.info() != Eigen::Success) {
+  data.factor = Cholesky(covariance + 1e-14 * Eigen::MatrixXd::Identity(n, n));
+  if (!data.factor.is_definite()) {
     throw std::runtime_error("the shift factors are not determined by the data");
   }
-  data.y = data.factor.matrixL().solve(ln_a);
+  data.y = data.factor.solve_lower(ln_a);
   ShiftLaws laws;
   fit_wlf(data, (temperature_C.array() - T_ref_C).matrix(), T_ref_C, laws);
   fit_arrhenius(data, temperature_C, T_ref_C, laws);

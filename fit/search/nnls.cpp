@@ -1,7 +1,6 @@
 #include "fit/search/nnls.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
+#include "models/maths/dense.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +26,7 @@ Eigen::VectorXd solve_passive(const Eigen::MatrixXd& gram, const Eigen::VectorXd
   }
   constexpr double kRidge = 1e-14;
   matrix.diagonal() *= 1.0 + kRidge;
-  return matrix.ldlt().solve(vector);
+  return SymmetricFactor(matrix).solve(vector);
 }
 
 std::vector<Index> chosen(const std::vector<bool>& in_use) {
@@ -114,7 +113,7 @@ bool SignedLeastSquares::solve(const Eigen::MatrixXd& columns, const Eigen::Vect
     if (!(scale[i] > 0.0)) scale[i] = 1.0;
   }
   part = part * scale.cwiseInverse().asDiagonal();
-  qr_.compute(part);
+  qr_ = PivotedQr(part);
   const Eigen::VectorXd solution = qr_.solve(data).cwiseQuotient(scale);
   bool is_feasible = true;
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -145,7 +144,7 @@ SignedLeastSquares::SignedLeastSquares(const Eigen::MatrixXd& columns, const Eig
 
 Eigen::MatrixXd SignedLeastSquares::outside(const Eigen::MatrixXd& vectors) const {
   if (is_empty_) return vectors;
-  const Eigen::MatrixXd rotated = qr_.householderQ().adjoint() * vectors;
+  const Eigen::MatrixXd rotated = qr_.rotated(vectors);
   return rotated.bottomRows(vectors.rows() - qr_.rank());
 }
 

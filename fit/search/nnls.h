@@ -1,7 +1,8 @@
 #pragma once
 
+#include "models/maths/dense.h"
+
 #include <Eigen/Core>
-#include <Eigen/QR>
 
 #include <vector>
 
@@ -37,7 +38,7 @@ class SignedLeastSquares {
   std::vector<bool> in_use_;
   Eigen::VectorXd x_;
   bool is_empty_ = true;  // no column in use
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
+  PivotedQr qr_;
 };
 
 inline Eigen::VectorXd least_squares_with_signs(const Eigen::MatrixXd& columns,

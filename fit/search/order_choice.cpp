@@ -1,8 +1,9 @@
 #include "fit/search/order_choice.h"
 
 #include "fit/samples/column_products.h"
+#include "models/maths/dense.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -42,66 +43,47 @@ bool is_worse(const std::vector<LeftOut>& a, const std::vector<LeftOut>& best,
 // conditioned, otherwise by QR, with pivoting if the columns are nearly dependent.
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
   constexpr double kHidden = 1e-5, kNearlyDependent = 1e-9;
-  const Eigen::LLT<Eigen::MatrixXd> gram(gram_of(columns));
-  if (gram.info() == Eigen::Success && columns.cols() > 0 &&
-      gram.matrixLLT().diagonal().minCoeff() > kHidden) {
-    return gram.matrixU().solve<Eigen::OnTheRight>(columns);
+  const Cholesky gram(gram_of(columns));
+  if (gram.is_definite() && gram.smallest_pivot() > kHidden) return gram.over_upper(columns);
+  if (columns.rows() >= columns.cols()) {
+    const HouseholderQr quick(columns);
+    if (quick.smallest_pivot() > kNearlyDependent) return quick.basis();
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> quick(columns);
-  if (columns.rows() >= columns.cols() &&
-      quick.matrixQR().diagonal().cwiseAbs().minCoeff() > kNearlyDependent) {
-    return quick.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
-  }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+  return PivotedQr(columns).basis();
 }
-
-// A matrix with at most this many rows or columns is stored on the stack.
-constexpr Index kSmall = 12;
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kSmall, kSmall>;
-using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kSmall, 1>;
 
 // Error of predicting the rows r from all others, (1 - q q^T)^-1 r, where q holds these rows of an
 // orthonormal basis of the model. Uses the smaller of q q^T and q^T q.
-template <typename Matrix, typename Vector>
 LeftOut left_out_error(const Eigen::Ref<const Eigen::MatrixXd>& q,
                        const Eigen::Ref<const Eigen::VectorXd>& r) {
   LeftOut out;
   out.squared_error = r.squaredNorm();
   if (q.cols() == 0) return out;
   const bool is_short = q.rows() <= q.cols();
-  const Matrix leverage =
-      is_short ? Matrix(q.lazyProduct(q.transpose())) : Matrix(q.transpose().lazyProduct(q));
+  const Eigen::MatrixXd leverage = is_short ? Eigen::MatrixXd(q.lazyProduct(q.transpose()))
+                                            : Eigen::MatrixXd(q.transpose().lazyProduct(q));
   constexpr double kAlone = 0.9;
   if (q.squaredNorm() < kAlone) {  // the trace is an upper bound of the eigenvalues
-    const Eigen::LLT<Matrix> rest(Matrix::Identity(leverage.rows(), leverage.cols()) - leverage);
+    const Cholesky rest(Eigen::MatrixXd::Identity(leverage.rows(), leverage.cols()) - leverage);
     if (is_short) {
-      out.squared_error = Vector(rest.solve(r)).squaredNorm();
+      out.squared_error = rest.solve(Eigen::VectorXd(r)).squaredNorm();
     } else {
-      const Vector shares = q.transpose() * r;
-      out.squared_error = (r + q * Vector(rest.solve(shares))).squaredNorm();
+      out.squared_error = (r + q * rest.solve(Eigen::VectorXd(q.transpose() * r))).squaredNorm();
     }
     return out;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(leverage);
-  out.is_predictable = solver.eigenvalues().maxCoeff() < kAlone;
+  const EigenSystem system = symmetric_eigen(leverage);
+  out.is_predictable = system.values.maxCoeff() < kAlone;
   if (!out.is_predictable) return out;
-  const Vector rest = (1.0 - solver.eigenvalues().array()).inverse();
-  const Matrix& w = solver.eigenvectors();
+  const Eigen::VectorXd rest = (1.0 - system.values.array()).inverse();
+  const Eigen::MatrixXd& w = system.vectors;
   if (is_short) {
     out.squared_error = rest.cwiseProduct(w.transpose() * r).squaredNorm();
   } else {
-    const Vector shares = rest.cwiseProduct(w.transpose() * (q.transpose() * r));
+    const Eigen::VectorXd shares = rest.cwiseProduct(w.transpose() * (q.transpose() * r));
     out.squared_error = (r + q * (w * shares)).squaredNorm();
   }
   return out;
-}
-
-LeftOut left_out_error(const Eigen::Ref<const Eigen::MatrixXd>& q,
-                       const Eigen::Ref<const Eigen::VectorXd>& r) {
-  return std::min(q.rows(), q.cols()) <= kSmall
-             ? left_out_error<SmallMatrix, SmallVector>(q, r)
-             : left_out_error<Eigen::MatrixXd, Eigen::VectorXd>(q, r);
 }
 
 }  // namespace

@@ -3,8 +3,7 @@
 #include "fit/samples/column_products.h"
 #include "fit/search/nnls.h"
 #include "fit/search/spectral_state.h"
-
-#include <Eigen/Cholesky>
+#include "models/maths/dense.h"
 
 #include <limits>
 #include <numeric>
@@ -41,9 +40,9 @@ class NormalSolution {
   NormalSolution(const Eigen::MatrixXd& values, const Eigen::MatrixXd& gram,
                  const Eigen::VectorXd& right, std::vector<Index> used)
       : used_(std::move(used)), scale_(gram.diagonal()(used_).cwiseSqrt().cwiseInverse()) {
-    cholesky_.compute(scale_.asDiagonal() * gram(used_, used_) * scale_.asDiagonal());
-    is_good_ = cholesky_.info() == Eigen::Success && scale_.allFinite() &&
-               (used_.empty() || cholesky_.matrixLLT().diagonal().minCoeff() > kNearlyDependent);
+    cholesky_ = Cholesky(scale_.asDiagonal() * gram(used_, used_) * scale_.asDiagonal());
+    is_good_ = cholesky_.is_definite() && scale_.allFinite() &&
+               cholesky_.smallest_pivot() > kNearlyDependent;
     x_ = Eigen::VectorXd::Zero(values.cols());
     if (is_good_) x_(used_) = solve(right);
   }
@@ -59,18 +58,18 @@ class NormalSolution {
       return Eigen::MatrixXd::Zero(products.cols(), products.cols());
     }
     const Eigen::MatrixXd half =
-        cholesky_.matrixL().solve(scale_.asDiagonal() * products(used_, Eigen::all));
+        cholesky_.solve_lower(Eigen::MatrixXd(scale_.asDiagonal() * products(used_, Eigen::all)));
     return half.transpose() * half;
   }
 
  private:
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const {
-    return scale_.cwiseProduct(cholesky_.solve(scale_.cwiseProduct(right(used_))));
+    return scale_.cwiseProduct(cholesky_.solve(Eigen::VectorXd(scale_.cwiseProduct(right(used_)))));
   }
 
   std::vector<Index> used_;
   Eigen::VectorXd scale_, x_;
-  Eigen::LLT<Eigen::MatrixXd> cholesky_;
+  Cholesky cholesky_;
   bool is_good_ = false;
 };
 

@@ -1,8 +1,7 @@
 #include "fit/search/quick_search.h"
 
 #include "fit/search/projection.h"
-
-#include <Eigen/Cholesky>
+#include "models/maths/dense.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +33,7 @@ Step damped_step(const Projection& at, const std::vector<Index>& list, double da
   Eigen::MatrixXd matrix = at.normal(list, list);
   matrix.diagonal() *= 1.0 + damping;
   const Eigen::VectorXd g = at.gradient(list);
-  const Eigen::VectorXd part = -matrix.ldlt().solve(g);
+  const Eigen::VectorXd part = -SymmetricFactor(matrix).solve(g);
   Step step;
   step.change = Eigen::VectorXd::Zero(at.gradient.size());
   step.change(list) = part;

@@ -3,9 +3,8 @@
 #include "fit/samples/column_products.h"
 #include "fit/search/nnls.h"
 #include "fit/search/projection.h"
+#include "models/maths/dense.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <ceres/ceres.h>
 
 #include <algorithm>
@@ -167,14 +166,13 @@ Eigen::VectorXd gauss_newton_step(const FullSystem& at) {
   constexpr double kHidden = 1e-3;
   const Eigen::VectorXd scale = at.jacobian.colwise().norm().transpose().cwiseMax(1e-300);
   const Eigen::VectorXd unit = scale.cwiseInverse();
-  const Eigen::LLT<Eigen::MatrixXd> gram(unit.asDiagonal() * gram_of(at.jacobian) *
-                                         unit.asDiagonal());
-  if (gram.info() == Eigen::Success && gram.matrixLLT().diagonal().minCoeff() > kHidden) {
+  const Cholesky gram(unit.asDiagonal() * gram_of(at.jacobian) * unit.asDiagonal());
+  if (gram.is_definite() && gram.smallest_pivot() > kHidden) {
     const Eigen::VectorXd right = transposed_product(at.jacobian, at.residual);
-    return gram.solve(right.cwiseProduct(unit)).cwiseProduct(unit);
+    return gram.solve(Eigen::VectorXd(right.cwiseProduct(unit))).cwiseProduct(unit);
   }
   const Eigen::MatrixXd columns = at.jacobian * unit.asDiagonal();
-  return columns.colPivHouseholderQr().solve(at.residual).cwiseProduct(unit);
+  return PivotedQr(columns).solve(at.residual).cwiseProduct(unit);
 }
 
 bool is_allowed(const SpectralModel& model, const SpectralState& state) {

@@ -2,10 +2,9 @@
 
 #include "fit/samples/column_products.h"
 #include "fit/search/nnls.h"
+#include "models/maths/dense.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -40,13 +39,10 @@ class ReductionCosts {
     const Eigen::MatrixXd values = all.leftCols(first_ + n);
     const Eigen::MatrixXd offered = all.rightCols(n - 1);
     const Eigen::VectorXd scale = values.colwise().norm().transpose().cwiseMax(1e-300);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(values * scale.cwiseInverse().asDiagonal());
-    const auto upper = qr.matrixQR().topRows(values.cols()).triangularView<Eigen::Upper>();
-    const Eigen::MatrixXd inverse =
-        scale.cwiseInverse().asDiagonal() *
-        Eigen::MatrixXd(upper.solve(Eigen::MatrixXd::Identity(values.cols(), values.cols())));
+    const HouseholderQr qr(values * scale.cwiseInverse().asDiagonal());
+    const Eigen::MatrixXd inverse = scale.cwiseInverse().asDiagonal() * qr.upper_inverse();
     inverse_gram_ = inverse * inverse.transpose();
-    const Eigen::MatrixXd rotated = qr.householderQ().adjoint() * offered;
+    const Eigen::MatrixXd rotated = qr.rotated(offered);
     shares_ = inverse * rotated.topRows(values.cols());
     outside_ = rotated.bottomRows(rotated.rows() - values.cols()).colwise().squaredNorm();
     left_ = offered.transpose() * (model.data() - values * x_);
@@ -119,9 +115,8 @@ Offers offers_of(const SpectralModel& model, const Eigen::MatrixXd& present,
   constexpr double kHidden = 1e-4;
   const Eigen::VectorXd scale = present.colwise().norm().transpose().cwiseMax(1e-300);
   const Eigen::MatrixXd columns = present * scale.cwiseInverse().asDiagonal();
-  const Eigen::LLT<Eigen::MatrixXd> gram(gram_of(columns));
-  const bool is_clear = gram.info() == Eigen::Success &&
-                        (columns.cols() == 0 || gram.matrixLLT().diagonal().minCoeff() > kHidden);
+  const Cholesky gram(gram_of(columns));
+  const bool is_clear = gram.is_definite() && gram.smallest_pivot() > kHidden;
   if (!is_clear) return offers_by_qr(model, present, offered, is_free);
   const Eigen::VectorXd x = gram.solve(transposed_product(columns, model.data()));
   for (Index j = 0; j < x.size(); ++j) {  // a coefficient of zero would need the sign constraint
@@ -130,7 +125,7 @@ Offers offers_of(const SpectralModel& model, const Eigen::MatrixXd& present,
     }
   }
   const Eigen::VectorXd full = offered.colwise().squaredNorm().transpose();
-  const Eigen::MatrixXd shared = gram.matrixL().solve(transposed_product(columns, offered));
+  const Eigen::MatrixXd shared = gram.solve_lower(transposed_product(columns, offered));
   Offers offers{transposed_product(offered, model.data() - columns * x),
                 full - shared.colwise().squaredNorm().transpose()};
   if ((offers.length.array() < kHidden * kHidden * full.array()).any()) {

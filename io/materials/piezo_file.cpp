@@ -2,7 +2,6 @@
 
 #include "io/basics/atomic_file.h"
 
-#include <Eigen/LU>
 #include <nlohmann/json.hpp>
 
 #include <set>
@@ -34,7 +33,7 @@ Matrix6d stiffness_from(const nlohmann::json& elastic) {
   s.topLeftCorner<3, 3>() << s11, s12, s13, s12, s11, s13, s13, s13, s33;
   s.diagonal().tail<3>() << s55, s55, s66;
   const Matrix6d scaled = s / s11;  // scaled to numbers near 1, for the accuracy of the inverse
-  const Matrix6d inverse = scaled.inverse();
+  const Matrix6d inverse = viscard::inverse(scaled);
   return 0.5 * (inverse + inverse.transpose()) / s11;
 }
 

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "models/array/plane/array_pieces.h"
-
-#include <Eigen/LU>
+#include "models/maths/dense.h"
 
 #include <vector>
 
@@ -28,7 +27,7 @@ class ArrayChain {
   std::vector<int> first_port_;
   std::vector<Eigen::Index> first_row_;  // of each joint's unknowns
   std::vector<std::vector<int>> kept_;   // unknowns of an end in use at each joint
-  std::vector<Eigen::PartialPivLU<Eigen::MatrixXd>> pivot_;
+  std::vector<LuFactor> pivot_;
   std::vector<Eigen::MatrixXd> upper_;  // pivot^-1 times the block to the next joint
   std::vector<Eigen::MatrixXd> lower_;  // block from the next joint back
 

@@ -1,6 +1,6 @@
 #include "models/array/plane/array_modes.h"
 
-#include <Eigen/Eigenvalues>
+#include "models/maths/dense.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,12 +24,12 @@ std::vector<ArrayMode> array_modes(const ArrayModel& model, int clusters) {
   if (ports.empty()) throw std::invalid_argument("the array model has no inertia ports");
   const Eigen::MatrixXd all = model.chain().compliance(ports);
   const Eigen::MatrixXd G = all(ports, Eigen::all);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (G + G.transpose()));
+  const EigenSystem system = symmetric_eigen(0.5 * (G + G.transpose()));
   std::vector<ArrayMode> modes;
   int left[2] = {clusters * n, clusters * n};
   for (Eigen::Index j = G.rows() - 1; j >= 0 && (left[0] > 0 || left[1] > 0); --j) {
-    const Eigen::VectorXd amplitude = solver.eigenvectors().col(j).cwiseAbs2();
-    ArrayMode mode{1.0 / (2.0 * std::numbers::pi * std::sqrt(solver.eigenvalues()[j])), false,
+    const Eigen::VectorXd amplitude = system.vectors.col(j).cwiseAbs2();
+    ArrayMode mode{1.0 / (2.0 * std::numbers::pi * std::sqrt(system.values[j])), false,
                    Eigen::VectorXd::Zero(n)};
     double lateral = 0.0;
     for (Eigen::Index row = 0; row < amplitude.size(); ++row) {

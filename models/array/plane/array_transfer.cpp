@@ -1,8 +1,8 @@
 #include "models/array/plane/array_transfer.h"
 
+#include "models/maths/dense.h"
 #include "models/pillar/time/relative_modulus.h"
 
-#include <Eigen/Eigenvalues>
 #include <unsupported/Eigen/FFT>
 
 #include <algorithm>
@@ -78,13 +78,13 @@ ArrayTransfer::ArrayTransfer(const ArrayModel& model, ArrayLoad load,
     in_fixed.segment(i * modes, modes) = amplitude[i] * of_mode.col(load_port);
   }
   const Eigen::MatrixXd modal = G.leftCols(m);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (modal + modal.transpose()));
-  const Eigen::MatrixXd& V = solver.eigenvectors();
+  const EigenSystem system = symmetric_eigen(0.5 * (modal + modal.transpose()));
+  const Eigen::MatrixXd& V = system.vectors;
   compliance_pillar_ = (V.transpose() * fixed_modes * V).diagonal();
-  compliance_film_ = solver.eigenvalues() - compliance_pillar_;
+  compliance_film_ = system.values - compliance_pillar_;
   in_pillar_ = V.transpose() * in_fixed;
   in_film_ = V.transpose() * (G.rightCols(n) * amplitude) - in_pillar_;
-  highest_rad_s_ = 1.0 / std::sqrt(solver.eigenvalues()[0]);
+  highest_rad_s_ = 1.0 / std::sqrt(system.values[0]);
 
   // A reading of the load is its work for 1 Pa, over the width a mean displacement.
   const double sign = load == ArrayLoad::kPressure ? -1.0 : 1.0;

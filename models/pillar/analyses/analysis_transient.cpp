@@ -1,3 +1,4 @@
+#include "models/maths/dense.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/analyses/pillar_results.h"
@@ -9,8 +10,6 @@
 #include "models/pillar/time/model_reduction.h"
 #include "models/pillar/time/spectrum.h"
 #include "models/pillar/time/transient_run.h"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -117,7 +116,8 @@ double static_over_peak(const ReducedBody& reduced, const TransientRequest& requ
       dense(reduced.system.elastic) + dense(reduced.system.shear) + dense(reduced.system.bulk);
   double peak = 0.0;
   for (const double value : request.corner_value) peak = std::max(peak, std::abs(value));
-  const double at_rest = std::abs(observer.dot(stiffness.ldlt().solve(request.load))) * peak;
+  const double at_rest =
+      std::abs(observer.dot(SymmetricFactor(stiffness).solve(request.load))) * peak;
   return at_rest / std::max(found.cwiseAbs().maxCoeff(), 1e-300);
 }
 

@@ -1,7 +1,5 @@
 #include "models/pillar/analyses/film_shares.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,7 +12,7 @@ FilmElasticity elasticity_of(const Medium& film) {
   if (film.is_isotropic) {
     return {2.0 * film.shear_Pa * (1.0 + film.poisson_ratio), film.shear_Pa, film.poisson_ratio};
   }
-  const Matrix6d s = film.stiffness_Pa.inverse();
+  const Matrix6d s = inverse(film.stiffness_Pa);
   return {1.0 / s.diagonal().head(3).maxCoeff(), 1.0 / s.diagonal().tail(3).maxCoeff(), 0.0};
 }
 

@@ -1,11 +1,10 @@
 #include "models/pillar/body/pillar_modes.h"
 
+#include "models/maths/dense.h"
 #include "models/pillar/body/pillar_loads.h"
 #include "models/pillar/body/rigid_motion.h"
 #include "models/pillar/mesh/number_text.h"
 #include "models/pillar/system/krylov_modes.h"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -38,16 +37,17 @@ class WithoutRigidMotion {
     if (model.options().fixed_bottom) return;
     rigid_ = rigid_motions(model);
     mass_rigid_ = mass.selfadjointView<Eigen::Lower>() * rigid_;
-    masses_.compute(rigid_.transpose() * mass_rigid_);
+    masses_ = Cholesky(rigid_.transpose() * mass_rigid_);
   }
   Eigen::VectorXd of(Eigen::VectorXd x) const {
-    if (rigid_.cols() > 0) x -= rigid_ * masses_.solve(mass_rigid_.transpose() * x);
+    if (rigid_.cols() > 0)
+      x -= rigid_ * masses_.solve(Eigen::VectorXd(mass_rigid_.transpose() * x));
     return x;
   }
 
  private:
   Eigen::MatrixXd rigid_, mass_rigid_;
-  Eigen::LLT<Eigen::MatrixXd> masses_;
+  Cholesky masses_;
 };
 
 // The stiffness of a free body is singular; adding this multiple of the mass makes it regular. The

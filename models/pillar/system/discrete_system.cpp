@@ -1,6 +1,6 @@
 #include "models/pillar/system/discrete_system.h"
 
-#include <Eigen/Cholesky>
+#include "models/maths/dense.h"
 
 #include <algorithm>
 #include <array>
@@ -244,7 +244,8 @@ SymmetricSparse DiscreteSystem::volume_form(const std::vector<double>& per_regio
         per_region.at(static_cast<std::size_t>(element.region)) * kinematics_.measure;
     if (factor == 0.0) continue;
     const Projection p = projection(element);
-    scatter(e, factor * (p.divergence.transpose() * p.mass.ldlt().solve(p.divergence)), matrix);
+    scatter(e, factor * (p.divergence.transpose() * SymmetricFactor(p.mass).solve(p.divergence)),
+            matrix);
   }
   return matrix;
 }

@@ -1,7 +1,6 @@
 // Values of a solution, and loads.
+#include "models/maths/dense.h"
 #include "models/pillar/system/discrete_system.h"
-
-#include <Eigen/Cholesky>
 
 #include <cmath>
 #include <stdexcept>
@@ -17,7 +16,8 @@ double DiscreteSystem::projected_divergence_at(const Eigen::VectorXd& solution,
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     if (dofs[i] >= 0) local[static_cast<Eigen::Index>(i)] = solution[dofs[i]];
   }
-  const Eigen::VectorXd coefficient = p.mass.ldlt().solve(p.divergence * local);
+  const Eigen::VectorXd coefficient =
+      SymmetricFactor(p.mass).solve(Eigen::VectorXd(p.divergence * local));
   const auto along = [&](const LineMesh& line, int e, double at) {
     return legendre_values(p.degree,
                            {(at - line.breaks()[static_cast<std::size_t>(e)]) / line.length(e)});

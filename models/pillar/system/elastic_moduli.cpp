@@ -2,6 +2,8 @@
 
 #include "models/pillar/mesh/number_text.h"
 
+#include <Eigen/LU>
+
 #include <stdexcept>
 #include <string>
 
@@ -18,6 +20,10 @@ Matrix6d volumetric_form() {
   Matrix6d form = Matrix6d::Zero();
   form.topLeftCorner<3, 3>().setOnes();
   return form;
+}
+
+Matrix6d inverse(const Matrix6d& matrix) {
+  return matrix.inverse();
 }
 
 Matrix6d isotropic_moduli_Pa(double young_modulus_Pa, double poisson_ratio) {

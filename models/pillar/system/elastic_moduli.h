@@ -10,6 +10,7 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 // An isotropic solid is G * deviatoric_form() + K * volumetric_form().
 Matrix6d deviatoric_form();
 Matrix6d volumetric_form();
+Matrix6d inverse(const Matrix6d& matrix);
 // Pa. Throws std::invalid_argument unless E > 0 and -1 < nu < 0.5.
 Matrix6d isotropic_moduli_Pa(double young_modulus_Pa, double poisson_ratio);
 

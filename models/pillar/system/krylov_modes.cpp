@@ -1,6 +1,7 @@
 #include "models/pillar/system/krylov_modes.h"
 
-#include <Eigen/Eigenvalues>
+#include "models/maths/dense.h"
+
 #include <Spectra/SymEigsBase.h>
 
 #include <algorithm>
@@ -96,13 +97,13 @@ EigenPairs all_eigenpairs(const PencilMap& op, const LinearMap& B, int size) {
     const Eigen::VectorXd unit = Eigen::VectorXd::Unit(size, i);
     matrix.col(i) = op(unit, B(unit));
   }
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
-  const Eigen::VectorXd values = solver.eigenvalues().real();
+  const EigenSystem all = real_eigen(matrix);
+  const Eigen::VectorXd& values = all.values;
   std::vector<Eigen::Index> order(static_cast<std::size_t>(size));
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](Eigen::Index a, Eigen::Index b) { return values[a] > values[b]; });
-  EigenPairs pairs{values(order), solver.eigenvectors().real()(Eigen::all, order), true};
+  EigenPairs pairs{values(order), all.vectors(Eigen::all, order), true};
   for (auto v : pairs.vectors.colwise()) {
     const double square = v.dot(B(v));
     if (square > 0.0) v /= std::sqrt(square);

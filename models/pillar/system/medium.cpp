@@ -1,9 +1,7 @@
 #include "models/pillar/system/medium.h"
 
+#include "models/maths/dense.h"
 #include "models/pillar/mesh/number_text.h"
-
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 
 #include <cmath>
 #include <limits>
@@ -61,12 +59,12 @@ Medium piezo_medium(const Matrix6d& stiffness_Pa, const PiezoMatrix& charge_C_N,
   medium.piezo_C_m2 = charge_C_N * stiffness_Pa;
   medium.permittivity_F_m =
       permittivity_stress_F_m - charge_C_N * stiffness_Pa * charge_C_N.transpose();
-  // LLT reads only one triangle, so check the symmetry separately.
+  // Cholesky reads only one triangle, so check the symmetry separately.
   if (!stiffness_Pa.isApprox(stiffness_Pa.transpose(), 1e-9) ||
-      stiffness_Pa.llt().info() != Eigen::Success) {
+      !Cholesky(stiffness_Pa).is_definite()) {
     throw std::invalid_argument("the elastic constants are not symmetric and positive definite");
   }
-  if (medium.permittivity_F_m.llt().info() != Eigen::Success) {
+  if (!Cholesky(medium.permittivity_F_m).is_definite()) {
     throw std::invalid_argument(
         "the piezoelectric constants are too large for the permittivity: no stable medium has "
         "them. "

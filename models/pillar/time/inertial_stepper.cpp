@@ -1,6 +1,7 @@
 #include "models/pillar/time/inertial_stepper.h"
 
 #include "models/material/hereditary.h"
+#include "models/maths/dense.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -42,7 +43,7 @@ void InertialStepper::set_step(double dt_s) {
     weight_[i] = phi1(x);
     tangent += weight_[i] * branch_[i];
   }
-  factor_.compute(2.0 / (dt_s * dt_s) * mass_ + 0.5 * tangent);
+  factor_ = Cholesky(2.0 / (dt_s * dt_s) * mass_ + 0.5 * tangent);
 }
 
 Eigen::VectorXd InertialStepper::restoring(const Eigen::MatrixXd& memory) const {
@@ -60,9 +61,9 @@ void InertialStepper::advance(const Eigen::VectorXd& force_at_start,
     memory_.col(static_cast<Eigen::Index>(i)) *= decay_[i];
   }
   const Eigen::VectorXd carried = restoring(memory_);
-  const Eigen::VectorXd change =
-      factor_.solve(0.5 * (force_at_start + force_at_end) + 2.0 / dt_s_ * (mass_ * v_) -
-                    0.5 * (at_start + carried));
+  const Eigen::VectorXd impulse = 0.5 * (force_at_start + force_at_end) +
+                                  2.0 / dt_s_ * (mass_ * v_) - 0.5 * (at_start + carried);
+  const Eigen::VectorXd change = factor_.solve(impulse);
   u_ += change;
   v_ = 2.0 / dt_s_ * change - v_;
   for (std::size_t i = 0; i < branch_.size(); ++i) {

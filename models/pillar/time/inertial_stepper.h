@@ -1,8 +1,8 @@
 #pragma once
 
+#include "models/maths/dense.h"
 #include "models/pillar/time/viscoelastic_system.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <vector>
@@ -37,7 +37,7 @@ class InertialStepper {
   Eigen::MatrixXd mass_;
   double dt_s_ = 0.0;
   std::vector<double> decay_, weight_;  // exp(-x), phi_1(x)
-  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Cholesky factor_;
   Eigen::VectorXd u_, v_;
   Eigen::MatrixXd memory_;  // unknowns x branches
 };

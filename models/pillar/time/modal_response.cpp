@@ -1,8 +1,7 @@
 #include "models/pillar/time/modal_response.h"
 
+#include "models/maths/dense.h"
 #include "models/pillar/time/transient_stops.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -155,14 +154,13 @@ bool relaxes_alike(const ViscoelasticSystem& small) {
 TransientResult run_by_modes(const ViscoelasticSystem& small, const TransientRequest& r,
                              const Eigen::MatrixXd& observers) {
   const Eigen::MatrixXd stiffness = dense(small.elastic) + dense(small.shear) + dense(small.bulk);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> pairs(stiffness,
-                                                                        dense(small.mass));
+  const EigenSystem pairs = generalized_eigen(stiffness, dense(small.mass));
   const Eigen::Index n = stiffness.rows();
-  const Eigen::VectorXd push = pairs.eigenvectors().transpose() * r.load;
-  const Eigen::MatrixXd seen = observers * pairs.eigenvectors();
+  const Eigen::VectorXd push = pairs.vectors.transpose() * r.load;
+  const Eigen::MatrixXd seen = observers * pairs.vectors;
   std::vector<RelaxingMode> modes;
   for (Eigen::Index k = 0; k < n; ++k) {
-    modes.emplace_back(std::sqrt(std::max(pairs.eigenvalues()[k], 0.0)), small.terms);
+    modes.emplace_back(std::sqrt(std::max(pairs.values[k], 0.0)), small.terms);
   }
   TransientResult result;
   result.values = Eigen::MatrixXd::Zero(observers.rows(), r.outputs + 1);

@@ -1,9 +1,8 @@
 #include "models/pillar/time/model_reduction.h"
 
+#include "models/maths/dense.h"
 #include "models/pillar/time/reduced_span.h"
 #include "models/pillar/time/relative_modulus.h"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +42,8 @@ double error_at(const ReducedSpan& span, const ViscoelasticSystem& body, double 
   const RelativeModuli m = laplace_moduli_at(body, s);
   const Eigen::MatrixXd image = span.image(m.shear, m.bulk);
   const Eigen::MatrixXd small = span.basis().transpose() * image;
-  const Eigen::VectorXd c = small.ldlt().solve(span.basis().transpose() * body.load);
+  const Eigen::VectorXd c =
+      SymmetricFactor(small).solve(Eigen::VectorXd(span.basis().transpose() * body.load));
   const double size = std::sqrt(std::abs(c.dot(small * c)));
   const double softest = std::max(std::min({1.0, m.shear, m.bulk}), 1e-12);
   return span.dual_norm(body.load - image * c) / std::sqrt(softest) / size;

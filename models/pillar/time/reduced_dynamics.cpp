@@ -1,9 +1,8 @@
+#include "models/maths/dense.h"
 #include "models/pillar/time/harmonic_response.h"
 #include "models/pillar/time/model_reduction.h"
 #include "models/pillar/time/reduced_span.h"
 #include "models/pillar/time/relative_modulus.h"
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -33,15 +32,15 @@ ComplexModuli oscillating_moduli_at(const ViscoelasticSystem& body, double omega
 
 // Smallest singular value of a factored matrix, by a few inverse iterations (converges from above,
 // accurate enough for an estimate). Source: Golub & Van Loan, Matrix Computations (2013), 8.2.
-double smallest_singular_value(const Eigen::PartialPivLU<Eigen::MatrixXcd>& lu) {
+double smallest_singular_value(const ComplexLuFactor& lu) {
   Eigen::VectorXcd v =
-      Eigen::VectorXcd::LinSpaced(lu.rows(), Complex(1.0, 0.5), Complex(2.0, -0.5));
+      Eigen::VectorXcd::LinSpaced(lu.size(), Complex(1.0, 0.5), Complex(2.0, -0.5));
   double value = 0.0;
   for (int i = 0; i < 4; ++i) {
     v.normalize();
     const Eigen::VectorXcd image = lu.solve(v);
     value = 1.0 / image.norm();
-    v = lu.adjoint().solve(image);
+    v = lu.solve_adjoint(image);
   }
   return value;
 }
@@ -52,7 +51,7 @@ double error_at(const ReducedSpan& span, const ViscoelasticSystem& body,
                 const std::vector<Eigen::VectorXd>& loads, double omega_rad_s) {
   const ComplexModuli m = oscillating_moduli_at(body, omega_rad_s);
   const double omega2 = omega_rad_s * omega_rad_s;
-  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(span.restricted(m.shear, m.bulk, omega2));
+  const ComplexLuFactor lu(span.restricted(m.shear, m.bulk, omega2));
   const double nearest = std::max(smallest_singular_value(lu), kNearestPole);
   double largest = 0.0;
   for (const Eigen::VectorXd& load : loads) {

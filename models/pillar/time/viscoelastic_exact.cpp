@@ -1,9 +1,8 @@
 #include "models/pillar/time/viscoelastic_exact.h"
 
 #include "models/material/retardation_spectrum.h"
+#include "models/maths/dense.h"
 #include "models/pillar/time/relative_modulus.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -35,14 +34,11 @@ ExactViscoelasticBody::ExactViscoelasticBody(const ViscoelasticSystem& system)
   }
   const Eigen::MatrixXd shear(system.shear);  // lower triangles, all that the eigensolver reads
   const Eigen::MatrixXd bulk(system.bulk);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(bulk, shear);
-  if (modes.info() != Eigen::Success) {
-    throw std::runtime_error("the common modes of shear and bulk stiffness did not converge");
-  }
-  const Eigen::VectorXd amplitude = modes.eigenvectors().transpose() * system.load;
+  const EigenSystem modes = generalized_eigen(bulk, shear);
+  const Eigen::VectorXd amplitude = modes.vectors.transpose() * system.load;
   for (Eigen::Index m = 0; m < amplitude.size(); ++m) {
     weight_.push_back(amplitude[m] * amplitude[m]);
-    theta_.push_back(std::max(modes.eigenvalues()[m], 0.0));
+    theta_.push_back(std::max(modes.values[m], 0.0));
   }
 }
 

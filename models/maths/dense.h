@@ -1,0 +1,113 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include <complex>
+
+// Decompositions of dense matrices of any size, compiled once. Eigen's are templates: each file that
+// uses one directly compiles it again, which takes 2 to 7 s per decomposition and file. All methods
+// and their accuracy are described in Golub & Van Loan, Matrix Computations (2013), ch. 3 to 5, 8.
+namespace viscard {
+
+// A = L L^T of a symmetric matrix; reads the lower triangle.
+class Cholesky {
+ public:
+  Cholesky() = default;
+  explicit Cholesky(const Eigen::MatrixXd& matrix);
+
+  bool is_definite() const;
+  // Smallest diagonal entry of L: for columns of unit length, the distance of a column to the span
+  // of those before it. Infinite for an empty matrix.
+  double smallest_pivot() const;
+  double log_determinant() const;
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
+  Eigen::VectorXd solve_lower(const Eigen::VectorXd& right) const;  // L^-1 right
+  Eigen::MatrixXd solve_lower(const Eigen::MatrixXd& right) const;
+  Eigen::MatrixXd over_upper(const Eigen::MatrixXd& columns) const;  // columns L^-T
+
+ private:
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+};
+
+// A = P^T L D L^T P of a symmetric matrix that may be semidefinite; reads the lower triangle.
+class SymmetricFactor {
+ public:
+  explicit SymmetricFactor(const Eigen::MatrixXd& matrix);
+
+  double log_determinant() const;
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
+
+ private:
+  Eigen::LDLT<Eigen::MatrixXd> factor_;
+};
+
+// A = Q R of a matrix with at least as many rows as columns.
+class HouseholderQr {
+ public:
+  explicit HouseholderQr(const Eigen::MatrixXd& matrix);
+
+  double smallest_pivot() const;                                  // smallest |R_jj|
+  Eigen::MatrixXd upper_inverse() const;                          // R^-1
+  Eigen::MatrixXd basis() const;                                  // Q, as many columns as A
+  Eigen::MatrixXd rotated(const Eigen::MatrixXd& vectors) const;  // Q^T vectors, all rows
+
+ private:
+  Eigen::HouseholderQR<Eigen::MatrixXd> factor_;
+};
+
+// A P = Q R with column pivoting, for least squares with dependent columns.
+class PivotedQr {
+ public:
+  PivotedQr() = default;
+  explicit PivotedQr(const Eigen::MatrixXd& matrix);
+
+  Eigen::Index rank() const;
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;      // least squares
+  Eigen::MatrixXd basis() const;                                  // rank() orthonormal columns
+  Eigen::MatrixXd rotated(const Eigen::MatrixXd& vectors) const;  // Q^T vectors
+
+ private:
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor_;
+};
+
+// P A = L U of a square matrix.
+class LuFactor {
+ public:
+  explicit LuFactor(const Eigen::MatrixXd& matrix);
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
+
+ private:
+  Eigen::PartialPivLU<Eigen::MatrixXd> factor_;
+};
+
+class ComplexLuFactor {
+ public:
+  explicit ComplexLuFactor(const Eigen::MatrixXcd& matrix);
+  Eigen::Index size() const { return factor_.rows(); }
+  Eigen::VectorXcd solve(const Eigen::VectorXcd& right) const;
+  Eigen::VectorXcd solve_adjoint(const Eigen::VectorXcd& right) const;
+
+ private:
+  Eigen::PartialPivLU<Eigen::MatrixXcd> factor_;
+};
+
+struct EigenSystem {
+  Eigen::VectorXd values;   // ascending
+  Eigen::MatrixXd vectors;  // columns
+};
+
+// A v = lambda v of a symmetric matrix; reads the lower triangle. Vectors of unit length.
+EigenSystem symmetric_eigen(const Eigen::MatrixXd& matrix);
+// A v = lambda B v, both symmetric (the lower triangles are read), B definite, v^T B v = 1. Throws
+// std::runtime_error if the iteration does not converge.
+EigenSystem generalized_eigen(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+// A v = lambda v of a matrix that has real eigenvalues although it is not symmetric; in no order.
+EigenSystem real_eigen(const Eigen::MatrixXd& matrix);
+
+}  // namespace viscard
