@@ -4,9 +4,10 @@
 #include "fit/assembly/parametrisation.h"
 #include "fit/intervals/flags.h"
 #include "fit/search/projection.h"
+#include "models/maths/dense.h"
 #include "models/maths/text_of_number.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -149,8 +150,7 @@ Eigen::MatrixXd free_covariance(const Parametrisation& form, const Box& box,
   const Eigen::MatrixXd jacobian = full_jacobian(form.model(), state) * chosen;
   const Eigen::VectorXd scale = jacobian.colwise().norm().transpose().cwiseMax(1e-300);
   const Eigen::MatrixXd scaled = jacobian * scale.cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd inverse =
-      (scaled.transpose() * scaled).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd inverse = pseudo_inverse(scaled.transpose() * scaled);
   const Eigen::MatrixXd of_free =
       scale.cwiseInverse().asDiagonal() * inverse * scale.cwiseInverse().asDiagonal();
   return variance * chosen * of_free * chosen.transpose();

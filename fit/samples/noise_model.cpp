@@ -2,8 +2,7 @@
 
 #include "fit/samples/median.h"
 #include "fit/samples/sample_passes.h"
-
-#include <Eigen/LU>
+#include "models/maths/dense.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,7 +74,7 @@ std::vector<double> Autoregression::autocorrelation() const {
       if (other > 0) matrix(lag - 1, other - 1) -= phi[static_cast<std::size_t>(k - 1)];
     }
   }
-  const Eigen::VectorXd first = matrix.partialPivLu().solve(right);
+  const Eigen::VectorXd first = LuFactor(matrix).solve(right);
   std::vector<double> rho{1.0};
   rho.insert(rho.end(), first.begin(), first.end());
   constexpr double kDiedAway = 1e-4;

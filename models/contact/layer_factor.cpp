@@ -1,9 +1,10 @@
 #include "models/contact/layer_factor.h"
 
+#include "models/maths/dense.h"
 #include "models/maths/gauss_legendre.h"
 #include "models/maths/text_of_number.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <cmath>
 #include <numbers>
@@ -71,7 +72,7 @@ double layer_factor(double radius_over_thickness, double poisson_ratio) {
                                  x_weights.asDiagonal() * cosines.transpose();
   const Eigen::MatrixXd system =
       Eigen::MatrixXd::Identity(count, count) - kernel * t_weights.asDiagonal();
-  const Eigen::VectorXd chi = system.partialPivLu().solve(Eigen::VectorXd::Ones(count));
+  const Eigen::VectorXd chi = LuFactor(system).solve(Eigen::VectorXd(Eigen::VectorXd::Ones(count)));
   return t_weights.dot(chi);
 }
 

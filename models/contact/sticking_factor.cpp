@@ -1,10 +1,11 @@
 // The factor of a sticking punch. Both displacements are prescribed under the punch, so pressure
 // and radial shear are unknown and solved for together.
 #include "models/contact/layer_factor.h"
+#include "models/maths/dense.h"
 #include "models/maths/gauss_legendre.h"
 #include "models/maths/text_of_number.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -102,7 +103,8 @@ double galerkin_factor(double r, double nu, Index pairs) {
     system(even, odd) += mixed;
     system(odd, even) += mixed.transpose();
   }
-  const Eigen::VectorXd stresses = system.partialPivLu().solve(Eigen::VectorXd::Unit(count, 0));
+  const Eigen::VectorXd stresses =
+      LuFactor(system).solve(Eigen::VectorXd(Eigen::VectorXd::Unit(count, 0)));
   return 0.5 * std::numbers::pi * (1.0 - nu) * stresses[0];
 }
 

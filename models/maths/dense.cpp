@@ -105,6 +105,10 @@ MatrixXd PivotedQr::rotated(const MatrixXd& vectors) const {
 
 LuFactor::LuFactor(const MatrixXd& matrix) : factor_(matrix) {}
 
+VectorXd LuFactor::solve(const VectorXd& right) const {
+  return factor_.solve(right);
+}
+
 MatrixXd LuFactor::solve(const MatrixXd& right) const {
   return factor_.solve(right);
 }
@@ -112,6 +116,10 @@ MatrixXd LuFactor::solve(const MatrixXd& right) const {
 ComplexLuFactor::ComplexLuFactor(const Eigen::MatrixXcd& matrix) : factor_(matrix) {}
 
 Eigen::VectorXcd ComplexLuFactor::solve(const Eigen::VectorXcd& right) const {
+  return factor_.solve(right);
+}
+
+Eigen::MatrixXcd ComplexLuFactor::solve(const Eigen::MatrixXcd& right) const {
   return factor_.solve(right);
 }
 
@@ -135,6 +143,10 @@ EigenSystem generalized_eigen(const MatrixXd& a, const MatrixXd& b) {
 EigenSystem real_eigen(const MatrixXd& matrix) {
   const Eigen::EigenSolver<MatrixXd> solver(matrix);
   return {solver.eigenvalues().real(), solver.eigenvectors().real()};
+}
+
+MatrixXd pseudo_inverse(const MatrixXd& matrix) {
+  return matrix.completeOrthogonalDecomposition().pseudoInverse();
 }
 
 }  // namespace viscard

@@ -79,6 +79,7 @@ class PivotedQr {
 class LuFactor {
  public:
   explicit LuFactor(const Eigen::MatrixXd& matrix);
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
 
  private:
@@ -90,6 +91,7 @@ class ComplexLuFactor {
   explicit ComplexLuFactor(const Eigen::MatrixXcd& matrix);
   Eigen::Index size() const { return factor_.rows(); }
   Eigen::VectorXcd solve(const Eigen::VectorXcd& right) const;
+  Eigen::MatrixXcd solve(const Eigen::MatrixXcd& right) const;
   Eigen::VectorXcd solve_adjoint(const Eigen::VectorXcd& right) const;
 
  private:
@@ -109,5 +111,8 @@ EigenSystem generalized_eigen(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b
 
 // A v = lambda v of a matrix that has real eigenvalues although it is not symmetric; in no order.
 EigenSystem real_eigen(const Eigen::MatrixXd& matrix);
+
+// The pseudo-inverse, by a complete orthogonal decomposition.
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix);
 
 }  // namespace viscard

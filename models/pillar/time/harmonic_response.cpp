@@ -1,9 +1,9 @@
 #include "models/pillar/time/harmonic_response.h"
 
+#include "models/maths/dense.h"
 #include "models/pillar/mesh/number_text.h"
 #include "models/pillar/time/relative_modulus.h"
 
-#include <Eigen/LU>
 #include <Eigen/SparseLU>
 
 #include <cmath>
@@ -66,7 +66,7 @@ Eigen::MatrixXcd HarmonicSolver::solve(double omega_rad_s, const Eigen::MatrixXc
   matrix.real() =
       elastic_ + shear.real() * shear_ + bulk.real() * bulk_ - omega_rad_s * omega_rad_s * mass_;
   matrix.imag() = shear.imag() * shear_ + bulk.imag() * bulk_;
-  return matrix.partialPivLu().solve(loads);
+  return ComplexLuFactor(matrix).solve(loads);
 }
 
 }  // namespace viscard
