@@ -85,7 +85,7 @@ Eigen::MatrixXd ArrayChain::compliance(const std::vector<int>& loaded_ports) con
   }
   for (std::size_t joint = 0; joint <= pieces_.size(); ++joint) {
     if (joint > 0) rows_of(joint).noalias() -= lower_[joint - 1] * rows_of(joint - 1);
-    rows_of(joint) = pivot_[joint].solve(rows_of(joint)).eval();
+    rows_of(joint) = pivot_[joint].solve(Eigen::MatrixXd(rows_of(joint)));
   }
   for (std::size_t joint = pieces_.size(); joint-- > 0;) {
     rows_of(joint).noalias() -= upper_[joint] * rows_of(joint + 1);
