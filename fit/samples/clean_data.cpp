@@ -80,16 +80,6 @@ void CleanViews::drop(const std::vector<std::size_t>& rows) {
   for (std::size_t i = 0; i < views_.size(); ++i) views_[i] = copies_[i];
 }
 
-CleanColumns clean_columns(const std::vector<std::span<const double>>& columns, std::size_t least) {
-  const CleanViews views(columns, least);
-  CleanColumns clean;
-  clean.n_left_out = views.n_left_out();
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    clean.columns.emplace_back(views.column(i).begin(), views.column(i).end());
-  }
-  return clean;
-}
-
 void check_sign(std::span<const double> values, const std::string& what,
                 const std::string& column) {
   if (sum_of(values) > 0.0) return;

@@ -22,6 +22,9 @@ struct OrderPathOptions {
 // n_terms(). Orders that the data cannot support (a modulus stays at zero) are missing at the top.
 std::vector<SpectralState> order_path(const SpectralModel& model, const OrderPathOptions& options);
 
+// Drops orders whose residual is not lower than that of a smaller order.
+void drop_useless_orders(std::vector<SpectralState>& path);
+
 // Adds one term to a fit: tries it at the times of the grid, keeps the best one and refines.
 SpectralState with_one_more_term(const SpectralModel& model, const SpectralState& state,
                                  const OrderPathOptions& options);

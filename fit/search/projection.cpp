@@ -1,8 +1,7 @@
 #include "fit/search/projection.h"
 
-#include "fit/samples/column_products.h"
+#include "fit/samples/sample_passes.h"
 #include "fit/search/nnls.h"
-#include "fit/search/spectral_state.h"
 
 #include <Eigen/Cholesky>
 
@@ -93,19 +92,12 @@ Projection by_qr(const SpectralModel& model, const ModelColumns& columns,
 Eigen::VectorXd search_parameters(const SpectralModel& model, const Eigen::VectorXd& ln_tau,
                                   const Eigen::VectorXd& nuisance) {
   Eigen::VectorXd p(ln_tau.size() + nuisance.size());
-  p.head(ln_tau.size()) = ln_tau;
-  for (Index k = 0; k < nuisance.size(); ++k) {
-    p[ln_tau.size() + k] = nuisance[k] / model.nuisances()[static_cast<std::size_t>(k)].scale;
-  }
+  p << ln_tau, nuisance.cwiseQuotient(model.of_nuisances(&Nuisance::scale));
   return p;
 }
 
 Eigen::VectorXd nuisance_from(const SpectralModel& model, const Eigen::VectorXd& p) {
-  Eigen::VectorXd nuisance = p.tail(model.n_nuisances());
-  for (Index k = 0; k < nuisance.size(); ++k) {
-    nuisance[k] *= model.nuisances()[static_cast<std::size_t>(k)].scale;
-  }
-  return nuisance;
+  return p.tail(model.n_nuisances()).cwiseProduct(model.of_nuisances(&Nuisance::scale));
 }
 
 Eigen::MatrixXd nonlinear_slopes(const SpectralModel& model, const ModelColumns& columns,
@@ -178,11 +170,9 @@ Box search_box(const SpectralModel& model, Index n_terms) {
   const Index size = n_terms + model.n_nuisances();
   Box box{Eigen::VectorXd::Constant(size, model.ln_tau_min()),
           Eigen::VectorXd::Constant(size, model.ln_tau_max())};
-  for (Index k = 0; k < model.n_nuisances(); ++k) {
-    const Nuisance& nuisance = model.nuisances()[static_cast<std::size_t>(k)];
-    box.low[n_terms + k] = nuisance.low / nuisance.scale;
-    box.high[n_terms + k] = nuisance.high / nuisance.scale;
-  }
+  const Eigen::VectorXd scale = model.of_nuisances(&Nuisance::scale);
+  box.low.tail(scale.size()) = model.of_nuisances(&Nuisance::low).cwiseQuotient(scale);
+  box.high.tail(scale.size()) = model.of_nuisances(&Nuisance::high).cwiseQuotient(scale);
   return box;
 }
 

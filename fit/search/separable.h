@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fit/search/spectral_state.h"
+#include "fit/curves/spectral_model.h"
 
 #include <Eigen/Core>
 
