@@ -87,6 +87,25 @@ Projection by_qr(const SpectralModel& model, const ModelColumns& columns,
   return at;
 }
 
+// Solution by normal equations with one refinement step; none if they are ill-conditioned.
+std::optional<NormalSolution> normal_solution(const SpectralModel& model,
+                                              const Eigen::MatrixXd& values,
+                                              const std::vector<bool>& is_free) {
+  const Eigen::MatrixXd gram = gram_of(values);
+  const Eigen::VectorXd right = transposed_product(values, model.data());
+  std::vector<Index> used(static_cast<std::size_t>(values.cols()));
+  std::iota(used.begin(), used.end(), Index{0});
+  NormalSolution solution(values, gram, right, used);
+  if (solution.is_good() && has_wrong_sign(solution.x(), is_free)) {
+    const Eigen::VectorXd guess = nonnegative_from_normal_equations(gram, right, is_free);
+    solution = NormalSolution(values, gram, right, used_columns(guess, is_free));
+  }
+  if (!solution.is_good()) return std::nullopt;
+  solution.refine(transposed_product(values, model.data() - values * solution.x()));
+  if (has_wrong_sign(solution.x(), is_free)) return std::nullopt;
+  return solution;
+}
+
 }  // namespace
 
 Eigen::VectorXd search_parameters(const SpectralModel& model, const Eigen::VectorXd& ln_tau,
@@ -113,29 +132,6 @@ Eigen::MatrixXd nonlinear_slopes(const SpectralModel& model, const ModelColumns&
   }
   return slopes;
 }
-
-namespace {
-
-// Solution by normal equations with one refinement step; none if they are ill-conditioned.
-std::optional<NormalSolution> normal_solution(const SpectralModel& model,
-                                              const Eigen::MatrixXd& values,
-                                              const std::vector<bool>& is_free) {
-  const Eigen::MatrixXd gram = gram_of(values);
-  const Eigen::VectorXd right = transposed_product(values, model.data());
-  std::vector<Index> used(static_cast<std::size_t>(values.cols()));
-  std::iota(used.begin(), used.end(), Index{0});
-  NormalSolution solution(values, gram, right, used);
-  if (solution.is_good() && has_wrong_sign(solution.x(), is_free)) {
-    const Eigen::VectorXd guess = nonnegative_from_normal_equations(gram, right, is_free);
-    solution = NormalSolution(values, gram, right, used_columns(guess, is_free));
-  }
-  if (!solution.is_good()) return std::nullopt;
-  solution.refine(transposed_product(values, model.data() - values * solution.x()));
-  if (has_wrong_sign(solution.x(), is_free)) return std::nullopt;
-  return solution;
-}
-
-}  // namespace
 
 Coefficients best_coefficients(const SpectralModel& model, const Eigen::MatrixXd& values,
                                const std::vector<bool>& is_free) {
