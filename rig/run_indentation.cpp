@@ -5,7 +5,6 @@
 #include "rig/run/force_phases.h"
 #include "rig/run/preflight.h"
 #include "rig/run/run_conclusion.h"
-#include "rig/run/tare_phase.h"
 #include "rig/run/test_run.h"
 
 #include <algorithm>

@@ -1,19 +1,16 @@
 #include "rig/emulator/emulated_rig.h"
 
-#include "rig/emulator/controller_drivers.h"
+#include "rig/emulator/emulated_controller.h"
 #include "rig/emulator/emulated_specimen.h"
 #include "rig/emulator/pty_port.h"
 #include "rig/lines/rig_clock.h"
 
 #include <poll.h>
-#include <sys/eventfd.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <cmath>
-#include <cstdint>
+#include <chrono>
 #include <mutex>
 #include <thread>
 
@@ -33,6 +30,18 @@ enum Incident : unsigned {
   kRestartStage = 32,
 };
 
+// One branch per value of driver under [stage] (rig/open_devices.cpp); a GRBL for an unknown word,
+// which the driver refuses.
+std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions& options) {
+  const StageConfig& stage = options.config.stage;
+  if (stage.driver == "zaber") {
+    return std::make_unique<EmulatedZaber>(options.truth, stage.toward_specimen, stage.device,
+                                           options.zaber);
+  }
+  return std::make_unique<EmulatedGrbl>(options.truth, stage.axis, stage.toward_specimen,
+                                        options.grbl);
+}
+
 }  // namespace
 
 class EmulatedRig::Impl {
@@ -41,8 +50,7 @@ class EmulatedRig::Impl {
       : options_(options),
         clock_(options.config.clock_speed),
         specimen_(options.truth),
-        stage_(
-            emulated_controller(options.config.stage, options.truth, options.grbl, options.zaber)),
+        stage_(emulated_controller(options)),
         gauge_(options.truth, options.config.calibration, options.config.load_cell.driver,
                options.gauge),
         amplifier_(options.truth, options.config.calibration,
@@ -55,6 +63,10 @@ class EmulatedRig::Impl {
   }
 
   void run();
+  EmulatedOutcome outcome() const {
+    const std::lock_guard lock(outcome_mutex_);
+    return outcome_;
+  }
 
   EmulatedRigOptions options_;
   RigClock clock_;
@@ -80,7 +92,6 @@ class EmulatedRig::Impl {
   void serve_stage(double now_s);
   void serve_cell(double now_s);
   void serve_gauge(double now_s);
-  bool is_cell_broken() const;
   double next_sample_s() const {
     return is_gauge() ? gauge_.next_sample_s() : amplifier_.next_sample_s();
   }
@@ -139,17 +150,12 @@ void EmulatedRig::Impl::serve_stage(double now_s) {
   stage_port_.write(stage_->take_output());
 }
 
-bool EmulatedRig::Impl::is_cell_broken() const {
-  const std::lock_guard lock(outcome_mutex_);
-  return outcome_.is_cell_broken;
-}
-
 // For an instrument that is polled.
 void EmulatedRig::Impl::serve_gauge(double now_s) {
   gauge_.receive(cell_port_.read_available(), now_s);
   while (gauge_.next_sample_s() <= now_s) {
     advance_bench(std::max(bench_s_, gauge_.next_sample_s()));
-    gauge_.convert(specimen_.force_N() + weight_N_, is_cell_broken());
+    gauge_.convert(specimen_.force_N() + weight_N_, outcome().is_cell_broken);
   }
   const std::string answers = gauge_.take_output(now_s);
   if (!is_cell_silent_) cell_port_.write(answers);
@@ -166,7 +172,8 @@ void EmulatedRig::Impl::serve_cell(double now_s) {
   std::string lines;
   while (amplifier_.next_sample_s() <= now_s) {
     advance_bench(std::max(bench_s_, amplifier_.next_sample_s()));
-    const std::string line = amplifier_.convert(specimen_.force_N() + weight_N_, is_cell_broken());
+    const std::string line =
+        amplifier_.convert(specimen_.force_N() + weight_N_, outcome().is_cell_broken);
     if (is_cell_silent_) continue;
     lines += line;
     if (!options_.keeps_lines) continue;
@@ -239,7 +246,6 @@ EmulatedRig::~EmulatedRig() = default;
 std::string EmulatedRig::stage_port() const {
   return impl_->stage_port_.path();
 }
-
 std::string EmulatedRig::load_cell_port() const {
   return impl_->cell_port_.path();
 }
@@ -253,8 +259,7 @@ RigConfig EmulatedRig::config() const {
 }
 
 EmulatedOutcome EmulatedRig::outcome() const {
-  const std::lock_guard lock(impl_->outcome_mutex_);
-  return impl_->outcome_;
+  return impl_->outcome();
 }
 
 std::vector<std::string> EmulatedRig::sent_lines() const {

@@ -7,6 +7,14 @@ namespace viscard {
 // Longest jog near or in contact: so far does a stage go whose host has died.
 inline constexpr double kLongestJog_m = 25e-6;
 
+// A force above this share of the soft limit before anything was moved means that something presses
+// on the load cell already.
+inline constexpr double kPressesAtStart = 0.5;
+
+// Measures zero and noise of the load cell, then checks the rate of its readings. Throws RigError
+// if something presses already, or if readings come too slowly for the approach to stop in time.
+void carry_out_tare(TestRun& run, const TestPhase& phase);
+
 // Jogs toward the specimen until the force passes the contact threshold, estimates the contact,
 // checks that the specimen is not too stiff for the ramp, and backs off until the force is back at
 // zero. Sets run.contact_m and outcome.contact_position_m. Throws RigError if nothing is touched,

@@ -5,11 +5,9 @@
 #include "rig/lines/record_sink.h"
 #include "rig/run/force_guard.h"
 #include "rig/run/force_readings.h"
-#include "rig/run/progress_report.h"
 #include "rig/run/punch_lift.h"
 #include "rig/run/reading_marks.h"
 #include "rig/run/run_control.h"
-#include "rig/run/run_errors.h"
 #include "rig/run/served_devices.h"
 #include "rig/stages/stage.h"
 

@@ -1,6 +1,6 @@
 #include "rig/run/served_devices.h"
 
-#include "rig/run/run_errors.h"
+#include "rig/run/run_control.h"
 
 #include <algorithm>
 #include <vector>
