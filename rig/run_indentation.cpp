@@ -1,6 +1,7 @@
 #include "rig/run_indentation.h"
 
 #include "models/experiment/test_phases.h"
+#include "models/maths/text_of_number.h"
 #include "rig/run/approach_phase.h"
 #include "rig/run/force_phases.h"
 #include "rig/run/preflight.h"
@@ -133,7 +134,11 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
   if (run.is_in_contact) note_depth(run);
   const bool reports_lift = outcome.status == "stopped" || phases.presses_at_start();
   const SafeEnd end = run.session.make_safe(phases.safe_position_m(), run.plan.retract_speed_m_s);
-  if (reports_lift) outcome.reason += lift_text(end.lifted_m);
+  if (reports_lift) {
+    outcome.reason += end.lifted_m > 0.0 ? ". The stage was stopped and lifted by " +
+                                               text_from_number(end.lifted_m * 1e3, 3) + " mm"
+                                         : ". The stage was stopped; it was not lifted";
+  }
   if (!end.trouble.empty()) outcome.reason += ". And: " + end.trouble;
 }
 

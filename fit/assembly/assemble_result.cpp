@@ -12,7 +12,6 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
-#include <string>
 
 namespace viscard {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "models/maths/text_of_number.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace viscard {

@@ -11,7 +11,6 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
-#include <string>
 
 namespace viscard {
 namespace {

@@ -2,8 +2,6 @@
 
 #include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
-#include "rig/protocols/force_gauge_protocols.h"
-#include "rig/protocols/scpi_protocol.h"
 
 #include <algorithm>
 #include <cmath>

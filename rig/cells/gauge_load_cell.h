@@ -4,7 +4,7 @@
 #include "rig/cells/load_cell.h"
 #include "rig/lines/line_splitter.h"
 #include "rig/lines/rig_clock.h"
-#include "rig/protocols/gauge_protocol.h"
+#include "rig/protocols/gauge_protocols.h"
 
 #include <optional>
 #include <string>

@@ -24,7 +24,7 @@ struct GaugeHabits {
 };
 
 // A multimeter behind the amplifier, or a force gauge, that answers queries
-// (rig/protocols/scpi_protocol.h, rig/protocols/force_gauge_protocols.h). One reading takes
+// (rig/protocols/gauge_protocols.h). One reading takes
 // 1/sample_rate of the truth.
 class EmulatedGauge {
  public:

@@ -3,9 +3,7 @@
 #include "models/maths/text_of_number.h"
 #include "rig/protocols/grbl_protocol.h"
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <utility>
 
 namespace viscard {

@@ -3,7 +3,6 @@
 #include "models/maths/text_of_number.h"
 #include "rig/protocols/zaber_protocol.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

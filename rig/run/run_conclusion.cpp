@@ -96,10 +96,4 @@ void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock) {
   }
 }
 
-std::string lift_text(double lifted_m) {
-  return lifted_m > 0.0 ? ". The stage was stopped and lifted by " +
-                              text_from_number(lifted_m * 1e3, 3) + " mm"
-                        : ". The stage was stopped; it was not lifted";
-}
-
 }  // namespace viscard

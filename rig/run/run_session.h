@@ -6,9 +6,9 @@
 #include "rig/run/force_guard.h"
 #include "rig/run/force_readings.h"
 #include "rig/run/punch_lift.h"
-#include "rig/run/reading_marks.h"
 #include "rig/run/run_control.h"
 #include "rig/run/served_devices.h"
+#include "rig/run/spike_watch.h"
 #include "rig/stages/stage.h"
 
 #include <optional>

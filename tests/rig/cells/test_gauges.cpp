@@ -1,8 +1,7 @@
 #include "rig/cells/gauge_load_cell.h"
 #include "rig/emulator/pty_port.h"
-#include "rig/protocols/force_gauge_protocols.h"
 #include "rig/protocols/force_unit.h"
-#include "rig/protocols/scpi_protocol.h"
+#include "rig/protocols/gauge_protocols.h"
 #include "rig/rig_check.h"
 #include "tests/rig/device_fixture.h"
 

@@ -1,5 +1,5 @@
 // What real controllers do beyond their documentation: each habit of the emulator by itself.
-#include "rig/stages/travel_limit.h"
+#include "rig/stages/polled_stage.h"
 #include "tests/rig/rig_fixture.h"
 
 #include <catch2/catch.hpp>
