@@ -21,15 +21,6 @@ constexpr double kLargestStep_s = 1e-3;    // of the hereditary integral, emulat
 constexpr double kShortestNap_s = 0.2e-3;  // wall
 constexpr double kLongestNap_s = 2e-3;     // wall; bounds the delay until an incident is noticed
 
-enum Incident : unsigned {
-  kPullStage = 1,
-  kPullCell = 2,
-  kSilenceCell = 4,
-  kRestartCell = 8,
-  kHitLimit = 16,
-  kRestartStage = 32,
-};
-
 // One branch per value of driver under [stage] (rig/open_devices.cpp); a GRBL for an unknown word,
 // which the driver refuses.
 std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions& options) {
@@ -189,18 +180,14 @@ void EmulatedRig::Impl::serve_cell(double now_s) {
 
 void EmulatedRig::Impl::happen(double now_s) {
   const unsigned incidents = incidents_.exchange(0);
-  if ((incidents & kPullStage) != 0) stage_port_.hang_up();
-  if ((incidents & kPullCell) != 0) cell_port_.hang_up();
-  if ((incidents & kSilenceCell) != 0) is_cell_silent_ = true;
-  if ((incidents & kRestartCell) != 0) cell_port_.write(amplifier_.reset(now_s));
-  if ((incidents & kRestartStage) != 0) {
-    stage_->reset(now_s);
-    stage_port_.write(stage_->take_output());
-  }
-  if ((incidents & kHitLimit) != 0) {
-    stage_->hit_limit(now_s);
-    stage_port_.write(stage_->take_output());
-  }
+  const auto has = [&](Incident one) { return (incidents & static_cast<unsigned>(one)) != 0; };
+  if (has(Incident::kPullStageCable)) stage_port_.hang_up();
+  if (has(Incident::kPullLoadCellCable)) cell_port_.hang_up();
+  if (has(Incident::kSilenceLoadCell)) is_cell_silent_ = true;
+  if (has(Incident::kRestartLoadCell)) cell_port_.write(amplifier_.reset(now_s));
+  if (has(Incident::kRestartStage)) stage_->reset(now_s);
+  if (has(Incident::kHitLimitSwitch)) stage_->hit_limit(now_s);
+  stage_port_.write(stage_->take_output());
   const double stall_s = stall_wall_s_.exchange(0.0);
   if (stall_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(stall_s));
 }
@@ -271,23 +258,8 @@ void EmulatedRig::hang_weight(double force_N) {
   impl_->weight_N_ = force_N;
 }
 
-void EmulatedRig::pull_stage_cable() {
-  impl_->incidents_ |= kPullStage;
-}
-void EmulatedRig::pull_load_cell_cable() {
-  impl_->incidents_ |= kPullCell;
-}
-void EmulatedRig::silence_load_cell() {
-  impl_->incidents_ |= kSilenceCell;
-}
-void EmulatedRig::restart_load_cell() {
-  impl_->incidents_ |= kRestartCell;
-}
-void EmulatedRig::restart_stage() {
-  impl_->incidents_ |= kRestartStage;
-}
-void EmulatedRig::hit_limit_switch() {
-  impl_->incidents_ |= kHitLimit;
+void EmulatedRig::cause(Incident incident) {
+  impl_->incidents_ |= static_cast<unsigned>(incident);
 }
 void EmulatedRig::stall(double wall_s) {
   impl_->stall_wall_s_ = wall_s;

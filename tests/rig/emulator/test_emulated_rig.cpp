@@ -110,11 +110,11 @@ TEST_CASE("incidents of the amplifier are distinguished", "[rig][pty]") {
   RigFixture rig(RigFixture::options(5.0));
   rig.load_cell.connect(rig.pump());
   SECTION("restart") {
-    rig.emulated.restart_load_cell();
+    rig.emulated.cause(Incident::kRestartLoadCell);
     CHECK_THROWS_AS(serve_for(rig, 2.0), DeviceRestarted);
   }
   SECTION("cable pulled") {
-    rig.emulated.pull_load_cell_cable();
+    rig.emulated.cause(Incident::kPullLoadCellCable);
     CHECK_THROWS_AS(serve_for(rig, 2.0), PortHungUp);
   }
 }

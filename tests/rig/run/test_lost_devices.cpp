@@ -20,7 +20,8 @@ TEST_CASE("a cable pulled in any phase ends the run and keeps all records before
   const bool is_stage = GENERATE(false, true);
   RigFixture rig(RigFixture::options(40.0));
   when_phase(rig, phase, [&] {
-    is_stage ? rig.emulated.pull_stage_cable() : rig.emulated.pull_load_cell_cable();
+    is_stage ? rig.emulated.cause(Incident::kPullStageCable)
+             : rig.emulated.cause(Incident::kPullLoadCellCable);
   });
   const RunOutcome outcome = rig.run(short_plan());
   INFO(phase << (is_stage ? ", stage: " : ", load cell: ") << outcome.reason);

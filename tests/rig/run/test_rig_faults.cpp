@@ -65,7 +65,7 @@ TEST_CASE("a force that cannot be read after the lift is not reported as unchang
   EmulatedRigOptions options = RigFixture::options(5.0);
   RigFixture rig(options);
   when_phase(rig, "hold", [&rig] {
-    rig.emulated.silence_load_cell();
+    rig.emulated.cause(Incident::kSilenceLoadCell);
     rig.stop = true;
   });
   const RunOutcome outcome = rig.run(short_plan());
@@ -79,7 +79,7 @@ TEST_CASE("an amplifier without a clock that restarts in the hold ends the run",
   options.amplifier.format = AmplifierFormat::kCounts;
   options.amplifier.boot_s = 4.0;  // .8 s on the wall, behind its banner
   RigFixture rig(options);
-  when_phase(rig, "hold", [&rig] { rig.emulated.restart_load_cell(); });
+  when_phase(rig, "hold", [&rig] { rig.emulated.cause(Incident::kRestartLoadCell); });
   TestPlan plan = short_plan();
   plan.hold_s = 8.0;
   const RunOutcome outcome = rig.run(plan);

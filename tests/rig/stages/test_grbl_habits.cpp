@@ -209,7 +209,7 @@ TEST_CASE("a limit switch that raises another alarm when it opens still ends wit
   rig.sink = [&rig](const RunRecord& record) {
     rig.records.push_back(record);
     const auto* event = std::get_if<RunEvent>(&record);
-    if (event != nullptr && event->value == "ramp") rig.emulated.hit_limit_switch();
+    if (event != nullptr && event->value == "ramp") rig.emulated.cause(Incident::kHitLimitSwitch);
   };
   const RunOutcome outcome = rig.run(short_plan());
   INFO(outcome.reason);
@@ -234,7 +234,7 @@ TEST_CASE("a board that resets late, while its settings are read, is asked again
   rig.stage.connect([&] {
     pump();
     if (!has_restarted && rig.all<StageReport>().size() == 1) {
-      rig.emulated.restart_stage();
+      rig.emulated.cause(Incident::kRestartStage);
       has_restarted = true;
     }
   });
@@ -281,7 +281,7 @@ TEST_CASE("after a restart of the controller under load the punch is lifted from
   rig.sink = [&rig](const RunRecord& record) {
     rig.records.push_back(record);
     const auto* event = std::get_if<RunEvent>(&record);
-    if (event != nullptr && event->value == "hold") rig.emulated.restart_stage();
+    if (event != nullptr && event->value == "hold") rig.emulated.cause(Incident::kRestartStage);
   };
   const RunOutcome outcome = rig.run(short_plan());
   INFO(outcome.reason);
