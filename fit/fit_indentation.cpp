@@ -3,7 +3,6 @@
 #include "fit/assembly/assemble_result.h"
 #include "fit/assembly/two_point_modulus.h"
 #include "fit/curves/history_model.h"
-#include "fit/fit_stage_indentation.h"
 #include "fit/intervals/flags.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/noise_model.h"

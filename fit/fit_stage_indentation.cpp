@@ -1,9 +1,8 @@
-#include "fit/fit_stage_indentation.h"
-
 #include "fit/assembly/assemble_result.h"
-#include "fit/assembly/gain_drift.h"
+#include "fit/assembly/spectral_fit.h"
 #include "fit/assembly/two_point_modulus.h"
 #include "fit/curves/stage_model.h"
+#include "fit/fit_indentation.h"
 #include "fit/intervals/flags.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/contact_onset.h"

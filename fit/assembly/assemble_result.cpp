@@ -1,11 +1,9 @@
 #include "fit/assembly/assemble_result.h"
 
-#include "fit/assembly/constrained_fit.h"
-#include "fit/assembly/order_doubt.h"
-#include "fit/intervals/bootstrap.h"
+#include "fit/assembly/spectral_fit.h"
 #include "fit/intervals/flags.h"
-#include "fit/intervals/profile_likelihood.h"
-#include "fit/search/quick_search.h"
+#include "fit/intervals/uncertainty.h"
+#include "fit/search/separable.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
-#include "fit/assembly/constrained_fit.h"
-
 #include "fit/assembly/constraints.h"
 #include "fit/assembly/parametrisation.h"
+#include "fit/assembly/spectral_fit.h"
 #include "fit/intervals/flags.h"
 #include "fit/search/projection.h"
 #include "models/maths/text_of_number.h"

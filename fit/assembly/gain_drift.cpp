@@ -1,4 +1,4 @@
-#include "fit/assembly/gain_drift.h"
+#include "fit/assembly/spectral_fit.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 
 #include "fit/samples/sample_passes.h"
 #include "fit/search/nnls.h"
-#include "fit/search/quick_search.h"
+#include "fit/search/separable.h"
 #include "fit/search/term_moves.h"
 
 #include <algorithm>

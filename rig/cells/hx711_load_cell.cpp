@@ -1,7 +1,6 @@
 #include "rig/cells/hx711_load_cell.h"
 
 #include "models/maths/text_of_number.h"
-#include "rig/cells/hx711_format.h"
 #include "rig/lines/rig_error.h"
 #include "rig/protocols/force_unit.h"
 

@@ -11,6 +11,14 @@
 
 namespace viscard {
 
+// The line_format of a rig file. Throws RigError on an unknown word.
+Hx711Format declared_hx711_format(const LoadCellConfig& config);
+
+// The format that all of these lines have, or nothing if they have none in common. rate_Hz:
+// expected rate of the readings, which shows the unit of a clock at the beginning of the line.
+std::optional<Hx711Format> learnt_hx711_format(const std::vector<ReceivedLine>& lines,
+                                               double rate_Hz);
+
 // An HX711 (or any other) amplifier that sends text lines. Their format is declared in the rig file
 // (line_format) or learnt from the first readings; banners and messages before them are skipped.
 class Hx711LoadCell final : public LoadCell {

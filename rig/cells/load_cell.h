@@ -32,8 +32,7 @@ struct StreamCounts {
 class LoadCell {
  public:
   virtual ~LoadCell() = default;
-  LoadCell(const LoadCell&) = delete;
-  LoadCell& operator=(const LoadCell&) = delete;
+  LoadCell& operator=(LoadCell&&) = delete;  // neither copied nor moved
 
   Transport& transport() { return transport_; }
   // Waits until readings arrive and the format of the lines is known.

@@ -15,8 +15,7 @@ class EmulatedController {
  public:
   explicit EmulatedController(double steps_per_m) : motion_(steps_per_m, 0.0) {}
   virtual ~EmulatedController() = default;
-  EmulatedController(const EmulatedController&) = delete;
-  EmulatedController& operator=(const EmulatedController&) = delete;
+  EmulatedController& operator=(EmulatedController&&) = delete;  // neither copied nor moved
 
   // Power-up, or the opening of a port that resets the board.
   virtual void reset(double time_s) = 0;

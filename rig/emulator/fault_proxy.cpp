@@ -18,13 +18,12 @@
 #include <utility>
 
 namespace viscard {
-namespace {
 
 // One direction of a disturbed line: takes bytes, applies faults at random and gives out what is
 // due. Times are wall times.
-class FaultyLane {
+class FaultProxy::Lane {
  public:
-  FaultyLane(const FaultRates& rates, double longest_delay_s, std::uint64_t seed)
+  Lane(const FaultRates& rates, double longest_delay_s, std::uint64_t seed)
       : rates_(rates), longest_delay_s_(longest_delay_s), random_(seed) {}
 
   void take(std::string bytes, double now_s, FaultCounts& counts);
@@ -55,7 +54,7 @@ class FaultyLane {
   bool wants_hang_up_ = false;
 };
 
-void FaultyLane::corrupt(std::string& bytes, FaultCounts& counts) {
+void FaultProxy::Lane::corrupt(std::string& bytes, FaultCounts& counts) {
   if (happens(rates_.drop, counts)) {
     const std::size_t at = below(bytes.size());
     bytes.erase(at, 1 + below(8));
@@ -75,7 +74,7 @@ void FaultyLane::corrupt(std::string& bytes, FaultCounts& counts) {
   }
 }
 
-void FaultyLane::take(std::string bytes, double now_s, FaultCounts& counts) {
+void FaultProxy::Lane::take(std::string bytes, double now_s, FaultCounts& counts) {
   constexpr double kLongestSplit_s = 0.02;
   ++counts.pieces;
   if (happens(rates_.hang_up, counts)) wants_hang_up_ = true;
@@ -91,8 +90,6 @@ void FaultyLane::take(std::string bytes, double now_s, FaultCounts& counts) {
   }
   if (happens(rates_.duplicate, counts)) push(bytes, now_s);
 }
-
-}  // namespace
 
 class FaultProxy::Impl {
  public:
@@ -178,7 +175,7 @@ class FaultProxy::Impl {
 
   std::string device_path_;
   int device_ = -1;
-  FaultyLane to_host_, to_device_;
+  Lane to_host_, to_device_;
   mutable std::mutex mutex_;  // of counts_
   FaultCounts counts_;
   std::atomic<bool> is_ending_{false};

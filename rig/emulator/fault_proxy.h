@@ -45,6 +45,7 @@ class FaultProxy {
   void hang_up();
 
  private:
+  class Lane;
   class Impl;
   std::unique_ptr<Impl> impl_;
 };

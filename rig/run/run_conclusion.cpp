@@ -1,6 +1,5 @@
-#include "rig/run/run_conclusion.h"
-
 #include "models/maths/text_of_number.h"
+#include "rig/run/test_run.h"
 
 #include <algorithm>
 #include <cmath>

@@ -25,8 +25,7 @@ class RunSession {
   RunSession(Stage& stage, LoadCell& load_cell, const RigConfig& rig, const RecordSink& sink,
              const RunControl& control);
   ~RunSession();
-  RunSession(const RunSession&) = delete;
-  RunSession& operator=(const RunSession&) = delete;
+  RunSession& operator=(RunSession&&) = delete;  // neither copied nor moved
 
   Stage& stage() { return devices_.stage(); }
   LoadCell& load_cell() { return devices_.load_cell(); }

@@ -67,12 +67,6 @@ void GrblStage::read_settings(const Pump& pump) {
   }
 }
 
-void GrblStage::unlock(const Pump& pump) {
-  command("$X", pump);
-  note(clock_.now_s(), "stage_unlocked", "",
-       "The stage was unlocked without homing; positions count from where it stood");
-}
-
 // The exchange after a welcome: settings, homing or unlocking, position.
 void GrblStage::converse(const Pump& pump) {
   wait_for([] { return false; }, pump, kSettle_wall_s);
@@ -86,7 +80,9 @@ void GrblStage::converse(const Pump& pump) {
     command("$H", pump, 180.0);
     ask_position(pump);
   } else if (state_ == "Alarm") {
-    unlock(pump);
+    command("$X", pump);
+    note(clock_.now_s(), "stage_unlocked", "",
+         "The stage was unlocked without homing; positions count from where it stood");
     ask_position(pump);
   }
 }

@@ -83,7 +83,6 @@ class GrblStage final : public PolledStage {
   void converse(const Pump& pump);
   void ask_position(const Pump& pump);
   void read_settings(const Pump& pump);
-  void unlock(const Pump& pump);
   double setting(int number, double otherwise) const;
   double resolution_m() const;
   double least_speed_m_s() const;

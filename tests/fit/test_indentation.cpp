@@ -1,6 +1,5 @@
 #include "fit/fit_indentation.h"
 #include "fit/fit_relaxation.h"
-#include "fit/fit_stage_indentation.h"
 #include "models/material/retardation_spectrum.h"
 #include "tests/fit/fit_checks.h"
 #include "tests/fit/spectra.h"

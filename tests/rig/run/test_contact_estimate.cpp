@@ -1,4 +1,4 @@
-#include "rig/run/contact_estimate.h"
+#include "rig/run/approach_phase.h"
 
 #include <catch2/catch.hpp>
 
