@@ -5,9 +5,9 @@
 #include "fit/curves/history_model.h"
 #include "fit/intervals/flags.h"
 #include "fit/samples/clean_data.h"
+#include "fit/samples/contact_onset.h"
 #include "fit/samples/noise_model.h"
 #include "fit/samples/spikes.h"
-#include "fit/samples/table_contact.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>

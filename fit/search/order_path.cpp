@@ -3,7 +3,6 @@
 #include "fit/samples/sample_passes.h"
 #include "fit/search/nnls.h"
 #include "fit/search/separable.h"
-#include "fit/search/term_moves.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
-#include "rig/protocols/force_unit.h"
+#include "rig/protocols/gauge_protocols.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,7 +1,7 @@
 #include "rig/emulator/emulated_gauge.h"
 
 #include "models/maths/text_of_number.h"
-#include "rig/protocols/force_unit.h"
+#include "rig/protocols/gauge_protocols.h"
 
 #include <algorithm>
 #include <array>

@@ -11,17 +11,8 @@
 
 namespace viscard {
 
-// A stage behind GRBL 1.1 or grblHAL. The driver relies on these rules only
-// (rig/protocols/README.md and rig/stages/README.md give the sources):
-// - A welcome follows the opening of the port or a soft reset. Everything before it is dropped.
-// - Each line is answered by one "ok" or "error:N", in order. All other lines answer nothing.
-// - The "ok" to a jog means that it is queued. The jog has ended when a report that was asked for
-//   after the ok shows Idle at the target.
-// - Reports may be lost, late or unasked. One '?' is open at a time; after 250 ms another is sent,
-//   and a report answers the oldest open '?'. If answers have been prompt and one is still missing
-//   after another 250 ms, the oldest '?' was lost.
-// - A line that stays unanswered at Idle may be kept back by an unwanted hold, which '~' ends.
-// - After an alarm the controller may be silent until 0x18.
+// A stage behind GRBL 1.1 or grblHAL. rig/stages/README.md lists the rules of the firmware that the
+// driver relies on, rig/protocols/README.md their sources.
 class GrblStage final : public PolledStage {
  public:
   GrblStage(Transport& transport, const StageConfig& config, const RigClock& clock, RecordSink sink,

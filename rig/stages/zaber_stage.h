@@ -10,16 +10,8 @@
 
 namespace viscard {
 
-// A Zaber stage with the ASCII protocol (rig/protocols/zaber_protocol.h). The driver relies on
-// these rules:
-// - Every command carries a checksum and an id, and only a reply with that id answers it. Late
-//   replies, replies of other devices on the chain and garbled ones are ignored.
-// - All commands can be repeated without harm (an absolute move, a setting, a stop), so a command
-//   without an answer is sent again.
-// - A move has ended when a question that was sent after the reply to it is answered IDLE at the
-//   target.
-// - A fault flag means that the axis stopped by itself. Without a reference position (WR) no
-//   position can be trusted.
+// A Zaber stage with the ASCII protocol (rig/protocols/zaber_protocol.h). rig/stages/README.md lists
+// the rules that the driver relies on.
 class ZaberStage final : public PolledStage {
  public:
   // Throws RigError if the rig file has no microstep.

@@ -1,6 +1,5 @@
 #include "rig/cells/gauge_load_cell.h"
 #include "rig/emulator/pty_port.h"
-#include "rig/protocols/force_unit.h"
 #include "rig/protocols/gauge_protocols.h"
 #include "rig/rig_check.h"
 #include "tests/rig/device_fixture.h"

@@ -1,4 +1,4 @@
-#include "rig/run/silence_watch.h"
+#include "rig/run/served_devices.h"
 #include "rig/run/spike_watch.h"
 
 #include <catch2/catch.hpp>
