@@ -186,7 +186,7 @@ TEST_CASE("a load cell that is lost or silent in the ramp stops the stage", "[ri
   CHECK(is_at_rest_and_lifted(rig));
 }
 
-TEST_CASE("a stage lost in the hold ends the run and the reason says that it cannot be lifted",
+TEST_CASE("a stage lost in the hold ends the run and the reason states that it cannot be lifted",
           "[rig][pty]") {
   RigFixture rig(RigFixture::options(20.0));
   when_phase(rig, "hold", [&rig] { rig.emulated.cause(Incident::kPullStageCable); });

@@ -102,7 +102,7 @@ TEST_CASE("the estimated time of a reading recovers from the delay of a stall", 
     CHECK(made_s <= sample.host_time_s + 1e-9);
     latest_arrival_s = std::max(latest_arrival_s, sample.host_time_s - made_s);
   }
-  CHECK(latest_arrival_s > 0.05);  // the stall is in the stamps, and only there
+  CHECK(latest_arrival_s > 0.05);  // the stall shows in the stamps only
   CHECK(rig.load_cell.counts().missing == 0);
 }
 

@@ -30,7 +30,7 @@ TEST_CASE("a cable pulled in any phase ends the run and keeps all records before
   CHECK(rig.has_event("phase", phase));
   CHECK(rig.has_event("interrupted", "reason"));
   if (is_stage && phase == "tare") {
-    CHECK_THAT(outcome.reason, !Contains("by hand"));  // it had not moved
+    CHECK_THAT(outcome.reason, !Contains("by hand"));  // the stage had not moved
   } else if (is_stage) {
     CHECK_THAT(outcome.reason, Contains("by hand"));
   } else {

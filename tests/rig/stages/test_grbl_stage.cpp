@@ -45,7 +45,7 @@ TEST_CASE("a controller that does not reset on opening is reset by the driver", 
   const RigClock clock(20.0);
   const RecordSink sink = [](const RunRecord&) {};
   const Pump sleep = [] { wait_readable({}, 0.002); };
-  for (int i = 0; i < 2; ++i) {  // the second opening finds it running: no welcome by itself
+  for (int i = 0; i < 2; ++i) {  // at the second opening it runs already and sends no welcome
     SerialLine line(emulated.stage_port(), 115200, clock);
     GrblStage stage(line, options.config.stage, clock, sink, 0.2);
     stage.connect([&] {
