@@ -104,6 +104,49 @@ LeftOut left_out_error(const Eigen::Ref<const Eigen::MatrixXd>& q,
              : left_out_error<Eigen::MatrixXd, Eigen::VectorXd>(q, r);
 }
 
+}  // namespace
+
+std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralState& state,
+                                     const std::vector<int>& blocks) {
+  // Nuisances stay fixed: one block may hold all information about one of them (the unloading and
+  // its start), and that is no evidence for or against a term.
+  Eigen::MatrixXd jacobian = full_jacobian(model, state);
+  jacobian.conservativeResize(Eigen::NoChange, jacobian.cols() - model.n_nuisances());
+  const Index linear = state.coefficients.size();
+  const Eigen::VectorXd residual = model.data() - jacobian.leftCols(linear) * state.coefficients;
+  for (Index j = 0; j < jacobian.cols(); ++j) {
+    const double norm = jacobian.col(j).norm();
+    if (norm > 0.0) jacobian.col(j) /= norm;
+  }
+  const Eigen::MatrixXd basis = orthonormal_basis(jacobian);
+
+  const int n_blocks = blocks.empty() ? 0 : *std::max_element(blocks.begin(), blocks.end()) + 1;
+  std::vector<std::vector<Index>> rows(static_cast<std::size_t>(n_blocks));
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    rows[static_cast<std::size_t>(blocks[i])].push_back(static_cast<Index>(i));
+  }
+  std::vector<LeftOut> errors;
+  for (const std::vector<Index>& block : rows) {
+    if (block.empty()) continue;
+    const auto count = static_cast<Index>(block.size());
+    if (block.back() - block.front() + 1 == count) {  // contiguous block: no copy
+      errors.push_back(left_out_error(basis.middleRows(block.front(), count),
+                                      residual.segment(block.front(), count)));
+    } else {
+      errors.push_back(left_out_error(Eigen::MatrixXd(basis(block, Eigen::all)),
+                                      Eigen::VectorXd(residual(block))));
+    }
+  }
+  return errors;
+}
+
+bool is_within_range(const SpectralModel& model, const SpectralState& state) {
+  return state.n_terms() == 0 ||
+         !(model.is_shortest(state.ln_tau.minCoeff()) || model.is_longest(state.ln_tau.maxCoeff()));
+}
+
+namespace {
+
 // A time above a third of the record. ln_tau_max() is three times the record.
 bool outlasts_record(const SpectralModel& model, const SpectralState& state) {
   return state.n_terms() > 0 && state.ln_tau.maxCoeff() > model.ln_tau_max() - std::log(9.0);
@@ -183,45 +226,6 @@ std::size_t without_lasting_term(const SpectralModel& model, const std::vector<S
 }
 
 }  // namespace
-
-std::vector<LeftOut> left_out_errors(const SpectralModel& model, const SpectralState& state,
-                                     const std::vector<int>& blocks) {
-  // Nuisances stay fixed: one block may hold all information about one of them (the unloading and
-  // its start), and that is no evidence for or against a term.
-  Eigen::MatrixXd jacobian = full_jacobian(model, state);
-  jacobian.conservativeResize(Eigen::NoChange, jacobian.cols() - model.n_nuisances());
-  const Index linear = state.coefficients.size();
-  const Eigen::VectorXd residual = model.data() - jacobian.leftCols(linear) * state.coefficients;
-  for (Index j = 0; j < jacobian.cols(); ++j) {
-    const double norm = jacobian.col(j).norm();
-    if (norm > 0.0) jacobian.col(j) /= norm;
-  }
-  const Eigen::MatrixXd basis = orthonormal_basis(jacobian);
-
-  const int n_blocks = blocks.empty() ? 0 : *std::max_element(blocks.begin(), blocks.end()) + 1;
-  std::vector<std::vector<Index>> rows(static_cast<std::size_t>(n_blocks));
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    rows[static_cast<std::size_t>(blocks[i])].push_back(static_cast<Index>(i));
-  }
-  std::vector<LeftOut> errors;
-  for (const std::vector<Index>& block : rows) {
-    if (block.empty()) continue;
-    const auto count = static_cast<Index>(block.size());
-    if (block.back() - block.front() + 1 == count) {  // contiguous block: no copy
-      errors.push_back(left_out_error(basis.middleRows(block.front(), count),
-                                      residual.segment(block.front(), count)));
-    } else {
-      errors.push_back(left_out_error(Eigen::MatrixXd(basis(block, Eigen::all)),
-                                      Eigen::VectorXd(residual(block))));
-    }
-  }
-  return errors;
-}
-
-bool is_within_range(const SpectralModel& model, const SpectralState& state) {
-  return state.n_terms() == 0 ||
-         !(model.is_shortest(state.ln_tau.minCoeff()) || model.is_longest(state.ln_tau.maxCoeff()));
-}
 
 OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralState>& path,
                          const ChoiceInput& input) {
