@@ -71,6 +71,18 @@ double largest(const Problem& problem, const Parameters& p) {
   return residuals(problem, p, nullptr).lpNorm<Eigen::Infinity>();
 }
 
+// The parameters with the smallest maximum error of all that were offered.
+struct Best {
+  Parameters p = {};
+  double error = std::numeric_limits<double>::infinity();
+  void offer(const Problem& problem, const Parameters& other) {
+    const double its_error = largest(problem, other);
+    if (p.size() > 0 && !(its_error < error)) return;
+    error = its_error;
+    p = other;
+  }
+};
+
 // Levenberg-Marquardt on sum w r^2 with fixed weights.
 Parameters least_squares(const Problem& problem, Parameters p, const Eigen::VectorXd& weights,
                          int iterations) {
@@ -105,8 +117,8 @@ Parameters least_squares(const Problem& problem, Parameters p, const Eigen::Vect
 // Iterative reweighting towards the p-norm for p = 4, 8, ... 64; returns the parameters with the
 // smallest maximum error.
 Parameters sharpen(const Problem& problem, Parameters p) {
-  Parameters best = p;
-  double best_error = largest(problem, p);
+  Best best;
+  best.offer(problem, p);
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(problem.time_s.size());
   for (int round = 0; round < 30; ++round) {
     const Eigen::ArrayXd r = residuals(problem, p, nullptr).array().abs();
@@ -114,13 +126,9 @@ Parameters sharpen(const Problem& problem, Parameters p) {
     weights = (weights.array() * (r / r.maxCoeff() + 1e-3).sqrt()).matrix();
     weights /= weights.maxCoeff();
     p = least_squares(problem, p, weights, 8);
-    const double error = largest(problem, p);
-    if (error < best_error) {
-      best_error = error;
-      best = p;
-    }
+    best.offer(problem, p);
   }
-  return best;
+  return best.p;
 }
 
 // The largest |r| of each run of one sign: the alternation of the error curve.
@@ -139,8 +147,8 @@ std::vector<Eigen::Index> peaks_of(const Eigen::VectorXd& r) {
 // Remez exchange: Newton steps that make the 2n + 2 alternating peaks equal. Returns the best
 // parameters found.
 Parameters equalise(const Problem& problem, Parameters p) {
-  Parameters best = p;
-  double best_error = largest(problem, p);
+  Best best;
+  best.offer(problem, p);
   for (int round = 0; round < 20; ++round) {
     Eigen::MatrixXd jacobian;
     const Eigen::VectorXd r = residuals(problem, p, &jacobian);
@@ -165,14 +173,10 @@ Parameters equalise(const Problem& problem, Parameters p) {
     if (!std::isfinite(size)) break;
     p += step.head(p.size()) * std::min(1.0, 0.3 / size);
     clamp(problem, p);
-    const double error = largest(problem, p);
-    if (error < best_error) {
-      best_error = error;
-      best = p;
-    }
+    best.offer(problem, p);
     if (size < 1e-9) break;
   }
-  return best;
+  return best.p;
 }
 
 // Start values at the given times: E_inf is E at the end of the window, and the terms share equally
@@ -209,17 +213,11 @@ Parameters best_parameters(const Problem& problem, int n_terms) {
   }
   std::sort(found.begin(), found.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
-  Parameters best;
-  double best_error = std::numeric_limits<double>::infinity();
+  Best best;
   for (std::size_t i = 0; i < 2; ++i) {
-    const Parameters p = equalise(problem, sharpen(problem, found[i].second));
-    const double error = largest(problem, p);
-    if (error < best_error) {
-      best_error = error;
-      best = p;
-    }
+    best.offer(problem, equalise(problem, sharpen(problem, found[i].second)));
   }
-  return best;
+  return best.p;
 }
 
 PronySeries series_from(const Parameters& p) {

@@ -1,7 +1,6 @@
 #include "fit/fit_creep.h"
 
 #include "fit/assembly/assemble_result.h"
-#include "fit/assembly/step_curves.h"
 #include "fit/curves/step_model.h"
 #include "fit/intervals/flags.h"
 #include "fit/samples/clean_data.h"
@@ -36,12 +35,10 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
     throw std::runtime_error(
         "moduli and times of creep follow from its retardation spectrum and cannot be constrained");
   }
-  CleanColumns clean = clean_columns({data.time_s, data.compliance_1_Pa}, kLeastRows);
-  const std::vector<std::size_t> spikes = isolated_spikes(clean.columns[0], clean.columns[1]);
-  if (!spikes.empty()) {
-    for (std::vector<double>& column : clean.columns) column = without_rows(column, spikes);
-  }
-  const std::vector<double>& time_s = clean.columns[0];
+  CleanViews clean({data.time_s, data.compliance_1_Pa}, kLeastRows);
+  const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
+  clean.drop(spikes);
+  const auto time_s = clean.column(0);
   if (time_s.front() < 0.0) {
     throw std::runtime_error("the first time is " + text_of(time_s.front()) +
                              " s; t = 0 must be the step of stress (set it with --time-zero)");
@@ -49,15 +46,13 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
   if (!(time_s.back() > time_s.front())) {
     throw std::runtime_error("all rows have the same time, so no creep can be fitted");
   }
-  check_sign(clean.columns[1], "a creep compliance", "compliance_1_Pa");
+  check_sign(clean.column(1), "a creep compliance", "compliance_1_Pa");
   if (options.allow_negative) {
     throw std::invalid_argument(
         "creep terms cannot be negative: the compliance of a solid only increases");
   }
-  const StepModel model(time_s, clean.columns[1], StepShape::kCreep, options);
-  std::vector<double> row_time_s;
-  for (const LogBin& bin : model.bins()) row_time_s.push_back(bin.time_s);
-  const SpectralFit fit = fit_spectrum(model, log_time_blocks(row_time_s, 0.0, 1), options);
+  const StepModel model(time_s, clean.column(1), StepShape::kCreep, options);
+  const SpectralFit fit = fit_spectrum(model, log_time_blocks(model.row_time_s(), 0.0, 1), options);
   if (!(fit.state.coefficients[0] > 0.0)) {
     throw std::runtime_error(
         "the record shows no instantaneous compliance (it begins at zero), so E0 would be "
@@ -71,7 +66,7 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
         return series_from_creep(model, state, options.is_liquid);
       },
       result);
-  result.n_left_out = clean.n_left_out;
+  result.n_left_out = clean.n_left_out();
   add_spikes(result, spikes.size());
   result.fit_from_s = time_s.front();
   result.fit_to_s = time_s.back();

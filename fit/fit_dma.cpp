@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 
@@ -42,38 +41,34 @@ void flag_contradiction(const DmaModel& model, FitResult& result) {
   const double loss = misfit_alone(model, count, count);
   constexpr double kMuch = 3.0, kVisible = 0.01;
   if (result.noise.sigma < kVisible || result.noise.sigma < kMuch * std::max(storage, loss)) return;
-  char text[240];
-  std::snprintf(
-      text, sizeof text,
-      "storage alone can be fitted to %.2g %%, loss alone to %.2g %%, but both together only "
-      "to %.2g %%: they do not belong to one linear material (Kramers-Kronig). Check the "
-      "shift factors and the instrument's own loss",
-      100.0 * storage, 100.0 * loss, 100.0 * result.noise.sigma);
-  result.flags.push_back({"storage-loss-contradict", 0, text});
+  const auto percent = [](double share) { return text_of(100.0 * share, 2) + " %"; };
+  result.flags.push_back(
+      {"storage-loss-contradict", 0,
+       "storage alone can be fitted to " + percent(storage) + ", loss alone to " + percent(loss) +
+           ", but both together only to " + percent(result.noise.sigma) +
+           ": they do not belong to one linear material (Kramers-Kronig). Check the shift factors "
+           "and the instrument's own loss"});
 }
 
 }  // namespace
 
 FitResult fit_dma(const DmaData& data, const FitOptions& options) {
   constexpr std::size_t kLeastRows = 3;
-  const CleanColumns clean =
-      clean_columns({data.frequency_Hz, data.storage_Pa, data.loss_Pa}, kLeastRows);
-  const std::vector<double>& frequency_Hz = clean.columns[0];
+  const CleanViews clean({data.frequency_Hz, data.storage_Pa, data.loss_Pa}, kLeastRows);
+  const auto frequency_Hz = clean.column(0), storage_Pa = clean.column(1),
+             loss_Pa = clean.column(2);
   if (!(frequency_Hz.front() > 0.0)) {
     throw std::runtime_error("a frequency of " + text_of(frequency_Hz.front()) +
                              " Hz cannot be fitted; frequencies must be positive");
   }
   for (std::size_t i = 0; i < frequency_Hz.size(); ++i) {
-    if (clean.columns[1][i] != 0.0 || clean.columns[2][i] != 0.0) continue;
-    char text[120];
-    std::snprintf(text, sizeof text,
-                  "storage and loss modulus are both zero at %.6g Hz: this is not a measurement. "
-                  "Remove the row",
-                  frequency_Hz[i]);
-    throw std::runtime_error(text);
+    if (storage_Pa[i] != 0.0 || loss_Pa[i] != 0.0) continue;
+    throw std::runtime_error("storage and loss modulus are both zero at " +
+                             text_of(frequency_Hz[i]) +
+                             " Hz: this is not a measurement. Remove the row");
   }
-  check_sign(clean.columns[1], "a storage modulus", "storage_modulus_Pa");
-  const DmaModel model(frequency_Hz, clean.columns[1], clean.columns[2], options);
+  check_sign(storage_Pa, "a storage modulus", "storage_modulus_Pa");
+  const DmaModel model(frequency_Hz, storage_Pa, loss_Pa, options);
   // A block is a run of neighbouring frequencies; E' and E'' of one frequency belong to the same
   // block.
   std::vector<int> blocks = log_time_blocks(frequency_Hz, 0.0, 1);
@@ -83,21 +78,18 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
   result.kind = FitKind::kDma;
   fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
   result.n_samples = frequency_Hz.size();
-  result.n_left_out = clean.n_left_out;
+  result.n_left_out = clean.n_left_out();
   result.fit_from_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.back());
   result.fit_to_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.front());
   add_identifiability_flags(model, fit.state, fit.covariance,
                             {0.0, 0.0, result.fit_from_s, 3.0 * result.fit_to_s}, result);
   flag_contradiction(model, result);
   if (options.with_curves) {
-    const Eigen::VectorXd fitted =
-        model.columns(fit.state.ln_tau, fit.state.nuisance, false).values * fit.state.coefficients;
+    const Eigen::VectorXd fitted = model.fitted(fit.state);
     for (std::size_t i = 0; i < frequency_Hz.size(); ++i) {
       const double scale_Pa = model.row_sigma()[static_cast<Index>(i)];
-      result.curves.time_s.push_back(frequency_Hz[i]);
-      result.curves.measured.push_back(clean.columns[1][i]);
-      result.curves.fitted.push_back(fitted[static_cast<Index>(i)] * scale_Pa);
-      result.curves.sigma.push_back(result.noise.sigma * scale_Pa);
+      result.curves.add(frequency_Hz[i], storage_Pa[i], fitted[static_cast<Index>(i)] * scale_Pa,
+                        result.noise.sigma * scale_Pa);
     }
     result.curves.unit = "Pa";
   }

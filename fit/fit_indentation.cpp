@@ -3,21 +3,20 @@
 #include "fit/assembly/assemble_result.h"
 #include "fit/assembly/two_point_modulus.h"
 #include "fit/curves/history_model.h"
-#include "fit/fit_stage_indentation.h"
 #include "fit/intervals/flags.h"
 #include "fit/samples/clean_data.h"
+#include "fit/samples/contact_onset.h"
 #include "fit/samples/noise_model.h"
 #include "fit/samples/spikes.h"
-#include "fit/samples/table_contact.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace viscard {
 namespace {
@@ -26,7 +25,7 @@ using Index = Eigen::Index;
 using Column = std::vector<double>;
 constexpr std::size_t kLeastContactRows = 6;
 
-void check_force(const Column& force_N) {
+void check_force(std::span<const double> force_N) {
   const auto [low, high] = std::minmax_element(force_N.begin(), force_N.end());
   if (*low == *high) {
     throw std::runtime_error(
@@ -85,12 +84,12 @@ void flag_gap(const Column& time_s, std::size_t contact, std::size_t loaded, Fit
   }
 }
 
-HistoryInput history_input(const CleanColumns& clean, const TableContact& contact,
+HistoryInput history_input(const std::vector<Column>& columns, const TableContact& contact,
                            const DepthLaw& law) {
   HistoryInput input;
-  input.time_s = clean.columns[0];
-  input.output = clean.columns[1];
-  input.input = clean.columns[2];
+  input.time_s = columns[0];
+  input.output = columns[1];
+  input.input = columns[2];
   input.factor = law.factor;
   input.power = law.power;
   input.contact = contact.first;
@@ -115,7 +114,7 @@ HistoryInput history_input(const CleanColumns& clean, const TableContact& contac
 
 void fill_curves(const HistoryModel& model, const HistoryInput& input, const SpectralState& state,
                  double sigma, FitResult& result) {
-  const Eigen::VectorXd fitted = model.fitted(state.ln_tau, state.nuisance, state.coefficients);
+  const Eigen::VectorXd fitted = model.fitted_samples(state);
   const std::vector<std::size_t> begins = model.row_begins();
   for (std::size_t r = 0; r + 1 < begins.size(); ++r) {
     const auto count = static_cast<double>(begins[r + 1] - begins[r]);
@@ -125,10 +124,7 @@ void fill_curves(const HistoryModel& model, const HistoryInput& input, const Spe
       measured += input.output[i] / count;
       model_value += fitted[static_cast<Index>(i)] / count;
     }
-    result.curves.time_s.push_back(model.row_time_s()[r]);
-    result.curves.measured.push_back(measured);
-    result.curves.fitted.push_back(model_value);
-    result.curves.sigma.push_back(sigma / std::sqrt(count));
+    result.curves.add(model.row_time_s()[r], measured, model_value, sigma / std::sqrt(count));
   }
   result.curves.unit = "N";
 }
@@ -144,22 +140,24 @@ void flag_table_misfit(const HistoryInput& input, const TableContact& contact, F
 
 // A table after preparation: spikes, an earlier touch and the frame's part of the depth removed.
 struct ContactTable {
-  CleanColumns clean;
+  std::vector<Column> columns;  // time, force, depth
   DepthLaw law{1.0, 1.0};
   TableContact contact;
   std::size_t loaded = 0;  // index of the end of loading
-  std::size_t n_spikes = 0;
+  std::size_t n_left_out = 0, n_spikes = 0;
 };
 
 ContactTable contact_table(const IndentationData& data) {
   ContactTable table;
-  table.clean = clean_columns({data.time_s, data.force_N, data.depth_m}, kLeastContactRows);
-  std::vector<Column>& columns = table.clean.columns;
-  check_force(columns[1]);
-  const std::vector<std::size_t> spikes = isolated_spikes(columns[0], columns[1]);
+  CleanViews clean({data.time_s, data.force_N, data.depth_m}, kLeastContactRows);
+  check_force(clean.column(1));
+  const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
+  clean.drop(spikes);
+  table.n_left_out = clean.n_left_out();
   table.n_spikes = spikes.size();
-  if (!spikes.empty()) {
-    for (Column& column : columns) column = without_rows(column, spikes);
+  std::vector<Column>& columns = table.columns;
+  for (const std::size_t i : {0, 1, 2}) {
+    columns.emplace_back(clean.column(i).begin(), clean.column(i).end());
   }
   check_depth(columns[1], columns[2]);
   if (data.frame_stiffness_N_m > 0.0) {
@@ -212,7 +210,7 @@ void report_table(const IndentationData& data, const ContactTable& table, const 
   flag_saturation(input.output, result);
   flag_table_misfit(input, contact, result);
   flag_gap(input.time_s, contact.first, end, result);
-  if (table.law.power != 1.0 && input.time_s.size() < table.clean.columns[0].size()) {
+  if (table.law.power != 1.0 && input.time_s.size() < table.columns[0].size()) {
     result.flags.push_back({"unloading-left-out", 0,
                             "samples after the depth began to fall were left out: the formula for "
                             "a sphere or cone holds while the contact does not shrink"});
@@ -224,7 +222,7 @@ void report_table(const IndentationData& data, const ContactTable& table, const 
 
 FitResult fit_measured_depth(const IndentationData& data, const FitOptions& options) {
   const ContactTable table = contact_table(data);
-  const HistoryInput input = history_input(table.clean, table.contact, table.law);
+  const HistoryInput input = history_input(table.columns, table.contact, table.law);
   if (input.time_s.size() < kLeastContactRows) {
     throw std::runtime_error("only " + counted(input.time_s.size(), "sample") +
                              " between contact and its loss; a fit needs at least " +
@@ -237,7 +235,7 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
   FitResult result;
   result.is_stiffness = !data.contact;
   fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
-  result.n_left_out = table.clean.n_left_out;
+  result.n_left_out = table.n_left_out;
   add_spikes(result, table.n_spikes);
   report_table(data, table, input, model, fit, result);
   if (options.with_curves) fill_curves(model, input, fit.state, result.noise.sigma, result);

@@ -8,9 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -21,9 +19,7 @@ using Index = Eigen::Index;
 constexpr double kSameTemperature_K = 1.0;
 
 std::string celsius(double temperature_C) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g C", temperature_C);
-  return text;
+  return text_of(temperature_C, 4) + " C";
 }
 
 // Rows sorted by temperature and split where the temperature rises by more than the width of a
@@ -192,8 +188,7 @@ void fill_window(const std::vector<MasterSegment>& segments,
 void fill_curves(const MasterModel& model, const std::vector<MasterSegment>& segments,
                  const std::vector<ShiftFactor>& factors, const SpectralFit& fit,
                  FitResult& result) {
-  const Eigen::VectorXd fitted =
-      model.columns(fit.state.ln_tau, fit.state.nuisance, false).values * fit.state.coefficients;
+  const Eigen::VectorXd fitted = model.fitted(fit.state);
   const Eigen::VectorXd sigma = model.row_sigma();
   struct Point {
     double argument, measured, fitted, sigma;
@@ -212,10 +207,7 @@ void fill_curves(const MasterModel& model, const std::vector<MasterSegment>& seg
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return a.argument < b.argument; });
   for (const Point& point : points) {
-    result.curves.time_s.push_back(point.argument);
-    result.curves.measured.push_back(point.measured);
-    result.curves.fitted.push_back(point.fitted);
-    result.curves.sigma.push_back(point.sigma);
+    result.curves.add(point.argument, point.measured, point.fitted, point.sigma);
   }
   result.curves.unit = "Pa";
 }

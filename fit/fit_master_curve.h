@@ -4,7 +4,6 @@
 #include "fit/laws/shift_law.h"
 #include "fit/samples/fit_data.h"
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 

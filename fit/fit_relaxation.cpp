@@ -1,7 +1,6 @@
 #include "fit/fit_relaxation.h"
 
 #include "fit/assembly/assemble_result.h"
-#include "fit/assembly/step_curves.h"
 #include "fit/curves/history_model.h"
 #include "fit/curves/step_model.h"
 #include "fit/intervals/flags.h"
@@ -57,9 +56,7 @@ FitResult fit_strain_history(const CleanViews& clean, const FitOptions& options)
 FitResult fit_step(std::span<const double> time_s, std::span<const double> value,
                    const FitOptions& options) {
   const StepModel model(time_s, value, StepShape::kRelaxation, options);
-  std::vector<double> row_time_s;
-  for (const LogBin& bin : model.bins()) row_time_s.push_back(bin.time_s);
-  const SpectralFit fit = fit_spectrum(model, log_time_blocks(row_time_s, 0.0, 1), options);
+  const SpectralFit fit = fit_spectrum(model, log_time_blocks(model.row_time_s(), 0.0, 1), options);
   FitResult result;
   result.kind = FitKind::kRelaxation;
   fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
@@ -92,8 +89,8 @@ FitResult fit_robustly(CleanViews& clean, const FitOptions& options) {
   std::size_t n_spikes = spikes.size();
   if (n_spikes > 0 || !is_evenly_sampled(clean.column(0))) {
     const auto value = clean.column(1);
-    const double largest = std::abs(*std::max_element(
-        value.begin(), value.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+    double largest = 0.0;
+    for (const double one : value) largest = std::max(largest, std::abs(one));
     const std::vector<std::size_t> outliers =
         outlying_samples(residual_of(result, clean.column(0), value), largest);
     if (!outliers.empty()) {

@@ -1,9 +1,8 @@
-#include "fit/fit_stage_indentation.h"
-
 #include "fit/assembly/assemble_result.h"
-#include "fit/assembly/gain_drift.h"
+#include "fit/assembly/spectral_fit.h"
 #include "fit/assembly/two_point_modulus.h"
 #include "fit/curves/stage_model.h"
+#include "fit/fit_indentation.h"
 #include "fit/intervals/flags.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/contact_onset.h"
@@ -12,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -57,10 +55,8 @@ void fill_curves(const StageModel& model, const IndentationData& data, const Spe
       force_N += data.force_N[i] / count;
       residual += residual_N[static_cast<Index>(i)] / count;
     }
-    curves.time_s.push_back(time);
-    curves.measured.push_back(force_N);
-    curves.fitted.push_back(force_N - residual);
-    curves.sigma.push_back(model.sigma_N()[static_cast<Index>(begin)] / std::sqrt(count));
+    curves.add(time, force_N, force_N - residual,
+               model.sigma_N()[static_cast<Index>(begin)] / std::sqrt(count));
     begin = end;
   }
   curves.unit = "N";
@@ -100,11 +96,9 @@ void flag_gap_in_ramp(const IndentationData& data, const SpectralState& state, F
     const bool in_ramp = data.time_s[i] > from_s && data.time_s[i - 1] < to_s;
     const double step_s = data.time_s[i] - data.time_s[i - 1];
     if (!in_ramp || step_s < std::max(4.0 * usual_s, 0.05 * duration_s(ramp))) continue;
-    char text[120];
-    std::snprintf(text, sizeof text,
-                  "no readings for %.3g s during the ramp (%.3g s after it began)", step_s,
-                  data.time_s[i - 1] - from_s);
-    add_defect(result, "gap-in-ramp", text);
+    add_defect(result, "gap-in-ramp",
+               "no readings for " + text_of(step_s, 3) + " s during the ramp (" +
+                   text_of(data.time_s[i - 1] - from_s, 3) + " s after it began)");
     return;
   }
 }
@@ -128,24 +122,6 @@ std::optional<std::size_t> move_losing_contact(const IndentationData& data,
   }
   return std::nullopt;
 }
-
-}  // namespace
-
-PronySeries specimen_series(const PronySeries& stage_series_N_m, double frame_stiffness_N_m) {
-  if (!(frame_stiffness_N_m > 0.0)) return stage_series_N_m;
-  RetardationSpectrum compliance = retardation_from_relaxation(stage_series_N_m);
-  compliance.instantaneous_compliance_1_Pa -= 1.0 / frame_stiffness_N_m;
-  if (!(compliance.instantaneous_compliance_1_Pa > 0.0)) {
-    throw std::runtime_error("the frame stiffness of " + text_of(frame_stiffness_N_m) +
-                             " N/m is below the measured stiffness (" +
-                             text_of(instantaneous_modulus_Pa(stage_series_N_m)) +
-                             " N/m): nothing is left for the specimen. Measure it again: viscard "
-                             "calibrate --compliance");
-  }
-  return relaxation_from_retardation(compliance);
-}
-
-namespace {
 
 // A fit of a run in contact, and the move that loses contact, if any.
 struct ContactFit {
@@ -208,8 +184,7 @@ Preparation prepared(const IndentationData& data, const FitOptions& options) {
     const SpectralState state = order_path(model, path_options).back();
     now.start = state.nuisance;
     StageResidual left{data.time_s, model.is_moving(), model.is_out_of_contact(), {}, {}};
-    left.fitted_N = (model.columns(state.ln_tau, state.nuisance, false).values * state.coefficients)
-                        .cwiseProduct(model.sigma_N());
+    left.fitted_N = model.fitted(state).cwiseProduct(model.sigma_N());
     left.residual_N = model.data().cwiseProduct(model.sigma_N()) - left.fitted_N;
     now.noise = stage_noise(left);
     if (now.noise.stamp_s == 0.0) break;
@@ -228,12 +203,9 @@ ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options
   FitResult& result = out.result;
   result.kind = FitKind::kIndentation;
   result.is_stiffness = !data.contact;
+  const SeriesFromState stage_series = relaxation_series_of(model, options.is_liquid);
   const auto series_from_state = [&](const SpectralState& state) {
-    PronySeries stage{options.is_liquid ? 0.0 : state.coefficients[0], {}};
-    for (Index i = 0; i < state.n_terms(); ++i) {
-      stage.terms.push_back({state.coefficients[model.n_common() + i], std::exp(state.ln_tau[i])});
-    }
-    PronySeries series = specimen_series(stage, data.frame_stiffness_N_m);
+    PronySeries series = specimen_series(stage_series(state), data.frame_stiffness_N_m);
     series.equilibrium_modulus_Pa /= factor_m;
     for (MaxwellTerm& term : series.terms) term.modulus_Pa /= factor_m;
     return series;
@@ -246,9 +218,7 @@ ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options
   add_common_uncertainty(result.gain_drift_relative, result);
   result.noise.sigma = prepared_for.noise.resting_N;
   result.contact_position_m = fit.state.nuisance[model.n_nuisances() - 1];
-  const Eigen::VectorXd residual =
-      model.residual_series(fit.state.ln_tau, fit.state.nuisance, fit.state.coefficients);
-  const Eigen::VectorXd residual_N = residual.cwiseProduct(model.sigma_N());
+  const Eigen::VectorXd residual_N = model.residual_series(fit.state).cwiseProduct(model.sigma_N());
   report_stage_fit(model, data, fit, residual_N, out);
   if (options.with_curves) fill_curves(model, data, fit.state, residual_N, result);
   return out;
@@ -285,6 +255,20 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
              "Unload to a larger share of the depth, and check modulus_guess of the specimen"});
   }
   return fit.result;
+}
+
+PronySeries specimen_series(const PronySeries& stage_series_N_m, double frame_stiffness_N_m) {
+  if (!(frame_stiffness_N_m > 0.0)) return stage_series_N_m;
+  RetardationSpectrum compliance = retardation_from_relaxation(stage_series_N_m);
+  compliance.instantaneous_compliance_1_Pa -= 1.0 / frame_stiffness_N_m;
+  if (!(compliance.instantaneous_compliance_1_Pa > 0.0)) {
+    throw std::runtime_error("the frame stiffness of " + text_of(frame_stiffness_N_m) +
+                             " N/m is below the measured stiffness (" +
+                             text_of(instantaneous_modulus_Pa(stage_series_N_m)) +
+                             " N/m): nothing is left for the specimen. Measure it again: viscard "
+                             "calibrate --compliance");
+  }
+  return relaxation_from_retardation(compliance);
 }
 
 }  // namespace viscard

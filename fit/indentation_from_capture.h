@@ -3,8 +3,6 @@
 #include "fit/samples/fit_data.h"
 #include "models/experiment/captured_run.h"
 
-#include <functional>
-
 namespace viscard {
 
 // Input of fit_indentation() from one captured run: forces from volts, all times on one time base,

@@ -1,11 +1,10 @@
 #include "rig/run_indentation.h"
 
 #include "models/experiment/test_phases.h"
+#include "models/maths/text_of_number.h"
 #include "rig/run/approach_phase.h"
 #include "rig/run/force_phases.h"
 #include "rig/run/preflight.h"
-#include "rig/run/run_conclusion.h"
-#include "rig/run/tare_phase.h"
 #include "rig/run/test_run.h"
 
 #include <algorithm>
@@ -22,12 +21,35 @@ class IndentationRun {
  public:
   explicit IndentationRun(TestRun& run) : run_(run), force_phases_(run) {}
 
-  void connect();
-  void measure();
+  void connect() {
+    RunSession& session = run_.session;
+    RunOutcome& outcome = run_.outcome;
+    session.begin_phase("connect", planned_from_s(0), "Waiting for both devices");
+    session.connect();
+    run_.start_m = session.stage().position_m();
+    outcome.expected = preflight(run_.rig, run_.plan, run_.specimen, session.stage().dynamics());
+    if (!outcome.expected.problems.empty()) throw RigError(outcome.expected.problems.front());
+    for (const std::string& text : outcome.expected.warnings) session.event("advice", "test", text);
+    for (const std::string& text : session.stage().advice()) session.event("advice", "stage", text);
+  }
+
+  void measure() {
+    is_begun_ = true;
+    for (std::size_t i = 0; i < run_.phases.size(); ++i) {
+      const TestPhase& phase = run_.phases[i];
+      run_.session.begin_phase(phase.name, planned_from_s(i), phase.text);
+      carry_out(phase);
+    }
+  }
+
   // Both devices are connected and the pre-flight check has found no problem.
   bool is_begun() const { return is_begun_; }
   // A stage position at which the punch is free, as far as is known.
-  double safe_position_m() const;
+  double safe_position_m() const {
+    if (run_.outcome.contact_position_m) return run_.contact_m - run_.plan.retract_m;
+    return presses_at_start() ? run_.start_m - run_.plan.retract_m : run_.start_m;
+  }
+
   // Something presses before anything was moved, so it presses where the stage stands.
   bool presses_at_start() const {
     return run_.presses_at_start ||
@@ -36,10 +58,53 @@ class IndentationRun {
   }
 
  private:
-  void carry_out(const TestPhase& phase);
-  void wait(const TestPhase& phase);
-  void go_to_depth(const TestPhase& phase);
-  void retract();
+  void carry_out(const TestPhase& phase) {
+    switch (phase.kind) {
+      case TestPhase::Kind::kTare:
+        return carry_out_tare(run_, phase);
+      case TestPhase::Kind::kApproach:
+        return carry_out_approach(run_);
+      case TestPhase::Kind::kWait:
+        return wait(phase);
+      case TestPhase::Kind::kMove:
+        return go_to_depth(phase);
+      case TestPhase::Kind::kLoad:
+        return force_phases_.load(phase);
+      case TestPhase::Kind::kHoldForce:
+        force_phases_.hold(phase);
+        depth_asked_m_ = live_depth_m(run_);
+        return;
+      case TestPhase::Kind::kRetract:
+        return retract();
+    }
+  }
+
+  // In contact the wait counts from the end of the last move, or from now if that is later.
+  void wait(const TestPhase& phase) {
+    RunSession& session = run_.session;
+    if (!run_.is_in_contact) return session.pump_until_received(session.now_s() + phase.duration_s);
+    const double end_s = session.stage().expected_end_s();
+    session.pump_until(end_s + std::min(kDepthAfter_s, phase.duration_s));
+    note_depth(run_);
+    session.pump_until(end_s + phase.duration_s);
+  }
+
+  void go_to_depth(const TestPhase& phase) {
+    const Preflight& expected = run_.outcome.expected;
+    const double way_m = std::abs(expected.stage_travel_of(phase.depth_m - depth_asked_m_));
+    const double speed_m_s = phase.move_s > 0.0 ? way_m / phase.move_s : phase.speed_m_s;
+    run_.is_in_contact = true;
+    run_.session.move(run_.contact_m + expected.stage_travel_of(phase.depth_m), speed_m_s,
+                      phase.purpose);
+    depth_asked_m_ = phase.depth_m;
+    if (phase.depth_m >= deepest_m(run_.phases)) note_depth(run_);
+  }
+
+  void retract() {
+    run_.is_in_contact = false;
+    run_.session.move(safe_position_m(), run_.plan.retract_speed_m_s, "retract");
+  }
+
   double planned_from_s(std::size_t phase) const {
     const double approach_s = 0.5 * run_.plan.approach_limit_m / run_.plan.approach_speed_m_s;
     return planned_s(run_.phases, phase, approach_s);
@@ -51,79 +116,6 @@ class IndentationRun {
   bool is_begun_ = false;
 };
 
-void IndentationRun::connect() {
-  RunSession& session = run_.session;
-  RunOutcome& outcome = run_.outcome;
-  session.begin_phase("connect", planned_from_s(0), "Waiting for both devices");
-  session.connect();
-  run_.start_m = session.stage().position_m();
-  outcome.expected = preflight(run_.rig, run_.plan, run_.specimen, session.stage().dynamics());
-  if (!outcome.expected.problems.empty()) throw RigError(outcome.expected.problems.front());
-  for (const std::string& text : outcome.expected.warnings) session.event("advice", "test", text);
-  for (const std::string& text : session.stage().advice()) session.event("advice", "stage", text);
-}
-
-void IndentationRun::measure() {
-  is_begun_ = true;
-  for (std::size_t i = 0; i < run_.phases.size(); ++i) {
-    const TestPhase& phase = run_.phases[i];
-    run_.session.begin_phase(phase.name, planned_from_s(i), phase.text);
-    carry_out(phase);
-  }
-}
-
-void IndentationRun::carry_out(const TestPhase& phase) {
-  switch (phase.kind) {
-    case TestPhase::Kind::kTare:
-      return carry_out_tare(run_, phase);
-    case TestPhase::Kind::kApproach:
-      return carry_out_approach(run_);
-    case TestPhase::Kind::kWait:
-      return wait(phase);
-    case TestPhase::Kind::kMove:
-      return go_to_depth(phase);
-    case TestPhase::Kind::kLoad:
-      return force_phases_.load(phase);
-    case TestPhase::Kind::kHoldForce:
-      force_phases_.hold(phase);
-      depth_asked_m_ = live_depth_m(run_);
-      return;
-    case TestPhase::Kind::kRetract:
-      return retract();
-  }
-}
-
-// In contact the wait counts from the end of the last move, or from now if that is later.
-void IndentationRun::wait(const TestPhase& phase) {
-  RunSession& session = run_.session;
-  if (!run_.is_in_contact) return session.pump_until_received(session.now_s() + phase.duration_s);
-  const double end_s = session.stage().expected_end_s();
-  session.pump_until(end_s + std::min(kDepthAfter_s, phase.duration_s));
-  note_depth(run_);
-  session.pump_until(end_s + phase.duration_s);
-}
-
-void IndentationRun::go_to_depth(const TestPhase& phase) {
-  const Preflight& expected = run_.outcome.expected;
-  const double way_m = std::abs(expected.stage_travel_of(phase.depth_m - depth_asked_m_));
-  const double speed_m_s = phase.move_s > 0.0 ? way_m / phase.move_s : phase.speed_m_s;
-  run_.is_in_contact = true;
-  run_.session.move(run_.contact_m + expected.stage_travel_of(phase.depth_m), speed_m_s,
-                    phase.purpose);
-  depth_asked_m_ = phase.depth_m;
-  if (phase.depth_m >= deepest_m(run_.phases)) note_depth(run_);
-}
-
-void IndentationRun::retract() {
-  run_.is_in_contact = false;
-  run_.session.move(safe_position_m(), run_.plan.retract_speed_m_s, "retract");
-}
-
-double IndentationRun::safe_position_m() const {
-  if (run_.outcome.contact_position_m) return run_.contact_m - run_.plan.retract_m;
-  return presses_at_start() ? run_.start_m - run_.plan.retract_m : run_.start_m;
-}
-
 // Ends a run that did not finish: notes why, stops the stage and lifts the punch.
 void end_early(TestRun& run, const IndentationRun& phases, const char* status,
                const std::exception& error) {
@@ -134,7 +126,11 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
   if (run.is_in_contact) note_depth(run);
   const bool reports_lift = outcome.status == "stopped" || phases.presses_at_start();
   const SafeEnd end = run.session.make_safe(phases.safe_position_m(), run.plan.retract_speed_m_s);
-  if (reports_lift) outcome.reason += lift_text(end.lifted_m);
+  if (reports_lift) {
+    outcome.reason += end.lifted_m > 0.0 ? ". The stage was stopped and lifted by " +
+                                               text_from_number(end.lifted_m * 1e3, 3) + " mm"
+                                         : ". The stage was stopped; it was not lifted";
+  }
   if (!end.trouble.empty()) outcome.reason += ". And: " + end.trouble;
 }
 

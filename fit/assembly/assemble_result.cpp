@@ -1,20 +1,15 @@
 #include "fit/assembly/assemble_result.h"
 
-#include "fit/assembly/constrained_fit.h"
-#include "fit/assembly/order_doubt.h"
-#include "fit/intervals/bootstrap.h"
+#include "fit/assembly/spectral_fit.h"
 #include "fit/intervals/flags.h"
-#include "fit/intervals/profile_likelihood.h"
-#include "fit/samples/noise_model.h"
-#include "fit/search/quick_search.h"
+#include "fit/intervals/uncertainty.h"
+#include "fit/search/separable.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <stdexcept>
-#include <string>
 
 namespace viscard {
 namespace {
@@ -34,17 +29,12 @@ std::vector<SpectralState> path_for(const SpectralModel& model, const FitOptions
   const std::unique_ptr<SpectralModel> coarse = model.coarse();
   std::vector<SpectralState> path = order_path(coarse ? *coarse : model, path_options);
   if (coarse) {
-    double lowest = std::numeric_limits<double>::infinity();
     for (SpectralState& state : path) {
       const bool is_converged = state.is_converged;
       state = solve_coefficients(model, state.ln_tau, state.nuisance);
       state.is_converged = is_converged;
     }
-    std::erase_if(path, [&](const SpectralState& state) {
-      const bool is_better = state.rss < lowest;
-      lowest = std::min(lowest, state.rss);
-      return !is_better;
-    });
+    drop_useless_orders(path);
   }
   if (path.empty()) {
     throw std::runtime_error(
@@ -77,7 +67,7 @@ void note_fewer_terms(const SpectralModel& model, SpectralFit& fit) {
 }
 
 double full_rss(const SpectralModel& model, const SpectralState& state) {
-  return state.rss + model.hidden_rss(state.ln_tau, state.nuisance, state.coefficients);
+  return state.rss + model.hidden_rss(state);
 }
 
 double variance_of(const SpectralModel& model, const SpectralState& state) {
@@ -87,7 +77,7 @@ double variance_of(const SpectralModel& model, const SpectralState& state) {
 }
 
 Autoregression noise_of(const SpectralModel& model, const SpectralState& state) {
-  return autoregression(model.residual_series(state.ln_tau, state.nuisance, state.coefficients));
+  return autoregression(model.residual_series(state));
 }
 
 // Profiles replace the intervals of the times if the times of the state are the material's own.
@@ -175,10 +165,7 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
   const Eigen::VectorXd sigma = model.row_sigma();
   if (sigma.size() > 0) {  // convert every rss to the unit of the data
     const auto in_unit = [&](const SpectralState& state) {
-      return (model.columns(state.ln_tau, state.nuisance, false).values * state.coefficients -
-              model.data())
-          .cwiseProduct(sigma)
-          .squaredNorm();
+      return (model.fitted(state) - model.data()).cwiseProduct(sigma).squaredNorm();
     };
     for (std::size_t i = 0; i < fit.path.size(); ++i) result.orders[i].rss = in_unit(fit.path[i]);
     result.rss = in_unit(fit.state);
@@ -186,6 +173,18 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
   result.n_samples = static_cast<std::size_t>(model.n_samples());
   result.is_converged = fit.state.is_converged;
   judge(result);
+}
+
+void fill_step_curves(const StepModel& model, const SpectralFit& fit, const std::string& unit,
+                      FitResult& result) {
+  const Eigen::VectorXd fitted = model.fitted(fit.state);
+  for (std::size_t i = 0; i < model.bins().size(); ++i) {
+    const LogBin& bin = model.bins()[i];
+    const double root = std::sqrt(bin.count);
+    result.curves.add(bin.time_s, bin.value, fitted[static_cast<Eigen::Index>(i)] / root,
+                      result.noise.sigma / root);
+  }
+  result.curves.unit = unit;
 }
 
 SeriesFromState relaxation_series_of(const SpectralModel& model, bool is_liquid) {
@@ -198,7 +197,7 @@ SeriesFromState relaxation_series_of(const SpectralModel& model, bool is_liquid)
   };
 }
 
-std::vector<int> log_time_blocks(const std::vector<double>& time_s, double zero_s,
+std::vector<int> log_time_blocks(std::span<const double> time_s, double zero_s,
                                  std::size_t shortest) {
   std::vector<int> blocks;
   int block = 0;

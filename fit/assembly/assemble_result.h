@@ -1,8 +1,11 @@
 #pragma once
 
 #include "fit/assembly/spectral_fit.h"
+#include "fit/curves/step_model.h"
 #include "fit/intervals/fit_result.h"
 
+#include <span>
+#include <string>
 #include <vector>
 
 namespace viscard {
@@ -18,6 +21,10 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
 void fill_result(const SpectralModel& model, const SpectralFit& fit,
                  const SeriesFromState& series_from_state, FitResult& result);
 
+// Fills FitResult::curves with the bin averages of a step fit.
+void fill_step_curves(const StepModel& model, const SpectralFit& fit, const std::string& unit,
+                      FitResult& result);
+
 // The series of a model whose parameters are the material's own: E_inf first (none for a liquid),
 // then the moduli. The model must outlive the returned function.
 SeriesFromState relaxation_series_of(const SpectralModel& model, bool is_liquid);
@@ -25,7 +32,7 @@ SeriesFromState relaxation_series_of(const SpectralModel& model, bool is_liquid)
 // Block indices for cross-validation: contiguous runs of rows. A run ends when it covers a tenth of
 // a decade of the time since `zero_s` and has `shortest` rows, or when it has a fiftieth of all
 // rows.
-std::vector<int> log_time_blocks(const std::vector<double>& time_s, double zero_s,
+std::vector<int> log_time_blocks(std::span<const double> time_s, double zero_s,
                                  std::size_t shortest);
 
 }  // namespace viscard

@@ -1,7 +1,6 @@
-#include "fit/assembly/constrained_fit.h"
-
 #include "fit/assembly/constraints.h"
 #include "fit/assembly/parametrisation.h"
+#include "fit/assembly/spectral_fit.h"
 #include "fit/intervals/flags.h"
 #include "fit/search/projection.h"
 #include "models/maths/dense.h"
@@ -11,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -55,12 +53,10 @@ void check_times(const SpectralModel& model, const std::vector<ParameterConstrai
         (one.high > shortest_s * (1.0 - kRounding) && one.low < longest_s * (1.0 + kRounding))) {
       continue;
     }
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  " is outside the times that the record can show (%.3g to %.3g s); hold the "
-                  "modulus of the term too",
-                  shortest_s, longest_s);
-    throw std::invalid_argument(range_text(one) + text);
+    throw std::invalid_argument(range_text(one) +
+                                " is outside the times that the record can show (" +
+                                text_of(shortest_s, 3) + " to " + text_of(longest_s, 3) +
+                                " s); hold the modulus of the term too");
   }
 }
 
@@ -99,13 +95,11 @@ void flag_contradiction(double free_rss, double free_variance, double inflation,
   const double by_chance = n_held + 5.0 * std::sqrt(2.0 * n_held);
   if (!(rise > by_chance)) return;
   constexpr double kPlain = 2.0;  // a factor that is visible without statistics
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "the constraints contradict the data: the residual sum of squares is %.4g times "
-                "that of the free fit, %.3g variances of the noise more",
-                fit.rss / std::max(free_rss, 1e-300), rise);
-  fit.notes.push_back(
-      {fit.rss > kPlain * free_rss ? kContradictsData : "constraints-strained", 0, text});
+  fit.notes.push_back({fit.rss > kPlain * free_rss ? kContradictsData : "constraints-strained", 0,
+                       "the constraints contradict the data: the residual sum of squares is " +
+                           text_of(fit.rss / std::max(free_rss, 1e-300), 4) +
+                           " times that of the free fit, " + text_of(rise, 3) +
+                           " variances of the noise more"});
 }
 
 // Times to start from: the constrained times, with the others spread over the range or taken from a
@@ -185,13 +179,12 @@ void constrain(const SpectralModel& model, const FitOptions& options, SpectralFi
   const double free_rss = fit.rss, free_variance = fit.variance;
   const double free_inflation = fit.noise.inflation();
   fit.state = best;
-  fit.rss = best.rss + model.hidden_rss(best.ln_tau, best.nuisance, best.coefficients);
+  fit.rss = best.rss + model.hidden_rss(best);
   fit.variance = fit.rss / std::max(1.0, model.n_samples() - static_cast<double>(n_free));
   fit.noise = {};
   double inflation = 1.0;
   if (!options.white_noise) {
-    fit.noise =
-        autoregression(model.residual_series(best.ln_tau, best.nuisance, best.coefficients));
+    fit.noise = autoregression(model.residual_series(best));
     inflation = fit.noise.inflation();
   }
   fit.covariance = free_covariance(form, box, best, fit.variance * inflation);

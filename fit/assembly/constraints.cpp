@@ -3,13 +3,10 @@
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <set>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace viscard {
@@ -19,13 +16,9 @@ namespace {
 using Stem = ParameterStem;
 
 double number_of(const std::string& text, const std::string& whole) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value)) {
-    throw std::invalid_argument("'" + whole + "': '" + text +
-                                "' is not a number; write NAME=VALUE or NAME=LOW:HIGH in SI");
-  }
-  return value;
+  if (const auto value = number_from_text(text)) return *value;
+  throw std::invalid_argument("'" + whole + "': '" + text +
+                              "' is not a number; write NAME=VALUE or NAME=LOW:HIGH in SI");
 }
 
 }  // namespace
@@ -48,13 +41,8 @@ ParameterName parameter_name(const std::string& text) {
 }
 
 std::string range_text(const ParameterConstraint& one) {
-  char text[120];
-  if (one.low == one.high) {
-    std::snprintf(text, sizeof text, "%s = %.6g", one.name.c_str(), one.low);
-  } else {
-    std::snprintf(text, sizeof text, "%s = %.6g:%.6g", one.name.c_str(), one.low, one.high);
-  }
-  return text;
+  const std::string high = one.low == one.high ? "" : ":" + text_of(one.high);
+  return one.name + " = " + text_of(one.low) + high;
 }
 
 bool uses_shares(const std::vector<ParameterConstraint>& constraints) {

@@ -1,20 +1,15 @@
-#include "fit/assembly/gain_drift.h"
+#include "fit/assembly/spectral_fit.h"
 
 #include <cmath>
 
 namespace viscard {
-namespace {
-
-using Index = Eigen::Index;
-
-}  // namespace
 
 double gain_drift_relative_u(const SpectralModel& model, const SpectralFit& fit,
                              const IndentationData& data) {
   const double before_s = data.contact_from_s - data.first_reading_s;
   double stiffness_N_m = fit.state.coefficients.tail(fit.state.n_terms()).sum();
   double rate_square = -1.0;  // of rate times stiffness, plus its variance; -1: no creep
-  for (Index j = 0; j < model.n_common(); ++j) {
+  for (Eigen::Index j = 0; j < model.n_common(); ++j) {
     const std::string& name = model.common()[static_cast<std::size_t>(j)].name;
     if (name == "E_inf") stiffness_N_m += fit.state.coefficients[j];
     if (name != "creep_N_m_s") continue;
@@ -34,10 +29,10 @@ void add_common_uncertainty(double relative_u, FitResult& result) {
   widen(result.E_inf_interval_95, result.E_inf_Pa);
   result.E0_se_Pa = std::hypot(result.E0_se_Pa, relative_u * result.E0_Pa);
   result.E_inf_se_Pa = std::hypot(result.E_inf_se_Pa, relative_u * result.E_inf_Pa);
-  const auto n_terms = static_cast<Index>(result.terms.size());
+  const auto n_terms = static_cast<Eigen::Index>(result.terms.size());
   Eigen::VectorXd scale = Eigen::VectorXd::Zero(result.covariance.rows());
   if (scale.size() > 0) scale[0] = relative_u * result.E_inf_Pa;
-  for (Index i = 0; i < n_terms; ++i) {
+  for (Eigen::Index i = 0; i < n_terms; ++i) {
     FittedTerm& term = result.terms[static_cast<std::size_t>(i)];
     const double part = relative_u * term.modulus_Pa;
     widen(term.modulus_Pa_95, term.modulus_Pa);

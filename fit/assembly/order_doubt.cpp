@@ -1,8 +1,7 @@
-#include "fit/assembly/order_doubt.h"
-
+#include "fit/assembly/spectral_fit.h"
 #include "fit/curves/model_variant.h"
-#include "fit/intervals/profile_likelihood.h"
-#include "fit/search/quick_search.h"
+#include "fit/intervals/uncertainty.h"
+#include "fit/search/separable.h"
 
 #include <algorithm>
 #include <cmath>

@@ -106,9 +106,7 @@ Eigen::VectorXd Parametrisation::lower() const {
     low[0] = 0.0;
   }
   low.segment(n + n_terms_, n_terms_).setConstant(model_.ln_tau_min());
-  for (Index k = 0; k < model_.n_nuisances(); ++k) {
-    low[n + 2 * n_terms_ + k] = model_.nuisances()[static_cast<std::size_t>(k)].low;
-  }
+  low.tail(model_.n_nuisances()) = model_.of_nuisances(&Nuisance::low);
   return low;
 }
 
@@ -116,9 +114,7 @@ Eigen::VectorXd Parametrisation::upper() const {
   Eigen::VectorXd high = Eigen::VectorXd::Constant(size(), kInfinity);
   const Index n = model_.n_common();
   high.segment(n + n_terms_, n_terms_).setConstant(model_.ln_tau_max());
-  for (Index k = 0; k < model_.n_nuisances(); ++k) {
-    high[n + 2 * n_terms_ + k] = model_.nuisances()[static_cast<std::size_t>(k)].high;
-  }
+  high.tail(model_.n_nuisances()) = model_.of_nuisances(&Nuisance::high);
   return high;
 }
 
@@ -153,9 +149,7 @@ SpectralState solve_in_box(const Parametrisation& form, const Eigen::VectorXd& l
   ceres::Solve(options, &problem, &summary);
   SpectralState state = form.state_of(theta);
   const SpectralModel& model = form.model();
-  state.rss = (model.columns(state.ln_tau, state.nuisance, false).values * state.coefficients -
-               model.data())
-                  .squaredNorm();
+  state.rss = (model.fitted(state) - model.data()).squaredNorm();
   state.is_converged = summary.IsSolutionUsable();
   return state;
 }

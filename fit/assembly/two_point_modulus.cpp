@@ -1,8 +1,9 @@
 #include "fit/assembly/two_point_modulus.h"
 
+#include "models/maths/text_of_number.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace viscard {
 namespace {
@@ -50,12 +51,8 @@ std::optional<TwoPointModulus> two_point_modulus(const std::vector<double>& time
   result.half_space_modulus_Pa = slope_N_m * (1.0 - nu * nu) / (2.0 * contact.punch_radius_m);
   result.se_Pa = result.modulus_Pa * sigma_N * std::sqrt(1.0 / low.count + 1.0 / high.count) /
                  std::abs(high.force_N - low.force_N);
-  char text[160];
-  std::snprintf(
-      text, sizeof text,
-      "relaxation during the %.3g s between the two points is ignored, so this lies below E0",
-      high.time_s - low.time_s);
-  result.bias = text;
+  result.bias = "relaxation during the " + text_of(high.time_s - low.time_s, 3) +
+                " s between the two points is ignored, so this lies below E0";
   return result;
 }
 

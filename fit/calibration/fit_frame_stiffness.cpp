@@ -10,11 +10,6 @@
 #include <string>
 
 namespace viscard {
-namespace {
-
-constexpr double kFirstPart = 0.25;  // share of each hold to leave out: motion ends, frame rings
-
-}  // namespace
 
 FrameStiffnessFit fit_frame_stiffness(const BlockPoints& points, double gain_relative_u) {
   const std::size_t n = points.force_N.size();
@@ -64,6 +59,7 @@ FrameStiffnessFit fit_frame_stiffness(const BlockPoints& points, double gain_rel
 }
 
 BlockPoints block_points_from_capture(const CapturedRun& run) {
+  constexpr double kFirstPart = 0.25;  // share of each hold to leave out: motion ends, frame rings
   std::vector<StageMove> moves;
   for (const CommandedMove& move : run.moves) moves.push_back(move.move);
   BlockPoints points;

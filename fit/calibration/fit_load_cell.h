@@ -2,7 +2,6 @@
 
 #include "models/experiment/calibration.h"
 
-#include <string>
 #include <vector>
 
 namespace viscard {

@@ -24,8 +24,8 @@ Debye debye(double x) {
 
 }  // namespace
 
-DmaModel::DmaModel(const std::vector<double>& frequency_Hz, const std::vector<double>& storage_Pa,
-                   const std::vector<double>& loss_Pa, const FitOptions& options) {
+DmaModel::DmaModel(std::span<const double> frequency_Hz, std::span<const double> storage_Pa,
+                   std::span<const double> loss_Pa, const FitOptions& options) {
   const auto count = static_cast<Index>(frequency_Hz.size());
   data_.resize(2 * count);
   sigma_Pa_.resize(2 * count);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <span>
 #include <vector>
 
 namespace viscard {
@@ -14,8 +15,8 @@ namespace viscard {
 // (fit/README.md, eq. 6). Rows: all E', then all E''.
 class DmaModel final : public SpectralModel {
  public:
-  DmaModel(const std::vector<double>& frequency_Hz, const std::vector<double>& storage_Pa,
-           const std::vector<double>& loss_Pa, const FitOptions& options);
+  DmaModel(std::span<const double> frequency_Hz, std::span<const double> storage_Pa,
+           std::span<const double> loss_Pa, const FitOptions& options);
 
   ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                        bool with_slopes) const override;

@@ -1,10 +1,12 @@
 #include "fit/curves/history_model.h"
 
+#include "fit/samples/clean_data.h"
 #include "fit/samples/log_bins.h"
 #include "models/material/hereditary.h"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace viscard {
@@ -90,12 +92,8 @@ HistoryModel::HistoryModel(HistoryInput input, const FitOptions& options) : in_(
                           *in_.contact_input + width, 0.1 * width});
   }
   const double longest_s = in_.time_s.back() - zero_s;
-  double shortest_s = longest_s;
-  for (std::size_t i = in_.contact + 1; i < count; ++i) {
-    const double dt_s = in_.time_s[i] - in_.time_s[i - 1];
-    if (dt_s > 0.0) shortest_s = std::min(shortest_s, dt_s);
-  }
-  ln_tau_min_ = std::log(shortest_s / 3.0);
+  const double shortest_s = shortest_step_s(std::span(in_.time_s).subspan(in_.contact));
+  ln_tau_min_ = std::log((shortest_s > 0.0 ? shortest_s : longest_s) / 3.0);
   ln_tau_max_ = std::log(longest_s * 3.0);
 }
 
@@ -215,27 +213,26 @@ ModelColumns HistoryModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::V
   return out;
 }
 
-Eigen::VectorXd HistoryModel::fitted(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
-                                     const Eigen::VectorXd& coefficients) const {
-  return sample_columns(ln_tau, nuisance, /*with_slopes=*/false).values * coefficients;
+Eigen::VectorXd HistoryModel::fitted_samples(const SpectralState& state) const {
+  return sample_columns(state.ln_tau, state.nuisance, /*with_slopes=*/false).values *
+         state.coefficients;
 }
 
-double HistoryModel::hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
-                                const Eigen::VectorXd& coefficients) const {
+Eigen::VectorXd HistoryModel::residual(const SpectralState& state) const {
+  const Eigen::Map<const Eigen::VectorXd> output(in_.output.data(),
+                                                 static_cast<Index>(in_.output.size()));
+  return output - fitted_samples(state);
+}
+
+double HistoryModel::hidden_rss(const SpectralState& state) const {
   if (static_cast<std::size_t>(n_rows()) == in_.time_s.size()) return 0.0;
-  const Eigen::Map<const Eigen::VectorXd> output(in_.output.data(),
-                                                 static_cast<Index>(in_.output.size()));
-  const Eigen::VectorXd residual = output - fitted(ln_tau, nuisance, coefficients);
-  return residual.squaredNorm() - averaged(residual).squaredNorm();
+  const Eigen::VectorXd left = residual(state);
+  return left.squaredNorm() - averaged(left).squaredNorm();
 }
 
-Eigen::VectorXd HistoryModel::residual_series(const Eigen::VectorXd& ln_tau,
-                                              const Eigen::VectorXd& nuisance,
-                                              const Eigen::VectorXd& coefficients) const {
-  const Eigen::Map<const Eigen::VectorXd> output(in_.output.data(),
-                                                 static_cast<Index>(in_.output.size()));
-  const Eigen::VectorXd residual = output - fitted(ln_tau, nuisance, coefficients);
-  return residual.tail(std::min(kLongHistory, residual.size()));
+Eigen::VectorXd HistoryModel::residual_series(const SpectralState& state) const {
+  const Eigen::VectorXd left = residual(state);
+  return left.tail(std::min(kLongHistory, left.size()));
 }
 
 }  // namespace viscard

@@ -43,14 +43,11 @@ class HistoryModel final : public SpectralModel {
                        bool with_slopes) const override;
   std::vector<std::size_t> row_begins() const override { return row_begin_; }
   double n_samples() const override { return static_cast<double>(in_.time_s.size()); }
-  double hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
-                    const Eigen::VectorXd& coefficients) const override;
-  Eigen::VectorXd residual_series(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
-                                  const Eigen::VectorXd& coefficients) const override;
+  double hidden_rss(const SpectralState& state) const override;
+  Eigen::VectorXd residual_series(const SpectralState& state) const override;
 
   // Model at every sample.
-  Eigen::VectorXd fitted(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
-                         const Eigen::VectorXd& coefficients) const;
+  Eigen::VectorXd fitted_samples(const SpectralState& state) const;
 
   const std::vector<double>& row_time_s() const { return row_time_s_; }
 
@@ -59,6 +56,7 @@ class HistoryModel final : public SpectralModel {
   ModelColumns sample_columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                               bool with_slopes) const;
   Eigen::MatrixXd averaged(const Eigen::MatrixXd& samples) const;
+  Eigen::VectorXd residual(const SpectralState& state) const;  // of every sample
   // The first sample in contact, the time between samples at which contact begins, and the input
   // there. The history counts from 0 at that time.
   struct Onset {

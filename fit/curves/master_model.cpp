@@ -43,9 +43,7 @@ MasterModel::MasterModel(const std::vector<MasterSegment>& segments, std::size_t
   std::vector<double> values;
   double largest = 0.0;
   for (const MasterSegment& segment : segments) {
-    for (std::size_t i = 0; i < segment.value.size(); ++i) {
-      largest = std::max(largest, std::abs(segment.value[i]));
-    }
+    for (const double value : segment.value) largest = std::max(largest, std::abs(value));
   }
   double lowest_ln = 1e300, highest_ln = -1e300;
   for (std::size_t k = 0; k < segments.size(); ++k) {

@@ -1,15 +1,26 @@
 #include "fit/curves/spectral_model.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace viscard {
 
-Eigen::VectorXd SpectralModel::nuisance_start() const {
-  Eigen::VectorXd start(n_nuisances());
-  for (Eigen::Index k = 0; k < n_nuisances(); ++k) {
-    start[k] = nuisances_[static_cast<std::size_t>(k)].start;
-  }
-  return start;
+SpectralState sorted_by_time(SpectralState state, Eigen::Index n_common) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(state.n_terms()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::sort(order.begin(), order.end(),
+            [&](Eigen::Index a, Eigen::Index b) { return state.ln_tau[a] < state.ln_tau[b]; });
+  auto moduli = state.coefficients.segment(n_common, state.n_terms());
+  moduli = Eigen::VectorXd(moduli(order));
+  state.ln_tau = Eigen::VectorXd(state.ln_tau(order));
+  return state;
+}
+
+Eigen::VectorXd SpectralModel::of_nuisances(double Nuisance::*member) const {
+  Eigen::VectorXd values(n_nuisances());
+  std::transform(nuisances_.begin(), nuisances_.end(), values.begin(),
+                 [&](const Nuisance& nuisance) { return nuisance.*member; });
+  return values;
 }
 
 std::vector<std::size_t> SpectralModel::row_begins() const {
@@ -18,20 +29,18 @@ std::vector<std::size_t> SpectralModel::row_begins() const {
   return begins;
 }
 
-double SpectralModel::hidden_rss(const Eigen::VectorXd& /*ln_tau*/,
-                                 const Eigen::VectorXd& /*nuisance*/,
-                                 const Eigen::VectorXd& /*coefficients*/) const {
-  return 0.0;
+Eigen::VectorXd SpectralModel::residual_series(const SpectralState& state) const {
+  return data_ -
+         columns(state.ln_tau, state.nuisance, /*with_slopes=*/false).values * state.coefficients;
 }
 
-SpectralModel::HiddenRows SpectralModel::hidden_rows(const Eigen::VectorXd& /*ln_tau*/) const {
-  return {};
-}
-
-Eigen::VectorXd SpectralModel::residual_series(const Eigen::VectorXd& ln_tau,
-                                               const Eigen::VectorXd& nuisance,
-                                               const Eigen::VectorXd& coefficients) const {
-  return data_ - columns(ln_tau, nuisance, /*with_slopes=*/false).values * coefficients;
+std::vector<bool> free_columns(const SpectralModel& model, Eigen::Index n_terms) {
+  std::vector<bool> is_free;
+  for (const CommonColumn& column : model.common()) {
+    is_free.push_back(column.is_free || model.may_be_negative());
+  }
+  is_free.resize(is_free.size() + static_cast<std::size_t>(n_terms), model.may_be_negative());
+  return is_free;
 }
 
 }  // namespace viscard

@@ -37,6 +37,20 @@ struct Nuisance {
   double scale = 1.0;            // typical size of a change; the search divides the parameter by it
 };
 
+// Values of all parameters of a SpectralModel.
+struct SpectralState {
+  Eigen::VectorXd ln_tau;  // ln s, ascending after refine()
+  Eigen::VectorXd nuisance;
+  Eigen::VectorXd coefficients;  // common columns, then the terms' moduli
+  double rss = 0.0;              // weighted
+  bool is_converged = true;
+
+  Eigen::Index n_terms() const { return ln_tau.size(); }
+};
+
+// The same state with its terms sorted by ascending time.
+SpectralState sorted_by_time(SpectralState state, Eigen::Index n_common);
+
 class SpectralModel {
  public:
   virtual ~SpectralModel() = default;
@@ -60,22 +74,28 @@ class SpectralModel {
   virtual ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                                bool with_slopes) const = 0;
 
-  Eigen::VectorXd nuisance_start() const;
+  // The model's rows at these parameters.
+  Eigen::VectorXd fitted(const SpectralState& state) const {
+    return columns(state.ln_tau, state.nuisance, /*with_slopes=*/false).values * state.coefficients;
+  }
+
+  // One member of every nuisance, for instance &Nuisance::scale.
+  Eigen::VectorXd of_nuisances(double Nuisance::*member) const;
+  Eigen::VectorXd nuisance_start() const { return of_nuisances(&Nuisance::start); }
 
   // For rows that are averages of samples: the samples of each row, their number, and the weighted
   // sum of squares about the model within the averages. By default each row is one sample.
-  virtual std::vector<std::size_t> row_begins()
-      const;  // first sample of each row, and one past the last
+  // First sample of each row, and one past the last.
+  virtual std::vector<std::size_t> row_begins() const;
   virtual double n_samples() const { return static_cast<double>(n_rows()); }
-  virtual double hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
-                            const Eigen::VectorXd& coefficients) const;
+  virtual double hidden_rss(const SpectralState& /*state*/) const { return 0.0; }
   // The information that averaging removes, as further rows: the shape of data and model within
   // each average. Empty if rows are samples. With these rows the optimum is that of all samples.
   struct HiddenRows {
     Eigen::VectorXd data;
     ModelColumns columns;
   };
-  virtual HiddenRows hidden_rows(const Eigen::VectorXd& ln_tau) const;
+  virtual HiddenRows hidden_rows(const Eigen::VectorXd& /*ln_tau*/) const { return {}; }
   // Variance of a weighted sample, estimated within averages; 0: unknown before a fit. The search
   // ignores changes of the sum of squares that are much smaller.
   virtual double sample_variance() const { return 0.0; }
@@ -86,9 +106,7 @@ class SpectralModel {
   virtual Eigen::VectorXd row_sigma() const { return {}; }
   // Weighted residuals of consecutive samples (part of them for very long records), for their
   // autocorrelation.
-  virtual Eigen::VectorXd residual_series(const Eigen::VectorXd& ln_tau,
-                                          const Eigen::VectorXd& nuisance,
-                                          const Eigen::VectorXd& coefficients) const;
+  virtual Eigen::VectorXd residual_series(const SpectralState& state) const;
 
  protected:
   Eigen::VectorXd data_;
@@ -99,5 +117,9 @@ class SpectralModel {
   double ln_tau_min_ = 0.0;
   double ln_tau_max_ = 0.0;
 };
+
+// The columns whose coefficient may have either sign: free common ones, and terms if the model
+// allows it.
+std::vector<bool> free_columns(const SpectralModel& model, Eigen::Index n_terms);
 
 }  // namespace viscard

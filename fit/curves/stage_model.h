@@ -2,7 +2,7 @@
 
 #include "fit/curves/spectral_model.h"
 #include "fit/samples/fit_data.h"
-#include "fit/samples/stamp_noise.h"
+#include "fit/samples/noise_model.h"
 
 #include <Eigen/Core>
 

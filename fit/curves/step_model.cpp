@@ -96,8 +96,7 @@ std::vector<std::size_t> StepModel::row_begins() const {
   return begins;
 }
 
-double StepModel::hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& /*nuisance*/,
-                             const Eigen::VectorXd& coefficients) const {
+double StepModel::hidden_rss(const SpectralState& state) const {
   double within = 0.0;
   for (const LogBin& bin : bins_) within += bin.count * bin.value_m2;
   const Index n = shapes_.n_rows();
@@ -105,10 +104,10 @@ double StepModel::hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorX
   // The known shapes contribute their residual; the rest of the variation within bins is unchanged.
   Eigen::VectorXd residual = shapes_.data(), column(n);
   const bool is_creep = shape_ == StepShape::kCreep;
-  if (is_creep && is_liquid_) residual -= coefficients[1] * shapes_.line();
-  for (Index i = 0; i < ln_tau.size(); ++i) {
-    shapes_.decay(std::exp(-ln_tau[i]), column, nullptr);
-    residual -= (is_creep ? -1.0 : 1.0) * coefficients[n_common() + i] * column;
+  if (is_creep && is_liquid_) residual -= state.coefficients[1] * shapes_.line();
+  for (Index i = 0; i < state.n_terms(); ++i) {
+    shapes_.decay(std::exp(-state.ln_tau[i]), column, nullptr);
+    residual -= (is_creep ? -1.0 : 1.0) * state.coefficients[n_common() + i] * column;
   }
   return within - shapes_.data().squaredNorm() + residual.squaredNorm();
 }
@@ -140,9 +139,7 @@ std::unique_ptr<SpectralModel> StepModel::coarse() const {
   return std::unique_ptr<SpectralModel>(new StepModel(*this, kCoarsePerDecade));
 }
 
-Eigen::VectorXd StepModel::residual_series(const Eigen::VectorXd& ln_tau,
-                                           const Eigen::VectorXd& /*nuisance*/,
-                                           const Eigen::VectorXd& coefficients) const {
+Eigen::VectorXd StepModel::residual_series(const SpectralState& state) const {
   // The end of a long record, where the model is smooth and the sampling is even.
   const std::size_t count = std::min(time_s_.size(), kLongSeries);
   const std::size_t first = time_s_.size() - count;
@@ -150,15 +147,15 @@ Eigen::VectorXd StepModel::residual_series(const Eigen::VectorXd& ln_tau,
   Eigen::VectorXd series =
       Eigen::Map<const Eigen::VectorXd>(value_.data() + first, static_cast<Index>(count));
   const bool is_creep = shape_ == StepShape::kCreep;
-  double constant = with_constant_ ? coefficients[0] : 0.0;
-  if (is_creep) constant += coefficients.tail(ln_tau.size()).sum();
+  double constant = with_constant_ ? state.coefficients[0] : 0.0;
+  if (is_creep) constant += state.coefficients.tail(state.n_terms()).sum();
   series.array() -= constant;
   if (is_creep && is_liquid_) {
-    series -= coefficients[1] * Eigen::Map<const Eigen::VectorXd>(time_s, series.size());
+    series -= state.coefficients[1] * Eigen::Map<const Eigen::VectorXd>(time_s, series.size());
   }
-  for (Index i = 0; i < ln_tau.size(); ++i) {
-    const double modulus = coefficients[n_common() + i];
-    subtract_decay(time_s, count, std::exp(-ln_tau[i]), is_creep ? -modulus : modulus,
+  for (Index i = 0; i < state.n_terms(); ++i) {
+    const double modulus = state.coefficients[n_common() + i];
+    subtract_decay(time_s, count, std::exp(-state.ln_tau[i]), is_creep ? -modulus : modulus,
                    series.data());
   }
   return series;

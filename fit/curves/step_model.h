@@ -28,15 +28,14 @@ class StepModel final : public SpectralModel {
                        bool with_slopes) const override;
   std::vector<std::size_t> row_begins() const override;
   double n_samples() const override { return static_cast<double>(time_s_.size()); }
-  double hidden_rss(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
-                    const Eigen::VectorXd& coefficients) const override;
+  double hidden_rss(const SpectralState& state) const override;
   double sample_variance() const override { return sample_variance_; }
   HiddenRows hidden_rows(const Eigen::VectorXd& ln_tau) const override;
   std::unique_ptr<SpectralModel> coarse() const override;
-  Eigen::VectorXd residual_series(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
-                                  const Eigen::VectorXd& coefficients) const override;
+  Eigen::VectorXd residual_series(const SpectralState& state) const override;
 
   const std::vector<LogBin>& bins() const { return bins_; }
+  std::vector<double> row_time_s() const { return {arrays_.time_s.begin(), arrays_.time_s.end()}; }
   double sampling_s() const { return sampling_s_; }  // shortest step between samples
 
  private:

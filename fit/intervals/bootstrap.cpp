@@ -1,7 +1,6 @@
-#include "fit/intervals/bootstrap.h"
-
 #include "fit/curves/model_variant.h"
-#include "fit/search/quick_search.h"
+#include "fit/intervals/uncertainty.h"
+#include "fit/search/separable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,8 +56,7 @@ struct Drawn {
 void bootstrap_intervals(const SpectralModel& model, const SpectralState& state,
                          const SeriesFromState& series_from_state, const BootstrapOptions& options,
                          FitResult& result) {
-  const Eigen::VectorXd fitted =
-      model.columns(state.ln_tau, state.nuisance, false).values * state.coefficients;
+  const Eigen::VectorXd fitted = model.fitted(state);
   const Index rows = model.n_rows();
   const Index n_parameters = state.coefficients.size() + state.n_terms() + model.n_nuisances();
   // The residuals of a fit are smaller than the noise; correct for the degrees of freedom used.

@@ -50,6 +50,13 @@ struct FitCurves {
   // Times at which a new motion begins (contact, unloading ...); a logarithmic time axis restarts
   // there. Empty: at 0 only. All time_s lie after the first of them.
   std::vector<double> motion_start_s;
+
+  void add(double at, double value, double of_fit, double deviation) {
+    time_s.push_back(at);
+    measured.push_back(value);
+    fitted.push_back(of_fit);
+    sigma.push_back(deviation);
+  }
 };
 
 // How much worse the fit becomes if one parameter is held at a value and all others are fitted

@@ -2,9 +2,7 @@
 
 #include "models/maths/text_of_number.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace viscard {
 namespace {
@@ -12,9 +10,7 @@ namespace {
 using Index = Eigen::Index;
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
+  return text_of(value, 3);
 }
 
 void flag_time(const FittedTerm& term, int n, const TestWindow& window, FitResult& result) {

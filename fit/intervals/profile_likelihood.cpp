@@ -1,7 +1,6 @@
-#include "fit/intervals/profile_likelihood.h"
-
 #include "fit/curves/model_variant.h"
-#include "fit/search/quick_search.h"
+#include "fit/intervals/uncertainty.h"
+#include "fit/search/separable.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,6 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
-#include <string>
 
 namespace viscard {
 namespace {

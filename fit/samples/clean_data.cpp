@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace viscard {
@@ -78,16 +77,6 @@ void CleanViews::drop(const std::vector<std::size_t>& rows) {
   for (const std::span<const double> view : views_) kept.push_back(without_rows(view, rows));
   copies_ = std::move(kept);
   for (std::size_t i = 0; i < views_.size(); ++i) views_[i] = copies_[i];
-}
-
-CleanColumns clean_columns(const std::vector<std::span<const double>>& columns, std::size_t least) {
-  const CleanViews views(columns, least);
-  CleanColumns clean;
-  clean.n_left_out = views.n_left_out();
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    clean.columns.emplace_back(views.column(i).begin(), views.column(i).end());
-  }
-  return clean;
 }
 
 void check_sign(std::span<const double> values, const std::string& what,

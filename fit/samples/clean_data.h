@@ -8,16 +8,13 @@
 namespace viscard {
 
 // Columns ready for a fit: rows with a value that is not finite are removed and the others are
-// sorted by time (rows of equal time keep their order). columns[0] is time.
-struct CleanColumns {
-  std::vector<std::vector<double>> columns;
-  std::size_t n_left_out = 0;
-};
-
-// The same as views of the input. A record that is already finite and sorted, as most long ones
-// are, is not copied. The input and this object must outlive the columns.
+// sorted by time, which is the first column (rows of equal time keep their order). A record that is
+// already finite and sorted, as most long ones are, is not copied. The input and this object must
+// outlive the views.
 class CleanViews {
  public:
+  // Throws std::invalid_argument if the columns differ in length, and std::runtime_error if fewer
+  // than `least` usable rows remain.
   CleanViews(const std::vector<std::span<const double>>& columns, std::size_t least);
   CleanViews(const CleanViews&) = delete;
   CleanViews& operator=(const CleanViews&) = delete;
@@ -32,10 +29,6 @@ class CleanViews {
   std::vector<std::vector<double>> copies_;
   std::size_t n_left_out_ = 0;
 };
-
-// Both throw std::invalid_argument if the columns differ in length, and std::runtime_error if fewer
-// than `least` usable rows remain.
-CleanColumns clean_columns(const std::vector<std::span<const double>>& columns, std::size_t least);
 
 // Throws std::runtime_error if the sum of the values is not positive; the message explains how to
 // flip the sign of the column. `what` names the quantity that must be positive ("a relaxation

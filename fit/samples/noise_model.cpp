@@ -12,11 +12,11 @@ namespace viscard {
 
 namespace {
 
-std::vector<double> autocovariances(const Eigen::VectorXd& series, int max_lag) {
+std::vector<double> autocovariances(const Eigen::VectorXd& series, std::size_t max_lag) {
   const Eigen::VectorXd centred = series.array() - series.mean();
   std::vector<double> covariances;
-  for (int lag = 0; lag <= max_lag; ++lag) {
-    const auto count = static_cast<std::size_t>(series.size() - lag);
+  for (std::size_t lag = 0; lag <= max_lag; ++lag) {
+    const std::size_t count = static_cast<std::size_t>(series.size()) - lag;
     const double sum = dot_of({centred.data(), count}, {centred.data() + lag, count});
     covariances.push_back(sum / static_cast<double>(series.size()));
   }
@@ -26,9 +26,9 @@ std::vector<double> autocovariances(const Eigen::VectorXd& series, int max_lag) 
 }  // namespace
 
 Autoregression autoregression(const Eigen::VectorXd& series) {
-  constexpr int kMaxOrder = 12;
+  constexpr std::size_t kMaxOrder = 12;
   const auto count = static_cast<double>(series.size());
-  const int max_order = std::min(kMaxOrder, static_cast<int>(count / 10.0));
+  const auto max_order = std::min(kMaxOrder, static_cast<std::size_t>(count / 10.0));
   Autoregression best;
   if (max_order < 1) return best;
   const std::vector<double> gamma = autocovariances(series, max_order);
@@ -36,22 +36,17 @@ Autoregression autoregression(const Eigen::VectorXd& series) {
   double best_score = 0.0;  // BIC relative to white noise
   std::vector<double> phi;
   double error = gamma[0];
-  for (int order = 1; order <= max_order; ++order) {
-    double reflection = gamma[static_cast<std::size_t>(order)];
-    for (int k = 1; k < order; ++k) {
-      reflection -=
-          phi[static_cast<std::size_t>(k - 1)] * gamma[static_cast<std::size_t>(order - k)];
-    }
+  for (std::size_t order = 1; order <= max_order; ++order) {
+    double reflection = gamma[order];
+    for (std::size_t k = 1; k < order; ++k) reflection -= phi[k - 1] * gamma[order - k];
     reflection /= error;
     const std::vector<double> old = phi;
-    for (int k = 1; k < order; ++k) {
-      phi[static_cast<std::size_t>(k - 1)] -=
-          reflection * old[static_cast<std::size_t>(order - k - 1)];
-    }
+    for (std::size_t k = 1; k < order; ++k) phi[k - 1] -= reflection * old[order - k - 1];
     phi.push_back(reflection);
     error *= 1.0 - reflection * reflection;
     if (!(error > 0.0)) break;
-    const double score = count * std::log(error / gamma[0]) + order * std::log(count);
+    const double score =
+        count * std::log(error / gamma[0]) + static_cast<double>(order) * std::log(count);
     if (score < best_score) {
       best_score = score;
       best.phi = phi;

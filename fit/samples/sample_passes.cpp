@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace viscard {
 namespace {
@@ -167,13 +166,17 @@ double dot_of(std::span<const double> a, std::span<const double> b) {
   return dot_of_samples(a.data(), b.data(), a.size());
 }
 
-void column_products(const double* a, std::size_t n_a, const double* b, std::size_t n_b,
-                     std::size_t rows, double* out) {
-  const bool is_gram = b == nullptr;
-  if (is_gram) {
-    b = a;
-    n_b = n_a;
-  }
+namespace {
+
+// Products a_i . b_j of columns of `rows` numbers, stored one column after the other, into out[i +
+// j n_a]. With is_gram (b is a): i >= j only.
+void column_products(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right, bool is_gram,
+                     double* out) {
+  const double* a = left.data();
+  const double* b = right.data();
+  const auto rows = static_cast<std::size_t>(left.rows());
+  const auto n_a = static_cast<std::size_t>(left.cols());
+  const auto n_b = static_cast<std::size_t>(right.cols());
   for (std::size_t j = 0; j < n_b; j += 2) {
     std::size_t i = is_gram ? j : 0;
     if (j + 1 < n_b) {
@@ -187,6 +190,21 @@ void column_products(const double* a, std::size_t n_a, const double* b, std::siz
       }
     }
   }
+}
+
+}  // namespace
+
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd product(a.cols(), b.cols());
+  column_products(a, b, false, product.data());
+  return product;
+}
+
+Eigen::MatrixXd gram_of(const Eigen::MatrixXd& columns) {
+  Eigen::MatrixXd gram(columns.cols(), columns.cols());
+  column_products(columns, columns, true, gram.data());
+  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+  return gram;
 }
 
 StepRange step_range(std::span<const double> times) {

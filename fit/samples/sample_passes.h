@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -12,10 +14,10 @@ bool all_finite(std::span<const double> values);
 double sum_of(std::span<const double> values);
 double dot_of(std::span<const double> a, std::span<const double> b);  // equal length
 
-// Products a_i . b_j of columns of `rows` numbers, stored one column after the other, into out[i +
-// j n_a]. With b == nullptr: products of a with itself, i >= j only.
-void column_products(const double* a, std::size_t n_a, const double* b, std::size_t n_b,
-                     std::size_t rows, double* out);
+// A^T B and A^T A of tall matrices, computed as long dot products. Faster than general matrix
+// products for few columns (up to some hundred) and many rows.
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+Eigen::MatrixXd gram_of(const Eigen::MatrixXd& columns);
 
 // Smallest and largest difference of neighbours; both 0 for fewer than two times. Times are sorted
 // if the smallest difference is not negative.

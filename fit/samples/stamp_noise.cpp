@@ -1,6 +1,5 @@
-#include "fit/samples/stamp_noise.h"
-
 #include "fit/samples/median.h"
+#include "fit/samples/noise_model.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fit/samples/table_contact.h"
+#include "fit/samples/contact_onset.h"
 
 #include <algorithm>
 #include <cmath>

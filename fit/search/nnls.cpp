@@ -3,7 +3,6 @@
 #include "models/maths/dense.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace viscard {
 namespace {

@@ -1,6 +1,6 @@
 #include "fit/search/order_choice.h"
 
-#include "fit/samples/column_products.h"
+#include "fit/samples/sample_passes.h"
 #include "models/maths/dense.h"
 
 #include <Eigen/Core>

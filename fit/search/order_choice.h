@@ -7,12 +7,8 @@
 
 namespace viscard {
 
-// Scores of every order of a path and the choice among them (fit/search/README.md). Chosen is the
-// smallest order whose cross-validation error is within one standard error (of the paired
-// difference) of the best, but never more terms than BIC selects. An order with a time at the end
-// of the range is not eligible. An order with a time above a third of the record is replaced by a
-// smaller one without such a time, unless BIC (by 6) or three standard errors of the
-// cross-validation support it.
+// Scores of every order of a path and the choice among them. fit/search/README.md, "Choice of the
+// order", states the rules.
 struct OrderScores {
   std::vector<OrderRow> rows;  // one is marked as chosen
   std::size_t chosen = 0;      // index in the path

@@ -1,9 +1,8 @@
 #include "fit/search/order_path.h"
 
-#include "fit/samples/column_products.h"
+#include "fit/samples/sample_passes.h"
 #include "fit/search/nnls.h"
-#include "fit/search/quick_search.h"
-#include "fit/search/term_moves.h"
+#include "fit/search/separable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -207,14 +206,18 @@ std::vector<SpectralState> order_path(const SpectralModel& model, const OrderPat
   const std::vector<std::size_t> improved = ascend(model, nuisance, options, path);
   for (auto n = improved.rbegin(); n != improved.rend(); ++n)
     descend_again(model, *n, options, path);
-  // Drop orders whose residual is not lower than that of a smaller order.
+  std::erase_if(path, [](const SpectralState& state) { return !is_filled(state); });
+  drop_useless_orders(path);
+  return path;
+}
+
+void drop_useless_orders(std::vector<SpectralState>& path) {
   double lowest = std::numeric_limits<double>::infinity();
   std::erase_if(path, [&](const SpectralState& state) {
-    if (!is_filled(state) || !(state.rss < lowest)) return true;
+    if (!(state.rss < lowest)) return true;
     lowest = state.rss;
     return false;
   });
-  return path;
 }
 
 }  // namespace viscard

@@ -1,8 +1,7 @@
 #include "fit/search/projection.h"
 
-#include "fit/samples/column_products.h"
+#include "fit/samples/sample_passes.h"
 #include "fit/search/nnls.h"
-#include "fit/search/spectral_state.h"
 #include "models/maths/dense.h"
 
 #include <limits>
@@ -87,42 +86,6 @@ Projection by_qr(const SpectralModel& model, const ModelColumns& columns,
   return at;
 }
 
-}  // namespace
-
-Eigen::VectorXd search_parameters(const SpectralModel& model, const Eigen::VectorXd& ln_tau,
-                                  const Eigen::VectorXd& nuisance) {
-  Eigen::VectorXd p(ln_tau.size() + nuisance.size());
-  p.head(ln_tau.size()) = ln_tau;
-  for (Index k = 0; k < nuisance.size(); ++k) {
-    p[ln_tau.size() + k] = nuisance[k] / model.nuisances()[static_cast<std::size_t>(k)].scale;
-  }
-  return p;
-}
-
-Eigen::VectorXd nuisance_from(const SpectralModel& model, const Eigen::VectorXd& p) {
-  Eigen::VectorXd nuisance = p.tail(model.n_nuisances());
-  for (Index k = 0; k < nuisance.size(); ++k) {
-    nuisance[k] *= model.nuisances()[static_cast<std::size_t>(k)].scale;
-  }
-  return nuisance;
-}
-
-Eigen::MatrixXd nonlinear_slopes(const SpectralModel& model, const ModelColumns& columns,
-                                 const Eigen::VectorXd& coefficients) {
-  const Index n_terms = columns.term_slopes.cols();
-  Eigen::MatrixXd slopes(model.n_rows(), n_terms + model.n_nuisances());
-  slopes.leftCols(n_terms) =
-      columns.term_slopes * coefficients.segment(model.n_common(), n_terms).asDiagonal();
-  for (Index k = 0; k < model.n_nuisances(); ++k) {
-    const auto slot = static_cast<std::size_t>(k);
-    slopes.col(n_terms + k) =
-        columns.nuisance_slopes[slot] * coefficients * model.nuisances()[slot].scale;
-  }
-  return slopes;
-}
-
-namespace {
-
 // Solution by normal equations with one refinement step; none if they are ill-conditioned.
 std::optional<NormalSolution> normal_solution(const SpectralModel& model,
                                               const Eigen::MatrixXd& values,
@@ -143,6 +106,31 @@ std::optional<NormalSolution> normal_solution(const SpectralModel& model,
 }
 
 }  // namespace
+
+Eigen::VectorXd search_parameters(const SpectralModel& model, const Eigen::VectorXd& ln_tau,
+                                  const Eigen::VectorXd& nuisance) {
+  Eigen::VectorXd p(ln_tau.size() + nuisance.size());
+  p << ln_tau, nuisance.cwiseQuotient(model.of_nuisances(&Nuisance::scale));
+  return p;
+}
+
+Eigen::VectorXd nuisance_from(const SpectralModel& model, const Eigen::VectorXd& p) {
+  return p.tail(model.n_nuisances()).cwiseProduct(model.of_nuisances(&Nuisance::scale));
+}
+
+Eigen::MatrixXd nonlinear_slopes(const SpectralModel& model, const ModelColumns& columns,
+                                 const Eigen::VectorXd& coefficients) {
+  const Index n_terms = columns.term_slopes.cols();
+  Eigen::MatrixXd slopes(model.n_rows(), n_terms + model.n_nuisances());
+  slopes.leftCols(n_terms) =
+      columns.term_slopes * coefficients.segment(model.n_common(), n_terms).asDiagonal();
+  for (Index k = 0; k < model.n_nuisances(); ++k) {
+    const auto slot = static_cast<std::size_t>(k);
+    slopes.col(n_terms + k) =
+        columns.nuisance_slopes[slot] * coefficients * model.nuisances()[slot].scale;
+  }
+  return slopes;
+}
 
 Coefficients best_coefficients(const SpectralModel& model, const Eigen::MatrixXd& values,
                                const std::vector<bool>& is_free) {
@@ -177,11 +165,9 @@ Box search_box(const SpectralModel& model, Index n_terms) {
   const Index size = n_terms + model.n_nuisances();
   Box box{Eigen::VectorXd::Constant(size, model.ln_tau_min()),
           Eigen::VectorXd::Constant(size, model.ln_tau_max())};
-  for (Index k = 0; k < model.n_nuisances(); ++k) {
-    const Nuisance& nuisance = model.nuisances()[static_cast<std::size_t>(k)];
-    box.low[n_terms + k] = nuisance.low / nuisance.scale;
-    box.high[n_terms + k] = nuisance.high / nuisance.scale;
-  }
+  const Eigen::VectorXd scale = model.of_nuisances(&Nuisance::scale);
+  box.low.tail(scale.size()) = model.of_nuisances(&Nuisance::low).cwiseQuotient(scale);
+  box.high.tail(scale.size()) = model.of_nuisances(&Nuisance::high).cwiseQuotient(scale);
   return box;
 }
 

@@ -1,6 +1,5 @@
-#include "fit/search/quick_search.h"
-
 #include "fit/search/projection.h"
+#include "fit/search/separable.h"
 #include "models/maths/dense.h"
 
 #include <algorithm>

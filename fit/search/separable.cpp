@@ -1,6 +1,6 @@
 #include "fit/search/separable.h"
 
-#include "fit/samples/column_products.h"
+#include "fit/samples/sample_passes.h"
 #include "fit/search/nnls.h"
 #include "fit/search/projection.h"
 #include "models/maths/dense.h"
@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace viscard {
 namespace {

@@ -1,11 +1,10 @@
 #pragma once
 
-#include "fit/search/spectral_state.h"
+#include "fit/curves/spectral_model.h"
 
 #include <Eigen/Core>
 
 #include <limits>
-#include <vector>
 
 namespace viscard {
 
@@ -29,6 +28,13 @@ struct RefineOptions {
 };
 SpectralState refine(const SpectralModel& model, const SpectralState& start,
                      const RefineOptions& options = {});
+
+// Fast replacement for refine() in the many fits of an order path: Levenberg-Marquardt within the
+// bounds of the parameters on normal equations (projection.h), with the damping of Nielsen,
+// IMM-REP-1999-05, Techn. Univ. Denmark. A problem of two terms takes some tens of microseconds;
+// setting up Ceres alone takes longer. refine() and polish() compute the last digits.
+SpectralState quick_search(const SpectralModel& model, const SpectralState& start,
+                           const RefineOptions& options);
 
 // A few Gauss-Newton steps in all parameters together, for the last digits. Stops before a step
 // that would leave the bounds or increase the residual.

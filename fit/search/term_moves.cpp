@@ -1,7 +1,6 @@
-#include "fit/search/term_moves.h"
-
-#include "fit/samples/column_products.h"
+#include "fit/samples/sample_passes.h"
 #include "fit/search/nnls.h"
+#include "fit/search/order_path.h"
 #include "models/maths/dense.h"
 
 #include <Eigen/LU>

@@ -33,7 +33,7 @@ struct LoadCellConfig {
   double expected_rate_Hz = 80.0;
   double volts_per_count = 0.0;  // of the converter
   bool compression_is_positive = true;
-  std::string dialect = "34401a";  // of a SCPI multimeter (rig/protocols/scpi_protocol.h)
+  std::string dialect = "34401a";  // of a SCPI multimeter (rig/protocols/gauge_protocols.h)
   // Unit of forces that are sent without one: "N", "mN", "gf" ... Empty: numbers of an hx711 are
   // counts or volts, and gauges are set to N.
   std::string unit;

@@ -2,8 +2,6 @@
 
 #include "models/maths/text_of_number.h"
 #include "rig/lines/rig_error.h"
-#include "rig/protocols/gauge_drivers.h"
-#include "rig/protocols/scpi_protocol.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,15 +19,32 @@ constexpr int kMostSilent = 10;
 constexpr int kMostRefused = 5;
 constexpr double kGapInPeriods = 2.5;  // answers jitter more than a stream
 
+struct GaugeDriver {
+  const char* name;
+  GaugeProtocol (*protocol)(const LoadCellConfig&);
+};
+
+// One row per value of driver under [load_cell], apart from "hx711".
+constexpr GaugeDriver kDrivers[] = {
+    {"scpi", [](const LoadCellConfig& config) { return scpi_protocol(config.dialect); }},
+    {"mark10", [](const LoadCellConfig& config) { return mark10_protocol(config.unit); }},
+    {"sauter", [](const LoadCellConfig& config) { return sauter_protocol(config.unit); }}};
+
+GaugeProtocol gauge_protocol(const LoadCellConfig& config) {
+  std::string known = "hx711";
+  for (const GaugeDriver& driver : kDrivers) {
+    if (config.driver == driver.name) return driver.protocol(config);
+    known += std::string(", ") + driver.name;
+  }
+  throw RigError("driver '" + config.driver +
+                 "' under [load_cell] of the rig file is unknown; known are " + known);
+}
+
 }  // namespace
 
 GaugeLoadCell::GaugeLoadCell(Transport& transport, const LoadCellConfig& config,
                              const RigClock& clock, RecordSink sink)
-    : transport_(transport),
-      protocol_(gauge_protocol(config)),
-      clock_(clock),
-      sink_(std::move(sink)),
-      period_s_(1.0 / config.expected_rate_Hz) {}
+    : LoadCell(transport, config, clock, std::move(sink)), protocol_(gauge_protocol(config)) {}
 
 GaugeLoadCell::~GaugeLoadCell() {
   if (protocol_.closing.empty()) return;
@@ -130,7 +145,11 @@ void GaugeLoadCell::take_answer(const std::string& text, double time_s) {
     return;
   }
   const auto answer = protocol_.parse(text);
-  if (!answer) return note_unreadable(text, time_s);
+  if (!answer) {
+    asked_s_.reset();
+    waits_for_quiet_ = true;
+    return note_unreadable(text, time_s);
+  }
   if (!answer->error.empty()) {
     asked_s_.reset();
     if (++n_refused_ >= kMostRefused) {
@@ -139,53 +158,26 @@ void GaugeLoadCell::take_answer(const std::string& text, double time_s) {
     }
     return;
   }
-  if (unit_ && *unit_ != answer->unit) {
-    throw RigError("the load cell changed its unit from '" + *unit_ + "' to '" + answer->unit +
-                   "' in the middle of the run. Set it back, then start the run again");
-  }
-  unit_ = answer->unit;
+  check_unit(answer->unit);
   n_silent_ = n_refused_ = 0;
-  hand_out(*answer, time_s);
+  take_reading(*answer, time_s);
 }
 
-void GaugeLoadCell::note_unreadable(const std::string& text, double time_s) {
-  ++counts_.unreadable;
-  asked_s_.reset();
-  waits_for_quiet_ = true;
-  sink_(RunEvent{time_s, "load_cell_unreadable", text.substr(0, 80),
-                 "A line from the load cell is no reading"});
-}
-
-void GaugeLoadCell::hand_out(const GaugeAnswer& answer, double time_s) {
+void GaugeLoadCell::take_reading(const GaugeAnswer& answer, double time_s) {
   LoadSample sample;
   sample.host_time_s = time_s;
   sample.device_time_s = asked_s_;
   sample.volts = answer.volts;
   sample.force_N = answer.force_N;
   sample.is_saturated = answer.is_overload;
-  counts_.saturated += answer.is_overload ? 1 : 0;
   shortest_turn_s_ = std::min(shortest_turn_s_, time_s - *asked_s_);
   asked_s_.reset();
   if (counts_.received > 0) {
     const double step_s = time_s - last_arrival_s_;
-    if (step_s > counts_.longest_gap_s) {
-      counts_.longest_gap_s = step_s;
-      counts_.longest_gap_at_s = time_s;
-    }
-    if (step_s > kGapInPeriods * period_s_ + clock_.from_wall_s(0.1)) {
-      const auto n_missing = static_cast<std::int64_t>(std::llround(step_s / period_s_)) - 1;
-      counts_.missing += n_missing;
-      sink_(RunEvent{
-          time_s, "gap", text_from_number(step_s, 6),
-          counted(static_cast<std::size_t>(n_missing), "reading") + " of the load cell missing"});
-    } else {
-      period_s_ += 0.05 * (step_s - period_s_);
-    }
+    const double least_s = kGapInPeriods * period_s_ + clock_.from_wall_s(0.1);
+    if (note_gap(step_s, least_s, time_s) == 0) period_s_ += 0.05 * (step_s - period_s_);
   }
-  last_arrival_s_ = time_s;
-  sample.index = counts_.received++;
-  sink_(sample);
-  if (listener_) listener_(sample);
+  hand_out(sample);
 }
 
 void GaugeLoadCell::ask_if_due() {

@@ -1,10 +1,7 @@
 #pragma once
 
-#include "models/experiment/rig_config.h"
 #include "rig/cells/load_cell.h"
-#include "rig/lines/line_splitter.h"
-#include "rig/lines/rig_clock.h"
-#include "rig/protocols/gauge_protocol.h"
+#include "rig/protocols/gauge_protocols.h"
 
 #include <optional>
 #include <string>
@@ -23,33 +20,21 @@ class GaugeLoadCell final : public LoadCell {
                 RecordSink sink);
   ~GaugeLoadCell() override;  // returns the instrument to control by its front panel
 
-  Transport& transport() override { return transport_; }
   void connect(const Pump& pump) override;
   void service() override;
-  const StreamCounts& counts() const override { return counts_; }
-  double period_s() const override { return period_s_; }
-  double last_arrival_s() const override { return last_arrival_s_; }
   double made_at_s(const LoadSample& sample) const override;
 
  private:
   void send(const std::string& words);
   void feed(const Chunk& chunk);
   void take_answer(const std::string& text, double time_s);
-  void hand_out(const GaugeAnswer& answer, double time_s);
-  void note_unreadable(const std::string& text, double time_s);
+  void take_reading(const GaugeAnswer& answer, double time_s);
   void ask_if_due();
   std::optional<std::string> ask_text(const std::string& query, const Pump& pump);
   void wait_quiet(const Pump& pump, double wall_s);
 
-  Transport& transport_;
   GaugeProtocol protocol_;
-  const RigClock& clock_;
-  RecordSink sink_;
-  LineSplitter splitter_;
   std::string begun_;  // the first bytes of an answer without terminator
-  double period_s_;
-
-  bool is_connected_ = false;  // from here on readings are polled
   std::optional<std::string> text_answer_;
   bool awaits_text_ = false;
   std::optional<double> asked_s_;
@@ -57,11 +42,8 @@ class GaugeLoadCell final : public LoadCell {
   bool waits_for_quiet_ = false;
   int n_silent_ = 0;
   int n_refused_ = 0;
-  std::optional<std::string> unit_;
   std::string identity_;
   double shortest_turn_s_ = 1e9;
-  StreamCounts counts_;
-  double last_arrival_s_ = 0.0;
 };
 
 }  // namespace viscard

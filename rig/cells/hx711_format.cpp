@@ -1,5 +1,4 @@
-#include "rig/cells/hx711_format.h"
-
+#include "rig/cells/hx711_load_cell.h"
 #include "rig/lines/rig_error.h"
 
 #include <algorithm>

@@ -1,9 +1,8 @@
 #include "rig/cells/hx711_load_cell.h"
 
 #include "models/maths/text_of_number.h"
-#include "rig/cells/hx711_format.h"
 #include "rig/lines/rig_error.h"
-#include "rig/protocols/force_unit.h"
+#include "rig/protocols/gauge_protocols.h"
 
 #include <algorithm>
 #include <cctype>
@@ -23,12 +22,9 @@ constexpr double kBurst = 0.5;  // of a period: readings closer together were de
 
 Hx711LoadCell::Hx711LoadCell(Transport& transport, const LoadCellConfig& config,
                              const RigClock& clock, RecordSink sink, double patience)
-    : transport_(transport),
-      clock_(clock),
-      sink_(std::move(sink)),
+    : LoadCell(transport, config, clock, std::move(sink)),
       patience_(patience),
       format_(declared_hx711_format(config)),
-      period_s_(1.0 / config.expected_rate_Hz),
       declared_unit_(config.unit) {
   if (!config.unit.empty() && !newtons_per_unit(config.unit)) {
     throw RigError("unit '" + config.unit +
@@ -111,15 +107,13 @@ void Hx711LoadCell::learn(const ReceivedLine& line) {
 
 // Text in the middle of a run is the banner of a restart if the readings pause, otherwise garbage.
 void Hx711LoadCell::take_text(const ReceivedLine& line) {
-  ++counts_.unreadable;
   const auto n_letters = std::count_if(line.text.begin(), line.text.end(),
                                        [](unsigned char c) { return std::isalpha(c) != 0; });
   if (n_letters >= 4) {
     banner_ = line.text.substr(0, 40);
     throw_if_restarted(line.time_s);
   }
-  sink_(RunEvent{line.time_s, "load_cell_unreadable", line.text.substr(0, 80),
-                 "A line from the load cell is no reading"});
+  note_unreadable(line.text, line.time_s);
 }
 
 // A banner means a restart if there is a pause before it (the amplifier was switched off) or after
@@ -135,17 +129,14 @@ void Hx711LoadCell::throw_if_restarted(double time_s) const {
 void Hx711LoadCell::take_reading(const Hx711Line& reading, double time_s) {
   throw_if_restarted(time_s);
   banner_.clear();
-  if (counts_.received > 0 && reading.unit != unit_) {
-    throw RigError("the load cell changed its unit from '" + unit_ + "' to '" + reading.unit +
-                   "' in the middle of the run. Set it back, then start the run again");
-  }
-  unit_ = reading.unit;
+  check_unit(reading.unit);
   if (reading.ticks && device_clock_) {
     if (!take_clock(*reading.ticks, time_s)) return;
   } else if (counts_.received > 0) {
     take_arrival(time_s);
   }
-  hand_out(reading, time_s);
+  LoadSample sample = sample_of(reading, time_s);
+  hand_out(sample);
 }
 
 // For a stream without a clock. Readings that arrive in a burst after a gap were not missing but
@@ -164,7 +155,7 @@ void Hx711LoadCell::take_arrival(double time_s) {
                        " readings reported missing were only delayed: they came in a burst"});
   }
   n_late_ = 0;
-  note_gap(step_s, time_s);
+  take_step(step_s, time_s);
   n_owed_ = last_missing_;
 }
 
@@ -190,7 +181,7 @@ bool Hx711LoadCell::take_clock(double ticks, double time_s) {
       break;
   }
   const double step_s = device_clock_->step_s();
-  if (counts_.received > 0) note_gap(step_s, time_s);
+  if (counts_.received > 0) take_step(step_s, time_s);
   // The converter's oscillator is off by several percent, so the measured period is tracked.
   if (step_s > 0.7 * period_s_ && step_s < 1.3 * period_s_)
     period_s_ += 0.02 * (step_s - period_s_);
@@ -207,31 +198,18 @@ void Hx711LoadCell::doubt_last(double time_s) {
                      " of the load cell came with a time that the next one contradicts"});
 }
 
-void Hx711LoadCell::note_gap(double step_s, double time_s) {
-  last_missing_ = 0;
-  if (step_s > counts_.longest_gap_s) {
-    counts_.longest_gap_s = step_s;
-    counts_.longest_gap_at_s = time_s;
-  }
+void Hx711LoadCell::take_step(double step_s, double time_s) {
   // Without a device clock a late line looks like a lost one, so only a long silence counts.
   const double least_s =
       device_clock_ ? kGapPeriods * period_s_
                     : std::max(kGapPeriods * period_s_, 3 * period_s_ + clock_.from_wall_s(0.1));
-  if (step_s <= least_s) return;
-  const auto n_missing = static_cast<std::int64_t>(std::llround(step_s / period_s_)) - 1;
-  counts_.missing += n_missing;
-  last_missing_ = n_missing;
-  sink_(RunEvent{
-      time_s, "gap", text_from_number(step_s, 6),
-      counted(static_cast<std::size_t>(n_missing), "reading") + " of the load cell missing"});
+  last_missing_ = note_gap(step_s, least_s, time_s);
 }
 
-void Hx711LoadCell::hand_out(const Hx711Line& reading, double time_s) {
+LoadSample Hx711LoadCell::sample_of(const Hx711Line& reading, double time_s) {
   LoadSample sample;
-  sample.index = counts_.received++;
   sample.host_time_s = time_s;
   if (device_clock_) sample.device_time_s = device_clock_->time_s();
-  last_arrival_s_ = time_s;
   const std::string& unit = reading.unit.empty() ? declared_unit_ : reading.unit;
   if (!unit.empty()) {
     if (reading.value) sample.force_N = *reading.value * newtons_per_unit(unit).value_or(1.0);
@@ -247,10 +225,7 @@ void Hx711LoadCell::hand_out(const Hx711Line& reading, double time_s) {
   } else if (!sample.volts && !sample.force_N) {
     sample.is_saturated = true;  // "ovf", "inf": the device itself reports no reading
   }
-  counts_.saturated += sample.is_saturated ? 1 : 0;
-  counts_.glitch += sample.is_glitch ? 1 : 0;
-  sink_(sample);
-  if (listener_) listener_(sample);
+  return sample;
 }
 
 std::string Hx711LoadCell::reads_as() const {

@@ -1,12 +1,13 @@
 #pragma once
 
-#include "models/experiment/run_record.h"
+#include "models/experiment/rig_config.h"
+#include "rig/lines/line_splitter.h"
 #include "rig/lines/record_sink.h"
+#include "rig/lines/rig_clock.h"
 #include "rig/lines/transport.h"
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 
 namespace viscard {
@@ -31,11 +32,9 @@ struct StreamCounts {
 class LoadCell {
  public:
   virtual ~LoadCell() = default;
-  LoadCell() = default;
-  LoadCell(const LoadCell&) = delete;
-  LoadCell& operator=(const LoadCell&) = delete;
+  LoadCell& operator=(LoadCell&&) = delete;  // neither copied nor moved
 
-  virtual Transport& transport() = 0;
+  Transport& transport() { return transport_; }
   // Waits until readings arrive and the format of the lines is known.
   virtual void connect(const Pump& pump) = 0;
   // Reads what has arrived and passes each reading to the sink, then to the listener. Call often.
@@ -44,20 +43,42 @@ class LoadCell {
     listener_ = std::move(listener);
   }
 
-  virtual const StreamCounts& counts() const = 0;
+  const StreamCounts& counts() const { return counts_; }
   // The assumed unit of its numbers, "counts", "volts", "N", "g" ...; empty if the instrument's
   // protocol fixes it.
   virtual std::string reads_as() const { return {}; }
   // Measured time between readings, rig seconds.
-  virtual double period_s() const = 0;
+  double period_s() const { return period_s_; }
   // Rig time at which the newest reading arrived.
-  virtual double last_arrival_s() const = 0;
+  double last_arrival_s() const { return last_arrival_s_; }
   // Best estimate of the rig time at which a reading was made: the time of its arrival, or its
   // device time plus the smallest offset seen lately (a delay is never negative).
   virtual double made_at_s(const LoadSample& sample) const = 0;
 
  protected:
+  LoadCell(Transport& transport, const LoadCellConfig& config, const RigClock& clock,
+           RecordSink sink);
+
+  // For a line that is no reading.
+  void note_unreadable(const std::string& text, double time_s);
+  // Throws RigError if the unit is not that of the readings before.
+  void check_unit(const std::string& unit);
+  // Keeps the longest gap. A step above least_s between readings is reported as missing readings;
+  // returns their number.
+  std::int64_t note_gap(double step_s, double least_s, double time_s);
+  // Numbers and counts the sample and passes it to the sink, then to the listener.
+  void hand_out(LoadSample& sample);
+
+  Transport& transport_;
+  const RigClock& clock_;
+  RecordSink sink_;
   std::function<void(const LoadSample&)> listener_;
+  LineSplitter splitter_;
+  bool is_connected_ = false;
+  double period_s_;
+  std::string unit_;  // as sent with the readings; may be empty
+  StreamCounts counts_;
+  double last_arrival_s_ = 0.0;
 };
 
 }  // namespace viscard

@@ -35,11 +35,7 @@ const RatioRow& row_of(double mixing_ratio) {
 }
 
 PunchContact demo_contact() {
-  PunchContact contact;
-  contact.punch_radius_m = 2.2e-3;
-  contact.layer_thickness_m = 11e-3;
-  contact.poisson_ratio = 0.495;
-  return contact;
+  return {.punch_radius_m = 2.2e-3, .layer_thickness_m = 11e-3, .poisson_ratio = 0.495};
 }
 
 }  // namespace

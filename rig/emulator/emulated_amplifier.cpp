@@ -11,13 +11,10 @@ namespace viscard {
 EmulatedAmplifier::EmulatedAmplifier(const EmulatedTruth& truth,
                                      const LoadCellCalibration& calibration, double volts_per_count,
                                      const AmplifierOptions& options)
-    : truth_(truth),
-      cell_(truth),
-      calibration_(calibration),
+    : rate_Hz_(truth.sample_rate_Hz),
+      cell_(truth, calibration),
       volts_per_count_(volts_per_count),
-      options_(options) {
-  if (truth.cell_gain > 0.0) calibration_.volts_per_newton = truth.cell_gain;
-}
+      options_(options) {}
 
 std::string EmulatedAmplifier::reset(double time_s) {
   reset_s_ = time_s;
@@ -26,20 +23,18 @@ std::string EmulatedAmplifier::reset(double time_s) {
 }
 
 double EmulatedAmplifier::next_sample_s() const {
-  return reset_s_ + options_.boot_s + static_cast<double>(index_ + 1) / truth_.sample_rate_Hz;
+  return reset_s_ + options_.boot_s + static_cast<double>(index_ + 1) / rate_Hz_;
 }
 
 std::string EmulatedAmplifier::convert(double force_N, bool is_cell_broken) {
   const double time_s = next_sample_s();
-  const double volts = volts_from_force_N(
-      calibration_, cell_.signal_N(force_N, time_s, static_cast<std::uint64_t>(noise_index_)));
+  const double volts = cell_.signal(force_N, time_s, noise_index_++);
   double counts = std::round(volts / volts_per_count_);
   counts = std::clamp(counts, kHx711Lowest, kHx711Highest);
   if (is_cell_broken) counts = kHx711Highest;
   ++index_;
-  ++noise_index_;
   const bool is_glitch = options_.glitch_every > 0 && index_ % options_.glitch_every == 0;
-  return line(is_glitch ? 1048575.0 : counts, time_s);
+  return line(is_glitch ? 1048575.0 : counts, time_s) + options_.line_end;
 }
 
 std::string EmulatedAmplifier::line(double counts, double time_s) const {
@@ -49,19 +44,19 @@ std::string EmulatedAmplifier::line(double counts, double time_s) const {
   const std::string number = text_from_number(counts, 0);
   switch (options_.format) {
     case AmplifierFormat::kMicrosCounts:
-      return std::to_string(micros) + "," + number + options_.line_end;
+      return std::to_string(micros) + "," + number;
     case AmplifierFormat::kMillisCounts:
-      return std::to_string(micros / 1000) + "," + number + options_.line_end;
+      return std::to_string(micros / 1000) + "," + number;
     case AmplifierFormat::kReadingText:
-      return "HX711 reading: " + number + options_.line_end;
+      return "HX711 reading: " + number;
     case AmplifierFormat::kVolts:
-      return text_from_number(counts * volts_per_count_, 7) + options_.line_end;
+      return text_from_number(counts * volts_per_count_, 7);
     case AmplifierFormat::kMeanText:
-      return "one reading:\t" + number + ".0\t| average:\t" + number + ".0" + options_.line_end;
+      return "one reading:\t" + number + ".0\t| average:\t" + number + ".0";
     case AmplifierFormat::kCounts:
       break;
   }
-  return number + options_.line_end;
+  return number;
 }
 
 }  // namespace viscard

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "models/experiment/calibration.h"
 #include "models/experiment/emulated_specimen.h"
 #include "rig/emulator/emulated_cell.h"
 
@@ -43,11 +42,10 @@ class EmulatedAmplifier {
   std::string convert(double force_N, bool is_cell_broken);
 
  private:
-  std::string line(double counts, double time_s) const;
+  std::string line(double counts, double time_s) const;  // without its end
 
-  EmulatedTruth truth_;
+  double rate_Hz_;
   EmulatedCell cell_;
-  LoadCellCalibration calibration_;
   double volts_per_count_;
   AmplifierOptions options_;
   double reset_s_ = 0.0;

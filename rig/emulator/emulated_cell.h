@@ -1,23 +1,26 @@
 #pragma once
 
+#include "models/experiment/calibration.h"
 #include "models/experiment/emulated_specimen.h"
 
 #include <cstdint>
 
 namespace viscard {
 
-// The elastic element of a load cell: drift, offset, nonlinearity, hysteresis, and noise that
-// depends on the seed and the number of the reading only. Nonlinearity and hysteresis are parabolas
-// that vanish at no load and at full scale.
+// The elastic element of a load cell with its amplifier: gain, drift, offset, nonlinearity,
+// hysteresis, and noise that depends on the seed and the number of the reading only. Nonlinearity
+// and hysteresis are parabolas that vanish at no load and at full scale.
 class EmulatedCell {
  public:
-  explicit EmulatedCell(const EmulatedTruth& truth) : truth_(truth) {}
+  // The gain is truth.cell_gain, or that of the calibration if it is 0.
+  EmulatedCell(const EmulatedTruth& truth, const LoadCellCalibration& calibration);
 
-  // The signal, expressed as a force in N, of reading number `index` made at time_s.
-  double signal_N(double force_N, double time_s, std::uint64_t index);
+  // The signal of reading number `index` made at time_s, in V (in N for a force gauge).
+  double signal(double force_N, double time_s, std::int64_t index);
 
  private:
   EmulatedTruth truth_;
+  LoadCellCalibration calibration_;
   double turned_N_ = 0.0;  // the previous force, which shows whether the load rises or falls
   double direction_ = 1.0;
 };

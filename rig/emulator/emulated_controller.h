@@ -1,8 +1,8 @@
 #pragma once
 
+#include "rig/emulator/delayed_bytes.h"
 #include "rig/emulator/emulated_motion.h"
 
-#include <deque>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,8 +15,7 @@ class EmulatedController {
  public:
   explicit EmulatedController(double steps_per_m) : motion_(steps_per_m, 0.0) {}
   virtual ~EmulatedController() = default;
-  EmulatedController(const EmulatedController&) = delete;
-  EmulatedController& operator=(const EmulatedController&) = delete;
+  EmulatedController& operator=(EmulatedController&&) = delete;  // neither copied nor moved
 
   // Power-up, or the opening of a port that resets the board.
   virtual void reset(double time_s) = 0;
@@ -34,21 +33,9 @@ class EmulatedController {
   bool is_moving(double time_s) const { return motion_.is_moving(time_s); }
 
  protected:
-  struct Answer {
-    double due_s;
-    std::string text;
-  };
-  // Sends the answers that are due, in order.
-  void say_due(std::deque<Answer>& answers, double time_s) {
-    while (!answers.empty() && answers.front().due_s <= time_s) {
-      output_ += answers.front().text;
-      answers.pop_front();
-    }
-  }
-
   EmulatedMotion motion_;
   std::string output_;
-  std::deque<Answer> answers_;
+  DelayedBytes answers_;
 };
 
 }  // namespace viscard

@@ -1,7 +1,7 @@
 #include "rig/emulator/emulated_gauge.h"
 
 #include "models/maths/text_of_number.h"
-#include "rig/protocols/force_unit.h"
+#include "rig/protocols/gauge_protocols.h"
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ std::string formatted(const char* format, double value) {
 
 }  // namespace
 
-// One row per polled instrument (rig/protocols/gauge_drivers.cpp).
+// One row per polled instrument (rig/cells/gauge_load_cell.cpp).
 const EmulatedGauge::Instrument& EmulatedGauge::instrument_of(const std::string& driver) {
   static const std::vector<Instrument> kInstruments{
       {"scpi",
@@ -61,16 +61,13 @@ const EmulatedGauge::Instrument& EmulatedGauge::instrument_of(const std::string&
 
 EmulatedGauge::EmulatedGauge(const EmulatedTruth& truth, const LoadCellCalibration& calibration,
                              const std::string& driver, const GaugeHabits& habits)
-    : truth_(truth),
-      cell_(truth),
-      calibration_(calibration),
+    : rate_Hz_(truth.sample_rate_Hz),
+      cell_(truth, calibration),
       instrument_(instrument_of(driver)),
-      habits_(habits) {
-  if (truth.cell_gain > 0.0) calibration_.volts_per_newton = truth.cell_gain;
-}
+      habits_(habits) {}
 
 void EmulatedGauge::receive(std::string_view bytes, double time_s) {
-  if (habits_.echoes) answers_.push_back({time_s, std::string(bytes)});
+  if (habits_.echoes) answers_.add(time_s, std::string(bytes));
   for (const char c : bytes) {
     if (!instrument_.has_line_ends) {
       take_command(std::string(1, c), time_s);
@@ -85,14 +82,14 @@ void EmulatedGauge::receive(std::string_view bytes, double time_s) {
 void EmulatedGauge::take_command(const std::string& command, double time_s) {
   const auto& queries = instrument_.queries;
   if (std::find(queries.begin(), queries.end(), command) != queries.end()) {
-    due_s_.push_back(time_s + 1.0 / truth_.sample_rate_Hz);
+    due_s_.push_back(time_s + 1.0 / rate_Hz_);
   } else if (command == "*IDN?") {
-    answers_.push_back({time_s, "HEWLETT-PACKARD,34401A,0,10-5-2\r\n"});
+    answers_.add(time_s, "HEWLETT-PACKARD,34401A,0,10-5-2\r\n");
   } else if (command == "SYST:ERR?") {
-    answers_.push_back(
-        {time_s, habits_.refuses_setup ? "-113,\"Undefined header\"\r\n" : "+0,\"No error\"\r\n"});
+    answers_.add(time_s,
+                 habits_.refuses_setup ? "-113,\"Undefined header\"\r\n" : "+0,\"No error\"\r\n");
   } else if (!command.empty() && *instrument_.refusal != '\0') {
-    answers_.push_back({time_s, instrument_.refusal});
+    answers_.add(time_s, instrument_.refusal);
   }
 }
 
@@ -106,30 +103,19 @@ void EmulatedGauge::convert(double force_N, bool is_cell_broken) {
   const std::int64_t index = n_readings_++;
   const auto is_nth = [&](int every) { return every > 0 && n_readings_ % every == 0; };
   if (is_nth(habits_.lose_answer_every)) return;
-  const double reading_N = cell_.signal_N(force_N, time_s, static_cast<std::uint64_t>(index));
   const double late_s = is_nth(habits_.late_answer_every) ? habits_.late_s : 0.0;
-  answers_.push_back({time_s + late_s, text_of(reading_N, is_cell_broken)});
+  answers_.add(time_s + late_s, text_of(cell_.signal(force_N, time_s, index), is_cell_broken));
 }
 
-std::string EmulatedGauge::text_of(double reading_N, bool is_overload) const {
+// The gain of a multimeter's rig is V/N, that of a force gauge newtons shown per newton.
+std::string EmulatedGauge::text_of(double shown, bool is_overload) const {
   const bool is_changed =
       habits_.changes_unit_after > 0 && n_readings_ > habits_.changes_unit_after;
   const std::string unit = is_changed ? "lbF" : habits_.unit;
-  // The gain of a multimeter's rig is V/N, that of a force gauge newtons shown per newton.
-  const double shown = volts_from_force_N(calibration_, reading_N);
   return instrument_.reading({.volts = shown,
                               .force = shown / newtons_per_unit(unit).value_or(1.0),
                               .unit = habits_.hides_unit ? "" : unit,
                               .is_overload = is_overload});
-}
-
-std::string EmulatedGauge::take_output(double time_s) {
-  std::string output;
-  while (!answers_.empty() && answers_.front().due_s <= time_s) {
-    output += answers_.front().text;
-    answers_.pop_front();
-  }
-  return output;
 }
 
 }  // namespace viscard

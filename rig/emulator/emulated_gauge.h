@@ -1,7 +1,7 @@
 #pragma once
 
-#include "models/experiment/calibration.h"
 #include "models/experiment/emulated_specimen.h"
+#include "rig/emulator/delayed_bytes.h"
 #include "rig/emulator/emulated_cell.h"
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct GaugeHabits {
 };
 
 // A multimeter behind the amplifier, or a force gauge, that answers queries
-// (rig/protocols/scpi_protocol.h, rig/protocols/force_gauge_protocols.h). One reading takes
+// (rig/protocols/gauge_protocols.h). One reading takes
 // 1/sample_rate of the truth.
 class EmulatedGauge {
  public:
@@ -37,13 +37,9 @@ class EmulatedGauge {
   double next_sample_s() const;
   // Makes the next reading with the force that acts then.
   void convert(double force_N, bool is_cell_broken);
-  std::string take_output(double time_s);
+  std::string take_output(double time_s) { return answers_.take_due(time_s); }
 
  private:
-  struct Answer {
-    double due_s;
-    std::string text;
-  };
   // A reading as the instrument shows it.
   struct Shown {
     double volts = 0.0;
@@ -54,16 +50,15 @@ class EmulatedGauge {
   struct Instrument;
   static const Instrument& instrument_of(const std::string& driver);
   void take_command(const std::string& command, double time_s);
-  std::string text_of(double reading_N, bool is_overload) const;
+  std::string text_of(double shown, bool is_overload) const;
 
-  EmulatedTruth truth_;
+  double rate_Hz_;
   EmulatedCell cell_;
-  LoadCellCalibration calibration_;
   const Instrument& instrument_;
   GaugeHabits habits_;
   std::string begun_;
   std::deque<double> due_s_;
-  std::deque<Answer> answers_;
+  DelayedBytes answers_;
   std::int64_t n_readings_ = 0;
 };
 

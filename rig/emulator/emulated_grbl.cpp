@@ -3,9 +3,7 @@
 #include "models/maths/text_of_number.h"
 #include "rig/protocols/grbl_protocol.h"
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <utility>
 
 namespace viscard {
@@ -13,6 +11,10 @@ namespace {
 
 constexpr std::size_t kLineLength = 79;  // gnea/grbl LINE_BUFFER_SIZE 80 with the NUL
 constexpr double kAlarmDelay_s = 0.5;
+// Settings that neither the truth nor the habits change.
+constexpr std::string_view kDefaults =
+    "$0=10 $1=255 $2=0 $3=0 $4=0 $5=0 $6=0 $11=0.01 $12=0.002 $21=0 $23=0 $24=25 $25=500 $26=250 "
+    "$27=1 $30=1000 $31=0 $32=0";
 
 }  // namespace
 
@@ -22,28 +24,14 @@ EmulatedGrbl::EmulatedGrbl(const EmulatedTruth& truth, char axis, int toward_spe
       habits_(habits),
       axis_(axis == 'X' ? 0 : (axis == 'Y' ? 1 : 2)),
       toward_(toward_specimen < 0 ? -1.0 : 1.0) {
-  settings_ = {{0, 10},
-               {1, 255},
-               {2, 0},
-               {3, 0},
-               {4, 0},
-               {5, 0},
-               {6, 0},
-               {10, habits.reports_work_position ? 0.0 : 1.0},
-               {11, .01},
-               {12, .002},
-               {13, habits.reports_inches ? 1.0 : 0.0},
-               {20, habits.soft_limit_mm > 0.0 ? 1.0 : 0.0},
-               {21, 0},
-               {22, habits.is_homing_enabled ? 1.0 : 0.0},
-               {23, 0},
-               {24, 25},
-               {25, 500},
-               {26, 250},
-               {27, 1},
-               {30, 1000},
-               {31, 0},
-               {32, 0}};
+  for (const std::string_view line : split(kDefaults, ' ')) {
+    const auto setting = parse_grbl_setting(line);
+    settings_[setting->number] = setting->value;
+  }
+  settings_[10] = habits.reports_work_position ? 0.0 : 1.0;
+  settings_[13] = habits.reports_inches ? 1.0 : 0.0;
+  settings_[20] = habits.soft_limit_mm > 0.0 ? 1.0 : 0.0;
+  settings_[22] = habits.is_homing_enabled ? 1.0 : 0.0;
   for (int i = 0; i < 3; ++i) {
     settings_[100 + i] = truth.steps_per_m * 1e-3;
     settings_[110 + i] = truth.max_rate_m_s * 60e3;
@@ -189,8 +177,7 @@ void EmulatedGrbl::realtime(char c, double time_s) {
 
 void EmulatedGrbl::report(double time_s) {
   const std::string text = status(time_s);
-  late_reports_.push_back({time_s + habits_.status_delay_s, text});
-  if (habits_.reports_twice) late_reports_.push_back(late_reports_.back());
+  late_reports_.add(time_s + habits_.status_delay_s, habits_.reports_twice ? text + text : text);
   tick(time_s);
 }
 
@@ -204,7 +191,7 @@ void EmulatedGrbl::take(std::string text, double time_s) {
 }
 
 void EmulatedGrbl::answer(double time_s, const std::string& text) {
-  answers_.push_back({time_s + habits_.ok_delay_s, text});
+  answers_.add(time_s + habits_.ok_delay_s, text);
 }
 
 void EmulatedGrbl::ok(double time_s) {
@@ -255,8 +242,7 @@ void EmulatedGrbl::tick(double time_s) {
     // The stage leaves the switch at once, and the change of its pin raises another alarm.
     if (is_on_switch_ && habits_.alarms_again) return hit_limit(time_s);
   }
-  say_due(answers_, time_s);
-  say_due(late_reports_, time_s);
+  output_ += answers_.take_due(time_s) + late_reports_.take_due(time_s);
 }
 
 }  // namespace viscard

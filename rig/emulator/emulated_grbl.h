@@ -3,7 +3,6 @@
 #include "models/experiment/emulated_specimen.h"
 #include "rig/emulator/emulated_controller.h"
 
-#include <array>
 #include <deque>
 #include <map>
 #include <optional>
@@ -91,7 +90,7 @@ class EmulatedGrbl final : public EmulatedController {
   bool is_cancelling_ = false;          // a jog that is being stopped
   bool is_eeprom_dumped_ = false;
   std::string begun_line_;
-  std::deque<Answer> late_reports_;
+  DelayedBytes late_reports_;
   std::deque<std::string> held_lines_;
   bool is_held_ = false;       // takes no line although it reports Idle
   bool is_on_switch_ = false;  // a limit switch was hit and has not opened again

@@ -7,12 +7,6 @@
 #include <limits>
 
 namespace viscard {
-namespace {
-
-constexpr double kQueuedSteps = 7.5;
-constexpr double kQueued_s = 0.06;
-
-}  // namespace
 
 EmulatedMotion::EmulatedMotion(double steps_per_m, double position_m)
     : steps_per_m_(steps_per_m), end_m_(quantised_m(position_m, steps_per_m)) {}
@@ -77,8 +71,10 @@ void EmulatedMotion::cut(double time_s) {
 }
 
 void EmulatedMotion::stop_gently(double time_s, double acceleration_m_s2) {
+  // The queued segments are still carried out, to the later of these.
+  constexpr double kQueuedSteps = 7.5;
+  constexpr double kQueued_s = 0.06;
   if (!is_moving(time_s)) return;
-  // The queued segments are still carried out, to the later of 60 ms and 7.5 steps.
   const double here_m = position_m(time_s);
   double low_s = time_s;
   double high_s = end_time_s();

@@ -1,19 +1,16 @@
 #include "rig/emulator/emulated_rig.h"
 
-#include "rig/emulator/controller_drivers.h"
+#include "rig/emulator/emulated_controller.h"
 #include "rig/emulator/emulated_specimen.h"
 #include "rig/emulator/pty_port.h"
 #include "rig/lines/rig_clock.h"
 
 #include <poll.h>
-#include <sys/eventfd.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <cmath>
-#include <cstdint>
+#include <chrono>
 #include <mutex>
 #include <thread>
 
@@ -24,14 +21,17 @@ constexpr double kLargestStep_s = 1e-3;    // of the hereditary integral, emulat
 constexpr double kShortestNap_s = 0.2e-3;  // wall
 constexpr double kLongestNap_s = 2e-3;     // wall; bounds the delay until an incident is noticed
 
-enum Incident : unsigned {
-  kPullStage = 1,
-  kPullCell = 2,
-  kSilenceCell = 4,
-  kRestartCell = 8,
-  kHitLimit = 16,
-  kRestartStage = 32,
-};
+// One branch per value of driver under [stage] (rig/open_devices.cpp); a GRBL for an unknown word,
+// which the driver refuses.
+std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions& options) {
+  const StageConfig& stage = options.config.stage;
+  if (stage.driver == "zaber") {
+    return std::make_unique<EmulatedZaber>(options.truth, stage.toward_specimen, stage.device,
+                                           options.zaber);
+  }
+  return std::make_unique<EmulatedGrbl>(options.truth, stage.axis, stage.toward_specimen,
+                                        options.grbl);
+}
 
 }  // namespace
 
@@ -41,8 +41,7 @@ class EmulatedRig::Impl {
       : options_(options),
         clock_(options.config.clock_speed),
         specimen_(options.truth),
-        stage_(
-            emulated_controller(options.config.stage, options.truth, options.grbl, options.zaber)),
+        stage_(emulated_controller(options)),
         gauge_(options.truth, options.config.calibration, options.config.load_cell.driver,
                options.gauge),
         amplifier_(options.truth, options.config.calibration,
@@ -54,7 +53,31 @@ class EmulatedRig::Impl {
     thread_.join();
   }
 
-  void run();
+  void run() {
+    while (!is_ending_) {
+      watch_port(stage_port_, stage_board_, clock_.now_s());
+      watch_port(cell_port_, cell_board_, clock_.now_s());
+      happen(clock_.now_s());
+      // Conversions up to now depend on the motion up to now; bytes from the host act from now on.
+      const double now_s = clock_.now_s();
+      stage_->tick(now_s);
+      serve_cell(now_s);
+      advance_bench(std::max(bench_s_, now_s));
+      {
+        // Set before a report of this moment can reach the host.
+        const std::lock_guard lock(outcome_mutex_);
+        outcome_.final_position_m = stage_->bench_position_m(now_s);
+        outcome_.is_moving = stage_->is_moving(now_s);
+      }
+      serve_stage(now_s);
+      nap(clock_.now_s());
+    }
+  }
+
+  EmulatedOutcome outcome() const {
+    const std::lock_guard lock(outcome_mutex_);
+    return outcome_;
+  }
 
   EmulatedRigOptions options_;
   RigClock clock_;
@@ -75,18 +98,114 @@ class EmulatedRig::Impl {
     bool is_running = false;
     double boots_at_s = 0.0;
   };
-  void watch_port(PtyPort& port, Board& board, double now_s);
-  void advance_bench(double to_s);
-  void serve_stage(double now_s);
-  void serve_cell(double now_s);
-  void serve_gauge(double now_s);
-  bool is_cell_broken() const;
+  void watch_port(PtyPort& port, Board& board, double now_s) {
+    const bool is_open = port.is_open_by_host();
+    if (is_open && !board.is_open && (options_.resets_on_open || !board.is_running)) {
+      board.is_running = false;
+      board.boots_at_s = now_s + clock_.from_wall_s(options_.boot_wall_s);
+    }
+    board.is_open = is_open;
+  }
+
+  // Advances the mechanics to to_s in steps that end where the acceleration changes.
+  void advance_bench(double to_s) {
+    while (bench_s_ < to_s) {
+      const double next_s =
+          std::min({to_s, bench_s_ + kLargestStep_s, stage_->next_knot_s(bench_s_)});
+      const double force_N = specimen_.advance(next_s - bench_s_, stage_->bench_position_m(next_s));
+      bench_s_ = next_s;
+      if (!specimen_.is_touched() && !stage_->is_moving(bench_s_)) {
+        bench_s_ = to_s;  // nothing can happen until the stage moves
+      }
+      const std::lock_guard lock(outcome_mutex_);
+      outcome_.peak_force_N = std::max(outcome_.peak_force_N, force_N);
+      outcome_.peak_depth_m = std::max(outcome_.peak_depth_m, specimen_.depth_m());
+      if (options_.truth.overload_N > 0.0 && force_N > options_.truth.overload_N) {
+        outcome_.is_cell_broken = true;
+      }
+    }
+  }
+
+  void serve_stage(double now_s) {
+    const std::string bytes = stage_port_.read_available();
+    if (!stage_board_.is_running) {
+      if (!stage_board_.is_open || now_s < stage_board_.boots_at_s) return;
+      stage_board_.is_running = true;
+      stage_->reset(now_s);
+    } else if (!bytes.empty()) {
+      stage_->receive(bytes, now_s);
+      stage_->tick(now_s);
+    }
+    stage_port_.write(stage_->take_output());
+  }
+
+  void serve_cell(double now_s) {
+    if (is_gauge()) return serve_gauge(now_s);
+    cell_port_.read_available();  // the amplifier ignores what the host sends
+    if (!cell_board_.is_running && cell_board_.is_open && now_s >= cell_board_.boots_at_s) {
+      cell_board_.is_running = true;
+      cell_port_.write(amplifier_.reset(now_s));
+    }
+    if (!cell_board_.is_running) return;
+    std::string lines;
+    while (amplifier_.next_sample_s() <= now_s) {
+      advance_bench(std::max(bench_s_, amplifier_.next_sample_s()));
+      const std::string line =
+          amplifier_.convert(specimen_.force_N() + weight_N_, outcome().is_cell_broken);
+      if (is_cell_silent_) continue;
+      lines += line;
+      if (!options_.keeps_lines) continue;
+      const std::lock_guard lock(outcome_mutex_);
+      sent_lines_.push_back(line);
+    }
+    if (cell_board_.is_open) {
+      cell_port_.write(lines);
+    } else {
+      cell_port_.discard();
+    }
+  }
+
+  // For an instrument that is polled.
+  void serve_gauge(double now_s) {
+    gauge_.receive(cell_port_.read_available(), now_s);
+    while (gauge_.next_sample_s() <= now_s) {
+      advance_bench(std::max(bench_s_, gauge_.next_sample_s()));
+      gauge_.convert(specimen_.force_N() + weight_N_, outcome().is_cell_broken);
+    }
+    const std::string answers = gauge_.take_output(now_s);
+    if (!is_cell_silent_) cell_port_.write(answers);
+  }
+
   double next_sample_s() const {
     return is_gauge() ? gauge_.next_sample_s() : amplifier_.next_sample_s();
   }
   bool is_gauge() const { return options_.config.load_cell.driver != "hx711"; }
-  void happen(double now_s);
-  void nap(double now_s);
+  void happen(double now_s) {
+    const unsigned incidents = incidents_.exchange(0);
+    const auto has = [&](Incident one) { return (incidents & static_cast<unsigned>(one)) != 0; };
+    if (has(Incident::kPullStageCable)) stage_port_.hang_up();
+    if (has(Incident::kPullLoadCellCable)) cell_port_.hang_up();
+    if (has(Incident::kSilenceLoadCell)) is_cell_silent_ = true;
+    if (has(Incident::kRestartLoadCell)) cell_port_.write(amplifier_.reset(now_s));
+    if (has(Incident::kRestartStage)) stage_->reset(now_s);
+    if (has(Incident::kHitLimitSwitch)) stage_->hit_limit(now_s);
+    stage_port_.write(stage_->take_output());
+    const double stall_s = stall_wall_s_.exchange(0.0);
+    if (stall_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(stall_s));
+  }
+
+  // Waits until the next conversion is due or the host sends bytes.
+  void nap(double now_s) {
+    double wall_s = kLongestNap_s;
+    if (cell_board_.is_running || is_gauge()) {
+      wall_s =
+          std::clamp((next_sample_s() - now_s) / clock_.speed(), kShortestNap_s, kLongestNap_s);
+    }
+    // A port that no host has open reports a hang-up at once, so poll would return immediately.
+    pollfd entry{stage_board_.is_open ? stage_port_.descriptor() : -1, POLLIN, 0};
+    timespec timeout{0, static_cast<long>(wall_s * 1e9)};
+    ppoll(&entry, 1, &timeout, nullptr);
+  }
 
   double bench_s_ = 0.0;
   EmulatedSpecimen specimen_;
@@ -98,139 +217,6 @@ class EmulatedRig::Impl {
   std::thread thread_;
 };
 
-void EmulatedRig::Impl::watch_port(PtyPort& port, Board& board, double now_s) {
-  const bool is_open = port.is_open_by_host();
-  if (is_open && !board.is_open && (options_.resets_on_open || !board.is_running)) {
-    board.is_running = false;
-    board.boots_at_s = now_s + clock_.from_wall_s(options_.boot_wall_s);
-  }
-  board.is_open = is_open;
-}
-
-// Advances the mechanics to to_s in steps that end where the acceleration changes.
-void EmulatedRig::Impl::advance_bench(double to_s) {
-  while (bench_s_ < to_s) {
-    const double next_s =
-        std::min({to_s, bench_s_ + kLargestStep_s, stage_->next_knot_s(bench_s_)});
-    const double force_N = specimen_.advance(next_s - bench_s_, stage_->bench_position_m(next_s));
-    bench_s_ = next_s;
-    if (!specimen_.is_touched() && !stage_->is_moving(bench_s_)) {
-      bench_s_ = to_s;  // nothing can happen until the stage moves
-    }
-    const std::lock_guard lock(outcome_mutex_);
-    outcome_.peak_force_N = std::max(outcome_.peak_force_N, force_N);
-    outcome_.peak_depth_m = std::max(outcome_.peak_depth_m, specimen_.depth_m());
-    if (options_.truth.overload_N > 0.0 && force_N > options_.truth.overload_N) {
-      outcome_.is_cell_broken = true;
-    }
-  }
-}
-
-void EmulatedRig::Impl::serve_stage(double now_s) {
-  const std::string bytes = stage_port_.read_available();
-  if (!stage_board_.is_running) {
-    if (!stage_board_.is_open || now_s < stage_board_.boots_at_s) return;
-    stage_board_.is_running = true;
-    stage_->reset(now_s);
-  } else if (!bytes.empty()) {
-    stage_->receive(bytes, now_s);
-    stage_->tick(now_s);
-  }
-  stage_port_.write(stage_->take_output());
-}
-
-bool EmulatedRig::Impl::is_cell_broken() const {
-  const std::lock_guard lock(outcome_mutex_);
-  return outcome_.is_cell_broken;
-}
-
-// For an instrument that is polled.
-void EmulatedRig::Impl::serve_gauge(double now_s) {
-  gauge_.receive(cell_port_.read_available(), now_s);
-  while (gauge_.next_sample_s() <= now_s) {
-    advance_bench(std::max(bench_s_, gauge_.next_sample_s()));
-    gauge_.convert(specimen_.force_N() + weight_N_, is_cell_broken());
-  }
-  const std::string answers = gauge_.take_output(now_s);
-  if (!is_cell_silent_) cell_port_.write(answers);
-}
-
-void EmulatedRig::Impl::serve_cell(double now_s) {
-  if (is_gauge()) return serve_gauge(now_s);
-  cell_port_.read_available();  // the amplifier ignores what the host sends
-  if (!cell_board_.is_running && cell_board_.is_open && now_s >= cell_board_.boots_at_s) {
-    cell_board_.is_running = true;
-    cell_port_.write(amplifier_.reset(now_s));
-  }
-  if (!cell_board_.is_running) return;
-  std::string lines;
-  while (amplifier_.next_sample_s() <= now_s) {
-    advance_bench(std::max(bench_s_, amplifier_.next_sample_s()));
-    const std::string line = amplifier_.convert(specimen_.force_N() + weight_N_, is_cell_broken());
-    if (is_cell_silent_) continue;
-    lines += line;
-    if (!options_.keeps_lines) continue;
-    const std::lock_guard lock(outcome_mutex_);
-    sent_lines_.push_back(line);
-  }
-  if (cell_board_.is_open) {
-    cell_port_.write(lines);
-  } else {
-    cell_port_.discard();
-  }
-}
-
-void EmulatedRig::Impl::happen(double now_s) {
-  const unsigned incidents = incidents_.exchange(0);
-  if ((incidents & kPullStage) != 0) stage_port_.hang_up();
-  if ((incidents & kPullCell) != 0) cell_port_.hang_up();
-  if ((incidents & kSilenceCell) != 0) is_cell_silent_ = true;
-  if ((incidents & kRestartCell) != 0) cell_port_.write(amplifier_.reset(now_s));
-  if ((incidents & kRestartStage) != 0) {
-    stage_->reset(now_s);
-    stage_port_.write(stage_->take_output());
-  }
-  if ((incidents & kHitLimit) != 0) {
-    stage_->hit_limit(now_s);
-    stage_port_.write(stage_->take_output());
-  }
-  const double stall_s = stall_wall_s_.exchange(0.0);
-  if (stall_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(stall_s));
-}
-
-// Waits until the next conversion is due or the host sends bytes.
-void EmulatedRig::Impl::nap(double now_s) {
-  double wall_s = kLongestNap_s;
-  if (cell_board_.is_running || is_gauge()) {
-    wall_s = std::clamp((next_sample_s() - now_s) / clock_.speed(), kShortestNap_s, kLongestNap_s);
-  }
-  // A port that no host has open reports a hang-up at once, so poll would return immediately.
-  pollfd entry{stage_board_.is_open ? stage_port_.descriptor() : -1, POLLIN, 0};
-  timespec timeout{0, static_cast<long>(wall_s * 1e9)};
-  ppoll(&entry, 1, &timeout, nullptr);
-}
-
-void EmulatedRig::Impl::run() {
-  while (!is_ending_) {
-    watch_port(stage_port_, stage_board_, clock_.now_s());
-    watch_port(cell_port_, cell_board_, clock_.now_s());
-    happen(clock_.now_s());
-    // Conversions up to now depend on the motion up to now; bytes from the host act from now on.
-    const double now_s = clock_.now_s();
-    stage_->tick(now_s);
-    serve_cell(now_s);
-    advance_bench(std::max(bench_s_, now_s));
-    {
-      // Set before a report of this moment can reach the host.
-      const std::lock_guard lock(outcome_mutex_);
-      outcome_.final_position_m = stage_->bench_position_m(now_s);
-      outcome_.is_moving = stage_->is_moving(now_s);
-    }
-    serve_stage(now_s);
-    nap(clock_.now_s());
-  }
-}
-
 EmulatedRig::EmulatedRig(const EmulatedRigOptions& options)
     : impl_(std::make_unique<Impl>(options)) {}
 
@@ -239,7 +225,6 @@ EmulatedRig::~EmulatedRig() = default;
 std::string EmulatedRig::stage_port() const {
   return impl_->stage_port_.path();
 }
-
 std::string EmulatedRig::load_cell_port() const {
   return impl_->cell_port_.path();
 }
@@ -253,8 +238,7 @@ RigConfig EmulatedRig::config() const {
 }
 
 EmulatedOutcome EmulatedRig::outcome() const {
-  const std::lock_guard lock(impl_->outcome_mutex_);
-  return impl_->outcome_;
+  return impl_->outcome();
 }
 
 std::vector<std::string> EmulatedRig::sent_lines() const {
@@ -266,23 +250,8 @@ void EmulatedRig::hang_weight(double force_N) {
   impl_->weight_N_ = force_N;
 }
 
-void EmulatedRig::pull_stage_cable() {
-  impl_->incidents_ |= kPullStage;
-}
-void EmulatedRig::pull_load_cell_cable() {
-  impl_->incidents_ |= kPullCell;
-}
-void EmulatedRig::silence_load_cell() {
-  impl_->incidents_ |= kSilenceCell;
-}
-void EmulatedRig::restart_load_cell() {
-  impl_->incidents_ |= kRestartCell;
-}
-void EmulatedRig::restart_stage() {
-  impl_->incidents_ |= kRestartStage;
-}
-void EmulatedRig::hit_limit_switch() {
-  impl_->incidents_ |= kHitLimit;
+void EmulatedRig::cause(Incident incident) {
+  impl_->incidents_ |= static_cast<unsigned>(incident);
 }
 void EmulatedRig::stall(double wall_s) {
   impl_->stall_wall_s_ = wall_s;

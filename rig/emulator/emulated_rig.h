@@ -28,6 +28,15 @@ struct EmulatedRigOptions {
   bool keeps_lines = false;  // keeps the lines of the amplifier for sent_lines()
 };
 
+enum class Incident : unsigned {
+  kPullStageCable = 1,
+  kPullLoadCellCable = 2,
+  kSilenceLoadCell = 4,  // the stream stalls, the port stays
+  kRestartLoadCell = 8,  // a brown-out: banner, then the clock starts from 0
+  kRestartStage = 16,
+  kHitLimitSwitch = 32,
+};
+
 // What really happened on the bench, independent of the bytes on the wires.
 struct EmulatedOutcome {
   double peak_force_N = 0.0;
@@ -59,13 +68,8 @@ class EmulatedRig {
   // Hangs a weight on the load cell, in addition to the force of the punch; replaces the last one.
   void hang_weight(double force_N);
 
-  // Incidents; they may be caused from any thread.
-  void pull_stage_cable();
-  void pull_load_cell_cable();
-  void silence_load_cell();  // the stream stalls, the port stays
-  void restart_load_cell();  // a brown-out: banner, then the clock starts from 0
-  void restart_stage();
-  void hit_limit_switch();
+  // Both may be called from any thread.
+  void cause(Incident incident);
   void stall(double wall_s);  // the thread does nothing for that time
 
  private:

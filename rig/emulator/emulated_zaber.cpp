@@ -3,7 +3,6 @@
 #include "models/maths/text_of_number.h"
 #include "rig/protocols/zaber_protocol.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -174,7 +173,7 @@ void EmulatedZaber::reply(const std::string& id, const std::optional<std::string
 }
 
 void EmulatedZaber::say(std::string text, double due_s) {
-  answers_.push_back({due_s, std::move(text) + "\r\n"});
+  answers_.add(due_s, std::move(text) + "\r\n");
 }
 
 void EmulatedZaber::tick(double time_s) {
@@ -183,7 +182,7 @@ void EmulatedZaber::tick(double time_s) {
     say("!" + two_digits(device_) + " 1 IDLE " + flag(), time_s);
   }
   was_moving_ = is_moving_now;
-  say_due(answers_, time_s);
+  output_ += answers_.take_due(time_s);
 }
 
 }  // namespace viscard

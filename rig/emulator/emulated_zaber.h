@@ -3,7 +3,6 @@
 #include "models/experiment/emulated_specimen.h"
 #include "rig/emulator/emulated_controller.h"
 
-#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -1,6 +1,6 @@
 #include "rig/emulator/fault_proxy.h"
 
-#include "rig/emulator/faulty_lane.h"
+#include "rig/emulator/delayed_bytes.h"
 #include "rig/emulator/pty_port.h"
 #include "rig/lines/rig_clock.h"
 
@@ -8,19 +8,88 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <mutex>
+#include <random>
 #include <thread>
 #include <utility>
 
 namespace viscard {
-namespace {
 
-constexpr int kNap_ms = 1;
+// One direction of a disturbed line: takes bytes, applies faults at random and gives out what is
+// due. Times are wall times.
+class FaultProxy::Lane {
+ public:
+  Lane(const FaultRates& rates, double longest_delay_s, std::uint64_t seed)
+      : rates_(rates), longest_delay_s_(longest_delay_s), random_(seed) {}
 
-}  // namespace
+  void take(std::string bytes, double now_s, FaultCounts& counts);
+  std::string due(double now_s) { return bytes_.take_due(now_s); }
+  void clear() { bytes_.clear(); }
+  void heal() { rates_ = {}; }
+  bool wants_hang_up() const { return wants_hang_up_; }
+
+ private:
+  bool happens(double chance, FaultCounts& counts) {
+    const bool does = std::bernoulli_distribution(chance)(random_);
+    counts.faults += does ? 1 : 0;
+    return does;
+  }
+  std::size_t below(std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_);
+  }
+  double upto(double most) { return std::uniform_real_distribution<double>(0.0, most)(random_); }
+  void corrupt(std::string& bytes, FaultCounts& counts);
+  void push(std::string bytes, double due_s) {
+    bytes_.add(std::max(due_s, bytes_.last_due_s()), std::move(bytes));
+  }
+
+  FaultRates rates_;
+  double longest_delay_s_;
+  std::mt19937_64 random_;
+  DelayedBytes bytes_;
+  bool wants_hang_up_ = false;
+};
+
+void FaultProxy::Lane::corrupt(std::string& bytes, FaultCounts& counts) {
+  if (happens(rates_.drop, counts)) {
+    const std::size_t at = below(bytes.size());
+    bytes.erase(at, 1 + below(8));
+    ++counts.corrupted;
+  }
+  if (!bytes.empty() && happens(rates_.garble, counts)) {
+    char& c = bytes[below(bytes.size())];
+    const bool is_digit = c >= '0' && c <= '9';
+    c = static_cast<char>(is_digit ? '0' + static_cast<char>(below(10)) : c ^ (1 << below(8)));
+    ++counts.corrupted;
+  }
+  if (happens(rates_.insert, counts)) {
+    std::string noise(1 + below(8), '\0');
+    for (char& c : noise) c = static_cast<char>(below(256));
+    bytes.insert(bytes.empty() ? 0 : below(bytes.size()), noise);
+    ++counts.corrupted;
+  }
+}
+
+void FaultProxy::Lane::take(std::string bytes, double now_s, FaultCounts& counts) {
+  constexpr double kLongestSplit_s = 0.02;
+  ++counts.pieces;
+  if (happens(rates_.hang_up, counts)) wants_hang_up_ = true;
+  corrupt(bytes, counts);
+  if (bytes.empty()) return;
+  if (happens(rates_.delay, counts)) now_s += upto(longest_delay_s_);
+  if (happens(rates_.split, counts) && bytes.size() > 1) {
+    const std::size_t at = 1 + below(bytes.size() - 1);
+    push(bytes.substr(0, at), now_s);
+    push(bytes.substr(at), now_s + upto(kLongestSplit_s));
+  } else {
+    push(bytes, now_s);
+  }
+  if (happens(rates_.duplicate, counts)) push(bytes, now_s);
+}
 
 class FaultProxy::Impl {
  public:
@@ -51,7 +120,7 @@ class FaultProxy::Impl {
       follow_host();
       pollfd entries[2] = {{device_ >= 0 ? host_.descriptor() : -1, POLLIN, 0},
                            {device_, POLLIN, 0}};
-      poll(entries, 2, kNap_ms);
+      poll(entries, 2, /*timeout ms*/ 1);
       if (device_ < 0) continue;
       const std::lock_guard<std::mutex> lock(mutex_);
       pass();
@@ -106,7 +175,7 @@ class FaultProxy::Impl {
 
   std::string device_path_;
   int device_ = -1;
-  FaultyLane to_host_, to_device_;
+  Lane to_host_, to_device_;
   mutable std::mutex mutex_;  // of counts_
   FaultCounts counts_;
   std::atomic<bool> is_ending_{false};

@@ -11,8 +11,7 @@ class PtyPort {
   // Throws std::runtime_error when the system has no pseudo-terminal left.
   PtyPort();
   ~PtyPort();
-  PtyPort(const PtyPort&) = delete;
-  PtyPort& operator=(const PtyPort&) = delete;
+  PtyPort& operator=(PtyPort&&) = delete;  // neither copied nor moved
 
   const std::string& path() const { return path_; }
   int descriptor() const { return master_; }

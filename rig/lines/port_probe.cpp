@@ -75,12 +75,13 @@ long holder_of(const fs::path& device) {
   return 0;
 }
 
-const char* kind_of_file(mode_t mode) {
-  if (S_ISREG(mode)) return "a regular file";
-  if (S_ISDIR(mode)) return "a folder";
-  if (S_ISFIFO(mode)) return "a pipe";
-  if (S_ISSOCK(mode)) return "a socket";
-  return "a device without a serial line";
+std::string not_a_port_text(const std::string& path, mode_t mode) {
+  const char* kind = S_ISREG(mode)    ? "a regular file"
+                     : S_ISDIR(mode)  ? "a folder"
+                     : S_ISFIFO(mode) ? "a pipe"
+                     : S_ISSOCK(mode) ? "a socket"
+                                      : "a device without a serial line";
+  return "'" + path + "' is " + kind + ", not a serial port";
 }
 
 }  // namespace
@@ -114,7 +115,7 @@ PortStatus port_status(const std::string& path) {
   const fs::path device = fs::weakly_canonical(path, ignored);
   result.device = device.string();
   if (!S_ISCHR(status.st_mode)) {
-    result.trouble = "'" + path + "' is " + kind_of_file(status.st_mode) + ", not a serial port";
+    result.trouble = not_a_port_text(path, status.st_mode);
   } else if (access(path.c_str(), R_OK | W_OK) != 0) {
     result.trouble = trouble_text(path, errno);
   } else if (const long pid = holder_of(device); pid != 0 && pid != getpid()) {
@@ -131,16 +132,15 @@ int open_exclusively(const std::string& path) {
   }
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) throw_for(path, errno);
-  if (!S_ISCHR(status.st_mode)) {
-    throw RigError("'" + path + "' is " + kind_of_file(status.st_mode) + ", not a serial port. " +
-                   present_ports_text());
-  }
+  const auto throw_no_port = [&] {
+    throw RigError(not_a_port_text(path, status.st_mode) + ". " + present_ports_text());
+  };
+  if (!S_ISCHR(status.st_mode)) throw_no_port();
   const int descriptor = open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) throw_for(path, errno);
   if (isatty(descriptor) != 1) {
     close(descriptor);
-    throw RigError("'" + path + "' is " + kind_of_file(status.st_mode) + ", not a serial port. " +
-                   present_ports_text());
+    throw_no_port();
   }
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     const int error = errno;

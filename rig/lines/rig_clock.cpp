@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 namespace viscard {
 

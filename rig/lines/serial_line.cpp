@@ -14,7 +14,6 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <stdexcept>
 #include <utility>
 
 namespace viscard {

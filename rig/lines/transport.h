@@ -16,9 +16,7 @@ struct Chunk {
 class Transport {
  public:
   virtual ~Transport() = default;
-  Transport() = default;
-  Transport(const Transport&) = delete;
-  Transport& operator=(const Transport&) = delete;
+  Transport& operator=(Transport&&) = delete;  // neither copied nor moved
 
   virtual std::string name() const = 0;
   virtual int baud() const = 0;

@@ -44,6 +44,14 @@ std::optional<std::string_view> bracketed(std::string_view line, std::string_vie
   return line.substr(key.size() + 2, line.size() - key.size() - 3);
 }
 
+template <typename Rows>
+std::string text_of_code(const std::string& kind, int code, const Rows& rows) {
+  for (const auto& [number, text] : rows) {
+    if (number == code) return kind + std::to_string(code) + ": " + text;
+  }
+  return kind + std::to_string(code);
+}
+
 void read_field(std::string_view key, std::string_view value, GrblStatus& status) {
   if (key == "MPos") status.machine_mm = numbers(value);
   if (key == "WPos") status.work_mm = numbers(value);
@@ -163,10 +171,7 @@ std::string grbl_error_text(int code) {
        {20, "a word that this firmware does not know"},
        {22, "the feed rate is missing"},
        {33, "the target is invalid"}}};
-  for (const auto& [number, text] : kTexts) {
-    if (number == code) return "error " + std::to_string(code) + ": " + text;
-  }
-  return "error " + std::to_string(code);
+  return text_of_code("error ", code, kTexts);
 }
 
 std::string grbl_alarm_text(int code) {
@@ -181,10 +186,7 @@ std::string grbl_alarm_text(int code) {
        {8, "homing could not clear the limit switch: raise the pull-off $27"},
        {9, "homing found no limit switch: check its wiring and the travel $130-132"},
        {10, "homing found a second switch active"}}};
-  for (const auto& [number, text] : kTexts) {
-    if (number == code) return "alarm " + std::to_string(code) + ": " + text;
-  }
-  return "alarm " + std::to_string(code);
+  return text_of_code("alarm ", code, kTexts);
 }
 
 }  // namespace viscard

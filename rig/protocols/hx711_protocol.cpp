@@ -3,9 +3,9 @@
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
+#include <initializer_list>
 
 namespace viscard {
 namespace {
@@ -17,18 +17,16 @@ std::string lower(std::string_view text) {
   return result;
 }
 
+bool is_one_of(std::initializer_list<const char*> words, std::string_view text) {
+  return std::find(words.begin(), words.end(), lower(trimmed(text))) != words.end();
+}
+
 bool is_no_number_word(std::string_view text) {
-  const std::string word = lower(trimmed(text));
-  static constexpr std::array<const char*, 8> kWords{"nan", "-nan", "inf",  "-inf",
-                                                     "ovf", "-ovf", "+inf", "overflow"};
-  return std::any_of(kWords.begin(), kWords.end(),
-                     [&](const char* known) { return word == known; });
+  return is_one_of({"nan", "-nan", "inf", "-inf", "ovf", "-ovf", "+inf", "overflow"}, text);
 }
 
 bool is_unit(std::string_view text) {
-  static constexpr std::array<const char*, 5> kUnits{"g", "kg", "lbs", "lb", "n"};
-  const std::string word = lower(trimmed(text));
-  return std::any_of(kUnits.begin(), kUnits.end(), [&](const char* unit) { return word == unit; });
+  return is_one_of({"g", "kg", "lbs", "lb", "n"}, text);
 }
 
 // Reads "12.34 g", "12.34g", "12,34" or "nan" into line; false for anything else.

@@ -1,7 +1,6 @@
 #include "rig/run/approach_phase.h"
 
 #include "models/maths/text_of_number.h"
-#include "rig/run/contact_estimate.h"
 #include "rig/run/preflight.h"
 
 #include <algorithm>
@@ -14,6 +13,30 @@ constexpr double kSettle_s = 0.25;      // force after a stop, long against the 
 constexpr double kContactSigmas = 6.0;  // contact threshold over the noise of one reading
 constexpr double kStillThere = 0.25;    // of the threshold: below, it was a single bad reading
 constexpr int kMostBackOffs = 10;
+constexpr double kSlow = 0.8;        // of the expected rate: measured again, then checked
+constexpr double kFarTooSlow = 0.5;  // of the expected rate: refused in any case
+
+// How far an approach overshoots depends on the rate of readings, so the rate in the rig file must
+// be true. A rate that is too low is measured twice, because the machine may have stalled.
+void check_rate(TestRun& run, const ForceMean& zero, double duration_s) {
+  const double expected_Hz = run.rig.load_cell.expected_rate_Hz;
+  double rate_Hz = zero.rate_Hz;
+  if (rate_Hz < kSlow * expected_Hz) {
+    rate_Hz = std::max(rate_Hz, run.session.mean_force(duration_s).rate_Hz);
+  }
+  if (rate_Hz >= kSlow * expected_Hz) return;
+  RigConfig measured = run.rig;
+  measured.load_cell.expected_rate_Hz = rate_Hz;
+  const Preflight found =
+      preflight(measured, run.plan, run.specimen, run.session.stage().dynamics());
+  if (found.problems.empty() && rate_Hz >= kFarTooSlow * expected_Hz) return;
+  throw RigError("the load cell gives " + text_from_number(rate_Hz, 1) +
+                 " readings/s, but expected_rate in the rig file is " +
+                 text_from_number(expected_Hz, 1) +
+                 " Hz, so the approach would not stop in time: " +
+                 remedy_for_slow_readings(run.rig.load_cell) +
+                 ", or correct expected_rate under [load_cell] of the rig file");
+}
 
 struct Touch {
   JogEnd before;  // the last stop before the touch
@@ -110,6 +133,18 @@ void back_off(TestRun& run, double contact_m) {
 
 }  // namespace
 
+void carry_out_tare(TestRun& run, const TestPhase& phase) {
+  const ForceMean zero = run.session.tare(phase.duration_s);
+  run.outcome.noise_N = zero.sd_N;
+  if (std::abs(zero.force_N) > kPressesAtStart * limit_N(run)) {
+    run.presses_at_start = true;
+    throw RigError("the load cell reads " + text_from_number(zero.force_N, 3) +
+                   " N before anything was touched. Take away what presses on it, or correct "
+                   "zero_volts of the calibration");
+  }
+  check_rate(run, zero, phase.duration_s);
+}
+
 void carry_out_approach(TestRun& run) {
   const Touch touch = jog_until_touched(run, contact_threshold_N(run));
   check_sign(run, touch.at.force_N);
@@ -118,6 +153,25 @@ void carry_out_approach(TestRun& run) {
       run.outcome.expected.total_stiffness_N_m);
   check_stiffness(run, contact.least_stiffness_N_m);
   back_off(run, contact.position_m);
+}
+
+ContactEstimate contact_from_stops(const JogEnd& before, const JogEnd& touched, double noise_N,
+                                   double step_m, double guess_N_m) {
+  constexpr double kFeltSigmas = 6.0;
+  const double felt_N = kFeltSigmas * noise_N;
+  const double way_m = touched.position_m - before.position_m;
+  ContactEstimate estimate;
+  estimate.position_m = touched.position_m - touched.force_N / guess_N_m;
+  if (!(way_m > 0.0)) return estimate;
+  const bool was_felt = before.force_N > felt_N;
+  const double rise_N = touched.force_N - (was_felt ? before.force_N : 0.0);
+  estimate.least_stiffness_N_m = std::max(0.0, rise_N - felt_N) / (way_m + step_m);
+  if (!was_felt) {
+    estimate.position_m = std::max(estimate.position_m, before.position_m);
+  } else if (rise_N > felt_N) {
+    estimate.position_m = touched.position_m - touched.force_N * way_m / rise_N;
+  }
+  return estimate;
 }
 
 }  // namespace viscard

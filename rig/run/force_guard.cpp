@@ -3,21 +3,16 @@
 #include <cmath>
 
 namespace viscard {
-namespace {
-
-constexpr double kDoubtPeriods = 2.0;
-constexpr int kReadingsAfterStop = 2;
-constexpr double kRiseFraction = 0.005;  // of capacity
-
-}  // namespace
 
 ForceGuard::ForceGuard(const SafetyConfig& safety, double capacity_N)
     : warn_N_(safety.warn_fraction * capacity_N),
       soft_N_(safety.soft_fraction * capacity_N),
       hard_N_(safety.hard_fraction * capacity_N),
-      rise_N_(kRiseFraction * capacity_N) {}
+      rise_N_(0.005 * capacity_N) {}
 
 GuardAction ForceGuard::take(double force_N, bool is_doubtful, double time_s, double period_s) {
+  constexpr double kDoubtPeriods = 2.0;
+  constexpr int kReadingsAfterStop = 2;
   const double load_N = std::abs(force_N);  // tension harms the cell as well
   if (is_doubtful) {
     if (doubtful_until_s_) return GuardAction::kHardStop;

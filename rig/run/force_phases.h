@@ -1,6 +1,5 @@
 #pragma once
 
-#include "rig/run/force_control.h"
 #include "rig/run/test_run.h"
 
 namespace viscard {
@@ -20,10 +19,6 @@ class ForcePhases {
   void hold(const TestPhase& phase);
 
  private:
-  double mean_s();
-  ForceControl force_control(const TestPhase& phase);
-  void check_depth(double deepest_m);
-
   TestRun& run_;
   double measured_N_m_ = 0.0;  // stiffness seen while loading; 0 before the first load
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <utility>
 
 namespace viscard {
 namespace {
@@ -15,68 +14,61 @@ constexpr double kFallen = 0.9;  // of the force before the lift
 
 }  // namespace
 
-PunchLift::PunchLift(ServedDevices& devices, const ForceReadings& readings, const RigClock& clock,
-                     Pump pump, const Options& options)
-    : devices_(devices),
-      readings_(readings),
-      clock_(clock),
-      pump_(std::move(pump)),
-      options_(options) {}
-
 SafeEnd PunchLift::carry_out() {
   // A stage in alarm refuses the first attempt, and a limit switch that opens again while the stage
   // moves away from it raises another alarm.
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     try {
       if (attempt == 0) stop_gently();
-      devices_.end_gentle_stop();
-      if (attempt > 0 || devices_.needs_recovery()) devices_.recover(pump_);
+      devices.end_gentle_stop();
+      if (attempt > 0 || devices.needs_recovery()) devices.recover(pump);
       const std::string trouble = lift(std::pow(0.5, attempt));
-      return {lifted_m_, trouble};
+      return {lifted_m, trouble};
     } catch (const PortHungUp& error) {
-      return {lifted_m_,
+      return {lifted_m,
               std::string(error.what()) +
                   ". THE STAGE CANNOT BE STOPPED FROM HERE: use its emergency stop and lift the "
                   "punch by hand"};
     } catch (const std::exception& error) {
-      if (attempt + 1 == kAttempts) return {lifted_m_, error.what()};
+      if (attempt + 1 == kAttempts) return {lifted_m, error.what()};
     }
   }
-  return {lifted_m_, ""};
+  return {lifted_m, ""};
 }
 
 void PunchLift::stop_gently() {
-  const Stage& stage = devices_.stage();
-  if (!stage.is_moving() || devices_.needs_recovery()) return;
-  devices_.begin_gentle_stop();
+  const Stage& stage = devices.stage();
+  if (!stage.is_moving() || devices.needs_recovery()) return;
+  devices.begin_gentle_stop();
   const double deadline_s = monotonic_s() + kStandstill_wall_s;
-  while (stage.is_moving() && !devices_.needs_recovery() && monotonic_s() < deadline_s) pump_();
+  while (stage.is_moving() && !devices.needs_recovery() && monotonic_s() < deadline_s) pump();
 }
 
 // Moves away from the specimen by a share of the distance. Returns what is wrong afterwards, or "";
 // a force that does not fall is no reason for another attempt.
 std::string PunchLift::lift(double share) {
-  Stage& stage = devices_.stage();
-  const double before_N = std::abs(readings_.force_N());
+  Stage& stage = devices.stage();
+  const double before_N = std::abs(readings.force_N());
   const double from_m = stage.position_m();
-  const double lifted_m = from_m - share * kLargestLift_m;
+  const double shortest_m = from_m - share * kLargestLift_m;
   const double to_m =
-      devices_.is_position_lost()
-          ? lifted_m
-          : std::min(from_m, std::max(from_m - share * (from_m - options_.retract_to_m), lifted_m));
+      devices.is_position_lost()
+          ? shortest_m
+          : std::min(from_m,
+                     std::max(from_m - share * (from_m - options.retract_to_m), shortest_m));
   if (to_m < from_m) {
-    stage.begin_move(to_m, options_.speed_m_s, "retract");
+    stage.begin_move(to_m, options.speed_m_s, "retract");
     const double deadline_s =
-        monotonic_s() + kStandstill_wall_s + (from_m - to_m) / options_.speed_m_s;
-    while (stage.is_moving() && monotonic_s() < deadline_s) pump_();
-    lifted_m_ = from_m - stage.position_m();
+        monotonic_s() + kStandstill_wall_s + (from_m - to_m) / options.speed_m_s;
+    while (stage.is_moving() && monotonic_s() < deadline_s) pump();
+    lifted_m = from_m - stage.position_m();
   }
-  const bool was_pressing = before_N > options_.pressing_N;
-  if (to_m < from_m && !(lifted_m_ > 0.0) && was_pressing) {
+  const bool was_pressing = before_N > options.pressing_N;
+  if (to_m < from_m && !(lifted_m > 0.0) && was_pressing) {
     return "THE PUNCH WAS NOT LIFTED: the controller's own travel ends where it stands ($20, "
            "$130-132). Lift it by hand";
   }
-  return lifted_m_ > 0.0 && was_pressing ? trouble_with_force(before_N) : "";
+  return lifted_m > 0.0 && was_pressing ? trouble_with_force(before_N) : "";
 }
 
 // What is wrong with the force after a lift, or "".
@@ -85,15 +77,15 @@ std::string PunchLift::trouble_with_force(double before_N) {
     return std::string("whether the force has fallen cannot be seen, because the load cell ") +
            why + ": look at the punch";
   };
-  if (devices_.is_cell_restarted()) return unseen("has restarted");
-  if (!devices_.is_cell_usable()) return unseen("is gone");
-  const std::int64_t n_before = readings_.n_forces();
+  if (devices.is_cell_restarted()) return unseen("has restarted");
+  if (!devices.is_cell_usable()) return unseen("is gone");
+  const std::int64_t n_before = readings.n_forces();
   const double wait_s =
-      clock_.now_s() + 10.0 * devices_.load_cell().period_s() + clock_.from_wall_s(0.1);
-  while (clock_.now_s() < wait_s) pump_();
-  if (devices_.is_cell_restarted()) return unseen("has restarted");
-  if (readings_.n_forces() == n_before) return unseen("gives no force any more");
-  if (std::abs(readings_.force_N()) <= kFallen * before_N) return "";
+      clock.now_s() + 10.0 * devices.load_cell().period_s() + clock.from_wall_s(0.1);
+  while (clock.now_s() < wait_s) pump();
+  if (devices.is_cell_restarted()) return unseen("has restarted");
+  if (readings.n_forces() == n_before) return unseen("gives no force any more");
+  if (std::abs(readings.force_N()) <= kFallen * before_N) return "";
   return "THE FORCE DOES NOT FALL after lifting the punch: lift it by hand";
 }
 

@@ -16,30 +16,24 @@ struct SafeEnd {
 // Stops the stage, unlocks it if it locked itself, lifts the punch and checks that the force falls.
 // Tries four times; each further try lifts by half the distance, because a stage that refuses to go
 // so far (its own limits) may go part of the way.
-class PunchLift {
- public:
+struct PunchLift {
   struct Options {
     double retract_to_m = 0.0;
     double speed_m_s = 0.0;
     double pressing_N = 0.0;  // a force above this means that the punch presses
   };
-  // pump: serves both devices.
-  PunchLift(ServedDevices& devices, const ForceReadings& readings, const RigClock& clock, Pump pump,
-            const Options& options);
+  ServedDevices& devices;
+  const ForceReadings& readings;
+  const RigClock& clock;
+  Pump pump;  // serves both devices
+  Options options;
+  double lifted_m = 0.0;  // so far
 
   SafeEnd carry_out();
 
- private:
   void stop_gently();
   std::string lift(double share);
   std::string trouble_with_force(double before_N);
-
-  ServedDevices& devices_;
-  const ForceReadings& readings_;
-  const RigClock& clock_;
-  Pump pump_;
-  Options options_;
-  double lifted_m_ = 0.0;
 };
 
 }  // namespace viscard

@@ -1,6 +1,5 @@
-#include "rig/run/run_conclusion.h"
-
 #include "models/maths/text_of_number.h"
+#include "rig/run/test_run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,12 +93,6 @@ void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock) {
     if (outcome.reason.empty()) throw;
     outcome.reason += std::string("; besides: ") + error.what();
   }
-}
-
-std::string lift_text(double lifted_m) {
-  return lifted_m > 0.0 ? ". The stage was stopped and lifted by " +
-                              text_from_number(lifted_m * 1e3, 3) + " mm"
-                        : ". The stage was stopped; it was not lifted";
 }
 
 }  // namespace viscard

@@ -219,10 +219,11 @@ void RunSession::event(const std::string& name, const std::string& value, const 
 
 SafeEnd RunSession::make_safe(double retract_to_m, double speed_m_s) {
   is_guarded_ = false;
-  PunchLift lift(devices_, readings_, clock_, [this] { pump(); },
-                 {.retract_to_m = retract_to_m,
-                  .speed_m_s = speed_m_s,
-                  .pressing_N = kPressingShare * guard_.soft_limit_N()});
+  PunchLift lift{devices_,
+                 readings_,
+                 clock_,
+                 [this] { pump(); },
+                 {retract_to_m, speed_m_s, kPressingShare * guard_.soft_limit_N()}};
   return lift.carry_out();
 }
 

@@ -5,12 +5,10 @@
 #include "rig/lines/record_sink.h"
 #include "rig/run/force_guard.h"
 #include "rig/run/force_readings.h"
-#include "rig/run/progress_report.h"
 #include "rig/run/punch_lift.h"
-#include "rig/run/reading_marks.h"
 #include "rig/run/run_control.h"
-#include "rig/run/run_errors.h"
 #include "rig/run/served_devices.h"
+#include "rig/run/spike_watch.h"
 #include "rig/stages/stage.h"
 
 #include <optional>
@@ -27,8 +25,7 @@ class RunSession {
   RunSession(Stage& stage, LoadCell& load_cell, const RigConfig& rig, const RecordSink& sink,
              const RunControl& control);
   ~RunSession();
-  RunSession(const RunSession&) = delete;
-  RunSession& operator=(const RunSession&) = delete;
+  RunSession& operator=(RunSession&&) = delete;  // neither copied nor moved
 
   Stage& stage() { return devices_.stage(); }
   LoadCell& load_cell() { return devices_.load_cell(); }

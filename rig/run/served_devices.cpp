@@ -1,6 +1,6 @@
 #include "rig/run/served_devices.h"
 
-#include "rig/run/run_errors.h"
+#include "rig/run/run_control.h"
 
 #include <algorithm>
 #include <vector>
@@ -93,6 +93,22 @@ std::optional<ServedDevices::Silence> ServedDevices::silence() const {
   const double period_s = load_cell_.period_s() / clock_.speed();
   if (!silence_.is_silent(period_s)) return std::nullopt;
   return Silence{silence_.silent_s(), silence_.limit_s(period_s)};
+}
+
+void SilenceWatch::pass(double wall_s, bool has_arrived, bool is_moving) {
+  constexpr double kLongestPass_s = 0.010;
+  const double pass_s = last_pass_s_ < 0.0 ? 0.0 : wall_s - last_pass_s_;
+  last_pass_s_ = wall_s;
+  silent_s_ += std::clamp(pass_s, 0.0, kLongestPass_s);
+  if (!has_arrived) return;
+  if (!is_moving) longest_at_rest_s_ = std::max(longest_at_rest_s_, silent_s_);
+  silent_s_ = 0.0;
+}
+
+double SilenceWatch::limit_s(double period_s) const {
+  constexpr double kPeriods = 3.0, kLargestAllowance_s = 0.25;
+  const double largest_s = std::max(kLargestAllowance_s, floor_s_);
+  return std::max(kPeriods * period_s, std::clamp(2.0 * longest_at_rest_s_, floor_s_, largest_s));
 }
 
 }  // namespace viscard

@@ -1,6 +1,7 @@
 #include "rig/run/spike_watch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace viscard {
@@ -24,6 +25,10 @@ constexpr double kNoisySlope = 1.0;  // per reading, in units of one reading's n
 constexpr double kStaircase = 2.0;   // times the scatter of the neighbours about their line
 constexpr double kAtTheEnd = 1.5;    // if only one side is known
 constexpr double kTurned = 2.5;      // times the slope, for a corner that may lie between
+
+// Smallest jitter assumed of the device's clock, as a share of the period: a device whose loop is
+// a millisecond late now and then has not spoilt a reading.
+constexpr double kTimeNoise = 0.02;
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -184,6 +189,38 @@ void SpikeWatch::learn_first() {
   n_learnt_ = distances_.size();
   std::vector<double> sorted = distances_;
   usual_ = kPerMedian * median(sorted);
+}
+
+void ReadingMarks::take(const LoadSample& sample, std::optional<double> value, double period_s) {
+  if (first_period_s_ == 0.0) first_period_s_ = period_s;
+  const auto number = static_cast<double>(sample.index);
+  std::vector<std::int64_t> values, times;
+  if (sample.device_time_s) {
+    if (!times_) times_.emplace(kTimeNoise * first_period_s_);
+    times = times_->take(sample.index, number, *sample.device_time_s);
+  }
+  if (value) values = values_.take(sample.index, number, *value);
+  mark_all(values, times);
+}
+
+void ReadingMarks::finish() {
+  mark_all(values_.finish(), times_ ? times_->finish() : std::vector<std::int64_t>());
+}
+
+void ReadingMarks::mark_all(const std::vector<std::int64_t>& values,
+                            const std::vector<std::int64_t>& times) {
+  for (const std::int64_t index : times) {
+    mark(index, "came at a time that its neighbours contradict: a garbled digit of its clock");
+  }
+  for (const std::int64_t index : values) {
+    mark(index, "stands out of its neighbours: a garbled digit, or a knock");
+  }
+}
+
+void ReadingMarks::mark(std::int64_t index, const std::string& why) {
+  if (!marked_.insert(index).second) return;
+  sink_(RunEvent{clock_.now_s(), "implausible", std::to_string(index),
+                 "Reading " + std::to_string(index) + " of the load cell " + why});
 }
 
 }  // namespace viscard

@@ -34,4 +34,8 @@ double live_depth_m(TestRun& run);
 // Keeps the deepest indentation so far as outcome.achieved_depth_m.
 void note_depth(TestRun& run);
 
+// Fills in the totals of a run, adds the doubts about a finished one, and records how it ended. If
+// that cannot be recorded any more, the outcome still carries the reason for the early end.
+void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock);
+
 }  // namespace viscard

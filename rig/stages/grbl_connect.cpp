@@ -2,7 +2,6 @@
 #include "models/maths/text_of_number.h"
 #include "rig/stages/grbl_stage.h"
 
-#include <cmath>
 #include <utility>
 
 namespace viscard {
@@ -15,16 +14,6 @@ constexpr int kResets = 3;               // one is lost while an alarm is being 
 constexpr int kMostReadings = 4;         // of the settings, until two agree
 
 }  // namespace
-
-bool GrblStage::wait_for(const std::function<bool()>& is_there, const Pump& pump,
-                         double wall_s) const {
-  const double deadline_s = monotonic_s() + wall_s * patience_;
-  while (!is_there()) {
-    if (monotonic_s() > deadline_s) return false;
-    pump();
-  }
-  return true;
-}
 
 void GrblStage::command(const std::string& line, const Pump& pump, double timeout_wall_s) {
   awaited_error_.reset();
@@ -48,23 +37,14 @@ void GrblStage::await_welcome(const Pump& pump) {
     is_welcome = wait_for(is_there, pump, kReset_wall_s);
   }
   if (is_welcome) return;
-  const bool is_noise = splitter_.n_bytes() > 20 && splitter_.unprintable_fraction() > 0.2;
-  throw RigError("no GRBL controller answered on '" + transport_.name() + "' (" +
-                 std::to_string(splitter_.n_bytes()) + " bytes received). " +
-                 (is_noise ? "They are mostly unreadable: is the baud rate of " +
-                                 std::to_string(transport_.baud()) + " right?"
-                           : "Is this the stage's port, and is it switched on?"));
+  throw_no_answer("GRBL controller",
+                  "is the baud rate of " + std::to_string(transport_.baud()) + " right?",
+                  "Is this the stage's port, and is it switched on?");
 }
 
 void GrblStage::ask_position(const Pump& pump) {
-  const std::size_t before = n_reports_;
-  polls_ = true;
-  next_poll_s_ = clock_.now_s();
   // Up to 30 reports in a row have work positions without their offset.
-  if (!wait_for([&] { return n_reports_ > before; }, pump, 8.0)) {
-    throw RigError("the stage on '" + transport_.name() + "' does not report its position. " +
-                   "Set $10=1 on it, and check its firmware is GRBL 1.1 or grblHAL");
-  }
+  await_report(pump, 8.0, "Set $10=1 on it, and check its firmware is GRBL 1.1 or grblHAL");
 }
 
 // Reads the settings until two readings agree: one garbled digit would falsify every move.
@@ -87,12 +67,6 @@ void GrblStage::read_settings(const Pump& pump) {
   }
 }
 
-void GrblStage::unlock(const Pump& pump) {
-  command("$X", pump);
-  note(clock_.now_s(), "stage_unlocked", "",
-       "The stage was unlocked without homing; positions count from where it stood");
-}
-
 // The exchange after a welcome: settings, homing or unlocking, position.
 void GrblStage::converse(const Pump& pump) {
   wait_for([] { return false; }, pump, kSettle_wall_s);
@@ -106,7 +80,9 @@ void GrblStage::converse(const Pump& pump) {
     command("$H", pump, 180.0);
     ask_position(pump);
   } else if (state_ == "Alarm") {
-    unlock(pump);
+    command("$X", pump);
+    note(clock_.now_s(), "stage_unlocked", "",
+         "The stage was unlocked without homing; positions count from where it stood");
     ask_position(pump);
   }
 }

@@ -13,7 +13,6 @@ namespace {
 constexpr double kStatusTimeout_wall_s = 0.25;
 constexpr double kForgetQuestion_wall_s = 1.0;  // no answer is expected after this time
 constexpr double kTimesPrompt = 4.0;            // timeout over the mean time of prompt answers
-constexpr int kMostMisses = 20;                 // times 250 ms without any report: it is gone
 constexpr double kPollMoving_s = 0.1;  // rig time; the firmware recommends at most 5 to 10 Hz
 constexpr double kPollResting_s = 0.2;
 constexpr int kMostRestsElsewhere = 3;
@@ -40,11 +39,7 @@ std::optional<double> GrblStage::reported_position_m(const GrblStatus& status) {
 std::optional<double> GrblStage::question_answered(double time_s) {
   if (asked_s_.empty()) return std::nullopt;
   const double asked_s = asked_s_.front();
-  if (asked_s_.size() == 1) {
-    const double took_s = (time_s - asked_s) / clock_.speed();
-    latency_.mean_s += (took_s - latency_.mean_s) / ++latency_.n;
-    latency_.longest_s = std::max(latency_.longest_s, took_s);
-  }
+  if (asked_s_.size() == 1) take_latency(asked_s, time_s);
   asked_s_.pop_front();
   n_missed_ = 0;
   is_last_missed_ = false;
@@ -64,9 +59,7 @@ void GrblStage::take_status(const GrblStatus& status, double time_s) {
   const auto position = reported_position_m(status);
   if (!position) return;
   if (active_ && std::abs(*position - reported_m_) > 0.25e-6) active_->progress_s = time_s;
-  reported_m_ = *position + 0.0;  // no negative zero
-  ++n_reports_;
-  sink_(StageReport{time_s, reported_m_, state_});
+  take_report(time_s, *position, state_);
   if (active_ && asked_s) follow_move(*asked_s, time_s);
 }
 
@@ -134,9 +127,7 @@ void GrblStage::end_move(double end_m) {
 }
 
 void GrblStage::hand_out(const ActiveMove& ended, double end_m) {
-  exact_m_ = end_m;
-  CommandedMove commanded = ended.tracker.best(end_m);
-  commanded.purpose = ended.purpose;
+  const CommandedMove commanded = ended_move(ended.tracker, ended.purpose, end_m);
   if (const int n = ended.tracker.n_contradictions(); n >= 2) {
     note(clock_.now_s(), "move_doubtful", ended.purpose,
          std::to_string(n) +
@@ -160,10 +151,7 @@ bool GrblStage::awaits_report(double now_s) {
   }
   if (!is_last_missed_) {
     is_last_missed_ = true;
-    if (++n_missed_ >= kMostMisses) {
-      throw RigError("the stage has stopped answering on '" + transport_.name() +
-                     "'. Check its cable and supply; it may still be moving");
-    }
+    count_miss();
   }
   const double oldest_s = now_s - clock_.from_wall_s(kForgetQuestion_wall_s);
   while (!asked_s_.empty() && asked_s_.front() < oldest_s) {
@@ -182,11 +170,7 @@ void GrblStage::poll_status() {
   asked_s_.push_back(now_s);
   is_answered_since_ = false;
   is_last_missed_ = false;
-  next_poll_s_ = now_s + (active_ ? kPollMoving_s : kPollResting_s);
-  // Asks just after the expected end, so that standstill is noticed without delay.
-  if (active_ && expected_end_s_ > now_s) {
-    next_poll_s_ = std::min(next_poll_s_, expected_end_s_ + 2e-3);
-  }
+  plan_poll(now_s, active_ ? kPollMoving_s : kPollResting_s);
 }
 
 // A jog cancel that arrives at the moment when a jog ends, or a disturbed line, can leave GRBL in a

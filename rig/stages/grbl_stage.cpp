@@ -1,7 +1,6 @@
 #include "rig/stages/grbl_stage.h"
 
 #include "models/maths/text_of_number.h"
-#include "rig/stages/travel_limit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,18 +24,8 @@ int axis_index(char axis) {
 
 GrblStage::GrblStage(Transport& transport, const StageConfig& config, const RigClock& clock,
                      RecordSink sink, double patience)
-    : transport_(transport),
-      config_(config),
-      clock_(clock),
-      sink_(std::move(sink)),
-      patience_(patience),
-      axis_(axis_index(config.axis)),
-      toward_(config.toward_specimen < 0 ? -1.0 : 1.0) {}
-
-void GrblStage::note(double time_s, const std::string& name, const std::string& value,
-                     const std::string& text) const {
-  sink_(RunEvent{time_s, name, value, text});
-}
+    : PolledStage(transport, config, clock, std::move(sink), patience),
+      axis_(axis_index(config.axis)) {}
 
 double GrblStage::setting(int number, double otherwise) const {
   const auto found = settings_.find(number);
@@ -73,10 +62,6 @@ double GrblStage::resolution_m() const {
   return decimals_m + 1.0 / dynamics().steps_per_m;
 }
 
-double GrblStage::position_m() const {
-  return exact_m_ && !active_ ? *exact_m_ : reported_m_;
-}
-
 void GrblStage::send_line(const std::string& line, bool is_awaited) {
   pending_.push_back({line, is_awaited});
   sink_(RawBytes{Device::kStage, true, clock_.now_s(), line + "\n"});
@@ -89,12 +74,7 @@ void GrblStage::send_realtime(char c) {
 }
 
 void GrblStage::service() {
-  const Chunk chunk = transport_.read_available();
-  if (!chunk.bytes.empty()) {
-    sink_(RawBytes{Device::kStage, false, chunk.time_s, chunk.bytes});
-    // No wire time is subtracted: a report bounds the start of a move, and only the stamp is safe.
-    splitter_.feed(chunk.bytes, chunk.time_s);
-  }
+  receive();
   while (const auto line = splitter_.next()) take_line(*line);
   if (polls_) poll_status();
 }

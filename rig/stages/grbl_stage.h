@@ -1,14 +1,9 @@
 #pragma once
 
-#include "models/experiment/rig_config.h"
-#include "rig/lines/line_splitter.h"
-#include "rig/lines/rig_clock.h"
 #include "rig/protocols/grbl_protocol.h"
-#include "rig/stages/move_tracker.h"
-#include "rig/stages/stage.h"
+#include "rig/stages/polled_stage.h"
 
 #include <deque>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,34 +11,20 @@
 
 namespace viscard {
 
-// A stage behind GRBL 1.1 or grblHAL. The driver relies on these rules only
-// (rig/protocols/README.md and rig/stages/README.md give the sources):
-// - A welcome follows the opening of the port or a soft reset. Everything before it is dropped.
-// - Each line is answered by one "ok" or "error:N", in order. All other lines answer nothing.
-// - The "ok" to a jog means that it is queued. The jog has ended when a report that was asked for
-//   after the ok shows Idle at the target.
-// - Reports may be lost, late or unasked. One '?' is open at a time; after 250 ms another is sent,
-//   and a report answers the oldest open '?'. If answers have been prompt and one is still missing
-//   after another 250 ms, the oldest '?' was lost.
-// - A line that stays unanswered at Idle may be kept back by an unwanted hold, which '~' ends.
-// - After an alarm the controller may be silent until 0x18.
-class GrblStage final : public Stage {
+// A stage behind GRBL 1.1 or grblHAL. rig/stages/README.md lists the rules of the firmware that the
+// driver relies on, rig/protocols/README.md their sources.
+class GrblStage final : public PolledStage {
  public:
-  // patience: factor on the time that the driver waits for a controller that does not answer.
   GrblStage(Transport& transport, const StageConfig& config, const RigClock& clock, RecordSink sink,
             double patience = 1.0);
 
-  Transport& transport() override { return transport_; }
   void connect(const Pump& pump) override;
   void service() override;
   StageDynamics dynamics() const override;
   std::vector<std::string> advice() const override;
-  ReportLatency report_latency() const override { return latency_; }
   std::string identity() const override { return version_; }
-  double position_m() const override;
   void begin_move(double to_m, double speed_m_s, const std::string& purpose) override;
   bool is_moving() const override { return active_.has_value(); }
-  double expected_end_s() const override { return expected_end_s_; }
   void stop_soft() override;
   void stop_hard() override;
   void recover(const Pump& pump) override;
@@ -89,28 +70,16 @@ class GrblStage final : public Stage {
   void nudge(double now_s);
   void watch_deadlines(double now_s);
   std::optional<double> reported_position_m(const GrblStatus& status);
-  bool wait_for(const std::function<bool()>& is_there, const Pump& pump, double wall_s) const;
   void await_welcome(const Pump& pump);
   void converse(const Pump& pump);
   void ask_position(const Pump& pump);
   void read_settings(const Pump& pump);
-  void unlock(const Pump& pump);
   double setting(int number, double otherwise) const;
   double resolution_m() const;
   double least_speed_m_s() const;
   void forget_questions();
-  void note(double time_s, const std::string& name, const std::string& value,
-            const std::string& text) const;
 
-  Transport& transport_;
-  StageConfig config_;
-  const RigClock& clock_;
-  RecordSink sink_;
-  double patience_;
-  LineSplitter splitter_;
   int axis_;
-  double toward_;
-
   bool is_connected_ = false;  // after the welcome; lines before it are dropped
   bool awaits_welcome_ = true;
   bool is_recovering_ = false;  // alarms are expected
@@ -121,23 +90,14 @@ class GrblStage final : public Stage {
   std::optional<int> awaited_error_;
 
   std::string state_;  // as reported last
-  double reported_m_ = 0.0;
-  std::optional<double> exact_m_;  // end of the last move, on a whole step
-  std::optional<double> start_m_;  // position at connect(), from which travel is counted
   std::vector<double> work_offset_mm_;
-  std::size_t n_reports_ = 0;
   int n_welcomes_ = 0;
 
-  bool polls_ = false;
   std::deque<double> asked_s_;  // times of the open '?', oldest first
   bool is_last_missed_ = false;
   bool is_answered_since_ = false;  // an older '?' was answered after the newest was sent
-  int n_missed_ = 0;
-  ReportLatency latency_;
-  double next_poll_s_ = 0.0;
 
   std::optional<ActiveMove> active_;
-  double expected_end_s_ = 0.0;
 };
 
 }  // namespace viscard

@@ -5,13 +5,6 @@
 #include <limits>
 
 namespace viscard {
-namespace {
-
-// After the ok to a jog the controller prepares its first steps within this time (gnea/grbl
-// stepper.c: one segment of 10 ms).
-constexpr double kFirstSegment_s = 0.010;
-
-}  // namespace
 
 MoveTracker::MoveTracker(const StageMove& move, double resolution_m)
     : move_(move),
@@ -20,6 +13,8 @@ MoveTracker::MoveTracker(const StageMove& move, double resolution_m)
       latest_s_(std::numeric_limits<double>::infinity()) {}
 
 void MoveTracker::acknowledged(double time_s) {
+  // Then the controller prepares its first steps (gnea/grbl stepper.c: one segment of 10 ms).
+  constexpr double kFirstSegment_s = 0.010;
   latest_s_ = std::min(latest_s_, time_s + kFirstSegment_s);
 }
 

@@ -42,9 +42,7 @@ struct ReportLatency {
 class Stage {
  public:
   virtual ~Stage() = default;
-  Stage() = default;
-  Stage(const Stage&) = delete;
-  Stage& operator=(const Stage&) = delete;
+  Stage& operator=(Stage&&) = delete;  // neither copied nor moved
 
   virtual Transport& transport() = 0;
 

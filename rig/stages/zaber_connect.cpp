@@ -17,8 +17,7 @@ std::string ZaberStage::ask(const std::string& words, const Pump& pump) {
   action_rejection_.clear();
   asked_words_ = words;
   actions_.push_back(words);
-  const double deadline_s = monotonic_s() + kReply_wall_s;
-  while (!action_data_ && action_rejection_.empty() && monotonic_s() < deadline_s) pump();
+  wait_for([&] { return action_data_ || !action_rejection_.empty(); }, pump, kReply_wall_s);
   asked_words_.reset();
   if (action_data_) return *action_data_;
   if (!action_rejection_.empty()) {
@@ -49,18 +48,8 @@ void ZaberStage::wait_for_rest(const Pump& pump, double wall_s) {
 }
 
 void ZaberStage::ask_position(const Pump& pump) {
-  const std::size_t before = n_reports_;
-  polls_ = true;
   question_.reset();
-  next_poll_s_ = clock_.now_s();
-  const double deadline_s = monotonic_s() + kReply_wall_s;
-  while (n_reports_ == before) {
-    if (monotonic_s() > deadline_s) {
-      throw RigError("the stage on '" + transport_.name() +
-                     "' does not report its position. Check its cable and supply");
-    }
-    pump();
-  }
+  await_report(pump, kReply_wall_s, "Check its cable and supply");
 }
 
 void ZaberStage::read_settings(const Pump& pump) {
@@ -77,13 +66,10 @@ void ZaberStage::connect(const Pump& pump) {
   try {
     ask("", pump);
   } catch (const RigError&) {
-    const bool is_noise = splitter_.n_bytes() > 20 && splitter_.unprintable_fraction() > 0.2;
-    throw RigError(
-        "no Zaber controller of address " + std::to_string(config_.device) + " answered on '" +
-        transport_.name() + "' (" + std::to_string(splitter_.n_bytes()) + " bytes received). " +
-        (is_noise ? "They are mostly unreadable: is the baud rate right?"
-                  : "Is this the stage's port, is it switched on, is it set to the ASCII "
-                    "protocol at 115200 baud?"));
+    throw_no_answer("Zaber controller of address " + std::to_string(config_.device),
+                    "is the baud rate right?",
+                    "Is this the stage's port, is it switched on, is it set to the ASCII protocol "
+                    "at 115200 baud?");
   }
   wait_for_rest(pump, kRest_wall_s);
   read_settings(pump);

@@ -1,6 +1,5 @@
 // How ZaberStage begins, follows and ends a move.
 #include "models/maths/text_of_number.h"
-#include "rig/stages/travel_limit.h"
 #include "rig/stages/zaber_stage.h"
 
 #include <algorithm>
@@ -8,14 +7,9 @@
 #include <utility>
 
 namespace viscard {
-namespace {
-
-constexpr int kMostRestsAside = 3;  // reports of rest at another place than the target
-constexpr double kNoEnd_wall_s = 5.0;
-
-}  // namespace
 
 void ZaberStage::follow_move(double asked_s, double received_s, bool is_busy) {
+  constexpr int kMostRestsAside = 3;  // reports of rest at another place than the target
   ActiveMove& active = *active_;
   const bool has_begun = active.reply_s && asked_s >= *active.reply_s;
   if (active.tracker && !active.is_stopping) {
@@ -42,10 +36,7 @@ void ZaberStage::follow_move(double asked_s, double received_s, bool is_busy) {
 void ZaberStage::end_move(double end_m) {
   exact_m_ = end_m;
   const ActiveMove ended = *std::exchange(active_, std::nullopt);
-  if (!ended.tracker) return;  // stopped before it was sent
-  CommandedMove commanded = ended.tracker->best(end_m);
-  commanded.purpose = ended.purpose;
-  sink_(commanded);
+  if (ended.tracker) sink_(ended_move(*ended.tracker, ended.purpose, end_m));  // else never sent
 }
 
 void ZaberStage::begin_move(double to_m, double speed_m_s, const std::string& purpose) {
@@ -85,11 +76,10 @@ void ZaberStage::start_action() {
 }
 
 void ZaberStage::watch_deadline(double now_s) {
+  constexpr double kNoEnd_wall_s = 5.0;
   if (!active_ || !active_->reply_s) return;
-  if (now_s <
-      expected_end_s_ + 0.5 * duration_s(active_->planned) + clock_.from_wall_s(kNoEnd_wall_s)) {
-    return;
-  }
+  const double late_s = 0.5 * duration_s(active_->planned) + clock_.from_wall_s(kNoEnd_wall_s);
+  if (now_s < expected_end_s_ + late_s) return;
   throw RigError("the stage should have come to rest " +
                  text_from_number(now_s - expected_end_s_, 1) +
                  " s ago but still moves. Switch it off and on, home it, then start the run again");

@@ -3,7 +3,6 @@
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace viscard {
@@ -11,18 +10,13 @@ namespace {
 
 constexpr double kAnswer_wall_s = 0.25;
 constexpr int kMostSends = 4;
-constexpr int kMostMissedAnswers = 20;
 constexpr const char* kAskPosition = "get pos";
 
 }  // namespace
 
 ZaberStage::ZaberStage(Transport& transport, const StageConfig& config, const RigClock& clock,
                        RecordSink sink)
-    : transport_(transport),
-      config_(config),
-      clock_(clock),
-      sink_(std::move(sink)),
-      toward_(config.toward_specimen < 0 ? -1.0 : 1.0) {
+    : PolledStage(transport, config, clock, std::move(sink)) {
   if (!(config_.microstep_m > 0.0)) {
     throw RigError(
         "a Zaber stage counts microsteps, and the rig file does not give their length. Set "
@@ -39,19 +33,10 @@ ZaberStage::~ZaberStage() {
   }
 }
 
-void ZaberStage::note(double time_s, const std::string& name, const std::string& value,
-                      const std::string& text) const {
-  sink_(RunEvent{time_s, name, value, text});
-}
-
 StageDynamics ZaberStage::dynamics() const {
   return {1.0 / config_.microstep_m,
           microsteps_s2_from_zaber(acceleration_data_) * config_.microstep_m,
           microsteps_s_from_zaber(max_speed_data_) * config_.microstep_m};
-}
-
-double ZaberStage::position_m() const {
-  return exact_m_ && !active_ ? *exact_m_ : reported_m_;
 }
 
 ZaberStage::Sent ZaberStage::send(const std::string& words) {
@@ -65,11 +50,7 @@ ZaberStage::Sent ZaberStage::send(const std::string& words) {
 }
 
 void ZaberStage::service() {
-  const Chunk chunk = transport_.read_available();
-  if (!chunk.bytes.empty()) {
-    sink_(RawBytes{Device::kStage, false, chunk.time_s, chunk.bytes});
-    splitter_.feed(chunk.bytes, chunk.time_s);
-  }
+  receive();
   while (const auto line = splitter_.next()) take_line(*line);
   drive();
 }
@@ -154,15 +135,11 @@ void ZaberStage::take_action_reply(const Sent& action, const ZaberMessage& reply
 }
 
 void ZaberStage::take_position(const Sent& question, const ZaberMessage& reply, double time_s) {
-  const double took_s = (time_s - question.written_s) / clock_.speed();
-  latency_.mean_s += (took_s - latency_.mean_s) / ++latency_.n;
-  latency_.longest_s = std::max(latency_.longest_s, took_s);
+  take_latency(question.written_s, time_s);
   n_missed_ = 0;
   const auto microsteps = reply.is_rejected ? std::nullopt : number_from_text(reply.data);
   if (!microsteps) return;
-  reported_m_ = metres(*microsteps);
-  ++n_reports_;
-  sink_(StageReport{time_s, reported_m_, reply.is_busy ? "BUSY" : "IDLE"});
+  take_report(time_s, metres(*microsteps), reply.is_busy ? "BUSY" : "IDLE");
   if (active_) follow_move(question.written_s, time_s, reply.is_busy);
 }
 
@@ -172,10 +149,7 @@ void ZaberStage::drive() {
   if (question_ && now_s - question_->written_s > answer_s) {
     question_.reset();  // a late answer is recognised by its id
     ++latency_.n_lost;
-    if (++n_missed_ >= kMostMissedAnswers) {
-      throw RigError("the stage has stopped answering on '" + transport_.name() +
-                     "'. Check its cable and supply; it may still be moving");
-    }
+    count_miss();
   }
   if (action_ && now_s - action_->written_s > answer_s) {
     if (action_->n_sent >= kMostSends) {
@@ -190,10 +164,7 @@ void ZaberStage::drive() {
   watch_deadline(now_s);
   if (!polls_ || question_ || now_s < next_poll_s_) return;
   question_ = send(kAskPosition);
-  next_poll_s_ = now_s + (active_ ? kPollMoving_s : kPollResting_s);
-  if (active_ && expected_end_s_ > now_s) {
-    next_poll_s_ = std::min(next_poll_s_, expected_end_s_ + 2e-3);
-  }
+  plan_poll(now_s, active_ ? kPollMoving_s : kPollResting_s);
 }
 
 }  // namespace viscard

@@ -1,48 +1,31 @@
 #pragma once
 
-#include "models/experiment/rig_config.h"
-#include "rig/lines/line_splitter.h"
-#include "rig/lines/rig_clock.h"
 #include "rig/protocols/zaber_protocol.h"
-#include "rig/stages/move_tracker.h"
-#include "rig/stages/stage.h"
+#include "rig/stages/polled_stage.h"
 
 #include <deque>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace viscard {
 
-// A Zaber stage with the ASCII protocol (rig/protocols/zaber_protocol.h). The driver relies on
-// these rules:
-// - Every command carries a checksum and an id, and only a reply with that id answers it. Late
-//   replies, replies of other devices on the chain and garbled ones are ignored.
-// - All commands can be repeated without harm (an absolute move, a setting, a stop), so a command
-//   without an answer is sent again.
-// - A move has ended when a question that was sent after the reply to it is answered IDLE at the
-//   target.
-// - A fault flag means that the axis stopped by itself. Without a reference position (WR) no
-//   position can be trusted.
-class ZaberStage final : public Stage {
+// A Zaber stage with the ASCII protocol (rig/protocols/zaber_protocol.h). rig/stages/README.md lists
+// the rules that the driver relies on.
+class ZaberStage final : public PolledStage {
  public:
   // Throws RigError if the rig file has no microstep.
   ZaberStage(Transport& transport, const StageConfig& config, const RigClock& clock,
              RecordSink sink);
   ~ZaberStage() override;  // restores the largest speed of the controller
 
-  Transport& transport() override { return transport_; }
   void connect(const Pump& pump) override;
   void service() override;
   StageDynamics dynamics() const override;
   std::vector<std::string> advice() const override;
-  ReportLatency report_latency() const override { return latency_; }
   std::string identity() const override { return identity_; }
-  double position_m() const override;
   void begin_move(double to_m, double speed_m_s, const std::string& purpose) override;
   bool is_moving() const override { return active_.has_value(); }
-  double expected_end_s() const override { return expected_end_s_; }
   void stop_soft() override;
   void stop_hard() override;
   void recover(const Pump& pump) override;
@@ -87,15 +70,7 @@ class ZaberStage final : public Stage {
   double metres(double microsteps) const {
     return toward_ * microsteps * config_.microstep_m + 0.0;
   }
-  void note(double time_s, const std::string& name, const std::string& value,
-            const std::string& text) const;
 
-  Transport& transport_;
-  StageConfig config_;
-  const RigClock& clock_;
-  RecordSink sink_;
-  LineSplitter splitter_;
-  double toward_;
   int next_id_ = 0;
 
   std::deque<std::string> actions_;  // to be sent one by one, each after the OK to the one before
@@ -113,17 +88,7 @@ class ZaberStage final : public Stage {
   std::string flag_;           // as reported last
   bool is_busy_ = false;
 
-  double reported_m_ = 0.0;
-  std::optional<double> exact_m_;
-  std::optional<double> start_m_;
-  std::size_t n_reports_ = 0;
-  bool polls_ = false;
-  int n_missed_ = 0;
-  ReportLatency latency_;
-  double next_poll_s_ = 0.0;
-
   std::optional<ActiveMove> active_;
-  double expected_end_s_ = 0.0;
 };
 
 }  // namespace viscard

@@ -45,8 +45,7 @@ ArrayScene seed_row(int count) {
   return scene;
 }
 
-// The whole map: the voltage under every pillar for a load on every pillar, error estimate
-// included.
+// The whole map: the voltage under every pillar for a load on every pillar, with its error estimate.
 void bench_voltages(int count, double allowed_s) {
   double best_s = std::numeric_limits<double>::infinity();
   SceneAnswer answer;
@@ -56,7 +55,7 @@ void bench_voltages(int count, double allowed_s) {
     best_s = std::min(best_s, cpu_s() - start_s);
   }
   fmt::print(
-      "{:>3} pillars, voltages to .1 %: {:7.1f} ms (aim {:.0f}), error {:.1e}, degree {}, {} "
+      "{:>3} pillars, voltages to 0.1 %: {:7.1f} ms (aim {:.0f}), error {:.1e}, degree {}, {} "
       "unknowns\n",
       count, 1e3 * best_s, 1e3 * allowed_s, answer.largest_relative_error,
       answer.discretisation.degree, answer.unknowns);
@@ -82,7 +81,7 @@ void bench_map(int across) {
     worst = std::max(worst, answer.largest_relative_error);
   });
   fmt::print(
-      "{} x {} diameters and spacings to .1 %: {:.1f} s on {} cores ({:.1f} s of processor "
+      "{} x {} diameters and spacings to 0.1 %: {:.1f} s on {} cores ({:.1f} s of processor "
       "time; aim 60 s on two), error {:.1e}\n",
       across, across, wall_s() - start_s, std::thread::hardware_concurrency(),
       cpu_s() - cpu_start_s, worst);

@@ -2,7 +2,7 @@
 //   bench_fit FILE REPEATS [TERMS]
 // FILE holds doubles: all times in s, then as many moduli. Prints one JSON object: median processor
 // time of a fit (one thread), order, residual sum of squares, and the most memory held beyond the
-// data and the program itself, whose pages are read in by a first fit of a few samples.
+// data and the program itself. A first fit of a few samples reads in the program's pages.
 #include "fit/fit_relaxation.h"
 
 #include <algorithm>

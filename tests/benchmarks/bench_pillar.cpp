@@ -1,5 +1,5 @@
-// Work of the pillar solver inside one process, in CPU time, with the error beside it. Peers are
-// timed beside the whole command by bench_pillar_peers.
+// Processor time of the pillar solver inside one process, with the error of each answer.
+// bench_pillar_peers times the whole command beside its peers.
 #include "models/pillar/body/pillar_loads.h"
 #include "models/pillar/body/pillar_modes.h"
 #include "models/pillar/time/harmonic_response.h"
@@ -140,8 +140,8 @@ void bench_sweep() {
              shaken.size(), 1e3 * spent_s, 100.0 * error);
 }
 
-// Static solution on ever finer quadratic elements: set-up, factor and solve. The exponent is that
-// of the straight line through the logarithms, by least squares.
+// Static solutions on finer and finer quadratic elements: set-up, factor and solve. The exponent is
+// the slope of the least-squares line through the logarithms.
 void bench_growth() {
   double last_n = 0.0, last_s = 0.0;
   double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
@@ -171,8 +171,8 @@ void bench_growth() {
              (count * sxy - sx * sy) / (count * sxx - sx * sx));
 }
 
-// One process, one mesh, for timing beside other programs: the twelve modes, on the film or, as
-// cylinder of its own, on a fixed base.
+// The twelve modes on one mesh in one process, for timing beside other programs: a pillar on the
+// film, or a cylinder on a fixed base.
 int print_modes(const Discretisation& mesh, bool has_film) {
   PillarMedia of = media();
   if (!has_film) of.film.reset();

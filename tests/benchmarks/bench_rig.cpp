@@ -1,5 +1,5 @@
-// What the rig's part of viscard costs and loses: lines a second through a pseudo-terminal, long
-// streams and holds (accelerated), processor share at the rig's own pace. Prints; asserts nothing.
+// Measures what the rig's part of viscard costs and loses: lines a second through a pseudo-terminal,
+// long streams and holds (accelerated), processor share at the rig's own pace. Asserts nothing.
 //   bench_rig [FILTER]
 #include "io/capture/capture_file.h"
 #include "rig/cells/hx711_load_cell.h"
@@ -83,7 +83,7 @@ void stream(const char* name, const StreamBench& bench) {
   const double began_s = monotonic_s(), cpu_s = thread_cpu_s();
   std::thread sender([&] { send_lines(device, bench); });
   double early_MB = 0.0, quiet_since_s = monotonic_s();
-  const long expected = bench.n_lines - 7;  // the first may be cut, six tell the format
+  const long expected = bench.n_lines - 7;  // the first may be cut, the format is learnt from six
   while (n_samples < expected && monotonic_s() - quiet_since_s < 5.0) {
     const long before = n_samples;
     wait_readable({&line}, 0.01);
@@ -103,7 +103,7 @@ void stream(const char* name, const StreamBench& bench) {
       resident_MB());
 }
 
-// A whole run with its capture file, of which the hold takes an hour of the emulated clock.
+// A whole run with its capture file; the hold takes an hour of the emulated clock.
 void hour_of_hold() {
   EmulatedRigOptions options;
   options.truth = demo_truth(10.0, 1);

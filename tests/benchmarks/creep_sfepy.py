@@ -101,7 +101,7 @@ def main():
     kernels = [Material(f"memory{i}", values={"H": g * whole,
                                               "decay": np.array([[math.exp(-dt_s / tau)]])})
                for i, (g, tau) in enumerate(TERMS)]
-    # Such terms want an unloaded start: the load, a pressure of 10 kPa, jumps with the first step.
+    # These terms need an unloaded start: the load, a pressure of 10 kPa, jumps with the first step.
     load = Material("load", function=Function("pull", lambda ts, coors, mode=None, **_: (
         {"val": np.full((coors.shape[0], 1, 1), 0.01 * (ts.step > 0))} if mode == "qp" else None)))
     integral = Integral("i", order=4)

@@ -1,6 +1,5 @@
 #include "fit/fit_indentation.h"
 #include "fit/fit_relaxation.h"
-#include "fit/fit_stage_indentation.h"
 #include "models/material/retardation_spectrum.h"
 #include "tests/fit/fit_checks.h"
 #include "tests/fit/spectra.h"
@@ -105,7 +104,7 @@ TEST_CASE("geometry converts stiffness to modulus, and its uncertainty is report
 
 TEST_CASE("a frame in series is removed exactly", "[fit]") {
   const PronySeries specimen{14000.0, {{150.0, 0.2}, {200.0, 2.4}}};
-  // Put the spring in by adding compliances, remove it by the function.
+  // Adds the spring by its compliance and removes it by the function.
   RetardationSpectrum compliance = retardation_from_relaxation(specimen);
   compliance.instantaneous_compliance_1_Pa += 1.0 / 10e3;
   const PronySeries back = specimen_series(relaxation_from_retardation(compliance), 10e3);

@@ -1,6 +1,6 @@
-// Any file is a capture or one exception with a text. The input is laid over a whole capture in
-// pieces of three bytes (two of place, one of value), so that the damage reaches deep; or taken as
-// it is.
+// Every file is read as a capture or refused by one exception with a text. The input is either the
+// file itself, or it overwrites single bytes of a whole capture (two bytes of position, one of
+// value), so that the damage reaches deep.
 #include "io/basics/atomic_file.h"
 #include "io/capture/capture_export.h"
 #include "io/capture/capture_file.h"

@@ -1,4 +1,5 @@
-// The first byte chooses the file. What is read must be written and read again unchanged.
+// The first byte chooses the kind of file. A file that can be read must be written and read again
+// unchanged.
 #include "io/config/config_file.h"
 
 #include <cstdint>
@@ -36,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     default:
       try {
-        truth_from_toml(text, "fuzz");  // nothing writes a truth
+        truth_from_toml(text, "fuzz");  // no function writes a truth
       } catch (const std::runtime_error&) {
       }
       break;

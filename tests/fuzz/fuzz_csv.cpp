@@ -1,4 +1,4 @@
-// Any bytes are a table or one exception with a text.
+// Any bytes are read as a table or refused by one exception with a text.
 #include "io/tables/column_map.h"
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// Any bytes from a controller are understood, ignored or one RigError: every parser on every line,
-// and the driver itself in the middle of a move. The first byte says in what pieces they arrive.
+// Any bytes from a controller are understood, ignored, or refused by one RigError: by every parser on
+// every line, and by the driver in the middle of a move. The first byte sets the size of the pieces
+// in which they arrive.
 #include "rig/lines/rig_error.h"
 #include "rig/stages/grbl_stage.h"
 
@@ -75,7 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       has_moved = true;
       stage.service();
     } catch (const RigError&) {
-    } catch (const std::invalid_argument&) {  // settings that make no move: refused as such
+    } catch (const std::invalid_argument&) {  // these settings make no valid move
       return 0;
     }
     if (!std::isfinite(stage.position_m())) std::abort();

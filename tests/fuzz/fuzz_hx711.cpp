@@ -1,5 +1,5 @@
-// Any bytes from an amplifier are readings, noted, or one RigError. The first byte picks the format
-// and the pieces in which the rest arrives.
+// Any bytes from an amplifier are readings, noted, or refused by one RigError. The first byte chooses
+// the format and the size of the pieces in which the rest arrives.
 #include "rig/cells/hx711_load_cell.h"
 #include "rig/lines/rig_error.h"
 

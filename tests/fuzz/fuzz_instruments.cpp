@@ -1,6 +1,5 @@
 // Any line from a Zaber stage, a multimeter or a force gauge is understood or refused.
-#include "rig/protocols/force_gauge_protocols.h"
-#include "rig/protocols/scpi_protocol.h"
+#include "rig/protocols/gauge_protocols.h"
 #include "rig/protocols/zaber_protocol.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// However a stream is cut into reads, its lines are the same, none is longer than allowed, and
-// nothing grows without end. The first byte seeds the cutting.
+// The lines of a stream do not depend on how it is cut into reads, no line is longer than allowed,
+// and nothing grows without end. The first byte is the seed of the cuts.
 #include "rig/lines/line_splitter.h"
 
 #include <cstdint>

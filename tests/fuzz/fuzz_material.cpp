@@ -1,5 +1,5 @@
-// Any bytes are a material or one exception with a text; a material is written and read again
-// unchanged.
+// Any bytes are read as a material or refused by one exception with a text; a material is written
+// and read again unchanged.
 #include "io/materials/material_file.h"
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Any text is a quantity or one exception with a text.
+// Any text is read as a quantity or refused by one exception with a text.
 #include "io/basics/units.h"
 
 #include <cmath>

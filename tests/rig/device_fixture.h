@@ -13,7 +13,7 @@
 
 namespace viscard {
 
-// An emulated rig whose drivers are those its rig file names.
+// An emulated rig with the drivers that its rig file names.
 struct DeviceFixture {
   explicit DeviceFixture(const EmulatedRigOptions& options)
       : emulated(options),
@@ -47,7 +47,7 @@ struct DeviceFixture {
     const double until_s = monotonic_s() + wall_s;
     while (monotonic_s() < until_s) pump()();
   }
-  // Moves and waits; seconds of wall time at most.
+  // Moves and waits, at most for some seconds of wall time.
   bool move(double to_m, double speed_m_s) {
     devices.stage->begin_move(to_m, speed_m_s, "test");
     const double until_s = monotonic_s() + 5.0;

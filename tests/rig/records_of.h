@@ -7,7 +7,7 @@
 
 namespace viscard {
 
-// Those of one kind among all that a rig handed out.
+// The records of one kind.
 template <class Record>
 std::vector<Record> records_of(const std::vector<RunRecord>& records) {
   std::vector<Record> found;

@@ -20,13 +20,12 @@
 
 namespace viscard {
 
-// What is done to the two lines of a rig.
+// Disturbances of the two lines of a rig.
 struct LineFaults {
   FaultPlan stage, cell;
 };
 
-// An emulated rig with real drivers on its ports, or behind disturbed lines; everything they hand
-// out is kept.
+// An emulated rig with real drivers on its ports, or behind disturbed lines. Keeps all records.
 struct RigFixture {
   explicit RigFixture(EmulatedRigOptions options,
                       const std::optional<LineFaults>& faults = std::nullopt, double patience = 1.0)
@@ -47,7 +46,7 @@ struct RigFixture {
     return result;
   }
 
-  // Serves the stage alone, or both.
+  // Serves the stage alone, or both devices.
   Pump pump() {
     return [this] {
       wait_readable({&stage_line, &cell_line}, 0.002);
@@ -112,7 +111,7 @@ inline void pump_for(RigFixture& rig, double wall_s) {
   while (monotonic_s() < until_s) pump();
 }
 
-// Sets something off when a phase begins.
+// Calls a function when a phase begins.
 inline void when_phase(RigFixture& rig, const std::string& phase, std::function<void()> action) {
   rig.sink = [&rig, phase, action](const RunRecord& record) {
     rig.records.push_back(record);

@@ -39,7 +39,7 @@ TEST_CASE("a converter at 10 readings/s makes a rig unusable", "[rig][pty]") {
   CHECK_FALSE(check_rig(rig.stage, rig.load_cell, rig.config, rig.clock, 10.0).is_usable);
 }
 
-TEST_CASE("numbers with a decimal point and no unit are read as volts, and the advice says so",
+TEST_CASE("numbers with a decimal point and no unit are read as volts, and the advice reports it",
           "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
   options.config.load_cell.line_format = "auto";

@@ -166,19 +166,19 @@ TEST_CASE("a load cell that is lost or silent in the ramp stops the stage", "[ri
   TestPlan plan = short_plan();
   plan.ramp_s = 8.0;
   SECTION("cable pulled") {
-    when_phase(rig, "ramp", [&rig] { rig.emulated.pull_load_cell_cable(); });
+    when_phase(rig, "ramp", [&rig] { rig.emulated.cause(Incident::kPullLoadCellCable); });
     const RunOutcome outcome = rig.run(plan);
     CHECK(outcome.status == "interrupted");
     CHECK_THAT(outcome.reason, Contains("is gone"));
   }
   SECTION("stream stalls") {
-    when_phase(rig, "ramp", [&rig] { rig.emulated.silence_load_cell(); });
+    when_phase(rig, "ramp", [&rig] { rig.emulated.cause(Incident::kSilenceLoadCell); });
     const RunOutcome outcome = rig.run(plan);
     CHECK(outcome.status == "interrupted");
     CHECK_THAT(outcome.reason, Contains("fell silent"));
   }
   SECTION("amplifier restarts") {
-    when_phase(rig, "ramp", [&rig] { rig.emulated.restart_load_cell(); });
+    when_phase(rig, "ramp", [&rig] { rig.emulated.cause(Incident::kRestartLoadCell); });
     const RunOutcome outcome = rig.run(plan);
     CHECK(outcome.status == "interrupted");
     CHECK_THAT(outcome.reason, Contains("restarted"));
@@ -186,10 +186,10 @@ TEST_CASE("a load cell that is lost or silent in the ramp stops the stage", "[ri
   CHECK(is_at_rest_and_lifted(rig));
 }
 
-TEST_CASE("a stage lost in the hold ends the run and the reason says that it cannot be lifted",
+TEST_CASE("a stage lost in the hold ends the run and the reason states that it cannot be lifted",
           "[rig][pty]") {
   RigFixture rig(RigFixture::options(20.0));
-  when_phase(rig, "hold", [&rig] { rig.emulated.pull_stage_cable(); });
+  when_phase(rig, "hold", [&rig] { rig.emulated.cause(Incident::kPullStageCable); });
   const RunOutcome outcome = rig.run(short_plan());
   CHECK(outcome.status == "interrupted");
   CHECK_THAT(outcome.reason, Contains("by hand"));
@@ -200,7 +200,7 @@ TEST_CASE("a limit switch in any phase ends with the stage unlocked and the punc
           "[rig][pty]") {
   const std::string phase = GENERATE("approach", "ramp", "hold");
   RigFixture rig(RigFixture::options(10.0));
-  when_phase(rig, phase, [&rig] { rig.emulated.hit_limit_switch(); });
+  when_phase(rig, phase, [&rig] { rig.emulated.cause(Incident::kHitLimitSwitch); });
   const RunOutcome outcome = rig.run(short_plan());
   INFO(phase << ": " << outcome.reason);
   CHECK(outcome.status == "interrupted");

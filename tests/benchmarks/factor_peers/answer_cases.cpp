@@ -191,8 +191,8 @@ ArrayScene row_modes_scene() {
   return scene;
 }
 
-// Displacement of the top on a uniform mesh of quadratic elements, which is what an ordinary
-// finite-element program would be given. The error is that of the mesh.
+// Displacement of the top on a uniform mesh of quadratic elements, as a user of an ordinary
+// finite-element program would choose it. The error is that of the mesh.
 Answer quadratic_static(double size_m) {
   const PillarModel model(on_film(), {.degree = 2, .uniform_m = size_m},
                           {isotropic_medium(1.8e6, .33, 965.0), elastic_film()}, {});

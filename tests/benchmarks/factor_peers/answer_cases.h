@@ -12,8 +12,8 @@ struct Answer {
   std::vector<double> error;
 };
 
-// A question to the pillar solver: geometry and media in, numbers out. What is timed is all of it:
-// meshes, matrices, factorisations, solutions, and the error estimate where a scene asks for one.
+// A question to the pillar solver: geometry and media in, numbers out. The time includes meshes,
+// matrices, factorisations, solutions, and the error estimate if the scene asks for one.
 struct AnswerCase {
   std::string name;
   std::function<Answer()> run;

@@ -1,6 +1,6 @@
-// Whole answers of the pillar solver with our factorisation, and with those of CHOLMOD and Eigen in
-// its place, side by side in one process. The solver is compiled
-// once more for this: shadow/ holds a header in place of the product's, which chooses at run time.
+// Whole answers of the pillar solver with our factorisation and with those of CHOLMOD and Eigen,
+// side by side in one process. The solver is compiled once more for this: shadow/ holds a header in
+// place of the product's, which chooses at run time.
 //
 // usage: bench_factors [ROUNDS [FILTER]]
 #include "models/pillar/system/stiffness_factor.h"
@@ -37,7 +37,7 @@ const std::vector<Contender> kContenders = {
     {"CHOLMOD its choice", FactorKind::kCholmodAuto},
     {"Eigen LDL' AMD", FactorKind::kEigen}};
 
-// A code of our own has to be so much faster than a library, in the mean of whole answers.
+// Our own code must be this much faster than a library, in the mean of whole answers.
 constexpr double kAim = 1.5;
 
 struct Sample {

@@ -15,7 +15,7 @@ enum class FactorKind {
   kCholmodAmd,         // simplicial L D L^T, without pivoting
   kCholmodMetis,       // the same, nested dissection
   kCholmodSupernodal,  // L L^T by dense blocks; simplicial L D L^T where the matrix is indefinite
-  kCholmodAuto,        // of these two, the one that CHOLMOD chooses by the work for each entry
+  kCholmodAuto,        // CHOLMOD chooses one of these two by the work for each entry
   kEigen               // SimplicialLDLT, minimum degree
 };
 FactorKind& choice();
@@ -30,7 +30,7 @@ struct Spent {
 Spent& spent();
 double cpu_s();
 
-// What SupernodalFactor promises (models/pillar), whoever does the work.
+// The operations of SupernodalFactor (models/pillar/system), done by any of the factorisations.
 class Factor {
  public:
   using Sparse = Eigen::SparseMatrix<double>;

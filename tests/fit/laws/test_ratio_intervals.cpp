@@ -31,11 +31,11 @@ Coverage coverage_of(const Campaign& campaign, double ratio, int runs, std::uint
     const auto holds = [](const Interval& interval, double value) {
       return value >= interval.low && value <= interval.high ? 1 : 0;
     };
-    const MaterialUncertainty& said = *predicted.uncertainty;
-    count.E0 += holds(said.E0_Pa_95, truth.E0_Pa);
-    count.E_inf += holds(said.E_inf_Pa_95, derived_moduli(truth).E_inf_Pa);
-    count.g_1 += holds(said.terms[0].g_95, truth.terms[0].g);
-    count.tau_1 += holds(said.terms[0].tau_s_95, truth.terms[0].tau_s);
+    const MaterialUncertainty& reported = *predicted.uncertainty;
+    count.E0 += holds(reported.E0_Pa_95, truth.E0_Pa);
+    count.E_inf += holds(reported.E_inf_Pa_95, derived_moduli(truth).E_inf_Pa);
+    count.g_1 += holds(reported.terms[0].g_95, truth.terms[0].g);
+    count.tau_1 += holds(reported.terms[0].tau_s_95, truth.terms[0].tau_s);
   }
   return count;
 }

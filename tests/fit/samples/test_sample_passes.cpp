@@ -153,6 +153,6 @@ TEST_CASE("averages and the sums within them give the residual sum of all sample
   Eigen::VectorXd ln_tau(2);
   ln_tau << std::log(0.8), std::log(40.0);
   const SpectralState state = solve_coefficients(model, ln_tau, {});
-  const double sum = state.rss + model.hidden_rss(ln_tau, {}, state.coefficients);
+  const double sum = state.rss + model.hidden_rss(state);
   CHECK(sum == Approx(residual_sum(data, state)).epsilon(3e-10));  // see bin_arrays.h
 }

@@ -1,6 +1,6 @@
 #include "fit/fit_indentation.h"
 #include "fit/indentation_from_capture.h"
-#include "fit/samples/stamp_noise.h"
+#include "fit/samples/noise_model.h"
 #include "tests/fit/fit_checks.h"
 #include "tests/support/in_memory_run.h"
 

@@ -2,7 +2,7 @@
 #include "fit/fit_relaxation.h"
 #include "fit/search/order_path.h"
 #include "fit/search/projection.h"
-#include "fit/search/quick_search.h"
+#include "fit/search/separable.h"
 #include "tests/fit/spectra.h"
 
 #include <catch2/catch.hpp>

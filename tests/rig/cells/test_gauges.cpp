@@ -1,8 +1,6 @@
 #include "rig/cells/gauge_load_cell.h"
 #include "rig/emulator/pty_port.h"
-#include "rig/protocols/force_gauge_protocols.h"
-#include "rig/protocols/force_unit.h"
-#include "rig/protocols/scpi_protocol.h"
+#include "rig/protocols/gauge_protocols.h"
 #include "rig/rig_check.h"
 #include "tests/rig/device_fixture.h"
 
@@ -129,7 +127,7 @@ TEST_CASE("lost and late answers are never taken for the answer to another query
     }
   }
   CHECK(n_checked > 8);
-  CHECK(cell.counts().duplicate >= 1);  // the late ones, counted and left out
+  CHECK(cell.counts().duplicate >= 1);  // late answers are counted and left out
 }
 
 TEST_CASE("a load cell that changes its unit, refuses its setup or goes silent is an error",

@@ -15,7 +15,7 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-// An amplifier that sends what a test asks for.
+// An amplifier that sends the bytes of a test.
 struct ScriptedAmplifier {
   explicit ScriptedAmplifier(const std::string& line_format = "counts")
       : line(device.path(), 115200, clock), cell(line, config(line_format), clock, sink()) {}
@@ -31,10 +31,10 @@ struct ScriptedAmplifier {
 
   // Ten numbers counting up, each with that terminator, so that the driver connects.
   void connect(const std::string& end = "\n") {
-    for (int i = 0; i < 10; ++i) say(std::to_string(1000 + i) + end);
+    for (int i = 0; i < 10; ++i) send(std::to_string(1000 + i) + end);
     cell.connect([this] { serve(); });
   }
-  void say(const std::string& bytes) { device.write(bytes); }
+  void send(const std::string& bytes) { device.write(bytes); }
   void serve() {
     device.write("");
     wait_readable({&line}, 0.002);
@@ -79,15 +79,14 @@ TEST_CASE("readings that arrive in single bytes, or many in one read, are the sa
   const std::string text = "-8388600" + end + "12" + end + "0" + end + "77" + end;
   SECTION("single bytes") {
     for (const char c : text) {
-      amplifier.say(std::string(1, c));
+      amplifier.send(std::string(1, c));
       amplifier.serve();
     }
   }
   SECTION("one read") {
-    amplifier.say(text);
+    amplifier.send(text);
   }
-  amplifier.say("5" +
-                end);  // with CR alone the end of a line is only sure when the next byte is there
+  amplifier.send("5" + end);  // after CR alone, only the next byte shows that the line has ended
   amplifier.serve_all();
   const std::vector<double> counts = amplifier.counts();
   REQUIRE(counts.size() >= 4);
@@ -97,16 +96,16 @@ TEST_CASE("readings that arrive in single bytes, or many in one read, are the sa
 
 TEST_CASE("garbage before and between readings loses no other reading", "[rig][pty]") {
   ScriptedAmplifier amplifier;
-  amplifier.say(std::string("\xff\x80\0\x01garbage\n\xc3\x28\n9", 17));
-  amplifier.say("\nTare... put nothing on the scale\nReadings:\n");
+  amplifier.send(std::string("\xff\x80\0\x01garbage\n\xc3\x28\n9", 17));
+  amplifier.send("\nTare... put nothing on the scale\nReadings:\n");
   amplifier.connect();
   amplifier.serve_all();
   amplifier.records.clear();
-  amplifier.say("100\n\x80\x81\xfe\n101\n" +
-                std::string("10\0"
-                            "2\n",
-                            5) +
-                "nonsense\n103\n");
+  amplifier.send("100\n\x80\x81\xfe\n101\n" +
+                 std::string("10\0"
+                             "2\n",
+                             5) +
+                 "nonsense\n103\n");
   amplifier.serve_all();
   CHECK(amplifier.counts() == std::vector<double>{100.0, 101.0, 103.0});
   CHECK(amplifier.cell.counts().unreadable == 3);
@@ -117,7 +116,7 @@ TEST_CASE("nan, inf, ovf and the ends of the range are handed out as saturated",
   amplifier.connect();
   amplifier.serve_all();
   amplifier.records.clear();
-  amplifier.say("nan\ninf\novf\n8388607\n-8388608\n1020\n-0.00\n");
+  amplifier.send("nan\ninf\novf\n8388607\n-8388608\n1020\n-0.00\n");
   amplifier.serve_all();
   std::vector<LoadSample> samples;
   for (const RunRecord& record : amplifier.records) {
@@ -133,9 +132,9 @@ TEST_CASE("nan, inf, ovf and the ends of the range are handed out as saturated",
 
 TEST_CASE("a decimal comma is read if the format has no comma of its own", "[rig][pty]") {
   ScriptedAmplifier amplifier("volts");
-  for (int i = 0; i < 10; ++i) amplifier.say("0,12" + std::to_string(i) + "\r\n");
+  for (int i = 0; i < 10; ++i) amplifier.send("0,12" + std::to_string(i) + "\r\n");
   amplifier.cell.connect([&] { amplifier.serve(); });
-  amplifier.say("-1,5\r\n");
+  amplifier.send("-1,5\r\n");
   amplifier.serve_all();
   const auto* last = std::get_if<LoadSample>(&amplifier.records.back());
   REQUIRE(last != nullptr);
@@ -145,16 +144,16 @@ TEST_CASE("a decimal comma is read if the format has no comma of its own", "[rig
 TEST_CASE("a unit that changes during the run ends it, and the reason names both units",
           "[rig][pty]") {
   ScriptedAmplifier amplifier("volts");
-  for (int i = 0; i < 10; ++i) amplifier.say("12.5 g\n");
+  for (int i = 0; i < 10; ++i) amplifier.send("12.5 g\n");
   amplifier.cell.connect([&] { amplifier.serve(); });
-  amplifier.say("12.5 g\n0.44 lbs\n");
+  amplifier.send("12.5 g\n0.44 lbs\n");
   CHECK_THAT(amplifier.error(), Contains("from 'g' to 'lbs'"));
 }
 
 TEST_CASE("a missing converter is an error in the middle of a stream too", "[rig][pty]") {
   ScriptedAmplifier amplifier;
   amplifier.connect();
-  amplifier.say("1011\nHX711 not found.\n");
+  amplifier.send("1011\nHX711 not found.\n");
   CHECK_THAT(amplifier.error(), Contains("HX711 not found") && Contains("wires"));
 }
 

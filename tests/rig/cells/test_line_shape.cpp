@@ -23,7 +23,7 @@ TEST_CASE("a line is recognised by the shape of all lines before it", "[rig]") {
 TEST_CASE("a stream whose lines differ by nature is not judged by their shape", "[rig]") {
   LineShape shape;
   for (int i = 0; i < 63; ++i) REQUIRE(shape.fits("1.25"));
-  REQUIRE(shape.fits("1.2"));  // prints no zeros at the end
+  REQUIRE(shape.fits("1.2"));  // this device prints no zeros at the end
   for (int i = 0; i < 100; ++i) REQUIRE(shape.fits("1.25"));
   CHECK(shape.fits("1.5"));
 }

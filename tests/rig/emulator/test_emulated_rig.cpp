@@ -102,7 +102,7 @@ TEST_CASE("the estimated time of a reading recovers from the delay of a stall", 
     CHECK(made_s <= sample.host_time_s + 1e-9);
     latest_arrival_s = std::max(latest_arrival_s, sample.host_time_s - made_s);
   }
-  CHECK(latest_arrival_s > 0.05);  // the stall is in the stamps, and only there
+  CHECK(latest_arrival_s > 0.05);  // the stall shows in the stamps only
   CHECK(rig.load_cell.counts().missing == 0);
 }
 
@@ -110,11 +110,11 @@ TEST_CASE("incidents of the amplifier are distinguished", "[rig][pty]") {
   RigFixture rig(RigFixture::options(5.0));
   rig.load_cell.connect(rig.pump());
   SECTION("restart") {
-    rig.emulated.restart_load_cell();
+    rig.emulated.cause(Incident::kRestartLoadCell);
     CHECK_THROWS_AS(serve_for(rig, 2.0), DeviceRestarted);
   }
   SECTION("cable pulled") {
-    rig.emulated.pull_load_cell_cable();
+    rig.emulated.cause(Incident::kPullLoadCellCable);
     CHECK_THROWS_AS(serve_for(rig, 2.0), PortHungUp);
   }
 }

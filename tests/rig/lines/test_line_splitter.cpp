@@ -16,7 +16,7 @@ std::vector<std::string> lines_of(LineSplitter& splitter) {
 
 }  // namespace
 
-TEST_CASE("a line ends at CR, LF, CRLF or LFCR, wherever the bytes are split", "[rig]") {
+TEST_CASE("a line ends at CR, LF, CRLF or LFCR, at any split of the bytes", "[rig]") {
   const std::string terminator = GENERATE("\r", "\n", "\r\n", "\n\r");
   const std::string stream = "one" + terminator + "two" + terminator + "three" + terminator;
   for (std::size_t at = 0; at <= stream.size(); ++at) {

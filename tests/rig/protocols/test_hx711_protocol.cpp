@@ -53,7 +53,7 @@ TEST_CASE("a reading such as nan or ovf has no value", "[rig]") {
 TEST_CASE("codes of an interrupted conversion count only if the reading jumps", "[rig]") {
   CHECK(is_hx711_glitch(-1.0, 50000.0));
   CHECK(is_hx711_glitch(1048575.0, 50000.0));
-  CHECK_FALSE(is_hx711_glitch(1048575.0, 1048570.0));  // it simply stands there
+  CHECK_FALSE(is_hx711_glitch(1048575.0, 1048570.0));  // no jump from the previous reading
   CHECK_FALSE(is_hx711_glitch(1048574.0, 50000.0));
   CHECK_FALSE(is_hx711_glitch(8388607.0, 50000.0));  // saturated, not glitched
   CHECK_FALSE(is_hx711_glitch(-1.0, std::nullopt));

@@ -1,4 +1,4 @@
-#include "rig/run/contact_estimate.h"
+#include "rig/run/approach_phase.h"
 
 #include <catch2/catch.hpp>
 
@@ -26,7 +26,7 @@ TEST_CASE("a correct guess of the stiffness gives the true contact", "[rig]") {
 
 TEST_CASE("for a specimen stiffer than guessed, contact is not before a stop without force",
           "[rig]") {
-  // 60 N/mm guessed as 8.7: the guess alone would say 82 um too early.
+  // 60 N/mm guessed as 8.7: the guess alone would be 82 um too early.
   const ContactEstimate contact =
       contact_from_stops(stop_at(700e-6, 60e3), stop_at(714e-6, 60e3), kNoise_N, kStep_m, 8.7e3);
   CHECK(contact.position_m == Approx(kSurface_m).margin(1e-9));

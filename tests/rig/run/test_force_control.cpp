@@ -25,7 +25,7 @@ std::vector<double> forces_of(ForceControl& control, double true_N_m, double sta
 
 TEST_CASE("force control reaches its target for any true stiffness, with bounded overshoot",
           "[rig]") {
-  const double ratio = GENERATE(0.3, 1.0, 1.4, 2.5, 5.0);  // true stiffness over the one believed
+  const double ratio = GENERATE(0.3, 1.0, 1.4, 2.5, 5.0);  // true stiffness over the assumed one
   const double start_N = GENERATE(0.0, 0.8, 1.3);
   ForceControl control({.target_N = 1.0,
                         .stiffness_N_m = 6e3,
@@ -35,7 +35,7 @@ TEST_CASE("force control reaches its target for any true stiffness, with bounded
   const std::vector<double> forces = forces_of(control, ratio * 6e3, start_N, 0.0, 60);
   INFO("ratio " << ratio << " start " << start_N);
   CHECK(forces.back() == Approx(1.0).margin(1e-3));
-  // The first step may be 0.7 ratio of the gap; later ones know the stiffness.
+  // The first step may be 0.7 ratio of the gap; later steps use the stiffness seen.
   const double most_N = std::max(start_N, 1.0 + std::max(0.0, 0.7 * ratio - 1.0) * (1.0 - start_N));
   CHECK(*std::max_element(forces.begin(), forces.end()) <= most_N + 1e-9);
 }

@@ -21,7 +21,7 @@ constexpr double kSpeed = 20.0;
 constexpr double kSurface_m = 0.1e-3;
 constexpr double kNoticed = 12.0;        // times the noise
 constexpr double kNoticedSteps = 2.5;    // times the largest step between true readings nearby
-constexpr double kNoise_counts = 300.0;  // .49 mN at .7255 V/N and 20 V/2^24
+constexpr double kNoise_counts = 300.0;  // 0.49 mN at 0.7255 V/N and 20 V/2^24
 
 FaultRates rates_from(std::mt19937_64& random) {
   std::uniform_real_distribution<double> exponent(-3.3, -1.5);
@@ -173,7 +173,7 @@ void run_one(std::uint64_t seed, Tally& tally) {
     reason = error.what();
     ++tally.refused;
   }
-  CHECK(monotonic_s() - began_s < 120.0);  // a hang, not a speed
+  CHECK(monotonic_s() - began_s < 120.0);  // detects a hang; no speed is asserted
   check_bench(rig, status, reason);
   check_readings(rig, has_doubt, tally);
   const FaultCounts stage = rig.stage_proxy->counts(), cell = rig.cell_proxy->counts();
@@ -193,7 +193,7 @@ void run_seeds(std::uint64_t first, std::uint64_t last) {
             << " lines hung up); of " << tally.readings << " readings " << tally.marked
             << " wrong ones were marked, " << tally.below_notice
             << " wrong ones below notice (the worst " << tally.worst << " of it); " << tally.unsaid
-            << " runs have such a one and no doubt says so\n";
+            << " runs have such a one and no doubt reports it\n";
   CHECK(tally.faults > static_cast<long long>(last - first));
   const auto n_runs = static_cast<long long>(last - first + 1);
   CHECK(tally.unsaid <= 1 + n_runs / 20);

@@ -20,7 +20,8 @@ TEST_CASE("a cable pulled in any phase ends the run and keeps all records before
   const bool is_stage = GENERATE(false, true);
   RigFixture rig(RigFixture::options(40.0));
   when_phase(rig, phase, [&] {
-    is_stage ? rig.emulated.pull_stage_cable() : rig.emulated.pull_load_cell_cable();
+    is_stage ? rig.emulated.cause(Incident::kPullStageCable)
+             : rig.emulated.cause(Incident::kPullLoadCellCable);
   });
   const RunOutcome outcome = rig.run(short_plan());
   INFO(phase << (is_stage ? ", stage: " : ", load cell: ") << outcome.reason);
@@ -29,7 +30,7 @@ TEST_CASE("a cable pulled in any phase ends the run and keeps all records before
   CHECK(rig.has_event("phase", phase));
   CHECK(rig.has_event("interrupted", "reason"));
   if (is_stage && phase == "tare") {
-    CHECK_THAT(outcome.reason, !Contains("by hand"));  // it had not moved
+    CHECK_THAT(outcome.reason, !Contains("by hand"));  // the stage had not moved
   } else if (is_stage) {
     CHECK_THAT(outcome.reason, Contains("by hand"));
   } else {

@@ -23,13 +23,13 @@ TEST_CASE("a speed below the smallest of the stage is a warning with the speed u
   plan.depth_m = 0.05e-3;
   plan.ramp_s = 10.0;
   const Preflight slow = preflight(demo_rig(), plan, demo_specimen(10.0), coarse);
-  const auto says = [&](const std::string& words) {
+  const auto n_warnings_with = [&](const std::string& words) {
     return std::count_if(slow.warnings.begin(), slow.warnings.end(), [&](const std::string& text) {
       return text.find(words) != std::string::npos;
     });
   };
-  CHECK(says("no slower than 0.1220 mm/s: the approach") == 1);
-  CHECK(says("the move 'ramp' goes at that") == 1);
+  CHECK(n_warnings_with("no slower than 0.1220 mm/s: the approach") == 1);
+  CHECK(n_warnings_with("the move 'ramp' goes at that") == 1);
   coarse.min_speed_m_s = 0.0;
   const Preflight free = preflight(demo_rig(), plan, demo_specimen(10.0), coarse);
   // The overshoot is that of the true speed of the approach.

@@ -65,7 +65,7 @@ TEST_CASE("a force that cannot be read after the lift is not reported as unchang
   EmulatedRigOptions options = RigFixture::options(5.0);
   RigFixture rig(options);
   when_phase(rig, "hold", [&rig] {
-    rig.emulated.silence_load_cell();
+    rig.emulated.cause(Incident::kSilenceLoadCell);
     rig.stop = true;
   });
   const RunOutcome outcome = rig.run(short_plan());
@@ -77,9 +77,9 @@ TEST_CASE("an amplifier without a clock that restarts in the hold ends the run",
   EmulatedRigOptions options = RigFixture::options(5.0);
   options.config.load_cell.line_format = "auto";
   options.amplifier.format = AmplifierFormat::kCounts;
-  options.amplifier.boot_s = 4.0;  // .8 s on the wall, behind its banner
+  options.amplifier.boot_s = 4.0;  // 0.8 s of wall time after its banner
   RigFixture rig(options);
-  when_phase(rig, "hold", [&rig] { rig.emulated.restart_load_cell(); });
+  when_phase(rig, "hold", [&rig] { rig.emulated.cause(Incident::kRestartLoadCell); });
   TestPlan plan = short_plan();
   plan.hold_s = 8.0;
   const RunOutcome outcome = rig.run(plan);
@@ -106,7 +106,7 @@ TEST_CASE("readings delayed by a stall are not counted as missing, even without 
   rig.emulated.stall(0.6);
   until(90);
   CHECK(rig.load_cell.counts().longest_gap_s > 0.5);
-  CHECK(rig.load_cell.counts().missing <= 2);  // of 47 in the gap: its ends are ragged
+  CHECK(rig.load_cell.counts().missing <= 2);  // of 47 in the gap, whose ends are not sharp
 }
 
 TEST_CASE("counts printed with a decimal point are read as counts", "[rig][pty]") {

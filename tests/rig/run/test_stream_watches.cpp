@@ -1,4 +1,4 @@
-#include "rig/run/silence_watch.h"
+#include "rig/run/served_devices.h"
 #include "rig/run/spike_watch.h"
 
 #include <catch2/catch.hpp>
@@ -95,7 +95,7 @@ TEST_CASE("ramps, corners, steps and peaks of true forces are no spikes", "[rig]
   CHECK(spikes_in(force_like()).empty());
 }
 
-TEST_CASE("a garbled digit that stands out is found, wherever it is", "[rig]") {
+TEST_CASE("a garbled digit that stands out is found at every position", "[rig]") {
   std::vector<double> values = noisy(force_like(), 300.0);
   // 20 times the noise; the one at 250 lies in a ramp of 10 times the noise per reading.
   for (const std::size_t at : {100u, 250u, 450u, 800u}) values[at] += 6000.0;
@@ -121,7 +121,7 @@ TEST_CASE("at rest an error of 8 times the noise is found, and noise is not mark
     values[at] += (at % 200 == 0 ? 8.0 : -8.0) * 300.0;
     ++n_off;
   }
-  // 8 - 6.6 standard deviations of the noise in hand: 92 %; half of that could not pass.
+  // The margin is 8 - 6.6 standard deviations of the noise: 92 %. Half of that would fail.
   CHECK(4 * spikes_in(values).size() > 3 * n_off);
   CHECK(spikes_in(values).size() <= n_off + 1);
 }

@@ -27,7 +27,8 @@ TEST_CASE("a step of the system clock during a run changes no time stamp and los
           "[rig][pty]") {
   const auto before = std::chrono::system_clock::now();
   step_s = 5000;
-  REQUIRE(std::chrono::system_clock::now() - before > std::chrono::seconds(4000));  // it is ours
+  REQUIRE(std::chrono::system_clock::now() - before >
+          std::chrono::seconds(4000));  // the replaced clock
   RigFixture rig(RigFixture::options(20.0));
   rig.sink = [&rig](const RunRecord& record) {
     rig.records.push_back(record);

@@ -1,5 +1,5 @@
-// What real controllers do beyond their documentation: each habit of the emulator by itself.
-#include "rig/stages/travel_limit.h"
+// Behaviour of real controllers beyond their documentation: one habit of the emulator at a time.
+#include "rig/stages/polled_stage.h"
 #include "tests/rig/rig_fixture.h"
 
 #include <catch2/catch.hpp>
@@ -70,7 +70,7 @@ TEST_CASE("with soft limits a lift ends at the end of the controller's travel", 
   RigFixture rig(options);
   rig.stage.connect(rig.pump());
   move_and_wait(rig, 0.2e-3, 1e-3);
-  move_and_wait(rig, -0.5e-3, 1e-3);  // refused as it is: error 15
+  move_and_wait(rig, -0.5e-3, 1e-3);  // the unshortened move is refused: error 15
   CHECK(rig.stage.position_m() == Approx(0.0).margin(1e-9));
   CHECK(stands_where_it_says(rig));
   CHECK_THROWS_WITH(move_and_wait(rig, 3.1e-3, 1e-3), Contains("$130"));
@@ -186,7 +186,7 @@ TEST_CASE("a stage sent to a wrong position by a garbled line is stopped at once
   rig.stage.connect(rig.pump());
   CHECK_THROWS_WITH(move_and_wait(rig, 0.05e-3, 0.2e-3), Contains("outside of its path"));
   rig.stage.recover(rig.pump());
-  CHECK(rig.emulated.outcome().final_position_m < 0.3e-3);  // of the 1.05 mm it was heard to ask
+  CHECK(rig.emulated.outcome().final_position_m < 0.3e-3);  // of the 1.05 mm that it understood
   CHECK(stands_where_it_says(rig));
 }
 
@@ -209,7 +209,7 @@ TEST_CASE("a limit switch that raises another alarm when it opens still ends wit
   rig.sink = [&rig](const RunRecord& record) {
     rig.records.push_back(record);
     const auto* event = std::get_if<RunEvent>(&record);
-    if (event != nullptr && event->value == "ramp") rig.emulated.hit_limit_switch();
+    if (event != nullptr && event->value == "ramp") rig.emulated.cause(Incident::kHitLimitSwitch);
   };
   const RunOutcome outcome = rig.run(short_plan());
   INFO(outcome.reason);
@@ -234,7 +234,7 @@ TEST_CASE("a board that resets late, while its settings are read, is asked again
   rig.stage.connect([&] {
     pump();
     if (!has_restarted && rig.all<StageReport>().size() == 1) {
-      rig.emulated.restart_stage();
+      rig.emulated.cause(Incident::kRestartStage);
       has_restarted = true;
     }
   });
@@ -265,7 +265,7 @@ TEST_CASE("a stage that rests at another position than its target is an error", 
 
 TEST_CASE("a force that stays flat at full depth is a doubt: steps may be lost", "[rig][pty]") {
   EmulatedRigOptions options = RigFixture::options(20.0);
-  options.truth.material.E0_Pa *= 0.05;  // what lost steps look like from the force
+  options.truth.material.E0_Pa *= 0.05;  // the force looks as it does after lost steps
   RigFixture rig(options);
   const RunOutcome outcome = rig.run(short_plan());
   INFO(outcome.reason);
@@ -281,7 +281,7 @@ TEST_CASE("after a restart of the controller under load the punch is lifted from
   rig.sink = [&rig](const RunRecord& record) {
     rig.records.push_back(record);
     const auto* event = std::get_if<RunEvent>(&record);
-    if (event != nullptr && event->value == "hold") rig.emulated.restart_stage();
+    if (event != nullptr && event->value == "hold") rig.emulated.cause(Incident::kRestartStage);
   };
   const RunOutcome outcome = rig.run(short_plan());
   INFO(outcome.reason);

@@ -45,7 +45,7 @@ TEST_CASE("a controller that does not reset on opening is reset by the driver", 
   const RigClock clock(20.0);
   const RecordSink sink = [](const RunRecord&) {};
   const Pump sleep = [] { wait_readable({}, 0.002); };
-  for (int i = 0; i < 2; ++i) {  // the second opening finds it running: no welcome by itself
+  for (int i = 0; i < 2; ++i) {  // at the second opening it runs already and sends no welcome
     SerialLine line(emulated.stage_port(), 115200, clock);
     GrblStage stage(line, options.config.stage, clock, sink, 0.2);
     stage.connect([&] {
@@ -133,7 +133,7 @@ TEST_CASE("after a limit switch the controller is silent until it is reset", "[r
   rig.stage.connect(rig.pump());
   rig.stage.begin_move(1e-3, 0.2e-3, "test");
   const Pump pump = rig.pump();
-  rig.emulated.hit_limit_switch();
+  rig.emulated.cause(Incident::kHitLimitSwitch);
   CHECK_THROWS_AS(
       [&] {
         while (rig.stage.is_moving()) pump();
@@ -152,11 +152,11 @@ TEST_CASE("a controller that restarts in a move, or is lost, ends it with an err
     while (rig.stage.is_moving()) pump();
   };
   SECTION("restart") {
-    rig.emulated.restart_stage();
+    rig.emulated.cause(Incident::kRestartStage);
     CHECK_THROWS_AS(wait(), DeviceRestarted);
   }
   SECTION("cable pulled") {
-    rig.emulated.pull_stage_cable();
+    rig.emulated.cause(Incident::kPullStageCable);
     CHECK_THROWS_AS(wait(), PortHungUp);
   }
 }

@@ -26,7 +26,7 @@ TEST_CASE("a report that contradicts the others does not change the start", "[ri
   const StageMove move{0.0, 0.0, 1e-3, 0.5e-3, 0.2};
   MoveTracker tracker(move, 0.8e-6);
   tracker.acknowledged(0.01);
-  tracker.reported(1.0, 1.01, 0.0);  // a late answer: it cannot still stand at the start
+  tracker.reported(1.0, 1.01, 0.0);  // a late answer: the stage cannot still be at the start
   const CommandedMove best = tracker.best(1e-3);
   CHECK(best.move.start_time_s == 0.0);
   CHECK(best.start_uncertainty_s == Approx(0.02).margin(1e-12));

@@ -129,7 +129,7 @@ TEST_CASE("a Zaber stage that stalls raises an alarm and recovers", "[rig][pty]"
   stage.connect(rig.pump());
   stage.begin_move(2e-3, 0.5e-3, "approach");
   rig.pump_for(0.1);
-  rig.emulated.hit_limit_switch();
+  rig.emulated.cause(Incident::kHitLimitSwitch);
   CHECK_THROWS_AS(rig.pump_for(2.0), StageAlarm);
   stage.recover(rig.pump());
   CHECK(rig.move(0.0, 2e-3));

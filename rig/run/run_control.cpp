@@ -1,13 +1,8 @@
-#include "rig/run/progress_report.h"
+#include "rig/run/run_control.h"
 
 #include <algorithm>
 
 namespace viscard {
-namespace {
-
-constexpr double kInterval_wall_s = 0.1;
-
-}  // namespace
 
 void ProgressReport::begin_phase(const std::string& name, double planned_rest_s) {
   phase_ = name;
@@ -16,6 +11,7 @@ void ProgressReport::begin_phase(const std::string& name, double planned_rest_s)
 }
 
 void ProgressReport::report(double force_N, double position_m) {
+  constexpr double kInterval_wall_s = 0.1;
   if (!control_.progress || monotonic_s() - last_report_wall_s_ < kInterval_wall_s) return;
   last_report_wall_s_ = monotonic_s();
   RunProgress progress;

@@ -1,0 +1,172 @@
+#include "rig/protocols/gauge_protocols.h"
+
+#include "models/maths/text_of_number.h"
+#include "rig/lines/rig_error.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr double kOverload = 9.9e37;
+constexpr const char* kClear = "\x03";  // device clear: aborts a measurement in progress
+
+// On RS-232 remote control must be switched on first. The range of 10 V covers the amplifier
+// without autoranging, one power line cycle is the shortest integration that rejects hum, and
+// autozero would halve the rate. No line of the opening is answered, so that answers stay in step
+// with queries.
+const std::array<GaugeProtocol, 3>& dialects() {
+  static const std::array<GaugeProtocol, 3> kRows{
+      {{.name = "34401a",
+        .opening = {kClear, "SYST:REM\n", "*CLS\n", "CONF:VOLT:DC 10,0.0001\n", "VOLT:DC:NPLC 1\n",
+                    "ZERO:AUTO OFF\n", "TRIG:SOUR IMM\n", "SAMP:COUN 1\n"},
+        .identity_query = "*IDN?\n",
+        .query = "READ?\n",
+        .error_query = "SYST:ERR?\n",
+        .closing = "SYST:LOC\n",
+        .parse = parse_scpi_reading},
+       {.name = "gdm",
+        .opening = {"*CLS\n", "CONF:VOLT:DC 10\n"},
+        .identity_query = "*IDN?\n",
+        .query = "VAL1?\n",
+        .closing = "SYST:LOC\n",
+        .parse = parse_scpi_reading},
+       {.name = "owon",
+        .opening = {"*CLS\n", "CONF:VOLT:DC 5\n", "RATE F\n"},
+        .identity_query = "*IDN?\n",
+        .query = "MEAS1?\n",
+        .closing = "SYST:LOC\n",
+        .parse = parse_scpi_reading}}};
+  return kRows;
+}
+
+constexpr std::size_t kSauterLength = 7;
+
+// The unit of a gauge that does not send one; N unless the rig file has another.
+std::string checked_unit(const std::string& unit) {
+  const std::string word = unit.empty() ? "N" : unit;
+  if (newtons_per_unit(word)) return word;
+  throw RigError(
+      "unit '" + unit +
+      "' under [load_cell] of the rig file is unknown; choose N, mN, kN, gf, kgf, ozf or lbf");
+}
+
+}  // namespace
+
+GaugeProtocol scpi_protocol(const std::string& dialect) {
+  std::string known;
+  for (const GaugeProtocol& row : dialects()) {
+    if (row.name == dialect) return row;
+    known += (known.empty() ? "" : ", ") + row.name;
+  }
+  throw RigError("dialect '" + dialect +
+                 "' under [load_cell] of the rig file is unknown; known are " + known);
+}
+
+std::optional<GaugeAnswer> parse_scpi_reading(std::string_view line) {
+  GaugeAnswer answer;
+  for (const std::string_view part : split(line, ',')) {
+    // A unit may follow: "1.779E+0 VDC".
+    std::string_view digits = trimmed(part);
+    digits = digits.substr(0, digits.find(' '));
+    const auto value = number_from_text(digits);
+    if (!value) return std::nullopt;
+    answer.is_overload = std::abs(*value) >= kOverload;
+    answer.volts = answer.is_overload ? std::nullopt : value;
+  }
+  return answer;
+}
+
+std::optional<ScpiError> parse_scpi_error(std::string_view line) {
+  const std::size_t comma = line.find(',');
+  if (comma == std::string_view::npos) return std::nullopt;
+  const auto code = integer_from_text(line.substr(0, comma));
+  std::string_view text = trimmed(line.substr(comma + 1));
+  if (!code || *code < -32768 || *code > 32767 || text.size() < 2 || text.front() != '"') {
+    return std::nullopt;
+  }
+  text.remove_prefix(1);
+  if (text.back() == '"') text.remove_suffix(1);
+  return ScpiError{static_cast<int>(*code), std::string(text)};
+}
+
+std::optional<GaugeAnswer> parse_mark10_reading(std::string_view line, const std::string& unit) {
+  const std::string_view text = trimmed(line);
+  GaugeAnswer answer;
+  if (!text.empty() && text.front() == '*') {
+    answer.error = std::string(text);
+    return answer;
+  }
+  const std::size_t end = text.find_last_of("0123456789.");
+  if (end == std::string_view::npos) return std::nullopt;
+  const auto value = number_from_text(text.substr(0, end + 1));
+  answer.unit = std::string(trimmed(text.substr(end + 1)));
+  const auto newtons = newtons_per_unit(answer.unit.empty() ? unit : answer.unit);
+  if (!value || !newtons) return std::nullopt;
+  answer.force_N = *value * *newtons;
+  return answer;
+}
+
+GaugeProtocol mark10_protocol(const std::string& unit) {
+  const std::string word = checked_unit(unit);
+  GaugeProtocol protocol;
+  protocol.name = "mark10";
+  protocol.query = "?\r";
+  protocol.parse = [word](std::string_view line) { return parse_mark10_reading(line, word); };
+  return protocol;
+}
+
+std::optional<GaugeAnswer> parse_sauter_reading(std::string_view bytes, const std::string& unit) {
+  if (bytes.size() != kSauterLength || (bytes[0] != '0' && bytes[0] != '1')) return std::nullopt;
+  const std::string_view digits = bytes.substr(1);
+  if (digits.find_first_not_of("0123456789.") != std::string_view::npos) return std::nullopt;
+  const auto value = number_from_text(digits);
+  const auto newtons = newtons_per_unit(unit);
+  if (!value || !newtons) return std::nullopt;
+  GaugeAnswer answer;
+  answer.force_N = (bytes[0] == '0' ? 1.0 : -1.0) * *value * *newtons;
+  return answer;
+}
+
+GaugeProtocol sauter_protocol(const std::string& unit) {
+  const std::string word = checked_unit(unit);
+  GaugeProtocol protocol;
+  protocol.name = "sauter";
+  protocol.query = "9";
+  protocol.fixed_length = kSauterLength;
+  protocol.parse = [word](std::string_view bytes) { return parse_sauter_reading(bytes, word); };
+  return protocol;
+}
+
+std::optional<double> newtons_per_unit(std::string_view unit) {
+  constexpr double kGravity = 9.80665;
+  constexpr double kPound_kg = 0.45359237;
+  static constexpr std::array<std::pair<const char*, double>, 13> kRows{
+      {{"n", 1.0},
+       {"mn", 1e-3},
+       {"kn", 1e3},
+       {"g", 1e-3 * kGravity},
+       {"gf", 1e-3 * kGravity},
+       {"kg", kGravity},
+       {"kgf", kGravity},
+       {"oz", kPound_kg / 16.0 * kGravity},
+       {"ozf", kPound_kg / 16.0 * kGravity},
+       {"lb", kPound_kg * kGravity},
+       {"lbs", kPound_kg * kGravity},
+       {"lbf", kPound_kg * kGravity},
+       {"p", 1e-3 * kGravity}}};  // pond, on older gauges
+  std::string word(trimmed(unit));
+  if (word == "MN") return std::nullopt;  // no gauge has meganewtons, and mN would be off by 1e9
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const auto& [name, newtons] : kRows) {
+    if (word == name) return newtons;
+  }
+  return std::nullopt;
+}
+
+}  // namespace viscard

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace viscard {
+
+// One answer of an instrument that is polled.
+struct GaugeAnswer {
+  std::optional<double> volts;    // reading of a multimeter ...
+  std::optional<double> force_N;  // ... or of a force gauge, positive in compression
+  bool is_overload = false;       // the instrument reports that its range is exceeded
+  std::string unit;               // as sent; empty if none was sent
+  std::string error;              // the text of a refusal; empty otherwise
+};
+
+// How to poll one kind of instrument; knows no port. There is one such row per instrument.
+struct GaugeProtocol {
+  std::string name;
+  std::vector<std::string> opening;  // sent one by one when connecting; none is answered
+  std::string identity_query;        // empty: the instrument has no identity
+  std::string query;                 // asks for one reading
+  std::string error_query;           // sent once after the opening; empty: none
+  std::string closing;               // sent at the end
+  // Length of answers without a terminator, bytes; 0: answers are lines.
+  std::size_t fixed_length = 0;
+  // Returns nothing for text that is no answer.
+  std::function<std::optional<GaugeAnswer>(std::string_view)> parse;
+};
+
+// A multimeter on RS-232 that measures the amplifier's output. Sources: HP 34401A User's Guide, ch.
+// 4; libsigrok, src/hardware/scpi-dmm/api.c; SCPI-1999.
+//
+// dialect: "34401a" (HP, Agilent, Keysight and most bench meters), "gdm" (GW-Instek GDM-82xx, query
+// VAL1?), "owon" (XDM, query MEAS1?). Throws RigError on another word.
+GaugeProtocol scpi_protocol(const std::string& dialect);
+
+// "+1.77900000E+00", or several readings separated by commas, of which the last is the
+// newest. 9.9E37 and above means out of range (SCPI-1999, 7.2.1.4).
+std::optional<GaugeAnswer> parse_scpi_reading(std::string_view line);
+
+// The answer to SYST:ERR?, such as "+0,\"No error\"".
+struct ScpiError {
+  int code = 0;
+  std::string text;
+};
+std::optional<ScpiError> parse_scpi_error(std::string_view line);
+
+// Mark-10 series 4, 5 and 7. The query is "?" and CR. The answer is "-18.78 lbF" or, with the unit
+// switched off in the gauge's menu, a number alone, to which `unit` applies. Answers such as "*10"
+// are errors. Source: Mark-10 Series 4/5/7 user's guides, "Communications". Compression is positive
+// unless the gauge's polarity was inverted. Throws RigError on an unknown unit.
+GaugeProtocol mark10_protocol(const std::string& unit);
+std::optional<GaugeAnswer> parse_mark10_reading(std::string_view line, const std::string& unit);
+
+// Sauter FH and FL. The query is the byte "9". The answer is 7 ASCII bytes without terminator, such
+// as "0011.70": the first is 0 in compression and 1 in tension, the rest is the absolute value. The
+// unit is not sent. The parser returns compression as positive. Source: Sauter FH interface
+// description. Throws RigError on an unknown unit.
+GaugeProtocol sauter_protocol(const std::string& unit);
+std::optional<GaugeAnswer> parse_sauter_reading(std::string_view bytes, const std::string& unit);
+
+// Newtons in one unit of force as balances and force gauges write it: N mN kN gf kgf ozf lbf, p
+// (pond), and g kg oz lb lbs for the weight of that mass. Case does not matter, except that MN is
+// refused. Returns nothing for another word.
+// Source: BIPM SI Brochure (standard gravity 9.80665 m/s2); NIST SP 811, B.8 (pound, ounce).
+std::optional<double> newtons_per_unit(std::string_view unit);
+
+}  // namespace viscard

@@ -1,0 +1,125 @@
+#include "rig/stages/polled_stage.h"
+
+#include "models/maths/text_of_number.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace viscard {
+
+PolledStage::PolledStage(Transport& transport, const StageConfig& config, const RigClock& clock,
+                         RecordSink sink, double patience)
+    : transport_(transport),
+      config_(config),
+      clock_(clock),
+      sink_(std::move(sink)),
+      patience_(patience),
+      toward_(config.toward_specimen < 0 ? -1.0 : 1.0) {}
+
+void PolledStage::receive() {
+  const Chunk chunk = transport_.read_available();
+  if (chunk.bytes.empty()) return;
+  sink_(RawBytes{Device::kStage, false, chunk.time_s, chunk.bytes});
+  // No wire time is subtracted: a report bounds the start of a move, and only the stamp is safe.
+  splitter_.feed(chunk.bytes, chunk.time_s);
+}
+
+void PolledStage::note(double time_s, const std::string& name, const std::string& value,
+                       const std::string& text) const {
+  sink_(RunEvent{time_s, name, value, text});
+}
+
+bool PolledStage::wait_for(const std::function<bool()>& is_there, const Pump& pump,
+                           double wall_s) const {
+  const double deadline_s = monotonic_s() + wall_s * patience_;
+  while (!is_there()) {
+    if (monotonic_s() > deadline_s) return false;
+    pump();
+  }
+  return true;
+}
+
+void PolledStage::await_report(const Pump& pump, double wall_s, const std::string& remedy) {
+  const std::size_t before = n_reports_;
+  polls_ = true;
+  next_poll_s_ = clock_.now_s();
+  if (wait_for([&] { return n_reports_ > before; }, pump, wall_s)) return;
+  throw RigError("the stage on '" + transport_.name() + "' does not report its position. " +
+                 remedy);
+}
+
+void PolledStage::throw_no_answer(const std::string& what, const std::string& if_unreadable,
+                                  const std::string& otherwise) const {
+  const bool is_noise = splitter_.n_bytes() > 20 && splitter_.unprintable_fraction() > 0.2;
+  throw RigError("no " + what + " answered on '" + transport_.name() + "' (" +
+                 std::to_string(splitter_.n_bytes()) + " bytes received). " +
+                 (is_noise ? "They are mostly unreadable: " + if_unreadable : otherwise));
+}
+
+void PolledStage::take_report(double time_s, double position_m, const std::string& state) {
+  reported_m_ = position_m + 0.0;  // no negative zero
+  ++n_reports_;
+  sink_(StageReport{time_s, reported_m_, state});
+}
+
+void PolledStage::take_latency(double asked_s, double time_s) {
+  const double took_s = (time_s - asked_s) / clock_.speed();
+  latency_.mean_s += (took_s - latency_.mean_s) / ++latency_.n;
+  latency_.longest_s = std::max(latency_.longest_s, took_s);
+}
+
+void PolledStage::count_miss() {
+  constexpr int kMostMisses = 20;  // times 250 ms without any report: it is gone
+  if (++n_missed_ < kMostMisses) return;
+  throw RigError("the stage has stopped answering on '" + transport_.name() +
+                 "'. Check its cable and supply; it may still be moving");
+}
+
+void PolledStage::plan_poll(double now_s, double every_s) {
+  next_poll_s_ = now_s + every_s;
+  if (is_moving() && expected_end_s_ > now_s) {
+    next_poll_s_ = std::min(next_poll_s_, expected_end_s_ + 2e-3);
+  }
+}
+
+CommandedMove PolledStage::ended_move(const MoveTracker& tracker, const std::string& purpose,
+                                      double end_m) {
+  exact_m_ = end_m;
+  CommandedMove commanded = tracker.best(end_m);
+  commanded.purpose = purpose;
+  return commanded;
+}
+
+void check_travel(double to_m, double start_m, double travel_m) {
+  if (to_m <= start_m + travel_m) return;
+  throw RigError("the move to " + text_from_number((to_m - start_m) * 1e3, 3) +
+                 " mm goes beyond the stage's travel of " + text_from_number(travel_m * 1e3, 3) +
+                 " mm from where it started. Bring the punch nearer to the specimen by hand, or "
+                 "raise travel in the rig file");
+}
+
+double within_travel_m(double from_m, double to_m, const StageDynamics& dynamics) {
+  constexpr double kSlack = 1e-6;  // of a step: rounding of the limits themselves
+  const double slack_m = kSlack / dynamics.steps_per_m;
+  if (from_m < dynamics.lowest_m - slack_m || from_m > dynamics.highest_m + slack_m) {
+    throw RigError("the stage stands at " + text_from_number(from_m * 1e3, 3) +
+                   " mm, outside of the travel that the controller allows ($20=1), so it "
+                   "refuses every move. Home it (home = true under [stage] of the rig file), or "
+                   "switch its soft limits off ($20=0)");
+  }
+  if (to_m < from_m && to_m < dynamics.lowest_m) {
+    const double step = std::ceil(dynamics.lowest_m * dynamics.steps_per_m - kSlack);
+    return std::min(from_m, step / dynamics.steps_per_m);
+  }
+  if (to_m > from_m && to_m > dynamics.highest_m + slack_m) {
+    throw RigError("the move to " + text_from_number(to_m * 1e3, 3) +
+                   " mm goes beyond the controller's own travel, which ends at " +
+                   text_from_number(dynamics.highest_m * 1e3, 3) +
+                   " mm ($20 and $130-132). Bring the punch nearer to the specimen by hand, or "
+                   "correct these settings");
+  }
+  return to_m;
+}
+
+}  // namespace viscard
