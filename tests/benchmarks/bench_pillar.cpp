@@ -1,6 +1,6 @@
 // Work of the pillar solver inside one process, in CPU time, with the error beside it. Peers are
 // timed beside the whole command by bench_pillar_peers.
-#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/pillar_modes.h"
 #include "models/pillar/time/harmonic_response.h"
 #include "models/pillar/time/load_history.h"

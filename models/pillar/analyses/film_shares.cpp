@@ -1,9 +1,8 @@
-#include "models/pillar/analyses/film_shares.h"
+#include "models/pillar/analyses/analysis.h"
 
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace viscard {

@@ -2,7 +2,7 @@
 
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/scene/pillar_scene.h"
-#include "models/pillar/time/reduced_body.h"
+#include "models/pillar/time/model_reduction.h"
 #include "models/pillar/time/viscoelastic_system.h"
 #include "models/scene/common/scene_answer.h"
 

@@ -2,11 +2,7 @@
 
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/pillar/analyses/check_pillar.h"
-#include "models/pillar/mesh/mesh_sequence.h"
-
-#include <string>
-#include <vector>
+#include "models/pillar/mesh/pillar_mesh.h"
 
 namespace viscard {
 
