@@ -176,7 +176,7 @@ EffectEstimate modal_geometric_stiffness(const PillarScene& scene, const EffectE
 double relaxed_frequency_Hz(double f0_Hz, const PronySeries& series, double stress_share) {
   const double E0 = instantaneous_modulus_Pa(series);
   double f_Hz = f0_Hz;
-  constexpr int kIterations = 40;  // each wins a factor of d ln E'/d ln f < 1/2 at least
+  constexpr int kIterations = 40;  // each reduces the error by d ln E'/d ln f < 1/2 or less
   for (int i = 0; i < kIterations; ++i) {
     const double E = complex_modulus_Pa(series, 2.0 * std::numbers::pi * f_Hz).storage_Pa / E0;
     f_Hz = f0_Hz * std::sqrt(std::max(0.0, (E - stress_share) / (1.0 - stress_share)));
