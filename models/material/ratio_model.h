@@ -95,7 +95,7 @@ struct RatioFit {
   std::vector<RatioComparison> forms;  // ascending BIC
   std::vector<RatioSpecimen> specimens;
   std::vector<MaterialFlag> flags;
-  // What all materials share: nu, density, temperature, window, systematic part, raw files.
+  // Common to all materials: nu, density, temperature, window, systematic part, raw files.
   Material common;
 };
 

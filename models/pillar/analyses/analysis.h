@@ -71,8 +71,8 @@ const Analysis& analysis_of(const PillarScene& scene);
 
 // The pieces that the analyses share.
 
-// Names of what moves in time or frequency, each followed by the same with every ending: the top's
-// (`first`), then what the film shows of it.
+// Names of results in time or frequency, each followed by the same with every ending: the motion of
+// the top (`first`), then the voltages or charges of the film.
 std::vector<std::string> moving_names(const PillarScene& scene, const std::string& first,
                                       const std::vector<std::string>& endings);
 PillarMedia media_of(const PillarScene& scene);  // pillar with its instantaneous moduli

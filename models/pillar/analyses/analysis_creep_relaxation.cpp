@@ -29,7 +29,7 @@ void add_quasi_static_curve(const std::string& name, const std::string& unit,
   answer.curves.push_back({name, unit, time_s, values});
 }
 
-// After every corner of the load, times that show what a readout of this time constant does.
+// Times after every corner of the load that resolve the decay of the readout.
 std::vector<double> times_of_decay(const std::vector<HistoryPoint>& history,
                                    const ReadoutFilter& filter) {
   std::vector<double> times_s;

@@ -50,7 +50,7 @@ class Response {
     base_acceleration_m_s2_ = base_acceleration_m_s2(scene);
   }
 
-  // Values of all outputs, and what the tolerance refers to.
+  // Adds the values of all outputs, and the sizes that the tolerance refers to.
   void add(double frequency_Hz, std::vector<Sweep>& sweeps) const {
     const double omega = kTwoPi * frequency_Hz;
     const Eigen::MatrixXcd answers = solver_.solve(omega, sides_.cast<Complex>());
@@ -181,7 +181,7 @@ void check_harmonic(const PillarScene& scene) {
         "a harmonic analysis needs a pressure on the top or an acceleration of the base");
   }
   check_sideways_in_time(scene);
-  wave_mesh(scene, f);  // refuses what no mesh can resolve
+  wave_mesh(scene, f);  // refuses waves that no mesh can resolve
 }
 
 void run_harmonic(const PillarScene& scene, SceneAnswer& answer) {

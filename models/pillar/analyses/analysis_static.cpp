@@ -167,7 +167,7 @@ PillarState static_state(const PillarScene& scene, const PillarModel& model) {
   }
   const double pressure_Pa = top_pressure_Pa(scene, unit);
   if (drive_V(scene) == 0.0) return pressure_Pa * unit.open;
-  // Charge on the electrode until it has the voltage, beside what the pressure gives.
+  // The charge that brings the electrode to the voltage, in addition to that of the pressure.
   Eigen::VectorXd forces = -pressure_Pa * traction;
   const double charge_C = unit.charge_C * pressure_Pa + unit.capacitance_F * drive_V(scene);
   forces[model.electrode_dof()] -= charge_C * model.potential_scale_V();

@@ -13,7 +13,7 @@ void validate(const PillarScene& scene);
 
 // Everything a scene may ask for under [want]: the names of its results, and of its curves, which
 // stand for the results read off them. Nothing is solved. tests/models/scene compares this list
-// with what the analyses give.
+// with the results of the analyses.
 std::vector<std::string> result_names(const PillarScene& scene);
 
 // Answers the scene as it stands, with the effects it names: on meshes of rising degree and grading

@@ -15,7 +15,7 @@ namespace viscard {
 // mean is given, whose multiplier is a uniform shear. All answers are linear in either, so the
 // pressure that belongs to a displacement u is that of 1 Pa scaled,
 //   p = (u - a V)/s,
-// s: displacement per Pa; a V: what a voltage on the electrode does to a free top.
+// s: displacement per Pa; a V: the displacement of a free top by a voltage on the electrode.
 
 bool moves_top(const PillarScene& scene);
 

@@ -10,7 +10,7 @@
 
 namespace viscard {
 
-// One pillar, what is done to it, and how well the answer must be known.
+// One pillar, its drive, and the accuracy of the answer.
 struct PillarScene : SceneCommon {
   PillarGeometry geometry;
   std::optional<Medium> film;
@@ -21,7 +21,7 @@ struct PillarScene : SceneCommon {
   // modes, not its rigid motions, and how a voltage moves the top relative to the middle of the
   // bottom.
   bool fixed_bottom = true;
-  std::optional<Readout> readout;  // what the electrode is wired to; none: open circuit
+  std::optional<Readout> readout;  // the circuit on the electrode; none: open
 
   PillarDrive drive;
   std::optional<Discretisation> discretisation;  // finest mesh; none: the tolerance decides

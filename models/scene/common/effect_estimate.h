@@ -37,7 +37,7 @@ struct NamedEstimate {
 
 struct EffectDecisions {
   std::vector<SceneEffect> effects;  // in the order of the estimates
-  double left_out = 0.0;             // sum of the estimates of what is left out
+  double left_out = 0.0;             // sum of the estimates of effects left out
 };
 
 // The mesh gets the rest of the tolerance, at least this share.
