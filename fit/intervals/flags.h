@@ -2,7 +2,7 @@
 
 #include "fit/intervals/fit_result.h"
 #include "fit/search/separable.h"
-#include "models/material/fit_defects.h"
+#include "models/material/material.h"
 
 #include <string>
 
@@ -29,7 +29,7 @@ void judge(FitResult& result);
 // Adds the flag with the number of samples left out as spikes, if there are any.
 void add_spikes(FitResult& result, std::size_t count);
 
-// One of the flags that make the whole result untrustworthy (models/material/fit_defects.h).
+// One of the flags that make the whole result untrustworthy (models/material/material.h).
 inline constexpr const char* kContradictsData = "contradicts-data";
 
 // Adds a flag that makes the whole result untrustworthy.

@@ -3,7 +3,7 @@
 #include "io/cards/card_header.h"
 #include "io/cards/material_difference.h"
 #include "io/cards/read_card.h"
-#include "models/material/fit_defects.h"
+#include "models/material/material.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>

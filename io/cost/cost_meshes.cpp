@@ -2,7 +2,7 @@
 
 #include "models/array/plane/simulate_array.h"
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/mesh/mesh_sequence.h"
+#include "models/pillar/mesh/pillar_mesh.h"
 
 #include <algorithm>
 

@@ -3,8 +3,7 @@
 #include "io/scenes/scene_drive.h"
 #include "io/scenes/scene_words.h"
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/analyses/check_pillar.h"
-#include "models/pillar/analyses/pillar_results.h"
+#include "models/pillar/analyses/simulate_pillar.h"
 #include "models/scene/effects.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "io/scenes/scene_drive.h"
 #include "io/scenes/scene_words.h"
 #include "models/array/plane/array_analysis.h"
-#include "models/array/plane/check_array.h"
+#include "models/array/plane/simulate_array.h"
 #include "models/scene/common/drive_parts.h"
 #include "models/scene/effects.h"
 #include "models/scene/plan.h"

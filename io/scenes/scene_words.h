@@ -6,7 +6,7 @@
 #include "io/materials/piezo_file.h"
 #include "models/material/material.h"
 #include "models/pillar/mesh/scene_mistake.h"
-#include "models/scene/common/effect_choice.h"
+#include "models/scene/common/effect_estimate.h"
 
 #include <filesystem>
 #include <map>

@@ -1,15 +1,12 @@
-#include "models/contact/layer_factor.h"
-
+#include "models/contact/punch_contact.h"
 #include "models/maths/dense.h"
 #include "models/maths/gauss_legendre.h"
-#include "models/maths/text_of_number.h"
+#include "models/maths/require.h"
 
 #include <Eigen/Core>
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace viscard {
@@ -29,24 +26,23 @@ double missing_compliance(double x, double nu) {
 
 }  // namespace
 
+void require_layer(double radius_over_thickness, double poisson_ratio) {
+  require_value(radius_over_thickness >= 0.0 && radius_over_thickness <= 10.0,
+                "punch radius over layer thickness", radius_over_thickness, "",
+                "from 0 to 10 for the layer factor");
+  require_value(poisson_ratio >= 0.0 && poisson_ratio <= 0.5, "Poisson ratio", poisson_ratio, "",
+                "from 0 to 0.5 for the layer factor");
+}
+
 double layer_factor(double radius_over_thickness, double poisson_ratio) {
-  if (!(radius_over_thickness >= 0.0 && radius_over_thickness <= 10.0)) {
-    throw std::invalid_argument("punch radius over layer thickness is " +
-                                text_of(radius_over_thickness) +
-                                "; the layer correction holds from 0 to 10");
-  }
-  if (!(poisson_ratio >= 0.0 && poisson_ratio <= 0.5)) {
-    throw std::invalid_argument("Poisson ratio is " + text_of(poisson_ratio) +
-                                "; the layer correction holds from 0 to 0.5");
-  }
+  require_layer(radius_over_thickness, poisson_ratio);
   if (radius_over_thickness == 0.0) return 1.0;
 
   // Quadrature over the transform variable x from 0 to 30, beyond which 1 - K is below 1e-20, in
   // panels of length 1.
   static const QuadratureRule panel = gauss_legendre(24);
   constexpr int kPanels = 30;
-  std::vector<double> x;
-  std::vector<double> weight;
+  std::vector<double> x, weight;
   for (int p = 0; p < kPanels; ++p) {
     for (std::size_t i = 0; i < panel.points.size(); ++i) {
       x.push_back(p + panel.points[i]);

@@ -1,57 +1,43 @@
 #include "models/contact/punch_contact.h"
 
-#include "models/contact/layer_factor.h"
-#include "models/maths/text_of_number.h"
+#include "models/maths/require.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
 namespace viscard {
-
 namespace {
 
 void validate_tip(const PunchContact& contact) {
   const bool is_cone = contact.shape == TipShape::kCone;
-  if (is_cone && !(contact.half_angle_rad > 0.0 && contact.half_angle_rad < std::numbers::pi / 2)) {
-    throw std::invalid_argument("half-angle of the cone is " +
-                                text_of(contact.half_angle_rad * 180.0 / std::numbers::pi) +
-                                " degrees; it must lie between 0 and 90");
+  if (is_cone) {
+    const double angle_rad = contact.half_angle_rad;
+    require_value(angle_rad > 0.0 && angle_rad < std::numbers::pi / 2, "half-angle of the cone",
+                  angle_rad * 180.0 / std::numbers::pi, "degrees", "between 0 and 90");
   }
   const std::string name = is_cone ? "cone" : "sphere";
-  if (contact.layer_thickness_m > 0.0) {
-    throw std::invalid_argument(
-        "a " + name +
-        " on a bonded layer has no correction here; if the specimen is much "
-        "thicker than the contact is wide, set layer_thickness = "
-        "\"half-space\"");
-  }
-  if (contact.is_sticking) {
-    throw std::invalid_argument("a sticking " + name +
-                                " has no formula here; remove sticking (at nu = 0.5 it makes "
-                                "no difference)");
-  }
+  require(!(contact.layer_thickness_m > 0.0),
+          "a " + name +
+              " on a bonded layer has no correction here; if the specimen is much thicker than the "
+              "contact is wide, set layer_thickness = \"half-space\"");
+  require(!contact.is_sticking, "a sticking " + name +
+                                    " has no formula here; remove sticking (at nu = 0.5 it makes "
+                                    "no difference)");
 }
 
 }  // namespace
 
 void validate(const PunchContact& contact) {
   if (contact.shape != TipShape::kFlat) validate_tip(contact);
-  if (contact.shape != TipShape::kCone &&
-      !(contact.punch_radius_m > 0.0 && std::isfinite(contact.punch_radius_m))) {
-    throw std::invalid_argument("punch radius is " + text_of(contact.punch_radius_m) +
-                                " m; it must be positive");
+  if (contact.shape != TipShape::kCone) {
+    require_positive("punch radius", contact.punch_radius_m, "m");
   }
-  if (!(contact.layer_thickness_m >= 0.0) || !std::isfinite(contact.layer_thickness_m)) {
-    throw std::invalid_argument("layer thickness is " + text_of(contact.layer_thickness_m) +
-                                " m; it must be positive, or 0 for a half-space");
-  }
-  if (!(contact.poisson_ratio >= 0.0 && contact.poisson_ratio <= 0.5)) {
-    throw std::invalid_argument("Poisson ratio is " + text_of(contact.poisson_ratio) +
-                                "; it must lie in [0, 0.5]");
-  }
+  require_value(contact.layer_thickness_m >= 0.0, "layer thickness", contact.layer_thickness_m, "m",
+                "positive, or 0 for a half-space");
+  require_value(contact.poisson_ratio >= 0.0 && contact.poisson_ratio <= 0.5, "Poisson ratio",
+                contact.poisson_ratio, "", "in [0, 0.5]");
 }
 
 double layer_factor(const PunchContact& contact) {
@@ -77,10 +63,9 @@ DepthLaw depth_law(const PunchContact& contact) {
 }
 
 double force_per_modulus_and_depth_m(const PunchContact& contact) {
-  if (contact.shape != TipShape::kFlat) {
-    throw std::invalid_argument(
-        "the force of a sphere or cone is not proportional to depth; a flat punch is needed here");
-  }
+  require(
+      contact.shape == TipShape::kFlat,
+      "the force of a sphere or cone is not proportional to depth; a flat punch is needed here");
   return depth_law(contact).factor;
 }
 

@@ -1,18 +1,14 @@
 // The factor of a sticking punch. Both displacements are prescribed under the punch, so pressure
 // and radial shear are unknown and solved for together.
-#include "models/contact/layer_factor.h"
+#include "models/contact/punch_contact.h"
 #include "models/maths/dense.h"
 #include "models/maths/gauss_legendre.h"
-#include "models/maths/text_of_number.h"
 
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace viscard {
 namespace {
@@ -111,15 +107,7 @@ double galerkin_factor(double r, double nu, Index pairs) {
 }  // namespace
 
 double sticking_layer_factor(double radius_over_thickness, double poisson_ratio) {
-  if (!(radius_over_thickness >= 0.0 && radius_over_thickness <= 10.0)) {
-    throw std::invalid_argument("punch radius over layer thickness is " +
-                                text_of(radius_over_thickness) +
-                                "; the correction for a sticking punch holds from 0 to 10");
-  }
-  if (!(poisson_ratio >= 0.0 && poisson_ratio <= 0.5)) {
-    throw std::invalid_argument("Poisson ratio is " + text_of(poisson_ratio) +
-                                "; the correction for a sticking punch holds from 0 to 0.5");
-  }
+  require_layer(radius_over_thickness, poisson_ratio);
   // Unless nu = 0.5 the stress oscillates at the edge, so the error falls as pairs^-2. Richardson
   // extrapolation removes that term.
   const double coarse = galerkin_factor(radius_over_thickness, poisson_ratio, 12);

@@ -1,21 +1,13 @@
 #include "models/experiment/calibration.h"
 
-#include "models/maths/text_of_number.h"
-
-#include <cmath>
-#include <stdexcept>
+#include "models/maths/require.h"
 
 namespace viscard {
 
 void validate(const LoadCellCalibration& calibration) {
-  if (!std::isfinite(calibration.volts_per_newton) || calibration.volts_per_newton == 0.0) {
-    throw std::invalid_argument("load cell gain is " + text_of(calibration.volts_per_newton) +
-                                " V/N; it must be finite and not zero");
-  }
-  if (!(calibration.capacity_N > 0.0) || !std::isfinite(calibration.capacity_N)) {
-    throw std::invalid_argument("load cell capacity is " + text_of(calibration.capacity_N) +
-                                " N; it must be positive");
-  }
+  require_value(calibration.volts_per_newton != 0.0, "load cell gain", calibration.volts_per_newton,
+                "V/N", "finite and not zero");
+  require_positive("load cell capacity", calibration.capacity_N, "N");
 }
 
 namespace {
@@ -40,9 +32,8 @@ bool is_iso_day(const std::string& text) {
 }
 
 void validate_date(const char* key, const std::string& text) {
-  if (text.empty() || is_iso_day(text)) return;
-  throw std::invalid_argument("calibration." + std::string(key) + " '" + text +
-                              "' is not a day such as 2026-11-21");
+  require(text.empty() || is_iso_day(text),
+          "calibration." + std::string(key) + " '" + text + "' is not a day such as 2026-11-21");
 }
 
 }  // namespace

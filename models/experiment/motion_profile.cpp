@@ -1,11 +1,9 @@
 #include "models/experiment/motion_profile.h"
 
-#include "models/maths/text_of_number.h"
+#include "models/maths/require.h"
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 namespace viscard {
 namespace {
@@ -15,6 +13,8 @@ struct Phases {
   double cruise_s;  // at full speed
   double top_m_s;
   double direction;
+
+  double total_s() const { return 2.0 * rise_s + cruise_s; }
 };
 
 Phases phases_of(const StageMove& move) {
@@ -33,23 +33,21 @@ Phases phases_of(const StageMove& move) {
 }  // namespace
 
 void validate(const StageMove& move) {
-  if (!(move.speed_m_s > 0.0) || !(move.acceleration_m_s2 > 0.0) || !std::isfinite(move.from_m) ||
-      !std::isfinite(move.to_m) || !std::isfinite(move.start_time_s)) {
-    throw std::invalid_argument("stage move with speed " + text_of(move.speed_m_s) +
-                                " m/s and acceleration " + text_of(move.acceleration_m_s2) +
-                                " m/s2: both must be positive and all values finite");
-  }
+  require_positive("speed of the stage", move.speed_m_s, "m/s");
+  require_positive("acceleration of the stage", move.acceleration_m_s2, "m/s2");
+  require(
+      std::isfinite(move.from_m) && std::isfinite(move.to_m) && std::isfinite(move.start_time_s),
+      "a stage move needs finite positions and a finite start time");
 }
 
 double duration_s(const StageMove& move) {
-  const Phases phases = phases_of(move);
-  return 2.0 * phases.rise_s + phases.cruise_s;
+  return phases_of(move).total_s();
 }
 
 double position_m(const StageMove& move, double time_s) {
   const Phases phases = phases_of(move);
   const double t = time_s - move.start_time_s;
-  const double total_s = 2.0 * phases.rise_s + phases.cruise_s;
+  const double total_s = phases.total_s();
   if (t <= 0.0) return move.from_m;
   if (t >= total_s) return move.to_m;
   const double a = move.acceleration_m_s2;
@@ -64,7 +62,7 @@ double position_m(const StageMove& move, double time_s) {
 double velocity_m_s(const StageMove& move, double time_s) {
   const Phases phases = phases_of(move);
   const double t = time_s - move.start_time_s;
-  const double total_s = 2.0 * phases.rise_s + phases.cruise_s;
+  const double total_s = phases.total_s();
   if (t <= 0.0 || t >= total_s) return 0.0;
   const double ramp_s = std::min({t, total_s - t, phases.rise_s});
   return phases.direction * move.acceleration_m_s2 * ramp_s;

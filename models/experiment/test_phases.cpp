@@ -13,7 +13,7 @@ constexpr double kPreload_s = 2.0;  // to reach the preload
 constexpr double kTare_s = 1.0;
 constexpr double kRetract_s = 1.0;
 
-void require(bool is_good, const std::string& text) {
+void require_plan(bool is_good, const std::string& text) {
   if (!is_good) throw std::invalid_argument("the test file: " + text);
 }
 
@@ -25,11 +25,8 @@ std::string numbered(const std::string& name, std::size_t i, std::size_t n) {
 TestPhase wait(std::string name, double duration_s, std::string text) {
   return {.kind = Kind::kWait,
           .name = std::move(name),
-          .purpose = {},
           .text = std::move(text),
-          .duration_s = duration_s,
-          .load_key = {},
-          .speed_key = {}};
+          .duration_s = duration_s};
 }
 
 TestPhase move(std::string name, std::string purpose, double depth_m, double move_s,
@@ -53,19 +50,18 @@ TestPhase by_force(Kind kind, std::string name, std::string purpose, double forc
           .force_N = force_N,
           .move_s = move_s,
           .duration_s = duration_s,
-          .load_key = std::move(load_key),
-          .speed_key = {}};
+          .load_key = std::move(load_key)};
 }
 
 void add_ramp_hold(const TestPlan& plan, std::vector<TestPhase>& phases) {
-  require(plan.depth_m > 0.0 && plan.ramp_s > 0.0 && plan.hold_s >= 0.0,
-          "depth and duration under [ramp] must be positive and hold not negative");
+  require_plan(plan.depth_m > 0.0 && plan.ramp_s > 0.0 && plan.hold_s >= 0.0,
+               "depth and duration under [ramp] must be positive and hold not negative");
   phases.push_back(move("ramp", "ramp", plan.depth_m, plan.ramp_s, "depth under [ramp]",
                         "duration under [ramp]", "To full depth at constant speed"));
   phases.push_back(wait("hold", plan.hold_s, "Relaxation at full depth"));
   if (!(plan.recovery_s > 0.0)) return;
-  require(plan.unload_to_fraction >= 0.0 && plan.unload_to_fraction < 1.0,
-          "unload_to_fraction under [recovery] must lie in [0, 1)");
+  require_plan(plan.unload_to_fraction >= 0.0 && plan.unload_to_fraction < 1.0,
+               "unload_to_fraction under [recovery] must lie in [0, 1)");
   TestPhase unload = move("unload", "unload", plan.unload_to_fraction * plan.depth_m, 0.0, "", "",
                           "Quickly to a part of the depth, still in contact");
   unload.speed_m_s = plan.unload_speed_m_s;
@@ -75,14 +71,14 @@ void add_ramp_hold(const TestPlan& plan, std::vector<TestPhase>& phases) {
 
 void add_levels(const TestPlan& plan, std::vector<TestPhase>& phases) {
   const std::size_t n = plan.levels.size();
-  require(n > 0, "protocol \"levels\" needs [[levels]], each with depth, duration and hold");
+  require_plan(n > 0, "protocol \"levels\" needs [[levels]], each with depth, duration and hold");
   double before_m = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const DepthLevel& level = plan.levels[i];
     const std::string where = "level " + std::to_string(i + 1) + " under [[levels]]";
-    require(level.depth_m >= 0.0 && level.ramp_s > 0.0 && level.hold_s >= 0.0,
-            where + ": depth and hold must not be negative, and duration positive");
-    require(level.depth_m != before_m, where + ": the depth must differ from the one before");
+    require_plan(level.depth_m >= 0.0 && level.ramp_s > 0.0 && level.hold_s >= 0.0,
+                 where + ": depth and hold must not be negative, and duration positive");
+    require_plan(level.depth_m != before_m, where + ": the depth must differ from the one before");
     const bool is_up = level.depth_m > before_m;
     phases.push_back(move(numbered(is_up ? "ramp" : "unload", i, n), is_up ? "ramp" : "unload",
                           level.depth_m, level.ramp_s, "depth of " + where, "duration of " + where,
@@ -94,10 +90,10 @@ void add_levels(const TestPlan& plan, std::vector<TestPhase>& phases) {
 
 void add_creep(const TestPlan& plan, std::vector<TestPhase>& phases) {
   const CreepPlan& creep = plan.creep;
-  require(creep.force_N > 0.0 && creep.ramp_s > 0.0 && creep.hold_s > 0.0,
-          "force, duration and hold under [creep] must be positive");
-  require(creep.tolerance_N >= 0.0 && creep.tolerance_N < creep.force_N,
-          "tolerance under [creep] must be between 0 and the force");
+  require_plan(creep.force_N > 0.0 && creep.ramp_s > 0.0 && creep.hold_s > 0.0,
+               "force, duration and hold under [creep] must be positive");
+  require_plan(creep.tolerance_N >= 0.0 && creep.tolerance_N < creep.force_N,
+               "tolerance under [creep] must be between 0 and the force");
   phases.push_back(by_force(Kind::kLoad, "ramp", "ramp", creep.force_N, creep.ramp_s, 0.0,
                             "force under [creep]", "To the force"));
   phases.push_back(by_force(Kind::kHoldForce, "creep", "creep", creep.force_N, 0.0, creep.hold_s,
@@ -106,12 +102,12 @@ void add_creep(const TestPlan& plan, std::vector<TestPhase>& phases) {
 
 void add_cycles(const TestPlan& plan, std::vector<TestPhase>& phases) {
   const CyclePlan& cycles = plan.cycles;
-  require(cycles.count > 0 && cycles.depth_m > 0.0 && cycles.ramp_s > 0.0,
-          "count, depth and duration under [cycles] must be positive");
-  require(cycles.hold_s >= 0.0 && cycles.rest_s >= 0.0,
-          "hold and rest under [cycles] must not be negative");
-  require(cycles.unload_to_fraction >= 0.0 && cycles.unload_to_fraction < 1.0,
-          "unload_to_fraction under [cycles] must lie in [0, 1)");
+  require_plan(cycles.count > 0 && cycles.depth_m > 0.0 && cycles.ramp_s > 0.0,
+               "count, depth and duration under [cycles] must be positive");
+  require_plan(cycles.hold_s >= 0.0 && cycles.rest_s >= 0.0,
+               "hold and rest under [cycles] must not be negative");
+  require_plan(cycles.unload_to_fraction >= 0.0 && cycles.unload_to_fraction < 1.0,
+               "unload_to_fraction under [cycles] must lie in [0, 1)");
   const auto n = static_cast<std::size_t>(cycles.count);
   for (std::size_t i = 0; i < n; ++i) {
     phases.push_back(move(numbered("load", i, n), i == 0 ? "ramp" : "load", cycles.depth_m,
@@ -131,8 +127,9 @@ void add_cycles(const TestPlan& plan, std::vector<TestPhase>& phases) {
 
 void add_staircase(const TestPlan& plan, std::vector<TestPhase>& phases) {
   const StaircasePlan& stairs = plan.staircase;
-  require(stairs.steps > 0 && stairs.depth_m > 0.0 && stairs.step_s > 0.0 && stairs.hold_s >= 0.0,
-          "steps, depth and duration under [staircase] must be positive, and hold not negative");
+  require_plan(
+      stairs.steps > 0 && stairs.depth_m > 0.0 && stairs.step_s > 0.0 && stairs.hold_s >= 0.0,
+      "steps, depth and duration under [staircase] must be positive, and hold not negative");
   const int n_down = stairs.is_down_too ? stairs.steps - 1 : 0;
   const auto n = static_cast<std::size_t>(stairs.steps + n_down);
   for (std::size_t i = 0; i < n; ++i) {
@@ -149,8 +146,8 @@ void add_staircase(const TestPlan& plan, std::vector<TestPhase>& phases) {
 
 void add_compliance(const TestPlan& plan, std::vector<TestPhase>& phases) {
   const CompliancePlan& block = plan.compliance;
-  require(block.steps > 2 && block.force_N > 0.0 && block.hold_s > 0.0,
-          "force and hold under [compliance] must be positive, and steps at least 3");
+  require_plan(block.steps > 2 && block.force_N > 0.0 && block.hold_s > 0.0,
+               "force and hold under [compliance] must be positive, and steps at least 3");
   const auto n = static_cast<std::size_t>(block.steps);
   for (std::size_t i = 0; i < n; ++i) {
     const double force_N = block.force_N * static_cast<double>(i + 1) / block.steps;
@@ -158,6 +155,12 @@ void add_compliance(const TestPlan& plan, std::vector<TestPhase>& phases) {
                               "force under [compliance]", "Pressing harder"));
     phases.push_back(wait(numbered("hold", i, n), block.hold_s, "At that force"));
   }
+}
+
+double largest(const std::vector<TestPhase>& phases, double TestPhase::*member) {
+  double largest = 0.0;
+  for (const TestPhase& phase : phases) largest = std::max(largest, phase.*member);
+  return largest;
 }
 
 using AddPhases = void (*)(const TestPlan&, std::vector<TestPhase>&);
@@ -178,15 +181,15 @@ AddPhases protocol_named(const std::string& name) {
 }  // namespace
 
 std::vector<TestPhase> phases_from_plan(const TestPlan& plan) {
-  require(
+  require_plan(
       plan.approach_speed_m_s > 0.0 && plan.unload_speed_m_s > 0.0 && plan.retract_speed_m_s > 0.0,
       "all speeds must be positive");
-  require(
+  require_plan(
       plan.contact_force_N > 0.0 && plan.gap_m > 0.0 && plan.retract_m >= plan.gap_m,
       "contact_force and gap under [approach] must be positive, and distance under [retract] not "
       "below gap");
-  require(plan.preload_N >= 0.0 && plan.preload_s >= 0.0,
-          "force and hold under [preload] must not be negative");
+  require_plan(plan.preload_N >= 0.0 && plan.preload_s >= 0.0,
+               "force and hold under [preload] must not be negative");
   const AddPhases add = protocol_named(plan.protocol);
   std::vector<TestPhase> phases;
   phases.push_back(wait("tare", kTare_s, "Zero of the load cell"));
@@ -208,15 +211,11 @@ std::vector<TestPhase> phases_from_plan(const TestPlan& plan) {
 }
 
 double deepest_m(const std::vector<TestPhase>& phases) {
-  double depth_m = 0.0;
-  for (const TestPhase& phase : phases) depth_m = std::max(depth_m, phase.depth_m);
-  return depth_m;
+  return largest(phases, &TestPhase::depth_m);
 }
 
 double highest_force_N(const std::vector<TestPhase>& phases) {
-  double force_N = 0.0;
-  for (const TestPhase& phase : phases) force_N = std::max(force_N, phase.force_N);
-  return force_N;
+  return largest(phases, &TestPhase::force_N);
 }
 
 double planned_s(const std::vector<TestPhase>& phases, std::size_t from, double approach_s) {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace viscard {
@@ -15,7 +14,7 @@ double phi1(double x) {
 }
 
 double phi2(double x) {
-  // 1 - phi_1 cancels below about x = 1; the alternating series sum (-x)^k/(k+2)! does not.
+  // Below about x = 1 the difference 1 - phi_1 cancels; the series sum (-x)^k/(k+2)! does not.
   if (x > 1.0) return (1.0 - phi1(x)) / x;
   double term = 0.5;
   double sum = term;

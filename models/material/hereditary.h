@@ -15,7 +15,7 @@ double phi2(double x);
 //   sigma(t) = int_0^t E(t - s) d(strain)/ds ds   (eq. 5),
 // for strain that is linear in each step, which the recursion
 //   q_i <- exp(-dt/tau_i) q_i + E_i phi_1(dt/tau_i) d(strain)
-// integrates exactly whatever dt/tau_i. "Strain" may be any input that stress follows linearly: the
+// integrates exactly for any dt/tau_i. "Strain" may be any input in which stress is linear: the
 // depth of a flat punch gives its force. Sources: Taylor, Pister & Goudreau, IJNME 2 (1970) 45;
 // Simo & Hughes, Computational Inelasticity (1998), ch. 10.
 class HereditaryStress {

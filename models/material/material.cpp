@@ -1,19 +1,15 @@
 #include "models/material/material.h"
 
 #include "models/material/retardation_spectrum.h"
-#include "models/maths/text_of_number.h"
+#include "models/maths/require.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 namespace viscard {
 namespace {
-
-void fail(const std::string& what) {
-  throw std::invalid_argument(what);
-}
 
 double sum_of(const std::vector<MaterialTerm>& terms, double MaterialTerm::*member) {
   double sum = 0.0;
@@ -23,21 +19,22 @@ double sum_of(const std::vector<MaterialTerm>& terms, double MaterialTerm::*memb
 
 void validate_term(const MaterialTerm& term, std::size_t number) {
   const std::string where = "term " + std::to_string(number) + ": ";
-  if (!(term.g >= 0.0) || !std::isfinite(term.g)) {
-    fail(where + "g is " + text_of(term.g) + "; it must be finite and not negative");
-  }
-  if (!(term.k >= 0.0) || !std::isfinite(term.k)) {
-    fail(where + "k is " + text_of(term.k) + "; it must be finite and not negative");
-  }
-  if (!(term.tau_s > 0.0) || !std::isfinite(term.tau_s)) {
-    fail(where + "tau is " + text_of(term.tau_s) + " s; it must be positive and finite");
-  }
+  require_not_negative(where + "g", term.g);
+  require_not_negative(where + "k", term.k);
+  require_positive(where + "tau", term.tau_s, "s");
 }
 
-PronySeries bulk_series(const Material& material, const DerivedModuli& moduli) {
-  PronySeries series{moduli.K_inf_Pa, {}};
+// The sum must stay below 1. Rounding of a liquid's shares may give 1 + 1e-16; cards refuse it too.
+void validate_sum(const char* name, double sum) {
+  require(sum < 1.0, std::string("the ") + name + " of all terms add up to " + text_of(sum) +
+                         "; the sum must be below 1, so that part of the modulus never relaxes");
+}
+
+PronySeries series_of(const Material& material, double equilibrium_Pa,
+                      const std::vector<double>& branch_Pa) {
+  PronySeries series{equilibrium_Pa, {}};
   for (std::size_t i = 0; i < material.terms.size(); ++i) {
-    series.terms.push_back({moduli.K_Pa[i], material.terms[i].tau_s});
+    series.terms.push_back({branch_Pa[i], material.terms[i].tau_s});
   }
   return series;
 }
@@ -45,53 +42,40 @@ PronySeries bulk_series(const Material& material, const DerivedModuli& moduli) {
 }  // namespace
 
 void validate(const Material& material) {
-  if (!(material.E0_Pa > 0.0) || !std::isfinite(material.E0_Pa)) {
-    fail("E0 is " + text_of(material.E0_Pa) + " Pa; it must be positive and finite");
-  }
-  if (!(material.nu > -1.0 && material.nu <= 0.5)) {
-    fail("Poisson ratio is " + text_of(material.nu) + "; it must lie in (-1, 0.5]");
-  }
-  if (!(material.rho_kg_m3 >= 0.0) || !std::isfinite(material.rho_kg_m3)) {
-    fail("density is " + text_of(material.rho_kg_m3) + " kg/m3; it must not be negative");
-  }
-  if (!(material.mixing_ratio >= 0.0) || !std::isfinite(material.mixing_ratio)) {
-    fail("mixing ratio is " + text_of(material.mixing_ratio) + "; it must be positive");
-  }
+  require_positive("E0", material.E0_Pa, "Pa");
+  require_value(material.nu > -1.0 && material.nu <= 0.5, "Poisson ratio", material.nu, "",
+                "in (-1, 0.5]");
+  require_not_negative("density", material.rho_kg_m3, "kg/m3");
+  require_not_negative("mixing ratio", material.mixing_ratio);
   const ValidityWindow& valid = material.valid;
-  if (!(valid.t_min_s >= 0.0) || !(valid.t_max_s >= 0.0) || !std::isfinite(valid.t_max_s) ||
-      (valid.t_max_s > 0.0 && !(valid.t_min_s < valid.t_max_s))) {
-    fail("the validity window runs from " + text_of(valid.t_min_s) + " s to " +
-         text_of(valid.t_max_s) + " s; it must begin at 0 or later and end after it begins");
-  }
-  if (material.T_ref_C && !(*material.T_ref_C > -273.15 && std::isfinite(*material.T_ref_C))) {
-    fail("the reference temperature is " + text_of(*material.T_ref_C) +
-         " C; it must be above absolute zero");
+  require(valid.t_min_s >= 0.0 && valid.t_max_s >= 0.0 && std::isfinite(valid.t_max_s) &&
+              !(valid.t_max_s > 0.0 && !(valid.t_min_s < valid.t_max_s)),
+          "the validity window runs from " + text_of(valid.t_min_s) + " s to " +
+              text_of(valid.t_max_s) + " s; it must begin at 0 or later and end after it begins");
+  if (material.T_ref_C) {
+    require_value(*material.T_ref_C > kAbsoluteZero_C, "the reference temperature",
+                  *material.T_ref_C, "C", "above absolute zero");
   }
   if (material.shift) {
     validate(*material.shift);
-    if (!material.T_ref_C || *material.T_ref_C != material.shift->T_ref_C) {
-      fail("the temperature shift counts from " + text_of(material.shift->T_ref_C) +
-           " C, so T_ref_C must be given and be the same");
-    }
+    require(material.T_ref_C == material.shift->T_ref_C,
+            "the reference temperature of the temperature shift is " +
+                text_of(material.shift->T_ref_C) + " C; T_ref_C must be given and be the same");
   }
   for (std::size_t i = 0; i < material.terms.size(); ++i) validate_term(material.terms[i], i + 1);
-  const double sum_g = sum_of(material.terms, &MaterialTerm::g);
-  const double sum_k = sum_of(material.terms, &MaterialTerm::k);
-  // Rounding of a liquid's shares may add to 1 + 1e-16; a card for it is refused all the same.
-  if (!(sum_g < 1.0)) {
-    fail("the g of all terms add up to " + text_of(sum_g) +
-         "; they must stay below 1, or nothing of the modulus is left in the end");
-  }
-  if (!(sum_k < 1.0)) {
-    fail("the k of all terms add up to " + text_of(sum_k) + "; they must stay below 1");
-  }
+  validate_sum("g", sum_of(material.terms, &MaterialTerm::g));
+  validate_sum("k", sum_of(material.terms, &MaterialTerm::k));
+}
+
+bool is_defect(const std::string& flag_name) {
+  constexpr std::array kDefects{"not-converged", "saturated",        "gap-in-ramp", "contact-lost",
+                                "E0-unknown",    "contradicts-data", "misfit"};
+  return std::find(kDefects.begin(), kDefects.end(), flag_name) != kDefects.end();
 }
 
 bool has_constant_poisson_ratio(const Material& material) {
-  for (const MaterialTerm& term : material.terms) {
-    if (term.k != term.g) return false;
-  }
-  return true;
+  return std::all_of(material.terms.begin(), material.terms.end(),
+                     [](const MaterialTerm& term) { return term.k == term.g; });
 }
 
 DerivedModuli derived_moduli(const Material& material) {
@@ -114,7 +98,7 @@ DerivedModuli derived_moduli(const Material& material) {
     out.nu_inf =
         (3.0 * out.K_inf_Pa - 2.0 * out.G_inf_Pa) / (2.0 * (3.0 * out.K_inf_Pa + out.G_inf_Pa));
   }
-  if (has_constant_poisson_ratio(material)) {  // without the rounding of the detour
+  if (has_constant_poisson_ratio(material)) {  // directly, without the rounding of 9KG/(3K + G)
     out.E_inf_Pa = material.E0_Pa * (1.0 - out.sum_g);
     out.nu_inf = material.nu;
   }
@@ -130,26 +114,19 @@ DerivedModuli derived_moduli(const Material& material) {
 
 PronySeries shear_series(const Material& material) {
   const DerivedModuli moduli = derived_moduli(material);
-  PronySeries series{moduli.G_inf_Pa, {}};
-  for (std::size_t i = 0; i < material.terms.size(); ++i) {
-    series.terms.push_back({moduli.G_Pa[i], material.terms[i].tau_s});
-  }
-  return series;
+  return series_of(material, moduli.G_inf_Pa, moduli.G_Pa);
 }
 
 PronySeries young_series(const Material& material) {
   const DerivedModuli moduli = derived_moduli(material);
   if (material.nu == 0.5 || has_constant_poisson_ratio(material)) {
-    PronySeries series{moduli.E_inf_Pa, {}};
-    for (const MaterialTerm& term : material.terms) {
-      series.terms.push_back({term.g * material.E0_Pa, term.tau_s});
-    }
-    return series;
+    return series_of(material, moduli.E_inf_Pa, moduli.E_Pa);
   }
   // 1/E = 1/(3G) + 1/(9K) in the Laplace domain: creep in tension is a third of the creep in shear
   // plus a ninth of that in volume, and the relaxation series follows from that compliance.
   const RetardationSpectrum shear = retardation_from_relaxation(shear_series(material));
-  const RetardationSpectrum bulk = retardation_from_relaxation(bulk_series(material, moduli));
+  const RetardationSpectrum bulk =
+      retardation_from_relaxation(series_of(material, moduli.K_inf_Pa, moduli.K_Pa));
   RetardationSpectrum uniaxial;
   uniaxial.instantaneous_compliance_1_Pa =
       shear.instantaneous_compliance_1_Pa / 3.0 + bulk.instantaneous_compliance_1_Pa / 9.0;
@@ -160,6 +137,34 @@ PronySeries young_series(const Material& material) {
     uniaxial.terms.push_back({term.compliance_1_Pa / 9.0, term.retardation_time_s});
   }
   return relaxation_from_retardation(uniaxial);
+}
+
+std::complex<double> relative_modulus(const std::vector<MaterialTerm>& terms,
+                                      double MaterialTerm::*share, std::complex<double> s) {
+  // Sum of the lasting and the relaxing parts: 1 - sum m/(1 + s tau) would cancel.
+  double rest = 1.0;
+  for (const MaterialTerm& term : terms) rest -= term.*share;
+  std::complex<double> modulus = rest;
+  for (const MaterialTerm& term : terms) {
+    const std::complex<double> x = s * term.tau_s;
+    modulus += term.*share * (std::abs(x) > 1.0 ? 1.0 / (1.0 + 1.0 / x) : x / (1.0 + x));
+  }
+  return modulus;
+}
+
+RelaxationTimes relaxation_times(const std::vector<MaterialTerm>& terms) {
+  RelaxationTimes times{std::numeric_limits<double>::infinity(), 0.0};
+  for (const MaterialTerm& term : terms) {
+    if (term.g == 0.0 && term.k == 0.0) continue;
+    times.fastest_s = std::min(times.fastest_s, term.tau_s);
+    times.slowest_s = std::max(times.slowest_s, term.tau_s);
+  }
+  return times;
+}
+
+RelativeModuli relative_moduli(const std::vector<MaterialTerm>& terms, std::complex<double> s) {
+  return {relative_modulus(terms, &MaterialTerm::g, s),
+          relative_modulus(terms, &MaterialTerm::k, s)};
 }
 
 }  // namespace viscard

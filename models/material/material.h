@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <complex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,35 +23,38 @@ struct MaterialTerm {
   double tau_s = 0.0;  // > 0
 };
 
-// What the fit says about a parameter; absent for a material typed in by hand.
+// Uncertainty of one term from the fit.
 struct TermUncertainty {
   double modulus_se_Pa = 0.0;
   double ln_tau_se = 0.0;
   Interval modulus_Pa_95, g_95, tau_s_95;
 };
 
+// Uncertainty of the material from the fit; absent for a material typed in by hand.
 struct MaterialUncertainty {
   Interval E0_Pa_95, E_inf_Pa_95;
-  std::vector<TermUncertainty> terms;  // as Material::terms
-  std::vector<std::string>
-      covariance_parameters;         // names of rows, e.g. "E_inf_Pa", "E_1_Pa", "ln_tau_1"
-  Eigen::MatrixXd covariance;        // square, in the units the names say
+  std::vector<TermUncertainty> terms;              // as Material::terms
+  std::vector<std::string> covariance_parameters;  // of the rows: "E_inf_Pa", "E_1_Pa", "ln_tau_1"
+  Eigen::MatrixXd covariance;                      // square, in the units that the names state
   double systematic_relative = 0.0;  // scales all moduli together: geometry, calibration, frame
 };
 
-// Where the description has been seen to hold.
+// The range in which the data support the description.
 struct ValidityWindow {
   double t_min_s = 0.0;
   double t_max_s = 0.0;     // 0: unknown
   double strain_max = 0.0;  // 0: unknown
 };
 
-// An identifiability flag: what the data could not tell. Cards annotate or refuse flagged terms.
+// An identifiability flag: something that the data do not determine. Cards annotate or refuse
+// flagged terms.
 struct MaterialFlag {
   std::string name;  // short and stable, e.g. "tau-below-sampling"
   int term = 0;      // 1-based; 0 for the whole material
   std::string text;  // a sentence for a person
 };
+// True for a flag that makes the whole fit untrustworthy. Cards refuse it like a flagged term.
+bool is_defect(const std::string& flag_name);
 
 struct RawFile {
   std::string path;
@@ -75,7 +79,7 @@ struct Material {
   std::vector<MaterialTerm> terms;
   double mixing_ratio = 0.0;  // parts of base to one of curing agent; 0: not given
   std::optional<double> T_ref_C;
-  std::optional<TemperatureShift> shift;  // of all times together; counted from T_ref_C
+  std::optional<TemperatureShift> shift;  // of all times together, relative to T_ref_C
   ValidityWindow valid;
   std::optional<MaterialUncertainty> uncertainty;
   std::vector<MaterialFlag> flags;
@@ -90,8 +94,8 @@ void validate(const Material& material);
 // True when every k_i equals its g_i (constant Poisson ratio).
 bool has_constant_poisson_ratio(const Material& material);
 
-// Everything a solver card or a solver may ask for, derived in this one place (eq. 7).
-// K_0 is infinite at nu = 0.5 and the bulk series is then empty.
+// The moduli that cards and solvers use, derived in this one place (eq. 7). K_0 is infinite at
+// nu = 0.5, and the bulk series is then empty.
 struct DerivedModuli {
   double E0_Pa = 0.0, E_inf_Pa = 0.0;
   double G0_Pa = 0.0, G_inf_Pa = 0.0;
@@ -110,5 +114,21 @@ PronySeries shear_series(const Material& material);  // G(t)
 // E(t). With constant Poisson ratio the terms carry over; otherwise E(t) follows from G and K by
 // 9KG/(3K + G) in the Laplace domain, which again gives a Prony series (eq. 7b).
 PronySeries young_series(const Material& material);
+
+// Relative shear (share = &MaterialTerm::g) or bulk (k) modulus in the Laplace domain,
+//   M~(s) = s M^(s)/M_0 = 1 - sum m_i + sum m_i s tau_i/(1 + s tau_i)   (eq. 2 at s = i omega),
+// written so that neither s tau = 1e12 nor 1e-12 loses digits.
+std::complex<double> relative_modulus(const std::vector<MaterialTerm>& terms,
+                                      double MaterialTerm::*share, std::complex<double> s);
+// The range of the relaxation times of terms that relax; infinity and 0 without any.
+struct RelaxationTimes {
+  double fastest_s = 0.0, slowest_s = 0.0;
+};
+RelaxationTimes relaxation_times(const std::vector<MaterialTerm>& terms);
+
+struct RelativeModuli {
+  std::complex<double> shear, bulk;
+};
+RelativeModuli relative_moduli(const std::vector<MaterialTerm>& terms, std::complex<double> s);
 
 }  // namespace viscard

@@ -1,34 +1,22 @@
 #include "models/material/prony_series.h"
 
-#include "models/maths/text_of_number.h"
+#include "models/maths/require.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 namespace viscard {
 
 void validate(const PronySeries& series, bool allow_negative) {
-  if (!(series.equilibrium_modulus_Pa >= 0.0) || !std::isfinite(series.equilibrium_modulus_Pa)) {
-    throw std::invalid_argument("equilibrium modulus is " + text_of(series.equilibrium_modulus_Pa) +
-                                " Pa; it must be finite and not negative");
-  }
+  require_not_negative("equilibrium modulus", series.equilibrium_modulus_Pa, "Pa");
   for (std::size_t i = 0; i < series.terms.size(); ++i) {
     const MaxwellTerm& term = series.terms[i];
-    if (!(term.relaxation_time_s > 0.0) || !std::isfinite(term.relaxation_time_s)) {
-      throw std::invalid_argument("term " + std::to_string(i + 1) + " has relaxation time " +
-                                  text_of(term.relaxation_time_s) +
-                                  " s; it must be positive and finite");
-    }
-    if (!std::isfinite(term.modulus_Pa) || (!allow_negative && !(term.modulus_Pa >= 0.0))) {
-      throw std::invalid_argument("term " + std::to_string(i + 1) + " has modulus " +
-                                  text_of(term.modulus_Pa) +
-                                  " Pa; it must be finite and not negative");
-    }
+    const std::string of_term = " of term " + std::to_string(i + 1);
+    require_positive("relaxation time" + of_term, term.relaxation_time_s, "s");
+    require_value(allow_negative || term.modulus_Pa >= 0.0, "modulus" + of_term, term.modulus_Pa,
+                  "Pa", "finite and not negative");
   }
-  if (!(instantaneous_modulus_Pa(series) > 0.0)) {
-    throw std::invalid_argument("the instantaneous modulus is zero or negative");
-  }
+  require(instantaneous_modulus_Pa(series) > 0.0, "the instantaneous modulus is zero or negative");
 }
 
 double instantaneous_modulus_Pa(const PronySeries& series) {

@@ -1,15 +1,12 @@
 #include "models/material/ratio_model.h"
 
-#include "models/maths/text_of_number.h"
+#include "models/maths/require.h"
 
 #include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace viscard {
 namespace {
@@ -44,7 +41,6 @@ struct Prediction {
   Eigen::MatrixXd covariance;
   Eigen::VectorXd quantile;  // of Student's t, for each parameter
 };
-constexpr double kNormal975 = 1.959963984540054;  // 97.5 % quantile of the normal distribution
 
 Prediction predict(const RatioModel& model, double ratio) {
   const Eigen::MatrixXd design = design_at(model, ratio);
@@ -53,7 +49,7 @@ Prediction predict(const RatioModel& model, double ratio) {
   for (Index k = 0; k < design.rows(); ++k) {
     const int parameter = static_cast<int>(k);
     if (!has_known_spread(model, parameter)) {
-      out.quantile[k] = kNormal975;
+      out.quantile[k] = kNormal95;
       continue;
     }
     out.covariance(k, k) += std::pow(spread_of(model, parameter), 2);
@@ -66,7 +62,12 @@ Interval around(double value, double half_width) {
   return {value - half_width, value + half_width};
 }
 
-// E_inf, E_i, ln tau_i of theta and their derivatives by it.
+// From value/exp(ln_half_width) to value*exp(ln_half_width).
+Interval scaled_by(double value, double ln_half_width) {
+  return {value * std::exp(-ln_half_width), value * std::exp(ln_half_width)};
+}
+
+// Derivatives of E_inf, E_i, ln tau_i with respect to theta.
 Eigen::MatrixXd slopes_of_moduli(const Prediction& from, int n_terms) {
   const double E0_Pa = std::exp(from.theta[0]);
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(1 + 2 * n_terms, 1 + 2 * n_terms);
@@ -95,8 +96,7 @@ MaterialUncertainty uncertainty_of(const Prediction& from, int n_terms, double E
   const double worst = from.quantile.maxCoeff();
   const double ln_E_inf_se = std::sqrt(out.covariance(0, 0)) / E_inf_Pa;
   const double E_inf_quantile = ln_E_inf_se > 0.0 ? from.quantile[0] : worst;
-  out.E_inf_Pa_95 = {E_inf_Pa * std::exp(-E_inf_quantile * ln_E_inf_se),
-                     E_inf_Pa * std::exp(E_inf_quantile * ln_E_inf_se)};
+  out.E_inf_Pa_95 = scaled_by(E_inf_Pa, E_inf_quantile * ln_E_inf_se);
   out.covariance_parameters = {"E_inf_Pa"};
   for (int i = 1; i <= n_terms; ++i) {
     out.covariance_parameters.push_back("E_" + std::to_string(i) + "_Pa");
@@ -108,7 +108,7 @@ MaterialUncertainty uncertainty_of(const Prediction& from, int n_terms, double E
     term.modulus_se_Pa = std::sqrt(out.covariance(i, i));
     term.ln_tau_se = error(n_terms + i);
     const double ln_half = from.quantile[i] * term.modulus_se_Pa / modulus_Pa;
-    term.modulus_Pa_95 = {modulus_Pa * std::exp(-ln_half), modulus_Pa * std::exp(ln_half)};
+    term.modulus_Pa_95 = scaled_by(modulus_Pa, ln_half);
     term.g_95 = lognormal(i);
     term.tau_s_95 = lognormal(n_terms + i);
     out.terms.push_back(term);
@@ -116,16 +116,27 @@ MaterialUncertainty uncertainty_of(const Prediction& from, int n_terms, double E
   return out;
 }
 
+bool is_in_range(const RatioFit& fit, double ratio) {
+  return ratio >= fit.law.ratios.front() && ratio <= fit.law.ratios.back();
+}
+
+std::string outside_range(const RatioFit& fit, double ratio) {
+  return "ratio " + text_of(ratio) + " lies outside the measured range, " +
+         text_of(fit.law.ratios.front()) + " to " + text_of(fit.law.ratios.back());
+}
+
 void check_range(const RatioFit& fit, double ratio, bool may_extrapolate) {
-  if (!(ratio > 0.0) || !std::isfinite(ratio)) {
-    throw std::invalid_argument("mixing ratio " + text_of(ratio) + " must be positive");
-  }
-  const double low = fit.law.ratios.front(), high = fit.law.ratios.back();
-  if (may_extrapolate || (ratio >= low && ratio <= high)) return;
-  throw std::invalid_argument("ratio " + text_of(ratio) + " lies outside the measured range, " +
-                              text_of(low) + " to " + text_of(high) +
-                              ": the law is not seen to hold there. Pass --extrapolate to use it "
-                              "all the same; the card will say so");
+  require_positive("mixing ratio", ratio);
+  require(may_extrapolate || is_in_range(fit, ratio),
+          outside_range(fit, ratio) +
+              ", where no data support the law. Pass --extrapolate to use it all the same; the "
+              "card will carry a warning");
+}
+
+// For each of the three spreads, the name of its parameters and the number of the first.
+std::vector<std::pair<std::string, int>> first_of_each_kind(int n_terms) {
+  if (n_terms == 0) return {{"E0", 0}};
+  return {{"E0", 0}, {"g", 1}, {"tau", n_terms + 1}};
 }
 
 }  // namespace
@@ -175,10 +186,8 @@ Eigen::MatrixXd design_at(const RatioModel& model, double ratio) {
   for (int k = 0; k < size; ++k) {
     if (degree_of(model, k) == kPerRatio) {
       const Index position = position_of(model, ratio);
-      if (position < 0) {
-        throw std::invalid_argument("ratio " + text_of(ratio) +
-                                    " was not measured, and this form holds for those that were");
-      }
+      require(position >= 0, "ratio " + text_of(ratio) +
+                                 " was not measured, and this form holds for measured ratios only");
       design(k, column + position) = 1.0;
     } else {
       for (int power = 0; power <= degree_of(model, k); ++power) {
@@ -194,16 +203,6 @@ bool has_known_spread(const RatioModel& model, int parameter) {
   return model.n_specimens > n_columns(model, parameter);
 }
 
-namespace {
-
-// Name and number of the first parameter that each of the three spreads is of.
-std::vector<std::pair<std::string, int>> first_of_each_kind(int n_terms) {
-  if (n_terms == 0) return {{"E0", 0}};
-  return {{"E0", 0}, {"g", 1}, {"tau", n_terms + 1}};
-}
-
-}  // namespace
-
 Material material_at_ratio(const RatioFit& fit, double ratio, bool may_extrapolate) {
   check_range(fit, ratio, may_extrapolate);
   const bool is_measured = position_of(fit.best, ratio) >= 0;
@@ -218,10 +217,8 @@ Material material_at_ratio(const RatioFit& fit, double ratio, bool may_extrapola
     material.terms.push_back({g, g, std::exp(from.theta[model.n_terms + i])});
     rest -= g;
   }
-  if (!(rest > 0.0)) {
-    throw std::invalid_argument("at ratio " + text_of(ratio) +
-                                " the law lets the whole modulus relax; it does not reach there");
-  }
+  require(rest > 0.0, "at ratio " + text_of(ratio) +
+                          " the law lets the whole modulus relax; it is not valid there");
   const double systematic =
       fit.common.uncertainty ? fit.common.uncertainty->systematic_relative : 0.0;
   material.uncertainty = uncertainty_of(from, model.n_terms, material.E0_Pa * rest);
@@ -234,15 +231,12 @@ Material material_at_ratio(const RatioFit& fit, double ratio, bool may_extrapola
   }
   if (!unknown.empty()) {
     material.flags.push_back({"spread-unknown", 0,
-                              "too few specimens to tell how " + unknown +
-                                  " scatter between them; the intervals are those of the "
-                                  "specimen that was measured"});
+                              "too few specimens to estimate the scatter of " + unknown +
+                                  " between specimens; the intervals are those of the specimen "
+                                  "that was measured"});
   }
-  if (ratio < fit.law.ratios.front() || ratio > fit.law.ratios.back()) {
-    material.flags.push_back({"extrapolated-ratio", 0,
-                              "ratio " + text_of(ratio) + " lies outside the measured range, " +
-                                  text_of(fit.law.ratios.front()) + " to " +
-                                  text_of(fit.law.ratios.back())});
+  if (!is_in_range(fit, ratio)) {
+    material.flags.push_back({"extrapolated-ratio", 0, outside_range(fit, ratio)});
   }
   return material;
 }
@@ -263,9 +257,7 @@ RatioBand ratio_band(const RatioFit& fit, int count) {
 }
 
 double student_t_975(int degrees_of_freedom) {
-  if (degrees_of_freedom < 1) {
-    throw std::invalid_argument("Student's t needs at least one degree of freedom");
-  }
+  require(degrees_of_freedom >= 1, "Student's t needs at least one degree of freedom");
   return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
 }
 

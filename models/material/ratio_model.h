@@ -26,16 +26,16 @@ struct RatioForm {
   int E0_degree = 1;              // of ln E0 in the variable, or kPerRatio
   int g_degree = 0;               // of every ln g_i
   int tau_degree = 0;             // of every ln tau_i
-  std::vector<std::string> same;  // "g_1", "tau_2": these at one value, whatever the degree
+  std::vector<std::string> same;  // "g_1", "tau_2": one value each, regardless of the degrees above
 };
 bool operator==(const RatioForm& a, const RatioForm& b);
 
-// Its value at a ratio: ln r, r or 1/(1 + r).
+// The variable at a ratio: ln r, r or 1/(1 + r).
 double variable_of(RatioVariable variable, double ratio);
 
-// True when the form says something of ratios that were not measured.
+// True if the form also holds for ratios that were not measured.
 bool is_law(const RatioForm& form);
-// "independent", "shared-times", "shared-spectrum", "law", or "mixed" for what has no name.
+// "independent", "shared-times", "shared-spectrum", "law", or "mixed" for any other form.
 std::string form_name(const RatioForm& form);
 // "ln E0 linear in ln(ratio), spectrum and times the same at all ratios".
 std::string form_in_words(const RatioForm& form);
@@ -55,21 +55,21 @@ struct RatioModel {
   int n_parameters = 0;  // beta and three spreads
 };
 
-// The variable as the polynomials take it, counted from the middle of the measured range in halves
-// of it: well-conditioned.
+// The polynomials use (variable - middle)/half, which runs from -1 to 1 over the measured range and
+// keeps them well conditioned.
 struct ScaledVariable {
   double middle = 0.0;
   double half = 1.0;
 };
 ScaledVariable scale_of(const RatioModel& model);
 
-// How many of beta belong to row `parameter` of theta.
+// Number of entries of beta that belong to row `parameter` of theta.
 int n_columns(const RatioModel& model, int parameter);
-// Whether there are more specimens than values that describe this parameter; if not, nothing is
-// known of the scatter between specimens.
+// True if there are more specimens than coefficients of this parameter; otherwise the scatter
+// between specimens is unknown.
 bool has_known_spread(const RatioModel& model, int parameter);
 // X(ratio), 1 + 2N rows. Throws std::invalid_argument if the form holds for measured ratios only
-// and this is none.
+// and this ratio was not measured.
 Eigen::MatrixXd design_at(const RatioModel& model, double ratio);
 
 // E0 over a range of ratios, for plots: mean and 95 % band of a new specimen.
@@ -77,7 +77,8 @@ struct RatioBand {
   std::vector<double> ratio, E0_Pa, E0_low_Pa, E0_high_Pa;
 };
 
-// A joint fit: what was compared, what is best, and the best law for ratios not measured.
+// A joint fit: the forms compared, the best one, and the best law for ratios that were not
+// measured.
 struct RatioComparison {
   RatioForm form;
   int n_parameters = 0;
@@ -94,15 +95,15 @@ struct RatioFit {
   std::vector<RatioComparison> forms;  // ascending BIC
   std::vector<RatioSpecimen> specimens;
   std::vector<MaterialFlag> flags;
-  // What all materials share: nu, density, temperature, window, systematic part, raw files.
+  // Common to all materials: nu, density, temperature, window, systematic part, raw files.
   Material common;
 };
 
-// The material at a ratio: mean of the specimens, its intervals those of a new specimen (estimate
-// and between-specimen spread, Student's t; where the spread is not known those of the measured
-// specimen itself, flagged spread-unknown), its covariance likewise. A measured ratio is answered
-// by the best form, another by the best law. Outside the measured range it throws
-// std::invalid_argument unless may_extrapolate, and then the material carries the flag
+// The material at a ratio: the mean of the specimens. Intervals and covariance are those of a new
+// specimen (uncertainty of the estimate and spread between specimens, Student's t); if the spread
+// is unknown, those of the measured specimen, flagged "spread-unknown". A measured ratio uses the
+// best form, any other ratio the best law. Outside the measured range it throws
+// std::invalid_argument unless may_extrapolate; the material then carries the flag
 // "extrapolated-ratio".
 Material material_at_ratio(const RatioFit& fit, double ratio, bool may_extrapolate = false);
 RatioBand ratio_band(const RatioFit& fit, int count = 60);

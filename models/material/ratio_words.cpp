@@ -9,12 +9,10 @@
 namespace viscard {
 namespace {
 
-// A standard error, or a scatter of a few specimens, is known to two digits at best.
-std::string rough_text(double value) {
-  return text_of(value, 2);
-}
+// Digits of a standard error or of the scatter of a few specimens; no more are known.
+constexpr int kRough = 2;
 
-// ln E0 = at_zero + slope v, v the variable of the form.
+// ln E0 = at_zero + slope v with the variable v of the form.
 struct StraightLaw {
   double at_zero = 0.0, at_zero_se = 0.0;
   double slope = 0.0, slope_se = 0.0;
@@ -90,13 +88,13 @@ std::string law_in_words(const RatioFit& fit) {
         text += "exp(" + slope + "/(1 + ratio)) (coefficient +- ";
         break;
     }
-    text += rough_text(line.slope_se) + ")";
+    text += text_of(line.slope_se, kRough) + ")";
   } else {
     text = form_in_words(law.form);
   }
-  text += has_known_spread(law, 0)
-              ? "; between specimens E0 scatters by " + rough_text(100.0 * law.spread_ln_E0) + " %"
-              : "; scatter of E0 between specimens unknown";
+  text += has_known_spread(law, 0) ? "; between specimens E0 scatters by " +
+                                         text_of(100.0 * law.spread_ln_E0, kRough) + " %"
+                                   : "; scatter of E0 between specimens unknown";
   return text + " (" + counted(static_cast<std::size_t>(law.n_specimens), "specimen") + ", " +
          counted(law.ratios.size(), "ratio") + ")";
 }

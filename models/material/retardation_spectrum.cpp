@@ -1,9 +1,11 @@
 #include "models/material/retardation_spectrum.h"
 
+#include "models/maths/require.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -14,8 +16,8 @@ struct Pole {
   double weight = 0.0;  // E_i or J_j
 };
 
-// A rate between two poles, kept as a pole (or zero) and the signed distance from it, because a
-// weak branch puts the zero within rounding of its own pole.
+// A rate between two poles, stored as one of them (or 0) and the signed distance from it: the zero
+// of a weak branch lies within rounding of its pole.
 struct Rate {
   double base_1_s = 0.0;
   double offset_1_s = 0.0;
@@ -23,7 +25,7 @@ struct Rate {
   double gap_to(const Pole& pole) const { return (pole.rate_1_s - base_1_s) - offset_1_s; }
 };
 
-// Ascending rates, zero weights dropped and equal rates merged: neither makes a pole of its own.
+// Poles by ascending rate, without zero weights, equal rates merged.
 std::vector<Pole> distinct_poles(std::vector<Pole> poles) {
   std::erase_if(poles, [](const Pole& pole) { return !(pole.weight > 0.0); });
   std::sort(poles.begin(), poles.end(),
@@ -39,8 +41,8 @@ std::vector<Pole> distinct_poles(std::vector<Pole> poles) {
   return merged;
 }
 
-// The only zero of a function that is monotonic between two rates, by bisection in the logarithm of
-// the distance from the nearer end. rising: the function goes up with the rate.
+// The zero of a function that is monotonic between two rates, by bisection in the logarithm of the
+// distance from the nearer end. rising: the function increases with the rate.
 template <typename Function>
 Rate zero_between(double slow_1_s, double fast_1_s, bool rising, const Function& function) {
   constexpr double kEfolds = 700.0;  // down to the smallest distance a double can hold
@@ -66,6 +68,15 @@ Rate zero_between(double slow_1_s, double fast_1_s, bool rising, const Function&
   return {base_1_s, direction * std::exp(0.5 * (near + far))};
 }
 
+// Adds the slopes of all poles at a rate to `slope`.
+double slope_at(const Rate& rate, const std::vector<Pole>& poles, double slope) {
+  for (const Pole& pole : poles) {
+    const double gap_1_s = rate.gap_to(pole);
+    slope += pole.weight * (pole.rate_1_s / gap_1_s) / gap_1_s;
+  }
+  return slope;
+}
+
 }  // namespace
 
 RetardationSpectrum retardation_from_relaxation(const PronySeries& series) {
@@ -86,15 +97,11 @@ RetardationSpectrum retardation_from_relaxation(const PronySeries& series) {
   RetardationSpectrum spectrum;
   spectrum.instantaneous_compliance_1_Pa = 1.0 / instantaneous_modulus_Pa(series);
   for (std::size_t i = poles.size(); i-- > 0;) {  // fastest first: ascending retardation times
-    if (i == 0 && equilibrium_Pa == 0.0) break;   // a liquid flows instead
+    if (i == 0 && equilibrium_Pa == 0.0) break;   // a liquid flows; it has one term less
     const double slow_1_s = i == 0 ? 0.0 : poles[i - 1].rate_1_s;
     const Rate zero = zero_between(slow_1_s, poles[i].rate_1_s, /*rising=*/false, transform_Pa);
     // J_j = lambda_j/sum E_i tau_i/(1 - tau_i/lambda_j)^2, with 1 - tau_i r = (r_i - r)/r_i.
-    double sum = 0.0;
-    for (const Pole& pole : poles) {
-      const double gap_1_s = zero.gap_to(pole);
-      sum += pole.weight * (pole.rate_1_s / gap_1_s) / gap_1_s;
-    }
+    const double sum = slope_at(zero, poles, 0.0);
     spectrum.terms.push_back({1.0 / (zero.value_1_s() * sum), 1.0 / zero.value_1_s()});
   }
   if (equilibrium_Pa == 0.0) {
@@ -107,17 +114,13 @@ RetardationSpectrum retardation_from_relaxation(const PronySeries& series) {
 
 PronySeries relaxation_from_retardation(const RetardationSpectrum& spectrum) {
   const double instantaneous_1_Pa = spectrum.instantaneous_compliance_1_Pa;
-  if (!(instantaneous_1_Pa > 0.0) || !(spectrum.fluidity_1_Pa_s >= 0.0)) {
-    throw std::invalid_argument(
-        "the instantaneous compliance must be positive and the fluidity not negative");
-  }
+  require(instantaneous_1_Pa > 0.0 && spectrum.fluidity_1_Pa_s >= 0.0,
+          "the instantaneous compliance must be positive and the fluidity not negative");
   std::vector<Pole> poles;
   double equilibrium_1_Pa = instantaneous_1_Pa;
   for (const RetardationTerm& term : spectrum.terms) {
-    if (!(term.retardation_time_s > 0.0) || !(term.compliance_1_Pa >= 0.0)) {
-      throw std::invalid_argument(
-          "retardation times must be positive and compliances not negative");
-    }
+    require(term.retardation_time_s > 0.0 && term.compliance_1_Pa >= 0.0,
+            "retardation times must be positive and compliances not negative");
     poles.push_back({1.0 / term.retardation_time_s, term.compliance_1_Pa});
     equilibrium_1_Pa += term.compliance_1_Pa;
   }
@@ -133,11 +136,7 @@ PronySeries relaxation_from_retardation(const RetardationSpectrum& spectrum) {
   const auto add_term = [&](PronySeries& series, double slow_1_s, double fast_1_s) {
     const Rate zero = zero_between(slow_1_s, fast_1_s, /*rising=*/true, transform_1_Pa);
     const double rate_1_s = zero.value_1_s();
-    double slope = fluidity_1_Pa_s / (rate_1_s * rate_1_s);
-    for (const Pole& pole : poles) {
-      const double gap_1_s = zero.gap_to(pole);
-      slope += pole.weight * (pole.rate_1_s / gap_1_s) / gap_1_s;
-    }
+    const double slope = slope_at(zero, poles, fluidity_1_Pa_s / (rate_1_s * rate_1_s));
     series.terms.push_back({1.0 / (rate_1_s * slope), 1.0 / rate_1_s});
   };
   constexpr double kOpen = std::numeric_limits<double>::infinity();

@@ -6,8 +6,8 @@
 
 namespace viscard {
 
-// Creep compliance of the same solid, J(t) = J_g + sum_j J_j (1 - exp(-t/lambda_j)) + t/eta   (eq.
-// 3) Compliances in 1/Pa, times in s. fluidity_1_Pa_s = 1/eta is zero unless the series is a
+// Creep compliance of the same solid, J(t) = J_g + sum_j J_j (1 - exp(-t/lambda_j)) + t/eta
+// (eq. 3). Compliances in 1/Pa, times in s. fluidity_1_Pa_s = 1/eta is zero unless the series is a
 // liquid.
 struct RetardationTerm {
   double compliance_1_Pa = 0.0;
@@ -24,7 +24,7 @@ struct RetardationSpectrum {
 // interlace the poles -1/tau_i, one in each gap, and J_j follows from the residue there. Terms of
 // equal time are merged and terms of zero modulus dropped first, since neither makes a pole.
 // Source: Tschoegl (1989), ch. 4; Park & Schapery, Int. J. Solids Struct. 36 (1999) 1653.
-// Throws std::invalid_argument where validate(series) does.
+// Throws std::invalid_argument if validate(series) does.
 RetardationSpectrum retardation_from_relaxation(const PronySeries& series);
 
 // The way back: relaxation times are the zeros of J_g + sum J_j/(1 + s lambda_j) + fluidity/s, and

@@ -1,28 +1,20 @@
 #include "models/material/temperature_shift.h"
 
 #include "models/maths/require.h"
-#include "models/maths/text_of_number.h"
 
-#include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
 
 namespace viscard {
+
 void validate(const TemperatureShift& shift) {
-  require(std::isfinite(shift.T_ref_C) && shift.T_ref_C > kAbsoluteZero_C,
-          "the reference temperature of the shift is " + text_of(shift.T_ref_C) +
-              " C; it must lie above absolute zero");
+  require_value(shift.T_ref_C > kAbsoluteZero_C, "the reference temperature of the shift",
+                shift.T_ref_C, "C", "above absolute zero");
   if (shift.law == ShiftLaw::kArrhenius) {
-    require(shift.activation_J_mol >= 0.0 && std::isfinite(shift.activation_J_mol),
-            "the activation energy is " + text_of(shift.activation_J_mol) +
-                " J/mol; it must be finite and not negative");
+    require_not_negative("the activation energy", shift.activation_J_mol, "J/mol");
     return;
   }
-  require(
-      shift.C1 > 0.0 && std::isfinite(shift.C1) && shift.C2_K > 0.0 && std::isfinite(shift.C2_K),
-      "the WLF constants are C1 = " + text_of(shift.C1) + ", C2 = " + text_of(shift.C2_K) +
-          " K; both must be positive and finite");
+  require_positive("the WLF constant C1", shift.C1);
+  require_positive("the WLF constant C2", shift.C2_K, "K");
 }
 
 double ln_shift_factor(const TemperatureShift& shift, double temperature_C) {

@@ -4,8 +4,8 @@
 
 namespace viscard {
 
-// How temperature speeds relaxation up: at T every relaxation time is a_T times its value at T_ref
-// (a thermorheologically simple material). a_T < 1 when warmer.
+// How temperature accelerates relaxation: at T every relaxation time is a_T times its value at
+// T_ref (a thermorheologically simple material). a_T < 1 when warmer.
 //   WLF:       log10 a_T = -C1 (T - T_ref)/(C2 + T - T_ref)        (eq. 26)
 //   Arrhenius: ln a_T = (E_a/R) (1/T - 1/T_ref), T in K            (eq. 27)
 // Sources: Williams, Landel & Ferry, J. Am. Chem. Soc. 77 (1955) 3701; Ferry, Viscoelastic
@@ -19,7 +19,7 @@ struct TemperatureShift {
   double C2_K = 0.0;  // WLF
   double activation_J_mol = 0.0;
   Interval C1_95, C2_K_95, activation_J_mol_95;  // 0, 0: not known
-  double T_min_C = 0.0, T_max_C = 0.0;           // seen to hold between; both 0: unknown
+  double T_min_C = 0.0, T_max_C = 0.0;           // range of the data; both 0: unknown
 };
 
 // Throws std::invalid_argument: C1 or C2 not positive (WLF), negative activation energy, reference

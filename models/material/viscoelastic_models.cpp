@@ -2,10 +2,8 @@
 
 #include "models/maths/mittag_leffler.h"
 #include "models/maths/require.h"
-#include "models/maths/text_of_number.h"
 
 #include <cmath>
-#include <stdexcept>
 
 namespace viscard {
 namespace {
@@ -17,12 +15,6 @@ struct Overloaded : Cases... {
 template <typename... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
-void check(const char* name, double value, bool may_be_zero) {
-  require(std::isfinite(value) && (value > 0.0 || (may_be_zero && value == 0.0)),
-          std::string(name) + " is " + text_of(value) + "; it must be finite and " +
-              (may_be_zero ? "not negative" : "positive"));
-}
-
 PronySeries maxwell_series(double equilibrium_Pa, double branch_Pa, double viscosity_Pa_s) {
   return {equilibrium_Pa, {{branch_Pa, viscosity_Pa_s / branch_Pa}}};
 }
@@ -31,18 +23,6 @@ PronySeries maxwell_series(double equilibrium_Pa, double branch_Pa, double visco
 std::complex<double> fractional_power(double x, double alpha) {
   constexpr double kHalfPi = 1.5707963267948966;
   return std::polar(std::pow(x, alpha), kHalfPi * alpha);
-}
-
-std::complex<double> complex_modulus_of(const PronySeries& series, double w) {
-  std::complex<double> sum = series.equilibrium_modulus_Pa;
-  for (const MaxwellTerm& term : series.terms) {
-    // x/(x - i) with x = w tau, written so that large x cannot overflow.
-    const double x = w * term.relaxation_time_s;
-    sum +=
-        term.modulus_Pa * (x > 1.0 ? 1.0 / std::complex<double>(1.0, -1.0 / x)
-                                   : std::complex<double>(0.0, x) / std::complex<double>(1.0, x));
-  }
-  return sum;
 }
 
 double fractional_creep_1_Pa(const FractionalZenerModel& m, double time_s) {
@@ -59,27 +39,27 @@ double fractional_creep_1_Pa(const FractionalZenerModel& m, double time_s) {
 }  // namespace
 
 void validate(const ViscoelasticModel& model) {
-  std::visit(Overloaded{[](const ElasticModel& m) { check("modulus", m.modulus_Pa, false); },
+  std::visit(Overloaded{[](const ElasticModel& m) { require_positive("modulus", m.modulus_Pa); },
                         [](const MaxwellModel& m) {
-                          check("modulus", m.modulus_Pa, false);
-                          check("viscosity", m.viscosity_Pa_s, false);
+                          require_positive("modulus", m.modulus_Pa);
+                          require_positive("viscosity", m.viscosity_Pa_s);
                         },
                         [](const KelvinVoigtModel& m) {
-                          check("modulus", m.modulus_Pa, false);
-                          check("viscosity", m.viscosity_Pa_s, false);
+                          require_positive("modulus", m.modulus_Pa);
+                          require_positive("viscosity", m.viscosity_Pa_s);
                         },
                         [](const StandardLinearSolid& m) {
-                          check("equilibrium modulus", m.equilibrium_Pa, false);
-                          check("branch modulus", m.branch_Pa, false);
-                          check("viscosity", m.viscosity_Pa_s, false);
+                          require_positive("equilibrium modulus", m.equilibrium_Pa);
+                          require_positive("branch modulus", m.branch_Pa);
+                          require_positive("viscosity", m.viscosity_Pa_s);
                         },
                         [](const GeneralizedMaxwellModel& m) { validate(m.series); },
                         [](const FractionalZenerModel& m) {
-                          check("equilibrium modulus", m.equilibrium_Pa, true);
-                          check("branch modulus", m.branch_Pa, false);
-                          check("time", m.tau_s, false);
-                          require(m.alpha > 0.0 && m.alpha <= 1.0,
-                                  "alpha is " + text_of(m.alpha) + "; it must lie in (0, 1]");
+                          require_not_negative("equilibrium modulus", m.equilibrium_Pa);
+                          require_positive("branch modulus", m.branch_Pa);
+                          require_positive("time", m.tau_s);
+                          require_value(m.alpha > 0.0 && m.alpha <= 1.0, "alpha", m.alpha, "",
+                                        "in (0, 1]");
                         }},
              model);
 }
@@ -121,7 +101,10 @@ double creep_compliance_1_Pa(const ViscoelasticModel& model, double time_s) {
 }
 
 std::complex<double> complex_modulus_Pa(const ViscoelasticModel& model, double angular_1_s) {
-  if (const auto series = prony_series_of(model)) return complex_modulus_of(*series, angular_1_s);
+  if (const auto series = prony_series_of(model)) {
+    const ComplexModulus modulus = complex_modulus_Pa(*series, angular_1_s);
+    return {modulus.storage_Pa, modulus.loss_Pa};
+  }
   if (const auto* m = std::get_if<KelvinVoigtModel>(&model)) {
     return {m->modulus_Pa, m->viscosity_Pa_s * angular_1_s};
   }

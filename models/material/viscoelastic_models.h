@@ -5,9 +5,7 @@
 
 #include <complex>
 #include <optional>
-#include <string>
 #include <variant>
-#include <vector>
 
 namespace viscard {
 
@@ -20,8 +18,8 @@ struct ElasticModel {
 struct MaxwellModel {  // spring and dashpot in series
   double modulus_Pa = 0.0, viscosity_Pa_s = 0.0;
 };
-struct KelvinVoigtModel {  // side by side; its relaxation modulus also holds viscosity times
-                           // delta(t)
+// Side by side; the relaxation modulus also contains viscosity times delta(t).
+struct KelvinVoigtModel {
   double modulus_Pa = 0.0, viscosity_Pa_s = 0.0;
 };
 struct StandardLinearSolid {  // a spring beside a Maxwell element
@@ -44,8 +42,8 @@ using ViscoelasticModel =
 // alpha outside (0, 1].
 void validate(const ViscoelasticModel& model);
 
-// Stress over strain at t > 0 after a step of strain at 0 (t = 0: just after it; Kelvin-Voigt:
-// without its delta).
+// Stress over strain at t > 0 after a step of strain at 0 (t = 0: just after it). Kelvin-Voigt:
+// without the delta function.
 double relaxation_modulus_Pa(const ViscoelasticModel& model, double time_s);
 // Strain over stress at t >= 0 after a step of stress.
 double creep_compliance_1_Pa(const ViscoelasticModel& model, double time_s);

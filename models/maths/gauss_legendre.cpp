@@ -6,7 +6,17 @@
 
 namespace viscard {
 
-// Newton's method on the three-term recurrence of the Legendre polynomials.
+// By the three-term recurrence.
+LegendrePair legendre_pair(int n, double x) {
+  LegendrePair pair{x, 1.0};
+  for (int k = 2; k <= n; ++k) {
+    const double next = ((2.0 * k - 1.0) * x * pair.value - (k - 1.0) * pair.previous) / k;
+    pair = {next, pair.value};
+  }
+  return pair;
+}
+
+// Newton's method from the asymptotic positions of the roots.
 QuadratureRule gauss_legendre(int count) {
   if (count < 1) throw std::invalid_argument("a quadrature rule needs at least one point");
   QuadratureRule rule;
@@ -14,13 +24,7 @@ QuadratureRule gauss_legendre(int count) {
     double x = count == 1 ? 0.0 : std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5));
     double derivative = 0.0;
     for (int iteration = 0; iteration < 100; ++iteration) {
-      double previous = 1.0;
-      double value = x;
-      for (int n = 2; n <= count; ++n) {
-        const double next = ((2.0 * n - 1.0) * x * value - (n - 1.0) * previous) / n;
-        previous = value;
-        value = next;
-      }
+      const auto [value, previous] = legendre_pair(count, x);
       derivative = count * (x * value - previous) / (x * x - 1.0);
       const double step = value / derivative;
       x -= step;

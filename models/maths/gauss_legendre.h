@@ -13,4 +13,11 @@ struct QuadratureRule {
 };
 QuadratureRule gauss_legendre(int count);
 
+// Legendre polynomials P_n and P_(n - 1) at x, n >= 1.
+struct LegendrePair {
+  double value = 0.0;
+  double previous = 0.0;
+};
+LegendrePair legendre_pair(int n, double x);
+
 }  // namespace viscard

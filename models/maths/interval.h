@@ -8,7 +8,7 @@ struct Interval {
   double high = 0.0;
 };
 
-// Half-width of a 95 % interval of a normal deviate, in standard deviations.
+// Half-width of a 95 % interval of a normal deviate in standard deviations: its 97.5 % quantile.
 inline constexpr double kNormal95 = 1.959963984540054;
 
 }  // namespace viscard

@@ -6,26 +6,27 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <string>
 
 namespace viscard {
 
 double mittag_leffler_decay(double alpha, double x) {
   if (!(alpha > 0.0 && alpha <= 1.0) || !(x >= 0.0)) {
-    throw std::invalid_argument("Mittag-Leffler decay of order " + text_of(alpha) + " at " +
-                                text_of(x) + ": the order must lie in (0, 1], x not be < 0");
+    throw std::invalid_argument("Mittag-Leffler decay of order " + text_of(alpha) + " at x = " +
+                                text_of(x) + ": the order must lie in (0, 1] and x be >= 0");
   }
   constexpr double kPi = std::numbers::pi;
   if (x == 0.0) return 1.0;
   constexpr double kNearlyOne = 1.0 - 1e-4;
   if (alpha == 1.0) return std::exp(-x);
-  if (alpha > kNearlyOne) {  // the pole comes too near: between the two, to 1e-8
+  // Near 1 a pole comes too close to the path; interpolation in alpha has an error of 1e-8.
+  if (alpha > kNearlyOne) {
     const double share = (alpha - kNearlyOne) / (1.0 - kNearlyOne);
     return (1.0 - share) * mittag_leffler_decay(kNearlyOne, x) + share * std::exp(-x);
   }
   const double ln_t = std::log(x) / alpha;
   const double cosine = std::cos(alpha * kPi);
-  // Half the strip: the poles lie at +-i pi (1 - alpha), growth begins at +-i alpha pi/2.
+  // Half-width of the strip in which the integrand is analytic and bounded: poles lie at
+  // +-i pi (1 - alpha), growth begins at +-i alpha pi/2.
   const double strip = std::min(kPi * (1.0 - alpha), 0.5 * alpha * kPi);
   const double step = 2.0 * kPi * strip / 37.0;  // exp(-37) = 1e-16
   constexpr double kReach = 38.0;

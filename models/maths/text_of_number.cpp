@@ -14,6 +14,10 @@ std::string text_of(double value, int significant_digits) {
   return text.data();
 }
 
+std::string micrometres(double value_m, int significant_digits) {
+  return text_of(value_m * 1e6, significant_digits) + " um";
+}
+
 std::string text_with_error(double value, double standard_error) {
   if (!(standard_error > 0.0) || !std::isfinite(standard_error) || value == 0.0) {
     return text_of(value);

@@ -14,6 +14,9 @@ namespace viscard {
 // the first as 0.000000.
 std::string text_of(double value, int significant_digits = 6);
 
+// A length: "12.5 um".
+std::string micrometres(double value_m, int significant_digits = 6);
+
 // As many digits as the standard error allows, two of its own: 18.76 +- 0.83 becomes "18.76", and
 // 2.17e-3 with an error of 5e-4 becomes "0.00217". Six digits if the error is not positive.
 std::string text_with_error(double value, double standard_error);

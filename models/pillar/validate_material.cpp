@@ -44,13 +44,12 @@ ExactAnswer exact_answer(const Material& material, const ViscoelasticSystem& sys
 // End of the creep test. Creep is slower than relaxation, so it uses the slowest retardation time
 // of G(t), and of K(t) if K relaxes.
 double end_of_creep_s(const Material& material) {
-  double slowest_s = 0.0;
+  double slowest_s = relaxation_times(material.terms).slowest_s;
   for (auto share : {&MaterialTerm::g, &MaterialTerm::k}) {
     PronySeries series{1.0, {}};
     for (const MaterialTerm& term : material.terms) {
       series.equilibrium_modulus_Pa -= term.*share;
       series.terms.push_back({term.*share, term.tau_s});
-      if (term.g > 0.0 || term.k > 0.0) slowest_s = std::max(slowest_s, term.tau_s);
     }
     for (const RetardationTerm& term : retardation_from_relaxation(series).terms) {
       slowest_s = std::max(slowest_s, term.retardation_time_s);

@@ -46,9 +46,9 @@ struct ValidateOptions {
 // Runs the pillar in relaxation and in creep with the material through the time-stepping solver
 // (load_history.h). It compares the results with the exact solution by the correspondence principle
 // on the same elements, so the difference is the error of the time stepping alone.
-//  Constant Poisson ratio (or nu = 0.5): E(t) and J(t) from the retardation spectrum, times the
-//  elastic solution.
-//  Otherwise: the common modes of shear and bulk stiffness (viscoelastic_exact.h).
+//   Constant Poisson ratio (or nu = 0.5): E(t) and J(t) from the retardation spectrum, times the
+//   elastic solution.
+//   Otherwise: the common modes of shear and bulk stiffness (viscoelastic_exact.h).
 // A rigid frictionless plate presses the top in both tests. Throws std::invalid_argument for a
 // material or geometry that cannot be run.
 ValidationResult validate_material(const Material& material, const ValidateOptions& options = {});

@@ -1,7 +1,6 @@
 #include "models/scene/effects.h"
 
-#include "models/scene/pillar_effects.h"
-#include "models/scene/row_effects.h"
+#include "models/scene/scene_effects.h"
 
 namespace viscard {
 namespace {
@@ -16,7 +15,8 @@ const std::vector<Effect>& effects() {
       {"relaxation",
        "moduli fall with time",
        "a vector per term, and time steps",
-       {Pillar{relaxation_estimate, leave_out_relaxation}, Row{relaxation_estimate}}},
+       {Pillar{relaxation_estimate, [](PillarScene& scene) { scene.pillar.terms.clear(); }},
+        Row{relaxation_estimate}}},
       {"inertia",
        "mass resists",
        "a mass matrix",
@@ -24,15 +24,16 @@ const std::vector<Effect>& effects() {
       {"incompressibility",
        "pressures of their own near nu = 0.5",
        "a projection in every element",
-       {Pillar{incompressibility_estimate, leave_out_incompressibility,
-               insist_on_incompressibility},
+       {Pillar{incompressibility_estimate,
+               [](PillarScene& scene) { scene.condense_pressures_from = 0.5; },
+               [](PillarScene& scene) { scene.condense_pressures_from = -1.0; }},
         Row{incompressibility_estimate}},
        true},
       {"film_compliance",
        "the base yields",
        "the film's elements",
        {Pillar{film_compliance_estimate, leave_out_film},
-        Row{film_compliance_estimate, leave_out_film}}},
+        Row{film_compliance_estimate, [](ArrayScene& scene) { scene.feels_film = false; }}}},
       {"piezo_coupling",
        "the film's field acts back on its strain",
        "potentials among the displacements",
@@ -41,15 +42,20 @@ const std::vector<Effect>& effects() {
       {"leakage",
        "charge leaves the electrode",
        "a time constant",
-       {Pillar{leakage_estimate}, Row{leakage_estimate}}},
+       {Pillar{leakage_estimate}, Row{[](const ArrayScene&) -> EffectEstimate {
+          return {.reason = "open electrodes, before charge leaks"};
+        }}}},
       {"crosstalk",
        "neighbours load the film",
        "the neighbours",
-       {Pillar{crosstalk_estimate}, Row{crosstalk_estimate, leave_out_crosstalk}}},
+       {Pillar{[](const PillarScene&) -> EffectEstimate { return {.reason = "a single pillar"}; }},
+        Row{crosstalk_estimate, [](ArrayScene& scene) { scene.feels_neighbours = false; }}}},
       {"three_dimensional",
        "a cylinder instead of a strip",
        "nothing: both are plane sections",
-       {Pillar{three_dimensional_estimate}, Row{three_dimensional_estimate}}},
+       {Pillar{three_dimensional_estimate}, Row{[](const ArrayScene&) -> EffectEstimate {
+          return {.reason = "rows are solved in the plane: strips, not cylinders"};
+        }}}},
       {"geometric_stiffness",
        "a load softens the pillar sideways",
        "the loaded state and its stress matrix",
@@ -58,7 +64,10 @@ const std::vector<Effect>& effects() {
       {"adhesion",
        "neighbours or base stick to the pillar",
        "a formula",
-       {Pillar{adhesion_estimate}, Row{adhesion_estimate}}},
+       {Pillar{[](const PillarScene&) -> EffectEstimate {
+          return {.reason = "one pillar with nothing to stick to"};
+        }},
+        Row{adhesion_estimate}}},
       {"finite_strain",
        "stiffness changes with large strain",
        "a nonlinear solution",
@@ -66,7 +75,12 @@ const std::vector<Effect>& effects() {
       {"contact",
        "a shape presses on the top",
        "unilateral constraints",
-       {Pillar{contact_estimate}, Row{contact_estimate}}},
+       {Pillar{[](const PillarScene&) -> EffectEstimate {
+          return {.reason = "no shape presses on the pillar"};
+        }},
+        Row{[](const ArrayScene&) -> EffectEstimate {
+          return {.reason = "no shape presses on the pillars"};
+        }}}},
   };
   return kEffects;
 }

@@ -8,7 +8,7 @@
 
 namespace viscard {
 
-// What an effect is to one kind of scene.
+// An effect on one kind of scene.
 template <typename Body>
 struct EffectOn {
   EffectEstimate (*estimate)(const Body& scene);
@@ -16,7 +16,7 @@ struct EffectOn {
   void (*insist)(Body& scene) = nullptr;     // for effects that are forced on
 };
 
-// One effect: what it changes, what it costs, and what it is to each kind of scene.
+// One effect: what it changes, what it costs, and how each kind of scene treats it.
 struct Effect {
   const char* name;  // key in a scene's [effects]
   const char* changes;

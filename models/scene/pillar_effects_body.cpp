@@ -2,12 +2,15 @@
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/analyses/top_load.h"
 #include "models/scene/common/drive_parts.h"
-#include "models/scene/pillar_effects.h"
+#include "models/scene/scene_effects.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace viscard {
+
 EffectEstimate incompressibility_estimate(const PillarScene& scene) {
   const double nu = scene.pillar.nu;
   const double ratio = nu < 0.5 ? 2.0 * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu)) : HUGE_VAL;  // K/G
@@ -17,8 +20,8 @@ EffectEstimate incompressibility_estimate(const PillarScene& scene) {
     return {EffectRole::kNeeded, 1.0, "Poisson ratio", nu,
             "no displacement alone keeps its volume"};
   }
-  // Pressures of displacement elements carry K/G times the error of the strains (eq. E4); below the
-  // threshold the mesh error that is watched contains that.
+  // Pressures of displacement elements have K/G times the error of the strains (eq. E4); below the
+  // threshold the estimated mesh error contains it.
   EffectEstimate estimate{EffectRole::kOptional, 0.0, "K/G", ratio,
                           "the mesh error that is watched contains it"};
   if (nu >= kNearlyIncompressible) {
@@ -26,13 +29,6 @@ EffectEstimate incompressibility_estimate(const PillarScene& scene) {
     estimate.reason = "stresses would lock without pressures of their own";
   }
   return estimate;
-}
-
-void leave_out_incompressibility(PillarScene& scene) {
-  scene.condense_pressures_from = 0.5;
-}
-void insist_on_incompressibility(PillarScene& scene) {
-  scene.condense_pressures_from = -1.0;
 }
 
 EffectEstimate three_dimensional_estimate(const PillarScene& scene) {
@@ -77,10 +73,6 @@ void leave_out_geometric_stiffness(PillarScene& scene) {
       scene.drive, [](auto& d) requires requires { d.pressure_Pa; } { d.pressure_Pa = 0.0; });
 }
 
-EffectEstimate adhesion_estimate(const PillarScene&) {
-  return {.reason = "one pillar with nothing to stick to"};
-}
-
 EffectEstimate finite_strain_estimate(const PillarScene& scene) {
   double strain = largest_pressure_Pa(scene) / scene.pillar.E0_Pa;
   if (is_lateral(scene) && moves_top(scene)) {  // 3 u R/L^2 at the foot of a beam
@@ -99,8 +91,50 @@ EffectEstimate finite_strain_estimate(const PillarScene& scene) {
           "small strains are assumed; not in the error"};
 }
 
-EffectEstimate contact_estimate(const PillarScene&) {
-  return {.reason = "no shape presses on the pillar"};
+namespace {
+
+double shortest_ramp_s(const std::vector<HistoryPoint>& points) {
+  double shortest = std::numeric_limits<double>::infinity();
+  if (!points.empty() && points.front().value != 0.0) shortest = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].value == points[i - 1].value) continue;
+    shortest = std::min(shortest, points[i].time_s - points[i - 1].time_s);
+  }
+  return shortest;
+}
+
+}  // namespace
+
+EffectEstimate relaxation_estimate(const PillarScene& scene) {
+  if (scene.pillar.terms.empty()) return {.reason = "the material is elastic"};
+  const Analysis& analysis = analysis_of(scene);
+  EffectEstimate usual{.reason = "answers right after loading, with the instantaneous moduli"};
+  if (analysis.relaxes) {
+    usual = {EffectRole::kNeeded, 1.0, "", 0.0, "its damping decides the response near resonance"};
+  }
+  return analysis.relaxation == nullptr ? usual : analysis.relaxation(scene, usual);
+}
+
+EffectEstimate inertia_estimate(const PillarScene& scene) {
+  if (analysis_of(scene).has_inertia) {
+    return {EffectRole::kNeeded, 1.0, "", 0.0, "vibration is nothing else"};
+  }
+  if (!has_history(scene) || !(scene.pillar.rho_kg_m3 > 0.0)) {
+    return {.reason = "the load is at rest"};
+  }
+  // A rod under a ramp of length t_R rings by sin(x)/x, x = pi f_1 t_R (eq. E7).
+  const double x =
+      std::numbers::pi * first_rod_frequency_Hz(scene) * shortest_ramp_s(history(scene));
+  return {EffectRole::kOutside, x > 1.0 ? 1.0 / x : 1.0, "pi f_1 t_ramp", x,
+          "rings out after each ramp; not in a quasi-static answer"};
+}
+
+EffectEstimate leakage_estimate(const PillarScene& scene) {
+  if (!scene.electrodes) return {.reason = "no electrode"};
+  if (scene.readout) {
+    return {EffectRole::kNeeded, 1.0, "", 0.0, "the electrode is wired to a readout"};
+  }
+  return {.reason = "the voltage of an open electrode, before charge leaks"};
 }
 
 }  // namespace viscard

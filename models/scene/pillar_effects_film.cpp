@@ -1,6 +1,5 @@
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/analyses/film_shares.h"
-#include "models/scene/pillar_effects.h"
+#include "models/scene/scene_effects.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -85,10 +84,6 @@ void leave_out_piezo_coupling(PillarScene& scene) {
   } else {
     scene.electrodes.reset();
   }
-}
-
-EffectEstimate crosstalk_estimate(const PillarScene&) {
-  return {.reason = "a single pillar"};
 }
 
 }  // namespace viscard

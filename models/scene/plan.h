@@ -15,9 +15,9 @@ struct ScenePlan {
 };
 
 // Leaves out the effects with the smallest estimates as long as their sum stays within half the
-// tolerance; the mesh gets the rest. Throws SceneMistake naming an unknown effect, an effect that
-// is forced off though what is asked for does not exist without it, or one that is forced on though
-// no analysis can compute it.
+// tolerance; the mesh gets the rest. Throws SceneMistake naming an unknown effect, one that is
+// forced off although the results need it, or one that is forced on although no analysis can
+// compute it.
 ScenePlan plan_effects(const Scene& scene);
 
 // The plan of a scene whose load the straight pillar bears: refuses what plan_effects() and

@@ -1,9 +1,7 @@
-#include "models/scene/row_effects.h"
-
 #include "models/array/plane/array_analysis.h"
+#include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/pillar/analyses/film_shares.h"
-#include "models/scene/pillar_effects.h"
+#include "models/scene/scene_effects.h"
 #include "models/sensor/sensor_design.h"
 
 #include <algorithm>
@@ -15,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-// "centre_voltage" and "centre_voltage_4" begin alike; without a [want] everything is asked for.
+// True for the stem itself and for "stem_4"; without a [want] everything is asked for.
 bool asks_for(const ArrayScene& scene, const char* stem) {
   return scene.wanted.empty() ||
          std::any_of(scene.wanted.begin(), scene.wanted.end(),
@@ -70,7 +68,7 @@ EffectEstimate crosstalk_estimate(const ArrayScene& scene) {
     estimate.error = std::min(1.0, field + strain);
     if (asks_between_pillars(scene)) {
       estimate.role = EffectRole::kNeeded;
-      estimate.reason = "what passes between pillars is asked for";
+      estimate.reason = "the influence of the neighbours is asked for";
     }
   } else {
     estimate.error = film_share(scene) * elastic;
@@ -176,26 +174,6 @@ EffectEstimate geometric_stiffness_estimate(const ArrayScene& scene) {
   }
   const double share = scene.load_Pa / engesser_pressure_Pa(single_pillar(scene));
   return {EffectRole::kAbsent, 0.0, "p/p_cr", share, "a straight pillar shortens without it"};
-}
-
-EffectEstimate leakage_estimate(const ArrayScene&) {
-  return {.reason = "open electrodes, before charge leaks"};
-}
-
-EffectEstimate three_dimensional_estimate(const ArrayScene&) {
-  return {.reason = "rows are solved in the plane: strips, not cylinders"};
-}
-
-EffectEstimate contact_estimate(const ArrayScene&) {
-  return {.reason = "no shape presses on the pillars"};
-}
-
-void leave_out_crosstalk(ArrayScene& scene) {
-  scene.feels_neighbours = false;
-}
-
-void leave_out_film(ArrayScene& scene) {
-  scene.feels_film = false;
 }
 
 void leave_out_piezo_coupling(ArrayScene& scene) {

@@ -1,20 +1,10 @@
 #include "models/scene/scene.h"
 
-#include "models/array/plane/check_array.h"
+#include "models/array/plane/simulate_array.h"
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/pillar/analyses/check_pillar.h"
-#include "models/pillar/analyses/pillar_results.h"
+#include "models/pillar/analyses/simulate_pillar.h"
 
 namespace viscard {
-namespace {
-
-void refuse(const PillarScene& scene) {
-  refuse_beyond_buckling(scene);
-}
-void refuse(const ArrayScene&) {}
-
-}  // namespace
-
 SceneCommon& common(Scene& scene) {
   return std::visit([](auto& body) -> SceneCommon& { return body; }, scene);
 }
@@ -37,7 +27,7 @@ void validate(const Scene& scene) {
 }
 
 void refuse_beyond_buckling(const Scene& scene) {
-  std::visit([](const auto& body) { refuse(body); }, scene);
+  if (const auto* pillar = std::get_if<PillarScene>(&scene)) refuse_beyond_buckling(*pillar);
 }
 
 std::vector<std::string> result_names(const Scene& scene) {

@@ -9,9 +9,9 @@
 
 namespace viscard {
 
-// What a scene file describes: one pillar or a row of pillars. Every kind of
-// scene derives from SceneCommon, and has kKind, its word in a scene file, and kTolerances. A new
-// kind is a further alternative here; the compiler then names every place that lacks it.
+// The contents of a scene file: one pillar or a row of pillars. Every kind of scene derives from
+// SceneCommon, and has kKind, its word in a scene file, and kTolerances. A new kind is a further
+// alternative here; the compiler then names every place that lacks it.
 using Scene = std::variant<PillarScene, ArrayScene>;
 
 // What all scenes have.

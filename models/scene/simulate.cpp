@@ -3,7 +3,7 @@
 #include "models/array/plane/simulate_array.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/simulate_pillar.h"
-#include "models/scene/common/effect_budget.h"
+#include "models/scene/common/effect_estimate.h"
 #include "models/scene/plan.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace viscard {
 namespace {
 
-// What each kind of scene does, under one name.
+// The functions of each kind of scene under one name.
 SceneAnswer solve(const PillarScene& scene) {
   return simulate_pillar(scene);
 }
@@ -30,47 +30,31 @@ SceneAnswer solve_on(const ArrayScene& scene, const Discretisation& mesh) {
   return array_answer_on(scene, mesh);
 }
 
-void finish(const PillarScene& scene, SceneAnswer& answer) {
-  finish_pillar(scene, answer);
-}
-void finish(const ArrayScene&, SceneAnswer&) {}
-
-std::vector<SectionGrid> fields_on(const PillarScene& scene, const Discretisation& mesh) {
-  const Analysis& analysis = analysis_of(scene);
-  return analysis.fields == nullptr ? std::vector<SectionGrid>() : analysis.fields(scene, mesh);
-}
-std::vector<SectionGrid> fields_on(const ArrayScene&, const Discretisation&) {
-  return {};
+void finish(const Scene& scene, SceneAnswer& answer) {
+  if (const auto* pillar = std::get_if<PillarScene>(&scene)) finish_pillar(*pillar, answer);
 }
 
 }  // namespace
 
 SceneAnswer simulate(const Scene& scene) {
   const ScenePlan plan = plan_effects(scene);
-  SceneAnswer answer = std::visit(
-      [](const auto& reduced) {
-        SceneAnswer solved = solve(reduced);
-        finish(reduced, solved);
-        return solved;
-      },
-      plan.reduced);
+  SceneAnswer answer = std::visit([](const auto& body) { return solve(body); }, plan.reduced);
+  finish(plan.reduced, answer);
   report_left_out({plan.effects, plan.left_out}, common(scene).tolerance, answer);
   return answer;
 }
 
 SceneAnswer answer_on(const Scene& scene, const Discretisation& mesh) {
-  return std::visit(
-      [&](const auto& body) {
-        SceneAnswer answer = solve_on(body, mesh);
-        finish(body, answer);
-        return answer;
-      },
-      scene);
+  SceneAnswer answer = std::visit([&](const auto& body) { return solve_on(body, mesh); }, scene);
+  finish(scene, answer);
+  return answer;
 }
 
 std::vector<SectionGrid> solution_fields(const Scene& scene, const Discretisation& mesh) {
   const ScenePlan plan = plan_effects(scene);
-  return std::visit([&](const auto& reduced) { return fields_on(reduced, mesh); }, plan.reduced);
+  const auto* pillar = std::get_if<PillarScene>(&plan.reduced);
+  if (pillar == nullptr || analysis_of(*pillar).fields == nullptr) return {};
+  return analysis_of(*pillar).fields(*pillar, mesh);
 }
 
 void simulate_all(const std::vector<Scene>& points,

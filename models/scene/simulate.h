@@ -19,7 +19,7 @@ SceneAnswer simulate(const Scene& scene);
 // The scene as it stands, with no plan, on one mesh and without mesh errors.
 SceneAnswer answer_on(const Scene& scene, const Discretisation& mesh);
 
-// The solution on a mesh, with the effects of the scene's plan, to be looked at. Static:
+// The solution on a mesh, with the effects of the scene's plan, for pictures. Static:
 // displacement (m), axial stress (Pa), with electrodes the potential (V). Modal: the shapes of
 // every family, largest displacement 1. Other analyses and rows of pillars have none. The scene is
 // solved anew.

@@ -1,12 +1,13 @@
 #include "models/sensor/sensor_design.h"
 
-#include "models/maths/text_of_number.h"
+#include "models/maths/require.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -16,12 +17,6 @@ constexpr double kVacuumPermittivity_F_m = 8.8541878128e-12;  // CODATA 2018
 
 double plane_modulus_Pa(const SensorMaterial& m) {
   return m.young_modulus_Pa / (1.0 - m.poisson_ratio * m.poisson_ratio);
-}
-
-void require(bool is_good, const char* what, double value, const char* expected) {
-  if (is_good && std::isfinite(value)) return;
-  throw std::invalid_argument(std::string(what) + " is " + text_of(value) + "; it must be " +
-                              expected);
 }
 
 // Limits that diameter and spacing meet or break at any length.
@@ -34,7 +29,7 @@ std::vector<DesignLimit> limits_in_plane(double diameter_m, double spacing_m,
     limits.push_back({"resolution", diameter_m + spacing_m, r.coarsest_pitch_m, true, "m"});
   }
   if (r.least_relative_sensitivity > 0.0) {
-    limits.push_back({"sensitivity", relative_sensitivity(diameter_m, spacing_m, r.lattice),
+    limits.push_back({"sensitivity", stress_concentration(diameter_m, spacing_m, r.lattice),
                       r.least_relative_sensitivity, false, ""});
   }
   return limits;
@@ -86,40 +81,32 @@ double pull_off_force_N(double diameter_m, const SensorMaterial& m) {
                    diameter_m);
 }
 
-double relative_sensitivity(double diameter_m, double spacing_m, Lattice lattice) {
-  return stress_concentration(diameter_m, spacing_m, lattice);
-}
-
 double sensitivity_V_Pa(double diameter_m, double spacing_m, const SensorMaterial& m,
                         const SensorRequirements& r) {
   const double g33 = m.charge_constant_C_N / (m.relative_permittivity * kVacuumPermittivity_F_m);
-  return g33 * r.film_thickness_m * relative_sensitivity(diameter_m, spacing_m, r.lattice);
+  return g33 * r.film_thickness_m * stress_concentration(diameter_m, spacing_m, r.lattice);
 }
 
 void validate(const SensorGeometry& g, const SensorMaterial& m, const SensorRequirements& r) {
-  const auto positive = [](const char* what, double value) {
-    require(value > 0.0, what, value, "positive and finite");
-  };
-  positive("the diameter (m)", g.diameter_m);
-  positive("the spacing (m)", g.spacing_m);
-  positive("the length (m)", g.length_m);
-  positive("Young's modulus (Pa)", m.young_modulus_Pa);
-  require(m.poisson_ratio > -1.0 && m.poisson_ratio <= 0.5, "the Poisson ratio", m.poisson_ratio,
-          "above -1 and at most 0.5");
-  positive("the surface energy (J/m2)", m.surface_energy_J_m2);
-  positive("the work of adhesion (J/m2)", m.work_of_adhesion_J_m2);
-  positive("the adhesion strength (Pa)", m.adhesion_strength_Pa);
-  positive("the charge constant (C/N)", m.charge_constant_C_N);
-  positive("the relative permittivity", m.relative_permittivity);
-  positive("the pressure (Pa)", r.pressure_Pa);
-  require(r.end_factor >= 0.5 && r.end_factor <= 2.0, "the end factor K", r.end_factor,
-          "from 0.5 (both ends held) to 2 (one end free)");
-  positive("the film thickness (m)", r.film_thickness_m);
-  positive("the smallest feature (m)", r.smallest_feature_m);
-  positive("the largest aspect ratio", r.largest_aspect_ratio);
-  require(r.coarsest_pitch_m >= 0.0, "the pitch (m)", r.coarsest_pitch_m, "positive, or 0 for any");
-  require(r.least_relative_sensitivity >= 0.0, "the sensitivity", r.least_relative_sensitivity,
-          "positive, or 0 for any");
+  require_positive("the diameter", g.diameter_m, "m");
+  require_positive("the spacing", g.spacing_m, "m");
+  require_positive("the length", g.length_m, "m");
+  require_positive("Young's modulus", m.young_modulus_Pa, "Pa");
+  require_value(m.poisson_ratio > -1.0 && m.poisson_ratio <= 0.5, "the Poisson ratio",
+                m.poisson_ratio, "", "above -1 and at most 0.5");
+  require_positive("the surface energy", m.surface_energy_J_m2, "J/m2");
+  require_positive("the work of adhesion", m.work_of_adhesion_J_m2, "J/m2");
+  require_positive("the adhesion strength", m.adhesion_strength_Pa, "Pa");
+  require_positive("the charge constant", m.charge_constant_C_N, "C/N");
+  require_positive("the relative permittivity", m.relative_permittivity);
+  require_positive("the pressure", r.pressure_Pa, "Pa");
+  require_value(r.end_factor >= 0.5 && r.end_factor <= 2.0, "the end factor K", r.end_factor, "",
+                "from 0.5 (both ends held) to 2 (one end free)");
+  require_positive("the film thickness", r.film_thickness_m, "m");
+  require_positive("the smallest feature", r.smallest_feature_m, "m");
+  require_positive("the largest aspect ratio", r.largest_aspect_ratio);
+  require_not_negative("the pitch (0: any)", r.coarsest_pitch_m, "m");
+  require_not_negative("the sensitivity (0: any)", r.least_relative_sensitivity);
 }
 
 std::vector<DesignLimit> design_limits(const SensorGeometry& g, const SensorMaterial& m,

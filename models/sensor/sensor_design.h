@@ -9,8 +9,7 @@ namespace viscard {
 // edge-to-edge spacing s on a piezoelectric film of thickness t and are pressed together by a mean
 // pressure p.
 
-// How the pillars are arranged decides the share of the area they carry the load on
-// (models/array/plane/README.md, eq. D1).
+// The arrangement of the pillars determines their share of the area (README.md, eq. D1).
 enum class Lattice {
   kSquare,     // unit cell (d + s)^2
   kHexagonal,  // unit cell sqrt(3)/2 (d + s)^2
@@ -44,24 +43,21 @@ struct SensorGeometry {
   double length_m = 120e-6;
 };
 
-// Pillar stress over mean pressure: 4/pi (1 + s/d)^2 on a square lattice, from the balance of
-// forces on a unit cell.
+// Pillar stress over mean pressure, from the balance of forces on a unit cell (eq. D1). It is also
+// the sensitivity relative to a film without pillars.
 double stress_concentration(double diameter_m, double spacing_m, Lattice lattice);
 
-// Longest pillar before Euler buckling, sigma <= pi^2 E d^2/(16 K^2 l^2) (eq. D2). Source:
-// Timoshenko & Gere, Theory of Elastic Stability (1961), ch. 2. Slender: at l = 3 d shear lowers
-// the load by some per cent.
+// Longest pillar before Euler buckling (eq. D2). Source: Timoshenko & Gere, Theory of Elastic
+// Stability (1961), ch. 2. For slender pillars: at l = 3 d shear lowers the load by some per cent.
 double longest_unbuckled_m(double diameter_m, double spacing_m, const SensorMaterial& material,
                            const SensorRequirements& requirements);
 
-// Longest pillar that does not stick to its neighbour (matting, lateral collapse, eq. D3):
-//   l = (3 pi^(4/3)/128)^(1/4) (E/gamma)^(1/4) (E*/gamma)^(1/12) d^(5/6) s^(1/2),
-// E* = E/(1 - nu^2). Source: Glassmaker, Jagota, Hui & Kim, J. R. Soc. Interface 1 (2004) 23.
+// Longest pillar that does not stick to its neighbour (matting, lateral collapse, eq. D3). Source:
+// Glassmaker, Jagota, Hui & Kim, J. R. Soc. Interface 1 (2004) 23.
 double longest_unmatted_m(double diameter_m, double spacing_m, const SensorMaterial& material);
 
-// Longest pillar that does not lie down on the film (ground collapse, eq. D4):
-//   l = pi^(5/3)/(2^(11/3) 3^(1/2)) (1 - nu^2)^(-1/6) (E/(2 gamma))^(2/3) d^(5/3).
-// Source: Roca-Cusachs, Rico, Martinez, Toset, Farre & Navajas, Langmuir 21 (2005) 5542.
+// Longest pillar that does not lie down on the film (ground collapse, eq. D4). Source:
+// Roca-Cusachs, Rico, Martinez, Toset, Farre & Navajas, Langmuir 21 (2005) 5542.
 double longest_upright_m(double diameter_m, const SensorMaterial& material);
 
 // Widest pillar whose contact parts at the adhesion strength and not by a crack from a flaw,
@@ -72,11 +68,9 @@ double widest_flaw_insensitive_m(const SensorMaterial& material);
 // Kendall, J. Phys. D 4 (1971) 1186.
 double pull_off_force_N(double diameter_m, const SensorMaterial& material);
 
-// V per Pa of mean pressure: g33 t times the stress concentration (eq. D6), and relative to a film
-// without pillars, g33 t.
+// V per Pa of mean pressure: g33 t times the stress concentration (eq. D6).
 double sensitivity_V_Pa(double diameter_m, double spacing_m, const SensorMaterial& material,
                         const SensorRequirements& requirements);
-double relative_sensitivity(double diameter_m, double spacing_m, Lattice lattice);
 
 // One limit on a design: the value it has and the one it may have.
 struct DesignLimit {
@@ -92,7 +86,7 @@ struct DesignLimit {
   double margin() const { return is_upper ? limit / value : value / limit; }
 };
 
-// Throws std::invalid_argument naming the input that makes no sense.
+// Throws std::invalid_argument naming the first input outside its range.
 void validate(const SensorGeometry& geometry, const SensorMaterial& material,
               const SensorRequirements& requirements);
 std::vector<DesignLimit> design_limits(const SensorGeometry& geometry,
@@ -100,8 +94,8 @@ std::vector<DesignLimit> design_limits(const SensorGeometry& geometry,
                                        const SensorRequirements& requirements);
 bool is_admissible(const std::vector<DesignLimit>& limits);
 
-// Longest admissible pillar at a diameter and spacing, and what limits it; 0 where d or s alone
-// rule the design out, with the first limit they break.
+// Longest admissible pillar at a diameter and spacing, and the limit that determines it; 0 if d or
+// s alone violate a limit, with the first one they violate.
 struct LongestPillar {
   double length_m = 0.0;
   std::string limited_by;

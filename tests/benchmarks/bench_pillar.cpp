@@ -1,6 +1,6 @@
 // Processor time of the pillar solver inside one process, with the error of each answer.
 // bench_pillar_peers times the whole command beside its peers.
-#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/pillar_modes.h"
 #include "models/pillar/time/harmonic_response.h"
 #include "models/pillar/time/load_history.h"

@@ -134,7 +134,7 @@ nlohmann::json json_from_design(const Design& d, const std::vector<DesignLimit>&
        stress_concentration(g.diameter_m, g.spacing_m, d.requirements.lattice)},
       {"sensitivity_V_Pa", sensitivity_V_Pa(g.diameter_m, g.spacing_m, d.material, d.requirements)},
       {"relative_sensitivity",
-       relative_sensitivity(g.diameter_m, g.spacing_m, d.requirements.lattice)},
+       stress_concentration(g.diameter_m, g.spacing_m, d.requirements.lattice)},
       {"pitch_m", g.diameter_m + g.spacing_m},
       {"pull_off_force_N", pull_off_force_N(g.diameter_m, d.material)}};
 }
@@ -155,7 +155,7 @@ void print_design(const Design& d, const std::vector<DesignLimit>& limits,
   out << fmt::format(
       "  sensitivity {:.4g} mV/kPa, {:.4g} times a film without pillars; pitch {:.4g} um\n",
       1e6 * sensitivity_V_Pa(g.diameter_m, g.spacing_m, d.material, d.requirements),
-      relative_sensitivity(g.diameter_m, g.spacing_m, d.requirements.lattice),
+      stress_concentration(g.diameter_m, g.spacing_m, d.requirements.lattice),
       1e6 * (g.diameter_m + g.spacing_m));
   if (longest.length_m > 0.0) {
     out << fmt::format("  longest admissible pillar {:.4g} um, limited by {}\n",

@@ -147,7 +147,7 @@ std::vector<std::pair<std::string, Plot>> design_pictures(const SensorGeometry& 
       "sensitivity",
       one_panel("Sensitivity", "Voltage over that of a film without pillars, against spacing.",
                 by_diameter(g, "relative sensitivity", true, [&](double d, double s) {
-                  return relative_sensitivity(d, s, r.lattice);
+                  return stress_concentration(d, s, r.lattice);
                 })));
   pictures.emplace_back("region", region_picture(g, m, r));
   pictures.emplace_back("longest", diameters_picture(g, m, r));

@@ -1,6 +1,7 @@
 #include "models/array/plane/array_analysis.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace viscard {
@@ -24,6 +25,46 @@ bool asks_for_voltages(const ArrayScene& scene) {
   return scene.wanted.empty() ||
          std::any_of(scene.wanted.begin(), scene.wanted.end(),
                      [](const std::string& name) { return !name.starts_with("top_displacement"); });
+}
+
+int modes_for(const ArrayScene& scene, const Discretisation& mesh, double highest_Hz) {
+  constexpr int kLeast = 3;  // linear elements have few that are right
+  const int count = std::max(kLeast, 8 + 5 * (mesh.degree - 3));
+  if (highest_Hz == 0.0) return count;
+  const double shear_m_s =
+      std::sqrt(scene.pillar.E0_Pa / (2.0 * (1.0 + scene.pillar.nu)) / scene.pillar.rho_kg_m3);
+  const double waves = 2.0 * scene.geometry.length_m * highest_Hz / shear_m_s;
+  return count + static_cast<int>(std::ceil(4.0 * waves));
+}
+
+double film_error(const ArrayScene& scene, const ArrayTransfer& transfer, double frequency_Hz) {
+  const double speed_m_s = std::sqrt(scene.film.stiffness_Pa(4, 4) / scene.film.rho_kg_m3);
+  const double ratio = frequency_Hz * 4.0 * scene.geometry.film_thickness_m / speed_m_s;
+  const bool is_voltage = transfer.voltages() > 0 && asks_for_voltages(scene);
+  return ratio * ratio * (is_voltage ? 1.0 : transfer.film_share());
+}
+
+std::vector<int> loaded_of(const ArrayScene& scene) {
+  std::vector<int> loaded;
+  for (const int pillar : scene.loaded) loaded.push_back(pillar - 1);
+  for (int i = 0; scene.loaded.empty() && i < scene.geometry.count; ++i) loaded.push_back(i);
+  return loaded;
+}
+
+std::string name_of(const ArrayScene& scene, Eigen::Index output) {
+  const int n = scene.geometry.count;
+  const bool is_top = output < n;
+  const char* stem = is_top                              ? "top_displacement_"
+                     : scene.electrodes.is_equipotential ? "electrode_voltage_"
+                                                         : "centre_voltage_";
+  return stem + std::to_string((is_top ? output : output - n) + 1);
+}
+
+std::vector<std::string> names_in_time(const ArrayScene& scene) {
+  std::vector<std::string> names = {"top_displacement"};
+  if (!is_electric(scene)) return names;
+  names.emplace_back(scene.electrodes.is_equipotential ? "electrode_voltage" : "centre_voltage");
+  return names;
 }
 
 }  // namespace viscard

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/array/plane/array_scene.h"
+#include "models/array/plane/array_transfer.h"
 #include "models/scene/common/scene_answer.h"
 
 #include <string>
@@ -9,9 +10,7 @@
 namespace viscard {
 
 // One analysis of a row of pillars: what it needs, what it may be asked for, and its answer on one
-// mesh. All other code reads this row and never asks which analysis it is. A new analysis is an
-// alternative of RowDrive, a file array_analysis_*.cpp and a row of the table in
-// array_analysis.cpp.
+// mesh. All other code reads this row and never asks which analysis it is (README.md).
 struct ArrayAnalysis {
   const char* name;  // the word in a scene file
   RowDrive drive;    // its alternative of the variant, with default values
@@ -25,7 +24,7 @@ struct ArrayAnalysis {
   SceneAnswer (*run)(const ArrayScene& scene, const Discretisation& mesh) = nullptr;
   // Throws std::runtime_error for an answer that no mesh improves enough; may be null.
   void (*check_answer)(const ArrayScene& scene, const SceneAnswer& answer) = nullptr;
-  // What is done to each pillar when the plan leaves the film out; null: it never does.
+  // The drive of each pillar when the plan leaves the film out; null: it never does.
   PillarDrive (*alone)(const ArrayScene& scene) = nullptr;
 };
 
@@ -40,5 +39,28 @@ ArrayAnalysis array_static_analysis();
 ArrayAnalysis array_modal_analysis();
 ArrayAnalysis array_harmonic_analysis();
 ArrayAnalysis array_transient_analysis();
+
+// Throw SceneMistake: for a pressure beyond buckling, under `key`; for a load that is zero or
+// beyond buckling.
+void check_pressure(const ArrayScene& scene, double pressure_Pa, const char* key);
+void check_load(const ArrayScene& scene);
+
+// The parts that harmonic and transient analyses of a row share. Outputs are those of
+// ArrayTransfer: the tops, then the voltages.
+
+// Number of modes of each pillar in use. It rises with the mesh, so that the change from mesh to
+// mesh contains the contribution of the modes left out. For a sweep: about twice the modes of the
+// rod and of the shear beam below its highest frequency; 0: no such frequency.
+int modes_for(const ArrayScene& scene, const Discretisation& mesh, double highest_Hz);
+
+// Relative error of a film without inertia: (f/f_film)^2 of its motion, f_film = c_s/(4 t) (eq.
+// A2). Voltages come from the film alone; of a top's displacement only a share does.
+double film_error(const ArrayScene& scene, const ArrayTransfer& transfer, double frequency_Hz);
+
+std::vector<int> loaded_of(const ArrayScene& scene);  // 0-based
+std::string name_of(const ArrayScene& scene, Eigen::Index output);
+
+// The results that a row in time or frequency may be asked for.
+std::vector<std::string> names_in_time(const ArrayScene& scene);
 
 }  // namespace viscard

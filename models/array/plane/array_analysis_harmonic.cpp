@@ -1,9 +1,7 @@
 #include "models/array/plane/array_analysis.h"
-#include "models/array/plane/array_in_time.h"
-#include "models/array/plane/check_array.h"
-#include "models/pillar/mesh/scene_mistake.h"
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace viscard {
@@ -16,55 +14,32 @@ const RowHarmonic& row_harmonic_drive(const ArrayScene& scene) {
 }
 
 void check_row_harmonic(const ArrayScene& scene) {
-  const std::vector<double>& f = row_harmonic_drive(scene).frequencies_Hz;
-  if (f.empty()) throw SceneMistake("analysis", "a harmonic analysis needs frequencies");
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    if (!(f[i] > (i == 0 ? 0.0 : f[i - 1])) || !std::isfinite(f[i])) {
-      throw SceneMistake("analysis.frequencies", "must be positive and ascend");
-    }
-  }
+  check_frequencies(row_harmonic_drive(scene).frequencies_Hz);
   check_load(scene);
 }
 
-// All outputs over the frequencies.
+// All outputs over the frequencies. The tolerance refers to the pillar that moves most, as for
+// static voltages; a neighbour's trace is judged by the same size.
 void add_outputs(const ArrayScene& scene, const ArrayTransfer& transfer, SceneAnswer& answer) {
   const std::vector<double>& f = row_harmonic_drive(scene).frequencies_Hz;
-  Eigen::MatrixXcd value(transfer.outputs(), static_cast<Eigen::Index>(f.size()));
-  Eigen::MatrixXd allowed(value.rows(), value.cols());
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    const auto column = static_cast<Eigen::Index>(i);
-    Eigen::VectorXd slope;
-    value.col(column) =
-        scene.load_Pa * transfer.at(Complex(0.0, 2.0 * std::numbers::pi * f[i]), &slope);
-    allowed.col(column) = std::abs(scene.load_Pa) * slope;
-  }
-  // Beside the pillar that moves most, as static voltages are: a neighbour's trace is judged so.
   const Eigen::Index n = scene.geometry.count;
-  const auto largest_of = [&](Eigen::Index row) {
-    return row < n ? allowed.topRows(n).colwise().maxCoeff()
-                   : allowed.bottomRows(value.rows() - n).colwise().maxCoeff();
-  };
-  for (Eigen::Index row = 0; row < value.rows(); ++row) {
-    const std::string name = name_of(scene, row);
-    if (!is_wanted(scene, name)) continue;
-    const Eigen::RowVectorXd size = largest_of(row);
-    const char* unit = row < n ? "m" : "V";
-    const auto add = [&](const char* part, const char* of, bool watched, auto&& number) {
-      SceneCurve curve{name + part, of, f, {}, "frequency_Hz"};
-      for (Eigen::Index i = 0; i < value.cols(); ++i) curve.value.push_back(number(value(row, i)));
-      if (watched) curve.allowed.assign(size.begin(), size.end());
-      curve.is_watched = watched;
-      answer.curves.push_back(std::move(curve));
-    };
-    add("_real", unit, true, [](Complex y) { return y.real(); });
-    add("_imaginary", unit, true, [](Complex y) { return y.imag(); });
-    add("_magnitude", unit, true, [](Complex y) { return std::abs(y); });
-    add("_phase", "rad", false, [](Complex y) { return std::arg(y); });
-    answer.results.push_back({name + "_at_lowest", std::abs(value(row, 0)), unit, 0.0, size[0]});
-    if (f.size() > 1) {
-      answer.results.push_back({name + "_at_highest", std::abs(value(row, value.cols() - 1)), unit,
-                                0.0, size[size.size() - 1]});
+  std::vector<Sweep> sweeps(static_cast<std::size_t>(transfer.outputs()));
+  for (const double frequency_Hz : f) {
+    Eigen::VectorXd slope;
+    const Eigen::VectorXcd value =
+        scene.load_Pa * transfer.at(Complex(0.0, 2.0 * std::numbers::pi * frequency_Hz), &slope);
+    const Eigen::VectorXd allowed = std::abs(scene.load_Pa) * slope;
+    for (Eigen::Index row = 0; row < value.size(); ++row) {
+      Sweep& sweep = sweeps[static_cast<std::size_t>(row)];
+      sweep.value.push_back(value[row]);
+      sweep.allowed.push_back(
+          (row < n ? allowed.head(n) : allowed.tail(allowed.size() - n)).maxCoeff());
     }
+  }
+  for (Eigen::Index row = 0; row < transfer.outputs(); ++row) {
+    const std::string name = name_of(scene, row);
+    if (!asks_for(scene, name)) continue;
+    add_sweep(name, row < n ? "m" : "V", f, sweeps[static_cast<std::size_t>(row)], answer);
   }
 }
 

@@ -1,7 +1,7 @@
 #include "models/array/plane/array_analysis.h"
 #include "models/array/plane/array_modes.h"
+#include "models/maths/text_of_number.h"
 
-#include <cstdio>
 #include <stdexcept>
 
 namespace viscard {
@@ -38,16 +38,14 @@ SceneAnswer run_row_modal(const ArrayScene& scene, const Discretisation& mesh) {
 
 // Modes of a row leave the film's own inertia out; no mesh changes that error.
 void refuse_film_modes(const ArrayScene& scene, const SceneAnswer& answer) {
-  const double film_error = answer.step_error;
-  const double tolerance = scene.tolerance;
-  if (film_error <= tolerance) return;
-  char text[260];
-  std::snprintf(text, sizeof text,
-                "the film's own inertia, which the modes of a row leave out, may change the "
-                "frequencies by %.2g of them, more than the tolerance of %.2g; ask for a larger "
-                "tolerance or fewer modes, or for one pillar on its film (kind = \"pillar\")",
-                film_error, tolerance);
-  throw std::runtime_error(text);
+  if (answer.step_error <= scene.tolerance) return;
+  throw std::runtime_error(
+      "the film's own inertia, which the modes of a row leave out, may change the frequencies by a "
+      "share of " +
+      text_of(answer.step_error, 2) + ", more than the tolerance of " +
+      text_of(scene.tolerance, 2) +
+      "; ask for a larger tolerance or fewer modes, or for one pillar "
+      "on its film (kind = \"pillar\")");
 }
 
 PillarDrive row_modal_alone(const ArrayScene& scene) {

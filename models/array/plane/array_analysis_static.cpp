@@ -1,16 +1,14 @@
 #include "models/array/plane/array_analysis.h"
-#include "models/array/plane/check_array.h"
 
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace viscard {
 namespace {
 
-constexpr double kPercentScale = 10.0;  // at a tolerance of 1e-3 per cents are known to .01 points
+constexpr double kPercentScale = 10.0;  // a tolerance of 1e-3 gives per cents to 0.01 points
 
 // The response of one pillar for each of a row, and nothing between them.
 ArrayResponse each_alone(const ArrayResponse& one, int count) {
@@ -41,7 +39,7 @@ class Statics {
     load_Pa_ =
         Eigen::VectorXd::Constant(scene.geometry.count, scene.loaded.empty() ? scene.load_Pa : 0.0);
     for (const int pillar : scene.loaded) load_Pa_[pillar - 1] = scene.load_Pa;
-    // What stands for the voltage of a pillar where a single number is compared.
+    // The voltage of a pillar where single numbers are compared.
     const bool has_electrodes = response_.electrode_V.size() > 0;
     single_ = has_electrodes ? response_.electrode_V : response_.centre_V;
     mean_ = has_electrodes ? response_.electrode_V : response_.mean_V;
@@ -62,15 +60,9 @@ class Statics {
   }
 
  private:
-  bool is_wanted(const std::string& name, int pillar, bool by_default = true) const {
-    if (scene_.wanted.empty()) return by_default;
-    return std::any_of(scene_.wanted.begin(), scene_.wanted.end(), [&](const std::string& w) {
-      return w == name || w == name + "_" + std::to_string(pillar);
-    });
-  }
-  void add(const std::string& name, int pillar, double value, const char* unit, double scale) {
-    answer_.results.push_back(
-        {name + "_" + std::to_string(pillar), value, unit, 0.0, scale, is_wanted(name, pillar)});
+  void add(const std::string& stem, int pillar, double value, const char* unit, double scale) {
+    const std::string name = stem + "_" + std::to_string(pillar);
+    answer_.results.push_back({name, value, unit, 0.0, scale, asks_for(scene_, name)});
   }
   void add_all(const std::string& name, const Eigen::VectorXd& values, const char* unit) {
     const double scale = values.size() == 0 ? 0.0 : values.cwiseAbs().maxCoeff();
@@ -78,7 +70,7 @@ class Statics {
       add(name, static_cast<int>(i) + 1, values[i], unit, scale);
     }
   }
-  // What the electrodes do not have stays empty.
+  // Empty for a voltage that the electrodes do not have.
   Eigen::VectorXd under_load(const Eigen::MatrixXd& per_Pa) const {
     if (per_Pa.size() == 0) return {};
     return per_Pa * load_Pa_;
@@ -90,7 +82,11 @@ class Statics {
     const Eigen::VectorXd V = under_load(single_);
     const Eigen::VectorXd mean_V = under_load(mean_);
     const Eigen::VectorXd midway_V = under_load(response_.midway_V);
-    const auto largest = [&](const Eigen::VectorXd& of) { return of[index_of_largest(of)]; };
+    const auto largest = [](const Eigen::VectorXd& of) {
+      Eigen::Index at = 0;
+      of.cwiseAbs().maxCoeff(&at);
+      return of[at];
+    };
     for (Eigen::Index i = 0; i < n; ++i) {
       const int number = static_cast<int>(i) + 1;
       if (i < midway_V.size() && is_loaded(i) && is_loaded(std::min(i + 1, n - 1))) {
@@ -106,15 +102,11 @@ class Statics {
       }
       const double own_V = single_(i, i) * load_Pa_[i];
       add("neighbours_percent", number, 100.0 * (V[i] / own_V - 1.0), "%", kPercentScale);
-      if (!is_wanted("deviation_percent", number, false)) continue;
+      const std::string deviation = "deviation_percent_" + std::to_string(number);
+      if (scene_.wanted.empty() || !asks_for(scene_, deviation)) continue;
       add("deviation_percent", number, 100.0 * (V[i] / (lone_V() * load_Pa_[i]) - 1.0), "%",
           kPercentScale);
     }
-  }
-  static Eigen::Index index_of_largest(const Eigen::VectorXd& values) {
-    Eigen::Index at = 0;
-    values.cwiseAbs().maxCoeff(&at);
-    return at;
   }
   double lone_V() {
     if (lone_V_ == 0.0) {

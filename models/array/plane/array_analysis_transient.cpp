@@ -1,11 +1,8 @@
 #include "models/array/plane/array_analysis.h"
-#include "models/array/plane/array_in_time.h"
-#include "models/array/plane/check_array.h"
+#include "models/pillar/analyses/analysis.h"
 #include "models/pillar/mesh/scene_mistake.h"
-#include "models/pillar/time/spectrum.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace viscard {
@@ -21,12 +18,7 @@ void check_row_transient(const ArrayScene& scene) {
     throw SceneMistake("analysis", "a transient analysis needs a history or a pulse");
   }
   validate(drive.history);
-  if (!(drive.end_time_s > 0.0) || !std::isfinite(drive.end_time_s)) {
-    throw SceneMistake("analysis", "a transient analysis needs an end_time that is positive");
-  }
-  if (drive.outputs < 10 || drive.outputs > 200000) {
-    throw SceneMistake("analysis.outputs", "must lie between 10 and 200000");
-  }
+  check_outputs(drive.end_time_s, drive.outputs);
   for (const HistoryPoint& point : drive.history) {
     check_pressure(scene, point.value, "analysis.history");
   }
@@ -43,25 +35,19 @@ void add_outputs(const ArrayScene& scene, const ArrayTransfer& transfer, const D
   const Eigen::Index n = scene.geometry.count;
   for (Eigen::Index row = 0; row < values.rows(); ++row) {
     const std::string name = name_of(scene, row);
-    if (!is_wanted(scene, name)) continue;
+    if (!asks_for(scene, name)) continue;
     const double size = row < n ? values.topRows(n).cwiseAbs().maxCoeff()
                                 : values.bottomRows(values.rows() - n).cwiseAbs().maxCoeff();
     const Eigen::RowVectorXd own = values.row(row);
     const std::vector<double> samples(own.begin(), own.end());
     const char* unit = row < n ? "m" : "V";
-    // Without its sign, which would change where two peaks are nearly the same.
+    // Without its sign, which would change between two peaks of nearly the same size.
     answer.results.push_back({name + "_peak", own.cwiseAbs().maxCoeff(), unit, 0.0, size});
     answer.results.push_back({name + "_end", own[own.size() - 1], unit, 0.0, size});
     answer.curves.push_back({.name = name, .unit = unit, .x = time_s, .value = samples});
     answer.curves.back().allowed.assign(samples.size(), size);
-    const Spectrum spectrum = amplitude_spectrum(
-        std::vector<double>(samples.begin(), samples.end() - 1), time_s[1] - time_s[0]);
-    answer.curves.push_back({.name = name + "_spectrum",
-                             .unit = unit,
-                             .x = spectrum.frequency_Hz,
-                             .value = spectrum.amplitude,
-                             .x_name = "frequency_Hz"});
-    answer.curves.back().allowed.assign(spectrum.amplitude.size(), size);
+    answer.curves.push_back(spectrum_of(answer.curves.back()));
+    answer.curves.back().allowed.assign(answer.curves.back().value.size(), size);
   }
 }
 
@@ -72,7 +58,7 @@ SceneAnswer run_row_transient(const ArrayScene& scene, const Discretisation& mes
                          modes_for(scene, mesh, 0.0));
   answer.unknowns = model.unknowns();
   const ArrayTransfer transfer(model, scene.load, loaded_of(scene), scene.pillar);
-  // Ringing lasts in the lowest modes; the film follows the third of them this well.
+  // Ringing lasts in the lowest modes; the error of the film is that at the third of them.
   const Eigen::VectorXd& rad_s = model.pillar().mode_rad_s;
   const double ring_rad_s = rad_s[std::min<Eigen::Index>(2, rad_s.size() - 1)];
   answer.step_error = film_error(scene, transfer, ring_rad_s / (2.0 * std::numbers::pi));

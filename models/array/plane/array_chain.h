@@ -7,8 +7,8 @@
 
 namespace viscard {
 
-// Pieces joined end to end: a block-tridiagonal system in the unknowns of the joints, whatever the
-// number of elements within the pieces. Ports are numbered piece by piece.
+// Pieces joined end to end: a block-tridiagonal system in the unknowns of the joints alone. Ports
+// are numbered piece by piece.
 class ArrayChain {
  public:
   // The pieces must outlive the chain; a piece may stand in it many times. With mirror ends the

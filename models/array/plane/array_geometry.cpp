@@ -1,32 +1,19 @@
 #include "models/array/plane/array_geometry.h"
 
+#include "models/maths/require.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 namespace viscard {
 namespace {
 
-std::string micrometres(double value_m) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g um", value_m * 1e6);
-  return text;
-}
-
-void require(double value_m, bool may_be_zero, const char* key, const char* what) {
-  if (std::isfinite(value_m) && (value_m > 0.0 || (may_be_zero && value_m == 0.0))) return;
-  throw SceneMistake(key, std::string(what) + " is " + micrometres(value_m) + "; it must be " +
-                              (may_be_zero ? "zero or " : "") + "positive and finite");
-}
-
-void append(std::vector<double>& breaks, const std::vector<double>& more) {
-  for (const double x : more) {
-    const double same = 1e-9 * std::abs(more.back() - more.front());
-    if (breaks.empty() || x > breaks.back() + same) breaks.push_back(x);
-  }
+void require_length(double value_m, bool may_be_zero, const char* key, const char* what) {
+  at_key(key, [&] {
+    (may_be_zero ? require_not_negative : require_positive)(what, value_m * 1e6, "um");
+  });
 }
 
 int column_of(const std::vector<double>& breaks, double x) {
@@ -54,17 +41,17 @@ void validate(const ArrayGeometry& g, const ArrayElectrodes& e) {
     throw SceneMistake("geometry.count", "the array has " + std::to_string(g.count) +
                                              " pillars; it must have between 1 and 4096");
   }
-  require(g.diameter_m, false, "geometry.diameter", "the pillars' diameter");
-  require(g.length_m, false, "geometry.length", "the pillars' length");
-  require(g.film_thickness_m, false, "geometry.film.thickness", "the film's thickness");
-  require(e.half_width_m, true, "geometry.electrode.radius", "the electrodes' half width");
+  require_length(g.diameter_m, false, "geometry.diameter", "the pillars' diameter");
+  require_length(g.length_m, false, "geometry.length", "the pillars' length");
+  require_length(g.film_thickness_m, false, "geometry.film.thickness", "the film's thickness");
+  require_length(e.half_width_m, true, "geometry.electrode.radius", "the electrodes' half width");
   const bool has_gap = g.count > 1 || g.ends == FilmEnds::kMirror;
   if (has_gap) {
-    require(g.spacing_m, false, "geometry.spacing",
-            "the spacing (edge to edge; pillars must not overlap)");
+    require_length(g.spacing_m, false, "geometry.spacing",
+                   "the spacing (edge to edge; pillars must not overlap)");
   }
   if (g.ends == FilmEnds::kFree) {
-    require(g.film_edge_m, true, "geometry.film.edge", "the film's edge");
+    require_length(g.film_edge_m, true, "geometry.film.edge", "the film's edge");
   }
   const double beyond_m = electrode_half_width_m(g, e) - 0.5 * g.diameter_m;
   if (has_gap && !(beyond_m < 0.5 * g.spacing_m)) {
@@ -74,10 +61,9 @@ void validate(const ArrayGeometry& g, const ArrayElectrodes& e) {
                            micrometres(g.spacing_m));
   }
   if (g.ends == FilmEnds::kFree && beyond_m > g.film_edge_m) {
-    throw SceneMistake("geometry.film.edge",
-                       "the outer electrodes lie outside the film; make it at "
-                       "least " +
-                           micrometres(beyond_m));
+    throw SceneMistake(
+        "geometry.film.edge",
+        "the outer electrodes lie outside the film; make it at least " + micrometres(beyond_m));
   }
 }
 
@@ -89,16 +75,17 @@ std::vector<double> breaks_between(const std::vector<MeshMark>& marks, double re
     const double b = marks[i + 1].x;
     const int singular_ends = (marks[i].is_singular ? 1 : 0) + (marks[i + 1].is_singular ? 1 : 0);
     double reach = singular_ends == 0 ? 0.0 : reach_m;
-    // What would remain between the graded parts is no element of its own.
+    // If little would remain between the graded parts, they fill the whole interval.
     if (singular_ends > 0 && b - a < 1.5 * singular_ends * reach_m) reach = (b - a) / singular_ends;
     const double left = a + (marks[i].is_singular ? reach : 0.0);
     const double right = b - (marks[i + 1].is_singular ? reach : 0.0);
-    if (marks[i].is_singular) append(breaks, graded_breaks(a, left, layers, ratio, false));
+    if (marks[i].is_singular) append_breaks(breaks, graded_breaks(a, left, layers, ratio, false));
     if (right - left > 1e-9 * (b - a)) {
       const int n = std::max(1, static_cast<int>(std::ceil((right - left) / largest_m - 1e-9)));
-      append(breaks, graded_breaks(left, right, n, 1.0, true));
+      append_breaks(breaks, graded_breaks(left, right, n, 1.0, true));
     }
-    if (marks[i + 1].is_singular) append(breaks, graded_breaks(right, b, layers, ratio, true));
+    if (marks[i + 1].is_singular)
+      append_breaks(breaks, graded_breaks(right, b, layers, ratio, true));
   }
   return breaks;
 }
@@ -144,8 +131,7 @@ ArrayMesh array_mesh(const ArrayGeometry& g, const ArrayElectrodes& e, const Dis
   if (g.count > 1) mesh.gap_x = line({{0.0, ends_at_rim}, {gap, ends_at_rim}});
   const double rest = edge - (half_cell - R);
   if (rest > 1e-6 * R) mesh.edge_x = line({{0.0, ends_at_rim}, {rest, false}});
-  // Singular at the bottom: an electrode's edge, and the corner where a film that ends nearby is
-  // held.
+  // Singular at the bottom: an electrode's edge, and the held corner of a film that ends nearby.
   const bool bottom_electrode = e.is_equipotential && e.grounded == FilmFace::kTop;
   const bool bottom_corner = g.ends == FilmEnds::kFree && edge < t;
   mesh.film_z = line({{-t, bottom_electrode || bottom_corner}, {0.0, true}});

@@ -40,7 +40,7 @@ double electrode_half_width_m(const ArrayGeometry& geometry, const ArrayElectrod
 // The same pillar alone, on a film so wide that its ends are not felt.
 ArrayGeometry lone(ArrayGeometry geometry);
 
-// Where elements must end, and whether stress or field is singular there, so that they shrink.
+// A break of the mesh, and whether stress or field is singular there, so that elements shrink.
 struct MeshMark {
   double x = 0.0;
   bool is_singular = false;
@@ -52,7 +52,7 @@ std::vector<double> breaks_between(const std::vector<MeshMark>& marks, double re
 
 // The row as a chain of pieces that repeat: [edge] cell [gap cell]... [edge]. The cell stands
 // around its pillar with x = 0 in its middle; gap and edge start at x = 0, and the left edge is the
-// right one seen in a mirror. Where gap or edge is empty there is none.
+// mirror image of the right one. An empty gap or edge does not exist.
 struct ArrayMesh {
   std::vector<double> cell_x, gap_x, edge_x;
   std::vector<double> film_z;    // from -thickness to 0

@@ -1,10 +1,10 @@
 #include "models/array/plane/array_pieces.h"
 
-#include "models/array/plane/condense.h"
 #include "models/array/plane/plane_system.h"
 #include "models/pillar/system/krylov_modes.h"
 #include "models/pillar/system/stiffness_factor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -38,7 +38,9 @@ ModePorts mode_ports(const Section& section, const DiscreteSystem& free, const P
   StiffnessFactor factor;
   factor.factor(stiffness_of(held, form));
   const LinearMap B = [&](const Eigen::VectorXd& x) { return times(mass, x); };
-  const LinearMap op = [&](const Eigen::VectorXd& x) { return factor.solve(times(mass, x)); };
+  const PencilMap op = [&](const Eigen::VectorXd&, const Eigen::VectorXd& Mx) {
+    return factor.solve(Mx);
+  };
   const int wanted = std::min(count, held.size());
   const EigenPairs pairs = largest_eigenpairs(op, B, held.size(), wanted,
                                               {.tolerance = 1e-7, .largest_space = 60 + 8 * count});

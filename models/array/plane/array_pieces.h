@@ -9,16 +9,16 @@
 
 namespace viscard {
 
-// What a row of pillars is made of. Plane stress or plane strain; 1 m thick across the plane.
+// The materials of a row of pillars. Plane stress or plane strain; 1 m thick across the plane.
 struct ArrayMedia {
   Medium pillar;
-  Medium film;  // with a permittivity: the potential is solved for, coupled both ways (eq. 20)
+  Medium film;  // with a permittivity: the potential is unknown too, coupled both ways (eq. 20)
   PlaneState plane = PlaneState::kStress;
 };
 
-// Ports (condense.h) of a pillar, in this order: 1 Pa of pressure on its top, 1 Pa of shear along
-// +x on its top, then the inertia of each of its lowest modes on a fixed base (eq. A2), unit mass
-// norm.
+// Ports (plane_system.h) of a pillar, in this order: 1 Pa of pressure on its top, 1 Pa of shear
+// along +x on its top, then the inertia of each of its lowest modes on a fixed base (eq. A2), unit
+// mass norm.
 constexpr int kPressurePort = 0;
 constexpr int kShearPort = 1;
 constexpr int kFirstModePort = 2;
@@ -28,7 +28,7 @@ struct CondensedPillar {
   Eigen::MatrixXd matrix;
   int base_size = 0;
   Eigen::VectorXd mode_rad_s;         // angular frequencies of the modes on a fixed base, ascending
-  std::vector<bool> mode_is_lateral;  // they move to the side, the others along the axis
+  std::vector<bool> mode_is_lateral;  // sideways; the others move along the axis
   int unknowns = 0;                   // before condensation
 
   int port_count() const { return static_cast<int>(matrix.rows()) - base_size; }

@@ -12,7 +12,7 @@ const std::vector<HistoryPoint>& history(const ArrayScene& scene) {
 }
 
 bool is_electric(const ArrayScene& scene) {
-  return scene.film.permittivity_F_m(2, 2) > 0.0;
+  return scene.film.has_permittivity();
 }
 
 PillarScene single_pillar(const ArrayScene& scene) {

@@ -1,16 +1,37 @@
 #pragma once
 
-#include "models/array/plane/array_drives.h"
 #include "models/array/plane/array_statics.h"
 #include "models/pillar/scene/pillar_scene.h"
+#include "models/pillar/time/load_history.h"
 #include "models/scene/common/scene_common.h"
 
-#include <string>
+#include <variant>
 #include <vector>
 
 namespace viscard {
 
-// A row of pillars, what is done to it, and how well the answer must be known. The tolerance refers
+// What is done to a row of pillars: one alternative for each analysis (array_analysis.h). The load
+// itself, its pillars and its direction are in ArrayScene.
+
+struct RowStatic {};
+
+struct RowModal {
+  int modes = 3;  // clusters of each family
+};
+
+struct RowHarmonic {
+  std::vector<double> frequencies_Hz;  // ascending
+};
+
+struct RowTransient {
+  std::vector<HistoryPoint> history;  // load in Pa
+  double end_time_s = 0.0;
+  int outputs = 1000;  // equal intervals
+};
+
+using RowDrive = std::variant<RowStatic, RowModal, RowHarmonic, RowTransient>;
+
+// A row of pillars, what is done to it, and the accuracy of the answer. The tolerance refers
 // to the largest of the pillars' voltages, and for results in per cent to 10 %.
 struct ArrayScene : SceneCommon {
   ArrayGeometry geometry;

@@ -7,9 +7,7 @@ namespace viscard {
 
 ArrayModel::ArrayModel(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes,
                        const ArrayMedia& media, const Discretisation& discretisation, int modes)
-    : geometry_(geometry),
-      electrodes_(electrodes),
-      has_potential_(media.film.permittivity_F_m(2, 2) > 0.0) {
+    : geometry_(geometry), electrodes_(electrodes), has_potential_(media.film.has_permittivity()) {
   if (electrodes.is_equipotential && !has_potential_) {
     throw std::invalid_argument("electrodes need a film with a permittivity");
   }
@@ -81,18 +79,26 @@ int ArrayModel::midway_port(int pillar) const {
   return chain_->first_port(midway_place_[static_cast<std::size_t>(pillar)]);
 }
 
+int port_of(ArrayLoad load) {
+  return load == ArrayLoad::kPressure ? kPressurePort : kShearPort;
+}
+
+double metres_per_reading(ArrayLoad load, const ArrayGeometry& geometry) {
+  return (load == ArrayLoad::kPressure ? -1.0 : 1.0) / geometry.diameter_m;
+}
+
 ArrayResponse array_response(const ArrayModel& model, ArrayLoad load) {
   const int n = model.geometry().count;
-  const int port = load == ArrayLoad::kPressure ? kPressurePort : kShearPort;
+  const int port = port_of(load);
   const bool has_electrodes = model.electrode_port(0) >= 0;
   std::vector<int> loaded;
   for (int i = 0; i < n; ++i) loaded.push_back(model.pillar_port(i, port));
   for (int i = 0; has_electrodes && i < n; ++i) loaded.push_back(model.electrode_port(i));
   const Eigen::MatrixXd all = model.chain().compliance(loaded);
-  const auto rows = [&](auto port_of) {
+  const auto rows = [&](auto row_of) {
     Eigen::MatrixXd matrix(0, n);
     for (int i = 0; i < n; ++i) {
-      const int row = port_of(i);
+      const int row = row_of(i);
       if (row < 0) continue;
       matrix.conservativeResize(matrix.rows() + 1, Eigen::NoChange);
       matrix.bottomRows(1) = all.row(row).head(n);
@@ -104,10 +110,8 @@ ArrayResponse array_response(const ArrayModel& model, ArrayLoad load) {
   response.mean_V = rows([&](int i) { return model.mean_port(i); });
   response.electrode_V = rows([&](int i) { return model.electrode_port(i); });
   response.midway_V = rows([&](int i) { return model.midway_port(i); });
-  // The reading of a load is the work of 1 Pa, so over the width it is a mean displacement.
-  const double sign = load == ArrayLoad::kPressure ? -1.0 : 1.0;
-  response.top_m =
-      sign / model.geometry().diameter_m * rows([&](int i) { return model.pillar_port(i, port); });
+  response.top_m = metres_per_reading(load, model.geometry()) *
+                   rows([&](int i) { return model.pillar_port(i, port); });
   if (has_electrodes) {
     response.V_per_C.resize(n, n);
     for (int i = 0; i < n; ++i) {

@@ -20,7 +20,6 @@ class ArrayModel {
   const ArrayGeometry& geometry() const { return geometry_; }
   const CondensedPillar& pillar() const { return pillar_; }
   const ArrayChain& chain() const { return *chain_; }
-  bool has_potential() const { return has_potential_; }
 
   // Ports of pillar i (0-based) on the chain.
   int pillar_port(int pillar, int port) const;  // kPressurePort, kShearPort, kFirstModePort + k
@@ -47,8 +46,8 @@ class ArrayModel {
   int unknowns_ = 0;
 };
 
-// What unit loads on single pillars do, row by pillar (0-based) that is read, column by pillar that
-// is loaded; every static answer of the array is a sum of columns.
+// Responses to unit loads on single pillars: rows are pillars that are read, columns pillars that
+// are loaded (0-based). Every static answer of the array is a sum of columns.
 struct ArrayResponse {
   Eigen::MatrixXd centre_V;     // charge-free face: under the pillars' centres
   Eigen::MatrixXd mean_V;       // charge-free face: mean over the electrode's width
@@ -60,5 +59,9 @@ struct ArrayResponse {
 };
 enum class ArrayLoad { kPressure, kShear };  // 1 Pa on the whole top
 ArrayResponse array_response(const ArrayModel& model, ArrayLoad load);
+
+int port_of(ArrayLoad load);  // of a pillar
+// Mean displacement of a top over the reading of its load, which is the work of 1 Pa.
+double metres_per_reading(ArrayLoad load, const ArrayGeometry& geometry);
 
 }  // namespace viscard

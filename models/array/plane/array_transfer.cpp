@@ -1,7 +1,7 @@
 #include "models/array/plane/array_transfer.h"
 
+#include "models/material/material.h"
 #include "models/maths/dense.h"
-#include "models/pillar/time/relative_modulus.h"
 
 #include <unsupported/Eigen/FFT>
 
@@ -32,17 +32,6 @@ Complex transform_of(const std::vector<HistoryPoint>& history, Complex s) {
   return sum;
 }
 
-double value_at(const std::vector<HistoryPoint>& history, double time_s) {
-  if (time_s < history.front().time_s) return 0.0;
-  for (std::size_t i = 1; i < history.size(); ++i) {
-    if (time_s >= history[i].time_s) continue;
-    const double share =
-        (time_s - history[i - 1].time_s) / (history[i].time_s - history[i - 1].time_s);
-    return history[i - 1].value + share * (history[i].value - history[i - 1].value);
-  }
-  return history.back().value;
-}
-
 }  // namespace
 
 ArrayTransfer::ArrayTransfer(const ArrayModel& model, ArrayLoad load,
@@ -50,7 +39,7 @@ ArrayTransfer::ArrayTransfer(const ArrayModel& model, ArrayLoad load,
     : pillar_(pillar) {
   const int n = model.geometry().count;
   const auto modes = static_cast<int>(model.pillar().mode_rad_s.size());
-  const int load_port = load == ArrayLoad::kPressure ? kPressurePort : kShearPort;
+  const int load_port = port_of(load);
   std::vector<int> mode_ports, top_ports, volt_ports;
   for (int i = 0; i < n; ++i) {
     for (int k = 0; k < modes; ++k) mode_ports.push_back(model.pillar_port(i, kFirstModePort + k));
@@ -66,7 +55,7 @@ ArrayTransfer::ArrayTransfer(const ArrayModel& model, ArrayLoad load,
   Eigen::VectorXd amplitude = Eigen::VectorXd::Zero(n);
   for (const int i : loaded) amplitude[i] = 1.0;
 
-  // What a pillar yields on a fixed base scales with its own modulus, the rest is the film's.
+  // The compliance of a pillar on a fixed base scales with its own modulus; the rest is the film's.
   const Eigen::MatrixXd fixed = model.pillar().fixed_base_compliance();
   const Eigen::MatrixXd of_mode = fixed.middleRows(kFirstModePort, modes);
   Eigen::MatrixXd G = all(mode_ports, Eigen::all);
@@ -86,9 +75,7 @@ ArrayTransfer::ArrayTransfer(const ArrayModel& model, ArrayLoad load,
   in_film_ = V.transpose() * (G.rightCols(n) * amplitude) - in_pillar_;
   highest_rad_s_ = 1.0 / std::sqrt(system.values[0]);
 
-  // A reading of the load is its work for 1 Pa, over the width a mean displacement.
-  const double sign = load == ArrayLoad::kPressure ? -1.0 : 1.0;
-  const double to_m = sign / model.geometry().diameter_m;
+  const double to_m = metres_per_reading(load, model.geometry());
   const Eigen::Index outputs = n + voltages_;
   static_pillar_ = Eigen::VectorXd::Zero(outputs);
   static_film_.resize(outputs);
@@ -113,10 +100,11 @@ Complex ArrayTransfer::relative(Complex s) const {
   if (pillar_.terms.empty()) return 1.0;
   const double nu = pillar_.nu;
   const double G = pillar_.E0_Pa / (2.0 * (1.0 + nu));
-  const Complex shear = G * relative_modulus(pillar_.terms, &MaterialTerm::g, s);
+  const RelativeModuli moduli = relative_moduli(pillar_.terms, s);
+  const Complex shear = G * moduli.shear;
   if (nu == 0.5) return shear / G;
   const double K = pillar_.E0_Pa / (3.0 * (1.0 - 2.0 * nu));
-  const Complex bulk = K * relative_modulus(pillar_.terms, &MaterialTerm::k, s);
+  const Complex bulk = K * moduli.bulk;
   return 9.0 * bulk * shear / ((3.0 * bulk + shear) * pillar_.E0_Pa);
 }
 
@@ -153,7 +141,7 @@ Eigen::VectorXd ArrayTransfer::at_once() const {
 Eigen::MatrixXd response_in_time(const ArrayTransfer& transfer,
                                  const std::vector<HistoryPoint>& history, double end_time_s,
                                  int outputs, int oversampling) {
-  // Twice the time is transformed, and what wraps around is damped to 1e-7 by the shift.
+  // The transform covers twice the time; the shift damps the part that wraps around to 1e-7.
   const int samples = 2 * outputs * oversampling;
   const double period_s = 2.0 * end_time_s;
   const double shift = std::log(1e7) / period_s;

@@ -9,12 +9,10 @@
 
 namespace viscard {
 
-// How the tops and the film of a row answer a load that varies in time, by its modes (eq. A5):
-//   y(s) = [C_p/e + C_f] a - s^2 sum_j (c_p/e + c_f)_j (b_p/e + b_f)_j/(1 + s^2 (d_j/e + f_j)),
-// C the static compliance, 1/omega_j^2 = d_j + f_j the shares of pillars (p, d) and film (f) in the
-// modal compliance, e(s) the pillars' relative modulus. The static term carries what modes are left
-// out, so that they lack their inertia only. Shares of modal energy: Johnson & Kienholz, AIAA J. 20
-// (1982) 1284; static correction: Craig & Bampton, AIAA J. 6 (1968) 1313.
+// Response of the tops and of the film's voltages to a load that varies in time, by the modes of
+// the row (eq. A5). The static term includes the modes that are left out, so only their inertia is
+// missing. Shares of modal energy: Johnson & Kienholz, AIAA J. 20 (1982) 1284; static correction:
+// Craig & Bampton, AIAA J. 6 (1968) 1313.
 class ArrayTransfer {
  public:
   // The model must have inertia ports. `load` acts with 1 Pa on the given pillars (0-based).
@@ -25,10 +23,10 @@ class ArrayTransfer {
   int voltages() const { return voltages_; }
   // All outputs at s; with `slope`, |y| + |s dy/ds| of the modes too.
   Eigen::VectorXcd at(std::complex<double> s, Eigen::VectorXd* slope = nullptr) const;
-  // What answers at once, before anything has moved or relaxed: at(s) for s to infinity.
+  // The response before anything has moved or relaxed: at(s) for s to infinity.
   Eigen::VectorXd at_once() const;
   double film_share() const;                               // of the largest static deflection
-  double highest_rad_s() const { return highest_rad_s_; }  // of the modes taken along
+  double highest_rad_s() const { return highest_rad_s_; }  // of the modes in use
 
  private:
   std::complex<double> relative(std::complex<double> s) const;
@@ -42,9 +40,9 @@ class ArrayTransfer {
   double highest_rad_s_ = 0.0;
 };
 
-// Response of every output to the load times history(t) at equally spaced times, by the numerical
-// Laplace transform: the FFT along a line to the right of all poles. `oversampling` times as many
-// samples are computed as told. Wilcox, Int. J. Elect. Eng. Educ. 15 (1978) 247.
+// Response of every output to the load times history(t) at outputs + 1 equally spaced times, by the
+// numerical Laplace transform: the FFT along a line to the right of all poles, with `oversampling`
+// times as many samples. Wilcox, Int. J. Elect. Eng. Educ. 15 (1978) 247.
 Eigen::MatrixXd response_in_time(const ArrayTransfer& transfer,
                                  const std::vector<HistoryPoint>& history, double end_time_s,
                                  int outputs, int oversampling);

@@ -1,12 +1,11 @@
-#include "models/array/plane/check_array.h"
-
 #include "models/array/plane/array_analysis.h"
+#include "models/array/plane/simulate_array.h"
+#include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace viscard {
 namespace {
@@ -29,10 +28,10 @@ void check_loaded(const ArrayScene& scene) {
 
 void check_density(const ArrayScene& scene) {
   if (!(scene.pillar.rho_kg_m3 > 0.0)) {
-    throw SceneMistake("materials.pillar", "what moves needs a density, rho");
+    throw SceneMistake("materials.pillar", "vibrations need the pillars' density, rho");
   }
   if (!(scene.film.rho_kg_m3 > 0.0)) {
-    throw SceneMistake("materials", "what moves needs the film's density, rho");
+    throw SceneMistake("materials", "vibrations need the film's density, rho");
   }
 }
 
@@ -47,7 +46,7 @@ void validate(const ArrayScene& scene) {
                        "electrodes need a film with a permittivity, such as one from a file");
   }
   if (!(scene.surface_energy_J_m2 > 0.0)) {
-    throw SceneMistake("materials.surface_energy", "must be positive");
+    throw SceneMistake("materials.surface_energy", "the surface energy must be positive");
   }
   const ArrayAnalysis& analysis = analysis_of(scene);
   if (analysis.has_inertia) check_density(scene);
@@ -58,12 +57,10 @@ void validate(const ArrayScene& scene) {
 void check_pressure(const ArrayScene& scene, double pressure_Pa, const char* key) {
   const double critical_Pa = engesser_pressure_Pa(single_pillar(scene));
   if (scene.load != ArrayLoad::kPressure || pressure_Pa < critical_Pa) return;
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "a pressure of %.5g Pa is beyond the %.5g Pa at which these pillars buckle (Euler, "
-                "Engesser); load them less, or make them shorter or thicker",
-                pressure_Pa, critical_Pa);
-  throw SceneMistake(key, text);
+  throw SceneMistake(key, "a pressure of " + text_of(pressure_Pa, 5) + " Pa is beyond the " +
+                              text_of(critical_Pa, 5) +
+                              " Pa at which these pillars buckle (Euler, Engesser); reduce it, or "
+                              "make them shorter or thicker");
 }
 
 void check_load(const ArrayScene& scene) {

@@ -1,5 +1,4 @@
-#include "models/array/plane/condense.h"
-
+#include "models/array/plane/plane_system.h"
 #include "models/pillar/system/supernodal_factor.h"
 
 #include <stdexcept>
@@ -64,7 +63,8 @@ Eigen::MatrixXd condensed(const SymmetricSparse& A, const std::vector<int>& kept
   SupernodalFactor factor;
   factor.analyse(A_inside);
   if (!factor.factor(A_inside)) {
-    throw std::runtime_error("a piece of the array is singular: a modulus is zero or not finite");
+    throw std::runtime_error(
+        "a piece of the array is singular: a modulus is zero or not finite; check the materials");
   }
   const Eigen::MatrixXd reduced = factor.forward(beside);
   const Eigen::MatrixXd scaled = factor.pivots().cwiseInverse().asDiagonal() * reduced;

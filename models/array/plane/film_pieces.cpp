@@ -1,5 +1,4 @@
 #include "models/array/plane/array_pieces.h"
-#include "models/array/plane/condense.h"
 #include "models/array/plane/plane_system.h"
 
 #include <cmath>
@@ -87,10 +86,8 @@ CondensedPiece condensed_film(const FilmPiece& piece, const ArrayMesh& mesh,
                               const ArrayMedia& media, FilmFace grounded, int degree) {
   const Section section(LineMesh(piece.x_m, degree), LineMesh(mesh.film_z, degree),
                         [](double, double) { return 0; });
-  const double permittivity_F_m = media.film.permittivity_F_m(2, 2);
-  const bool is_electric = permittivity_F_m > 0.0;
-  const double scale_V =
-      is_electric ? std::sqrt(media.film.stiffness_Pa(2, 2) / permittivity_F_m) : 1.0;
+  const bool is_electric = media.film.has_permittivity();
+  const double scale_V = is_electric ? potential_scale_V(media.film) : 1.0;
   Kinematics kinematics = whole_plane();
   if (is_electric) kinematics = with_potential(std::move(kinematics), scale_V);
   const int fields = kinematics.field_count;

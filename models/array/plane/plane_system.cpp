@@ -17,27 +17,17 @@ Kinematics whole_plane() {
 }
 
 PlaneForm plane_form(const Medium& medium, PlaneState plane, bool is_electric) {
-  if (plane == PlaneState::kStress) {
-    if (is_electric) return {plane_stress_moduli(coupled_form(medium)), 0.0};
-    if (medium.is_isotropic && medium.poisson_ratio == 0.5) {
-      return {plane_stress_moduli(medium.shear_Pa * (deviatoric_form() + 1e12 * volumetric_form())),
-              0.0};
-    }
-    return {plane_stress_moduli(medium.stiffness_Pa), 0.0};
-  }
-  if (is_electric) return {coupled_form(medium), 0.0};
-  if (!medium.is_isotropic || medium.poisson_ratio < kNearlyIncompressible) {
-    return {medium.stiffness_Pa, 0.0};
+  const bool is_plane_stress = plane == PlaneState::kStress;
+  if (is_plane_stress || is_electric || !medium.is_isotropic ||
+      medium.poisson_ratio < kNearlyIncompressible) {
+    return {material_form(medium, is_electric, is_plane_stress), 0.0};
   }
   return {medium.shear_Pa * deviatoric_form(),
           std::min(medium.bulk_Pa, kBulkOverShear * medium.shear_Pa)};
 }
 
 SymmetricSparse stiffness_of(const DiscreteSystem& system, const PlaneForm& form) {
-  std::vector<OperatorRow> rows = system.kinematics().strain;
-  const std::vector<OperatorRow>& field = system.kinematics().electric_field;
-  rows.insert(rows.end(), field.begin(), field.end());
-  SymmetricSparse matrix = system.form(rows, {form.form});
+  SymmetricSparse matrix = system.form(system.kinematics().strain_and_field(), {form.form});
   if (form.condensed_bulk_Pa > 0.0) {
     matrix.coeffs() += system.volume_form({form.condensed_bulk_Pa}, true).coeffs();
   }

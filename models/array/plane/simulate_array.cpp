@@ -1,13 +1,11 @@
 #include "models/array/plane/simulate_array.h"
 
 #include "models/array/plane/array_analysis.h"
-#include "models/array/plane/check_array.h"
 #include "models/pillar/analyses/simulate_pillar.h"
 #include "models/scene/common/error_control.h"
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 namespace viscard {

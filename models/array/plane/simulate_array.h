@@ -3,6 +3,7 @@
 #include "models/array/plane/array_scene.h"
 #include "models/scene/common/scene_answer.h"
 
+#include <string>
 #include <vector>
 
 namespace viscard {
@@ -14,12 +15,11 @@ namespace viscard {
 //   midway_voltage_i                        between pillars i and i + 1
 //   top_displacement_i
 // and in per cent
-//   coupling_percent_i          100 (V_midway/2)/V, V the mean of the two loaded neighbours'
-//   centres crosstalk_percent_i         mean or electrode voltage of an unloaded pillar over that
-//   of the
-//                               loaded one
+//   coupling_percent_i          100 (V_midway/2)/V, V the mean at both loaded neighbours' centres
+//   crosstalk_percent_i         mean or electrode voltage of an unloaded pillar over a loaded one's
 //   crosstalk_centre_percent_i  the same of the centres
-//   neighbours_percent_i        what the other loaded pillars add to the centre (electrode) voltage
+//   neighbours_percent_i        contribution of the other loaded pillars to the centre (electrode)
+//                               voltage
 //   deviation_percent_i         centre (electrode) voltage against that of a lone pillar on a wide
 //                               film; only if wanted, because it needs a second model
 // Harmonic and transient analyses give curves of the top's displacement and of the voltage of each
@@ -30,5 +30,11 @@ SceneAnswer simulate_array(const ArrayScene& scene);
 // The scene on one mesh, without mesh errors, and the meshes that simulate_array() goes through.
 SceneAnswer array_answer_on(const ArrayScene& scene, const Discretisation& mesh);
 std::vector<Discretisation> array_meshes(const ArrayScene& scene);
+
+// Throws SceneMistake naming what is missing or contradictory.
+void validate(const ArrayScene& scene);
+
+// The results that a scene may ask for, without the pillars' numbers (simulate_array.h).
+std::vector<std::string> result_names(const ArrayScene& scene);
 
 }  // namespace viscard

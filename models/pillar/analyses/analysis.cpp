@@ -1,8 +1,10 @@
 #include "models/pillar/analyses/analysis.h"
 
 #include "models/pillar/analyses/top_load.h"
+#include "models/pillar/time/spectrum.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace viscard {
@@ -52,9 +54,65 @@ void count_unknowns(const PillarModel& model, SceneAnswer& answer) {
   answer.unknowns = std::max(answer.unknowns, model.system().size());
 }
 
-PillarModel model_of(const PillarScene& scene, Motion motion, const SceneAnswer& answer) {
-  return PillarModel(scene.geometry, answer.discretisation, media_of(scene),
-                     options_of(scene, motion));
+void add_time_constant(double time_constant_s, SceneAnswer& answer) {
+  if (!std::isfinite(time_constant_s)) return;
+  answer.results.push_back({"readout_time_constant", time_constant_s, "s"});
+}
+
+SceneCurve spectrum_of(const SceneCurve& curve) {
+  const Spectrum spectrum = amplitude_spectrum(
+      std::vector<double>(curve.value.begin(), curve.value.end() - 1), curve.x[1] - curve.x[0]);
+  return {curve.name + "_spectrum", curve.unit, spectrum.frequency_Hz, spectrum.amplitude,
+          "frequency_Hz"};
+}
+
+PillarModel model_of(const PillarScene& scene, Motion motion, const Discretisation& mesh) {
+  return PillarModel(scene.geometry, mesh, media_of(scene), options_of(scene, motion));
+}
+
+PillarModel electric_model_of(const PillarScene& scene, Motion motion, const Discretisation& mesh) {
+  ModelOptions options = options_of(scene, motion);
+  options.electrodes = scene.electrodes;
+  return PillarModel(scene.geometry, mesh, media_of(scene), options);
+}
+
+std::vector<std::string> moving_names(const PillarScene& scene, const std::string& first,
+                                      const std::vector<std::string>& endings) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& stem) {
+    names.push_back(stem);
+    for (const std::string& ending : endings) names.push_back(stem + ending);
+  };
+  add(first);
+  const bool has_quadrants = reads_quadrants(scene);
+  if (!scene.electrodes || (is_lateral(scene) && !has_quadrants)) return names;
+  const bool is_sampled = scene.electrodes->electrode_radius_m == 0.0;
+  if (has_quadrants) {
+    add(is_sampled ? "quadrant_voltage" : "quadrant_charge");
+  } else {
+    add(is_sampled ? "potential_at_centre" : "electrode_voltage");
+  }
+  if (!scene.readout) return names;
+  add("reading");
+  if (!has_quadrants) names.emplace_back("electrode_capacitance");
+  names.emplace_back("readout_time_constant");
+  return names;
+}
+
+PronySeries largest_relaxation(const Material& material) {
+  PronySeries series;
+  double rest = 1.0;
+  for (const MaterialTerm& term : material.terms) {
+    const double share = std::max(term.g, term.k);
+    series.terms.push_back({share, term.tau_s});
+    rest -= share;
+  }
+  series.equilibrium_modulus_Pa = std::max(rest, 1e-3);
+  return series;
+}
+
+double first_rod_frequency_Hz(const PillarScene& scene) {
+  return std::sqrt(scene.pillar.E0_Pa / scene.pillar.rho_kg_m3) / (4.0 * scene.geometry.length_m);
 }
 
 }  // namespace viscard

@@ -12,7 +12,7 @@
 
 namespace viscard {
 
-// What an analysis does with a body that nothing holds.
+// How an analysis treats a body with a free bottom.
 enum class FreeBottom {
   kRefused,  // the load would move the body away as a whole
   kPinned,   // needs a load that balances itself; one point is pinned
@@ -23,9 +23,8 @@ enum class FreeBottom {
 enum class HistoryOf { kNothing, kPressure, kShortening };
 
 // One analysis of a pillar: what it needs, what it may be asked for, and its answer on one mesh.
-// All other code reads this row and never asks which analysis it is. A new analysis is a drive
-// (models/pillar/scene/*_drive.h), a file here and a row of the table in analysis.cpp; README.md
-// has the recipe.
+// All other code reads this row and never asks which analysis it is. README.md has the recipe for a
+// new analysis.
 struct Analysis {
   const char* name;   // the word in a scene file
   PillarDrive drive;  // its alternative of the variant, with default values
@@ -53,11 +52,11 @@ struct Analysis {
   double (*push_Pa)(const PillarScene& scene) = nullptr;
   // Pressure that the analysis itself finds, Pa; null: the load's.
   double (*found_pressure_Pa)(const PillarScene& scene) = nullptr;
-  // The solution on a mesh, to be looked at; null: has no picture.
+  // The solution on a mesh, for pictures; null: has no picture.
   std::vector<SectionGrid> (*fields)(const PillarScene& scene,
                                      const Discretisation& mesh) = nullptr;
-  // Why the film's field must act back on its strain, if the potential is asked for; nullptr: it
-  // need not. Without this function: voltages in time need both ways.
+  // The reason why the field must act back on the film's strain if the potential is asked for, or
+  // nullptr if it need not. Without this function it must, because voltages in time need it.
   const char* (*why_two_way)(const PillarScene& scene) = nullptr;
 
   // Estimates of effects that this analysis makes itself; `usual` is the estimate otherwise.
@@ -71,13 +70,29 @@ const std::vector<Analysis>& analyses();
 const Analysis& analysis_of(const PillarScene& scene);
 
 // The pieces that the analyses share.
+
+// Names of results in time or frequency, each followed by the same with every ending: the motion of
+// the top (`first`), then the voltages or charges of the film.
+std::vector<std::string> moving_names(const PillarScene& scene, const std::string& first,
+                                      const std::vector<std::string>& endings);
 PillarMedia media_of(const PillarScene& scene);  // pillar with its instantaneous moduli
 Motion axial_motion(const PillarScene& scene);
 Motion lateral_motion(const PillarScene& scene);
 ModelOptions options_of(const PillarScene& scene, Motion motion);
-// On the answer's discretisation; the caller counts the unknowns of what it solves.
-PillarModel model_of(const PillarScene& scene, Motion motion, const SceneAnswer& answer);
+// The caller counts the unknowns of what it solves.
+PillarModel model_of(const PillarScene& scene, Motion motion, const Discretisation& mesh);
+PillarModel electric_model_of(const PillarScene& scene, Motion motion, const Discretisation& mesh);
 void count_unknowns(const PillarModel& model, SceneAnswer& answer);
+// Spectrum of a curve over equally spaced times, without its last point.
+SceneCurve spectrum_of(const SceneCurve& curve);
+// Adds the readout's time constant to the results, unless it is infinite.
+void add_time_constant(double time_constant_s, SceneAnswer& answer);
+
+// A solid that relaxes in every deformation at least as much as this one does in any deformation:
+// each term has the larger of its shear and bulk parts. Relative to E_0.
+PronySeries largest_relaxation(const Material& material);
+// First axial frequency of the pillar as a rod that is clamped at one end, Hz (eq. E7).
+double first_rod_frequency_Hz(const PillarScene& scene);
 
 // The rows of the table, each in its own file.
 Analysis static_analysis();
@@ -87,5 +102,21 @@ Analysis relaxation_analysis();
 Analysis creep_analysis();
 Analysis harmonic_analysis();
 Analysis transient_analysis();
+
+// The traction at the bond is not uniform, so that the film yields a little more than under a
+// uniform one; the largest such factor seen over random scenes is 1.3 (tests/models/scene).
+inline constexpr double kUnevenTraction = 1.5;
+
+struct FilmElasticity {
+  double young_Pa = 0.0, shear_Pa = 0.0, nu = 0.0;  // of the most compliant direction
+};
+FilmElasticity elasticity_of(const Medium& film);
+
+// Share of the deflection under each kind of load that the film adds to the pillar's own (eq. E1).
+struct FilmShares {
+  double axial = 0.0, bending = 0.0, shear = 0.0, torsion = 0.0;
+  double lateral() const { return 2.0 * bending + shear; }
+};
+FilmShares film_shares(const PillarScene& scene);
 
 }  // namespace viscard

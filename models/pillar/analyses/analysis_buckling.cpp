@@ -1,26 +1,18 @@
+#include "models/maths/require.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/pillar/analyses/film_shares.h"
 #include "models/pillar/body/pillar_modes.h"
-
-#include <stdexcept>
 
 namespace viscard {
 namespace {
 
 void check_buckling(const PillarScene& scene) {
-  if (scene.plane) {
-    throw std::invalid_argument("buckling is computed for a cylinder, not for a strip");
-  }
-}
-
-std::vector<std::string> buckling_names(const PillarScene&) {
-  return {"buckling_pressure"};
+  require(!scene.plane, "buckling is computed for a cylinder, not for a strip");
 }
 
 void run_buckling(const PillarScene& scene, SceneAnswer& answer) {
-  const PillarModel axial = model_of(scene, Motion::kLongitudinal, answer);
-  const PillarModel lateral = model_of(scene, Motion::kLateral, answer);
+  const PillarModel axial = model_of(scene, Motion::kLongitudinal, answer.discretisation);
+  const PillarModel lateral = model_of(scene, Motion::kLateral, answer.discretisation);
   count_unknowns(lateral, answer);
   answer.results.push_back({"buckling_pressure", buckling(axial, lateral).pressure_Pa, "Pa"});
 }
@@ -49,7 +41,9 @@ Analysis buckling_analysis() {
           // (1952) 526) and 0.7 at 0.33, so that a layer of ratio 0.15 leaves up to 0.23.
           .share_left = 0.3,
           .check = check_buckling,
-          .result_names = buckling_names,
+          .result_names = [](const PillarScene&) -> std::vector<std::string> {
+            return {"buckling_pressure"};
+          },
           .run = run_buckling,
           .found_pressure_Pa = engesser_pressure_Pa,
           .film_compliance = buckling_film_compliance,

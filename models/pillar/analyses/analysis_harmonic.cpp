@@ -1,14 +1,13 @@
+#include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/analyses/pillar_results.h"
 #include "models/pillar/analyses/scene_body.h"
-#include "models/pillar/analyses/sideways.h"
+#include "models/pillar/analyses/simulate_pillar.h"
+#include "models/pillar/analyses/top_load.h"
 #include "models/pillar/analyses/wave_mesh.h"
-#include "models/pillar/body/pillar_loads.h"
-#include "models/pillar/mesh/number_text.h"
+#include "models/pillar/body/pillar_model.h"
 #include "models/pillar/time/harmonic_response.h"
 #include "models/pillar/time/model_reduction.h"
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -19,6 +18,7 @@ namespace viscard {
 namespace {
 
 using Complex = std::complex<double>;
+
 const HarmonicDrive& harmonic_drive(const PillarScene& scene) {
   return std::get<HarmonicDrive>(scene.drive);
 }
@@ -28,15 +28,9 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 // Up to this many frequencies are solved one by one on the whole body.
 constexpr std::size_t kMostDirect = 16;
 
-// Complex amplitude of one output over frequency, and |y| + |omega dy/domega|: the tolerance refers
-// to it, so that a curve counts as right if it is so within the tolerance in amplitude or
-// frequency. Close to a pole nothing better can be asked of any mesh.
-struct Sweep {
-  std::vector<Complex> value;
-  std::vector<double> allowed;
-};
-
-// Everything needed for one frequency.
+// Answers one frequency at a time. The tolerance of an output refers to |y| + |omega dy/domega|: a
+// curve is right if it is within the tolerance in amplitude or in frequency. Close to a pole no
+// mesh can give more.
 class Response {
  public:
   Response(const PillarScene& scene, const SceneBody& body, const ReducedBody& reduced)
@@ -44,18 +38,19 @@ class Response {
         solver_(reduced.system),
         mass_(dense(reduced.system.mass)) {
     const double area_m2 = top_area_m2(*body.model);
+    const double sign = is_lateral(scene) ? 1.0 : -1.0;  // a pressure pushes down
     sides_.resize(reduced.basis.cols(), static_cast<Eigen::Index>(1 + body.outputs.size()));
     sides_.col(0) =
         is_base_
             ? reduced.load(-base_acceleration_m_s2(scene) * unit_acceleration_force(*body.model))
-            : reduced.load(sign(scene) * pressure_Pa(scene) * area_m2 * body.system.load);
+            : reduced.load(sign * pressure_Pa(scene) * area_m2 * body.system.load);
     for (std::size_t i = 0; i < body.outputs.size(); ++i) {
       sides_.col(static_cast<Eigen::Index>(i + 1)) = reduced.output(body.outputs[i].of);
     }
     base_acceleration_m_s2_ = base_acceleration_m_s2(scene);
   }
 
-  // Values of all outputs, and what the tolerance refers to.
+  // Adds the values of all outputs, and the sizes that the tolerance refers to.
   void add(double frequency_Hz, std::vector<Sweep>& sweeps) const {
     const double omega = kTwoPi * frequency_Hz;
     const Eigen::MatrixXcd answers = solver_.solve(omega, sides_.cast<Complex>());
@@ -107,39 +102,12 @@ class Response {
   }
 
  private:
-  static double sign(const PillarScene& scene) {
-    return !is_lateral(scene) ? -1.0 : 1.0;  // a pressure pushes down
-  }
-
   bool is_base_;
   HarmonicSolver solver_;
   Eigen::MatrixXd mass_;
   Eigen::MatrixXd sides_;  // load, then outputs as dual loads
   double base_acceleration_m_s2_ = 0.0;
 };
-
-void add_curves(const PillarScene& scene, const std::string& name, const std::string& unit,
-                const Sweep& sweep, SceneAnswer& answer) {
-  const std::vector<double>& f = harmonic_drive(scene).frequencies_Hz;
-  const auto part = [&](const char* suffix, const char* part_unit, bool watched,
-                        const std::function<double(Complex)>& of) {
-    SceneCurve curve{name + suffix, part_unit, f, {}, "frequency_Hz"};
-    for (const Complex& y : sweep.value) curve.value.push_back(of(y));
-    if (watched) curve.allowed = sweep.allowed;
-    curve.is_watched = watched;
-    answer.curves.push_back(std::move(curve));
-  };
-  part("_real", unit.c_str(), true, [](Complex y) { return y.real(); });
-  part("_imaginary", unit.c_str(), true, [](Complex y) { return y.imag(); });
-  part("_magnitude", unit.c_str(), true, [](Complex y) { return std::abs(y); });
-  part("_phase", "rad", false, [](Complex y) { return std::arg(y); });
-  answer.results.push_back(
-      {name + "_at_lowest", std::abs(sweep.value.front()), unit, 0.0, sweep.allowed.front()});
-  if (f.size() > 1) {
-    answer.results.push_back(
-        {name + "_at_highest", std::abs(sweep.value.back()), unit, 0.0, sweep.allowed.back()});
-  }
-}
 
 // Resonances of the first output inside the sweep.
 void add_peaks(const PillarScene& scene, const Response& response, const std::string& name,
@@ -154,29 +122,29 @@ void add_peaks(const PillarScene& scene, const Response& response, const std::st
   }
 }
 
-// Frequencies at which the tolerance allows no statement of the amplitude.
+// Notes frequencies at which the tolerance does not determine the amplitude.
 void note_poles(const PillarScene& scene, const Sweep& sweep, SceneAnswer& answer) {
   std::string list;
   int count = 0;
   for (std::size_t i = 0; i < sweep.value.size(); ++i) {
     const double size = std::abs(sweep.value[i]);
     if (sweep.allowed[i] * scene.tolerance < 0.5 * size) continue;
-    if (++count <= 4)
-      list += (count > 1 ? ", " : "") + number_text(harmonic_drive(scene).frequencies_Hz[i], 8);
+    if (++count > 4) continue;
+    list += (count > 1 ? ", " : "") + text_of(harmonic_drive(scene).frequencies_Hz[i], 8);
   }
   if (count == 0) return;
-  // A coarse mesh may resonate where the pillar does not; no answer ends below degree 5.
+  // A coarse mesh may resonate where the pillar does not; every answer reaches degree 5.
   if (harmonic_drive(scene).frequencies_Hz.size() == 1 && answer.discretisation.degree >= 5) {
     throw std::runtime_error(
         "at " + list +
-        " Hz the pillar is on a resonance, or a node between two, with too little damping: "
-        "the amplitude depends on the frequency more sharply than the tolerance "
-        "can tell. Choose another frequency, or a material with damping");
+        " Hz the pillar is on a resonance, or a node between two, with too little damping: the "
+        "amplitude changes too sharply with frequency for the tolerance. Choose another frequency, "
+        "or a material with damping");
   }
   answer.notes.push_back(std::to_string(count) + " of the frequencies (" + list +
                          (count > 4 ? ", ..." : "") +
-                         " Hz) lie on a resonance or a node too sharp for the tolerance: see the "
-                         "error column there");
+                         " Hz) lie on a resonance or a node too sharp for the tolerance; the "
+                         "error column shows by how much");
 }
 
 bool is_solved_one_by_one(const PillarScene& scene, const SceneBody& body) {
@@ -196,8 +164,8 @@ ReducedBody reduced_for(const PillarScene& scene, const SceneBody& body,
   ReducedBody reduced = reduce_dynamic(body.system, loads, range);
   if (reduced.sound_up_to_rad_s < range.highest_rad_s) {
     throw std::runtime_error(
-        "a sweep of that many modes is sound up to about " +
-        number_text(reduced.sound_up_to_rad_s / kTwoPi, 4) +
+        "a sweep over that many modes meets the tolerance up to about " +
+        text_of(reduced.sound_up_to_rad_s / kTwoPi, 4) +
         " Hz only: end it there, or ask for at most " + std::to_string(kMostDirect) +
         " frequencies, which are solved one by one, or for a larger tolerance");
   }
@@ -206,26 +174,21 @@ ReducedBody reduced_for(const PillarScene& scene, const SceneBody& body,
 
 void check_harmonic(const PillarScene& scene) {
   const std::vector<double>& f = harmonic_drive(scene).frequencies_Hz;
-  if (f.empty()) throw std::invalid_argument("a harmonic analysis needs frequencies");
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    if (!(f[i] > 0.0) || !std::isfinite(f[i]) || (i > 0 && !(f[i] > f[i - 1]))) {
-      throw std::invalid_argument("frequencies must be positive and ascend strictly; number " +
-                                  std::to_string(i + 1) + " is " + number_text(f[i]) + " Hz");
-    }
-  }
+  check_frequencies(f);
   if (load_place(scene) == LoadPlace::kTop ? pressure_Pa(scene) == 0.0
                                            : base_acceleration_m_s2(scene) == 0.0) {
     throw std::invalid_argument(
         "a harmonic analysis needs a pressure on the top or an acceleration of the base");
   }
   check_sideways_in_time(scene);
-  wave_mesh(scene, f);  // refuses what no mesh can resolve
+  wave_mesh(scene, f);  // refuses waves that no mesh can resolve
 }
 
 void run_harmonic(const PillarScene& scene, SceneAnswer& answer) {
   const bool is_axial = !is_lateral(scene);
+  const std::vector<double>& f = harmonic_drive(scene).frequencies_Hz;
   if (!scene.discretisation) {
-    const WaveMesh mesh = wave_mesh(scene, harmonic_drive(scene).frequencies_Hz);
+    const WaveMesh mesh = wave_mesh(scene, f);
     answer.discretisation.longest_m = mesh.longest_m;
     answer.discretisation.skin_m = mesh.skin_m;
     answer.discretisation.skin_at_foot = load_place(scene) == LoadPlace::kBase;
@@ -238,25 +201,23 @@ void run_harmonic(const PillarScene& scene, SceneAnswer& answer) {
   answer.step_error = reduced.error;
   const Response response(scene, body, reduced);
   std::vector<Sweep> sweeps(body.outputs.size());
-  for (const double frequency_Hz : harmonic_drive(scene).frequencies_Hz)
-    response.add(frequency_Hz, sweeps);
+  for (const double frequency_Hz : f) response.add(frequency_Hz, sweeps);
   const bool is_base = load_place(scene) == LoadPlace::kBase;
   const std::string first = is_base ? "transmissibility" : "top_displacement";
-  add_curves(scene, first, is_base ? "1" : "m", sweeps[0], answer);
+  add_sweep(first, is_base ? "1" : "m", f, sweeps[0], answer);
   if (!is_solved_one_by_one(scene, body)) add_peaks(scene, response, first, sweeps[0], answer);
   note_poles(scene, sweeps[0], answer);
   if (sweeps.size() < 2) return;
-  add_curves(scene, body.outputs[1].name, body.outputs[1].unit, sweeps[1], answer);
+  add_sweep(body.outputs[1].name, body.outputs[1].unit, f, sweeps[1], answer);
   if (!scene.readout) return;
   const ReadoutFilter filter = readout_of(scene, body, answer);
   Sweep reading = sweeps[1];
   for (std::size_t i = 0; i < reading.value.size(); ++i) {
-    const Complex gain =
-        viscard::response(filter, kTwoPi * harmonic_drive(scene).frequencies_Hz[i]);
+    const Complex gain = viscard::response(filter, kTwoPi * f[i]);
     reading.value[i] *= gain;
     reading.allowed[i] *= std::abs(gain);
   }
-  add_curves(scene, "reading", "V", reading, answer);
+  add_sweep("reading", "V", f, reading, answer);
 }
 
 std::vector<std::string> harmonic_names(const PillarScene& scene) {

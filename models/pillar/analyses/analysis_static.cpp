@@ -1,18 +1,13 @@
 #include "models/maths/gauss_legendre.h"
+#include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/analyses/film_shares.h"
-#include "models/pillar/analyses/sideways.h"
-#include "models/pillar/analyses/static_piezo.h"
 #include "models/pillar/analyses/top_load.h"
-#include "models/pillar/body/pillar_loads.h"
-#include "models/pillar/body/section_sampling.h"
-#include "models/pillar/mesh/number_text.h"
+#include "models/pillar/body/pillar_model.h"
+#include "models/pillar/body/section_grid.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <stdexcept>
 
 namespace viscard {
 namespace {
@@ -56,26 +51,22 @@ double rim_mean_Pa(const PillarModel& model, const PillarState& state) {
   return sum / area;
 }
 
-bool names(const PillarScene& scene, const char* result) {
-  return std::find(scene.wanted.begin(), scene.wanted.end(), result) != scene.wanted.end();
-}
-
 void run_elastic(const PillarScene& scene, SceneAnswer& answer) {
-  const PillarModel axial = model_of(scene, axial_motion(scene), answer);
+  const PillarModel axial = model_of(scene, axial_motion(scene), answer.discretisation);
   count_unknowns(axial, answer);
   const Eigen::VectorXd traction = axial.top_traction();
-  PillarState state = axial.solve(-traction);  // 1 Pa
-  const double moved_m = traction.dot(state.unknowns) / traction.sum();
+  const PillarState per_Pa = axial.solve(-traction);
+  const double moved_m = axial.mean_top_displacement_m(per_Pa);
   const double pressure_Pa = top_pressure_Pa(scene, moved_m);
-  state.unknowns *= pressure_Pa;
-  state.pressure_source *= pressure_Pa;
+  const PillarState state = pressure_Pa * per_Pa;
   if (moves_top(scene)) {
     add_top_force(scene, -pressure_Pa * traction.sum(), -traction.sum() / moved_m, answer);
   } else {
     answer.results.push_back({"top_displacement", moved_m * pressure_Pa, "m"});
   }
   add_stresses(axial, state, answer);
-  if (names(scene, "base_stress_rim_mean")) {  // converges slowly: only for who asks for it
+  // Converges slowly: only if asked for by name.
+  if (!scene.wanted.empty() && asks_for(scene, "base_stress_rim_mean")) {
     answer.results.push_back({"base_stress_rim_mean", rim_mean_Pa(axial, state), "Pa"});
   }
 }
@@ -88,9 +79,9 @@ void check_displacement(const PillarScene& scene) {
   const double size_m = std::abs(*displacement_m(scene));
   if (!(size_m < scene.geometry.length_m)) {
     throw SceneMistake("analysis.load.displacement",
-                       "a displacement of " + number_text(size_m * 1e6) +
-                           " um is no smaller than the pillar's length of " +
-                           number_text(scene.geometry.length_m * 1e6) + " um");
+                       "a displacement of " + micrometres(size_m) +
+                           " is no smaller than the pillar's length of " +
+                           micrometres(scene.geometry.length_m));
   }
 }
 
@@ -134,7 +125,7 @@ Names sideways_names(const PillarScene& scene, Names names) {
   return names;
 }
 
-// The top's motion, or what it takes if the motion is given.
+// The top's motion, or the force for a given motion.
 Names static_names(const PillarScene& scene) {
   const bool is_moved = moves_top(scene);
   const Names top = is_moved ? Names{"top_force", "top_stiffness"} : Names{"top_displacement"};
@@ -150,22 +141,14 @@ Names static_names(const PillarScene& scene) {
     if (is_moved) append(names, top);
     return names;
   }
-  if (is_moved) {
-    Names names = {"electrode_voltage", "electrode_charge", "electrode_capacitance"};
-    append(names, top);
-    if (scene.readout && drive_V(scene) == 0.0) {
-      append(names, {"reading_at_once", "readout_time_constant"});
-    }
-    return names;
-  }
-  Names names = {"electrode_voltage", "electrode_charge", "electrode_capacitance",
-                 "top_displacement", "displacement_per_volt"};
-  if (drive_V(scene) != 0.0) {
+  Names names = {"electrode_voltage", "electrode_charge", "electrode_capacitance"};
+  append(names, top);
+  if (!is_moved) names.emplace_back("displacement_per_volt");
+  if (drive_V(scene) == 0.0) {
+    if (scene.readout) append(names, {"reading_at_once", "readout_time_constant"});
+  } else if (!is_moved) {
     if (scene.fixed_bottom) append(names, {"stiffness_driven", "stiffness_open"});
     names.emplace_back("film_stiffness_change_by_drive");
-  } else if (scene.readout) {
-    names.emplace_back("reading_at_once");
-    names.emplace_back("readout_time_constant");
   }
   return names;
 }
@@ -175,18 +158,13 @@ PillarState static_state(const PillarScene& scene, const PillarModel& model) {
   PiezoAnswer unit;  // 1 Pa
   if (model.electrode_dof() < 0) {
     unit.open = model.solve(-traction);
-    unit.top_displacement_m = traction.dot(unit.open.unknowns) / traction.sum();
+    unit.top_displacement_m = model.mean_top_displacement_m(unit.open);
   } else {
     unit = piezo_static(model, 1.0);
   }
   const double pressure_Pa = top_pressure_Pa(scene, unit);
-  if (drive_V(scene) == 0.0) {
-    PillarState state = unit.open;
-    state.unknowns *= pressure_Pa;
-    state.pressure_source *= pressure_Pa;
-    return state;
-  }
-  // Charge on the electrode until it has the voltage, beside what the pressure gives.
+  if (drive_V(scene) == 0.0) return pressure_Pa * unit.open;
+  // The charge that brings the electrode to the voltage, in addition to that of the pressure.
   Eigen::VectorXd forces = -pressure_Pa * traction;
   const double charge_C = unit.charge_C * pressure_Pa + unit.capacitance_F * drive_V(scene);
   forces[model.electrode_dof()] -= charge_C * model.potential_scale_V();
@@ -195,9 +173,7 @@ PillarState static_state(const PillarScene& scene, const PillarModel& model) {
 
 std::vector<SectionGrid> static_fields(const PillarScene& scene, const Discretisation& mesh) {
   if (is_lateral(scene)) return sideways_fields(scene, mesh);
-  ModelOptions options = options_of(scene, axial_motion(scene));
-  options.electrodes = scene.electrodes;
-  const PillarModel model(scene.geometry, mesh, media_of(scene), options);
+  const PillarModel model = electric_model_of(scene, axial_motion(scene), mesh);
   const PillarState state = static_state(scene, model);
   Sampling at = sampling_of(model);
   at.grid.name = "static";

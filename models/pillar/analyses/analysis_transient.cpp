@@ -1,14 +1,13 @@
 #include "models/maths/dense.h"
+#include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/pillar/analyses/pillar_results.h"
 #include "models/pillar/analyses/scene_body.h"
-#include "models/pillar/analyses/sideways.h"
-#include "models/pillar/body/pillar_loads.h"
-#include "models/pillar/mesh/number_text.h"
+#include "models/pillar/analyses/simulate_pillar.h"
+#include "models/pillar/analyses/top_load.h"
+#include "models/pillar/body/pillar_model.h"
 #include "models/pillar/mesh/scene_mistake.h"
 #include "models/pillar/time/model_reduction.h"
-#include "models/pillar/time/spectrum.h"
 #include "models/pillar/time/transient_run.h"
 
 #include <algorithm>
@@ -25,9 +24,9 @@ const TransientDrive& transient_drive(const PillarScene& scene) {
   return std::get<TransientDrive>(scene.drive);
 }
 
-// The pillar's first resonance, by the rod or by the cantilever (Euler-Bernoulli), with the
+// The pillar's first resonance as a rod or as a cantilever (Euler-Bernoulli), with the
 // instantaneous modulus. Source: Graff, Wave Motion in Elastic Solids (1975), ch. 2, 3. It only
-// sets scales: how far the basis reaches and how long the first steps are.
+// determines the reach of the basis and the length of the first steps.
 double first_resonance_rad_s(const PillarScene& scene) {
   const double L_m = scene.geometry.length_m;
   const double speed_m_s = std::sqrt(scene.pillar.E0_Pa / scene.pillar.rho_kg_m3);
@@ -36,7 +35,7 @@ double first_resonance_rad_s(const PillarScene& scene) {
   return 3.516 * gyration_m * speed_m_s / (L_m * L_m);
 }
 
-// How rough a load history is: its jumps and its changes of slope, each added up, over its peak.
+// Roughness of a load history: the sums of its jumps and of its changes of slope, over its peak.
 struct Roughness {
   double jumps = 0.0;
   double kinks_1_s = 0.0;
@@ -60,7 +59,7 @@ Roughness roughness_of(const std::vector<HistoryPoint>& history) {
   return {sum.jumps / peak, (sum.kinks_1_s + std::abs(slope)) / peak};
 }
 
-// What modes above a frequency add to the displacement beyond their static share, over the static
+// Displacement that modes above a frequency add beyond their static share, over the static
 // displacement under the peak: a jump excites a mode by (8/pi^2) (omega_1/omega)^2, a change of
 // slope by 1/omega of that; modes lie 2 omega_1 apart. Source: the rod's own series, Graff, Wave
 // Motion in Elastic Solids (1975), ch. 2.
@@ -69,7 +68,7 @@ double tail_beyond(double omega_rad_s, double first_rad_s, const Roughness& load
   return 0.4 * load.jumps * ratio + 0.2 * load.kinks_1_s * ratio / omega_rad_s;
 }
 
-// The frequency beyond which that is a share of the tolerance, for an answer that is twice the
+// The frequency beyond which this tail is a share of the tolerance, for an answer that is twice the
 // static one.
 constexpr double kFarthest = 60.0;  // first resonances; meshes and bases end there
 constexpr int kLargestBasis = 450;
@@ -83,11 +82,10 @@ double reach_rad_s(const PillarScene& scene, double first_rad_s) {
   return omega;
 }
 
-// Largest value, with its sign; of extremes to either side that the tolerance cannot tell apart,
-// the one on the side of the first, so that ringing without damping has one answer.
+// Largest value, with its sign. If both extremes are equal within the tolerance, it is the one on
+// the side of the first, so that ringing without damping has a unique answer.
 double peak_of(const std::vector<double>& values, double tolerance) {
-  double size = 0.0;
-  for (const double value : values) size = std::max(size, std::abs(value));
+  const double size = largest_size(values);
   const auto first = std::find_if(values.begin(), values.end(), [&](double value) {
     return std::abs(value) >= (1.0 - 4.0 * tolerance) * size;
   });
@@ -103,10 +101,7 @@ void add_curve(const std::string& name, const std::string& unit, double toleranc
   answer.results.push_back({name + "_peak", peak, unit});
   answer.results.push_back({name + "_end", values.back(), unit, 0.0, std::abs(peak)});
   answer.curves.push_back({name, unit, time_s, values});
-  const Spectrum spectrum = amplitude_spectrum(
-      std::vector<double>(values.begin(), values.end() - 1), time_s[1] - time_s[0]);
-  answer.curves.push_back(
-      {name + "_spectrum", unit, spectrum.frequency_Hz, spectrum.amplitude, "frequency_Hz"});
+  answer.curves.push_back(spectrum_of(answer.curves.back()));
 }
 
 // Displacement under the largest load at rest, over the largest that was found.
@@ -115,17 +110,16 @@ double static_over_peak(const ReducedBody& reduced, const TransientRequest& requ
   const Eigen::MatrixXd stiffness =
       dense(reduced.system.elastic) + dense(reduced.system.shear) + dense(reduced.system.bulk);
   double peak = 0.0;
-  for (const double value : request.corner_value) peak = std::max(peak, std::abs(value));
+  for (const HistoryPoint& point : request.history) peak = std::max(peak, std::abs(point.value));
   const double at_rest =
       std::abs(observer.dot(SymmetricFactor(stiffness).solve(request.load))) * peak;
   return at_rest / std::max(found.cwiseAbs().maxCoeff(), 1e-300);
 }
 
-// A jump excites waves of every length, with amplitudes that fall no faster than their lengths, a
-// change of slope such that fall by one power more: what lies beyond the reach of any mesh here is
-// then part of the answer, and only a load that takes its time leaves it small. Jumps become ramps,
-// ramps longer ones, until the tail is a good third of the tolerance; a tolerance that leaves this
-// tail such a third does as well. The rest is the share of mesh and basis.
+// A jump excites waves of every length with amplitudes in proportion to the length, a change of
+// slope in proportion to its square. Waves too short for the meshes here are then part of the
+// answer. They are small if jumps become ramps and ramps longer, until the tail is a good third of
+// the tolerance, or if the tolerance is as much larger. Mesh and basis use the rest of it.
 void refuse_sudden_load(const PillarScene& scene, double first_rad_s, double reach, double tail,
                         double static_share) {
   const Roughness load = roughness_of(transient_drive(scene).history);
@@ -138,38 +132,31 @@ void refuse_sudden_load(const PillarScene& scene, double first_rad_s, double rea
   const std::string cause = has_jumps ? "the load jumps, which excites waves of all lengths; those "
                                       : "the load changes its slope suddenly; waves ";
   const std::string cure =
-      has_jumps ? "Let each jump take " + number_text(rise_s, 2) + " s or longer"
-                : "Stretch its ramps " + number_text(2.8 * tail / scene.tolerance, 2) + " times";
+      has_jumps ? "Let each jump take " + text_of(rise_s, 2) + " s or longer"
+                : "Stretch its ramps " + text_of(2.8 * tail / scene.tolerance, 2) + " times";
   throw SceneMistake(transient_drive(scene).history.size() > 2 ? "analysis.history" : "analysis",
-                     cause + "shorter than " + number_text(1e6 * wave_m, 2) +
-                         " um, too short for the meshes here, carry " + number_text(tail, 2) +
+                     cause + "shorter than " + text_of(1e6 * wave_m, 2) +
+                         " um, too short for the meshes here, carry " + text_of(tail, 2) +
                          " of the answer, too much for the tolerance. " + cure +
-                         ", or ask for a tolerance of " + number_text(2.8 * tail, 2) +
-                         " or larger");
+                         ", or ask for a tolerance of " + text_of(2.8 * tail, 2) + " or larger");
 }
 
 void check_transient(const PillarScene& scene) {
   if (transient_drive(scene).history.size() < 2) {
     throw std::invalid_argument("a transient analysis needs a history of at least two points");
   }
-  if (!(transient_drive(scene).end_time_s > 0.0) ||
-      !std::isfinite(transient_drive(scene).end_time_s)) {
-    throw std::invalid_argument("a transient analysis needs an end_time that is positive");
-  }
-  if (transient_drive(scene).outputs < 10 || transient_drive(scene).outputs > 200000) {
-    throw std::invalid_argument("outputs: " + std::to_string(transient_drive(scene).outputs) +
-                                "; it must lie between 10 and 200000");
-  }
+  check_outputs(transient_drive(scene).end_time_s, transient_drive(scene).outputs);
   validate(transient_drive(scene).history);
   check_sideways_in_time(scene);
 }
 
 void run_transient_analysis(const PillarScene& scene, SceneAnswer& answer) {
+  const TransientDrive& drive = transient_drive(scene);
   const bool is_axial = !is_lateral(scene);
   const bool is_base = load_place(scene) == LoadPlace::kBase;
   const double first_rad_s = first_resonance_rad_s(scene);
   const double reach = reach_rad_s(scene, first_rad_s);
-  // Elements as long as the waves that count, so that a rising degree resolves them.
+  // Elements as long as the shortest wave in reach, so that a rising degree resolves it.
   if (!scene.discretisation) {
     answer.discretisation.longest_m =
         2.0 * std::numbers::pi * std::sqrt(scene.pillar.E0_Pa / scene.pillar.rho_kg_m3) / reach;
@@ -180,23 +167,20 @@ void run_transient_analysis(const PillarScene& scene, SceneAnswer& answer) {
       is_base
           ? Eigen::VectorXd(-unit_acceleration_force(*body.model))
           : Eigen::VectorXd((is_axial ? -1.0 : 1.0) * top_area_m2(*body.model) * body.system.load);
-  const Roughness roughness = roughness_of(transient_drive(scene).history);
+  const Roughness roughness = roughness_of(drive.history);
   const DynamicRange range{
-      .lowest_rad_s = 2.0 * std::numbers::pi / transient_drive(scene).end_time_s,
+      .lowest_rad_s = 2.0 * std::numbers::pi / drive.end_time_s,
       .highest_rad_s = reach,
       .tolerance = 0.2 * scene.tolerance,
       .corner_rad_s = first_rad_s,
       .second_corner_rad_s = roughness.jumps == 0.0 ? roughness.kinks_1_s : 0.0,
       .largest_basis = kLargestBasis};
   const ReducedBody reduced = reduce_dynamic(body.system, {load}, range);
-  TransientRequest request{.load = reduced.load(load), .end_s = transient_drive(scene).end_time_s};
-  request.outputs = transient_drive(scene).outputs;
+  TransientRequest request{
+      .load = reduced.load(load), .history = drive.history, .end_s = drive.end_time_s};
+  request.outputs = drive.outputs;
   request.tolerance = 0.1 * scene.tolerance;
   request.first_step_s = std::numbers::pi / (10.0 * first_rad_s);
-  for (const HistoryPoint& point : transient_drive(scene).history) {
-    request.corner_time_s.push_back(point.time_s);
-    request.corner_value.push_back(point.value);
-  }
   Eigen::MatrixXd observers(static_cast<Eigen::Index>(body.outputs.size()), reduced.basis.cols());
   for (std::size_t i = 0; i < body.outputs.size(); ++i) {
     observers.row(static_cast<Eigen::Index>(i)) = reduced.output(body.outputs[i].of).transpose();
@@ -204,8 +188,7 @@ void run_transient_analysis(const PillarScene& scene, SceneAnswer& answer) {
   const TransientResult run = run_transient(reduced.system, request, observers);
   const double static_share =
       static_over_peak(reduced, request, observers.row(0).transpose(), run.values.row(0));
-  const double tail =
-      static_share * tail_beyond(reach, first_rad_s, roughness_of(transient_drive(scene).history));
+  const double tail = static_share * tail_beyond(reach, first_rad_s, roughness);
   refuse_sudden_load(scene, first_rad_s, reach, tail, static_share);
   answer.step_error = run.converged ? run.error_estimate + reduced.error + tail
                                     : std::numeric_limits<double>::infinity();
@@ -232,7 +215,7 @@ std::vector<std::string> transient_names(const PillarScene& scene) {
 EffectEstimate transient_geometric_stiffness(const PillarScene&, const EffectEstimate& usual) {
   if (usual.value <= 1.0) return usual;
   return {EffectRole::kOutside, 1.0, "p/p_cr", usual.value,
-          "the straight pillar gives way sideways if the load stays longer than a swing"};
+          "the straight pillar buckles sideways if the load lasts longer than an oscillation"};
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "models/pillar/analyses/buckling_limit.h"
 
+#include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/top_load.h"
 #include "models/pillar/body/pillar_modes.h"
-#include "models/pillar/mesh/mesh_sequence.h"
-#include "models/pillar/mesh/number_text.h"
+#include "models/pillar/mesh/pillar_mesh.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace viscard {
 namespace {
 
-// Infinite for a pillar so stubby that it gives way only at the rim of its bond.
+// Infinite for a pillar so stubby that it buckles only locally, at the rim of its bond.
 double buckling_pressure_Pa(const PillarModel& axial, const PillarModel& lateral) {
   try {
     return buckling(axial, lateral).pressure_Pa;
@@ -25,24 +25,16 @@ double buckling_pressure_Pa(const PillarModel& axial, const PillarModel& lateral
   }
 }
 
-double buckling_pressure_Pa(const PillarScene& scene) {
-  const Discretisation mesh = mesh_sequence(scene.geometry)[1];
-  const PillarModel axial(scene.geometry, mesh, media_of(scene), {.motion = Motion::kLongitudinal});
-  const PillarModel lateral(scene.geometry, mesh, media_of(scene), {.motion = Motion::kLateral});
-  return buckling_pressure_Pa(axial, lateral);
-}
-
-// How far a plate can press the top down before the pillar buckles below it.
-double buckling_shortening_m(const PillarScene& scene) {
+// Pressure at which the pillar buckles under a free top, or the shortening by a plate on its top.
+double buckling_limit(const PillarScene& scene, bool has_plate) {
   const Discretisation mesh = mesh_sequence(scene.geometry)[1];
   const PillarModel axial(scene.geometry, mesh, media_of(scene),
-                          {.motion = Motion::kLongitudinal, .rigid_top = true});
+                          {.motion = Motion::kLongitudinal, .rigid_top = has_plate});
   const PillarModel lateral(scene.geometry, mesh, media_of(scene),
-                            {.motion = Motion::kLateral, .rigid_top = true});
-  const Eigen::VectorXd traction = axial.top_traction();
-  const double shortening_m_Pa =
-      traction.dot(axial.solve(traction).unknowns) / traction.sum();  // at 1 Pa
-  return shortening_m_Pa * buckling_pressure_Pa(axial, lateral);
+                            {.motion = Motion::kLateral, .rigid_top = has_plate});
+  const double pressure_Pa = buckling_pressure_Pa(axial, lateral);
+  if (!has_plate) return pressure_Pa;
+  return axial.mean_top_displacement_m(axial.solve(axial.top_traction())) * pressure_Pa;
 }
 
 // A plate holds the top upright, so that the pillar buckles between the two.
@@ -50,11 +42,11 @@ std::string beyond_buckling_under_plate(const PillarScene& scene) {
   const double moved_m = *displacement_m(scene);
   const double rough_m = engesser_pressure_Pa(scene) / scene.pillar.E0_Pa * scene.geometry.length_m;
   if (-moved_m < 0.5 * rough_m) return "";
-  const double most_m = scene.plane ? rough_m : buckling_shortening_m(scene);
+  const double most_m = scene.plane ? rough_m : buckling_limit(scene, true);
   if (-moved_m < most_m) return "";
-  return "a displacement of " + number_text(moved_m * 1e6, 5) + " um is beyond about " +
-         number_text(-most_m * 1e6, 3) +
-         " um, where the pillar buckles between its foot and the plate on its top";
+  return "a displacement of " + micrometres(moved_m, 5) + " is beyond about " +
+         micrometres(-most_m, 3) +
+         ", where the pillar buckles between its foot and the plate on its top";
 }
 
 }  // namespace
@@ -97,11 +89,11 @@ std::string beyond_buckling(const PillarScene& scene) {
   const double euler_Pa = pi * pi / 64.0 * scene.pillar.E0_Pa * slenderness * slenderness;
   if (largest_Pa < 0.5 * euler_Pa) return "";
   const double critical_Pa =
-      scene.plane ? engesser_pressure_Pa(scene) : buckling_pressure_Pa(scene);
+      scene.plane ? engesser_pressure_Pa(scene) : buckling_limit(scene, false);
   if (largest_Pa < critical_Pa) return "";
-  return "a pressure of " + number_text(largest_Pa, 5) +
-         " Pa is beyond the buckling pressure of about " + number_text(critical_Pa, 5) +
-         " Pa: the straight pillar gives way sideways";
+  return "a pressure of " + text_of(largest_Pa, 5) +
+         " Pa is beyond the buckling pressure of about " + text_of(critical_Pa, 5) +
+         " Pa: the straight pillar buckles sideways";
 }
 
 bool holds_straight(const PillarScene& scene) {
@@ -117,8 +109,8 @@ void refuse_beyond_buckling(const PillarScene& scene) {
                      : moves_top(scene) ? "analysis.load.displacement"
                                         : "analysis.load",
                      why +
-                         ". Reduce the load, make the pillar shorter or thicker, or say that it is "
-                         "held straight (geometric_stiffness = \"off\" under [effects])");
+                         ". Reduce the load, make the pillar shorter or thicker, or declare that "
+                         "it is held straight (geometric_stiffness = \"off\" under [effects])");
 }
 
 }  // namespace viscard

@@ -15,8 +15,8 @@ double engesser_pressure_Pa(const PillarScene& scene);
 // E u/L, and an analysis that finds a pressure itself as that pressure.
 double largest_pressure_Pa(const PillarScene& scene);
 
-// A sentence that says how far the load lies beyond the buckling pressure; "" if the straight
-// pillar bears it. The limit is the pillar's own buckling pressure on a coarse mesh where Euler's
+// A clause with the load and the buckling pressure that it exceeds; "" if the straight pillar bears
+// the load. The limit is the pillar's own buckling pressure on a coarse mesh where Euler's
 // formula comes near the load, for a strip Engesser's formula (eq. E6).
 std::string beyond_buckling(const PillarScene& scene);
 

@@ -1,7 +1,6 @@
-#include "models/pillar/analyses/film_shares.h"
+#include "models/pillar/analyses/analysis.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace viscard {

@@ -1,25 +1,18 @@
 #include "models/pillar/analyses/scene_body.h"
 
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/analyses/sideways.h"
-#include "models/pillar/body/piezo_quadrants.h"
-#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/analyses/top_load.h"
+#include "models/pillar/body/piezo_static.h"
+#include "models/pillar/body/pillar_model.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
 
-#include <cmath>
 #include <stdexcept>
 
 namespace viscard {
-
 namespace {
 
-double free_face_m(const PillarScene& scene) {
-  const bool is_top = scene.electrodes->grounded == FilmFace::kBottom;
-  return is_top ? 0.0 : -scene.geometry.film->thickness_m;
-}
-
-// Holds an unknown that nothing loads at zero: its row and column leave the matrix but for the
-// diagonal. Of the film alone, so that it stands in the elastic part only.
+// Holds an unknown without load at zero by removing its row and column except for the diagonal.
+// Only the elastic part has entries of the film's potential.
 void hold_at_zero(int dof, SymmetricSparse& matrix) {
   for (int column = 0; column < matrix.outerSize(); ++column) {
     for (SymmetricSparse::InnerIterator entry(matrix, column); entry; ++entry) {
@@ -29,7 +22,7 @@ void hold_at_zero(int dof, SymmetricSparse& matrix) {
   }
 }
 
-// What an electrode in quadrants reads of a sideways motion (piezo_quadrants.h).
+// Output of an electrode in quadrants under a sideways motion (piezo_static.h).
 void add_quadrants(const PillarScene& scene, SceneBody& body) {
   const PillarModel* model = body.model.get();
   if (model->electrode_dof() < 0) {
@@ -91,15 +84,13 @@ ReadoutFilter readout_of(const PillarScene& scene, const SceneBody& body, SceneA
   }
   if (reads_quadrants(scene)) {  // a charge amplifier: -Q/C_f, through R_f C_f
     const double time_s = scene.readout->resistance_Ohm * scene.readout->capacitance_F;
-    if (std::isfinite(time_s)) answer.results.push_back({"readout_time_constant", time_s, "s"});
+    add_time_constant(time_s, answer);
     return {-1.0 / scene.readout->capacitance_F, time_s};
   }
   const double capacitance_F = piezo_static(*body.model, 1.0).capacitance_F;
   const ReadoutFilter filter = readout_filter(*scene.readout, capacitance_F);
   answer.results.push_back({"electrode_capacitance", capacitance_F, "F"});
-  if (std::isfinite(filter.time_constant_s)) {
-    answer.results.push_back({"readout_time_constant", filter.time_constant_s, "s"});
-  }
+  add_time_constant(filter.time_constant_s, answer);
   return filter;
 }
 

@@ -2,7 +2,7 @@
 
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/scene/pillar_scene.h"
-#include "models/pillar/time/reduced_body.h"
+#include "models/pillar/time/model_reduction.h"
 #include "models/pillar/time/viscoelastic_system.h"
 #include "models/scene/common/scene_answer.h"
 
@@ -20,8 +20,8 @@ struct BodyOutput {
   std::function<double(const Eigen::VectorXd&)> of;
 };
 
-// One scene on one mesh as a viscoelastic body: matrices, the unit force on its top (1 N), and what
-// can be read from it. The first output is the displacement of the top; with electrodes comes the
+// One scene on one mesh as a viscoelastic body: matrices, the unit force on its top (1 N), and its
+// outputs. The first output is the displacement of the top; with electrodes comes the
 // open-circuit voltage, or the potential at the centre of a charge-free face; sideways the charge
 // of a shorted quadrant, or its mean voltage on a charge-free face.
 struct SceneBody {

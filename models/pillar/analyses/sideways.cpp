@@ -1,36 +1,22 @@
-#include "models/pillar/analyses/sideways.h"
-
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/top_load.h"
-#include "models/pillar/body/piezo_quadrants.h"
-#include "models/pillar/body/pillar_loads.h"
-#include "models/pillar/body/section_sampling.h"
+#include "models/pillar/body/piezo_static.h"
+#include "models/pillar/body/pillar_model.h"
+#include "models/pillar/body/section_grid.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
 namespace viscard {
 namespace {
 
-PillarModel sideways_model(const PillarScene& scene, const SceneAnswer& on_mesh) {
-  ModelOptions options = options_of(scene, lateral_motion(scene));
-  options.electrodes = scene.electrodes;
-  return PillarModel(scene.geometry, on_mesh.discretisation, media_of(scene), options);
-}
-
-// Force along x: the shear's, or what moves the top as far as it is given to.
+// Force along x: that of the shear, or the one that gives the top its displacement.
 double side_force_N(const PillarScene& scene, const PillarModel& model, double displacement_per_N_m,
                     double moved_by_voltage_m = 0.0) {
   const double area_m2 = top_area_m2(model);
   return area_m2 * top_pressure_Pa(scene, area_m2 * displacement_per_N_m, moved_by_voltage_m);
 }
 
-PillarState times(PillarState state, double factor) {
-  state.unknowns *= factor;
-  state.pressure_source *= factor;
-  return state;
-}
-
 void add_quadrants(const PillarScene& scene, const PillarModel& model, SceneAnswer& answer) {
-  // A force on the top has no answer without a held bottom.
+  // Without a held bottom a force on the top has no answer.
   const QuadrantAnswer unit = piezo_quadrants(model, scene.fixed_bottom ? 1.0 : 0.0);
   const double by_voltage_m = unit.displacement_per_V_m * drive_V(scene);
   const double force_N = side_force_N(scene, model, unit.top_displacement_m, by_voltage_m);
@@ -41,7 +27,7 @@ void add_quadrants(const PillarScene& scene, const PillarModel& model, SceneAnsw
     answer.results.push_back({"top_displacement", moved_m, "m"});
   }
   answer.results.push_back({"displacement_per_volt", unit.displacement_per_V_m, "m/V"});
-  // Under a drive the charge of touching quadrants has no bound.
+  // Under a drive the charge of touching quadrants is unbounded.
   if (drive_V(scene) != 0.0) return;
   answer.results.push_back({"quadrant_charge", force_N * unit.charge_C, "C"});
 }
@@ -51,29 +37,33 @@ PillarState sideways_state(const PillarScene& scene, const PillarModel& model) {
     const QuadrantAnswer unit = piezo_quadrants(model, scene.fixed_bottom ? 1.0 : 0.0);
     const double by_voltage_m = unit.displacement_per_V_m * drive_V(scene);
     PillarState state =
-        times(unit.shorted, side_force_N(scene, model, unit.top_displacement_m, by_voltage_m));
+        side_force_N(scene, model, unit.top_displacement_m, by_voltage_m) * unit.shorted;
     state.unknowns += drive_V(scene) * unit.driven_per_V.unknowns;
     state.pressure_source += drive_V(scene) * unit.driven_per_V.pressure_source;
     return state;
   }
   const Eigen::VectorXd push = unit_top_force(model);
   const PillarState unit = model.solve(push);
-  return times(unit, side_force_N(scene, model, push.dot(unit.unknowns)));
+  return side_force_N(scene, model, push.dot(unit.unknowns)) * unit;
+}
+
+void refuse_round_electrode() {
+  throw SceneMistake("geometry.electrode",
+                     "a round electrode reads nothing of a sideways load; add quadrants = true");
 }
 
 void check_quadrants(const PillarScene& scene) {
   if (scene.plane && scene.electrodes->electrode_radius_m > 0.0) {
     throw SceneMistake("geometry.electrode.kind",
-                       "halves of a strip touch where their voltages jump; say \"sampled\"");
+                       "the halves of a strip touch, and a voltage cannot jump there; use kind = "
+                       "\"sampled\"");
   }
   if (!scene.readout || scene.readout->kind == ReadoutKind::kCharge) return;
   throw SceneMistake(
       "readout.kind",
-      "quadrants have charges, not voltages of their own: where two that touch "
-      "differ in voltage the field between them has no bound, nor has their "
-      "capacitance, which only the width of a gap sets. Say \"charge\", an amplifier "
-      "that holds every quadrant at ground, or read a charge-free face (kind = "
-      "\"sampled\")");
+      "a quadrant has no voltage of its own here: between touching quadrants of different voltage "
+      "the field and the capacitance are unbounded. Use kind = \"charge\", an amplifier that holds "
+      "every quadrant at ground, or a charge-free face (electrode kind = \"sampled\")");
 }
 
 }  // namespace
@@ -84,26 +74,22 @@ bool reads_quadrants(const PillarScene& scene) {
 
 void check_sideways(const PillarScene& scene) {
   if (!scene.electrodes) return;
-  if (!scene.electrodes->quadrants) {
-    throw SceneMistake("geometry.electrode",
-                       "a round electrode reads nothing of a sideways load; add quadrants = true");
-  }
+  if (!scene.electrodes->quadrants) refuse_round_electrode();
   check_quadrants(scene);
   if (scene.readout) {
-    throw SceneMistake("readout", "reads sideways loads in harmonic and transient analyses only");
+    throw SceneMistake("readout",
+                       "a readout of a sideways load needs a harmonic or transient analysis");
   }
 }
 
 void check_sideways_in_time(const PillarScene& scene) {
   if (!is_lateral(scene) || !scene.electrodes) return;
   if (scene.electrodes->quadrants) return check_quadrants(scene);
-  if (!scene.readout) return;
-  throw SceneMistake("geometry.electrode",
-                     "a round electrode reads nothing of a sideways load; add quadrants = true");
+  if (scene.readout) refuse_round_electrode();
 }
 
 void run_sideways(const PillarScene& scene, SceneAnswer& answer) {
-  const PillarModel model = sideways_model(scene, answer);
+  const PillarModel model = electric_model_of(scene, lateral_motion(scene), answer.discretisation);
   count_unknowns(model, answer);
   if (model.electrode_dof() >= 0) return add_quadrants(scene, model, answer);
   const Eigen::VectorXd push = unit_top_force(model);
@@ -116,16 +102,12 @@ void run_sideways(const PillarScene& scene, SceneAnswer& answer) {
     answer.results.push_back({"top_displacement", force_N * moved_m, "m"});
   }
   if (!scene.electrodes) return;
-  const bool top = scene.electrodes->grounded == FilmFace::kBottom;
-  const double z_m = top ? 0.0 : -scene.geometry.film->thickness_m;
-  answer.results.push_back(
-      {"quadrant_voltage", force_N * quadrant_mean_V(model, unit, z_m, model.radius_m()), "V"});
+  const double mean_V = quadrant_mean_V(model, unit, free_face_m(scene), model.radius_m());
+  answer.results.push_back({"quadrant_voltage", force_N * mean_V, "V"});
 }
 
 std::vector<SectionGrid> sideways_fields(const PillarScene& scene, const Discretisation& mesh) {
-  SceneAnswer on_mesh;
-  on_mesh.discretisation = mesh;
-  const PillarModel model = sideways_model(scene, on_mesh);
+  const PillarModel model = electric_model_of(scene, lateral_motion(scene), mesh);
   const PillarState state = sideways_state(scene, model);
   Sampling at = sampling_of(model);
   at.grid.name = "static";

@@ -2,11 +2,7 @@
 
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/pillar/analyses/check_pillar.h"
-#include "models/pillar/mesh/mesh_sequence.h"
-
-#include <string>
-#include <vector>
+#include "models/pillar/mesh/pillar_mesh.h"
 
 namespace viscard {
 
@@ -14,7 +10,7 @@ SceneAnswer pillar_answer_on(const PillarScene& scene, const Discretisation& mes
   SceneAnswer answer;
   answer.discretisation = mesh;
   analysis_of(scene).run(scene, answer);
-  // Errors are watched only of what is asked for.
+  // Only the errors of wanted results are watched.
   for (SceneResult& result : answer.results) result.is_wanted = asks_for(scene, result.name);
   return answer;
 }
@@ -29,7 +25,7 @@ SceneAnswer simulate_pillar(const PillarScene& scene) {
                     [&](const Discretisation& mesh) { return pillar_answer_on(scene, mesh); });
   const std::string why = holds_straight(scene) ? beyond_buckling(scene) : "";
   if (!why.empty()) {
-    answer.notes.push_back(why + ", unless it is held straight, as the scene says it is");
+    answer.notes.push_back(why + ", unless it is held straight, as the scene declares");
   }
   return answer;
 }

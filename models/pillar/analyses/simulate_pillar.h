@@ -3,7 +3,18 @@
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/scene/common/scene_answer.h"
 
+#include <string>
+#include <vector>
+
 namespace viscard {
+
+// Throws std::invalid_argument, mostly SceneMistake, naming what is missing or contradictory.
+void validate(const PillarScene& scene);
+
+// Everything a scene may ask for under [want]: the names of its results, and of its curves, which
+// stand for the results read off them. Nothing is solved. tests/models/scene compares this list
+// with the results of the analyses.
+std::vector<std::string> result_names(const PillarScene& scene);
 
 // Answers the scene as it stands, with the effects it names: on meshes of rising degree and grading
 // until every result meets the tolerance (error_control.h). Throws SceneMistake for a load beyond

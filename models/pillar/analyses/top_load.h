@@ -1,18 +1,21 @@
 #pragma once
 
 #include "models/pillar/body/piezo_static.h"
+#include "models/pillar/body/section_grid.h"
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/scene/common/scene_answer.h"
 
+#include <vector>
+
 namespace viscard {
 
-// What acts on the top of a static scene: a given pressure (sideways: shear), or as much as it
-// takes to move the top by a given displacement. Along the axis a rigid plate without friction
+// The load on the top of a static scene: a given pressure (sideways: shear), or the one that moves
+// the top by a given displacement. Along the axis a rigid plate without friction
 // moves it, so that u_z is one unknown for the whole top (ModelOptions::rigid_top); sideways its
 // mean is given, whose multiplier is a uniform shear. All answers are linear in either, so the
 // pressure that belongs to a displacement u is that of 1 Pa scaled,
 //   p = (u - a V)/s,
-// s: displacement per Pa; a V: what a voltage on the electrode does to a free top.
+// s: displacement per Pa; a V: the displacement of a free top by a voltage on the electrode.
 
 bool moves_top(const PillarScene& scene);
 
@@ -30,9 +33,19 @@ double shorted_displacement_m(const PiezoAnswer& answer);
 void add_top_force(const PillarScene& scene, double force_N, double stiffness_N_m,
                    SceneAnswer& answer);
 
-// A pillar on a film with an electrode, its top moved: voltage and force with the electrode open
-// (or driven), the charge that flows onto it shorted, and its capacitance with the top held.
-void add_moved_piezoelectric(const PillarScene& scene, const PillarModel& model,
-                             const PiezoAnswer& per_Pa, SceneAnswer& answer);
+// A static load along the axis of a pillar whose film has an electrode or a charge-free face: adds
+// voltage, charge, capacitance and motion to the answer (eq. 19 to 25).
+void run_static_piezo(const PillarScene& scene, SceneAnswer& answer);
+
+// A shear on the top along x, and a voltage on the opposite halves of quadrants.
+
+// At rest: checks, results, the solution to be looked at.
+void check_sideways(const PillarScene& scene);
+void run_sideways(const PillarScene& scene, SceneAnswer& answer);
+std::vector<SectionGrid> sideways_fields(const PillarScene& scene, const Discretisation& mesh);
+
+// In time or frequency: checks, and whether an electrode in quadrants reads the load.
+void check_sideways_in_time(const PillarScene& scene);
+bool reads_quadrants(const PillarScene& scene);
 
 }  // namespace viscard

@@ -1,8 +1,8 @@
 #include "models/pillar/analyses/wave_mesh.h"
 
-#include "models/pillar/mesh/number_text.h"
+#include "models/material/material.h"
+#include "models/maths/text_of_number.h"
 #include "models/pillar/mesh/scene_mistake.h"
-#include "models/pillar/time/relative_modulus.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,23 +21,23 @@ constexpr double kMostCells = 400.0;
 constexpr double kLeftOfTolerance = 0.1;
 
 struct Waves {
-  double length_m = 0.0;   // of the bar's wave, the measure of the mesh
-  double decay_1_m = 0.0;  // of the wave that dies out last
+  double length_m = 0.0;   // of the bar's wave, which sets the size of elements
+  double decay_1_m = 0.0;  // of the wave that decays slowest
 };
 
 Waves waves_at(const PillarScene& scene, double frequency_Hz) {
   const Material& m = scene.pillar;
   const double omega = 2.0 * std::numbers::pi * frequency_Hz;
   const Complex s(0.0, omega);
-  const Complex G = m.E0_Pa / (2.0 * (1.0 + m.nu)) * relative_modulus(m.terms, &MaterialTerm::g, s);
+  const RelativeModuli relative = relative_moduli(m.terms, s);
+  const Complex G = m.E0_Pa / (2.0 * (1.0 + m.nu)) * relative.shear;
   const auto decay = [&](Complex modulus_Pa) {
     return std::abs((omega * std::sqrt(m.rho_kg_m3 / modulus_Pa)).imag());
   };
   Complex E = 3.0 * G;
   double slowest = decay(G);
   if (m.nu < 0.5) {  // an incompressible body has no pressure waves but the bar's
-    const Complex K =
-        m.E0_Pa / (3.0 * (1.0 - 2.0 * m.nu)) * relative_modulus(m.terms, &MaterialTerm::k, s);
+    const Complex K = m.E0_Pa / (3.0 * (1.0 - 2.0 * m.nu)) * relative.bulk;
     E = 9.0 * K * G / (3.0 * K + G);
     slowest = std::min(slowest, decay(K + 4.0 / 3.0 * G));
   }
@@ -45,7 +45,7 @@ Waves waves_at(const PillarScene& scene, double frequency_Hz) {
   return {2.0 * std::numbers::pi / k_1_m, std::min(slowest, decay(E))};
 }
 
-// Elements of a line from its loaded end: equal ones over the skin, then growing by their length.
+// Number of elements on a line from its loaded end: equal ones over the skin, then growing ones.
 double elements_over(double line_m, const WaveMesh& mesh) {
   if (mesh.skin_m == 0.0 || line_m <= mesh.skin_m) return line_m / mesh.longest_m;
   return mesh.skin_m / mesh.longest_m + std::log1p((line_m - mesh.skin_m) / mesh.longest_m);
@@ -92,16 +92,16 @@ WaveMesh wave_mesh(const PillarScene& scene, const std::vector<double>& frequenc
   const double unknowns = kUnknowns * mesh.cells;
   throw SceneMistake(
       "analysis.frequencies",
-      "at " + number_text(f.back(), 4) + " Hz waves are " + number_text(1e6 * mesh.longest_m, 4) +
-          " um long, " + number_text(scene.geometry.length_m / mesh.longest_m, 4) +
+      "at " + text_of(f.back(), 4) + " Hz waves are " + micrometres(mesh.longest_m, 4) + " long, " +
+          text_of(scene.geometry.length_m / mesh.longest_m, 4) +
           " to the length of the pillar and " +
-          number_text(scene.geometry.diameter_m / mesh.longest_m, 4) +
+          text_of(scene.geometry.diameter_m / mesh.longest_m, 4) +
           " to its diameter, and too little damped to die out near the load: that needs about " +
-          number_text(mesh.cells, 2) + " elements with " + number_text(unknowns, 2) +
-          " unknowns, where " + number_text(kMostCells, 3) +
-          " elements are the most here. The highest frequency this pillar can be answered at is " +
-          number_text(highest_Hz(scene, f.back()), 4) +
-          " Hz; a smaller pillar, or a material with more damping, reaches higher");
+          text_of(mesh.cells, 2) + " elements with " + text_of(unknowns, 2) +
+          " unknowns, more than the limit of " + text_of(kMostCells, 3) +
+          " elements. The highest possible frequency of this pillar is " +
+          text_of(highest_Hz(scene, f.back()), 4) +
+          " Hz; a smaller pillar, or a material with more damping, allows a higher one");
 }
 
 }  // namespace viscard

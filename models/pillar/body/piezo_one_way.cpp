@@ -1,5 +1,6 @@
-#include "models/pillar/body/piezo_one_way.h"
+#include "models/pillar/body/piezo_static.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -10,29 +11,23 @@ namespace {
 class FilmPotential {
  public:
   explicit FilmPotential(const PillarModel& electric) : electric_(electric) {
-    const Kinematics& k = electric.system().kinematics();
-    std::vector<OperatorRow> rows = k.strain;
-    rows.insert(rows.end(), k.electric_field.begin(), k.electric_field.end());
-    Eigen::MatrixXd form = coupled_form(electric.medium(kFilmRegion));
-    const bool is_plane = electric.options().motion == Motion::kPlaneSymmetric;
-    if (is_plane && electric.options().plane == PlaneState::kStress) {
-      form = plane_stress_moduli(form);
-    }
+    Eigen::MatrixXd form =
+        material_form(electric.medium(kFilmRegion), true, electric.is_plane_stress());
     form.topLeftCorner(6, 6).setZero();
-    form_ = electric.system().form(rows, {{}, form});
+    form_ = electric.system().form(electric.system().kinematics().strain_and_field(), {{}, form});
     number_potentials();
     factor_.factor(potential_block());
   }
 
   // Unknowns of the electric model for the strain of `u`, with the electrode open.
   Eigen::VectorXd from_strain(const Eigen::VectorXd& u) const {
-    return expanded(factor_.solve(restricted(times(form_, u))));
+    return expanded(factor_.solve(times(form_, u)(dof_)));
   }
   // For a unit charge row on the electrode, in the sign of piezo_static().
   Eigen::VectorXd from_electrode() const {
     Eigen::VectorXd charge = Eigen::VectorXd::Zero(form_.rows());
     charge[electric_.electrode_dof()] = 1.0;
-    return -expanded(factor_.solve(restricted(charge)));
+    return -expanded(factor_.solve(charge(dof_)));
   }
 
  private:
@@ -63,14 +58,9 @@ class FilmPotential {
     block.setFromTriplets(entries.begin(), entries.end());
     return block;
   }
-  Eigen::VectorXd restricted(const Eigen::VectorXd& all) const {
-    Eigen::VectorXd part(static_cast<Eigen::Index>(dof_.size()));
-    for (std::size_t i = 0; i < dof_.size(); ++i) part[static_cast<Eigen::Index>(i)] = all[dof_[i]];
-    return part;
-  }
   Eigen::VectorXd expanded(const Eigen::VectorXd& part) const {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(form_.rows());
-    for (std::size_t i = 0; i < dof_.size(); ++i) all[dof_[i]] = part[static_cast<Eigen::Index>(i)];
+    all(dof_) = part;
     return all;
   }
 
@@ -110,12 +100,11 @@ PiezoAnswer piezo_one_way(const PillarModel& elastic, const PillarModel& electri
   require_same_mesh(elastic, electric);
   const int electrode = electric.electrode_dof();
   if (electrode < 0) {
-    throw std::invalid_argument("the film has no electrode whose voltage could be told");
+    throw std::invalid_argument("the film has no electrode; its voltage is undefined");
   }
-  const Eigen::VectorXd traction = elastic.top_traction();
   PiezoAnswer answer;
-  answer.open = elastic.solve(-pressure_Pa * traction);
-  answer.top_displacement_m = traction.dot(answer.open.unknowns) / traction.sum();
+  answer.open = elastic.solve(-pressure_Pa * elastic.top_traction());
+  answer.top_displacement_m = elastic.mean_top_displacement_m(answer.open);
   const FilmPotential film(electric);
   const double scale_V = electric.potential_scale_V();
   answer.voltage_V =

@@ -1,6 +1,5 @@
-#include "models/pillar/body/piezo_quadrants.h"
-
-#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/body/piezo_static.h"
+#include "models/pillar/body/pillar_model.h"
 
 #include <numbers>
 #include <stdexcept>

@@ -7,7 +7,7 @@ namespace viscard {
 PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa) {
   const int electrode = model.electrode_dof();
   if (electrode < 0) {
-    throw std::invalid_argument("the film has no electrode whose voltage could be told");
+    throw std::invalid_argument("the film has no electrode; its voltage is undefined");
   }
   const Eigen::VectorXd traction = model.top_traction();
   const double area = traction.sum();
@@ -37,8 +37,12 @@ PillarState piezo_sampled(const PillarModel& model, double pressure_Pa) {
 }
 
 double potential_at_V(const PillarModel& model, const PillarState& state, double x, double z) {
+  return potential_in_V(model, state, model.element_at(x, z, kFilmRegion), x, z);
+}
+
+double potential_in_V(const PillarModel& model, const PillarState& state,
+                      const SectionElement& element, double x, double z) {
   const OperatorRow value = {{model.system().kinematics().potential_field, 0, 0, 0, 1.0}};
-  const SectionElement& element = model.element_at(x, z, kFilmRegion);
   return model.potential_scale_V() *
          model.system().rows_at({value}, state.unknowns, element, x, z)[0];
 }

@@ -18,11 +18,56 @@ struct PiezoAnswer {
 // The model must have electrodes with a radius. Throws std::invalid_argument otherwise.
 PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa);
 
-// Solution with a charge-free face instead of an electrode; potential_at() reads it.
+// Solution with a charge-free face instead of an electrode; potential_at_V() reads it.
 PillarState piezo_sampled(const PillarModel& model, double pressure_Pa);
 double potential_at_V(const PillarModel& model, const PillarState& state, double x, double z);
+double potential_in_V(const PillarModel& model, const PillarState& state,
+                      const SectionElement& element, double x, double z);
 // Mean potential over the disc (half-width in the plane) x <= radius of the film at height z.
 double mean_potential_V(const PillarModel& model, const PillarState& state, double z,
                         double radius_m);
+
+// The film's potential from the strain of an uncoupled body. It solves two smaller systems instead
+// of one,
+//   c S(u) = T(load),  then  div(eps grad phi) = div(e S(u)),
+// with a relative error of about k^2 of the film (eq. E2). `elastic` has no electrodes, but its
+// mesh contains the break at the electrode's edge; `electric` has the electrodes on the same mesh
+// and provides only its potentials. Capacitance and charge are those of a clamped film.
+// displacement_per_V_m stays 0. Throws std::invalid_argument unless the electric model has an
+// electrode with a radius.
+PiezoAnswer piezo_one_way(const PillarModel& elastic, const PillarModel& electric,
+                          double pressure_Pa);
+
+// The same with a charge-free face. Returns the unknowns of the electric model, for
+// potential_at_V().
+PillarState piezo_one_way_sampled(const PillarModel& elastic, const PillarModel& electric,
+                                  double pressure_Pa);
+
+// A round electrode divided into four quadrants along x and y, under loads along x. The motion of
+// the pillar, the field and the charge on the film's face then vary as cos(theta). Opposite halves
+// read opposite values, so one quadrant on the +x side is enough: its charge is int D r dr, because
+// int_0^(pi/2) cos(theta) = 1, and its mean voltage is 2/pi of the amplitude.
+struct QuadrantAnswer {
+  double charge_C = 0.0;  // all shorted: flows onto each of the two quadrants toward +x
+  // Of the top along +x, with 1 V on the halves toward +x and -1 V on the others.
+  double displacement_per_V_m = 0.0;
+  double top_displacement_m = 0.0;  // mean, all shorted
+  PillarState shorted;
+  PillarState driven_per_V;  // without force, 1 and -1 V on the halves
+};
+
+// Solution under a force along x on the top, for a lateral model whose electrode has a radius. A
+// potential of +-1 V on the two halves has the first harmonic 4/pi cos(theta); no other harmonic
+// moves the pillar as a whole. Under the force, with all quadrants shorted, there are no other
+// harmonics, so the gaps can be ignored. Throws std::invalid_argument for another model.
+QuadrantAnswer piezo_quadrants(const PillarModel& lateral, double force_N);
+
+// The same charge as a functional of a motion with all quadrants shorted: charge_C = row.dot(u)
+// without the entry of the electrode itself. `stiffness` is that of the model.
+Eigen::VectorXd quadrant_charge_row(const PillarModel& lateral, const SymmetricSparse& stiffness);
+
+// Mean over one quadrant (in the plane: the half toward +x) of the potential of a charge-free face.
+double quadrant_mean_V(const PillarModel& lateral, const PillarState& state, double z,
+                       double radius_m);
 
 }  // namespace viscard

@@ -1,4 +1,4 @@
-#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/body/pillar_model.h"
 
 #include <numbers>
 #include <stdexcept>

@@ -1,12 +1,10 @@
 #include "models/pillar/body/pillar_model.h"
 
-#include "models/pillar/body/rigid_pins.h"
-#include "models/pillar/mesh/number_text.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace viscard {
@@ -20,24 +18,26 @@ bool is_sideways(Motion motion) {
   return motion == Motion::kLateral || motion == Motion::kPlaneAntisymmetric;
 }
 
-bool is_plane(Motion motion) {
-  return motion == Motion::kPlaneSymmetric || motion == Motion::kPlaneAntisymmetric;
-}
+}  // namespace
 
-// The mesh needs a break at the electrode's edge.
-PillarGeometry with_electrode(PillarGeometry geometry, const ModelOptions& options) {
-  if (options.electrodes && geometry.film) {
-    geometry.film->electrode_radius_m = options.electrodes->electrode_radius_m;
-    geometry.film->electrode_is_below = options.electrodes->grounded == FilmFace::kTop;
+PillarGeometry with_electrode_edge(PillarGeometry geometry,
+                                   const std::optional<ElectrodeOptions>& electrodes) {
+  if (electrodes && geometry.film) {
+    geometry.film->electrode_radius_m = electrodes->electrode_radius_m;
+    geometry.film->electrode_is_below = electrodes->grounded == FilmFace::kTop;
   }
   return geometry;
 }
 
-}  // namespace
+PillarState operator*(double factor, PillarState state) {
+  state.unknowns *= factor;
+  state.pressure_source *= factor;
+  return state;
+}
 
 PillarModel::PillarModel(const PillarGeometry& geometry, const Discretisation& discretisation,
                          const PillarMedia& media, const ModelOptions& options)
-    : geometry_(with_electrode(geometry, options)),
+    : geometry_(with_electrode_edge(geometry, options.electrodes)),
       options_(options),
       mesh_(pillar_mesh(geometry_, discretisation)) {
   if (geometry.film.has_value() != media.film.has_value()) {
@@ -50,11 +50,10 @@ PillarModel::PillarModel(const PillarGeometry& geometry, const Discretisation& d
   if (media.film) media_.push_back(*media.film);
   Kinematics kinematics = kinematics_of(options.motion);
   if (options.electrodes) {
-    if (!media.film || !(media.film->permittivity_F_m(2, 2) > 0.0)) {
+    if (!media.film || !media.film->has_permittivity()) {
       throw std::invalid_argument("electrodes need a film with a permittivity");
     }
-    potential_scale_V_ =
-        std::sqrt(media.film->stiffness_Pa(2, 2) / media.film->permittivity_F_m(2, 2));
+    potential_scale_V_ = viscard::potential_scale_V(*media.film);
     kinematics = with_potential(kinematics, potential_scale_V_);
   }
   DofMap dofs = make_dofs(kinematics);
@@ -110,43 +109,36 @@ DofMap PillarModel::make_dofs(const Kinematics& kinematics) {
   return dofs;
 }
 
+bool PillarModel::is_plane_stress() const {
+  return options_.plane == PlaneState::kStress && (options_.motion == Motion::kPlaneSymmetric ||
+                                                   options_.motion == Motion::kPlaneAntisymmetric);
+}
+
 bool PillarModel::condenses_pressure(const Medium& medium) const {
-  const bool is_plane_stress = is_plane(options_.motion) && options_.plane == PlaneState::kStress;
   return medium.is_isotropic && medium.poisson_ratio >= options_.condense_pressures_from &&
-         !is_plane_stress;
+         !is_plane_stress();
+}
+
+double PillarModel::condensed_bulk_Pa(const Medium& medium) const {
+  if (!condenses_pressure(medium)) return 0.0;
+  return std::isinf(medium.bulk_Pa) ? kPenaltyOverShear * medium.shear_Pa : medium.bulk_Pa;
 }
 
 Eigen::MatrixXd PillarModel::elastic_form(const Medium& medium) const {
-  const bool is_plane_stress = is_plane(options_.motion) && options_.plane == PlaneState::kStress;
   if (condenses_pressure(medium)) return medium.shear_Pa * deviatoric_form();
-  if (options_.electrodes) {
-    const Eigen::MatrixXd form = coupled_form(medium);
-    return is_plane_stress ? plane_stress_moduli(form) : form;
-  }
-  if (!is_plane_stress) return medium.stiffness_Pa;
-  if (medium.poisson_ratio == 0.5) {  // E/(1 - nu^2) stays finite: condense 3-D moduli just below
-    return plane_stress_moduli(medium.shear_Pa * (deviatoric_form() + 1e12 * volumetric_form()));
-  }
-  return plane_stress_moduli(medium.stiffness_Pa);
+  return material_form(medium, options_.electrodes.has_value(), is_plane_stress());
 }
 
 SymmetricSparse PillarModel::stiffness() const {
-  const Kinematics& k = system_->kinematics();
+  const std::vector<OperatorRow> rows = system_->kinematics().strain_and_field();
+  const auto n = static_cast<Eigen::Index>(rows.size());
   std::vector<Eigen::MatrixXd> forms;
   std::vector<double> bulk_Pa;
   for (const Medium& medium : media_) {
     forms.push_back(elastic_form(medium));
-    const bool condensed = condenses_pressure(medium);
-    const double penalty_Pa = kPenaltyOverShear * medium.shear_Pa;
-    bulk_Pa.push_back(!condensed ? 0.0 : std::isinf(medium.bulk_Pa) ? penalty_Pa : medium.bulk_Pa);
-  }
-  std::vector<OperatorRow> rows = k.strain;
-  rows.insert(rows.end(), k.electric_field.begin(), k.electric_field.end());
-  for (Eigen::MatrixXd& form : forms) {  // an elastic region among electric ones
-    if (form.rows() < static_cast<Eigen::Index>(rows.size())) {
-      const auto n = static_cast<Eigen::Index>(rows.size());
-      form.conservativeResizeLike(Eigen::MatrixXd::Zero(n, n));
-    }
+    // An elastic region among electric ones.
+    if (forms.back().rows() < n) forms.back().conservativeResizeLike(Eigen::MatrixXd::Zero(n, n));
+    bulk_Pa.push_back(condensed_bulk_Pa(medium));
   }
   SymmetricSparse matrix = system_->form(rows, forms);
   const bool any = std::any_of(bulk_Pa.begin(), bulk_Pa.end(), [](double K) { return K > 0.0; });
@@ -183,6 +175,11 @@ Eigen::VectorXd PillarModel::top_traction() const {
   return system_->line_load(1, mesh_.top_row, 0, mesh_.pillar_columns);
 }
 
+double PillarModel::mean_top_displacement_m(const PillarState& state) const {
+  const Eigen::VectorXd traction = top_traction();
+  return traction.dot(state.unknowns) / traction.sum();
+}
+
 int PillarModel::electrode_dof() const {
   return electrode_handle_ < 0 ? -1 : system_->dofs().tied_dof(electrode_handle_);
 }
@@ -200,24 +197,20 @@ const SectionElement& PillarModel::element_at(double x, double z, int region) co
       }
     }
   }
-  throw std::invalid_argument("the point x = " + number_text(x * 1e6) + " um, z = " +
-                              number_text(z * 1e6) + " um does not lie in the body asked for");
+  throw std::invalid_argument("the point x = " + micrometres(x) + ", z = " + micrometres(z) +
+                              " does not lie in the body asked for");
 }
 
 Eigen::VectorXd PillarModel::stress_at(const PillarState& state, const SectionElement& element,
                                        double x, double z) const {
   const Medium& own = medium(element.region);
-  const Kinematics& k = system_->kinematics();
-  std::vector<OperatorRow> rows = k.strain;
-  if (options_.electrodes)
-    rows.insert(rows.end(), k.electric_field.begin(), k.electric_field.end());
+  const std::vector<OperatorRow> rows = system_->kinematics().strain_and_field();
   const Eigen::VectorXd at = system_->rows_at(rows, state.unknowns, element, x, z);
   const Eigen::MatrixXd form = elastic_form(own);
   Eigen::VectorXd stress = (form * at.head(form.cols())).head(6);
   if (condenses_pressure(own)) {
-    const double bulk_Pa = std::isinf(own.bulk_Pa) ? kPenaltyOverShear * own.shear_Pa : own.bulk_Pa;
-    stress.head(3).array() +=
-        bulk_Pa * system_->projected_divergence_at(state.pressure_source, element, x, z);
+    stress.head(3).array() += condensed_bulk_Pa(own) * system_->projected_divergence_at(
+                                                           state.pressure_source, element, x, z);
   }
   return stress;
 }

@@ -22,19 +22,23 @@ enum class PlaneState { kStrain, kStress };  // of the plane motions
 enum class FilmFace { kBottom, kTop };
 
 // The film's potential: one whole face is grounded. The other face has a disc (half-width in the
-// plane) as an electrode, or no electrode; then the potential is read at the points of interest.
+// plane) as an electrode, or carries no charge and its potential is read.
 struct ElectrodeOptions {
   FilmFace grounded = FilmFace::kTop;
   double electrode_radius_m = 0.0;  // 0: charge-free face
-  bool quadrants = false;           // cut along x and y: detects sideways loads (piezo_quadrants.h)
+  bool quadrants = false;           // cut along x and y: detects sideways loads (piezo_static.h)
 };
+
+// The film's mesh with the edge of its electrode, if there is one.
+PillarGeometry with_electrode_edge(PillarGeometry geometry,
+                                   const std::optional<ElectrodeOptions>& electrodes);
 
 struct ModelOptions {
   Motion motion = Motion::kLongitudinal;
   PlaneState plane = PlaneState::kStrain;
   bool fixed_bottom = true;
   // A free bottom in statics, under loads that balance themselves. Motion is relative to the middle
-  // of the bottom and, sideways, also to its rim, which stays level; see rigid_motion.h.
+  // of the bottom and, sideways, also to its rim, which stays level; see rigid_pins().
   bool pin_bottom = false;
   // A rigid plate without friction on the top. It ties the axial displacement; under sideways
   // motion the plate keeps the top upright and lets it slide.
@@ -53,6 +57,8 @@ struct PillarState {
   Eigen::VectorXd unknowns;
   Eigen::VectorXd pressure_source;  // its projected divergence gives the pressure, StiffnessFactor
 };
+
+PillarState operator*(double factor, PillarState state);
 
 // Mesh, unknowns and matrices of one pillar in one family of motion. Cannot be moved or copied.
 class PillarModel {
@@ -80,8 +86,10 @@ class PillarModel {
 
   // Force per unit pressure pulling along +z on the top; axial families only. N per Pa.
   Eigen::VectorXd top_traction() const;
-  int electrode_dof() const;  // -1: none
+  double mean_top_displacement_m(const PillarState& state) const;  // axial families only
+  int electrode_dof() const;                                       // -1: none
   double potential_scale_V() const { return potential_scale_V_; }
+  bool is_plane_stress() const;
 
   // Solution under the given forces, including the source of the pressures.
   PillarState solve(const Eigen::VectorXd& forces) const;
@@ -97,6 +105,7 @@ class PillarModel {
  private:
   DofMap make_dofs(const Kinematics& kinematics);
   bool condenses_pressure(const Medium& medium) const;
+  double condensed_bulk_Pa(const Medium& medium) const;  // or its penalty; 0: not condensed
   Eigen::MatrixXd elastic_form(const Medium& medium) const;
 
   PillarGeometry geometry_;
@@ -107,5 +116,40 @@ class PillarModel {
   int electrode_handle_ = -1;
   std::unique_ptr<DiscreteSystem> system_;
 };
+
+// Loads along the direction in which a family of motion moves the pillar as a whole: along its axis
+// for axial families, sideways (x) for lateral families. For a strip all forces are per metre of
+// thickness.
+
+// Area of the top, m^2; of a strip per metre, m.
+double top_area_m2(const PillarModel& model);
+
+// A pull of 1 N spread evenly over the top, so that load.u is the mean displacement of the top, m.
+// Throws std::invalid_argument for torsion and harmonics above 1, which do not move the pillar as a
+// whole.
+Eigen::VectorXd unit_top_force(const PillarModel& model);
+
+// Inertial force of an acceleration of 1 m/s^2 of the whole body, in N. If the bottom is shaken,
+// the motion relative to the bottom is that of a body under minus this force times the
+// acceleration. It also gives the participating mass: for a rigid motion of 1 m, load.u is the mass
+// in kg.
+Eigen::VectorXd unit_acceleration_force(const PillarModel& model);
+
+// Number of rigid motions of an unsupported body within one family of motion: along its axis
+// (longitudinal), about it (torsion), sideways and rocking (lateral), none (ovalling).
+int rigid_motion_count(Motion motion);
+
+// The rigid motions of a model whose bottom is free, as columns of its unknowns: 1 m along z or x,
+// and a rotation by 1 rad about the middle of the bottom. Meshes of degree 2 and more contain them
+// exactly.
+Eigen::MatrixXd rigid_motions(const PillarModel& model);
+
+// One held unknown per rigid motion (a field at the middle or at the rim of the bottom), so that
+// the statics of a free body under loads that balance themselves have a unique solution.
+struct RigidPin {
+  int field = 0;
+  bool at_rim = false;
+};
+std::vector<RigidPin> rigid_pins(Motion motion);
 
 }  // namespace viscard

@@ -1,9 +1,8 @@
 #include "models/pillar/body/pillar_modes.h"
 
 #include "models/maths/dense.h"
-#include "models/pillar/body/pillar_loads.h"
-#include "models/pillar/body/rigid_motion.h"
-#include "models/pillar/mesh/number_text.h"
+#include "models/maths/text_of_number.h"
+#include "models/pillar/body/pillar_model.h"
 #include "models/pillar/system/krylov_modes.h"
 
 #include <algorithm>
@@ -136,7 +135,7 @@ std::vector<PillarMode> modes_of(const PillarModel& model, const SymmetricSparse
   if (!pairs.converged) pairs = search_from_below(search, pairs, shift_1_s2, count);
   if (!pairs.converged) {
     throw std::runtime_error(
-        "the lowest modes did not converge; ask for fewer, or for a finer mesh");
+        "the lowest modes did not converge; ask for fewer modes or a finer mesh");
   }
   std::vector<PillarMode> modes;
   for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
@@ -169,6 +168,22 @@ struct BucklingPencil {
   }
 };
 
+// Buckling pressures of the pairs above `least`, empty if not converged, and that of the first mode
+// of the whole pillar.
+template <typename Pressure>
+Buckling found_among(const EigenPairs& pairs, const BucklingPencil& pencil, double least,
+                     const Pressure& pressure_of) {
+  Buckling result;
+  for (Eigen::Index i = 0; pairs.converged && i < pairs.values.size(); ++i) {
+    if (!(pairs.values[i] > least)) break;
+    result.pressures_Pa.push_back(pressure_of(pairs.values[i]));
+    if (result.pressure_Pa == 0.0 && pencil.is_of_the_pillar(pairs.vectors.col(i))) {
+      result.pressure_Pa = result.pressures_Pa.back();
+    }
+  }
+  return result;
+}
+
 // Modes of largest theta in [K + shift K_sigma]^-1 K v = theta v, p = shift/(1 - 1/theta): the
 // modes above the shift, ascending. Marks the pillar's own mode if it is among them.
 Buckling buckling_above(const BucklingPencil& pencil, double shift_Pa, int count) {
@@ -180,17 +195,10 @@ Buckling buckling_above(const BucklingPencil& pencil, double shift_Pa, int count
   const PencilMap op = [&](const Eigen::VectorXd&, const Eigen::VectorXd& Kx) {
     return factor.solve(Kx);
   };
-  Buckling result;
   const EigenPairs pairs =
       largest_eigenpairs(op, B, pencil.lateral.system().size(), count, {.tolerance = 1e-6});
-  if (!pairs.converged) return result;
-  for (Eigen::Index i = 0; i < pairs.values.size() && pairs.values[i] > 1.0; ++i) {
-    result.pressures_Pa.push_back(shift_Pa / (1.0 - 1.0 / pairs.values[i]));
-    if (result.pressure_Pa == 0.0 && pencil.is_of_the_pillar(pairs.vectors.col(i))) {
-      result.pressure_Pa = result.pressures_Pa.back();
-    }
-  }
-  return result;
+  return found_among(pairs, pencil, 1.0,
+                     [&](double theta) { return shift_Pa / (1.0 - 1.0 / theta); });
 }
 
 // Leaves the pressure unset if no mode of the whole pillar is found.
@@ -202,29 +210,22 @@ Buckling search_buckling(const PillarModel& axial, const PillarModel& lateral, i
   const Eigen::VectorXd bent = factor.solve(pencil.side);
   pencil.side_compliance = pencil.side.dot(bent);
   const LinearMap B = [&](const Eigen::VectorXd& x) { return times(pencil.stiffness, x); };
-  const LinearMap op = [&](const Eigen::VectorXd& x) {
+  const PencilMap op = [&](const Eigen::VectorXd& x, const Eigen::VectorXd&) {
     return factor.solve(-times(pencil.stress, x));
   };
   // The error of the buckling factor is the square of the residual; a stiff volume leaves some
   // rounding noise in the residual.
   const EigenPairs pairs =
       largest_eigenpairs(op, B, lateral.system().size(), count, {.tolerance = 1e-6});
-  Buckling result;
-  for (Eigen::Index i = 0; pairs.converged && i < pairs.values.size() && pairs.values[i] > 0.0;
-       ++i) {
-    result.pressures_Pa.push_back(1.0 / pairs.values[i]);
-    if (result.pressure_Pa == 0.0 && pencil.is_of_the_pillar(pairs.vectors.col(i))) {
-      result.pressure_Pa = result.pressures_Pa.back();
-    }
-  }
+  Buckling result = found_among(pairs, pencil, 0.0, [](double value) { return 1.0 / value; });
   if (result.pressure_Pa > 0.0) return result;
   // The Rayleigh quotient of the pillar bent by a side force lies above its buckling pressure. A
   // search that starts a little below the quotient avoids local modes far below it.
   const double quotient_Pa = -pencil.side_compliance / bent.dot(times(pencil.stress, bent));
   for (const double share : {0.9, 0.8, 0.6, 0.4}) {
     if (!(quotient_Pa > 0.0)) break;
-    const Buckling above = buckling_above(pencil, share * quotient_Pa, std::max(count, kMostModes));
-    result.pressure_Pa = above.pressure_Pa;
+    result.pressure_Pa =
+        buckling_above(pencil, share * quotient_Pa, std::max(count, kMostModes)).pressure_Pa;
     if (result.pressure_Pa > 0.0) return result;
   }
   return result;
@@ -236,19 +237,18 @@ Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int coun
   const Buckling found = search_buckling(axial, lateral, count);
   if (found.pressure_Pa > 0.0) return found;
   throw std::runtime_error(
-      "no buckling load of the pillar as a whole could be told from local modes at the rim of the "
-      "bond: a stubby pillar does not buckle sideways; of a slender one ask with a larger "
-      "tolerance");
+      "no buckling load of the whole pillar was found beside local modes at the rim of the bond. A "
+      "stubby pillar does not buckle sideways; for a slender one ask for a larger tolerance");
 }
 
 std::vector<PillarMode> modes_under_pressure(const PillarModel& axial, const PillarModel& lateral,
                                              double pressure_Pa, int count) {
   const double critical_Pa = search_buckling(axial, lateral, 1).pressure_Pa;
   if (critical_Pa > 0.0 && pressure_Pa >= critical_Pa) {
-    throw std::runtime_error("a pressure of " + number_text(pressure_Pa, 5) +
+    throw std::runtime_error("a pressure of " + text_of(pressure_Pa, 5) +
                              " Pa on the top is beyond the buckling pressure of " +
-                             number_text(critical_Pa, 5) +
-                             " Pa: the straight pillar has no stable state to vibrate about");
+                             text_of(critical_Pa, 5) +
+                             " Pa; reduce it, because vibrations need a stable straight pillar");
   }
   SymmetricSparse stiffness = lateral.stiffness();
   stiffness.coeffs() += pressure_Pa * stress_stiffness_per_Pa(axial, lateral).coeffs();

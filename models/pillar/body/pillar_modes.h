@@ -17,9 +17,9 @@ struct PillarMode {
 // converge.
 std::vector<PillarMode> lowest_modes(const PillarModel& model, int count);
 
-// Load, as a multiple of `unit_pressure_Pa` on the top, at which the straight pillar buckles
-// sideways (linear buckling with the full stress field of the loaded pillar, dead load):
-//   (K + factor K_sigma) v = 0, K_sigma = int sigma_ij (d_i u_k)(d_j u_k) dV   (eq. 21)
+// Pressure on the top at which the straight pillar buckles sideways (linear buckling with the full
+// stress field of the loaded pillar, dead load):
+//   (K + p K_sigma) v = 0, K_sigma = int sigma_ij (d_i u_k)(d_j u_k) dV   (eq. 21)
 // Source: Washizu, Variational Methods in Elasticity and Plasticity (1982), ch. 5.
 // The axial model provides the stresses; the lateral one must have the same mesh. Modes localised
 // at the singular rim of the bond are skipped: the pillar's own mode is the lowest one that has

@@ -1,4 +1,4 @@
-#include "models/pillar/body/rigid_motion.h"
+#include "models/pillar/body/pillar_model.h"
 
 #include <functional>
 
@@ -12,12 +12,9 @@ struct RigidPart {
 };
 using RigidMotion = std::vector<RigidPart>;
 
-double one(double, double) {
-  return 1.0;
-}
-
 // Sideways by 1 m: u_x = 1 is b = 2 (eq. 12). A rotation is u_x = height, u_z = -x.
 std::vector<RigidMotion> motions_of(Motion motion) {
+  const auto one = [](double, double) { return 1.0; };
   const auto back = [](double x, double) { return -x; };
   switch (motion) {
     case Motion::kLongitudinal:
@@ -60,6 +57,23 @@ Eigen::MatrixXd rigid_motions(const PillarModel& model) {
     }
   }
   return columns;
+}
+
+std::vector<RigidPin> rigid_pins(Motion motion) {
+  switch (motion) {
+    case Motion::kLongitudinal:
+    case Motion::kPlaneSymmetric:
+      return {{1, false}};
+    case Motion::kTorsion:
+      return {{0, true}};
+    case Motion::kLateral:
+      return {{1, false}, {2, true}};
+    case Motion::kPlaneAntisymmetric:
+      return {{0, false}, {1, true}};
+    case Motion::kOvalling:
+      return {};
+  }
+  return {};
 }
 
 }  // namespace viscard

@@ -1,7 +1,7 @@
 #include "models/pillar/mesh/line_mesh.h"
 
 #include "models/maths/gauss_legendre.h"
-#include "models/pillar/mesh/number_text.h"
+#include "models/maths/require.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,23 +13,14 @@
 namespace viscard {
 
 std::vector<double> lobatto_points(int degree) {
-  if (degree < 1 || degree > 20) {
-    throw std::invalid_argument("element degree is " + std::to_string(degree) +
-                                "; it must lie between 1 and 20");
-  }
+  require_value(degree >= 1 && degree <= 20, "element degree", degree, "", "from 1 to 20");
   std::vector<double> points;
   for (int i = 0; i <= degree; ++i) {
     // Newton's method for (1 - x^2) P_p'(x) = 0 from the Chebyshev-Lobatto points; the ends are
     // fixed.
     double x = -std::cos(std::numbers::pi * i / degree);
     for (int iteration = 0; iteration < 100; ++iteration) {
-      double previous = 1.0;
-      double value = x;
-      for (int n = 2; n <= degree; ++n) {
-        const double next = ((2.0 * n - 1.0) * x * value - (n - 1.0) * previous) / n;
-        previous = value;
-        value = next;
-      }
+      const auto [value, previous] = legendre_pair(degree, x);
       const double step = (x * value - previous) / ((degree + 1.0) * value);
       x -= step;
       if (std::abs(step) < 1e-16) break;
@@ -77,9 +68,8 @@ Eigen::MatrixXd legendre_values(int degree, const std::vector<double>& points) {
 }
 
 std::vector<double> graded_breaks(double a, double b, int n, double ratio, bool toward_end) {
-  if (n < 1 || !(ratio > 0.0 && ratio <= 1.0)) {
-    throw std::invalid_argument("grading needs at least one element and a ratio in (0, 1]");
-  }
+  require(n >= 1 && ratio > 0.0 && ratio <= 1.0,
+          "grading needs at least one element and a ratio in (0, 1]");
   std::vector<double> breaks;
   for (int i = 0; i <= n; ++i) {
     const int k = toward_end ? i : n - i;
@@ -93,15 +83,29 @@ std::vector<double> graded_breaks(double a, double b, int n, double ratio, bool 
   return breaks;
 }
 
+void append_breaks(std::vector<double>& breaks, const std::vector<double>& more) {
+  const double same = more.empty() ? 0.0 : 1e-9 * std::abs(more.back() - more.front());
+  for (const double x : more) {
+    if (breaks.empty() || x > breaks.back() + same) breaks.push_back(x);
+  }
+}
+
+bool insert_break(std::vector<double>& breaks, double at) {
+  const double near = 1e-9 * (breaks.back() - breaks.front());
+  const bool is_there =
+      std::any_of(breaks.begin(), breaks.end(), [&](double b) { return std::abs(b - at) <= near; });
+  if (!is_there) breaks.insert(std::upper_bound(breaks.begin(), breaks.end(), at), at);
+  return !is_there;
+}
+
 LineMesh::LineMesh(std::vector<double> breaks, int degree)
     : degree_(degree), breaks_(std::move(breaks)), reference_nodes_(lobatto_points(degree)) {
-  if (breaks_.size() < 2) throw std::invalid_argument("a line of elements needs two breaks");
+  require(breaks_.size() >= 2, "a line of elements needs two breaks");
   for (std::size_t i = 1; i < breaks_.size(); ++i) {
-    if (!(breaks_[i] > breaks_[i - 1])) {
-      throw std::invalid_argument("element " + std::to_string(i) + " from " +
-                                  number_text(breaks_[i - 1]) + " to " + number_text(breaks_[i]) +
-                                  " m has no positive length");
-    }
+    if (breaks_[i] > breaks_[i - 1]) continue;
+    throw std::invalid_argument("element " + std::to_string(i) + " from " +
+                                text_of(breaks_[i - 1]) + " to " + text_of(breaks_[i]) +
+                                " m has no positive length");
   }
   // p + 1 points integrate r N N exactly; three more are for the 1/r of elements away from the
   // axis.

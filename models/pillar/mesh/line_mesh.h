@@ -25,6 +25,11 @@ Eigen::MatrixXd legendre_values(int degree, const std::vector<double>& points);
 // (toward a if toward_end is false).
 std::vector<double> graded_breaks(double a, double b, int n, double ratio, bool toward_end);
 
+// Appends the breaks that lie beyond the last one.
+void append_breaks(std::vector<double>& breaks, const std::vector<double>& more);
+// Inserts a break and returns true, unless one is there already.
+bool insert_break(std::vector<double>& breaks, double at);
+
 // Elements of degree p on the intervals between breaks: one direction of a tensor-product mesh.
 // Nodes are numbered along the line, p per element and one at the end.
 class LineMesh {

@@ -1,4 +1,4 @@
-#include "models/pillar/mesh/mesh_sequence.h"
+#include "models/pillar/mesh/pillar_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +25,20 @@ std::vector<Discretisation> mesh_sequence(const PillarGeometry& geometry) {
                       .layers = layers,
                       .shaft_elements = shaft_elements,
                       .film_elements = film_elements});
+  }
+  return meshes;
+}
+
+std::vector<Discretisation> refinements_to(const Discretisation& finest) {
+  std::vector<Discretisation> meshes;
+  for (int coarser = 2; coarser >= 0; --coarser) {
+    Discretisation mesh = finest;
+    if (finest.uniform_m > 0.0) {
+      mesh.uniform_m *= std::pow(2.0, coarser);
+    } else {
+      mesh.degree -= coarser;
+    }
+    meshes.push_back(mesh);
   }
   return meshes;
 }

@@ -1,10 +1,9 @@
 #include "models/pillar/mesh/section.h"
 
-#include "models/pillar/mesh/number_text.h"
+#include "models/maths/require.h"
 
 #include <cmath>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace viscard {
@@ -18,9 +17,7 @@ double middle(const LineMesh& line, int element) {
 
 Section::Section(LineMesh x, LineMesh z, const std::function<int(double, double)>& region_at)
     : x_(std::move(x)), z_(std::move(z)) {
-  if (x_.degree() != z_.degree()) {
-    throw std::invalid_argument("both directions of a section must have one element degree");
-  }
+  require(x_.degree() == z_.degree(), "both directions of a section must have one element degree");
   const int p = degree();
   node_.assign(
       static_cast<std::size_t>(x_.node_count()) * static_cast<std::size_t>(z_.node_count()), -1);
@@ -45,7 +42,7 @@ Section::Section(LineMesh x, LineMesh z, const std::function<int(double, double)
       elements_.push_back(std::move(element));
     }
   }
-  if (elements_.empty()) throw std::invalid_argument("the section has no material anywhere");
+  require(!elements_.empty(), "the section has no material anywhere");
 }
 
 void Section::stretch(int region, std::function<Stretch(double)> of_height) {
@@ -57,8 +54,8 @@ void Section::stretch(int region, std::function<Stretch(double)> of_height) {
       const double scale = of_height(node_z_[node]).scale;
       if (!(scale > 0.0) || !std::isfinite(scale)) {
         throw std::invalid_argument(
-            "the outline shrinks to nothing at z = " + number_text(node_z_[node] * 1e6) +
-            " um: elements would be turned inside out there");
+            "the outline shrinks to nothing at z = " + micrometres(node_z_[node]) +
+            ": elements would be turned inside out there");
       }
       if (!is_done[node]) node_x_[node] *= scale;
       is_done[node] = true;

@@ -18,14 +18,11 @@ LoadPlace load_place(const PillarScene& scene) {
       LoadPlace::kTop);
 }
 
-LoadDirection load_direction(const PillarScene& scene) {
-  return part_of(
-      scene.drive, [](const auto& d) requires requires { d.direction; } { return d.direction; },
-      LoadDirection::kAxial);
-}
-
 bool is_lateral(const PillarScene& scene) {
-  return load_direction(scene) == LoadDirection::kLateral;
+  return part_of(
+             scene.drive,
+             [](const auto& d) requires requires { d.direction; } { return d.direction; },
+             LoadDirection::kAxial) == LoadDirection::kLateral;
 }
 
 double pressure_Pa(const PillarScene& scene) {
@@ -67,6 +64,11 @@ bool has_history(const PillarScene& scene) {
 const std::vector<HistoryPoint>& history(const PillarScene& scene) {
   static const std::vector<HistoryPoint> kNone;
   return *part_of(scene.drive, kReadHistory, &kNone);
+}
+
+double free_face_m(const PillarScene& scene) {
+  const bool is_top = scene.electrodes->grounded == FilmFace::kBottom;
+  return is_top ? 0.0 : -scene.geometry.film->thickness_m;
 }
 
 }  // namespace viscard

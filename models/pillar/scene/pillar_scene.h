@@ -1,27 +1,16 @@
 #pragma once
 
 #include "models/pillar/body/piezo_static.h"
-#include "models/pillar/scene/buckling_drive.h"
-#include "models/pillar/scene/creep_drive.h"
-#include "models/pillar/scene/harmonic_drive.h"
-#include "models/pillar/scene/modal_drive.h"
-#include "models/pillar/scene/relaxation_drive.h"
-#include "models/pillar/scene/static_drive.h"
-#include "models/pillar/scene/transient_drive.h"
+#include "models/pillar/scene/pillar_drives.h"
 #include "models/pillar/time/readout.h"
 #include "models/scene/common/scene_common.h"
 
 #include <optional>
-#include <variant>
 #include <vector>
 
 namespace viscard {
 
-// What is done to a pillar: one alternative for each analysis (analyses/analysis.h).
-using PillarDrive = std::variant<StaticDrive, ModalDrive, BucklingDrive, RelaxationDrive,
-                                 CreepDrive, HarmonicDrive, TransientDrive>;
-
-// One pillar, what is done to it, and how well the answer must be known.
+// One pillar, its drive, and the accuracy of the answer.
 struct PillarScene : SceneCommon {
   PillarGeometry geometry;
   std::optional<Medium> film;
@@ -32,12 +21,12 @@ struct PillarScene : SceneCommon {
   // modes, not its rigid motions, and how a voltage moves the top relative to the middle of the
   // bottom.
   bool fixed_bottom = true;
-  std::optional<Readout> readout;  // what the electrode is wired to; none: open circuit
+  std::optional<Readout> readout;  // the circuit on the electrode; none: open
 
   PillarDrive drive;
   std::optional<Discretisation> discretisation;  // finest mesh; none: the tolerance decides
 
-  // Set by the plan (models/scene/plan.h) for effects that are left out or insisted on:
+  // Set by the plan (models/scene/plan.h) for effects that are left out or forced on:
   double condense_pressures_from = kNearlyIncompressible;  // Poisson ratio
   bool one_way_potential = false;  // the film's potential follows its strain and does not act back
 
@@ -47,7 +36,6 @@ struct PillarScene : SceneCommon {
 
 // Parts of the drive; zero, empty or the default if the drive has no such part.
 LoadPlace load_place(const PillarScene& scene);
-LoadDirection load_direction(const PillarScene& scene);
 bool is_lateral(const PillarScene& scene);
 double pressure_Pa(const PillarScene& scene);  // at rest or amplitude; lateral: shear
 std::optional<double> displacement_m(const PillarScene& scene);
@@ -56,5 +44,8 @@ double drive_V(const PillarScene& scene);
 bool plate_on_top(const PillarScene& scene);
 bool has_history(const PillarScene& scene);
 const std::vector<HistoryPoint>& history(const PillarScene& scene);
+
+// Height of the film's face that is not grounded; only with electrodes.
+double free_face_m(const PillarScene& scene);
 
 }  // namespace viscard

@@ -15,7 +15,7 @@ namespace viscard {
 using SymmetricSparse = Eigen::SparseMatrix<double>;
 
 // Quadratic forms over a section (eq. 13):
-//  sum_ij D_ij int row_i(u) row_j(v) measure x^x_power dx dz,
+//   sum_ij D_ij int row_i(u) row_j(v) measure x^x_power dx dz,
 // assembled element by element from Kronecker products of one-dimensional matrices. All matrices of
 // one system share one sparsity pattern, so their stored values may be added directly.
 class DiscreteSystem {
@@ -39,8 +39,7 @@ class DiscreteSystem {
   SymmetricSparse volume_form(const std::vector<double>& per_region, bool projected) const;
 
   // int value(field) over the part of the horizontal line z = breaks[row] between the columns
-  // [first, last), evaluated in the elements below the line (from_below) or above it: force per
-  // unit traction, m^2.
+  // [first, last): force per unit traction, m^2.
   Eigen::VectorXd line_load(int field, int break_row, int first_column, int last_column) const;
 
   // rows(u) at one point (x, z) of the body, which must lie in the element.
@@ -63,6 +62,9 @@ class DiscreteSystem {
  private:
   void order_elements();
   void build_pattern();
+  // Values on element_dofs(), 0 where held.
+  Eigen::VectorXd element_values(const SectionElement& element,
+                                 const Eigen::VectorXd& solution) const;
   // Adds an element matrix to a matrix of this system; only its lower triangle is read.
   void scatter(std::size_t element, const Eigen::MatrixXd& local, SymmetricSparse& matrix) const;
   // int L (div N) and int L L of one element, L the Legendre products of Q_(p-2).

@@ -2,6 +2,8 @@
 // stretched elements and values at single points.
 #include "models/pillar/system/discrete_system.h"
 
+#include <algorithm>
+
 namespace viscard {
 namespace {
 
@@ -128,11 +130,7 @@ Eigen::VectorXd DiscreteSystem::rows_at(const std::vector<OperatorRow>& rows,
   const BasisValues in_z = section_->z().basis_at(element.row, z);
   const PointBasis at = point_basis<Eigen::RowVectorXd>(xi, stretch, in_x.value, in_x.derivative,
                                                         in_z.value, in_z.derivative);
-  const std::vector<int> dofs = element_dofs(element);
-  Eigen::VectorXd local = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(dofs.size()));
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    if (dofs[i] >= 0) local[static_cast<Eigen::Index>(i)] = solution[dofs[i]];
-  }
+  const Eigen::VectorXd local = element_values(element, solution);
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), local.size());
   fill_rows(rows, at, B);
   return B * local;

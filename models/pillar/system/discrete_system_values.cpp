@@ -7,15 +7,21 @@
 
 namespace viscard {
 
-double DiscreteSystem::projected_divergence_at(const Eigen::VectorXd& solution,
-                                               const SectionElement& element, double x,
-                                               double z) const {
-  const Projection p = projection(element);
+Eigen::VectorXd DiscreteSystem::element_values(const SectionElement& element,
+                                               const Eigen::VectorXd& solution) const {
   const std::vector<int> dofs = element_dofs(element);
   Eigen::VectorXd local = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(dofs.size()));
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     if (dofs[i] >= 0) local[static_cast<Eigen::Index>(i)] = solution[dofs[i]];
   }
+  return local;
+}
+
+double DiscreteSystem::projected_divergence_at(const Eigen::VectorXd& solution,
+                                               const SectionElement& element, double x,
+                                               double z) const {
+  const Projection p = projection(element);
+  const Eigen::VectorXd local = element_values(element, solution);
   const Eigen::VectorXd coefficient =
       SymmetricFactor(p.mass).solve(Eigen::VectorXd(p.divergence * local));
   const auto along = [&](const LineMesh& line, int e, double at) {

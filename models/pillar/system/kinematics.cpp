@@ -61,6 +61,12 @@ Kinematics plane_kinematics(bool is_symmetric) {
 
 }  // namespace
 
+std::vector<OperatorRow> Kinematics::strain_and_field() const {
+  std::vector<OperatorRow> rows = strain;
+  rows.insert(rows.end(), electric_field.begin(), electric_field.end());
+  return rows;
+}
+
 Kinematics fourier_kinematics(int harmonic) {
   if (harmonic < 1) throw std::invalid_argument("the Fourier family starts at harmonic 1");
   const double m = harmonic;

@@ -33,6 +33,8 @@ struct Kinematics {
   OperatorRow divergence;                   // xx + yy + zz
   std::vector<OperatorRow> electric_field;  // 3: -grad phi; empty without a potential
   int potential_field = -1;
+
+  std::vector<OperatorRow> strain_and_field() const;  // [strain; electric field]
   // Fields that vanish on x = 0: on an axis because the displacement is smooth (eq. 12), in a plane
   // by symmetry.
   std::vector<int> zero_on_axis;
@@ -51,9 +53,8 @@ enum class Motion {
 Kinematics kinematics_of(Motion motion);
 Kinematics fourier_kinematics(int harmonic);  // any m >= 1; otherwise throws std::invalid_argument
 
-// The same family with an electric potential as its last field, in units of scale_V. A scale of
-// sqrt(stiffness/permittivity) times a length of 1 m makes the blocks of the matrix comparable;
-// without it elimination loses all digits.
+// The same family with an electric potential as its last field, in units of scale_V
+// (potential_scale_V() in medium.h); without such a scale elimination loses all digits.
 Kinematics with_potential(Kinematics kinematics, double scale_V);
 
 }  // namespace viscard

@@ -113,14 +113,6 @@ EigenPairs all_eigenpairs(const PencilMap& op, const LinearMap& B, int size) {
 
 }  // namespace
 
-EigenPairs largest_eigenpairs(const LinearMap& op, const LinearMap& B, int size, int count,
-                              const KrylovOptions& options) {
-  const PencilMap of_both = [&op](const Eigen::VectorXd& x, const Eigen::VectorXd&) {
-    return op(x);
-  };
-  return largest_eigenpairs(of_both, B, size, count, options);
-}
-
 EigenPairs largest_eigenpairs(const PencilMap& op, const LinearMap& B, int size, int count,
                               const KrylovOptions& options) {
   if (count < 1 || count > size) {

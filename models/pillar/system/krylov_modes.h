@@ -29,7 +29,5 @@ struct KrylovOptions {
 // Throws std::invalid_argument for count < 1 or > size.
 EigenPairs largest_eigenpairs(const PencilMap& op, const LinearMap& B, int size, int count,
                               const KrylovOptions& options = {});
-EigenPairs largest_eigenpairs(const LinearMap& op, const LinearMap& B, int size, int count,
-                              const KrylovOptions& options = {});
 
 }  // namespace viscard

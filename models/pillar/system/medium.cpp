@@ -1,23 +1,17 @@
 #include "models/pillar/system/medium.h"
 
 #include "models/maths/dense.h"
-#include "models/pillar/mesh/number_text.h"
+#include "models/maths/require.h"
+
+#include <Eigen/LU>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
-#include <string>
 
 namespace viscard {
 namespace {
-
-void require_density(double rho_kg_m3) {
-  if (!(rho_kg_m3 >= 0.0) || !std::isfinite(rho_kg_m3)) {
-    throw std::invalid_argument("density is " + number_text(rho_kg_m3) +
-                                " kg/m3; it must not be negative");
-  }
-}
 
 // Rotates Voigt stresses about z (Auld, Acoustic Fields and Waves in Solids (1973), ch. 3); strains
 // rotate with the inverse transpose.
@@ -32,8 +26,39 @@ Matrix6d stress_rotation(double angle) {
 
 }  // namespace
 
+Matrix6d deviatoric_form() {
+  Matrix6d form = Matrix6d::Zero();
+  form.topLeftCorner<3, 3>().setConstant(-2.0 / 3.0);
+  form.diagonal() << 4.0 / 3.0, 4.0 / 3.0, 4.0 / 3.0, 1.0, 1.0, 1.0;
+  return form;
+}
+
+Matrix6d volumetric_form() {
+  Matrix6d form = Matrix6d::Zero();
+  form.topLeftCorner<3, 3>().setOnes();
+  return form;
+}
+
+Matrix6d inverse(const Matrix6d& matrix) {
+  return matrix.inverse();
+}
+
+Matrix6d isotropic_moduli_Pa(double young_modulus_Pa, double poisson_ratio) {
+  require_positive("Young's modulus", young_modulus_Pa, "Pa");
+  require_value(poisson_ratio > -1.0 && poisson_ratio < 0.5, "Poisson ratio", poisson_ratio, "",
+                "between -1 and 0.5 here");
+  return young_modulus_Pa / (2.0 * (1.0 + poisson_ratio)) * deviatoric_form() +
+         young_modulus_Pa / (3.0 * (1.0 - 2.0 * poisson_ratio)) * volumetric_form();
+}
+
+Eigen::MatrixXd plane_stress_moduli(const Eigen::MatrixXd& moduli) {
+  constexpr Eigen::Index kThick = 1;  // yy
+  require(moduli(kThick, kThick) > 0.0, "plane stress needs a positive modulus across the plane");
+  return moduli - moduli.col(kThick) * moduli.row(kThick) / moduli(kThick, kThick);
+}
+
 Medium isotropic_medium(double young_modulus_Pa, double poisson_ratio, double rho_kg_m3) {
-  require_density(rho_kg_m3);
+  require_not_negative("density", rho_kg_m3, "kg/m3");
   Medium medium;
   medium.rho_kg_m3 = rho_kg_m3;
   medium.is_isotropic = true;
@@ -52,7 +77,7 @@ Medium isotropic_medium(double young_modulus_Pa, double poisson_ratio, double rh
 
 Medium piezo_medium(const Matrix6d& stiffness_Pa, const PiezoMatrix& charge_C_N,
                     const Eigen::Matrix3d& permittivity_stress_F_m, double rho_kg_m3) {
-  require_density(rho_kg_m3);
+  require_not_negative("density", rho_kg_m3, "kg/m3");
   Medium medium;
   medium.rho_kg_m3 = rho_kg_m3;
   medium.stiffness_Pa = stiffness_Pa;
@@ -67,8 +92,7 @@ Medium piezo_medium(const Matrix6d& stiffness_Pa, const PiezoMatrix& charge_C_N,
   if (!Cholesky(medium.permittivity_F_m).is_definite()) {
     throw std::invalid_argument(
         "the piezoelectric constants are too large for the permittivity: no stable medium has "
-        "them. "
-        "Check the units of d (C/N) and the relative permittivity");
+        "them. Check the units of d (C/N) and the relative permittivity");
   }
   return medium;
 }
@@ -101,6 +125,21 @@ Eigen::MatrixXd coupled_form(const Medium& medium) {
   form << medium.stiffness_Pa, -medium.piezo_C_m2.transpose(), -medium.piezo_C_m2,
       -medium.permittivity_F_m;
   return form;
+}
+
+Eigen::MatrixXd material_form(const Medium& medium, bool is_electric, bool is_plane_stress) {
+  const Eigen::MatrixXd form =
+      is_electric ? coupled_form(medium) : Eigen::MatrixXd(medium.stiffness_Pa);
+  if (!is_plane_stress) return form;
+  // E/(1 - nu^2) is finite at nu = 0.5, K is not: condense three-dimensional moduli just below.
+  if (!is_electric && medium.is_isotropic && medium.poisson_ratio == 0.5) {
+    return plane_stress_moduli(medium.shear_Pa * (deviatoric_form() + 1e12 * volumetric_form()));
+  }
+  return plane_stress_moduli(form);
+}
+
+double potential_scale_V(const Medium& film) {
+  return std::sqrt(film.stiffness_Pa(2, 2) / film.permittivity_F_m(2, 2));
 }
 
 }  // namespace viscard

@@ -1,10 +1,22 @@
 #pragma once
 
-#include "models/pillar/system/elastic_moduli.h"
-
 #include <Eigen/Core>
 
 namespace viscard {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+// Voigt order xx yy zz yz xz xy with engineering shears throughout (eq. 15).
+// An isotropic solid is G * deviatoric_form() + K * volumetric_form().
+Matrix6d deviatoric_form();
+Matrix6d volumetric_form();
+Matrix6d inverse(const Matrix6d& matrix);
+// Pa. Throws std::invalid_argument unless E > 0 and -1 < nu < 0.5.
+Matrix6d isotropic_moduli_Pa(double young_modulus_Pa, double poisson_ratio);
+
+// Condenses sigma_yy = 0 out of the moduli: the yy row and column become zero. Works for any linear
+// medium; in a 9 x 9 matrix with piezoelectric rows appended, those rows are condensed as well.
+Eigen::MatrixXd plane_stress_moduli(const Eigen::MatrixXd& moduli);
 
 // Poisson ratio from which pressures are condensed (eq. 14), because stresses from displacements
 // alone become wrong through locking.
@@ -27,6 +39,7 @@ struct Medium {
   double poisson_ratio = 0.0;
 
   bool is_piezoelectric() const { return !piezo_C_m2.isZero(0.0); }
+  bool has_permittivity() const { return permittivity_F_m(2, 2) > 0.0; }
 };
 
 // Throws std::invalid_argument unless E > 0, -1 < nu <= 0.5 and rho >= 0. At nu = 0.5 stiffness_Pa
@@ -48,6 +61,12 @@ Medium averaged_about_z(const Medium& medium);
 
 // The 9 x 9 form [c, -e^t; -e, -eps] for rows [strain; electric field] with E = -grad phi.
 Eigen::MatrixXd coupled_form(const Medium& medium);
+// The form for rows of strain or, if electric, [strain; electric field].
+Eigen::MatrixXd material_form(const Medium& medium, bool is_electric, bool is_plane_stress);
+
+// Unit of the potential in which the elastic and the electric entries of the form have one size
+// (times a length of 1 m): sqrt(stiffness/permittivity).
+double potential_scale_V(const Medium& film);
 
 constexpr double kVacuumPermittivity_F_m = 8.8541878128e-12;  // CODATA 2018
 

@@ -43,9 +43,7 @@ void StiffnessFactor::factor(const SymmetricSparse& matrix) {
   }
   if (!ldlt_.factor(matrix)) {
     throw std::runtime_error(
-        "the stiffness matrix is singular: a part of the body is neither held nor joined to one "
-        "that "
-        "is, or a modulus is zero");
+        "the stiffness matrix is singular: a part of the body is not held, or a modulus is zero");
   }
 }
 

@@ -149,44 +149,33 @@ bool SupernodalFactor::factor(const Sparse& lower) {
 
 Eigen::VectorXd SupernodalFactor::solve(const Eigen::VectorXd& right_side) const {
   Eigen::VectorXd x(right_side.size());
-  for (std::size_t i = 0; i < position_.size(); ++i)
-    x[position_[i]] = right_side[static_cast<Eigen::Index>(i)];
+  x(position_) = right_side;
   Eigen::VectorXd outside;
   for (const Block& block : blocks_) {
     auto own = x.segment(block.first, block.count);
     block.L.topRows(block.count).triangularView<Eigen::UnitLower>().solveInPlace(own);
     outside.noalias() = block.L.bottomRows(block.L.rows() - block.count) * own;
-    for (std::size_t i = 0; i < block.rows.size(); ++i)
-      x[block.rows[i]] -= outside[static_cast<Eigen::Index>(i)];
+    x(block.rows) -= outside;
   }
   x.array() /= pivots_.array();
   for (auto block = blocks_.rbegin(); block != blocks_.rend(); ++block) {
     auto own = x.segment(block->first, block->count);
-    outside.resize(static_cast<Eigen::Index>(block->rows.size()));
-    for (std::size_t i = 0; i < block->rows.size(); ++i)
-      outside[static_cast<Eigen::Index>(i)] = x[block->rows[i]];
+    outside = x(block->rows);
     own.noalias() -= block->L.bottomRows(outside.size()).transpose() * outside;
     block->L.topRows(block->count).transpose().triangularView<Eigen::UnitUpper>().solveInPlace(own);
   }
-  Eigen::VectorXd solution(right_side.size());
-  for (std::size_t i = 0; i < position_.size(); ++i)
-    solution[static_cast<Eigen::Index>(i)] = x[position_[i]];
-  return solution;
+  return x(position_);
 }
 
 Eigen::MatrixXd SupernodalFactor::forward(const Eigen::MatrixXd& right_sides) const {
   Eigen::MatrixXd x(right_sides.rows(), right_sides.cols());
-  for (std::size_t i = 0; i < position_.size(); ++i) {
-    x.row(position_[i]) = right_sides.row(static_cast<Eigen::Index>(i));
-  }
+  x(position_, Eigen::all) = right_sides;
   Eigen::MatrixXd outside;
   for (const Block& block : blocks_) {
     auto own = x.middleRows(block.first, block.count);
     block.L.topRows(block.count).triangularView<Eigen::UnitLower>().solveInPlace(own);
     outside.noalias() = block.L.bottomRows(block.L.rows() - block.count) * own;
-    for (std::size_t i = 0; i < block.rows.size(); ++i) {
-      x.row(block.rows[i]) -= outside.row(static_cast<Eigen::Index>(i));
-    }
+    x(block.rows, Eigen::all) -= outside;
   }
   return x;
 }

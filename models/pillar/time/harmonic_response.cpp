@@ -1,14 +1,13 @@
 #include "models/pillar/time/harmonic_response.h"
 
+#include "models/material/material.h"
 #include "models/maths/dense.h"
-#include "models/pillar/mesh/number_text.h"
-#include "models/pillar/time/relative_modulus.h"
+#include "models/maths/require.h"
 
 #include <Eigen/SparseLU>
 
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 namespace viscard {
 namespace {
@@ -16,10 +15,7 @@ namespace {
 using Complex = std::complex<double>;
 
 void require_frequency(double omega_rad_s) {
-  if (!(omega_rad_s >= 0.0) || !std::isfinite(omega_rad_s)) {
-    throw std::invalid_argument("an angular frequency of " + number_text(omega_rad_s) +
-                                " rad/s; it must be finite and not negative");
-  }
+  require_not_negative("angular frequency", omega_rad_s, "rad/s");
 }
 
 }  // namespace
@@ -28,11 +24,10 @@ Eigen::VectorXcd solve_harmonic(const ViscoelasticSystem& body, const Eigen::Vec
                                 double omega_rad_s) {
   require_frequency(omega_rad_s);
   if (body.incompressible) {
-    throw std::invalid_argument("an incompressible body oscillates in its reduced form only");
+    throw std::invalid_argument(
+        "an incompressible body must be reduced before a frequency is solved");
   }
-  const Complex s(0.0, omega_rad_s);
-  const Complex shear = relative_modulus(body.terms, &MaterialTerm::g, s);
-  const Complex bulk = relative_modulus(body.terms, &MaterialTerm::k, s);
+  const auto [shear, bulk] = relative_moduli(body.terms, Complex(0.0, omega_rad_s));
   Eigen::SparseMatrix<Complex> lower = body.elastic.cast<Complex>();
   lower.coeffs() +=
       shear * body.shear.coeffs().cast<Complex>() + bulk * body.bulk.coeffs().cast<Complex>();
@@ -44,8 +39,9 @@ Eigen::VectorXcd solve_harmonic(const ViscoelasticSystem& body, const Eigen::Vec
   const Eigen::SparseMatrix<Complex> whole = lower + upper;
   Eigen::SparseLU<Eigen::SparseMatrix<Complex>> lu(whole);
   if (lu.info() != Eigen::Success) {
-    throw std::runtime_error("at " + number_text(omega_rad_s / (2.0 * M_PI)) +
-                             " Hz the body resonates without damping: no steady answer exists");
+    throw std::runtime_error("at " + text_of(omega_rad_s / (2.0 * M_PI)) +
+                             " Hz the body resonates without damping, so no steady answer exists; "
+                             "choose another frequency or add damping");
   }
   return lu.solve(load.cast<Complex>());
 }
@@ -59,9 +55,7 @@ HarmonicSolver::HarmonicSolver(const ViscoelasticSystem& small)
 
 Eigen::MatrixXcd HarmonicSolver::solve(double omega_rad_s, const Eigen::MatrixXcd& loads) const {
   require_frequency(omega_rad_s);
-  const Complex s(0.0, omega_rad_s);
-  const Complex shear = relative_modulus(terms_, &MaterialTerm::g, s);
-  const Complex bulk = relative_modulus(terms_, &MaterialTerm::k, s);
+  const auto [shear, bulk] = relative_moduli(terms_, Complex(0.0, omega_rad_s));
   Eigen::MatrixXcd matrix(elastic_.rows(), elastic_.cols());
   matrix.real() =
       elastic_ + shear.real() * shear_ + bulk.real() * bulk_ - omega_rad_s * omega_rad_s * mass_;

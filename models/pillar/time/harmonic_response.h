@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 
-#include <complex>
 #include <vector>
 
 namespace viscard {

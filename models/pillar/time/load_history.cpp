@@ -1,11 +1,10 @@
 #include "models/pillar/time/load_history.h"
 
+#include "models/maths/text_of_number.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -23,27 +22,13 @@ struct Block {
   bool after_corner = false;          // the rate of loading jumps at the start
 };
 
-std::string seconds(double time_s) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g s", time_s);
-  return text;
-}
-
-double fastest_time_s(const std::vector<MaterialTerm>& terms) {
-  double fastest_s = std::numeric_limits<double>::infinity();
-  for (const MaterialTerm& term : terms) {
-    if (term.g > 0.0 || term.k > 0.0) fastest_s = std::min(fastest_s, term.tau_s);
-  }
-  return fastest_s;
-}
-
 // Ends of blocks in (start, end]: doubling from the fastest time, and including the wanted times.
 std::vector<double> block_ends(double start_s, double end_s, double first_s,
                                const std::vector<double>& wanted_s) {
   std::vector<double> ends;
   for (double length_s = first_s; start_s + length_s < end_s && length_s < end_s - start_s;
        length_s *= 2.0) {
-    // A time that equals the last one in double precision would make an empty step.
+    // A time equal to the last one in double precision would make an empty step.
     if (start_s + length_s > (ends.empty() ? start_s : ends.back()))
       ends.push_back(start_s + length_s);
   }
@@ -152,10 +137,8 @@ double largest_relative_change(const Eigen::MatrixXd& now, const Eigen::MatrixXd
 }
 
 std::vector<double> row_of(const Eigen::MatrixXd& values, Eigen::Index row) {
-  std::vector<double> out(static_cast<std::size_t>(values.cols()));
-  for (Eigen::Index i = 0; i < values.cols(); ++i)
-    out[static_cast<std::size_t>(i)] = values(row, i);
-  return out;
+  const Eigen::VectorXd out = values.row(row);
+  return {out.begin(), out.end()};
 }
 
 }  // namespace
@@ -170,17 +153,29 @@ void validate(const std::vector<HistoryPoint>& history) {
     const double last_s = i == 0 ? 0.0 : history[i - 1].time_s;
     if (point.time_s < last_s) {
       throw SceneMistake(key, "point " + std::to_string(i + 1) +
-                                  " of the history goes back in time, from " + seconds(last_s) +
-                                  " to " + seconds(point.time_s) +
-                                  "; put the points in order (a time given twice is a jump)");
+                                  " of the history goes back in time, from " + text_of(last_s) +
+                                  " s to " + text_of(point.time_s) +
+                                  " s; put the points in order (a time given twice is a jump)");
     }
   }
 }
 
+double value_at(const std::vector<HistoryPoint>& history, double time_s, bool after) {
+  const auto next =
+      std::partition_point(history.begin(), history.end(), [&](const HistoryPoint& point) {
+        return after ? point.time_s <= time_s : point.time_s < time_s;
+      });
+  if (next == history.begin()) return after || next->time_s > time_s ? 0.0 : next->value;
+  if (next == history.end()) return history.back().value;
+  const HistoryPoint& from = *(next - 1);
+  const double share = (time_s - from.time_s) / (next->time_s - from.time_s);
+  return from.value + share * (next->value - from.value);
+}
+
 HistoryResult run_history(const ViscoelasticSystem& system, Control control,
                           const std::vector<HistoryPoint>& history, const HistoryOptions& options) {
-  const std::vector<Block> blocks =
-      blocks_of(history, kFirstBlock * fastest_time_s(system.terms), options.output_times_s);
+  const std::vector<Block> blocks = blocks_of(
+      history, kFirstBlock * relaxation_times(system.terms).fastest_s, options.output_times_s);
   HistoryResult result;
   Eigen::MatrixXd values;
   // One order less than that of the stepper: the order observed for a dense spectrum.

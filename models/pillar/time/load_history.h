@@ -19,6 +19,10 @@ struct HistoryPoint {
 // must be finite, and no time may be negative or earlier than that of the point before it.
 void validate(const std::vector<HistoryPoint>& history);
 
+// Value at a time, or just before it if it may be a jump; 0 before the first point, and the last
+// value after the last one.
+double value_at(const std::vector<HistoryPoint>& history, double time_s, bool after = true);
+
 struct HistoryOptions {
   double tolerance = 1e-8;       // target for the relative error
   double relative_floor = 1e-3;  // errors are relative to max(|value|, floor * largest |value|)

@@ -1,7 +1,6 @@
 #include "models/pillar/time/modal_response.h"
 
 #include "models/maths/dense.h"
-#include "models/pillar/time/transient_stops.h"
 
 #include <algorithm>
 #include <cmath>
@@ -162,9 +161,7 @@ TransientResult run_by_modes(const ViscoelasticSystem& small, const TransientReq
   for (Eigen::Index k = 0; k < n; ++k) {
     modes.emplace_back(std::sqrt(std::max(pairs.values[k], 0.0)), small.terms);
   }
-  TransientResult result;
-  result.values = Eigen::MatrixXd::Zero(observers.rows(), r.outputs + 1);
-  for (int i = 0; i <= r.outputs; ++i) result.time_s.push_back(r.end_s / r.outputs * i);
+  TransientResult result = empty_result(r, observers.rows());
   Eigen::VectorXd q(n);
   Eigen::Index output = 0;
   for (const TransientPiece& piece : pieces_of(r)) {

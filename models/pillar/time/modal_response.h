@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/material/material.h"
-#include "models/pillar/time/transient_request.h"
+#include "models/pillar/time/transient_run.h"
 #include "models/pillar/time/viscoelastic_system.h"
 
 #include <complex>
@@ -10,9 +10,9 @@
 namespace viscard {
 
 // One mode of a body whose whole stiffness relaxes with one relative modulus,
-//  q'' + omega^2 int E(t - s)/E_0 dq(s) = f(t),
+//   q'' + omega^2 int E(t - s)/E_0 dq(s) = f(t),
 // solved exactly: in the Laplace domain q = f/D with
-//  D(s) = s^2 + omega^2 [1 - sum g_i/(1 + s tau_i)].
+//   D(s) = s^2 + omega^2 [1 - sum g_i/(1 + s tau_i)].
 // The roots of D are one real rate near each relaxation time and one pair. Therefore, for a step of
 // load, both the memory d_i of eq. 17 and the inertia are free of step errors (eq. 24b). Source:
 // Christensen, Theory of Viscoelasticity (1982), ch. 3 (partial fractions of the transform).

@@ -1,36 +1,29 @@
 #include "models/pillar/time/model_reduction.h"
 
+#include "models/material/material.h"
 #include "models/maths/dense.h"
 #include "models/pillar/time/reduced_span.h"
-#include "models/pillar/time/relative_modulus.h"
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 
 namespace viscard {
 namespace {
 
-struct RelativeModuli {
+struct LaplaceModuli {
   double shear = 1.0, bulk = 1.0;
 };
 
-RelativeModuli laplace_moduli_at(const ViscoelasticSystem& body, double s) {
-  return {std::real(relative_modulus(body.terms, &MaterialTerm::g, s)),
-          body.incompressible ? 1.0 : std::real(relative_modulus(body.terms, &MaterialTerm::k, s))};
+LaplaceModuli laplace_moduli_at(const ViscoelasticSystem& body, double s) {
+  const RelativeModuli moduli = relative_moduli(body.terms, s);
+  return {std::real(moduli.shear), body.incompressible ? 1.0 : std::real(moduli.bulk)};
 }
 
 // Laplace variables that cover every relaxation time: one per decade from well below the slowest
 // rate to well above the fastest, and zero for a solid.
 std::vector<double> laplace_points(const std::vector<MaterialTerm>& terms) {
-  double slowest_s = 0.0;
-  double fastest_s = std::numeric_limits<double>::infinity();
-  for (const MaterialTerm& term : terms) {
-    if (term.g == 0.0 && term.k == 0.0) continue;
-    slowest_s = std::max(slowest_s, term.tau_s);
-    fastest_s = std::min(fastest_s, term.tau_s);
-  }
+  const auto [fastest_s, slowest_s] = relaxation_times(terms);
   std::vector<double> points;
   if (slowest_s == 0.0) return points;
   for (double s = 1e-2 / slowest_s; s < 20.0 / fastest_s; s *= 10.0) points.push_back(s);
@@ -39,7 +32,7 @@ std::vector<double> laplace_points(const std::vector<MaterialTerm>& terms) {
 
 // Relative error of the restricted solution at one s, in the energy norm.
 double error_at(const ReducedSpan& span, const ViscoelasticSystem& body, double s) {
-  const RelativeModuli m = laplace_moduli_at(body, s);
+  const LaplaceModuli m = laplace_moduli_at(body, s);
   const Eigen::MatrixXd image = span.image(m.shear, m.bulk);
   const Eigen::MatrixXd small = span.basis().transpose() * image;
   const Eigen::VectorXd c =
@@ -68,7 +61,7 @@ ReducedBody reduce_quasi_static(const ViscoelasticSystem& system, double toleran
       }
     }
     if (error <= tolerance) break;
-    const RelativeModuli m = laplace_moduli_at(system, worst_s);
+    const LaplaceModuli m = laplace_moduli_at(system, worst_s);
     StiffnessFactor factor;
     span.factor(m.shear, m.bulk, factor);
     if (!span.add(factor.solve(system.load))) break;  // rounding: no better answer exists

@@ -1,29 +1,28 @@
 #include "models/pillar/time/readout.h"
 
 #include "models/material/hereditary.h"
-#include "models/pillar/mesh/number_text.h"
+#include "models/maths/require.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 namespace viscard {
 namespace {
 
-void require_positive(double value, const char* what, bool zero_too) {
-  if (value > 0.0 || (zero_too && value == 0.0)) return;
-  throw std::invalid_argument(std::string("the readout's ") + what + " is " + number_text(value) +
-                              "; it must be positive");
+// Infinite values stand for an open circuit.
+void require_in_circuit(bool holds, const std::string& what, double value) {
+  require(holds, "the readout's " + what + " is " + text_of(value) + "; it must be positive");
 }
 
 }  // namespace
 
 void validate(const Readout& r) {
   const bool is_charge = r.kind == ReadoutKind::kCharge;
-  require_positive(r.resistance_Ohm, "resistance", false);
-  require_positive(r.capacitance_F, is_charge ? "feedback capacitance" : "capacitance", !is_charge);
-  require_positive(r.film_leakage_s, "leakage time of the film (resistivity times permittivity)",
-                   false);
+  require_in_circuit(r.resistance_Ohm > 0.0, "resistance", r.resistance_Ohm);
+  require_in_circuit(r.capacitance_F > 0.0 || (r.capacitance_F == 0.0 && !is_charge),
+                     is_charge ? "feedback capacitance" : "capacitance", r.capacitance_F);
+  require_in_circuit(r.film_leakage_s > 0.0,
+                     "leakage time of the film (resistivity times permittivity)", r.film_leakage_s);
 }
 
 ReadoutFilter readout_filter(const Readout& r, double film_capacitance_F) {

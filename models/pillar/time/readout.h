@@ -8,9 +8,9 @@ namespace viscard {
 
 // The circuit connected to the electrode of a film. The film is a voltage source (its open-circuit
 // voltage) behind its capacitance (Thevenin). For every circuit here,
-//  reading' + reading/T = a open_voltage'   (eq. 23)
-//  voltage amplifier of input R, C_in:  a = C/(C + C_in), 1/T = (1/R + C/(rho eps))/(C + C_in)
-//  charge amplifier of feedback R_f, C_f: a = C/C_f, 1/T = 1/(R_f C_f), the electrode held at 0 V
+//   reading' + reading/T = a open_voltage'   (eq. 23)
+//   voltage amplifier of input R, C_in:  a = C/(C + C_in), 1/T = (1/R + C/(rho eps))/(C + C_in)
+//   charge amplifier of feedback R_f, C_f: a = C/C_f, 1/T = 1/(R_f C_f), the electrode held at 0 V
 // where rho eps is the film's own leakage time, independent of its shape. Sources: Measurement
 // Specialties, Piezo Film Sensors Technical Manual (1999); Horowitz & Hill, The Art of Electronics.
 enum class ReadoutKind { kVoltage, kCharge };

@@ -1,8 +1,8 @@
+#include "models/material/material.h"
 #include "models/maths/dense.h"
 #include "models/pillar/time/harmonic_response.h"
 #include "models/pillar/time/model_reduction.h"
 #include "models/pillar/time/reduced_span.h"
-#include "models/pillar/time/relative_modulus.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,16 +19,6 @@ using Complex = std::complex<double>;
 // solution is as uncertain as the frequency of the pole itself.
 constexpr double kNearestPole = 0.02;
 constexpr int kMostAnswers = 10;  // of the whole body; each costs a sparse complex elimination
-
-struct ComplexModuli {
-  Complex shear, bulk;
-};
-
-ComplexModuli oscillating_moduli_at(const ViscoelasticSystem& body, double omega_rad_s) {
-  const Complex s(0.0, omega_rad_s);
-  return {relative_modulus(body.terms, &MaterialTerm::g, s),
-          relative_modulus(body.terms, &MaterialTerm::k, s)};
-}
 
 // Smallest singular value of a factored matrix, by a few inverse iterations (converges from above,
 // accurate enough for an estimate). Source: Golub & Van Loan, Matrix Computations (2013), 8.2.
@@ -49,14 +39,13 @@ double smallest_singular_value(const ComplexLuFactor& lu) {
 // their residuals and the smallest singular value of the restricted dynamic stiffness.
 double error_at(const ReducedSpan& span, const ViscoelasticSystem& body,
                 const std::vector<Eigen::VectorXd>& loads, double omega_rad_s) {
-  const ComplexModuli m = oscillating_moduli_at(body, omega_rad_s);
+  const RelativeModuli m = relative_moduli(body.terms, Complex(0.0, omega_rad_s));
   const double omega2 = omega_rad_s * omega_rad_s;
   const ComplexLuFactor lu(span.restricted(m.shear, m.bulk, omega2));
   const double nearest = std::max(smallest_singular_value(lu), kNearestPole);
   double largest = 0.0;
   for (const Eigen::VectorXd& load : loads) {
-    const Eigen::VectorXcd c =
-        lu.solve(Eigen::VectorXcd((span.basis().transpose() * load).cast<Complex>()));
+    const Eigen::VectorXcd c = lu.solve((span.basis().transpose() * load).cast<Complex>());
     const Eigen::VectorXcd residual =
         load.cast<Complex>() - span.image_of(m.shear, m.bulk, omega2, c);
     const double size =
@@ -122,7 +111,7 @@ struct Chain {
 // True if the shape of the solutions depends on how far the material has relaxed: shear and bulk
 // relax differently, or the body has an elastic part.
 bool shape_relaxes(const ViscoelasticSystem& system, const DynamicRange& range) {
-  const ComplexModuli slow = oscillating_moduli_at(system, range.lowest_rad_s);
+  const RelativeModuli slow = relative_moduli(system.terms, Complex(0.0, range.lowest_rad_s));
   const double g = std::abs(slow.shear);
   const double k = system.incompressible ? g : std::abs(slow.bulk);
   const bool has_film = system.elastic.coeffs().cwiseAbs().sum() > 0.0;
@@ -160,7 +149,7 @@ bool grow(std::vector<Chain>& chains, const StiffnessFactor& factor,
 ReducedBody reduce_dynamic(const ViscoelasticSystem& system,
                            const std::vector<Eigen::VectorXd>& loads, const DynamicRange& range) {
   if (!(range.highest_rad_s > 0.0) || system.mass.size() == 0) {
-    throw std::invalid_argument("a dynamic analysis needs masses and a highest frequency");
+    throw std::invalid_argument("a dynamic analysis needs a mass and a highest frequency");
   }
   ReducedSpan span(system);
   std::vector<Chain> chains;

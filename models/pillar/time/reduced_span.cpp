@@ -47,8 +47,8 @@ void ReducedSpan::factor(double shear, double bulk, StiffnessFactor& factored) c
 bool ReducedSpan::add(Eigen::VectorXd v) {
   if (count() == basis_.rows()) return false;
   const double before = energy_norm(v);
-  for (int pass = 0; pass < 2;
-       ++pass) {  // twice is enough (Parlett, The Symmetric Eigenvalue Problem, 6.9)
+  // Twice is enough (Parlett, The Symmetric Eigenvalue Problem, 6.9).
+  for (int pass = 0; pass < 2; ++pass) {
     if (count() > 0) v -= basis_ * (image(1.0, 1.0).transpose() * v);
   }
   const double after = energy_norm(v);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/pillar/system/stiffness_factor.h"
-#include "models/pillar/time/reduced_body.h"
+#include "models/pillar/time/model_reduction.h"
 
 #include <Eigen/Core>
 
@@ -25,17 +25,12 @@ class ReducedSpan {
   // Adds the component of v orthogonal to the basis; returns false if it is zero to rounding.
   bool add(Eigen::VectorXd v);
 
-  // (elastic + shear S + bulk B - omega^2 M) basis.
-  template <typename Scalar>
-  Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> image(Scalar shear, Scalar bulk,
-                                                              double omega2 = 0.0) const {
-    Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> sum =
-        shear_.cast<Scalar>() * shear + bulk_.cast<Scalar>() * bulk + elastic_.cast<Scalar>();
-    if (omega2 != 0.0) sum -= Scalar(omega2) * mass_.cast<Scalar>();
-    return sum;
+  // (elastic + shear S + bulk B) basis.
+  Eigen::MatrixXd image(double shear, double bulk) const {
+    return shear_ * shear + bulk_ * bulk + elastic_;
   }
 
-  // The same projected on the basis: basis' (elastic + shear S + bulk B - omega^2 M) basis.
+  // basis' (elastic + shear S + bulk B - omega^2 M) basis.
   Eigen::MatrixXcd restricted(std::complex<double> shear, std::complex<double> bulk,
                               double omega2) const;
   // (elastic + shear S + bulk B - omega^2 M) basis c, without forming the sum.

@@ -9,8 +9,7 @@ namespace viscard {
 
 Eigen::VectorXd exponential_moments(double x, int highest) {
   Eigen::VectorXd moments = Eigen::VectorXd::Zero(highest + 1);
-  // The upward recursion loses digits for x below about the power. The integrand is smooth there,
-  // so use quadrature.
+  // The upward recursion loses digits for x below about the power; quadrature does not.
   constexpr double kRecursionFrom = 6.0;
   if (x < kRecursionFrom) {
     static const QuadratureRule rule = gauss_legendre(14);

@@ -1,12 +1,11 @@
 #include "models/pillar/time/transient_run.h"
 
+#include "models/maths/require.h"
 #include "models/pillar/time/inertial_stepper.h"
 #include "models/pillar/time/modal_response.h"
-#include "models/pillar/time/transient_stops.h"
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace viscard {
 namespace {
@@ -46,12 +45,13 @@ double largest_change(const Eigen::MatrixXd& now, const Eigen::MatrixXd& before)
 
 TransientResult run_transient(const ViscoelasticSystem& small, const TransientRequest& r,
                               const Eigen::MatrixXd& observers) {
-  if (!(r.end_s > 0.0) || r.outputs < 2 || !(r.first_step_s > 0.0) || r.corner_time_s.empty() ||
-      r.corner_time_s.size() != r.corner_value.size() ||
-      !std::is_sorted(r.corner_time_s.begin(), r.corner_time_s.end())) {
-    throw std::invalid_argument(
-        "a transient needs an end, at least two outputs and a load whose times do not go back");
-  }
+  require(r.end_s > 0.0 && r.outputs >= 2 && r.first_step_s > 0.0,
+          "a transient needs a positive end and first step, and at least two outputs");
+  require(!r.history.empty() && std::is_sorted(r.history.begin(), r.history.end(),
+                                               [](const HistoryPoint& a, const HistoryPoint& b) {
+                                                 return a.time_s < b.time_s;
+                                               }),
+          "a transient load needs a history whose times do not go back");
   return relaxes_alike(small) ? run_by_modes(small, r, observers)
                               : run_by_steps(small, r, observers);
 }
@@ -59,8 +59,7 @@ TransientResult run_transient(const ViscoelasticSystem& small, const TransientRe
 TransientResult run_by_steps(const ViscoelasticSystem& small, const TransientRequest& r,
                              const Eigen::MatrixXd& observers) {
   const std::vector<TransientPiece> pieces = pieces_of(r);
-  TransientResult result;
-  for (int i = 0; i <= r.outputs; ++i) result.time_s.push_back(r.end_s / r.outputs * i);
+  TransientResult result = empty_result(r, observers.rows());
   Eigen::MatrixXd last;
   int refinement = 1;
   for (int level = 0; !result.converged; ++level, refinement *= 2) {

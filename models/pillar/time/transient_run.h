@@ -1,9 +1,47 @@
 #pragma once
 
-#include "models/pillar/time/transient_request.h"
+#include "models/pillar/time/load_history.h"
 #include "models/pillar/time/viscoelastic_system.h"
 
+#include <Eigen/Core>
+
+#include <vector>
+
 namespace viscard {
+
+// A load whose factor varies in time.
+struct TransientRequest {
+  Eigen::VectorXd load;               // of the small body; multiplied by the factor
+  std::vector<HistoryPoint> history;  // the factor
+  double end_s = 0.0;
+  int outputs = 1000;         // equal intervals between outputs
+  double first_step_s = 0.0;  // longest step of the coarsest level
+  double tolerance = 1e-4;    // relative to the largest value of each output
+  int most_steps = 4000000;
+
+  double spacing_s() const { return end_s / outputs; }
+};
+
+// One interval without corners of the load inside: its length, and the load factors at its ends,
+// linear in between.
+struct TransientPiece {
+  double length_s = 0.0;
+  double first = 0.0;
+  double last = 0.0;
+  bool ends_with_output = false;
+};
+// Pieces from 0 to the end. They end at the outputs and at the corners of the load.
+std::vector<TransientPiece> pieces_of(const TransientRequest& request);
+
+struct TransientResult {
+  std::vector<double> time_s;   // outputs + 1 equal steps from 0
+  Eigen::MatrixXd values;       // observers x times
+  double error_estimate = 0.0;  // relative to the largest value of each output
+  bool converged = false;
+  int steps = 0;  // all levels together
+};
+// A result with the times of the outputs, all values 0.
+TransientResult empty_result(const TransientRequest& request, Eigen::Index observers);
 
 // Runs from rest. Rows of `observers` are linear outputs. A body whose whole stiffness relaxes with
 // one relative modulus is solved exactly (modal_response.h), any other by time steps.

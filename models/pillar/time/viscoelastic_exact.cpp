@@ -1,8 +1,8 @@
 #include "models/pillar/time/viscoelastic_exact.h"
 
+#include "models/material/material.h"
 #include "models/material/retardation_spectrum.h"
 #include "models/maths/dense.h"
-#include "models/pillar/time/relative_modulus.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ ExactViscoelasticBody::ExactViscoelasticBody(const ViscoelasticSystem& system)
     : terms_(system.terms) {
   if (system.incompressible || system.elastic.coeffs().cwiseAbs().sum() > 0.0) {
     throw std::invalid_argument(
-        "the exact answer by common modes needs one compressible material and nothing else");
+        "the exact answer by common modes needs a body of one compressible material alone");
   }
   const Eigen::MatrixXd shear(system.shear);  // lower triangles, all that the eigensolver reads
   const Eigen::MatrixXd bulk(system.bulk);
@@ -43,8 +43,7 @@ ExactViscoelasticBody::ExactViscoelasticBody(const ViscoelasticSystem& system)
 }
 
 std::complex<double> ExactViscoelasticBody::compliance(std::complex<double> s) const {
-  const std::complex<double> shear = relative_modulus(terms_, &MaterialTerm::g, s);
-  const std::complex<double> bulk = relative_modulus(terms_, &MaterialTerm::k, s);
+  const auto [shear, bulk] = relative_moduli(terms_, s);
   std::complex<double> sum = 0.0;
   for (std::size_t m = 0; m < weight_.size(); ++m) sum += weight_[m] / (shear + theta_[m] * bulk);
   return sum;

@@ -17,7 +17,7 @@ double inverse_laplace(const std::function<std::complex<double>(std::complex<dou
 // Exact solution of a discretised body of one viscoelastic material (no elastic part) by the
 // correspondence principle. `shear` and `bulk` are diagonalised together, so in the Laplace domain
 // the compliance under the unit load is
-//  sum_m w_m / (G~(s) + theta_m K~(s)),  G~ = s G^(s)/G_0   (eq. 19).
+//   sum_m w_m / (G~(s) + theta_m K~(s)),  G~ = s G^(s)/G_0   (eq. 19).
 // Each mode is a separate generalised Maxwell solid.
 class ExactViscoelasticBody {
  public:

@@ -1,25 +1,8 @@
 #include "models/pillar/time/viscoelastic_pillar.h"
 
-#include <stdexcept>
+#include "models/maths/require.h"
 
 namespace viscard {
-
-namespace {
-
-bool is_plane_stress(const ModelOptions& options) {
-  return options.plane == PlaneState::kStress && (options.motion == Motion::kPlaneSymmetric ||
-                                                  options.motion == Motion::kPlaneAntisymmetric);
-}
-
-void require_one_relaxation(const Material& material) {
-  if (has_constant_poisson_ratio(material)) return;
-  throw std::invalid_argument(
-      "in plane stress the shear and the bulk modulus must relax alike (k = g for every term of "
-      "the "
-      "Prony series); use plane strain or the cylinder instead");
-}
-
-}  // namespace
 
 ViscoelasticSystem viscoelastic_system(const PillarModel& model, const Material& material,
                                        bool with_mass) {
@@ -29,16 +12,17 @@ ViscoelasticSystem viscoelastic_system(const PillarModel& model, const Material&
   const SymmetricSparse whole = model.stiffness();
   ViscoelasticSystem system;
   system.terms = material.terms;
-  if (is_plane_stress(model.options()) && material.nu < 0.5) {
-    require_one_relaxation(material);
+  if (model.is_plane_stress() && material.nu < 0.5) {
+    require(has_constant_poisson_ratio(material),
+            "in plane stress the shear and the bulk modulus must relax alike (k = g for every term "
+            "of the Prony series); use plane strain or the cylinder instead");
     const Matrix6d& c_Pa = model.medium(kPillarRegion).stiffness_Pa;
     system.shear = discrete.form(strain, {plane_stress_moduli(c_Pa), {}});
     system.bulk = discrete.zero();
-  } else if (is_plane_stress(model.options())) {
+  } else if (model.is_plane_stress()) {
     system.shear = whole;  // incompressible: only the shear modulus is left in plane stress
-    if (model.geometry().film) {
-      throw std::invalid_argument("an incompressible strip in plane stress cannot stand on a film");
-    }
+    require(!model.geometry().film,
+            "an incompressible strip in plane stress cannot stand on a film; use plane strain");
     system.bulk = discrete.zero();
   } else {
     system.incompressible = material.nu == 0.5;

@@ -1,12 +1,11 @@
 #include "models/pillar/time/viscoelastic_system.h"
 
-#include "models/pillar/mesh/number_text.h"
+#include "models/maths/require.h"
 #include "models/pillar/time/step_weights.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 namespace viscard {
 
@@ -20,10 +19,7 @@ SymmetricSparse stiffness_at(const ViscoelasticSystem& system, double shear_fact
 
 ViscoelasticStepper::ViscoelasticStepper(const ViscoelasticSystem& system, int order)
     : system_(&system), matrix_(system.shear), order_(order) {
-  if (order < 1 || order > 5) {
-    throw std::invalid_argument("order of the time steps is " + std::to_string(order) +
-                                "; it must lie between 1 and 5");
-  }
+  require_value(order >= 1 && order <= 5, "order of the time steps", order, "", "from 1 to 5");
   const auto n_terms = static_cast<Eigen::Index>(system.terms.size());
   g_.resize(n_terms);
   k_.resize(n_terms);
@@ -65,7 +61,7 @@ void ViscoelasticStepper::prepare(double dt_s) {
 
 void ViscoelasticStepper::advance(double dt_s, Control control, double value) {
   if (!(dt_s >= 0.0) || !std::isfinite(dt_s)) {
-    throw std::invalid_argument("time step of " + number_text(dt_s) +
+    throw std::invalid_argument("time step of " + text_of(dt_s) +
                                 " s; steps must be finite and not negative");
   }
   prepare(dt_s);
@@ -96,8 +92,9 @@ void ViscoelasticStepper::advance(double dt_s, Control control, double value) {
 
 void ViscoelasticStepper::remember(double dt_s, const Eigen::VectorXd& increment) {
   if (order_ == 1 || dt_s == 0.0) return;
-  for (Eigen::Index m = increments_.cols() - 1; m > 0; --m)
+  for (Eigen::Index m = increments_.cols() - 1; m > 0; --m) {
     increments_.col(m) = increments_.col(m - 1);
+  }
   increments_.col(0) = increment;
   earlier_s_.insert(earlier_s_.begin(), dt_s);
   earlier_s_.resize(std::min(earlier_s_.size(), static_cast<std::size_t>(order_ - 1)));

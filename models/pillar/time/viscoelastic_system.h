@@ -11,7 +11,7 @@
 namespace viscard {
 
 // Matrices of a body of one viscoelastic material, possibly joined to elastic ones:
-//  force(t) = elastic u + int [G(t-s)/G_0 shear + K(t-s)/K_0 bulk] du(s)   (eq. 16)
+//   force(t) = elastic u + int [G(t-s)/G_0 shear + K(t-s)/K_0 bulk] du(s)   (eq. 16)
 // with the instantaneous moduli in `shear` (G_0) and `bulk` (K_0), all with one sparsity pattern.
 struct ViscoelasticSystem {
   SymmetricSparse elastic;
@@ -31,7 +31,7 @@ SymmetricSparse stiffness_at(const ViscoelasticSystem& system, double shear_fact
 enum class Control { kForce, kDisplacement };
 
 // Steps the body with internal variables d_i = int exp(-(t-s)/tau_i) du(s). The recursion
-//  d_i <- exp(-x) d_i + sum_m weight_m(x) (increment of step m), x = dt/tau_i   (eq. 17)
+//   d_i <- exp(-x) d_i + sum_m weight_m(x) (increment of step m), x = dt/tau_i   (eq. 17)
 // integrates them exactly, for any x, if the displacement is a polynomial through the last `order`
 // + 1 points. Order 1 is the usual recursion for strain linear per step, exact for relaxation at
 // constant Poisson ratio. For steps much longer than all relaxation times it becomes the backward
@@ -64,15 +64,14 @@ class ViscoelasticStepper {
   SymmetricSparse matrix_;
   StiffnessFactor factor_;
   int order_;
-  std::vector<double>
-      factored_s_;  // lengths of the new step and those before it at the last factoring
-  std::vector<double> earlier_s_;  // lengths of earlier steps in use, latest first
-  Eigen::MatrixXd increments_;     // unknowns x (order - 1): displacement increments of these
-  Eigen::VectorXd decay_;          // exp(-x_i)
-  Eigen::MatrixXd weights_;        // steps x terms
-  Eigen::VectorXd g_, k_;          // relative moduli
-  Eigen::VectorXd load_response_;  // matrix^-1 load
-  Eigen::MatrixXd memory_;         // unknowns x terms, d_i
+  std::vector<double> factored_s_;  // at the last factoring: the new step, and those before it
+  std::vector<double> earlier_s_;   // lengths of earlier steps in use, latest first
+  Eigen::MatrixXd increments_;      // unknowns x (order - 1): displacement increments of these
+  Eigen::VectorXd decay_;           // exp(-x_i)
+  Eigen::MatrixXd weights_;         // steps x terms
+  Eigen::VectorXd g_, k_;           // relative moduli
+  Eigen::VectorXd load_response_;   // matrix^-1 load
+  Eigen::MatrixXd memory_;          // unknowns x terms, d_i
   Eigen::VectorXd displacement_vector_;
   double force_ = 0.0;
   int factorisations_ = 0;

@@ -1,7 +1,6 @@
-#include "models/scene/common/effect_budget.h"
-
-#include "models/pillar/mesh/number_text.h"
+#include "models/maths/text_of_number.h"
 #include "models/pillar/mesh/scene_mistake.h"
+#include "models/scene/common/effect_estimate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,10 +24,10 @@ void refuse_unknown(const std::vector<NamedEstimate>& estimates, const EffectCho
 
 std::string percent(double share) {
   const bool is_large = std::abs(share) >= 0.995 && std::abs(share) < 1e4;  // "100 %", not 1e+02
-  return number_text(is_large ? std::round(100.0 * share) : 100.0 * share, is_large ? 7 : 2) + " %";
+  return text_of(is_large ? std::round(100.0 * share) : 100.0 * share, is_large ? 7 : 2) + " %";
 }
 
-// Fills everything but what the budget decides.
+// The decision without the budget.
 SceneEffect decided_by_role(const std::string& name, const EffectEstimate& estimate,
                             EffectChoice choice) {
   SceneEffect decision{name,           false,           estimate.reason,
@@ -42,9 +41,9 @@ SceneEffect decided_by_role(const std::string& name, const EffectEstimate& estim
     case EffectRole::kOutside:
       if (choice == EffectChoice::kOn) {
         throw SceneMistake("effects." + decision.name,
-                           "cannot be on: no analysis of this kind can have it (" +
+                           "cannot be on: no analysis of this kind can compute it (" +
                                estimate.reason + "). It would change the results by up to " +
-                               percent(estimate.error) + "; say \"auto\" to be warned of it");
+                               percent(estimate.error) + "; use \"auto\" for a warning");
       }
       decision.is_forced = false;
       break;
@@ -62,7 +61,7 @@ SceneEffect decided_by_role(const std::string& name, const EffectEstimate& estim
   return decision;
 }
 
-// Switches on what the budget cannot bear, the least errors being left out first.
+// Leaves out the smallest errors first, and switches on those that exceed the budget.
 double spend_budget(double tolerance, const std::vector<NamedEstimate>& estimates,
                     std::vector<SceneEffect>& decisions) {
   double left_out = 0.0;
@@ -89,8 +88,7 @@ void add_left_out(double left_out, SceneAnswer& answer) {
   }
   for (SceneMode& mode : answer.modes) mode.error_estimate += left_out * mode.frequency_Hz;
   for (SceneCurve& curve : answer.curves) {
-    double peak = 0.0;
-    for (const double value : curve.value) peak = std::max(peak, std::abs(value));
+    const double peak = largest_size(curve.value);
     for (double& error : curve.error) error += left_out * peak;
   }
   answer.largest_relative_error += left_out;

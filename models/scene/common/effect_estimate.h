@@ -1,25 +1,56 @@
 #pragma once
 
+#include "models/scene/common/scene_answer.h"
+
+#include <map>
 #include <string>
+#include <vector>
 
 namespace viscard {
 
-// What an effect is to a scene.
+// What a scene requests for one effect; the plan decides on effects that it does not name (kAuto).
+enum class EffectChoice { kAuto, kOn, kOff };
+using EffectChoices = std::map<std::string, EffectChoice>;  // by name, effects.h
+
+// How an effect concerns a scene.
 enum class EffectRole {
   kAbsent,    // the scene has nothing for it to act on: off, at no error
   kOptional,  // the estimate decides
-  kNeeded,    // what is asked for does not exist without it
-  kOutside    // no analysis can compute it; the estimate bounds what it would change, as a warning
+  kNeeded,    // the results asked for do not exist without it
+  kOutside    // no analysis can compute it; the estimate bounds its influence, as a warning
 };
 
 // A-priori estimate of leaving an effect out, from the scene's numbers alone; nothing is solved.
 // models/scene/README.md lists the formulas and their sources.
 struct EffectEstimate {
   EffectRole role = EffectRole::kAbsent;
-  double error = 0.0;  // largest relative error of what is asked for if the effect is left out
+  double error = 0.0;  // largest relative error of the results if the effect is left out
   std::string number;  // the number that decides, such as "E A/(k L)"
   double value = 0.0;  // of that number
   std::string reason;  // one clause
 };
+
+struct NamedEstimate {
+  std::string name;
+  EffectEstimate estimate;
+};
+
+struct EffectDecisions {
+  std::vector<SceneEffect> effects;  // in the order of the estimates
+  double left_out = 0.0;             // sum of the estimates of effects left out
+};
+
+// The mesh gets the rest of the tolerance, at least this share.
+constexpr double kShareOfMesh = 0.5;
+
+// Leaves out the effects with the smallest estimates as long as their sum stays within half the
+// tolerance. Throws SceneMistake for a choice that names an unknown effect, forces off an effect
+// that the results need or forces on one that no analysis can compute.
+EffectDecisions decide_effects(const std::vector<NamedEstimate>& estimates,
+                               const EffectChoices& choices, double tolerance);
+
+// Adds the estimates of the effects left out to every error estimate, and a note for each effect
+// that the error estimates cannot contain.
+void report_left_out(const EffectDecisions& decisions, double tolerance, SceneAnswer& answer);
 
 }  // namespace viscard

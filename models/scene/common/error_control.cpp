@@ -1,18 +1,17 @@
 #include "models/scene/common/error_control.h"
 
-#include "models/pillar/mesh/number_text.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace viscard {
 namespace {
 
-// One number of an answer, what its error is judged against, and where the error goes.
+// One number of an answer, the size that its error is relative to, and the place of the error.
 struct Number {
   std::string name;
   double value = 0.0;
@@ -23,8 +22,7 @@ struct Number {
 void add_curve(SceneCurve& curve, std::vector<Number>& numbers) {
   if (!curve.is_watched) return;
   curve.error.assign(curve.value.size(), 0.0);
-  double peak = 0.0;
-  for (const double value : curve.value) peak = std::max(peak, std::abs(value));
+  const double peak = largest_size(curve.value);
   for (std::size_t i = 0; i < curve.value.size(); ++i) {
     const double size = curve.allowed.empty() ? peak : curve.allowed[i];
     numbers.push_back({curve.name, curve.value[i], size, &curve.error[i]});
@@ -44,20 +42,20 @@ std::vector<Number> numbers_of(SceneAnswer& answer) {
   return numbers;
 }
 
-// How much more of the last change is taken to remain where the layers at the singular rim stayed
-// the same: a layer more leaves ratio^(2 lambda) = 0.07 (0.15 at an electrode's edge) of that part of
-// the error, and over random scenes twice as much was seen (tests/models/scene).
+// Factor on the remaining share of the last change if the mesh gained no layer at the singular rim.
+// Another layer leaves ratio^(2 lambda) = 0.07 (0.15 at an electrode's edge) of that part of the
+// error; random scenes showed up to twice as much (tests/models/scene).
 constexpr double kWithoutLayers = 2.5;
 
-// What a geometric sequence of changes still has to go, where it falls by less than half per mesh;
-// at most ten times the last change.
+// The sum of the changes to come, if they form a geometric sequence that falls by less than half
+// per mesh; at most ten times the last change.
 double remaining(double change, double before) {
   if (!(change > 0.5 * before) || before == 0.0) return change;
   const double ratio = change / before;
   return change * (ratio < 10.0 / 11.0 ? ratio / (1.0 - ratio) : 10.0);
 }
 
-// From this degree on the error of steps and bases is no matter of the mesh any more.
+// From this degree on the error of steps and bases no longer depends on the mesh.
 constexpr int kNoLongerCoarse = 5;
 
 // Estimates of all numbers from the changes since the mesh before; name of the worst.
@@ -70,7 +68,7 @@ class ChangeTracker {
     const std::vector<Number> numbers = numbers_of(answer);
     const bool comparable = last_.size() == numbers.size();
     std::vector<double> change(numbers.size(), 0.0);
-    // A rise of the degree alone does not see what only further layers mend.
+    // A higher degree alone does not show the error that only more layers reduce.
     const double left =
         share_left_ * (answer.discretisation.layers > last_layers_ ? 1.0 : kWithoutLayers);
     last_layers_ = answer.discretisation.layers;
@@ -78,7 +76,7 @@ class ChangeTracker {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       if (comparable) change[i] = std::abs(numbers[i].value - last_[i]);
       if (comparable && last_change_.size() == change.size()) {
-        // A change that the steps of both answers explain says nothing about the mesh.
+        // A change within the step errors of both answers gives no information on the mesh.
         const bool is_noise = change[i] <= 2.0 * answer.step_error * numbers[i].size;
         const double left_over = is_noise ? change[i] : remaining(change[i], last_change_[i]);
         change[i] = std::max(left_over, left * last_change_[i]);
@@ -122,15 +120,14 @@ SceneAnswer answer_within(const ErrorControl& control, const MeshAnswer& answer_
     if (mesh.degree >= kNoLongerCoarse && answer.step_error > control.tolerance) break;
   }
   if (answer.step_error > control.tolerance) {
-    throw std::runtime_error(
-        "steps in time and the basis of the small body leave a relative error of about " +
-        number_text(answer.step_error, 2) +
-        " whatever the mesh; ask for a larger tolerance, or for less");
+    throw std::runtime_error("time steps and the reduced basis leave a relative error of about " +
+                             text_of(answer.step_error, 2) +
+                             " on every mesh; ask for a larger tolerance, or for fewer results");
   }
   throw std::runtime_error(
       "the finest mesh (degree " + std::to_string(answer.discretisation.degree) +
-      ") leaves a relative error of about " + number_text(answer.largest_relative_error, 2) +
-      " in the " + tracker.worst() + "; ask for a larger tolerance, or for less");
+      ") leaves a relative error of about " + text_of(answer.largest_relative_error, 2) +
+      " in the " + tracker.worst() + "; ask for a larger tolerance, or for fewer results");
 }
 
 }  // namespace viscard

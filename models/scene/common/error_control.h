@@ -14,18 +14,18 @@ struct ErrorControl {
   double tolerance = 1e-3;  // relative, of every result, frequency and point of a curve
   std::vector<Discretisation> meshes;
   std::function<void(double)> progress;  // fraction of the meshes done; may be empty
-  // Share of the last change that is taken to remain at least, where the mesh gained a layer at the
+  // Least share of the last change that is assumed to remain, if the mesh gained a layer at the
   // singular rim with it.
   double share_left = kShareLeft;
 
   static constexpr double kShareLeft = 0.1;
 };
 
-// Runs through the meshes until the change from the last one, and at least share_left of the change
-// before (two and a half times that if the layers stayed the same), so that a chance agreement of
-// two meshes does not pass, is within the tolerance; that change, plus the answer's own step error,
-// is the error estimate on every number. Throws std::runtime_error saying which number stays how
-// far off when the finest mesh is not enough.
+// Runs through the meshes until the estimate of every number is within the tolerance: the change
+// from the last mesh, but at least share_left of the change before (two and a half times that if
+// the layers stayed the same), so that a chance agreement of two meshes does not pass, plus the
+// answer's own step error. Throws std::runtime_error with the worst number and its error if the
+// finest mesh is not enough.
 SceneAnswer answer_within(const ErrorControl& control, const MeshAnswer& answer_on);
 
 }  // namespace viscard

@@ -2,6 +2,7 @@
 
 #include "models/pillar/mesh/pillar_mesh.h"
 
+#include <complex>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@ struct SceneResult {
   double value = 0.0;
   std::string unit;
   double error_estimate = 0.0;  // absolute, in the unit
-  double scale = 0.0;           // the error is judged against this where |value| is smaller
+  double scale = 0.0;           // the error is relative to the larger of |value| and this
   bool is_wanted = true;        // false: not asked for, and its error is not watched
 };
 
@@ -23,7 +24,7 @@ struct SceneMode {
   double error_estimate = 0.0;  // Hz
 };
 
-// What the plan decided about one effect.
+// Decision of the plan on one effect.
 struct SceneEffect {
   std::string name;
   bool on = false;
@@ -53,11 +54,23 @@ struct SceneAnswer {
   std::vector<SceneMode> modes;
   std::vector<SceneEffect> effects;
   std::vector<SceneCurve> curves;
-  std::vector<std::string> notes;  // what a reader should know, plain sentences
+  std::vector<std::string> notes;  // remarks for the reader, plain sentences
   Discretisation discretisation;   // that met the tolerance
   int unknowns = 0;                // of the largest system
   double largest_relative_error = 0.0;
   double step_error = 0.0;  // relative, of time steps and reduced bases; part of the errors above
 };
+
+// Adds a complex amplitude over frequency: curves of its real and imaginary part, magnitude and
+// phase, and the magnitude at either end. `allowed` is the size that the tolerance refers to.
+struct Sweep {
+  std::vector<std::complex<double>> value;
+  std::vector<double> allowed;
+};
+void add_sweep(const std::string& name, const std::string& unit,
+               const std::vector<double>& frequencies_Hz, const Sweep& sweep, SceneAnswer& answer);
+
+// Largest magnitude of the values.
+double largest_size(const std::vector<double>& values);
 
 }  // namespace viscard

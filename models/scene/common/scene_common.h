@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/material/material.h"
-#include "models/scene/common/effect_choice.h"
+#include "models/scene/common/effect_estimate.h"
 
 #include <functional>
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace viscard {
 
-// What every kind of scene has. Each kind of scene derives from this.
+// The base of every kind of scene.
 struct SceneCommon {
   double tolerance = 1e-3;          // relative error of the results
   Material pillar;                  // of every pillar
   std::vector<std::string> wanted;  // names of results; empty: all
-  EffectChoices effects;            // what the plan may not decide itself
+  EffectChoices effects;            // choices that the plan must respect
 
   std::function<void(double)> progress;  // called with the fraction done; may be empty
 };
@@ -22,14 +22,17 @@ struct SceneCommon {
 // True when the scene asks for this result; a scene that names no results asks for all.
 bool asks_for(const SceneCommon& scene, const std::string& result);
 
-// The tolerances that a kind of scene can be answered with: from `least` to below 1.
+// The tolerances that a kind of scene supports: from `least` to below 1.
 struct ToleranceRange {
   double least = 0.0;
   const char* words = "";  // for messages: "1e-9 and 1"
   bool contains(double tolerance) const { return tolerance >= least && tolerance < 1.0; }
 };
 
-// Throws SceneMistake naming the limits.
+// Throw SceneMistake: for a tolerance outside the range; unless there are frequencies, positive and
+// ascending; for an end or a number of outputs that a transient analysis cannot have.
 void check_tolerance(double tolerance, const ToleranceRange& range);
+void check_frequencies(const std::vector<double>& frequencies_Hz);
+void check_outputs(double end_time_s, int outputs);
 
 }  // namespace viscard

@@ -3,7 +3,7 @@
 #include "io/cost/study_cost.h"
 #include "io/cost/study_trials.h"
 #include "io/scenes/scene_file.h"
-#include "models/pillar/mesh/mesh_sequence.h"
+#include "models/pillar/mesh/pillar_mesh.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
 

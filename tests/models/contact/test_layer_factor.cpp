@@ -1,4 +1,3 @@
-#include "models/contact/layer_factor.h"
 #include "models/contact/punch_contact.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,3 @@
-#include "models/contact/layer_factor.h"
 #include "models/contact/punch_contact.h"
 #include "tests/support/error_text.h"
 #include "tests/support/printed_digits.h"
@@ -18,7 +17,8 @@ TEST_CASE("a sticking punch on a half-space takes Mossakovskii's force", "[model
   for (const double nu : {0.0, 0.2, 0.3, 0.45, 0.499}) {
     CAPTURE(nu);
     const double exact = (1.0 - nu) * std::log(3.0 - 4.0 * nu) / (1.0 - 2.0 * nu);
-    // The extrapolated Galerkin solution; worst at nu = 0, where the edge oscillates most.
+    // The extrapolated Galerkin solution; its error is largest at nu = 0, where the edge oscillates
+    // most.
     CHECK(sticking_layer_factor(0.0, nu) == Approx(exact).epsilon(2e-6));
   }
   CHECK(sticking_layer_factor(0.0, 0.5) == Approx(1.0).epsilon(1e-12));  // no coupling: rounding

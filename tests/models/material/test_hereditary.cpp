@@ -40,7 +40,7 @@ TEST_CASE("ramp and hold gives the effective moduli of the closed form", "[model
   CHECK(effective(5.0, 7.0, steps) == test::printed("1.843283901"));
 }
 
-TEST_CASE("the recursion is exact for linear strain whatever the step", "[models][stability]") {
+TEST_CASE("the recursion is exact for linear strain and any step", "[models][stability]") {
   const double dt_over_tau = GENERATE(1e-12, 1e-7, 1e-3, 1.0, 50.0, 1e6, 1e12);
   const PronySeries series{1.0, {{2.0, 1.0}}};
   HereditaryStress stress(series);

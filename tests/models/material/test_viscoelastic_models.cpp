@@ -25,7 +25,7 @@ const std::vector<ViscoelasticModel>& catalogue() {
   return kModels;
 }
 
-// int_0^t f(s) ds by tanh-sinh, which does not mind infinite slopes at the ends.
+// int_0^t f(s) ds by tanh-sinh quadrature, which converges with infinite slopes at the ends too.
 template <typename Function>
 double integral(double t, const Function& f) {
   double sum = 0.0;

@@ -12,7 +12,7 @@ namespace {
 void draw_materials(Draw& draw, ArrayScene& scene) {
   scene.pillar.E0_Pa = draw.log_uniform(1e5, 1e8);
   scene.pillar.nu = draw.chance(0.3) ? 0.5 - draw.log_uniform(5e-4, 5e-2) : draw.uniform(0.2, 0.45);
-  if (draw.chance(0.3)) return;  // PVDF, whatever the pillars are
+  if (draw.chance(0.3)) return;  // PVDF, for any pillars
   const double E = scene.pillar.E0_Pa * draw.log_uniform(10.0, 1e5);
   const double nu = draw.uniform(0.1, 0.4);
   const double permittivity = kVacuumPermittivity_F_m * draw.log_uniform(8.0, 2000.0);

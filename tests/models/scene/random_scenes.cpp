@@ -1,7 +1,7 @@
 #include "tests/models/scene/random_scenes.h"
 
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/pillar/mesh/mesh_sequence.h"
+#include "models/pillar/mesh/pillar_mesh.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
 #include "tests/models/pillar/drive_as.h"

@@ -1,10 +1,9 @@
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/pillar/analyses/relaxed_modes.h"
 #include "models/pillar/analyses/simulate_pillar.h"
-#include "models/pillar/body/piezo_one_way.h"
+#include "models/pillar/body/piezo_static.h"
 #include "models/scene/effects.h"
-#include "models/scene/pillar_effects.h"
 #include "models/scene/plan.h"
+#include "models/scene/scene_effects.h"
 #include "models/scene/simulate.h"
 #include "tests/models/pillar/drive_as.h"
 

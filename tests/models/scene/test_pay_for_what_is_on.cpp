@@ -1,5 +1,5 @@
 // An effect that is off costs nothing: its scene has the unknowns of one that never had it, and
-// gives the same numbers to the last bit, so that nothing of it is assembled or solved.
+// gives the same numbers to the last bit: nothing of the effect is assembled or solved.
 #include "models/array/plane/simulate_array.h"
 #include "models/pillar/analyses/simulate_pillar.h"
 #include "models/scene/plan.h"
@@ -48,7 +48,7 @@ ArrayScene row_of_four() {
   return scene;
 }
 
-// What an answer says and what it took.
+// The numbers of an answer and its cost.
 struct Told {
   int unknowns = 0;
   std::vector<double> numbers;

@@ -14,19 +14,19 @@ using namespace viscard;
 
 namespace {
 
-// What one scene says of the planner.
+// The planner's result on one scene.
 struct Verdict {
   bool answered = false;
   std::string refusal;
-  double true_error = 0.0;  // largest relative one of what was asked for
+  double true_error = 0.0;  // largest relative error of the results
   double estimate = 0.0;    // largest relative one
   bool is_covered = true;   // every number lies within its own estimate
   std::string uncovered;    // the last that does not
   double planned_s = 0.0, fine_s = 0.0;
 };
 
-// Everything on is answered on one fine mesh, whatever the tolerance: finer than most plans go, so
-// that its own error is a fiftieth of the tolerance or less.
+// The answer with everything on uses one fine mesh for all tolerances, finer than most plans use,
+// so that its own error is a fiftieth of the tolerance or less.
 struct FineMesh {
   int degree = 8;
   int layers = 5;
@@ -117,7 +117,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-// Draws `count` scenes and requires what the planner promises.
+// Draws `count` scenes and checks the planner's error estimates.
 void study(int count, unsigned long seed, const test::Ranges& ranges = {},
            const FineMesh& mesh = {}) {
   std::mt19937_64 random(seed);

@@ -25,7 +25,7 @@ const SceneEffect& effect_of(const ScenePlan& plan, const std::string& name) {
   return *found;
 }
 
-// Largest error of what is asked for, over the tolerance; and whether every estimate covers it.
+// Largest error of the wanted results over the tolerance, and whether every estimate covers it.
 struct Verdict {
   double over = 0.0;
   bool is_honest = true;

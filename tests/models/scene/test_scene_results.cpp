@@ -1,5 +1,5 @@
-// The list of what a scene may ask for is what its analyses give.
-#include "models/pillar/analyses/pillar_results.h"
+// The results that a scene may ask for are those that its analyses return.
+#include "models/pillar/analyses/simulate_pillar.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
 #include "tests/models/pillar/drive_as.h"

@@ -43,7 +43,7 @@ TEST_CASE("buckling limits the length by Euler's formula", "[models][design]") {
   CHECK(longest_um(2.0) == Approx(74.7).epsilon(7e-4));
   // The closed form l = C d^2/(d + s), C = pi^(3/2)/(8 K) sqrt(E/p).
   CHECK(longest_um(1.0) == Approx(9.338 * kD * kD / (kD + kS) * 1e6).epsilon(1e-4));
-  // At the limit Euler's load is the load.
+  // At the limit Euler's load equals the load.
   const double l = longest_unbuckled_m(kD, kS, {}, {});
   const double I = std::numbers::pi * std::pow(kD, 4) / 64.0;
   const double load_N = 1e4 * (kD + kS) * (kD + kS);

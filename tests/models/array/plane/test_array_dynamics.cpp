@@ -109,7 +109,7 @@ TEST_CASE("one pillar of a row vibrates as in the solver of one pillar", "[array
     const SceneCurve& other = curve_of(single, std::string("top_displacement") + part);
     for (std::size_t i = 0; i < mine.value.size(); ++i) {
       CAPTURE(part, i);
-      // In amplitude or in frequency: between resonances slopes are many times the amplitude.
+      // Error in amplitude or in frequency: between resonances slopes are many times the amplitude.
       CHECK(mine.value[i] == Approx(other.value[i]).margin(row.tolerance * mine.allowed[i]));
     }
   }
@@ -131,8 +131,8 @@ TEST_CASE("a step on a row rings with twice the static deflection", "[array]") {
 }
 
 TEST_CASE("the numerical Laplace transform gives a damped oscillator's exact response", "[array]") {
-  // After a ramp of one period of the first mode nothing of it rings on (Den Hartog, Mechanical
-  // Vibrations): what is left are the higher modes.
+  // After a ramp of one period of the first mode it does not ring (Den Hartog, Mechanical
+  // Vibrations); only the higher modes do.
   const Row row({.count = 1}, 10);
   const ArrayTransfer transfer(row.model, ArrayLoad::kPressure, {0}, pdms());
   double first_Hz = 0.0;

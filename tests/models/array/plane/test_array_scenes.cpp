@@ -1,5 +1,4 @@
 #include "models/array/plane/array_scene.h"
-#include "models/array/plane/check_array.h"
 #include "models/array/plane/simulate_array.h"
 #include "models/pillar/mesh/scene_mistake.h"
 #include "tests/models/array/plane/seed_array.h"

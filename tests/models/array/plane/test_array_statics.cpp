@@ -45,7 +45,7 @@ TEST_CASE("three pillars between mirrors, all loaded, respond as one does", "[ar
   row.count = 3;
   const ArrayResponse three = seed_response(row);
   for (int i = 0; i < 3; ++i) {
-    // Same elements, other arithmetic: rounding only.
+    // Same elements, other arithmetic: the difference is rounding.
     CHECK(three.centre_V.row(i).sum() == Approx(one.centre_V(0, 0)).epsilon(1e-9));
     CHECK(three.midway_V.row(i).sum() == Approx(one.midway_V(0, 0)).epsilon(1e-9));
     CHECK(three.mean_V.row(i).sum() == Approx(one.mean_V(0, 0)).epsilon(1e-9));

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a scene's answer says under a name. Throws std::runtime_error if there is nothing.
+// The value of an answer with this name. Throws std::runtime_error if there is none.
 #include "models/scene/common/scene_answer.h"
 
 #include <stdexcept>

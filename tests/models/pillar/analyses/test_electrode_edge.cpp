@@ -1,6 +1,6 @@
-// The potential goes with the root of the distance from an electrode's edge; meshes shrink there.
+// The potential varies as the root of the distance from an electrode's edge; elements shrink there.
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/mesh/mesh_sequence.h"
+#include "models/pillar/mesh/pillar_mesh.h"
 #include "tests/models/pillar/drive_as.h"
 
 #include <catch2/catch.hpp>

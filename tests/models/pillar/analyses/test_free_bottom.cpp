@@ -1,8 +1,7 @@
-// Bodies that nothing holds: their elastic modes, the motion by a voltage, and what is refused.
-#include "models/pillar/analyses/check_pillar.h"
+// Free bodies: their elastic modes, the motion by a voltage, and the scenes that are refused.
 #include "models/pillar/analyses/simulate_pillar.h"
+#include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/pillar_modes.h"
-#include "models/pillar/body/rigid_motion.h"
 #include "models/pillar/mesh/scene_mistake.h"
 #include "models/pillar/scene/pillar_scene.h"
 #include "tests/models/pillar/analyses/answer_of.h"
@@ -33,7 +32,7 @@ PillarGeometry bar(double length_over_diameter) {
   return {.diameter_m = 40e-6, .length_m = 40e-6 * length_over_diameter};
 }
 
-// A film without electrode alone, as near as may be: what stands on it is small and has no mass.
+// Nearly a film alone: the pillar on it is small and has no mass.
 double disc_Hz(double thickness_over_radius, Motion motion) {
   const double R_m = 1e-3;
   const double t_m = thickness_over_radius * R_m;
@@ -151,8 +150,8 @@ TEST_CASE("a free disc vibrates as a free plate as it becomes thin", "[pillar]")
   CHECK(1.0 - thick > 8e-3);
 }
 
-// Freeing the bottom takes constraints away: by Rayleigh no frequency rises, counted with the rigid
-// ones. The pillar swings faster against a film that gives way the other way.
+// Freeing the bottom removes constraints: by Rayleigh no frequency rises, counted with the rigid
+// ones. The pillar swings faster against a film that moves the opposite way.
 TEST_CASE("the modes of a free pillar interlace with those of the held one", "[pillar]") {
   const Discretisation mesh{.degree = 6, .layers = 2};
   const PillarMedia media{isotropic_medium(kE_Pa, .33, kRho), isotropic_medium(2e9, .29, 1780.0)};

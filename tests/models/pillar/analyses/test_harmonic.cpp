@@ -1,9 +1,9 @@
+#include "models/material/material.h"
 #include "models/pillar/analyses/simulate_pillar.h"
-#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/body/pillar_model.h"
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/pillar/time/harmonic_response.h"
 #include "models/pillar/time/model_reduction.h"
-#include "models/pillar/time/relative_modulus.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
 #include "tests/models/pillar/analyses/answer_of.h"
 #include "tests/models/pillar/drive_as.h"
@@ -24,7 +24,7 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-// Enough damping in the range of the resonances that a resonance can be told.
+// Enough damping in the range of the resonances to determine the amplitude there.
 Material damped_material(bool shear_only) {
   Material material;
   material.E0_Pa = 1.8e6;
@@ -197,7 +197,7 @@ TEST_CASE(
   const SceneCurve& real = curve_of(answer, "top_displacement_real");
   for (const double value : real.value) CHECK(std::isfinite(value));
   CHECK(answer.largest_relative_error <= scene.tolerance);
-  // Slow enough, it is the static answer with the relaxed modulus, 0.35 of the shear gone.
+  // At low frequency it is the static answer with the relaxed modulus, 0.65 of the shear modulus.
   const Body body(scene.pillar, Motion::kLongitudinal, {.degree = 7, .layers = 3});
   const double area_m2 = top_area_m2(body.model);
   const SymmetricSparse relaxed = stiffness_at(body.system, 0.65, 1.0);

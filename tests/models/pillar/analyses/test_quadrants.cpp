@@ -1,6 +1,6 @@
 #include "models/pillar/analyses/simulate_pillar.h"
-#include "models/pillar/body/piezo_quadrants.h"
-#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/body/piezo_static.h"
+#include "models/pillar/body/pillar_model.h"
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/scene/simulate.h"
 #include "tests/models/pillar/analyses/answer_of.h"
@@ -60,7 +60,7 @@ PillarScene sideways_scene() {
 // Under a force F at the end of a beam the stress at its foot is -4 F L x/(pi R^4); what lies
 // beside that, from shear next to the clamped foot, does not depend on L, so it drops out of a
 // difference. A quadrant then collects int_0^R int_0^(pi/2) of it: 4 F L/(3 pi R) times what a film
-// gives per stress, which the same film under pressure tells.
+// gives per stress, known from the same film under pressure.
 TEST_CASE("quadrants of a thin film collect the bending stress of a beam", "[pillar]") {
   const double R = 20e-6;
   const double force_N = 1e-6;
@@ -104,7 +104,7 @@ TEST_CASE("quadrants sense and drive reciprocally", "[pillar]") {
 }
 
 // Timoshenko's cantilever, P L^3/(3 E I) + P L/(kappa G A), kappa by Cowper: the clamped foot of a
-// solid is stiffer by what it may not contract.
+// solid is stiffer because it cannot contract.
 TEST_CASE("a sideways push bends the pillar as a beam", "[pillar]") {
   PillarScene scene = sideways_scene();
   scene.geometry.film.reset();
@@ -145,8 +145,8 @@ TEST_CASE("a film left out under a sideways push stays within the reported error
 
 namespace {
 
-// Long before the first resonance (16 kHz) all is in step with the load. One mesh for all analyses,
-// so that what differs is not the mesh.
+// Far below the first resonance (16 kHz) the answer is in phase with the load. One mesh for all
+// analyses, so that the mesh does not differ.
 PillarScene slow_scene(bool is_sampled) {
   PillarScene scene = sideways_scene();
   scene.pillar.rho_kg_m3 = 965.0;

@@ -3,7 +3,7 @@
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/analyses/simulate_pillar.h"
 #include "models/pillar/analyses/top_load.h"
-#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/body/pillar_model.h"
 #include "models/scene/simulate.h"
 #include "tests/models/pillar/analyses/answer_of.h"
 #include "tests/models/pillar/drive_as.h"
@@ -108,7 +108,8 @@ TEST_CASE("the work of the plate is the strain energy, and a plate is stiffer th
   const double soft_N_m = -1e4 * area_m2(scene) / value_of(soft, "top_displacement");
   const double confined_N_m = 1.8e6 * (1 - .45) / (1 + .45) / (1 - .9) * area_m2(scene) / 120e-6;
   CHECK(value_of(answer, "top_stiffness") > soft_N_m);
-  CHECK(value_of(answer, "top_stiffness") < 1.001 * soft_N_m);  // slender: the top matters little
+  CHECK(value_of(answer, "top_stiffness") <
+        1.001 * soft_N_m);  // slender: the top has little influence
   CHECK(value_of(answer, "top_stiffness") < confined_N_m);
 }
 
@@ -116,7 +117,7 @@ TEST_CASE("a film under a moved pillar: open, shorted and held answers are recip
           "[pillar]") {
   const PillarScene scene = on_piezo_film(moved_pillar(-1e-6, .33));
   const SceneAnswer open = simulate_pillar(scene);
-  // No charge flows: the voltage is what brings the charge of the shorted film back (top held).
+  // No charge flows: the voltage returns the charge of the shorted film (top held).
   CHECK(value_of(open, "electrode_voltage") * value_of(open, "electrode_capacitance") ==
         Approx(-value_of(open, "electrode_charge")).epsilon(1e-8));
   // Held by the plate and driven by the open voltage: no charge, the force of the open film less.

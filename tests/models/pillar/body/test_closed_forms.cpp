@@ -1,5 +1,5 @@
 // Elastic bodies with an answer on paper, or from another method to many digits.
-#include "models/contact/layer_factor.h"
+#include "models/contact/punch_contact.h"
 #include "models/pillar/body/pillar_modes.h"
 #include "tests/models/pillar/system/small_body.h"
 #include "tests/support/printed_digits.h"

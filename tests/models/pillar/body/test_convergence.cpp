@@ -37,7 +37,7 @@ TEST_CASE("frequencies of smooth modes converge with twice the degree in h",
   CHECK(orders.back() == Approx(2.0 * degree).margin(0.1));
 }
 
-TEST_CASE("the rim of the bond holds uniform meshes to h^1.4, whatever their degree",
+TEST_CASE("the rim of the bond limits uniform meshes of any degree to h^1.4",
           "[pillar][convergence]") {
   // Energy error h^(2 lambda) with the corner's exponent lambda = 0.692 at nu = 0.33 (clamped-free
   // 90 degrees; Williams, J. Appl. Mech. 19 (1952) 526).

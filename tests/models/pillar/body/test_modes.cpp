@@ -196,7 +196,7 @@ TEST_CASE("closely spaced modes of slender pillars are all found", "[pillar][sta
   for (std::size_t i = 1; i < 4; ++i) {
     CHECK(ovalling[i].frequency_Hz > ovalling[i - 1].frequency_Hz);
   }
-  // The end alone vibrates, whatever the length: that of the seed's pillar.
+  // Only the end vibrates, independent of the length: as for the seed's pillar.
   CHECK(ovalling[0].frequency_Hz == Approx(449529.6).epsilon(5e-3));
   const double speed_m_s = std::sqrt(1.8e6 / 965.0);
   const double euler_Hz = 3.5160153 / (2.0 * std::numbers::pi) * 10e-6 * speed_m_s /

@@ -149,7 +149,7 @@ TEST_CASE("sideways load drives the halves of a film apart by the tabulated volt
           "[pillar][golden]") {
   // Strip in plane stress, 1 kPa of shear on the top, mean over half of the charge-free
   // bottom: 34.1 mV with the film as wide as the pillar, 13.1 mV on a wide film, by another
-  // program, which takes the mean by trapezoids: that costs the steeper curve 1 %.
+  // program, which takes the mean by trapezoids, with an error of 1 % on the steeper curve.
   struct Case {
     double film_um, millivolt, epsilon;
   };

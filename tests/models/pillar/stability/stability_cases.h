@@ -6,8 +6,8 @@
 
 namespace viscard::test {
 
-// An extreme the solver must survive: how large its relative error is there, and how large it may
-// be. The table in models/pillar/README.md is made of these.
+// An extreme case for the solver: its relative error there and the largest allowed one. The table
+// in models/pillar/README.md lists these cases.
 struct StabilityCase {
   std::string name;
   std::function<double()> error;

@@ -1,8 +1,8 @@
+#include "models/material/material.h"
 #include "models/material/retardation_spectrum.h"
 #include "models/pillar/analyses/simulate_pillar.h"
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/pillar/time/load_history.h"
-#include "models/pillar/time/relative_modulus.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
 #include "tests/models/pillar/drive_as.h"
 #include "tests/models/pillar/stability/stability_cases.h"
@@ -30,7 +30,7 @@ Material material_of(std::vector<MaterialTerm> terms) {
   return material;
 }
 
-// Thirty terms from 1e-10 to 1e10 s that take `total` of the modulus away.
+// Thirty terms from 1e-10 to 1e10 s with the sum `total` of the modulus.
 Material thirty_terms(double total) {
   std::vector<MaterialTerm> terms;
   for (int i = 0; i < 30; ++i) {
@@ -147,7 +147,7 @@ std::vector<StabilityCase> viscoelastic_stability_cases() {
     cases.push_back({fmt::format("oscillation at {:g} Hz, pillar of 40 nm: rod", frequency_Hz),
                      [=] { return oscillation_error(frequency_Hz, 40e-9, 1.8e6, soft); }, 1e-3});
   }
-  // Waves of a polymer on its way to glass die out within the pillar.
+  // Waves in a polymer near its glass transition decay within the pillar.
   const std::vector<MaterialTerm> glassy = {{.5, .5, 1e-10},  {.2, .2, 1e-9},   {.1, .1, 1e-8},
                                             {.05, .05, 1e-7}, {.05, .05, 1e-6}, {.05, .05, 1e-3}};
   for (const double frequency_Hz : {1e-6, 1e6, 1e8, 1e9}) {

@@ -48,7 +48,7 @@ std::string table_of(const std::vector<Row>& rows) {
   return text + "\n";
 }
 
-// What stands in the table, by splitting its lines.
+// The rows of the table, split at its lines.
 std::vector<Row> rows_of(const std::string& table) {
   std::vector<Row> rows;
   std::istringstream lines(table);

@@ -3,7 +3,7 @@
 // Bodies simple enough for closed forms: a rectangle of the meridian or plane section, with its
 // edges held as the case needs.
 #include "models/pillar/system/discrete_system.h"
-#include "models/pillar/system/elastic_moduli.h"
+#include "models/pillar/system/medium.h"
 #include "models/pillar/system/stiffness_factor.h"
 
 #include <cmath>

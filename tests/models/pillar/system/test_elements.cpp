@@ -1,5 +1,5 @@
 #include "models/pillar/mesh/pillar_mesh.h"
-#include "models/pillar/system/elastic_moduli.h"
+#include "models/pillar/system/medium.h"
 #include "models/pillar/system/stiffness_factor.h"
 #include "tests/support/printed_digits.h"
 

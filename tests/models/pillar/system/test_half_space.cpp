@@ -1,4 +1,4 @@
-// A half-space under a disc of pressure: a body so large that its far edge does not count.
+// A half-space under a disc of pressure: a body so large that its far edge has no influence.
 #include "tests/models/pillar/system/small_body.h"
 
 #include <catch2/catch.hpp>
@@ -41,7 +41,7 @@ TEST_CASE("a half-space sinks by 2(1-nu^2)pa/E under a pressed disc, by 2/pi of 
           "[pillar]") {
   // w(0) = 2 (1 - nu^2) p a/E, w(a) = 4 (1 - nu^2) p a/(pi E), mean over the disc
   // 16 (1 - nu^2) p a/(3 pi E). Johnson, Contact Mechanics (1985), 3.4. The edge of the body is
-  // held 3^14 radii away, which costs its share, 1/3^14.
+  // held 3^14 radii away, with an error of 1/3^14.
   const double nu = GENERATE(0.0, 0.33, 0.49);
   SmallBody body(kinematics_of(Motion::kLongitudinal), radii(4e6), heights(4e6), 7);
   const double far = body.section().x().breaks().back();

@@ -16,7 +16,7 @@ struct Diagonal {
   Eigen::VectorXd B;
 
   EigenPairs largest(int count, const KrylovOptions& options) const {
-    const LinearMap op = [this](const Eigen::VectorXd& x) {
+    const PencilMap op = [this](const Eigen::VectorXd& x, const Eigen::VectorXd&) {
       return Eigen::VectorXd(value.cwiseProduct(x));
     };
     const LinearMap times_B = [this](const Eigen::VectorXd& x) {

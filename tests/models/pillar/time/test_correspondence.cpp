@@ -1,5 +1,5 @@
-// The elastic-viscoelastic correspondence on bodies with moduli on paper.
-#include "models/pillar/time/relative_modulus.h"
+// The elastic-viscoelastic correspondence on bodies with closed-form moduli.
+#include "models/material/material.h"
 #include "models/pillar/time/viscoelastic_exact.h"
 #include "models/pillar/time/viscoelastic_pillar.h"
 #include "tests/models/pillar/system/small_body.h"
@@ -72,7 +72,7 @@ TEST_CASE("a free bar of one shear term relaxes with its time stretched", "[pill
   const double share = 1.0 - (1.0 - .98038576) * -std::expm1(-time_s / tau_s);
   CHECK(bar.modulus_Pa(exact.relaxation_force(time_s)) ==
         Approx(1.8e6 * share).epsilon(2e-8));  // printed digits
-  // The steps, which know nothing of this, follow within their order.
+  // The time steps agree within their order.
   ViscoelasticStepper stepper(bar.system, 3);
   stepper.advance(0.0, Control::kDisplacement, 1.0);
   for (int i = 0; i < 50; ++i) stepper.advance(time_s / 50, Control::kDisplacement, 1.0);

@@ -1,4 +1,4 @@
-#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/body/pillar_model.h"
 #include "models/pillar/time/harmonic_response.h"
 #include "models/pillar/time/load_history.h"
 #include "models/pillar/time/model_reduction.h"
@@ -135,7 +135,7 @@ TEST_CASE("readings follow the circuit: decay, charge gain, division by the inpu
   Readout charge{.kind = ReadoutKind::kCharge, .resistance_Ohm = 1e9, .capacitance_F = 1e-12};
   CHECK(readout_filter(charge, C_F).gain == Approx(5e-3).epsilon(1e-14));
   CHECK(readout_filter(charge, C_F).time_constant_s == Approx(1e-3).epsilon(1e-14));
-  // The film's own leakage: rho eps = 1e13 Ohm m * 12 eps_0, whatever its size.
+  // The film's own leakage: rho eps = 1e13 Ohm m * 12 eps_0, for any size.
   Readout open{.film_leakage_s = 1062.5};
   CHECK(readout_filter(open, C_F).time_constant_s == Approx(1062.5).epsilon(1e-12));
   CHECK(readout_filter(open, C_F).gain == 1.0);

@@ -1,4 +1,4 @@
-#include "models/pillar/body/pillar_loads.h"
+#include "models/pillar/body/pillar_model.h"
 #include "models/pillar/time/inertial_stepper.h"
 #include "models/pillar/time/modal_response.h"
 #include "models/pillar/time/model_reduction.h"
@@ -80,8 +80,7 @@ TEST_CASE("steps with inertia converge at second order to the damped oscillator"
   CAPTURE(orders);
   CHECK(orders.back() == Approx(2.0).margin(0.02));
   small.terms = {{0.5, 0.0, 0.7}};
-  // u'' + 0.5 u + 0.5 d = 1, d' = u' - d/0.7: the cubic's roots by hand would say no more than this
-  // independent integration by classical Runge-Kutta.
+  // u'' + 0.5 u + 0.5 d = 1, d' = u' - d/0.7, integrated independently by classical Runge-Kutta.
   Eigen::Vector3d y(0.0, 0.0, 0.0);
   const auto rate = [](const Eigen::Vector3d& s) {
     return Eigen::Vector3d(s[1], 1.0 - 0.5 * s[0] - 0.5 * s[2], s[1] - s[2] / 0.7);
@@ -100,7 +99,7 @@ TEST_CASE("steps with inertia converge at second order to the damped oscillator"
   CHECK(orders.back() == Approx(2.0).margin(0.02));
 }
 
-TEST_CASE("energy never grows without work, whatever the step", "[pillar][stability]") {
+TEST_CASE("energy never grows without work, for any step", "[pillar][stability]") {
   const Body body(rod_material({{0.3, 0.3, 1e-6}, {0.3, 0.1, 1e-4}}));
   const double dt_s = GENERATE(1e-10, 1e-7, 1e-5, 1e-2, 1e6);
   InertialStepper stepper(body.reduced.system);
@@ -130,8 +129,7 @@ TEST_CASE("exact modes and increasingly fine steps give one answer", "[pillar]")
   // Under a jump, a ramp and a jump back, with two relaxation times near the resonance.
   const Body body(rod_material({{0.3, 0.3, 1e-6}, {0.2, 0.2, 2e-5}}));
   TransientRequest request{.load = body.reduced.system.load, .end_s = 3e-5};
-  request.corner_time_s = {0.0, 4.3e-6, 1.21e-5, 1.21e-5, 1.0};
-  request.corner_value = {1.0, 1.0, 2.0, 0.5, 0.5};
+  request.history = {{0.0, 1.0}, {4.3e-6, 1.0}, {1.21e-5, 2.0}, {1.21e-5, 0.5}, {1.0, 0.5}};
   request.outputs = 50;
   request.first_step_s = 1e-7;
   request.tolerance = 1e-5;

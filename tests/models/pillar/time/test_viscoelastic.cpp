@@ -28,7 +28,7 @@ Material pdms_1to10(bool shear_only) {
   return material;
 }
 
-// Strong relaxation, so that errors of time steps stand far above rounding.
+// Strong relaxation, so that errors of time steps are far above rounding.
 Material soft_material() {
   Material material;
   material.E0_Pa = 1.0e6;
@@ -103,7 +103,7 @@ TEST_CASE("creep converges with the order of the stepper", "[pillar][convergence
   const PronySeries series = young_series(soft_material());
   const RetardationSpectrum J = retardation_from_relaxation(series);
   const double scale = elastic_compliance(pillar.system()) * instantaneous_modulus_Pa(series);
-  // Force t^6, so smooth at the start that the low orders of the first steps do not show.
+  // Force t^6, so smooth at the start that the low orders of the first steps have no influence.
   const QuadratureRule rule = gauss_legendre(30);
   double exact = 0.0;
   for (std::size_t i = 0; i < rule.points.size(); ++i) {
@@ -125,7 +125,7 @@ TEST_CASE("creep converges with the order of the stepper", "[pillar][convergence
   CHECK(orders.back() == Approx(order + 1.0).margin(0.25));
 }
 
-TEST_CASE("a held displacement relaxes exactly with linear strain per step, whatever the step",
+TEST_CASE("a held displacement relaxes exactly with linear strain per step, for any step",
           "[pillar][stability]") {
   const double dt_s = GENERATE(1e-12, 1e-3, 1.0, 1e3, 1e12);
   const ViscoelasticPillar pillar = coarse_pillar(pdms_1to10(false));

@@ -1,10 +1,9 @@
-#include "models/pillar/analyses/quasi_static_history.h"
-
+// Creep and relaxation: a history of pressure or shortening, without inertia.
+#include "models/material/retardation_spectrum.h"
+#include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/analyses/pillar_scales.h"
 #include "models/pillar/analyses/scene_body.h"
-#include "models/pillar/body/pillar_loads.h"
-#include "models/pillar/mesh/number_text.h"
+#include "models/pillar/body/pillar_model.h"
 #include "models/pillar/mesh/scene_mistake.h"
 #include "models/pillar/time/model_reduction.h"
 
@@ -16,20 +15,21 @@
 namespace viscard {
 namespace {
 
-double peak_of(const std::vector<double>& values) {
+double signed_peak_of(const std::vector<double>& values) {
   return *std::max_element(values.begin(), values.end(),
                            [](double a, double b) { return std::abs(a) < std::abs(b); });
 }
 
-void add_curve(const std::string& name, const std::string& unit, const std::vector<double>& time_s,
-               const std::vector<double>& values, SceneAnswer& answer) {
-  const double peak = peak_of(values);
+void add_quasi_static_curve(const std::string& name, const std::string& unit,
+                            const std::vector<double>& time_s, const std::vector<double>& values,
+                            SceneAnswer& answer) {
+  const double peak = signed_peak_of(values);
   answer.results.push_back({name + "_end", values.back(), unit, 0.0, std::abs(peak)});
   answer.results.push_back({name + "_peak", peak, unit, 0.0});
   answer.curves.push_back({name, unit, time_s, values});
 }
 
-// After every corner of the load, times that show what a readout of this time constant does.
+// Times after every corner of the load that resolve the decay of the readout.
 std::vector<double> times_of_decay(const std::vector<HistoryPoint>& history,
                                    const ReadoutFilter& filter) {
   std::vector<double> times_s;
@@ -52,8 +52,6 @@ double total_variation(const std::vector<HistoryPoint>& points) {
   }
   return peak > 0.0 ? sum / peak : 1.0;
 }
-
-}  // namespace
 
 void check_quasi_static(const PillarScene& scene) {
   const std::vector<HistoryPoint>& points = history(scene);
@@ -93,33 +91,87 @@ void run_quasi_static(const PillarScene& scene, Control control, SceneAnswer& an
   }
   const HistoryResult run = run_history(reduced.system, control, points, options);
   if (!run.converged) {
-    throw std::runtime_error("the time steps do not settle to the tolerance of " +
-                             number_text(scene.tolerance) + "; ask for a larger one");
+    throw std::runtime_error("the time steps did not converge to the tolerance of " +
+                             text_of(scene.tolerance) + "; ask for a larger one");
   }
   answer.step_error = run.error_estimate + reduced.error;
   if (is_creep) {
-    add_curve("top_displacement", "m", run.time_s, run.observed[0], answer);
+    add_quasi_static_curve("top_displacement", "m", run.time_s, run.observed[0], answer);
   } else {
     std::vector<double> pressure_Pa = run.force;
     for (double& value : pressure_Pa) value *= -1.0 / area_m2;
-    add_curve("top_pressure", "Pa", run.time_s, pressure_Pa, answer);
+    add_quasi_static_curve("top_pressure", "Pa", run.time_s, pressure_Pa, answer);
   }
   for (std::size_t i = 1; i < body.outputs.size(); ++i) {
-    add_curve(body.outputs[i].name, body.outputs[i].unit, run.time_s, run.observed[i], answer);
+    add_quasi_static_curve(body.outputs[i].name, body.outputs[i].unit, run.time_s, run.observed[i],
+                           answer);
   }
   if (scene.readout) {
-    add_curve("reading", "V", run.time_s, reading_of(filter, run.time_s, run.observed[1]), answer);
+    add_quasi_static_curve("reading", "V", run.time_s,
+                           reading_of(filter, run.time_s, run.observed[1]), answer);
   }
 }
 
-EffectEstimate relaxation_over_history(const PillarScene& scene,
-                                       double (*share_at)(const PronySeries& series,
-                                                          double time_s)) {
-  const std::vector<HistoryPoint>& points = history(scene);
-  const double at_end = share_at(largest_relaxation(scene.pillar), points.back().time_s);
-  const double share = at_end * total_variation(points);
+// Estimate of leaving relaxation out, from the relative loss of modulus or compliance at the end of
+// the history (eq. E3): the largest relative deviation from the elastic answer.
+EffectEstimate relaxation_over_history(const PillarScene& scene, double lost_at_end) {
+  const double share = lost_at_end * total_variation(history(scene));
   return {EffectRole::kOptional, share, "relaxed share at the end", share,
           "the modulus that is lost over the history"};
+}
+
+double creep_push_Pa(const PillarScene& scene) {
+  double largest_Pa = 0.0;
+  for (const HistoryPoint& point : history(scene)) largest_Pa = std::max(largest_Pa, point.value);
+  return largest_Pa;
+}
+
+EffectEstimate creep_relaxation(const PillarScene& scene, const EffectEstimate&) {
+  const PronySeries series = largest_relaxation(scene.pillar);
+  const double E0_Pa = instantaneous_modulus_Pa(series);
+  const double J_1_Pa =
+      creep_compliance_1_Pa(retardation_from_relaxation(series), history(scene).back().time_s);
+  return relaxation_over_history(scene, J_1_Pa * E0_Pa - 1.0);
+}
+
+EffectEstimate relaxation_lost(const PillarScene& scene, const EffectEstimate&) {
+  const PronySeries series = largest_relaxation(scene.pillar);
+  const double E_Pa = relaxation_modulus_Pa(series, history(scene).back().time_s);
+  return relaxation_over_history(scene, 1.0 - E_Pa / instantaneous_modulus_Pa(series));
+}
+
+}  // namespace
+
+Analysis creep_analysis() {
+  return {.name = "creep",
+          .drive = CreepDrive{},
+          .relaxes = true,
+          .history = HistoryOf::kPressure,
+          .check = check_quasi_static,
+          .result_names =
+              [](const PillarScene& scene) {
+                return moving_names(scene, "top_displacement", {"_end", "_peak"});
+              },
+          .run = [](const PillarScene& scene,
+                    SceneAnswer& answer) { run_quasi_static(scene, Control::kForce, answer); },
+          .push_Pa = creep_push_Pa,
+          .relaxation = creep_relaxation};
+}
+
+Analysis relaxation_analysis() {
+  return {
+      .name = "relaxation",
+      .drive = RelaxationDrive{},
+      .relaxes = true,
+      .history = HistoryOf::kShortening,
+      .check = check_quasi_static,
+      .result_names =
+          [](const PillarScene& scene) {
+            return moving_names(scene, "top_pressure", {"_end", "_peak"});
+          },
+      .run = [](const PillarScene& scene,
+                SceneAnswer& answer) { run_quasi_static(scene, Control::kDisplacement, answer); },
+      .relaxation = relaxation_lost};
 }
 
 }  // namespace viscard

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "models/array/plane/array_scene.h"
+#include "models/pillar/scene/pillar_scene.h"
+#include "models/scene/common/effect_estimate.h"
+
+namespace viscard {
+
+// The effects of each kind of scene: the estimate of leaving one out, and how a scene becomes one
+// that never had it. Those of one line are in effects.cpp.
+
+// One pillar: effects in the film and its electrodes (pillar_effects_film.cpp), and of the body
+// (pillar_effects_body.cpp).
+EffectEstimate film_compliance_estimate(const PillarScene& scene);
+void leave_out_film(PillarScene& scene);
+EffectEstimate piezo_coupling_estimate(const PillarScene& scene);
+void leave_out_piezo_coupling(PillarScene& scene);
+EffectEstimate relaxation_estimate(const PillarScene& scene);
+EffectEstimate inertia_estimate(const PillarScene& scene);
+EffectEstimate leakage_estimate(const PillarScene& scene);
+EffectEstimate incompressibility_estimate(const PillarScene& scene);
+EffectEstimate three_dimensional_estimate(const PillarScene& scene);
+EffectEstimate geometric_stiffness_estimate(const PillarScene& scene);
+void leave_out_geometric_stiffness(PillarScene& scene);
+EffectEstimate finite_strain_estimate(const PillarScene& scene);
+
+// A row of pillars (row_effects.cpp).
+EffectEstimate film_compliance_estimate(const ArrayScene& scene);
+EffectEstimate piezo_coupling_estimate(const ArrayScene& scene);
+void leave_out_piezo_coupling(ArrayScene& scene);
+EffectEstimate relaxation_estimate(const ArrayScene& scene);
+EffectEstimate inertia_estimate(const ArrayScene& scene);
+EffectEstimate incompressibility_estimate(const ArrayScene& scene);
+EffectEstimate crosstalk_estimate(const ArrayScene& scene);
+EffectEstimate geometric_stiffness_estimate(const ArrayScene& scene);
+EffectEstimate adhesion_estimate(const ArrayScene& scene);
+EffectEstimate finite_strain_estimate(const ArrayScene& scene);
+
+}  // namespace viscard
