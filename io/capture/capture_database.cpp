@@ -1,13 +1,13 @@
 #include "io/capture/capture_database.h"
 
-#include "io/basics/units.h"
+#include "io/basics/number_text.h"
+#include "io/basics/timestamp.h"
 #include "io/capture/capture_schema.h"
 #include "io/config/config_file.h"
 
 #include <sqlite3.h>
 #include <time.h>
 
-#include <ctime>
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
@@ -19,15 +19,6 @@ double clock_s(clockid_t clock) {
   timespec now{};
   clock_gettime(clock, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-std::string iso_8601_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  const std::size_t size = std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return {text, size};
 }
 
 std::string boot_id() {
@@ -67,7 +58,7 @@ void CaptureDatabase::finish(const std::string& status) {
   database_.execute("PRAGMA synchronous=FULL");
   database_.execute("BEGIN");
   set("status", status);
-  set("finished_at", iso_8601_now());
+  set("finished_at", now_iso8601());
   set("finish_clock_monotonic_s", text_from_number(clock_s(CLOCK_MONOTONIC)));
   set("finish_clock_realtime_s", text_from_number(clock_s(CLOCK_REALTIME)));
   database_.execute("COMMIT");
@@ -92,7 +83,7 @@ void CaptureDatabase::create(const std::filesystem::path& path, const CapturedRu
   set("status", "open");
   set("program", about.program.empty() ? "viscard " VISCARD_VERSION : about.program);
   set("command", about.command);
-  set("started_at", about.started_at.empty() ? iso_8601_now() : about.started_at);
+  set("started_at", about.started_at.empty() ? now_iso8601() : about.started_at);
   set("start_clock_monotonic_s", text_from_number(clock_s(CLOCK_MONOTONIC)));
   set("start_clock_realtime_s", text_from_number(clock_s(CLOCK_REALTIME)));
   set("boot_id", boot_id());

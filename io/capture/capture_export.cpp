@@ -1,5 +1,6 @@
 #include "io/capture/capture_export.h"
 
+#include "io/basics/number_text.h"
 #include "io/basics/units.h"
 #include "io/capture/capture_file.h"
 #include "models/experiment/calibration.h"

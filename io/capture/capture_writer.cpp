@@ -1,4 +1,4 @@
-#include "io/basics/units.h"
+#include "io/basics/number_text.h"
 #include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_lock.h"

@@ -1,7 +1,7 @@
 #include "io/cards/column_fields.h"
 
+#include "io/basics/number_text.h"
 #include "io/cards/card_lines.h"
-#include "io/cards/number_text.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ std::vector<std::string> columns(const std::string& line, std::size_t width) {
   if (line.find(',') != std::string::npos) return cells(line, ',');
   std::vector<std::string> out;
   for (std::size_t begin = 0; begin < line.size(); begin += width) {
-    out.push_back(trimmed(line.substr(begin, width)));
+    out.emplace_back(trimmed(std::string_view(line).substr(begin, width)));
   }
   return out;
 }

@@ -1,6 +1,6 @@
 #include "io/cli/command.h"
 
-#include "io/basics/nearest_word.h"
+#include "io/basics/words.h"
 #include "io/cli/card/command_card.h"
 #include "io/cli/fit/command_fit.h"
 #include "io/cli/report/command_demo.h"
@@ -47,9 +47,7 @@ int dispatch(const std::vector<std::string>& words, Streams& streams) {
     if (words[0] == command.name) return command.run({words.begin() + 1, words.end()}, streams);
     names.emplace_back(command.name);
   }
-  const std::string near = nearest_word(words[0], names);
-  throw UsageError("there is no command '" + words[0] + "'" +
-                   (near.empty() ? "" : "; did you mean '" + near + "'?") +
+  throw UsageError("there is no command '" + words[0] + "'" + did_you_mean(words[0], names, "") +
                    " 'viscard --help' lists the commands");
 }
 

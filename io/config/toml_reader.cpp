@@ -1,9 +1,11 @@
-#include "io/basics/nearest_word.h"
+#include "io/basics/number_text.h"
 #include "io/basics/units.h"
+#include "io/basics/words.h"
 #include "io/config/config_fields.h"
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -192,17 +194,9 @@ class TomlReader final : public FieldVisitor {
   void refuse_unknown_keys() const {
     for (const auto& [key, node] : table_) {
       const std::string word(key.str());
-      bool is_known = false;
-      std::string all;
-      for (const std::string& known : known_) {
-        is_known = is_known || known == word;
-        all += (all.empty() ? "" : ", ") + known;
-      }
-      if (is_known) continue;
-      const std::string near = nearest_word(word, known_);
+      if (std::find(known_.begin(), known_.end(), word) != known_.end()) continue;
       throw std::runtime_error(where(node) + "there is no key '" + prefix_ + word + "'" +
-                               (near.empty() ? "." : "; did you mean '" + near + "'?") +
-                               " Known here: " + all);
+                               did_you_mean(word, known_) + " Known here: " + listed(known_));
     }
     if (!missing_.empty()) throw std::runtime_error(missing_);
   }

@@ -1,4 +1,4 @@
-#include "io/basics/units.h"
+#include "io/basics/number_text.h"
 #include "io/config/config_fields.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <stdexcept>
 
 namespace viscard {
 namespace {

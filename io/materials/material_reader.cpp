@@ -1,4 +1,4 @@
-#include "io/basics/nearest_word.h"
+#include "io/basics/words.h"
 #include "io/materials/material_json.h"
 
 #include <limits>

@@ -1,6 +1,6 @@
 #include "io/plots/plot_script.h"
 
-#include "io/basics/text_length.h"
+#include "io/basics/words.h"
 #include "io/plots/plot_points.h"
 
 #include <fmt/format.h>

@@ -4,7 +4,6 @@
 #include "models/experiment/captured_run.h"
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace viscard {

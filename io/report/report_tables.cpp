@@ -1,6 +1,6 @@
 #include "io/report/report_tables.h"
 
-#include "io/basics/text_length.h"
+#include "io/basics/words.h"
 #include "io/plots/plot_svg.h"
 #include "io/report/report_numbers.h"
 

@@ -7,7 +7,6 @@
 #include "models/pillar/analyses/pillar_results.h"
 #include "models/scene/effects.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>

@@ -43,13 +43,9 @@ void check_wanted(const std::vector<std::string>& wanted, const std::vector<std:
                          "base_stress_rim_mean, the mean over the outermost tenth of the radius, "
                          "or for base_stress_at_half_radius");
     }
-    std::string list;
-    for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
-    const std::string near = nearest_word(name, known);
-    throw SceneMistake("want.quantities",
-                       "this analysis has no '" + name + "'" +
-                           (near.empty() ? "." : "; did you mean '" + near + "'?") +
-                           " It has: " + list);
+    throw SceneMistake("want.quantities", "this analysis has no '" + name + "'" +
+                                              did_you_mean(name, known) +
+                                              " It has: " + listed(known));
   }
 }
 

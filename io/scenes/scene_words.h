@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/basics/nearest_word.h"
 #include "io/basics/printed_value.h"
+#include "io/basics/words.h"
 #include "io/config/config_fields.h"
 #include "io/materials/piezo_file.h"
 #include "models/material/material.h"
@@ -24,15 +24,9 @@ Value choice(const std::string& key, const std::string& word,
   const auto found = all.find(word);
   if (found != all.end()) return found->second;
   std::vector<std::string> known;
-  std::string list;
-  for (const auto& [name, value] : all) {
-    known.push_back(name);
-    list += (list.empty() ? "" : ", ") + name;
-  }
-  const std::string near = nearest_word(word, known);
-  throw SceneMistake(key, "cannot be '" + word + "'" +
-                              (near.empty() ? "." : "; did you mean '" + near + "'?") +
-                              " There are: " + list);
+  for (const auto& [name, value] : all) known.push_back(name);
+  throw SceneMistake(key, "cannot be '" + word + "'" + did_you_mean(word, known) +
+                              " There are: " + listed(known));
 }
 
 // A material as it stands in a scene: a file, or an elastic one in place.

@@ -61,7 +61,7 @@ std::optional<double> tag_value(const std::string& text, const std::string& tag)
   const std::regex pattern("<" + tag + "(\\s[^>]*)?>([^<]*)</" + tag + ">");
   std::smatch match;
   if (!std::regex_search(text, match, pattern)) return std::nullopt;
-  return card_number(trimmed(match[2].str()),
+  return card_number(std::string(trimmed(match[2].str())),
                      line_of(text, static_cast<std::size_t>(match.position(2))), tag);
 }
 

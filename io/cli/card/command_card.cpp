@@ -1,6 +1,6 @@
 #include "io/cli/card/command_card.h"
 
-#include "io/basics/nearest_word.h"
+#include "io/basics/words.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
 #include "io/cli/card/card_words.h"
@@ -13,14 +13,9 @@ namespace {
 
 void check_word(const std::string& kind, const std::string& word,
                 const std::vector<std::string>& known) {
-  std::string list;
-  for (const std::string& name : known) {
-    if (word == name) return;
-    list += (list.empty() ? "" : ", ") + name;
-  }
-  const std::string near = nearest_word(word, known);
-  throw UsageError("there is no " + kind + " '" + word + "'" +
-                   (near.empty() ? "." : "; did you mean '" + near + "'?") + " There are: " + list);
+  if (std::find(known.begin(), known.end(), word) != known.end()) return;
+  throw UsageError("there is no " + kind + " '" + word + "'" + did_you_mean(word, known) +
+                   " There are: " + listed(known));
 }
 
 std::vector<std::string> target_names() {

@@ -2,9 +2,9 @@
 
 #include "fit/assembly/constraints.h"
 #include "io/basics/atomic_file.h"
-#include "io/basics/nearest_word.h"
 #include "io/basics/timestamp.h"
 #include "io/basics/units.h"
+#include "io/basics/words.h"
 #include "io/cli/words/command_line.h"
 #include "io/config/config_file.h"
 
@@ -40,9 +40,7 @@ FitKind kind_from_word(const std::string& word) {
     if (word == name) return kind;
     names.push_back(name);
   }
-  const std::string near = nearest_word(word, names);
-  throw UsageError("--kind " + word + " is not known" +
-                   (near.empty() ? "." : "; did you mean '" + near + "'?") +
+  throw UsageError("--kind " + word + " is not known" + did_you_mean(word, names) +
                    " Use indentation, relaxation, creep or dma");
 }
 

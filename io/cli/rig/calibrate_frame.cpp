@@ -1,5 +1,6 @@
 #include "fit/calibration/fit_frame_stiffness.h"
 #include "io/basics/atomic_file.h"
+#include "io/basics/timestamp.h"
 #include "io/capture/capture_file.h"
 #include "io/cli/rig/calibrate_words.h"
 #include "io/cli/words/stop_on_signal.h"

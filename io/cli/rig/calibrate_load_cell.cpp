@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/timestamp.h"
 #include "io/capture/capture_file.h"
 #include "io/cli/rig/calibrate_words.h"
 #include "io/cli/words/stop_on_signal.h"

@@ -1,5 +1,6 @@
 #include "io/cli/rig/command_calibrate.h"
 
+#include "io/basics/timestamp.h"
 #include "io/basics/units.h"
 #include "io/cli/rig/calibrate_words.h"
 #include "io/cli/words/command_line.h"

@@ -1,6 +1,6 @@
 #include "io/cli/rig/command_capture.h"
 
-#include "io/cli/rig/calibrate_words.h"
+#include "io/basics/timestamp.h"
 #include "io/cli/rig/capture_run.h"
 #include "io/cli/rig/capture_series.h"
 #include "io/cli/rig/capture_setup.h"
@@ -15,7 +15,6 @@
 #include <filesystem>
 #include <iostream>
 #include <ostream>
-#include <vector>
 
 namespace po = boost::program_options;
 

@@ -1,6 +1,6 @@
 #include "io/cli/rig/command_rig.h"
 
-#include "io/cli/rig/calibrate_words.h"
+#include "io/basics/timestamp.h"
 #include "io/cli/rig/overshoot_study.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/progress.h"

@@ -1,8 +1,8 @@
 #include "io/cli/scene/command_design.h"
 
 #include "io/basics/atomic_file.h"
-#include "io/basics/nearest_word.h"
 #include "io/basics/units.h"
+#include "io/basics/words.h"
 #include "io/cli/scene/design_pictures.h"
 #include "io/cli/words/command_line.h"
 #include "models/sensor/sensor_design.h"
@@ -82,9 +82,8 @@ Lattice lattice_of(const std::string& word) {
   if (word == "square") return Lattice::kSquare;
   if (word == "hexagonal") return Lattice::kHexagonal;
   if (word == "plain") return Lattice::kPlain;
-  const std::string near = nearest_word(word, {"square", "hexagonal", "plain"});
   throw UsageError("--lattice cannot be '" + word + "'" +
-                   (near.empty() ? "." : "; did you mean '" + near + "'?") +
+                   did_you_mean(word, {"square", "hexagonal", "plain"}) +
                    " There are: square, hexagonal, plain");
 }
 

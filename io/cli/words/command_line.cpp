@@ -1,6 +1,6 @@
 #include "io/cli/words/command_line.h"
 
-#include "io/basics/nearest_word.h"
+#include "io/basics/words.h"
 #include "io/cli/words/output_paths.h"
 
 #include <ostream>
@@ -18,9 +18,8 @@ std::vector<std::string> option_names(const po::options_description& options) {
 
 [[noreturn]] void throw_unknown(const std::string& word, const po::options_description& options,
                                 const char* usage) {
-  const std::string near = nearest_word(word, option_names(options));
   throw UsageError("there is no option '" + word + "'" +
-                   (near.empty() ? "." : "; did you mean '" + near + "'?") + " Usage: " + usage);
+                   did_you_mean(word, option_names(options)) + " Usage: " + usage);
 }
 
 }  // namespace
