@@ -12,6 +12,9 @@ namespace viscard {
 // removed in every case.
 void write_file(const std::filesystem::path& path, const std::string& contents, bool overwrite);
 
+// Makes new and renamed entries of the folder survive a power cut, as far as the disk allows.
+void sync_folder(const std::filesystem::path& folder);
+
 // Returns the contents of a file. Throws std::runtime_error naming the file and the reason.
 std::string read_file(const std::filesystem::path& path);
 

@@ -1,6 +1,6 @@
+#include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_lock.h"
-#include "io/capture/capture_schema.h"
 #include "io/capture/sqlite_database.h"
 #include "io/config/config_file.h"
 

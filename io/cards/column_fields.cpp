@@ -27,21 +27,18 @@ std::string real(double value, int width) {
 }
 
 std::string node_rows(int id_width, int width) {
-  constexpr int kCorners[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                  {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
   std::string out;
   for (int node = 1; node <= 8; ++node) {
     out += right(std::to_string(node), id_width);
-    for (const int x : kCorners[node - 1]) out += right(x == 0 ? "0.0" : "1.0", width);
+    for (const int x : kCubeCorners[node - 1]) out += right(x == 0 ? "0.0" : "1.0", width);
     out += "\n";
   }
   return out;
 }
 
 std::string face_nodes(int face) {
-  constexpr int kNodes[kFaces][4] = {{1, 4, 5, 8}, {1, 2, 5, 6}, {1, 2, 3, 4}, {5, 6, 7, 8}};
   std::string out;
-  for (const int node : kNodes[face]) out += right(std::to_string(node), 10);
+  for (const int node : kFaceNodes[face]) out += right(std::to_string(node), 10);
   return out + "\n";
 }
 

@@ -2,7 +2,6 @@
 
 #include "io/basics/number_text.h"
 
-
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-#include "io/cost/cost_meshes.h"
-
+#include "io/cost/study_trials.h"
 #include "models/array/plane/simulate_array.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/mesh/mesh_sequence.h"

@@ -1,6 +1,5 @@
 #include "io/cost/study_trials.h"
 
-#include "io/cost/cost_meshes.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/scene/effects.h"

@@ -7,6 +7,7 @@
 #include "io/tables/column_map.h"
 #include "models/experiment/specimen.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,5 +41,13 @@ struct FittedFile {
 
 // Reads a capture or a table and fits it. Throws std::runtime_error naming the file.
 FittedFile fit_file(const std::string& path, const FitRequest& request);
+
+// Called with the fraction done and the name of the step that was finished last; may be empty.
+using FlowProgress = std::function<void(double fraction, const std::string& step)>;
+
+// Fits all files on all cores. If some fail, rethrows the exception of the first of them in the
+// order of the files.
+std::vector<FittedFile> fit_files(const std::vector<std::string>& files, const FitRequest& request,
+                                  const FlowProgress& progress);
 
 }  // namespace viscard

@@ -2,7 +2,6 @@
 
 #include "fit/laws/fit_mixing_ratio.h"
 #include "io/flow/fit_file.h"
-#include "io/flow/flow_progress.h"
 #include "io/flow/material_from_fitted.h"
 
 #include <functional>

@@ -1,6 +1,5 @@
-#include "io/flow/mixing_law.h"
-
 #include "fit/laws/fit_mixing_ratio.h"
+#include "io/flow/specimen_reports.h"
 #include "io/materials/ratio_file.h"
 
 #include <cmath>

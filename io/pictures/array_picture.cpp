@@ -1,6 +1,5 @@
-#include "io/pictures/array_picture.h"
-
 #include "io/pictures/scene_drawing.h"
+#include "io/pictures/scene_picture.h"
 #include "models/array/plane/array_analysis.h"
 
 #include <fmt/format.h>
@@ -135,7 +134,7 @@ std::string words_of_lengths(const ArrayGeometry& g) {
 
 }  // namespace
 
-std::string svg_from_array(const ArrayScene& scene, const std::string& title) {
+std::string svg_from_scene(const ArrayScene& scene, const std::string& title) {
   const ArrayGeometry& g = scene.geometry;
   const ShownRow row = shown_row(g);
   const bool is_endless = g.ends == FilmEnds::kMirror;

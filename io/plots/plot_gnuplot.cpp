@@ -1,4 +1,4 @@
-#include "io/plots/plot_gnuplot.h"
+#include "io/plots/plot_script.h"
 
 #include <fcntl.h>
 #include <spawn.h>

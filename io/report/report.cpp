@@ -5,7 +5,6 @@
 #include "io/report/report_sections.h"
 #include "models/maths/text_of_number.h"
 
-
 #include <stdexcept>
 
 namespace viscard {

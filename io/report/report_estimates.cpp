@@ -158,6 +158,12 @@ SpecimenEstimates estimates_from_specimen(const SpecimenReport& specimen, std::s
   return estimates;
 }
 
+ShownUnit modulus_unit(const std::vector<SpecimenEstimates>& estimates) {
+  std::vector<double> values;
+  for (const SpecimenEstimates& specimen : estimates) values.push_back(specimen.E0_Pa.value);
+  return shown_unit(estimates.front().is_stiffness ? "N/m" : "Pa", values);
+}
+
 RelaxationBand relaxation_band(const SpecimenEstimates& estimates,
                                const std::vector<double>& time_s, bool is_relative) {
   const PronySeries series = series_from_estimates(estimates);

@@ -1,14 +1,23 @@
 #pragma once
 
 #include "io/plots/plot.h"
+#include "io/report/report.h"
 #include "io/report/report_estimates.h"
-#include "io/report/report_input.h"
 #include "io/report/report_run.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace viscard {
+
+// Colour and legend entry of each specimen. Repeated specimens of a mixing ratio have one colour
+// and one entry, "10 : 1 (3 specimens)".
+struct SpecimenStyle {
+  Ink ink = Ink::kBlue;
+  std::string label;  // empty if another specimen of this ratio has the entry
+};
+std::vector<SpecimenStyle> styles_of(const std::vector<SpecimenEstimates>& estimates);
 
 // The figures of the page. Each function returns nothing if its data are missing.
 
@@ -36,5 +45,9 @@ std::optional<Plot> run_plot(const RunSeries& series);
 // Data with fit, and residuals divided by their standard deviation, over the logarithm of the time
 // since each motion began.
 std::optional<Plot> fit_plot(const FitResult& fit);
+
+// Profile likelihoods: rise of the sum of squares over E_inf and over each relaxation time, one
+// panel each. Nothing if the fit has none.
+std::optional<Plot> profile_plot(const FitResult& fit);
 
 }  // namespace viscard

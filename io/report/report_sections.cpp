@@ -1,7 +1,6 @@
 #include "io/report/report_sections.h"
 
 #include "io/plots/plot_svg.h"
-#include "io/report/report_campaign.h"
 #include "io/report/report_figures.h"
 #include "io/report/report_numbers.h"
 #include "io/report/report_tables.h"

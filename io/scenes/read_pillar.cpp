@@ -1,6 +1,4 @@
-#include "io/scenes/read_pillar.h"
-
-#include "io/scenes/scene_drive.h"
+#include "io/scenes/raw_drive.h"
 #include "io/scenes/scene_words.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/check_pillar.h"

@@ -1,6 +1,4 @@
-#include "io/scenes/read_row.h"
-
-#include "io/scenes/scene_drive.h"
+#include "io/scenes/raw_drive.h"
 #include "io/scenes/scene_words.h"
 #include "models/array/plane/array_analysis.h"
 #include "models/array/plane/check_array.h"

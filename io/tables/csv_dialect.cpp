@@ -175,8 +175,7 @@ bool LineReader::next(TextLine& line) {
     ++number_;
     if (text.empty()) continue;
     if (is_comment(text)) {
-      last_comment_ =
-          trimmed(text.substr(std::min(text.size(), text.find_first_not_of("#%/"))));
+      last_comment_ = trimmed(text.substr(std::min(text.size(), text.find_first_not_of("#%/"))));
       continue;
     }
     line = {number_, text};

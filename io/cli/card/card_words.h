@@ -9,6 +9,9 @@
 
 namespace viscard {
 
+// viscard card: writes a material card for a solver, lists targets, checks cards, proves them.
+int run_card(const Words& words, Streams& streams);
+
 // What the user asked of `viscard card`, checked.
 struct CardWords {
   std::string material;  // path; empty for --list, and where --check goes without

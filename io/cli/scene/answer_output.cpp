@@ -2,7 +2,6 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/cli/scene/answer_pictures.h"
-#include "io/cli/scene/command_plan.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -25,13 +24,9 @@ nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s) {
                      {"frequency_Hz", m.frequency_Hz},
                      {"error_estimate", m.error_estimate}});
   }
-  nlohmann::json effects = nlohmann::json::array();
-  for (const SceneEffect& e : answer.effects) {
-    effects.push_back(json_from_effect(e));
-  }
   return {{"results", results},
           {"modes", modes},
-          {"effects", effects},
+          {"effects", json_from_effects(answer.effects)},
           {"discretisation",
            {{"degree", answer.discretisation.degree}, {"layers", answer.discretisation.layers}}},
           {"notes", answer.notes},

@@ -14,6 +14,9 @@ namespace viscard {
 // How the answer of any scene is printed and stored.
 
 nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s);
+// A list of {name, on, estimate, number, value, forced, counted, reason}; estimate is null where
+// the effect has nothing to act on.
+nlohmann::json json_from_effects(const std::vector<SceneEffect>& effects);
 void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out);
 
 // Drops the results that are not among the wanted ones, if any are; a wanted name also stands for

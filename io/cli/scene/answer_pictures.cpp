@@ -1,6 +1,5 @@
 #include "io/cli/scene/answer_pictures.h"
 
-#include "io/plots/plot.h"
 #include "io/report/report_numbers.h"
 
 #include <algorithm>
@@ -17,6 +16,15 @@ bool spans_decades(const std::vector<double>& values) {
     high = std::max(high, std::abs(value));
   }
   return high > 30.0 * low;
+}
+
+bool draw(const std::string& name, const Plot& plot, const char* id, Pictures& pictures) {
+  try {
+    pictures.emplace_back(name, svg_from_plot(plot, id));
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+  return true;
 }
 
 namespace {
@@ -71,8 +79,8 @@ const SceneCurve* find(const SceneAnswer& answer, const std::string& name) {
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> pictures_of(const SceneAnswer& answer) {
-  std::vector<std::pair<std::string, std::string>> pictures;
+Pictures pictures_of(const SceneAnswer& answer) {
+  Pictures pictures;
   for (const SceneCurve& curve : answer.curves) {
     const bool is_part = curve.name.ends_with("_real") || curve.name.ends_with("_imaginary") ||
                          curve.name.ends_with("_phase");
@@ -88,11 +96,7 @@ std::vector<std::pair<std::string, std::string>> pictures_of(const SceneAnswer& 
       plot.panels.push_back(panel_of(*phase));
       plot.height_px = 560;
     }
-    try {
-      pictures.emplace_back(curve.name, svg_from_plot(plot, "curve"));
-    } catch (const std::runtime_error&) {
-      return {};  // no gnuplot
-    }
+    if (!draw(curve.name, plot, "curve", pictures)) return {};
   }
   return pictures;
 }

@@ -1,7 +1,4 @@
-#include "io/cli/scene/row_pictures.h"
-
 #include "io/cli/scene/answer_pictures.h"
-#include "io/plots/plot.h"
 #include "io/report/report_numbers.h"
 
 #include <fmt/format.h>
@@ -14,8 +11,6 @@ namespace viscard {
 namespace {
 
 constexpr double kUm_m = 1e6;  // lengths are shown in micrometres
-
-using Pictures = std::vector<std::pair<std::string, std::string>>;
 
 // "crosstalk_percent" -> "crosstalk": its unit says the rest.
 std::string words_of(std::string name) {
@@ -162,23 +157,13 @@ Plot plot_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoint>& poi
   return plot;
 }
 
-// None at all without gnuplot.
-bool draw(const std::string& name, const Plot& plot, Pictures& pictures) {
-  try {
-    pictures.emplace_back(name, svg_from_plot(plot, "row"));
-  } catch (const std::runtime_error&) {
-    return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 Pictures pictures_over_pillars(const SceneAnswer& answer) {
   Pictures pictures;
   if (!answer.curves.empty()) return pictures;  // those have pictures of their own
   for (const OverPillars& group : grouped(answer.results)) {
-    if (!draw(group.name, plot_over_pillars(group), pictures)) return {};
+    if (!draw(group.name, plot_over_pillars(group), "row", pictures)) return {};
   }
   return pictures;
 }
@@ -189,7 +174,7 @@ Pictures pictures_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoi
   if (rows.size() < 2 || key_with_most_values(sweep).values < 2) return pictures;
   for (std::size_t column = 0; column < rows.begin()->second.size(); ++column) {
     const std::string& name = rows.begin()->second[column].name;
-    if (!draw(name, plot_over_sweep(sweep, points, rows, column), pictures)) return {};
+    if (!draw(name, plot_over_sweep(sweep, points, rows, column), "row", pictures)) return {};
   }
   return pictures;
 }

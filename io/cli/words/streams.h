@@ -2,9 +2,12 @@
 
 #include <iosfwd>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace viscard {
 
+// The words of a command line behind the name of the command.
 // Output of a command: results go to out, progress and messages to err.
 struct Streams {
   std::ostream& out;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/basics/printed_value.h"
+#include "io/scenes/scene_file.h"
 #include "models/scene/common/scene_answer.h"
 
 #include <nlohmann/json_fwd.hpp>
