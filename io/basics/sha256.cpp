@@ -1,5 +1,3 @@
-#include "io/basics/sha256.h"
-
 #include "io/basics/atomic_file.h"
 
 #include <openssl/evp.h>

@@ -74,7 +74,7 @@ std::vector<Trial> effect_trials(const Body& scene, const Discretisation& mesh) 
 // Fewer terms of the Prony series, the strongest kept; and coarser steps in time.
 std::vector<Trial> time_trials(const Scene& scene, const Discretisation& mesh) {
   std::vector<Trial> trials;
-  if (!takes_time_steps(scene)) return trials;
+  if (!cost_meshes(scene).takes_time_steps) return trials;
   const std::string name = graded_name(mesh);
   std::vector<MaterialTerm> strongest = common(scene).pillar.terms;
   std::sort(strongest.begin(), strongest.end(),

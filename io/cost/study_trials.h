@@ -31,8 +31,10 @@ struct CostMeshes {
   double diameter_m = 0.0;
   std::vector<std::pair<int, int>> graded;  // degrees and layers
   int highest_uniform = 0;                  // degree of equal elements
+  int uniform_layers = 1;
   int reference_layers = 0;
-  double step_tolerance = 0.0;  // of the time steps of the reference
+  double step_tolerance = 0.0;    // of the time steps of the reference
+  bool takes_time_steps = false;  // through a history; rows are solved by a transform
 };
 CostMeshes cost_meshes(const Scene& scene);
 
@@ -41,8 +43,5 @@ Discretisation graded_mesh(const Scene& scene, int degree, int layers);
 Discretisation uniform_mesh(const Scene& scene, int degree);
 // The mesh for a scene that an effect was left out of.
 Discretisation mesh_without_effect(const Scene& without, Discretisation mesh);
-
-// True if the scene is solved by time steps through a history.
-bool takes_time_steps(const Scene& scene);
 
 }  // namespace viscard

@@ -2,7 +2,6 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/capture/capture_lock.h"
-#include "io/flow/emulated_truth.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/open_devices.h"
 #include "rig/run_indentation.h"

@@ -1,10 +1,9 @@
 #include "io/flow/card_material.h"
 
 #include "fit/reduce_terms.h"
-#include "io/basics/sha256.h"
+#include "io/basics/atomic_file.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/materials/material_file.h"
-#include "io/materials/ratio_file.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,3 @@
-#include "io/flow/joint_fit.h"
-
 #include "io/capture/capture_file.h"
 #include "io/flow/fit_file.h"
 #include "io/materials/material_file.h"

@@ -1,6 +1,6 @@
 #include "fit/laws/fit_mixing_ratio.h"
 #include "io/flow/specimen_reports.h"
-#include "io/materials/ratio_file.h"
+#include "io/materials/material_file.h"
 
 #include <cmath>
 #include <set>

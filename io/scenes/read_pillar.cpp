@@ -118,17 +118,10 @@ void fill_film(const RawScene& raw, const std::filesystem::path& folder, PillarS
                                          ", the film's, with E (and nu, rho) or a file");
   }
   scene.geometry.film = FilmGeometry{raw.film_thickness_m, raw.film_radius_m};
-  if (!raw.film.file.empty()) {
-    const MediumFile file = read_medium(folder / raw.film.file);
-    scene.film = scene.plane ? file.medium : averaged_about_z(file.medium);
-    scene.film_charge_C_N = file.charge_C_N;
-  } else {
-    try {
-      scene.film = isotropic_medium(raw.film.E_Pa, raw.film.nu, raw.film.rho_kg_m3);
-    } catch (const std::invalid_argument& error) {
-      throw SceneMistake(material_key, error.what());
-    }
-  }
+  const MediumFile film = film_medium(material_key, raw.film, folder);
+  const bool is_averaged = !raw.film.file.empty() && !scene.plane;
+  scene.film = is_averaged ? averaged_about_z(film.medium) : film.medium;
+  if (!raw.film.file.empty()) scene.film_charge_C_N = film.charge_C_N;
   if (choice<bool>("geometry.poling", raw.poling, {{"+z", false}, {"-z", true}})) {
     scene.film = with_reversed_poling(*scene.film);
   }

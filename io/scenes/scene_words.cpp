@@ -60,6 +60,17 @@ EffectChoices choices_of(const std::map<std::string, std::string>& effects) {
   return choices;
 }
 
+MediumFile film_medium(const std::string& key, const RawMaterial& raw,
+                       const std::filesystem::path& folder) {
+  if (!raw.file.empty()) return read_medium(folder / raw.file);
+  if (!(raw.E_Pa > 0.0)) throw SceneMistake(key, "needs E (and nu, rho) or a file");
+  try {
+    return {.medium = isotropic_medium(raw.E_Pa, raw.nu, raw.rho_kg_m3)};
+  } catch (const std::invalid_argument& error) {
+    throw SceneMistake(key, error.what());
+  }
+}
+
 Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder) {
   if (!raw.file.empty()) return read_material(folder / raw.file).material;
   if (!(raw.E_Pa > 0.0)) {

@@ -54,6 +54,9 @@ void check_wanted(const std::vector<std::string>& wanted, const std::vector<std:
 // [effects]: name to "auto", "on", "off" or nothing. Throws SceneMistake.
 EffectChoices choices_of(const std::map<std::string, std::string>& effects);
 
+// The film. Throws SceneMistake if the material has neither a file nor a modulus, or is unphysical.
+MediumFile film_medium(const std::string& key, const RawMaterial& raw,
+                       const std::filesystem::path& folder);
 // Files are looked for in `folder`. Throws SceneMistake for neither file nor modulus.
 Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder);
 

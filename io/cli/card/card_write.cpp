@@ -3,7 +3,7 @@
 #include "io/cards/card.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cli/card/card_words.h"
-#include "io/materials/ratio_file.h"
+#include "io/materials/material_file.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>

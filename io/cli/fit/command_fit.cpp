@@ -5,7 +5,6 @@
 #include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
 #include "io/flow/fit_file.h"
-#include "io/flow/material_from_fitted.h"
 #include "io/materials/material_file.h"
 
 #include <nlohmann/json.hpp>

@@ -2,7 +2,6 @@
 
 #include "io/cli/words/streams.h"
 #include "io/flow/fit_file.h"
-#include "io/flow/material_from_fitted.h"
 
 #include <boost/program_options/variables_map.hpp>
 #include <nlohmann/json_fwd.hpp>

@@ -1,4 +1,3 @@
-#include "io/cli/report/demo_score.h"
 #include "io/cli/report/report_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/config/config_file.h"

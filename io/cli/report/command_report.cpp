@@ -6,7 +6,7 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
-#include "io/flow/material_from_fitted.h"
+#include "io/flow/fit_file.h"
 #include "io/flow/specimen_reports.h"
 #include "io/report/report.h"
 #include "models/maths/text_of_number.h"

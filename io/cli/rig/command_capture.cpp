@@ -1,10 +1,10 @@
 #include "io/basics/timestamp.h"
 #include "io/cli/rig/capture_words.h"
-#include "io/cli/rig/live_picture.h"
+#include "io/cli/rig/live_view.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/output_paths.h"
-#include "io/flow/emulated_truth.h"
+#include "io/flow/capture_to_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,4 @@
-#include "io/cli/rig/live_picture.h"
-
+#include "io/cli/rig/live_view.h"
 #include "io/plots/plot_svg.h"
 
 #include <fmt/format.h>

@@ -133,23 +133,16 @@ void write_pictures(const std::vector<std::pair<std::string, std::string>>& pict
 void write_files(const SceneAnswer& answer, const nlohmann::json& object, const std::string& folder,
                  const std::string& command, bool overwrite) {
   std::filesystem::create_directories(folder);
+  const auto write = [&](const std::string& name, const std::string& text) {
+    write_file(std::filesystem::path(folder) / name, text, overwrite);
+  };
   nlohmann::json with_command = object;
   with_command["command"] = command;
   with_command["created_by"] = "viscard " VISCARD_VERSION;
-  write_file(std::filesystem::path(folder) / "results.json", with_command.dump(2) + "\n",
-             overwrite);
-  if (!answer.results.empty()) {
-    write_file(std::filesystem::path(folder) / "results.csv",
-               csv_of_results(answer.results, command), overwrite);
-  }
-  if (!answer.modes.empty()) {
-    write_file(std::filesystem::path(folder) / "modes.csv", csv_of_modes(answer.modes, command),
-               overwrite);
-  }
-  for (const SceneCurve& curve : answer.curves) {
-    write_file(std::filesystem::path(folder) / (curve.name + ".csv"), csv_of(curve, command),
-               overwrite);
-  }
+  write("results.json", with_command.dump(2) + "\n");
+  if (!answer.results.empty()) write("results.csv", csv_of_results(answer.results, command));
+  if (!answer.modes.empty()) write("modes.csv", csv_of_modes(answer.modes, command));
+  for (const SceneCurve& curve : answer.curves) write(curve.name + ".csv", csv_of(curve, command));
   write_pictures(pictures_of(answer), folder, overwrite);
 }
 

@@ -3,6 +3,7 @@
 #include "io/cli/scene/array_sweep.h"
 #include "io/plots/plot.h"
 #include "models/scene/common/scene_answer.h"
+#include "models/sensor/sensor_design.h"
 
 #include <map>
 #include <string>
@@ -34,5 +35,12 @@ bool spans_decades(const std::vector<double>& values);
 
 // Draws a picture with this id in its SVG; false if gnuplot is not installed.
 bool draw(const std::string& name, const Plot& plot, const char* id, Pictures& pictures);
+
+// File names and pictures: buckling and matting limits of the length against spacing, the widest
+// flaw-insensitive pillar against the adhesion strength, sensitivity and pitch against spacing, and
+// the admissible lengths at the design's diameter and around it.
+std::vector<std::pair<std::string, Plot>> design_pictures(const SensorGeometry& geometry,
+                                                          const SensorMaterial& material,
+                                                          const SensorRequirements& requirements);
 
 }  // namespace viscard

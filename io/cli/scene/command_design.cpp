@@ -1,6 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/words.h"
-#include "io/cli/scene/design_pictures.h"
+#include "io/cli/scene/answer_pictures.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
 #include "models/sensor/sensor_design.h"

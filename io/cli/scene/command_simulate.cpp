@@ -2,7 +2,6 @@
 #include "io/cli/scene/answer_output.h"
 #include "io/cli/scene/answer_pictures.h"
 #include "io/cli/scene/array_sweep.h"
-#include "io/cli/scene/printed_values.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/progress.h"

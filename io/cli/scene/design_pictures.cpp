@@ -1,4 +1,4 @@
-#include "io/cli/scene/design_pictures.h"
+#include "io/cli/scene/answer_pictures.h"
 
 #include <fmt/format.h>
 

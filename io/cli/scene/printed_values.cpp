@@ -1,7 +1,6 @@
-#include "io/cli/scene/printed_values.h"
-
 #include "io/basics/units.h"
 #include "io/basics/words.h"
+#include "io/cli/scene/answer_output.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,4 @@
 #include "io/basics/atomic_file.h"
-#include "io/basics/sha256.h"
 #include "io/cli/scene/answer_output.h"
 #include "io/cli/scene/answer_pictures.h"
 #include "io/cli/scene/array_sweep.h"

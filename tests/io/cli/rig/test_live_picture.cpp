@@ -1,4 +1,4 @@
-#include "io/cli/rig/live_picture.h"
+#include "io/cli/rig/live_view.h"
 #include "tests/support/error_text.h"
 
 #include <catch2/catch.hpp>
