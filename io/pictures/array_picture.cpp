@@ -12,12 +12,12 @@ namespace {
 constexpr double kRowWidth_px = 980.0;
 constexpr int kMostPillars = 16;
 
-// What of the row is drawn: pillars and where their middles stand; with a long row its first and
-// last ones, closer together than they are.
+// The pillars that are drawn and their middles. A long row shows only its first and last ones, with
+// a shortened gap between them.
 struct ShownRow {
   std::vector<std::pair<int, double>> pillars;  // number from 1, middle in m
   double left_m = 0.0, right_m = 0.0;           // of the film
-  double cut_m = 0.0;                           // middle of what is left out
+  double cut_m = 0.0;                           // middle of the gap
   bool is_cut = false;
 };
 

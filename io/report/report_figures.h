@@ -3,7 +3,6 @@
 #include "io/plots/plot.h"
 #include "io/report/report.h"
 #include "io/report/report_estimates.h"
-#include "io/report/report_figures.h"
 #include "models/experiment/captured_run.h"
 
 #include <optional>

@@ -12,13 +12,13 @@
 namespace viscard {
 namespace {
 
-// What stands in the file before it is made sense of.
+// The values of the file before they are checked.
 struct RawScene {
   double tolerance = 1e-3;
   std::string kind = "pillar", model = "axisymmetric";
   double diameter_m = 0.0, length_m = 0.0;
   double film_thickness_m = 0.0, film_radius_m = 0.0;
-  std::string film_material, film_bottom, bottom;  // bottoms: none said is fixed
+  std::string film_material, film_bottom, bottom;  // bottoms: empty means fixed
   std::string electrode_face, electrode_kind, poling = "+z";
   double electrode_radius_m = 0.0;
   bool quadrants = false;

@@ -13,9 +13,9 @@
 namespace viscard {
 namespace {
 
-constexpr double kAllPillars = -1.0;  // nothing said of single ones
+constexpr double kAllPillars = -1.0;  // the file names no single ones
 
-// What stands in the file before it is made sense of.
+// The values of the file before they are checked.
 struct RawArray {
   double tolerance = 1e-3;
   std::string kind = "array", model = "plane-stress";

@@ -131,7 +131,7 @@ void fill_direction(const RawDrive& raw, PillarScene& scene) {
   }
 }
 
-// A pressure, a shear (which says the direction), or a force over the top's area.
+// A pressure, a shear (which needs direction = "lateral"), or a force over the area of the top.
 void fill_traction(const RawDrive& raw, PillarScene& scene) {
   const int given =
       (raw.pressure_Pa != 0.0) + (raw.shear_Pa != 0.0) + (raw.force_N != 0.0) + is_moved(raw);

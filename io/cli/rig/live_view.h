@@ -1,6 +1,5 @@
 #pragma once
 
-#include "io/cli/rig/live_view.h"
 #include "io/cli/words/streams.h"
 #include "rig/run/run_control.h"
 

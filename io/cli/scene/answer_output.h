@@ -21,11 +21,11 @@ nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s);
 nlohmann::json json_from_effects(const std::vector<SceneEffect>& effects);
 void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out);
 
-// Drops the results that are not among the wanted ones, if any are; a wanted name also stands for
-// the same with a pillar's number behind it, and the name of a curve for what is read off it.
+// Removes the results that are not wanted, unless the list is empty. A wanted name also stands for
+// the same name with a pillar's number, and the name of a curve for the results from it.
 void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer);
 
-// Name and SVG each.
+// Writes pictures, name and SVG each.
 void write_pictures(const std::vector<std::pair<std::string, std::string>>& pictures,
                     const std::string& folder, bool overwrite);
 

@@ -45,7 +45,7 @@ PlotPanel panel_of(const SceneCurve& curve) {
   const bool in_time = curve.x_name == "time_s";
   const bool is_size = curve.name.ends_with("_magnitude") || curve.name.ends_with("_spectrum");
   const bool is_log = is_size && spans_decades(curve.value);
-  // Logarithmic axes carry powers of ten as they are; the others want numbers one can read.
+  // Logarithmic axes stay in the base unit; linear ones get a prefix.
   const ShownUnit x_unit = in_time ? shown_unit("s", curve.x) : ShownUnit{1.0, "Hz"};
   const ShownUnit y_unit =
       is_log ? ShownUnit{1.0, curve.unit} : shown_unit(curve.unit, curve.value);

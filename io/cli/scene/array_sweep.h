@@ -17,10 +17,9 @@ struct SweepOutput {
   bool overwrite = false;
 };
 
-// Answers every point of a sweep over rows of pillars, and writes sweep.csv and its pictures. With
-// a folder it keeps every point it has in sweep.part.csv, so that a sweep that was stopped
-// continues where it was: points that an earlier run left are not computed again. `path` is the
-// scene file.
+// Solves every point of a sweep over rows of pillars, and writes sweep.csv and its pictures. With a
+// folder it keeps the finished points in sweep.part.csv, so that a sweep that was stopped continues:
+// the points of an earlier run are not computed again. `path` is the scene file.
 SceneAnswer run_sweep(const SceneFile& file, const std::string& path, const SweepOutput& output,
                       Streams& streams);
 

@@ -32,8 +32,8 @@ SceneAnswer answer_of(Scene scene, const std::string& path, Streams& streams) {
   }
 }
 
-// To look at, and for ParaView: the solution on the mesh that met the tolerance, and results over
-// the pillars' numbers.
+// Pictures and ParaView files of the solution on the mesh that met the tolerance, and results over
+// the numbers of the pillars.
 void write_looks(const Scene& scene, const SceneAnswer& answer, const SweepOutput& output) {
   const std::filesystem::path in = output.folder;
   for (const SectionGrid& grid : solution_fields(scene, answer.discretisation)) {

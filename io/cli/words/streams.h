@@ -7,7 +7,9 @@
 
 namespace viscard {
 
-// The words of a command line behind the name of the command.
+// The words of a command line after the name of the command.
+using Words = std::vector<std::string>;
+
 // Output of a command: results go to out, progress and messages to err.
 struct Streams {
   std::ostream& out;
