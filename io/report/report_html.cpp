@@ -68,13 +68,6 @@ void Page::add_figure(const Plot& plot, const std::string& name, const std::stri
                   id, pictures_.back().svg, number, caption_html);
 }
 
-void Page::begin_row_of_figures() {
-  body_ += "<div class=\"row\">\n";
-}
-void Page::end_row_of_figures() {
-  body_ += "</div>\n";
-}
-
 std::string Page::contents_html() const {
   std::string out = "<nav aria-label=\"Contents\"><ol>\n";
   for (const Heading& heading : headings_) {

@@ -116,7 +116,7 @@ void add_summary(Page& page, const ReportInput& input,
         "Bands are 95 % intervals from the records alone." +
             dashes);
   }
-  page.begin_row_of_figures();
+  page.add_html("<div class=\"row\">\n");  // side by side if the page is wide enough
   if (const auto plot = ratio_plot(input, estimates)) {
     std::string caption = "Instantaneous modulus over mixing ratio.";
     if (input.law) caption += " " + escaped_markup(input.law->text);
@@ -127,7 +127,7 @@ void add_summary(Page& page, const ReportInput& input,
                     "Relaxation spectrum: relative moduli over relaxation times. Bars are 95 % "
                     "intervals.");
   }
-  page.end_row_of_figures();
+  page.add_html("</div>\n");
   const HtmlTable spread = spread_table(estimates);
   if (!spread.is_empty()) {
     page.add_table(

@@ -35,8 +35,8 @@ struct SceneFile {
 };
 
 // Scene files are TOML; data/scenes/ holds commented examples. Material files are looked for in the
-// folder of the scene. Throws std::runtime_error with file:line, key and what is expected, or naming the
-// material file that is wrong.
+// folder of the scene. Throws std::runtime_error with file:line, key and what is expected, or with
+// the name of a bad material file.
 SceneFile read_scene(const std::filesystem::path& path);
 
 // One combination; `label` names what varies: "diameter 40 um, spacing 60 um".
