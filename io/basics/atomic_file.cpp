@@ -8,6 +8,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -25,11 +26,7 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   int get() const { return fd_; }
-  int release() {
-    const int fd = fd_;
-    fd_ = -1;
-    return fd;
-  }
+  int release() { return std::exchange(fd_, -1); }
 
  private:
   int fd_;
@@ -47,12 +44,12 @@ void write_all(int fd, const std::string& contents, const std::filesystem::path&
   }
 }
 
+}  // namespace
+
 void sync_folder(const std::filesystem::path& folder) {
   const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (directory.get() >= 0) ::fsync(directory.get());
 }
-
-}  // namespace
 
 void write_file(const std::filesystem::path& path, const std::string& contents, bool overwrite) {
   std::error_code ignored;

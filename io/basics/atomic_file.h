@@ -12,7 +12,14 @@ namespace viscard {
 // removed in every case.
 void write_file(const std::filesystem::path& path, const std::string& contents, bool overwrite);
 
+// Makes new and renamed entries of the folder survive a power cut, as far as the disk allows.
+void sync_folder(const std::filesystem::path& folder);
+
 // Returns the contents of a file. Throws std::runtime_error naming the file and the reason.
 std::string read_file(const std::filesystem::path& path);
+
+// SHA-256 (FIPS 180-4) of a file as 64 lower-case hexadecimal digits. Throws std::runtime_error
+// naming the file if it cannot be read.
+std::string sha256_of_file(const std::filesystem::path& path);
 
 }  // namespace viscard

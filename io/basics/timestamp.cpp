@@ -12,4 +12,8 @@ std::string now_iso8601() {
   return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc)};
 }
 
+std::string today() {
+  return now_iso8601().substr(0, 10);
+}
+
 }  // namespace viscard

@@ -1,5 +1,7 @@
 #include "io/basics/units.h"
 
+#include "models/maths/text_of_number.h"
+
 #include <locale.h>
 #include <udunits2.h>
 
@@ -53,13 +55,6 @@ ut_system* unit_system() {
         "UDUNITS2_XML_PATH to its udunits2.xml)");
   }
   return system.get();
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
 bool is_letter(char c) {
@@ -241,12 +236,6 @@ double si_from_text(std::string_view text, const char* si_unit) {
   if (unit.front() == ',') fail(text, si_unit, "has a comma; the decimal sign here is a point");
   const std::string_view number(digits.data(), static_cast<std::size_t>(end - digits.data()));
   return scaled(number, value, scale_to_si(unit, si_unit));
-}
-
-std::string text_from_number(double value) {
-  std::array<char, 40> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
 }
 
 }  // namespace viscard

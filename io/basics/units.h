@@ -32,8 +32,4 @@ bool is_unit_of(std::string_view unit_text, const char* si_unit);
 // True if the text is a unit of some quantity ("MPa", "s", "-").
 bool is_unit(std::string_view unit_text);
 
-// Returns the shortest text that reads back as exactly this double. The decimal sign is a point in
-// every locale.
-std::string text_from_number(double value);
-
 }  // namespace viscard

@@ -1,13 +1,12 @@
 #include "io/capture/capture_database.h"
 
-#include "io/basics/units.h"
-#include "io/capture/capture_schema.h"
+#include "io/basics/number_text.h"
+#include "io/basics/timestamp.h"
 #include "io/config/config_file.h"
 
 #include <sqlite3.h>
 #include <time.h>
 
-#include <ctime>
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
@@ -19,15 +18,6 @@ double clock_s(clockid_t clock) {
   timespec now{};
   clock_gettime(clock, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-std::string iso_8601_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  const std::size_t size = std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return {text, size};
 }
 
 std::string boot_id() {
@@ -67,7 +57,7 @@ void CaptureDatabase::finish(const std::string& status) {
   database_.execute("PRAGMA synchronous=FULL");
   database_.execute("BEGIN");
   set("status", status);
-  set("finished_at", iso_8601_now());
+  set("finished_at", now_iso8601());
   set("finish_clock_monotonic_s", text_from_number(clock_s(CLOCK_MONOTONIC)));
   set("finish_clock_realtime_s", text_from_number(clock_s(CLOCK_REALTIME)));
   database_.execute("COMMIT");
@@ -92,7 +82,7 @@ void CaptureDatabase::create(const std::filesystem::path& path, const CapturedRu
   set("status", "open");
   set("program", about.program.empty() ? "viscard " VISCARD_VERSION : about.program);
   set("command", about.command);
-  set("started_at", about.started_at.empty() ? iso_8601_now() : about.started_at);
+  set("started_at", about.started_at.empty() ? now_iso8601() : about.started_at);
   set("start_clock_monotonic_s", text_from_number(clock_s(CLOCK_MONOTONIC)));
   set("start_clock_realtime_s", text_from_number(clock_s(CLOCK_REALTIME)));
   set("boot_id", boot_id());
@@ -110,38 +100,33 @@ void CaptureDatabase::create(const std::filesystem::path& path, const CapturedRu
 }
 
 void CaptureDatabase::set(const char* key, const std::string& value) {
-  run_->bind(1, std::string_view(key)).bind(2, std::string_view(value)).run();
+  run_->run_with(std::string_view(key), std::string_view(value));
 }
 
 void CaptureDatabase::insert(const RawBytes& raw) {
   const std::string_view device = raw.device == Device::kStage ? "stage" : "load_cell";
-  raw_->bind(1, seq_).bind(2, raw.host_time_s).bind(3, device).bind(4, raw.is_sent);
-  raw_->bind_blob(5, raw.bytes).run();
+  raw_->run_with(seq_, raw.host_time_s, device, raw.is_sent, Statement::Blob{raw.bytes});
 }
 
 void CaptureDatabase::insert(const LoadSample& sample) {
-  sample_->bind(1, seq_).bind(2, sample.index).bind(3, sample.host_time_s);
-  sample_->bind(4, sample.device_time_s).bind(5, sample.counts).bind(6, sample.volts);
-  sample_->bind(7, sample.is_saturated).bind(8, sample.is_glitch);
-  sample_->bind(9, sample.force_N).run();
+  sample_->run_with(seq_, sample.index, sample.host_time_s, sample.device_time_s, sample.counts,
+                    sample.volts, sample.is_saturated, sample.is_glitch, sample.force_N);
 }
 
 void CaptureDatabase::insert(const StageReport& report) {
-  report_->bind(1, seq_).bind(2, report.host_time_s).bind(3, report.position_m);
-  report_->bind(4, std::string_view(report.state)).run();
+  report_->run_with(seq_, report.host_time_s, report.position_m, std::string_view(report.state));
 }
 
 void CaptureDatabase::insert(const CommandedMove& commanded) {
   const StageMove& move = commanded.move;
-  move_->bind(1, seq_).bind(2, move.start_time_s).bind(3, move.from_m).bind(4, move.to_m);
-  move_->bind(5, move.speed_m_s).bind(6, move.acceleration_m_s2);
-  move_->bind(7, commanded.start_uncertainty_s);
-  move_->bind(8, std::string_view(commanded.purpose)).run();
+  move_->run_with(seq_, move.start_time_s, move.from_m, move.to_m, move.speed_m_s,
+                  move.acceleration_m_s2, commanded.start_uncertainty_s,
+                  std::string_view(commanded.purpose));
 }
 
 void CaptureDatabase::insert(const RunEvent& event) {
-  event_->bind(1, seq_).bind(2, event.host_time_s).bind(3, std::string_view(event.name));
-  event_->bind(4, std::string_view(event.value)).bind(5, std::string_view(event.text)).run();
+  event_->run_with(seq_, event.host_time_s, std::string_view(event.name),
+                   std::string_view(event.value), std::string_view(event.text));
 }
 
 }  // namespace viscard

@@ -1,5 +1,6 @@
 #include "io/capture/capture_export.h"
 
+#include "io/basics/number_text.h"
 #include "io/basics/units.h"
 #include "io/capture/capture_file.h"
 #include "models/experiment/calibration.h"
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace viscard {
@@ -61,9 +63,7 @@ void append_head(Buffer& out, const CapturedRun& run, double tare_N) {
 }
 
 void append_cell(Buffer& out, const std::optional<double>& value) {
-  if (value && std::isfinite(*value)) {
-    fmt::format_to(std::back_inserter(out), "{}", *value);
-  }
+  if (value && std::isfinite(*value)) fmt::format_to(std::back_inserter(out), "{}", *value);
   out.push_back(',');
 }
 
@@ -134,19 +134,16 @@ class SampleRows {
 };
 
 std::string escaped(const std::string& bytes) {
+  constexpr std::string_view kSpecial = "\r\n\\";
+  constexpr const char* kEscapes[] = {"\\r", "\\n", "\\\\"};
   std::string out;
   for (const char c : bytes) {
     const auto byte = static_cast<unsigned char>(c);
-    if (c == '\r') {
-      out += "\\r";
-    } else if (c == '\n') {
-      out += "\\n";
-    } else if (c == '\\') {
-      out += "\\\\";
-    } else if (byte < 0x20 || byte >= 0x7f) {
-      out += fmt::format("\\x{:02x}", byte);
+    const std::size_t special = kSpecial.find(c);
+    if (special != std::string_view::npos) {
+      out += kEscapes[special];
     } else {
-      out += c;
+      out += byte < 0x20 || byte >= 0x7f ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
     }
   }
   return out;

@@ -1,5 +1,7 @@
 #include "io/capture/capture_lock.h"
 
+#include "io/basics/atomic_file.h"
+
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -54,23 +56,14 @@ void remove_old(const std::filesystem::path& path, bool overwrite) {
           name + " exists already; pass --force to replace it, or choose another name");
     }
   }
-  for (const char* suffix : {"-wal", "-shm", "-journal"}) {
+  for (const char* suffix : kCaptureParts) {
     if (!overwrite && std::filesystem::exists(name + suffix)) {
       throw std::runtime_error(name + suffix +
                                " belongs to an earlier capture whose main file is gone; move it "
                                "away, or choose another name");
     }
   }
-  for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
-    std::filesystem::remove(name + suffix);
-  }
-}
-
-void sync_folder(const std::filesystem::path& folder) {
-  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;
-  ::fsync(fd);
-  ::close(fd);
+  for (const char* suffix : kCaptureParts) std::filesystem::remove(name + suffix);
 }
 
 }  // namespace

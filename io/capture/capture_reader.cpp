@@ -1,6 +1,6 @@
+#include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_lock.h"
-#include "io/capture/capture_schema.h"
 #include "io/capture/sqlite_database.h"
 #include "io/config/config_file.h"
 
@@ -11,7 +11,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <unordered_set>

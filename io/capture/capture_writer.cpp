@@ -1,4 +1,4 @@
-#include "io/basics/units.h"
+#include "io/basics/number_text.h"
 #include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_lock.h"
@@ -64,8 +64,8 @@ class CaptureWriter::Impl {
     } catch (...) {
       database_.reset();
       std::error_code ignored;
-      for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
-        std::filesystem::remove(path_.string() + suffix, ignored);
+      for (const char* part : kCaptureParts) {
+        std::filesystem::remove(path_.string() + part, ignored);
       }
       throw;
     }

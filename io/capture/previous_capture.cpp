@@ -1,5 +1,3 @@
-#include "io/capture/previous_capture.h"
-
 #include "io/capture/capture_lock.h"
 
 #include <stdexcept>
@@ -8,11 +6,9 @@
 namespace viscard {
 namespace {
 
-constexpr const char* kParts[] = {"", "-wal", "-shm", "-journal"};  // files of an SQLite database
-
 template <class From, class To>
 void move_parts(From from, To to) {
-  for (const char* suffix : kParts) {
+  for (const char* suffix : kCaptureParts) {
     if (std::filesystem::exists(from(suffix))) std::filesystem::rename(from(suffix), to(suffix));
   }
 }
@@ -36,7 +32,7 @@ PreviousCapture::PreviousCapture(std::filesystem::path path, bool is_replaced)
 PreviousCapture::~PreviousCapture() {
   if (!is_aside_) return;
   try {
-    for (const char* suffix : kParts) std::filesystem::remove(part(suffix));
+    for (const char* suffix : kCaptureParts) std::filesystem::remove(part(suffix));
     move_parts([this](const char* suffix) { return aside(suffix); },
                [this](const char* suffix) { return part(suffix); });
   } catch (const std::filesystem::filesystem_error&) {
@@ -46,7 +42,7 @@ PreviousCapture::~PreviousCapture() {
 
 void PreviousCapture::drop() {
   if (!is_aside_) return;
-  for (const char* suffix : kParts) std::filesystem::remove(aside(suffix));
+  for (const char* suffix : kCaptureParts) std::filesystem::remove(aside(suffix));
   is_aside_ = false;
 }
 

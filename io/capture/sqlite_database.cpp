@@ -2,31 +2,23 @@
 
 #include <sqlite3.h>
 
+#include <map>
+
 namespace viscard {
 namespace {
 
 [[noreturn]] void fail(sqlite3* database, const std::string& file, int code) {
-  std::string what = file + ": ";
-  switch (code & 0xff) {
-    case SQLITE_FULL:
-      what += "the disk is full";
-      break;
-    case SQLITE_IOERR:
-      what += "the disk could not be read or written (full, removed or over quota?)";
-      break;
-    case SQLITE_NOTADB:
-      what += "is not an SQLite database, so not a capture";
-      break;
-    case SQLITE_CORRUPT:
-      what += "is damaged";
-      break;
-    case SQLITE_BUSY:
-      what += "is held by another program";
-      break;
-    default:
-      what += database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(code);
-  }
-  throw SqliteError(what, code & 0xff);
+  static const std::map<int, const char*> kReasons{
+      {SQLITE_FULL, "the disk is full"},
+      {SQLITE_IOERR, "the disk could not be read or written (full, removed or over quota?)"},
+      {SQLITE_NOTADB, "is not an SQLite database, so not a capture"},
+      {SQLITE_CORRUPT, "is damaged"},
+      {SQLITE_BUSY, "is held by another program"}};
+  const auto known = kReasons.find(code & 0xff);
+  const char* reason = known != kReasons.end() ? known->second
+                       : database != nullptr   ? sqlite3_errmsg(database)
+                                               : sqlite3_errstr(code);
+  throw SqliteError(file + ": " + reason, code & 0xff);
 }
 
 }  // namespace
@@ -49,30 +41,25 @@ void Statement::check(int code) const {
   }
 }
 
-Statement& Statement::bind(int place, double value) {
+void Statement::bind(int place, double value) {
   check(sqlite3_bind_double(statement_.get(), place, value));
-  return *this;
 }
-Statement& Statement::bind(int place, std::int64_t value) {
+void Statement::bind(int place, std::int64_t value) {
   check(sqlite3_bind_int64(statement_.get(), place, value));
-  return *this;
 }
-Statement& Statement::bind(int place, bool value) {
-  return bind(place, static_cast<std::int64_t>(value));
+void Statement::bind(int place, bool value) {
+  bind(place, static_cast<std::int64_t>(value));
 }
-Statement& Statement::bind(int place, std::string_view text) {
+void Statement::bind(int place, std::string_view text) {
   check(sqlite3_bind_text64(statement_.get(), place, text.data(), text.size(), SQLITE_TRANSIENT,
                             SQLITE_UTF8));
-  return *this;
 }
-Statement& Statement::bind(int place, const std::optional<double>& value) {
-  if (value) return bind(place, *value);
-  check(sqlite3_bind_null(statement_.get(), place));
-  return *this;
+void Statement::bind(int place, const std::optional<double>& value) {
+  value ? bind(place, *value) : check(sqlite3_bind_null(statement_.get(), place));
 }
-Statement& Statement::bind_blob(int place, std::string_view bytes) {
-  check(sqlite3_bind_blob64(statement_.get(), place, bytes.data(), bytes.size(), SQLITE_TRANSIENT));
-  return *this;
+void Statement::bind(int place, Blob blob) {
+  check(sqlite3_bind_blob64(statement_.get(), place, blob.bytes.data(), blob.bytes.size(),
+                            SQLITE_TRANSIENT));
 }
 
 bool Statement::step() {

@@ -28,17 +28,27 @@ class Statement {
   Statement(sqlite3* database, const char* sql, std::string file);
 
   // Parameters are counted from 1; an empty optional is stored as NULL.
-  Statement& bind(int place, double value);
-  Statement& bind(int place, std::int64_t value);
-  Statement& bind(int place, bool value);
-  Statement& bind(int place, std::string_view text);
-  Statement& bind(int place, const std::optional<double>& value);
-  Statement& bind_blob(int place, std::string_view bytes);
+  struct Blob {
+    std::string_view bytes;
+  };
+  void bind(int place, double value);
+  void bind(int place, std::int64_t value);
+  void bind(int place, bool value);
+  void bind(int place, std::string_view text);
+  void bind(int place, const std::optional<double>& value);
+  void bind(int place, Blob blob);
 
   // True while there is a row; columns are counted from 0.
   bool step();
   // Runs a statement without rows and makes it ready for the next parameters.
   void run();
+  // The same with all parameters, from the first.
+  template <typename... Values>
+  void run_with(const Values&... values) {
+    int place = 0;
+    (bind(++place, values), ...);
+    run();
+  }
 
   double number(int column) const;
   std::int64_t integer(int column) const;

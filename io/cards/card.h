@@ -8,6 +8,8 @@
 
 namespace viscard {
 
+struct CardTarget;
+
 // How one part of the material was written.
 enum class Mapping { kExact, kApproximated, kDropped };
 
@@ -43,6 +45,13 @@ struct CardOptions {
   std::vector<FidelityItem> done_before;  // changes made to the material (terms reduced ...)
   std::vector<std::string> notes;         // further header lines
 };
+
+// Writes the card in memory, reads it back and compares before returning it.
+// Throws std::invalid_argument with one line about what to do: unknown unit system, unphysical
+// material, nu = 0.5 where K must be finite, too many terms, a stated bulk relaxation the target
+// has no place for, flagged terms, numbers that do not fit the columns.
+Card write_card(const Material& material, const CardTarget& target,
+                const CardOptions& options = {});
 
 inline std::string to_word(Mapping mapping) {
   if (mapping == Mapping::kExact) return "exact";

@@ -1,7 +1,6 @@
 #include "io/cards/card_lines.h"
 
 #include <cctype>
-#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 
@@ -19,26 +18,16 @@ std::vector<CardLine> card_lines(const std::string& text, const std::string& com
   return lines;
 }
 
-std::string trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+std::string upper(std::string_view text) {
+  std::string out;
+  for (const unsigned char c : text) out += static_cast<char>(std::toupper(c));
+  return out;
 }
 
-std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
-std::vector<std::string> cells(const std::string& line, char separator) {
+std::vector<std::string> cells(std::string_view line, char separator) {
   std::vector<std::string> out;
-  std::size_t begin = 0;
-  while (true) {
-    const std::size_t end = line.find(separator, begin);
-    out.push_back(trimmed(line.substr(begin, end - begin)));
-    if (end == std::string::npos) return out;
-    begin = end + 1;
-  }
+  for (const std::string_view part : split(line, separator)) out.emplace_back(trimmed(part));
+  return out;
 }
 
 std::string at_line(const CardLine& line, const std::string& text) {
@@ -55,14 +44,9 @@ double card_number(const std::string& cell, const CardLine& line, const std::str
   if (sign != std::string::npos && text.find_first_of("eE") == std::string::npos) {
     text.insert(sign, "e");
   }
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  const bool is_decimal = text.find_first_of("xXnNiI") == std::string::npos;
-  if (text.empty() || *end != '\0' || !is_decimal) {
-    throw std::runtime_error(
-        at_line(line, "'" + cell + "' is not a number (" + expected + " expected)"));
-  }
-  return value;
+  if (const auto value = number_from_text(text)) return *value;
+  throw std::runtime_error(
+      at_line(line, "'" + cell + "' is not a number (" + expected + " expected)"));
 }
 
 double cell_number(const std::vector<std::string>& row, std::size_t index, const CardLine& line,

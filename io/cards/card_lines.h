@@ -1,12 +1,16 @@
 #pragma once
 
+#include "models/maths/text_of_number.h"
+
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace viscard {
 
-// Lines, cells and numbers of a card's text. All readers use them.
+// Lines, cells and numbers of a card's text. All readers use them, and trimmed() of
+// models/maths/text_of_number.h.
 struct CardLine {
   int number = 0;  // 1-based
   std::string text;
@@ -15,10 +19,9 @@ struct CardLine {
 // All lines except those that start with the comment sign, blanks before it ignored.
 std::vector<CardLine> card_lines(const std::string& text, const std::string& comment);
 
-std::string trimmed(const std::string& text);
-std::string upper(std::string text);
+std::string upper(std::string_view text);
 // Cells between separators, blanks trimmed; "a, b," gives {"a", "b", ""}.
-std::vector<std::string> cells(const std::string& line, char separator);
+std::vector<std::string> cells(std::string_view line, char separator);
 
 // "line 7: text"
 std::string at_line(const CardLine& line, const std::string& text);

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 namespace viscard {
 namespace {
@@ -15,15 +14,9 @@ double sum_of(const CardNumbers& numbers, double CardBranch::*member) {
 }
 
 int time_exponent(TimeNumber time, const UnitSystem& units) {
-  switch (time) {
-    case TimeNumber::kTau:
-      return units.time_exponent;
-    case TimeNumber::kBeta:
-      return -units.time_exponent;
-    case TimeNumber::kNortonA:
-      return -units.stress_exponent - units.time_exponent;
-  }
-  return 0;
+  if (time == TimeNumber::kTau) return units.time_exponent;
+  const int stress = time == TimeNumber::kNortonA ? units.stress_exponent : 0;
+  return -stress - units.time_exponent;
 }
 
 // Instantaneous moduli in SI, also for a card that states long-term ones.

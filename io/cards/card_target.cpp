@@ -2,12 +2,10 @@
 
 namespace viscard {
 
-using enum ElasticForm;
 using enum ModulusAt;
 using enum BranchNumber;
 using enum TimeNumber;
 using enum BulkRule;
-using enum Evidence;
 
 std::string conventions_in_words(const CardTarget& target) {
   return to_word(target.at) + " " + to_word(target.elastic) + "; branches " +
@@ -16,17 +14,9 @@ std::string conventions_in_words(const CardTarget& target) {
 }
 
 std::string to_word(ElasticForm form) {
-  switch (form) {
-    case kYoungPoisson:
-      return "E, nu";
-    case kBulkShear:
-      return "K, G";
-    case kBulkOnly:
-      return "K, with G the sum of the branches";
-    case kPoissonOnly:
-      return "nu, with E the sum of the shares";
-  }
-  return "";
+  constexpr const char* kWords[] = {"E, nu", "K, G", "K, with G the sum of the branches",
+                                    "nu, with E the sum of the shares"};
+  return kWords[static_cast<std::size_t>(form)];
 }
 
 std::string to_word(ModulusAt at) {
@@ -50,19 +40,8 @@ std::string to_word(BulkRule bulk) {
 }
 
 std::string to_word(Evidence evidence) {
-  switch (evidence) {
-    case kRun:
-      return "run";
-    case kParsed:
-      return "parsed";
-    case kSource:
-      return "source";
-    case kDocumentation:
-      return "documentation";
-    case kOurs:
-      return "ours";
-  }
-  return "";
+  constexpr const char* kWords[] = {"run", "parsed", "source", "documentation", "ours"};
+  return kWords[static_cast<std::size_t>(evidence)];
 }
 
 }  // namespace viscard

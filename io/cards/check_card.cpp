@@ -1,8 +1,7 @@
 #include "io/cards/check_card.h"
 
-#include "io/cards/explain_difference.h"
+#include "io/cards/card.h"
 #include "io/cards/material_difference.h"
-#include "io/cards/write_card.h"
 
 #include <fmt/format.h>
 

@@ -32,4 +32,9 @@ struct CheckOptions {
 CardCheck check_card(const std::string& text, const CardTarget& target, const CheckOptions& options,
                      const Material* reference);
 
+// Explains a card that differs from the material it is meant to be. Applies each known mistake to
+// the expected numbers, then each pair, and returns the one or two that reproduce the card:
+// "tau-for-beta", "g-for-G", "plane-strain-modulus" ... Empty if none does.
+std::vector<CardFinding> explain_difference(const ReadCard& read, const Material& reference);
+
 }  // namespace viscard

@@ -1,7 +1,7 @@
 #include "io/cards/column_fields.h"
 
+#include "io/basics/number_text.h"
 #include "io/cards/card_lines.h"
-#include "io/cards/number_text.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ std::vector<std::string> columns(const std::string& line, std::size_t width) {
   if (line.find(',') != std::string::npos) return cells(line, ',');
   std::vector<std::string> out;
   for (std::size_t begin = 0; begin < line.size(); begin += width) {
-    out.push_back(trimmed(line.substr(begin, width)));
+    out.emplace_back(trimmed(std::string_view(line).substr(begin, width)));
   }
   return out;
 }
@@ -27,21 +27,18 @@ std::string real(double value, int width) {
 }
 
 std::string node_rows(int id_width, int width) {
-  constexpr int kCorners[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                  {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
   std::string out;
   for (int node = 1; node <= 8; ++node) {
     out += right(std::to_string(node), id_width);
-    for (const int x : kCorners[node - 1]) out += right(x == 0 ? "0.0" : "1.0", width);
+    for (const int x : kCubeCorners[node - 1]) out += right(x == 0 ? "0.0" : "1.0", width);
     out += "\n";
   }
   return out;
 }
 
 std::string face_nodes(int face) {
-  constexpr int kNodes[kFaces][4] = {{1, 4, 5, 8}, {1, 2, 5, 6}, {1, 2, 3, 4}, {5, 6, 7, 8}};
   std::string out;
-  for (const int node : kNodes[face]) out += right(std::to_string(node), 10);
+  for (const int node : kFaceNodes[face]) out += right(std::to_string(node), 10);
   return out + "\n";
 }
 

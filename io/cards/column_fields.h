@@ -22,8 +22,6 @@ std::string real(double value, int width);
 
 // "id x y z" for the eight nodes of the cube.
 std::string node_rows(int id_width, int width);
-// The faces x = 0, y = 0, z = 0 (rollers) and z = 1 (pulled).
-constexpr int kFaces = 4;
 std::string face_nodes(int face);
 // Two columns of 20: a linear rise to input.pull() at the end of the ramp, then constant.
 std::string ramp_rows(const DeckInput& input);

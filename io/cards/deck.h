@@ -25,6 +25,14 @@ struct Deck {
 Deck one_element_deck(const Card& card, const DeckWriter& writer, const UnitSystem& units,
                       ElementTestKind kind);
 
+// The unit cube of all models: its corners, nodes 1 to 8, and the nodes of its faces x = 0, y = 0,
+// z = 0 (rollers) and z = 1 (pulled).
+inline constexpr int kCubeCorners[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                           {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+inline constexpr int kFaces = 4;
+inline constexpr int kFaceNodes[kFaces][4] = {
+    {1, 4, 5, 8}, {1, 2, 5, 6}, {1, 2, 3, 4}, {5, 6, 7, 8}};
+
 // A block of equal increments, in the card's unit of time.
 struct DeckBlock {
   double length = 0.0;

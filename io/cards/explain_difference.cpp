@@ -1,5 +1,4 @@
-#include "io/cards/explain_difference.h"
-
+#include "io/cards/check_card.h"
 #include "io/cards/known_mistakes.h"
 
 #include <algorithm>

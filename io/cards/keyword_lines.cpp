@@ -1,6 +1,6 @@
 #include "io/cards/keyword_lines.h"
 
-#include "io/cards/number_text.h"
+#include "io/basics/number_text.h"
 
 #include <fmt/format.h>
 
@@ -28,10 +28,10 @@ bool KeywordBlock::has(const std::string& parameter) const {
 }
 
 std::string KeywordBlock::name() const {
-  for (const std::string& word : cells(line.text, ',')) {
+  for (const std::string_view word : split(line.text, ',')) {
     const std::size_t equals = word.find('=');
     if (equals != std::string::npos && upper(trimmed(word.substr(0, equals))) == "NAME") {
-      return trimmed(word.substr(equals + 1));
+      return std::string(trimmed(word.substr(equals + 1)));
     }
   }
   return "";
@@ -45,7 +45,7 @@ const CardLine& KeywordBlock::first_data() const {
 std::vector<KeywordBlock> keyword_blocks(const std::vector<CardLine>& lines, char mark) {
   std::vector<KeywordBlock> blocks;
   for (const CardLine& line : lines) {
-    const std::string text = trimmed(line.text);
+    const std::string text(trimmed(line.text));
     if (text.empty()) continue;
     // A keyword line that ends with a comma continues on the next line.
     const bool continues = !blocks.empty() && blocks.back().data.empty() &&
@@ -55,7 +55,7 @@ std::vector<KeywordBlock> keyword_blocks(const std::vector<CardLine>& lines, cha
       continue;
     }
     if (continues) {
-      blocks.back().line.text = trimmed(blocks.back().line.text) + text;
+      blocks.back().line.text = std::string(trimmed(blocks.back().line.text)) + text;
       add_words(text, blocks.back());
     } else {
       KeywordBlock block{line, "", {}, {}};

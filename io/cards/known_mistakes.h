@@ -8,7 +8,7 @@
 
 namespace viscard {
 
-// What a card should say: the reference material under the target's bulk rule.
+// What a card should contain: the reference material under the target's bulk rule.
 struct CardContext {
   Material material;
   CardTarget target;

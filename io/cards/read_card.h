@@ -18,7 +18,7 @@ struct CardFinding {
 };
 
 struct ReadCard {
-  CardTarget understood;  // the target's conventions, changed where the card says otherwise
+  CardTarget understood;  // the target's conventions, changed where the card states others
   UnitSystem units;
   bool units_were_stated = false;  // in the card's header or in its own unit block
   std::string name;

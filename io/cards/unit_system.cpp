@@ -1,5 +1,7 @@
 #include "io/cards/unit_system.h"
 
+#include "io/basics/words.h"
+
 #include <cmath>
 #include <stdexcept>
 
@@ -27,11 +29,9 @@ const UnitSystem* find_unit_system(const std::string& name) {
 
 const UnitSystem& unit_system(const std::string& name) {
   if (const UnitSystem* found = find_unit_system(name)) return *found;
-  std::string names;
-  for (const UnitSystem& system : unit_systems()) {
-    names += names.empty() ? system.name : std::string(", ") + system.name;
-  }
-  throw std::invalid_argument("there is no unit system '" + name + "'; there are " + names);
+  std::vector<std::string> names;
+  for (const UnitSystem& system : unit_systems()) names.emplace_back(system.name);
+  throw std::invalid_argument("there is no unit system '" + name + "'; there are " + listed(names));
 }
 
 double to_card(double value_SI, int exponent) {

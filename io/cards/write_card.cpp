@@ -1,5 +1,4 @@
-#include "io/cards/write_card.h"
-
+#include "io/cards/card.h"
 #include "io/cards/card_header.h"
 #include "io/cards/material_difference.h"
 #include "io/cards/read_card.h"

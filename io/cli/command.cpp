@@ -1,20 +1,11 @@
 #include "io/cli/command.h"
 
-#include "io/basics/nearest_word.h"
-#include "io/cli/card/command_card.h"
-#include "io/cli/fit/command_fit.h"
-#include "io/cli/report/command_demo.h"
-#include "io/cli/report/command_report.h"
-#include "io/cli/rig/command_calibrate.h"
-#include "io/cli/rig/command_capture.h"
-#include "io/cli/rig/command_export.h"
-#include "io/cli/rig/command_rig.h"
-#include "io/cli/scene/command_cost.h"
-#include "io/cli/scene/command_design.h"
-#include "io/cli/scene/command_plan.h"
-#include "io/cli/scene/command_scene.h"
-#include "io/cli/scene/command_simulate.h"
-#include "io/cli/scene/command_validate.h"
+#include "io/basics/words.h"
+#include "io/cli/card/card_words.h"
+#include "io/cli/fit/fit_command.h"
+#include "io/cli/report/report_commands.h"
+#include "io/cli/rig/rig_commands.h"
+#include "io/cli/scene/scene_commands.h"
 
 #include <filesystem>
 #include <ostream>
@@ -33,7 +24,7 @@ void print_overview(std::ostream& out) {
   out << "\nExample: viscard demo --out demo\n";
 }
 
-int dispatch(const std::vector<std::string>& words, Streams& streams) {
+int dispatch(const Words& words, Streams& streams) {
   if (words.empty() || words[0] == "help" || words[0] == "--help" || words[0] == "-h") {
     print_overview(words.empty() ? streams.err : streams.out);
     return words.empty() ? kBadWords : kDone;
@@ -47,9 +38,7 @@ int dispatch(const std::vector<std::string>& words, Streams& streams) {
     if (words[0] == command.name) return command.run({words.begin() + 1, words.end()}, streams);
     names.emplace_back(command.name);
   }
-  const std::string near = nearest_word(words[0], names);
-  throw UsageError("there is no command '" + words[0] + "'" +
-                   (near.empty() ? "" : "; did you mean '" + near + "'?") +
+  throw UsageError("there is no command '" + words[0] + "'" + did_you_mean(words[0], names, "") +
                    " 'viscard --help' lists the commands");
 }
 
@@ -74,14 +63,12 @@ const std::vector<Command>& commands() {
       {"cost", "measure what accuracy costs: error against time over meshes and effects", run_cost},
       {"report", "write one page about captures, tables and materials", run_report},
       {"demo", "run all steps on the emulated rig",
-       [](const std::vector<std::string>& words, Streams& streams) {
-         return run_demo(words, streams, run_viscard);
-       }},
+       [](const Words& words, Streams& streams) { return run_demo(words, streams, run_viscard); }},
   };
   return table;
 }
 
-int run_viscard(const std::vector<std::string>& words, Streams& streams) {
+int run_viscard(const Words& words, Streams& streams) {
   try {
     return dispatch(words, streams);
   } catch (const UsageError& error) {

@@ -62,4 +62,9 @@ void read_toml_fields(const std::string& text, const std::string& name, const Sh
 
 std::string toml_from_fields(const ShowFields& show);
 
+// Returns the line (from 1) of a key such as "geometry.film.radius" in a TOML text, or that of the
+// innermost table around it if the key is missing, or 0 if the text is not TOML. An entry of a list
+// is given by its number from 1: "analysis.history.3".
+int line_of_key(const std::string& toml, const std::string& dotted_key);
+
 }  // namespace viscard

@@ -1,4 +1,4 @@
-#include "io/config/toml_lines.h"
+#include "io/config/config_fields.h"
 
 #include <toml++/toml.h>
 

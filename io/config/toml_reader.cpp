@@ -1,9 +1,11 @@
-#include "io/basics/nearest_word.h"
+#include "io/basics/number_text.h"
 #include "io/basics/units.h"
+#include "io/basics/words.h"
 #include "io/config/config_fields.h"
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -13,32 +15,15 @@ namespace viscard {
 namespace {
 
 const char* text_of(Range range) {
-  switch (range) {
-    case Range::kPositive:
-      return "a positive number";
-    case Range::kNotNegative:
-      return "a number that is not negative";
-    case Range::kFraction:
-      return "a number from 0 to 1";
-    case Range::kAny:
-      break;
-  }
-  return "a finite number";
+  constexpr const char* kTexts[] = {"a finite number", "a positive number",
+                                    "a number that is not negative", "a number from 0 to 1"};
+  return kTexts[static_cast<std::size_t>(range)];
 }
 
 bool is_in(Range range, double value) {
-  if (!std::isfinite(value)) return false;
-  switch (range) {
-    case Range::kPositive:
-      return value > 0.0;
-    case Range::kNotNegative:
-      return value >= 0.0;
-    case Range::kFraction:
-      return value >= 0.0 && value <= 1.0;
-    case Range::kAny:
-      break;
-  }
-  return true;
+  if (!std::isfinite(value) || range == Range::kAny) return std::isfinite(value);
+  if (range == Range::kPositive) return value > 0.0;
+  return value >= 0.0 && (range != Range::kFraction || value <= 1.0);
 }
 
 // A number in quotes needs a unit, because the user may have meant any.
@@ -60,30 +45,7 @@ class TomlReader final : public FieldVisitor {
 
   void quantity(const QuantityField& field, double& value) override {
     const toml::node* node = find(field.key, field.is_required, expected(field));
-    if (node == nullptr) return;
-    double written = 0.0;
-    if (const auto number = node->value_exact<double>()) {
-      written = *number;
-    } else if (const auto whole = node->value_exact<std::int64_t>()) {
-      written = static_cast<double>(*whole);
-    } else if (const auto text = node->value_exact<std::string>()) {
-      if (field.word != nullptr && *text == field.word) {
-        value = field.word_value;
-        return;
-      }
-      try {
-        written = si_with_unit(*text, field.unit);
-      } catch (const std::invalid_argument& error) {
-        fail(*node, field.key, error.what());
-      }
-    } else {
-      fail(*node, field.key, "expected " + expected(field));
-    }
-    if (!is_in(field.range, written)) {
-      fail(*node, field.key,
-           "is " + text_from_number(written) + "; expected " + text_of(field.range));
-    }
-    value = written / field.written_per_value;
+    if (node != nullptr) value = quantity_at(*node, field);
   }
 
   void text(const TextField& field, std::string& value) override {
@@ -121,44 +83,28 @@ class TomlReader final : public FieldVisitor {
 
   void texts(const TextField& field, std::vector<std::string>& values) override {
     const std::string what = std::string("a list of texts, such as [\"") + field.example + "\"]";
-    const toml::array* entries = list_at(field.key, field.is_required, what);
-    if (entries == nullptr) return;
-    values.clear();
-    for (const toml::node& entry : *entries) {
+    read_list(field.key, field.is_required, what, values, [&](const toml::node& entry) {
       const auto text = entry.value_exact<std::string>();
       if (!text) fail(entry, field.key, "expected " + what);
-      values.push_back(*text);
-    }
+      return *text;
+    });
   }
 
   void quantity_pairs(const char* key, const char* first_unit, const char* second_unit,
                       std::vector<std::pair<double, double>>& values) override {
     const std::string what = std::string("a list of pairs, [[\"1 ") + first_unit + "\", \"2 " +
                              second_unit + "\"], ...]";
-    const toml::array* entries = list_at(key, false, what);
-    if (entries == nullptr) return;
-    values.clear();
-    for (const toml::node& entry : *entries) {
+    read_list(key, false, what, values, [&](const toml::node& entry) {
       const toml::array* pair = entry.as_array();
       if (pair == nullptr || pair->size() != 2) fail(entry, key, "expected " + what);
-      values.emplace_back(quantity_of(*pair->get(0), key, first_unit),
-                          quantity_of(*pair->get(1), key, second_unit));
-    }
+      return std::pair(quantity_at(*pair->get(0), {key, first_unit}),
+                       quantity_at(*pair->get(1), {key, second_unit}));
+    });
   }
 
   void quantities(const QuantityField& field, std::vector<double>& values) override {
-    const std::string what = "a list, each entry " + expected(field);
-    const toml::array* entries = list_at(field.key, field.is_required, what);
-    if (entries == nullptr) return;
-    values.clear();
-    for (const toml::node& entry : *entries) {
-      const double written = quantity_of(entry, field.key, field.unit);
-      if (!is_in(field.range, written)) {
-        fail(entry, field.key,
-             "is " + text_from_number(written) + "; expected " + text_of(field.range));
-      }
-      values.push_back(written / field.written_per_value);
-    }
+    read_list(field.key, field.is_required, "a list, each entry " + expected(field), values,
+              [&](const toml::node& entry) { return quantity_at(entry, field); });
   }
 
   void section(const char* key, const std::function<void(FieldVisitor&)>& body) override {
@@ -192,31 +138,35 @@ class TomlReader final : public FieldVisitor {
   void refuse_unknown_keys() const {
     for (const auto& [key, node] : table_) {
       const std::string word(key.str());
-      bool is_known = false;
-      std::string all;
-      for (const std::string& known : known_) {
-        is_known = is_known || known == word;
-        all += (all.empty() ? "" : ", ") + known;
-      }
-      if (is_known) continue;
-      const std::string near = nearest_word(word, known_);
+      if (std::find(known_.begin(), known_.end(), word) != known_.end()) continue;
       throw std::runtime_error(where(node) + "there is no key '" + prefix_ + word + "'" +
-                               (near.empty() ? "." : "; did you mean '" + near + "'?") +
-                               " Known here: " + all);
+                               did_you_mean(word, known_) + " Known here: " + listed(known_));
     }
     if (!missing_.empty()) throw std::runtime_error(missing_);
   }
 
  private:
-  double quantity_of(const toml::node& node, const char* key, const char* unit) const {
-    if (const auto number = node.value<double>()) return *number;
-    const auto text = node.value_exact<std::string>();
-    if (!text) fail(node, key, std::string("expected a number or a text with a unit of ") + unit);
-    try {
-      return si_with_unit(*text, unit);
-    } catch (const std::invalid_argument& error) {
-      fail(node, key, error.what());
+  double quantity_at(const toml::node& node, const QuantityField& field) const {
+    double written = 0.0;
+    if (const auto number = node.value_exact<double>()) {
+      written = *number;
+    } else if (const auto whole = node.value_exact<std::int64_t>()) {
+      written = static_cast<double>(*whole);
+    } else if (const auto text = node.value_exact<std::string>()) {
+      if (field.word != nullptr && *text == field.word) return field.word_value;
+      try {
+        written = si_with_unit(*text, field.unit);
+      } catch (const std::invalid_argument& error) {
+        fail(node, field.key, error.what());
+      }
+    } else {
+      fail(node, field.key, "expected " + expected(field));
     }
+    if (!is_in(field.range, written)) {
+      fail(node, field.key,
+           "is " + text_from_number(written) + "; expected " + text_of(field.range));
+    }
+    return written / field.written_per_value;
   }
 
   static std::string expected(const QuantityField& field) {
@@ -237,12 +187,15 @@ class TomlReader final : public FieldVisitor {
     return node;
   }
 
-  // Returns the list of a key, or nullptr if an optional key is missing.
-  const toml::array* list_at(const char* key, bool is_required, const std::string& what) {
+  // Replaces the values by those that `read_entry` returns, unless an optional key is missing.
+  template <typename Value, typename ReadEntry>
+  void read_list(const char* key, bool is_required, const std::string& what,
+                 std::vector<Value>& values, const ReadEntry& read_entry) {
     const toml::node* node = find(key, is_required, what);
-    if (node == nullptr) return nullptr;
+    if (node == nullptr) return;
     if (node->as_array() == nullptr) fail(*node, key, "expected " + what);
-    return node->as_array();
+    values.clear();
+    for (const toml::node& entry : *node->as_array()) values.push_back(read_entry(entry));
   }
 
   std::string where(const toml::node& node) const {

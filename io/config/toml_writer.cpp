@@ -1,4 +1,5 @@
-#include "io/basics/units.h"
+#include "io/basics/number_text.h"
+#include "io/basics/words.h"
 #include "io/config/config_fields.h"
 
 #include <fmt/format.h>
@@ -49,24 +50,17 @@ class TomlWriter final : public FieldVisitor {
   void boolean(const char* key, bool& value) override { line(key, value ? "true" : "false"); }
 
   void texts(const TextField& field, std::vector<std::string>& values) override {
-    std::string all;
-    for (const std::string& value : values) all += (all.empty() ? "" : ", ") + in_quotes(value);
-    line(field.key, "[" + all + "]");
+    list_line(field.key, values, in_quotes);
   }
   void quantities(const QuantityField& field, std::vector<double>& values) override {
-    std::string all;
-    for (const double value : values) {
-      all += (all.empty() ? "" : ", ") + number(value * field.written_per_value);
-    }
-    line(field.key, "[" + all + "]");
+    list_line(field.key, values,
+              [&](double value) { return number(value * field.written_per_value); });
   }
   void quantity_pairs(const char* key, const char*, const char*,
                       std::vector<std::pair<double, double>>& values) override {
-    std::string all;
-    for (const auto& [first, second] : values) {
-      all += (all.empty() ? "[" : ", [") + number(first) + ", " + number(second) + "]";
-    }
-    line(key, "[" + all + "]");
+    list_line(key, values, [](const auto& pair) {
+      return "[" + number(pair.first) + ", " + number(pair.second) + "]";
+    });
   }
 
   void section(const char* key, const std::function<void(FieldVisitor&)>& body) override {
@@ -89,6 +83,12 @@ class TomlWriter final : public FieldVisitor {
  private:
   void line(const char* key, const std::string& value) {
     lines_ += std::string(key) + " = " + value + "\n";
+  }
+  template <typename Values, typename TextOf>
+  void list_line(const char* key, const Values& values, const TextOf& text_of) {
+    std::vector<std::string> texts;
+    for (const auto& value : values) texts.push_back(text_of(value));
+    line(key, "[" + listed(texts) + "]");
   }
 
   std::string prefix_;

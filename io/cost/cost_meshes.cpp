@@ -1,5 +1,4 @@
-#include "io/cost/cost_meshes.h"
-
+#include "io/cost/study_trials.h"
 #include "models/array/plane/simulate_array.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/mesh/pillar_mesh.h"
@@ -20,14 +19,17 @@ CostMeshes meshes_of(const PillarScene& scene) {
   return {.diameter_m = scene.geometry.diameter_m,
           .graded = {{2, 1}, {3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}},
           .highest_uniform = 8,
+          .uniform_layers = 1,
           .reference_layers = 4,
-          .step_tolerance = step_tolerance_of(scene)};
+          .step_tolerance = step_tolerance_of(scene),
+          .takes_time_steps = !history(scene).empty()};
 }
 
 CostMeshes meshes_of(const ArrayScene& scene) {
   return {.diameter_m = scene.geometry.diameter_m,
           .graded = {{2, 1}, {3, 2}, {4, 2}, {5, 2}, {6, 3}, {7, 3}},
           .highest_uniform = 7,
+          .uniform_layers = scene.electrodes.is_equipotential ? 2 : 1,
           .reference_layers = 5,
           .step_tolerance = scene.tolerance};
 }
@@ -47,14 +49,6 @@ Discretisation graded(const ArrayScene& scene, int degree, int layers) {
   return mesh;
 }
 
-int uniform_layers(const PillarScene&) {
-  return 1;
-}
-
-int uniform_layers(const ArrayScene& scene) {
-  return scene.electrodes.is_equipotential ? 2 : 1;
-}
-
 // A film that is left out needs no elements beside the pillar.
 Discretisation without_effect(const PillarScene& without, Discretisation mesh) {
   if (!without.film) mesh.film_elements = 1;
@@ -63,15 +57,6 @@ Discretisation without_effect(const PillarScene& without, Discretisation mesh) {
 
 Discretisation without_effect(const ArrayScene&, Discretisation mesh) {
   return mesh;
-}
-
-bool steps_through_history(const PillarScene& scene) {
-  return !history(scene).empty();
-}
-
-// Rows are answered by a transform.
-bool steps_through_history(const ArrayScene&) {
-  return false;
 }
 
 }  // namespace
@@ -85,21 +70,13 @@ Discretisation graded_mesh(const Scene& scene, int degree, int layers) {
 }
 
 Discretisation uniform_mesh(const Scene& scene, int degree) {
-  return std::visit(
-      [&](const auto& body) {
-        Discretisation mesh = graded(body, degree, 1);
-        mesh.layers = uniform_layers(body);
-        return mesh;
-      },
-      scene);
+  Discretisation mesh = graded_mesh(scene, degree, 1);
+  mesh.layers = cost_meshes(scene).uniform_layers;
+  return mesh;
 }
 
 Discretisation mesh_without_effect(const Scene& without, Discretisation mesh) {
   return std::visit([&](const auto& body) { return without_effect(body, mesh); }, without);
-}
-
-bool takes_time_steps(const Scene& scene) {
-  return std::visit([](const auto& body) { return steps_through_history(body); }, scene);
 }
 
 }  // namespace viscard

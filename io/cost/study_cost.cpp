@@ -9,9 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
-#include <limits>
-#include <optional>
-#include <vector>
 
 namespace viscard {
 namespace {

@@ -10,8 +10,8 @@
 
 namespace viscard {
 
-// What accuracy costs: one scene on many discretisations, and with effects on and off, each against
-// an answer on a finer mesh than any of them, with all effects on.
+// What accuracy costs: one scene on many discretisations, and with effects on and off, each compared
+// with an answer on a finer mesh with all effects on.
 struct CostRow {
   std::string discretisation;  // "h1 5 um", "p4", "graded p5, 2 layers"
   std::string effects;         // "all on", "without film_compliance"
@@ -25,7 +25,7 @@ struct CostRow {
 
 struct CostAdvice {
   double tolerance = 0.0;
-  std::string text;  // one line; says so where no row is accurate enough
+  std::string text;  // one line, also if no row is accurate enough
   int row = -1;      // of the cheapest that is; its error is at most half the tolerance
 };
 

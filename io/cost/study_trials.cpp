@@ -1,6 +1,5 @@
 #include "io/cost/study_trials.h"
 
-#include "io/cost/cost_meshes.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/scene/effects.h"
@@ -10,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace viscard {
 namespace {
@@ -76,7 +74,7 @@ std::vector<Trial> effect_trials(const Body& scene, const Discretisation& mesh) 
 // Fewer terms of the Prony series, the strongest kept; and coarser steps in time.
 std::vector<Trial> time_trials(const Scene& scene, const Discretisation& mesh) {
   std::vector<Trial> trials;
-  if (!takes_time_steps(scene)) return trials;
+  if (!cost_meshes(scene).takes_time_steps) return trials;
   const std::string name = graded_name(mesh);
   std::vector<MaterialTerm> strongest = common(scene).pillar.terms;
   std::sort(strongest.begin(), strongest.end(),

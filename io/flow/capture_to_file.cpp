@@ -1,8 +1,7 @@
 #include "io/flow/capture_to_file.h"
 
 #include "io/basics/atomic_file.h"
-#include "io/capture/previous_capture.h"
-#include "io/flow/emulated_truth.h"
+#include "io/capture/capture_lock.h"
 #include "rig/emulator/emulated_rig.h"
 #include "rig/open_devices.h"
 #include "rig/run_indentation.h"
@@ -89,10 +88,7 @@ RunOutcome capture_with(const RigConfig& rig, const CaptureRequest& request,
 
 RunOutcome capture_to_file(const CaptureRequest& request, const CaptureWatch& watch) {
   if (!request.setup.truth) return capture_with(request.setup.rig, request, watch);
-  EmulatedRigOptions options;
-  options.truth = *request.setup.truth;
-  options.config = request.setup.rig;
-  const EmulatedRig emulated(options);
+  const EmulatedRig emulated({.truth = *request.setup.truth, .config = request.setup.rig});
   return capture_with(emulated.config(), request, watch);
 }
 

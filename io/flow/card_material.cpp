@@ -1,10 +1,9 @@
 #include "io/flow/card_material.h"
 
 #include "fit/reduce_terms.h"
-#include "io/basics/sha256.h"
+#include "io/basics/atomic_file.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/materials/material_file.h"
-#include "io/materials/ratio_file.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -18,7 +17,7 @@ namespace viscard {
 namespace {
 
 // E0 and E_inf at the same end of their own intervals, what lies between them shared among the
-// terms as fitted. Every modulus at its own end would be further out than any interval says, for
+// terms as fitted. Every modulus at its own end would be further out than any interval, because
 // the moduli of one fit are correlated.
 void take_bound(const CardMaterialRequest& request, PreparedMaterial& prepared) {
   Material& material = prepared.material;
@@ -88,7 +87,7 @@ void reduce_to_target(const CardMaterialRequest& request, PreparedMaterial& prep
   prepared.material.valid.t_max_s = reduced.t_max_s;
 }
 
-// The material of a joint fit at one ratio, and what the header should say of it.
+// The material of a joint fit at one ratio, with notes for the header of the card.
 void take_ratio(const CardMaterialRequest& request, PreparedMaterial& prepared) {
   const RatioFit fit = read_ratio_fit(request.material);
   if (!request.ratio)

@@ -1,7 +1,6 @@
-#include "io/flow/emulated_truth.h"
-
 #include "io/basics/atomic_file.h"
 #include "io/config/config_file.h"
+#include "io/flow/capture_to_file.h"
 #include "io/materials/material_file.h"
 
 #include <nlohmann/json.hpp>

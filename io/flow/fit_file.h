@@ -2,11 +2,14 @@
 
 #include "fit/fit_master_curve.h"
 #include "fit/intervals/fit_result.h"
+#include "fit/laws/fit_mixing_ratio.h"
 #include "fit/laws/fractional_diagnosis.h"
 #include "fit/samples/fit_data.h"
 #include "io/tables/column_map.h"
 #include "models/experiment/specimen.h"
+#include "models/material/material.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,5 +43,41 @@ struct FittedFile {
 
 // Reads a capture or a table and fits it. Throws std::runtime_error naming the file.
 FittedFile fit_file(const std::string& path, const FitRequest& request);
+
+// Called with the fraction done and the name of the step that was finished last; may be empty.
+using FlowProgress = std::function<void(double fraction, const std::string& step)>;
+
+// Fits all files on all cores. If some fail, rethrows the exception of the first of them in the
+// order of the files.
+std::vector<FittedFile> fit_files(const std::vector<std::string>& files, const FitRequest& request,
+                                  const FlowProgress& progress);
+
+// Properties of the material that the fit does not determine.
+struct MaterialRequest {
+  std::optional<double> nu;         // none: that of the specimen, or 0.495 without punch geometry
+  std::optional<double> rho_kg_m3;  // none: that of the specimen
+  std::string command;
+  std::string created_at;  // ISO 8601, empty in reproducible mode
+};
+
+// Makes the material of one fitted capture or table, with its name, validity window and provenance
+// (including the SHA-256 of the raw file). Throws std::invalid_argument if the fit gave
+// stiffnesses, std::runtime_error if the raw file cannot be read.
+Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& request);
+
+// Specimens of one material at several mixing ratios.
+struct JointRequest {
+  std::vector<std::string> files;  // captures, tables, material files
+  std::vector<double> ratios;      // one for each file; empty: the files state them
+  FitRequest fit;
+  MaterialRequest material;
+  MixingOptions options;
+  FlowProgress progress;
+  std::function<void(const std::string&)> note;  // called for each specimen that is fitted again
+};
+
+// Fits the measured specimens with one common number of terms, then the law in the mixing ratio.
+// Throws what fit_file(), read_material() and fit_mixing_ratio() throw.
+RatioFit fit_jointly(const JointRequest& request);
 
 }  // namespace viscard

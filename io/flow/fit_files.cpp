@@ -1,6 +1,5 @@
-#include "io/flow/fit_files.h"
-
 #include "io/basics/parallel.h"
+#include "io/flow/fit_file.h"
 
 #include <cstddef>
 #include <mutex>

@@ -1,7 +1,5 @@
-#include "io/flow/joint_fit.h"
-
 #include "io/capture/capture_file.h"
-#include "io/flow/fit_files.h"
+#include "io/flow/fit_file.h"
 #include "io/materials/material_file.h"
 #include "models/maths/text_of_number.h"
 

@@ -1,6 +1,5 @@
-#include "io/flow/material_from_fitted.h"
-
-#include "io/basics/sha256.h"
+#include "io/basics/atomic_file.h"
+#include "io/flow/fit_file.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,11 +1,9 @@
-#include "io/flow/mixing_law.h"
-
 #include "fit/laws/fit_mixing_ratio.h"
-#include "io/materials/ratio_file.h"
+#include "io/flow/specimen_reports.h"
+#include "io/materials/material_file.h"
 
 #include <cmath>
 #include <set>
-#include <string>
 #include <utility>
 
 namespace viscard {

@@ -3,15 +3,13 @@
 #include "fit/indentation_from_capture.h"
 #include "io/basics/atomic_file.h"
 #include "io/basics/parallel.h"
-#include "io/basics/sha256.h"
 #include "io/capture/capture_file.h"
+#include "io/cards/card.h"
 #include "io/cards/targets/card_targets.h"
-#include "io/cards/write_card.h"
 #include "io/config/config_file.h"
-#include "io/flow/emulated_truth.h"
-#include "io/flow/material_from_fitted.h"
+#include "io/flow/capture_to_file.h"
+#include "io/flow/fit_file.h"
 #include "io/materials/material_file.h"
-#include "io/materials/ratio_file.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/validate_material.h"
 
@@ -20,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <filesystem>
 #include <mutex>
 

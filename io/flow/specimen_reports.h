@@ -1,9 +1,10 @@
 #pragma once
 
-#include "io/flow/flow_progress.h"
-#include "io/report/report_input.h"
+#include "io/flow/fit_file.h"
+#include "io/report/report.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,5 +32,10 @@ std::vector<SpecimenReport> read_specimens(const ReportRequest& request,
 
 // How many of the files are captures or tables. Throws std::runtime_error if a file does not exist.
 std::size_t measured_count(const std::vector<std::string>& files);
+
+// E0 over mixing ratio for the report: from the joint file among the inputs or, without one, fitted
+// to E0 of the specimens if there are at least four at two or more ratios. Nothing otherwise.
+std::optional<MixingLaw> mixing_law_of(const std::vector<std::string>& files,
+                                       const std::vector<SpecimenReport>& specimens);
 
 }  // namespace viscard

@@ -20,6 +20,8 @@ Json parse_json(const std::string& text, const std::string& name);
 Material material_from(const Json& json, const std::string& name);
 
 Json json_from(const Material& material);
+// [low, high]; null for an end without bound, because JSON has no infinity.
+Json json_from(const Interval& interval);
 
 // Copies to `fresh` the values in `original` whose keys viscard does not know.
 void carry_unknown_keys(const Json& original, Json& fresh);

@@ -1,6 +1,5 @@
-#include "io/materials/ratio_file.h"
-
 #include "io/basics/atomic_file.h"
+#include "io/materials/material_file.h"
 #include "io/materials/material_json.h"
 
 #include <fstream>

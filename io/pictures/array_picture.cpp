@@ -1,12 +1,9 @@
-#include "io/pictures/array_picture.h"
-
 #include "io/pictures/scene_drawing.h"
+#include "io/pictures/scene_picture.h"
 #include "models/array/plane/array_analysis.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace viscard {
@@ -15,12 +12,12 @@ namespace {
 constexpr double kRowWidth_px = 980.0;
 constexpr int kMostPillars = 16;
 
-// What of the row is drawn: pillars and where their middles stand; with a long row its first and
-// last ones, closer together than they are.
+// The pillars that are drawn and their middles. A long row shows only its first and last ones, with
+// a shortened gap between them.
 struct ShownRow {
   std::vector<std::pair<int, double>> pillars;  // number from 1, middle in m
   double left_m = 0.0, right_m = 0.0;           // of the film
-  double cut_m = 0.0;                           // middle of what is left out
+  double cut_m = 0.0;                           // middle of the gap
   bool is_cut = false;
 };
 
@@ -137,7 +134,7 @@ std::string words_of_lengths(const ArrayGeometry& g) {
 
 }  // namespace
 
-std::string svg_from_array(const ArrayScene& scene, const std::string& title) {
+std::string svg_from_scene(const ArrayScene& scene, const std::string& title) {
   const ArrayGeometry& g = scene.geometry;
   const ShownRow row = shown_row(g);
   const bool is_endless = g.ends == FilmEnds::kMirror;

@@ -1,11 +1,9 @@
-#include "io/pictures/pillar_picture.h"
-
 #include "io/pictures/scene_drawing.h"
+#include "io/pictures/scene_picture.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace viscard {
 namespace {
@@ -74,7 +72,7 @@ void draw_load(SceneDrawing& d, const PillarScene& scene, double low_m) {
 
 }  // namespace
 
-std::string svg_from_pillar(const PillarScene& scene, const std::string& title) {
+std::string svg_from_scene(const PillarScene& scene, const std::string& title) {
   const PillarGeometry& g = scene.geometry;
   const double half_m = std::max(g.film ? g.film->radius_m : g.diameter_m, widest_m(g));
   const double low_m = g.film ? -g.film->thickness_m : 0.0;

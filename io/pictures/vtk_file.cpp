@@ -1,4 +1,4 @@
-#include "io/pictures/vtk_file.h"
+#include "io/pictures/section_picture.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 #include "io/plots/plot.h"
 
-#include "io/plots/plot_gnuplot.h"
 #include "io/plots/plot_points.h"
 #include "io/plots/plot_script.h"
 #include "io/plots/plot_svg.h"

@@ -1,4 +1,4 @@
-#include "io/plots/plot_gnuplot.h"
+#include "io/plots/plot_script.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -104,7 +104,7 @@ int wait_for(pid_t pid) {
   return status;
 }
 
-// gnuplot shows the line of the script, a caret and then what is wrong: the last part is wanted.
+// gnuplot prints the line of the script, a caret and then the reason: the last line is returned.
 std::string message_of(const std::string& text) {
   std::size_t end = text.find_last_not_of(" \n\t");
   if (end == std::string::npos) return "it gave no reason";

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/plots/plot_data.h"
+#include "io/plots/plot.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #include "io/plots/plot_script.h"
 
-#include "io/basics/text_length.h"
+#include "io/basics/words.h"
 #include "io/plots/plot_points.h"
 
 #include <fmt/format.h>
@@ -32,25 +32,9 @@ constexpr double kLinesBesideData_px = 100.0;  // legend above, labels below the
 using Out = std::back_insert_iterator<std::string>;
 
 const char* colour(Ink ink) {
-  switch (ink) {
-    case Ink::kBlue:
-      return "#0072b2";
-    case Ink::kVermillion:
-      return "#d55e00";
-    case Ink::kGreen:
-      return "#009e73";
-    case Ink::kPurple:
-      return "#cc79a7";
-    case Ink::kOrange:
-      return "#e69f00";
-    case Ink::kSky:
-      return "#56b4e9";
-    case Ink::kBlack:
-      return "#222222";
-    case Ink::kGrey:
-      break;
-  }
-  return "#8a929b";
+  constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                      "#e69f00", "#56b4e9", "#222222", "#8a929b"};
+  return kColours[static_cast<std::size_t>(ink)];
 }
 
 // A gnuplot string in single quotes: no escapes, no command substitution.

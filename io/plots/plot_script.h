@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/plots/plot_data.h"
+#include "io/plots/plot.h"
 
 #include <string>
 
@@ -13,5 +13,11 @@ std::string gnuplot_script(const Plot& plot);
 
 inline constexpr double kLeastPanelWidth_px = 130.0;
 inline constexpr double kLeastPanelHeight_px = 80.0;
+
+// Runs gnuplot on a script, without the user's own settings, and returns what it wrote to standard
+// output. Script, output and messages stay in memory: no file is made and none can be left behind.
+// Throws std::runtime_error when gnuplot is not installed (saying how to), cannot be started, or
+// ends with an error (its first message).
+std::string run_gnuplot(const std::string& script);
 
 }  // namespace viscard

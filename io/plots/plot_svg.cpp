@@ -1,34 +1,15 @@
 #include "io/plots/plot_svg.h"
 
+#include "io/basics/words.h"
+
 #include <fmt/format.h>
 
 #include <regex>
 #include <stdexcept>
+#include <string_view>
 
 namespace viscard {
 namespace {
-
-// Length in bytes of the UTF-8 character that begins at `at`, 0 if none does.
-std::size_t utf8_length(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
-  };
-  const unsigned lead = byte(at);
-  std::size_t length = 0;
-  if (lead < 0x80) return 1;
-  if (lead >= 0xC2 && lead <= 0xDF) length = 2;
-  if (lead >= 0xE0 && lead <= 0xEF) length = 3;
-  if (lead >= 0xF0 && lead <= 0xF4) length = 4;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(at + i) & 0xC0u) != 0x80u) return 0;
-  }
-  const unsigned second = byte(at + 1);  // too long a form, or half of a surrogate pair
-  if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) ||
-      (lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F)) {
-    return 0;
-  }
-  return length;
-}
 
 std::string body_of(const std::string& document) {
   const std::size_t begin = document.find("<g id=\"gnuplot_canvas\">");
@@ -77,6 +58,8 @@ void erase_empty_groups(std::string& text) {
 }  // namespace
 
 std::string escaped_markup(const std::string& text) {
+  constexpr std::string_view kSpecial = "&<>\"'";
+  constexpr const char* kEntities[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = utf8_length(text, i);
@@ -90,28 +73,13 @@ std::string escaped_markup(const std::string& text) {
       i += length;
       continue;
     }
-    switch (const char c = text[i++]) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      case '\n':
-      case '\t':
-        out += c;
-        break;
-      default:
-        out += (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) ? ' ' : c;
+    const char c = text[i++];
+    const std::size_t special = kSpecial.find(c);
+    const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+    if (special != std::string_view::npos) {
+      out += kEntities[special];
+    } else {
+      out += is_control && c != '\n' && c != '\t' ? ' ' : c;
     }
   }
   return out;

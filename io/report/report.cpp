@@ -2,13 +2,9 @@
 
 #include "io/plots/plot_svg.h"
 #include "io/report/report_estimates.h"
-#include "io/report/report_html.h"
 #include "io/report/report_sections.h"
 #include "models/maths/text_of_number.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <stdexcept>
 
 namespace viscard {

@@ -1,12 +1,70 @@
 #pragma once
 
+#include "fit/intervals/fit_result.h"
 #include "io/report/report_html.h"
-#include "io/report/report_input.h"
+#include "models/experiment/captured_run.h"
+#include "models/experiment/emulated_specimen.h"
+#include "models/experiment/specimen.h"
+#include "models/material/material.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace viscard {
+
+// Creep or relaxation of the pillar: one quantity over time as the solver and the exact solution
+// give it, and the largest relative difference.
+struct PillarCurve {
+  std::string quantity;  // "force (uN)", the axis label
+  std::vector<double> time_s, solver, exact;
+  double largest_relative_error = 0.0;
+};
+
+struct PillarCheck {
+  PillarCurve relaxation, creep;
+  double limit = 1e-6;  // largest relative error that is accepted
+  std::string setup;    // one sentence: geometry, load, unknowns, steps
+};
+
+// A material card for another solver.
+struct ReportCard {
+  std::string target;     // "abaqus"
+  std::string units;      // "mm-t-s"
+  std::string file_name;  // "pdms_1to10.inp"
+  std::string text;
+  std::string refusal;  // why the card was not written; then text is empty
+};
+
+// The data of one specimen. The page omits the parts that are missing; a fit or a material is
+// required.
+struct SpecimenReport {
+  Specimen specimen;  // its id is the section's title; without an id, the material's name
+  std::optional<CapturedRun> run;      // raw record
+  std::optional<FitResult> fit;        // estimates with data and residuals
+  std::optional<Material> material;    // from its file; shown if there is no fit
+  std::optional<EmulatedTruth> truth;  // emulated rig only
+  std::optional<PillarCheck> pillar;
+  std::vector<ReportCard> cards;
+  std::vector<RawFile> files;      // that were read for this specimen
+  std::vector<std::string> notes;  // sentences at the top of the section
+};
+
+// E0 over mixing ratio as a joint fit describes it.
+struct MixingLaw {
+  std::string text;  // one sentence with the formula
+  std::vector<double> ratio, E0_Pa, E0_low_Pa, E0_high_Pa;
+};
+
+struct ReportInput {
+  std::string title;
+  std::string introduction;  // one paragraph, may be empty
+  std::vector<SpecimenReport> specimens;
+  std::optional<MixingLaw> law;
+  std::string created_by;  // "viscard 0.1.0"
+  std::string created_at;  // ISO 8601; empty in reproducible mode
+  std::string command;     // command line that made the page
+};
 
 struct RenderedReport {
   std::string html;  // one self-contained page: no script, no external resource, pictures inline

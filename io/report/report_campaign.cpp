@@ -1,7 +1,7 @@
-#include "io/report/report_campaign.h"
-
 #include "io/plots/plot_svg.h"
+#include "io/report/report_figures.h"
 #include "io/report/report_numbers.h"
+#include "io/report/report_tables.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -77,11 +77,8 @@ std::vector<SpecimenStyle> styles_of(const std::vector<SpecimenEstimates>& estim
 }
 
 HtmlTable spread_table(const std::vector<SpecimenEstimates>& estimates) {
-  std::vector<double> moduli;
-  for (const SpecimenEstimates& specimen : estimates) moduli.push_back(specimen.E0_Pa.value);
-  const bool is_stiffness = estimates.front().is_stiffness;
-  const ShownUnit unit = shown_unit(is_stiffness ? "N/m" : "Pa", moduli);
-  const char* symbol = is_stiffness ? "R" : "E";
+  const ShownUnit unit = modulus_unit(estimates);
+  const char* symbol = estimates.front().is_stiffness ? "R" : "E";
   HtmlTable table({{"Ratio", false},
                    {"Specimens"},
                    {fmt::format("Mean <i>{}</i><sub>0</sub> <span class=\"unit\">({})</span>",

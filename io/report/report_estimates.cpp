@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
-#include <string>
 
 namespace viscard {
 namespace {
@@ -158,6 +156,12 @@ SpecimenEstimates estimates_from_specimen(const SpecimenReport& specimen, std::s
         " has neither a fit nor a material; give a capture, a table or a material file");
   }
   return estimates;
+}
+
+ShownUnit modulus_unit(const std::vector<SpecimenEstimates>& estimates) {
+  std::vector<double> values;
+  for (const SpecimenEstimates& specimen : estimates) values.push_back(specimen.E0_Pa.value);
+  return shown_unit(estimates.front().is_stiffness ? "N/m" : "Pa", values);
 }
 
 RelaxationBand relaxation_band(const SpecimenEstimates& estimates,

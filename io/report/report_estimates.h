@@ -1,6 +1,7 @@
 #pragma once
 
-#include "io/report/report_input.h"
+#include "io/report/report.h"
+#include "io/report/report_numbers.h"
 
 #include <Eigen/Core>
 
@@ -39,6 +40,9 @@ struct SpecimenEstimates {
 
 // Throws std::invalid_argument if the specimen has neither fit nor material.
 SpecimenEstimates estimates_from_specimen(const SpecimenReport& specimen, std::size_t index);
+
+// The unit in which E0 of all specimens is shown.
+ShownUnit modulus_unit(const std::vector<SpecimenEstimates>& estimates);
 
 // E(t), or E(t)/E0, with its 95 % band to first order in the covariance C of the moduli and ln tau
 // (variance J C J', J the derivatives by the parameters). The band of E(t)/E0 is narrower because a

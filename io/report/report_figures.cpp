@@ -1,7 +1,6 @@
 #include "io/report/report_figures.h"
 
 #include "fit/intervals/fit_result.h"
-#include "io/report/report_campaign.h"
 #include "io/report/report_numbers.h"
 
 #include <fmt/format.h>
@@ -34,16 +33,6 @@ std::vector<double> shared_times(const std::vector<SpecimenEstimates>& estimates
     time_s.push_back(first_s * std::pow(last_s / first_s, i / (kPointsPerCurve - 1.0)));
   }
   return time_s;
-}
-
-const char* modulus_base(const std::vector<SpecimenEstimates>& estimates) {
-  return estimates.front().is_stiffness ? "N/m" : "Pa";
-}
-
-std::vector<double> instantaneous(const std::vector<SpecimenEstimates>& estimates) {
-  std::vector<double> values;
-  for (const SpecimenEstimates& specimen : estimates) values.push_back(specimen.E0_Pa.value);
-  return values;
 }
 
 PlotSeries line(const std::vector<double>& x, const std::vector<double>& y, Ink ink,
@@ -124,7 +113,7 @@ std::optional<Plot> relaxation_plot(const ReportInput& input,
                                     const std::vector<SpecimenEstimates>& estimates) {
   const std::vector<double> time_s = shared_times(estimates);
   if (time_s.empty()) return std::nullopt;
-  const ShownUnit unit = shown_unit(modulus_base(estimates), instantaneous(estimates));
+  const ShownUnit unit = modulus_unit(estimates);
   Plot plot{
       .title = "Relaxation of all specimens",
       .description = "Relaxation modulus over time, absolute and relative to its first value.",
@@ -162,7 +151,7 @@ std::optional<Plot> ratio_plot(const ReportInput& input,
     if (specimen.mixing_ratio > 0.0 && !specimen.is_stiffness) ratios.insert(specimen.mixing_ratio);
   }
   if (ratios.size() < 2) return std::nullopt;
-  const ShownUnit unit = shown_unit("Pa", instantaneous(estimates));
+  const ShownUnit unit = modulus_unit(estimates);
   PlotSeries total = error_bars(Ink::kSky, "with the systematic part");
   PlotSeries random = error_bars(Ink::kBlue, "E₀, 95 % interval");
   PlotSeries truth{.mark = Mark::kPoints, .label = "truth", .ink = Ink::kBlack, .is_hollow = true};

@@ -1,14 +1,46 @@
 #pragma once
 
 #include "io/plots/plot.h"
+#include "io/report/report.h"
 #include "io/report/report_estimates.h"
-#include "io/report/report_input.h"
-#include "io/report/report_run.h"
+#include "models/experiment/captured_run.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace viscard {
+
+// Colour and legend entry of each specimen. Repeated specimens of a mixing ratio have one colour
+// and one entry, "10 : 1 (3 specimens)".
+struct SpecimenStyle {
+  Ink ink = Ink::kBlue;
+  std::string label;  // empty if another specimen of this ratio has the entry
+};
+std::vector<SpecimenStyle> styles_of(const std::vector<SpecimenEstimates>& estimates);
+
+// A run as the page shows it: the readings as received and the positions of the stage, both over
+// the host's clock in s since the run began.
+struct RunSeries {
+  std::vector<double> time_s, volts;  // valid readings; in N if the instrument is a force gauge
+  std::vector<double> flagged_s, flagged_V;  // saturated readings and glitches
+  std::vector<double> report_s, position_m;  // reported by the stage
+  // Depth of the punch below the point of contact, negative above the surface:
+  //   stage position - contact position - force/frame stiffness,
+  // at the times of the readings; empty without a contact position. The zero of the force is the
+  // mean reading while the punch was clear of the specimen.
+  std::vector<double> depth_m;
+  std::vector<PlotNote> phases;
+  bool is_force = false;  // the instrument is a force gauge
+};
+
+// motion_start_s: the fitted starts of the moves (FitCurves). The recorded starts are uncertain by
+// the latency of the controller, so the nearest move is shifted to each fitted start.
+RunSeries series_from_run(const CapturedRun& run, std::optional<double> contact_position_m,
+                          const std::vector<double>& motion_start_s = {});
+
+// Returns a reading in the unit of the calibration (models/experiment), or NaN if there is none.
+double volts_of(const LoadSample& sample, const RigConfig& rig);
 
 // The figures of the page. Each function returns nothing if its data are missing.
 
@@ -36,5 +68,9 @@ std::optional<Plot> run_plot(const RunSeries& series);
 // Data with fit, and residuals divided by their standard deviation, over the logarithm of the time
 // since each motion began.
 std::optional<Plot> fit_plot(const FitResult& fit);
+
+// Profile likelihoods: rise of the sum of squares over E_inf and over each relaxation time, one
+// panel each. Nothing if the fit has none.
+std::optional<Plot> profile_plot(const FitResult& fit);
 
 }  // namespace viscard

@@ -21,6 +21,7 @@ void HtmlTable::add_row(std::vector<std::string> cells_html, RowStyle style) {
 }
 
 std::string HtmlTable::html(const std::string& caption_html) const {
+  constexpr const char* kRowStarts[] = {"<tr>", "<tr class=\"group\">", "<tr class=\"chosen\">"};
   std::string out =
       "<div class=\"table\"><table>\n<caption>" + caption_html + "</caption>\n<thead><tr>";
   const auto css = [&](std::size_t i) { return columns_[i].is_number ? " class=\"n\"" : ""; };
@@ -29,17 +30,7 @@ std::string HtmlTable::html(const std::string& caption_html) const {
   }
   out += "</tr></thead>\n<tbody>\n";
   for (const Row& row : rows_) {
-    switch (row.style) {
-      case RowStyle::kPlain:
-        out += "<tr>";
-        break;
-      case RowStyle::kBeginsGroup:
-        out += "<tr class=\"group\">";
-        break;
-      case RowStyle::kChosen:
-        out += "<tr class=\"chosen\">";
-        break;
-    }
+    out += kRowStarts[static_cast<std::size_t>(row.style)];
     out += fmt::format("<th scope=\"row\"{}>{}</th>", css(0), row.cells[0]);
     for (std::size_t i = 1; i < row.cells.size(); ++i) {
       out += fmt::format("<td{}>{}</td>", css(i), row.cells[i]);
@@ -75,13 +66,6 @@ void Page::add_figure(const Plot& plot, const std::string& name, const std::stri
   body_ +=
       fmt::format("<figure id=\"{}\">\n{}<figcaption><b>Figure {}.</b> {}</figcaption></figure>\n",
                   id, pictures_.back().svg, number, caption_html);
-}
-
-void Page::begin_row_of_figures() {
-  body_ += "<div class=\"row\">\n";
-}
-void Page::end_row_of_figures() {
-  body_ += "</div>\n";
 }
 
 std::string Page::contents_html() const {

@@ -51,10 +51,7 @@ class Page {
   void add_paragraph(const std::string& html);
   void add_html(const std::string& html);  // without any change
   void add_table(const HtmlTable& table, const std::string& caption_html);
-  // Figures added between begin and end stand side by side if the page is wide enough.
   void add_figure(const Plot& plot, const std::string& name, const std::string& caption_html);
-  void begin_row_of_figures();
-  void end_row_of_figures();
 
   const std::string& body() const { return body_; }
   std::string contents_html() const;  // navigation to the level-2 headings

@@ -1,4 +1,3 @@
-#include "io/report/report_campaign.h"
 #include "io/report/report_figures.h"
 #include "io/report/report_numbers.h"
 

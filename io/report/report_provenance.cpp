@@ -39,9 +39,11 @@ std::string card_html(const ReportCard& card, const std::string& label) {
 // A list of names and values; empty values are omitted.
 class Facts {
  public:
-  void add(const std::string& name, const std::string& value) {
+  void add(const std::string& name, const std::string& value, const char* before = "",
+           const char* after = "") {
     if (value.empty()) return;
-    html_ += "<dt>" + escaped_markup(name) + "</dt><dd>" + escaped_markup(value) + "</dd>\n";
+    html_ += "<dt>" + escaped_markup(name) + "</dt><dd>" + before + escaped_markup(value) + after +
+             "</dd>\n";
   }
   void add_quantity(const std::string& name, double value_SI, const std::string& base) {
     if (!(value_SI != 0.0)) return;
@@ -49,9 +51,7 @@ class Facts {
     add(name, readable_number(value_SI * unit.per_si, 6) + " " + unit.text);
   }
   void add_code(const std::string& name, const std::string& value) {
-    if (value.empty()) return;
-    html_ += "<dt>" + escaped_markup(name) + "</dt><dd><code>" + escaped_markup(value) +
-             "</code></dd>\n";
+    add(name, value, "<code>", "</code>");
   }
   std::string html() const { return html_.empty() ? "" : "<dl>\n" + html_ + "</dl>\n"; }
 

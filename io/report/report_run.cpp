@@ -1,5 +1,4 @@
-#include "io/report/report_run.h"
-
+#include "io/report/report_figures.h"
 #include "models/experiment/sample_force.h"
 
 #include <algorithm>

@@ -96,18 +96,11 @@ const char* motion_name(std::size_t index, std::size_t n_motions) {
   return index < 2 ? kNames[index] : "Next motion";
 }
 
+// The curves do not include the loss modulus.
 const char* value_name(const FitResult& fit) {
-  switch (fit.kind) {
-    case FitKind::kIndentation:
-      return "force";
-    case FitKind::kRelaxation:
-      return "relaxation modulus";
-    case FitKind::kCreep:
-      return "creep compliance";
-    case FitKind::kDma:
-      break;
-  }
-  return "storage modulus";  // the curves do not include the loss modulus
+  constexpr const char* kNames[] = {"force", "relaxation modulus", "creep compliance",
+                                    "storage modulus"};
+  return kNames[static_cast<std::size_t>(fit.kind)];
 }
 
 // Flagged readings may be far outside of the others, which would then fill a small part of the

@@ -1,7 +1,6 @@
 #include "io/report/report_sections.h"
 
 #include "io/plots/plot_svg.h"
-#include "io/report/report_campaign.h"
 #include "io/report/report_figures.h"
 #include "io/report/report_numbers.h"
 #include "io/report/report_tables.h"
@@ -10,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace viscard {
 namespace {
@@ -118,7 +116,7 @@ void add_summary(Page& page, const ReportInput& input,
         "Bands are 95 % intervals from the records alone." +
             dashes);
   }
-  page.begin_row_of_figures();
+  page.add_html("<div class=\"row\">\n");  // side by side if the page is wide enough
   if (const auto plot = ratio_plot(input, estimates)) {
     std::string caption = "Instantaneous modulus over mixing ratio.";
     if (input.law) caption += " " + escaped_markup(input.law->text);
@@ -129,7 +127,7 @@ void add_summary(Page& page, const ReportInput& input,
                     "Relaxation spectrum: relative moduli over relaxation times. Bars are 95 % "
                     "intervals.");
   }
-  page.end_row_of_figures();
+  page.add_html("</div>\n");
   const HtmlTable spread = spread_table(estimates);
   if (!spread.is_empty()) {
     page.add_table(

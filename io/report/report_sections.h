@@ -1,8 +1,8 @@
 #pragma once
 
+#include "io/report/report.h"
 #include "io/report/report_estimates.h"
 #include "io/report/report_html.h"
-#include "io/report/report_input.h"
 
 #include <vector>
 

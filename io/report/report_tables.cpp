@@ -1,6 +1,6 @@
 #include "io/report/report_tables.h"
 
-#include "io/basics/text_length.h"
+#include "io/basics/words.h"
 #include "io/plots/plot_svg.h"
 #include "io/report/report_numbers.h"
 
@@ -17,11 +17,19 @@ std::string with_unit(const std::string& symbol_html, const std::string& unit) {
                       : symbol_html + " <span class=\"unit\">(" + escaped_markup(unit) + ")</span>";
 }
 
+std::string value_html(const Estimate& estimate, double per_si) {
+  const bool has_interval = !interval_html(estimate.interval_95, per_si).empty();
+  return number_html(estimate.value, per_si, has_interval ? &estimate.interval_95 : nullptr);
+}
+
+std::string interval_or_dash(const Estimate& estimate, double per_si) {
+  const std::string interval = interval_html(estimate.interval_95, per_si);
+  return interval.empty() ? "–" : interval;
+}
+
 std::string estimate_html(const Estimate& estimate, double per_si) {
   const std::string interval = interval_html(estimate.interval_95, per_si);
-  const std::string value =
-      number_html(estimate.value, per_si, interval.empty() ? nullptr : &estimate.interval_95);
-  return interval.empty() ? value : value + "<br>" + interval;
+  return value_html(estimate, per_si) + (interval.empty() ? "" : "<br>" + interval);
 }
 
 HtmlTable::RowStyle group_if(bool begins) {
@@ -39,12 +47,6 @@ std::string link_to(const SpecimenEstimates& estimates) {
   return fmt::format("<a href=\"#{}\">{}</a>", estimates.anchor, label_html(estimates.label));
 }
 
-ShownUnit modulus_unit(const std::vector<SpecimenEstimates>& estimates) {
-  std::vector<double> values;
-  for (const SpecimenEstimates& specimen : estimates) values.push_back(specimen.E0_Pa.value);
-  return shown_unit(estimates.front().is_stiffness ? "N/m" : "Pa", values);
-}
-
 std::string two_point_html(const std::optional<TwoPointModulus>& two_point, double per_si) {
   if (!two_point) return "–";
   const double half_Pa = 1.96 * two_point->se_Pa;
@@ -60,20 +62,11 @@ std::string two_point_html(const std::optional<TwoPointModulus>& two_point, doub
   return html;
 }
 
-std::string verdict_html(Recovery recovery) {
-  switch (recovery) {
-    case Recovery::kInside:
-      return "<span class=\"yes\">yes</span>";
-    case Recovery::kInsideWithSystematic:
-      return "<span class=\"yes\">with the systematic part</span>";
-    case Recovery::kOutside:
-      return "<span class=\"no\">no</span>";
-    case Recovery::kNotResolved:
-      return "<span class=\"no\">not resolved</span>";
-    case Recovery::kNoInterval:
-      break;
-  }
-  return "no interval";
+const char* verdict_html(Recovery recovery) {
+  constexpr const char* kVerdicts[] = {
+      "<span class=\"yes\">yes</span>", "<span class=\"yes\">with the systematic part</span>",
+      "<span class=\"no\">no</span>", "no interval", "<span class=\"no\">not resolved</span>"};
+  return kVerdicts[static_cast<std::size_t>(recovery)];
 }
 
 std::string difference_html(const RecoveredParameter& row) {
@@ -143,21 +136,15 @@ HtmlTable terms_table(const std::vector<SpecimenEstimates>& estimates) {
        {"95 %"},
        {with_unit(is_stiffness ? "<i>R<sub>i</sub></i>" : "<i>E<sub>i</sub></i>", unit.text)},
        {"95 %"}});
-  const auto add = [](std::vector<std::string>& row, const Estimate& estimate, double per_si) {
-    const std::string interval = interval_html(estimate.interval_95, per_si);
-    row.push_back(
-        number_html(estimate.value, per_si, interval.empty() ? nullptr : &estimate.interval_95));
-    row.push_back(interval.empty() ? "–" : interval);
-  };
   for (std::size_t k = 0; k < estimates.size(); ++k) {
     for (std::size_t i = 0; i < estimates[k].terms.size(); ++i) {
       const TermEstimate& term = estimates[k].terms[i];
-      std::vector<std::string> row{i == 0 ? label_html(estimates[k].label) : "",
-                                   std::to_string(i + 1)};
-      add(row, term.g, 1.0);
-      add(row, term.tau_s, 1.0);
-      add(row, term.modulus_Pa, unit.per_si);
-      table.add_row(row, group_if(i == 0 && k > 0));
+      table.add_row(
+          {i == 0 ? label_html(estimates[k].label) : "", std::to_string(i + 1),
+           value_html(term.g, 1.0), interval_or_dash(term.g, 1.0), value_html(term.tau_s, 1.0),
+           interval_or_dash(term.tau_s, 1.0), value_html(term.modulus_Pa, unit.per_si),
+           interval_or_dash(term.modulus_Pa, unit.per_si)},
+          group_if(i == 0 && k > 0));
     }
   }
   return table;
@@ -179,15 +166,12 @@ HtmlTable recovery_table(const ReportInput& input,
     for (const RecoveredParameter& row :
          recovered_parameters(estimates[k], input.specimens[k].truth->material)) {
       const double per_si = row.unit == "Pa" ? modulus.per_si : 1.0;
-      const std::string interval = interval_html(row.estimate.interval_95, per_si);
-      table.add_row(
-          {is_first ? label_html(estimates[k].label) : "",
-           with_unit(row.name_html, row.unit == "Pa" ? modulus.text : row.unit),
-           number_html(row.truth, per_si),
-           number_html(row.estimate.value, per_si,
-                       interval.empty() ? nullptr : &row.estimate.interval_95),
-           interval.empty() ? "–" : interval, difference_html(row), verdict_html(row.recovery)},
-          group_if(is_first && !table.is_empty()));
+      table.add_row({is_first ? label_html(estimates[k].label) : "",
+                     with_unit(row.name_html, row.unit == "Pa" ? modulus.text : row.unit),
+                     number_html(row.truth, per_si), value_html(row.estimate, per_si),
+                     interval_or_dash(row.estimate, per_si), difference_html(row),
+                     verdict_html(row.recovery)},
+                    group_if(is_first && !table.is_empty()));
       is_first = false;
     }
   }

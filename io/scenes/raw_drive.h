@@ -1,6 +1,8 @@
 #pragma once
 
 #include "io/config/config_fields.h"
+#include "models/array/plane/array_scene.h"
+#include "models/pillar/scene/pillar_scene.h"
 #include "models/pillar/time/load_history.h"
 
 #include <limits>
@@ -41,5 +43,14 @@ void show_readout(FieldVisitor& readout_table, RawDrive& drive);
 // SceneMistake.
 std::vector<double> frequencies_of(const RawDrive& drive);
 std::vector<HistoryPoint> history_of(const RawDrive& drive);
+
+// Fill the drive of a scene, which has the default values of its analysis. They fill every part
+// that the drive has, for any analysis. Throw SceneMistake for a key that the analysis does not
+// use, naming the analyses that do.
+void fill_modes_and_top(const RawDrive& raw, PillarScene& scene);
+void fill_drive(const RawDrive& raw, PillarScene& scene);
+void fill_drive(const RawDrive& raw, ArrayScene& scene);  // all but the load
+
+void fill_readout(const RawDrive& raw, PillarScene& scene);
 
 }  // namespace viscard

@@ -1,12 +1,9 @@
-#include "io/scenes/read_pillar.h"
-
-#include "io/scenes/scene_drive.h"
+#include "io/scenes/raw_drive.h"
 #include "io/scenes/scene_words.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/simulate_pillar.h"
 #include "models/scene/effects.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -14,13 +11,13 @@
 namespace viscard {
 namespace {
 
-// What stands in the file before it is made sense of.
+// The values of the file before they are checked.
 struct RawScene {
   double tolerance = 1e-3;
   std::string kind = "pillar", model = "axisymmetric";
   double diameter_m = 0.0, length_m = 0.0;
   double film_thickness_m = 0.0, film_radius_m = 0.0;
-  std::string film_material, film_bottom, bottom;  // bottoms: none said is fixed
+  std::string film_material, film_bottom, bottom;  // bottoms: empty means fixed
   std::string electrode_face, electrode_kind, poling = "+z";
   double electrode_radius_m = 0.0;
   bool quadrants = false;
@@ -120,17 +117,10 @@ void fill_film(const RawScene& raw, const std::filesystem::path& folder, PillarS
                                          ", the film's, with E (and nu, rho) or a file");
   }
   scene.geometry.film = FilmGeometry{raw.film_thickness_m, raw.film_radius_m};
-  if (!raw.film.file.empty()) {
-    const MediumFile file = read_medium(folder / raw.film.file);
-    scene.film = scene.plane ? file.medium : averaged_about_z(file.medium);
-    scene.film_charge_C_N = file.charge_C_N;
-  } else {
-    try {
-      scene.film = isotropic_medium(raw.film.E_Pa, raw.film.nu, raw.film.rho_kg_m3);
-    } catch (const std::invalid_argument& error) {
-      throw SceneMistake(material_key, error.what());
-    }
-  }
+  const MediumFile film = film_medium(material_key, raw.film, folder);
+  const bool is_averaged = !raw.film.file.empty() && !scene.plane;
+  scene.film = is_averaged ? averaged_about_z(film.medium) : film.medium;
+  if (!raw.film.file.empty()) scene.film_charge_C_N = film.charge_C_N;
   if (choice<bool>("geometry.poling", raw.poling, {{"+z", false}, {"-z", true}})) {
     scene.film = with_reversed_poling(*scene.film);
   }

@@ -1,6 +1,4 @@
-#include "io/scenes/read_row.h"
-
-#include "io/scenes/scene_drive.h"
+#include "io/scenes/raw_drive.h"
 #include "io/scenes/scene_words.h"
 #include "models/array/plane/array_analysis.h"
 #include "models/array/plane/simulate_array.h"
@@ -15,9 +13,9 @@
 namespace viscard {
 namespace {
 
-constexpr double kAllPillars = -1.0;  // nothing said of single ones
+constexpr double kAllPillars = -1.0;  // the file names no single ones
 
-// What stands in the file before it is made sense of.
+// The values of the file before they are checked.
 struct RawArray {
   double tolerance = 1e-3;
   std::string kind = "array", model = "plane-stress";
@@ -103,19 +101,8 @@ void show_array(FieldVisitor& v, RawArray& s) {
   show_printed(v, s.printed);
 }
 
-Medium elastic_film(const RawArray& raw) {
-  const std::string key = "materials." + raw.film_material;
-  if (!(raw.film.E_Pa > 0.0)) throw SceneMistake(key, "needs E (and nu, rho) or a file");
-  try {
-    return isotropic_medium(raw.film.E_Pa, raw.film.nu, raw.film.rho_kg_m3);
-  } catch (const std::invalid_argument& error) {
-    throw SceneMistake(key, error.what());
-  }
-}
-
-Medium film_medium(const RawArray& raw, const std::filesystem::path& folder) {
-  Medium film =
-      raw.film.file.empty() ? elastic_film(raw) : read_medium(folder / raw.film.file).medium;
+Medium film_of(const RawArray& raw, const std::filesystem::path& folder) {
+  const Medium film = film_medium("materials." + raw.film_material, raw.film, folder).medium;
   const bool is_reversed =
       choice<bool>("geometry.poling", raw.poling, {{"+z", false}, {"-z", true}});
   return is_reversed ? with_reversed_poling(film) : film;
@@ -179,7 +166,7 @@ ArrayScene scene_from(const RawArray& raw, const std::filesystem::path& folder) 
   scene.electrodes.is_equipotential = choice<bool>("geometry.electrode.kind", raw.electrode_kind,
                                                    {{"equipotential", true}, {"sampled", false}});
   scene.pillar = pillar_material(raw.pillar, folder);
-  scene.film = film_medium(raw, folder);
+  scene.film = film_of(raw, folder);
   std::map<std::string, RowDrive> drives;
   for (const ArrayAnalysis& analysis : array_analyses()) drives[analysis.name] = analysis.drive;
   scene.drive = choice<RowDrive>("analysis.kind", raw.analysis, drives);

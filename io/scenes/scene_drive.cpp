@@ -1,5 +1,4 @@
-#include "io/scenes/scene_drive.h"
-
+#include "io/scenes/raw_drive.h"
 #include "io/scenes/scene_words.h"
 #include "models/array/plane/array_analysis.h"
 #include "models/pillar/analyses/analysis.h"
@@ -11,39 +10,31 @@
 namespace viscard {
 namespace {
 
-// Parts of drives that a scene file sets.
-constexpr auto kPlace = [](const auto& d) requires requires {
-  d.load_place;
+// Parts of drives that a scene file sets: the member of a drive that has it.
+constexpr auto kModes = [](auto& d) -> decltype((d.modes)) { return d.modes; };
+constexpr auto kPlate = [](auto& d) -> decltype((d.plate_on_top)) { return d.plate_on_top; };
+constexpr auto kPlace = [](auto& d) -> decltype((d.load_place)) { return d.load_place; };
+constexpr auto kDirection = [](auto& d) -> decltype((d.direction)) { return d.direction; };
+constexpr auto kPressure = [](auto& d) -> decltype((d.pressure_Pa)) { return d.pressure_Pa; };
+constexpr auto kDisplacement = [](auto& d) -> decltype((d.displacement_m)) {
+  return d.displacement_m;
+};
+constexpr auto kAcceleration = [](auto& d) -> decltype((d.base_acceleration_m_s2)) {
+  return d.base_acceleration_m_s2;
+};
+constexpr auto kVoltage = [](auto& d) -> decltype((d.drive_V)) { return d.drive_V; };
+constexpr auto kFrequencies = [](auto& d) -> decltype((d.frequencies_Hz)) {
+  return d.frequencies_Hz;
+};
+constexpr auto kHistory = [](auto& d) -> decltype((d.history)) { return d.history; };
+constexpr auto kEndTime = [](auto& d) -> decltype((d.end_time_s)) { return d.end_time_s; };
+constexpr auto kOutputs = [](auto& d) -> decltype((d.outputs)) { return d.outputs; };
+
+// Sets a part of the drive; false if it has none.
+template <typename Drive, typename Part, typename Value>
+bool set(Drive& drive, const Part& part, const Value& value) {
+  return set_part(drive, [&](auto& d) -> decltype(void(part(d))) { part(d) = value; });
 }
-{};
-constexpr auto kDirection = [](const auto& d) requires requires {
-  d.direction;
-}
-{};
-constexpr auto kDisplacement = [](const auto& d) requires requires {
-  d.displacement_m;
-}
-{};
-constexpr auto kVoltage = [](const auto& d) requires requires {
-  d.drive_V;
-}
-{};
-constexpr auto kFrequencies = [](const auto& d) requires requires {
-  d.frequencies_Hz;
-}
-{};
-constexpr auto kHistory = [](const auto& d) requires requires {
-  d.history;
-}
-{};
-constexpr auto kEndTime = [](const auto& d) requires requires {
-  d.end_time_s;
-}
-{};
-constexpr auto kPlate = [](const auto& d) requires requires {
-  d.plate_on_top;
-}
-{};
 
 // The analyses whose drive has a part: "static, harmonic" and then `joint` and "transient".
 template <typename Rows, typename Part>
@@ -59,7 +50,7 @@ std::string analyses_with(const Rows& rows, const Part& part, const std::string&
   return list;
 }
 
-// A value that an analysis ignores would make another experiment of the scene than the one meant.
+// Refused, because the user wants another analysis than one that ignores the value.
 template <typename Rows, typename Drive, typename Part>
 void refuse_unread(bool is_given, const char* key, const Rows& rows, const char* analysis,
                    const Drive& drive, const Part& part) {
@@ -84,20 +75,10 @@ void fill_times_of(const RawDrive& raw, const Rows& rows, const char* analysis, 
   refuse(raw.end_time_s != 0.0, "end_time", kEndTime);
   refuse(!raw.history.empty(), "history", kHistory);
   refuse(raw.pulse_duration_s != 0.0, "pulse", kHistory);
-  const std::vector<double> frequencies_Hz = frequencies_of(raw);
-  const std::vector<HistoryPoint> history = history_of(raw);
-  set_part(
-      drive, [&](auto& d) requires requires { d.frequencies_Hz; } {
-        d.frequencies_Hz = frequencies_Hz;
-      });
-  set_part(
-      drive, [&](auto& d) requires requires { d.history; } { d.history = history; });
-  set_part(
-      drive, [&](auto& d) requires requires { d.end_time_s; } { d.end_time_s = raw.end_time_s; });
-  set_part(
-      drive, [&](auto& d) requires requires { d.outputs; } {
-        d.outputs = static_cast<int>(raw.outputs);
-      });
+  set(drive, kFrequencies, frequencies_of(raw));
+  set(drive, kHistory, history_of(raw));
+  set(drive, kEndTime, raw.end_time_s);
+  set(drive, kOutputs, static_cast<int>(raw.outputs));
 }
 
 bool is_moved(const RawDrive& raw) {
@@ -112,11 +93,7 @@ void fill_displacement(const RawDrive& raw, PillarScene& scene) {
                            " has its shortening in time in a history, such as [[\"0 s\", "
                            "\"1 um\"], [\"10 s\", \"1 um\"]]");
   }
-  const bool is_set = set_part(
-      scene.drive, [&](auto& d) requires requires { d.displacement_m; } {
-        d.displacement_m = raw.displacement_m;
-      });
-  if (!is_set) {
+  if (!set(scene.drive, kDisplacement, raw.displacement_m)) {
     throw SceneMistake("analysis.load.displacement",
                        only(kDisplacement, "move the top by a given displacement"));
   }
@@ -134,9 +111,7 @@ void fill_place(const RawDrive& raw, PillarScene& scene) {
     place = choice<LoadPlace>("analysis.load.on", raw.load_on,
                               {{"top", LoadPlace::kTop}, {"base", LoadPlace::kBase}});
   }
-  const bool is_set = set_part(
-      scene.drive, [&](auto& d) requires requires { d.load_place; } { d.load_place = place; });
-  if (place == LoadPlace::kBase && !is_set) {
+  if (!set(scene.drive, kPlace, place) && place == LoadPlace::kBase) {
     throw SceneMistake("analysis.load.on", only(kPlace, "shake the base; say \"top\""));
   }
   if (raw.acceleration_m_s2 != 0.0 && place != LoadPlace::kBase) {
@@ -151,14 +126,12 @@ void fill_direction(const RawDrive& raw, PillarScene& scene) {
   const auto direction = choice<LoadDirection>(
       "analysis.load.direction", raw.direction,
       {{"axial", LoadDirection::kAxial}, {"lateral", LoadDirection::kLateral}});
-  const bool is_set = set_part(
-      scene.drive, [&](auto& d) requires requires { d.direction; } { d.direction = direction; });
-  if (direction == LoadDirection::kLateral && !is_set) {
+  if (!set(scene.drive, kDirection, direction) && direction == LoadDirection::kLateral) {
     throw SceneMistake("analysis.load.direction", only(kDirection, "push sideways; say \"axial\""));
   }
 }
 
-// A pressure, a shear (which says the direction), or a force over the top's area.
+// A pressure, a shear (which needs direction = "lateral"), or a force over the area of the top.
 void fill_traction(const RawDrive& raw, PillarScene& scene) {
   const int given =
       (raw.pressure_Pa != 0.0) + (raw.shear_Pa != 0.0) + (raw.force_N != 0.0) + is_moved(raw);
@@ -180,21 +153,12 @@ void fill_traction(const RawDrive& raw, PillarScene& scene) {
   }
   const double d_m = 2.0 * radius_at_m(scene.geometry, scene.geometry.length_m);  // of the top
   const double area_m2 = scene.plane ? d_m : 0.25 * std::numbers::pi * d_m * d_m;
-  const double pressure_Pa = raw.pressure_Pa + raw.shear_Pa + raw.force_N / area_m2;
-  set_part(
-      scene.drive, [&](auto& d) requires requires { d.pressure_Pa; } {
-        d.pressure_Pa = pressure_Pa;
-      });
-  set_part(
-      scene.drive, [&](auto& d) requires requires { d.base_acceleration_m_s2; } {
-        d.base_acceleration_m_s2 = raw.acceleration_m_s2;
-      });
+  set(scene.drive, kPressure, raw.pressure_Pa + raw.shear_Pa + raw.force_N / area_m2);
+  set(scene.drive, kAcceleration, raw.acceleration_m_s2);
 }
 
 void fill_voltage(const RawDrive& raw, PillarScene& scene) {
-  const bool is_set = set_part(
-      scene.drive, [&](auto& d) requires requires { d.drive_V; } { d.drive_V = raw.voltage_V; });
-  if (raw.voltage_V != 0.0 && !is_set) {
+  if (!set(scene.drive, kVoltage, raw.voltage_V) && raw.voltage_V != 0.0) {
     throw SceneMistake("analysis.load.voltage", only(kVoltage, "drive the electrode"));
   }
 }
@@ -202,19 +166,13 @@ void fill_voltage(const RawDrive& raw, PillarScene& scene) {
 }  // namespace
 
 void fill_modes_and_top(const RawDrive& raw, PillarScene& scene) {
-  set_part(
-      scene.drive, [&](auto& d) requires requires { d.modes; } {
-        d.modes = static_cast<int>(raw.modes);
-      });
+  set(scene.drive, kModes, static_cast<int>(raw.modes));
   if (raw.top.empty()) return;
   if (!has_part(scene.drive, kPlate)) {
     throw SceneMistake("analysis.top", only(kPlate, "say what is on the top"));
   }
-  const bool has_plate = choice<bool>("analysis.top", raw.top, {{"free", false}, {"plate", true}});
-  set_part(
-      scene.drive, [&](auto& d) requires requires { d.plate_on_top; } {
-        d.plate_on_top = has_plate;
-      });
+  set(scene.drive, kPlate,
+      choice<bool>("analysis.top", raw.top, {{"free", false}, {"plate", true}}));
 }
 
 void fill_drive(const RawDrive& raw, PillarScene& scene) {
@@ -226,10 +184,7 @@ void fill_drive(const RawDrive& raw, PillarScene& scene) {
 }
 
 void fill_drive(const RawDrive& raw, ArrayScene& scene) {
-  set_part(
-      scene.drive, [&](auto& d) requires requires { d.modes; } {
-        d.modes = static_cast<int>(raw.modes);
-      });
+  set(scene.drive, kModes, static_cast<int>(raw.modes));
   fill_times_of(raw, array_analyses(), analysis_of(scene).name, scene.drive);
 }
 

@@ -1,9 +1,7 @@
 #include "io/scenes/scene_file.h"
 
 #include "io/basics/atomic_file.h"
-#include "io/config/toml_lines.h"
-#include "io/scenes/read_pillar.h"
-#include "io/scenes/read_row.h"
+#include "io/config/config_fields.h"
 #include "io/scenes/scene_words.h"
 
 #include <toml++/toml.h>
@@ -56,14 +54,14 @@ SceneFile read_scene(const std::filesystem::path& path) {
   try {
     reader_for(text, path)(read, path.parent_path(), file);
   } catch (const SceneMistake& mistake) {
-    throw std::runtime_error(told_with_line(path, mistake));
+    throw std::runtime_error(text_with_line(path, mistake));
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(path.string() + ": " + error.what());
   }
   return file;
 }
 
-std::string told_with_line(const std::filesystem::path& path, const SceneMistake& mistake) {
+std::string text_with_line(const std::filesystem::path& path, const SceneMistake& mistake) {
   const int line = line_of_key(read_file(path), mistake.key());
   return path.string() + ":" + std::to_string(line) + ": " + mistake.key() + ": " + mistake.what();
 }

@@ -1,4 +1,4 @@
-#include "io/scenes/scene_sweep.h"
+#include "io/scenes/scene_file.h"
 
 #include <fmt/format.h>
 

@@ -43,13 +43,9 @@ void check_wanted(const std::vector<std::string>& wanted, const std::vector<std:
                          "base_stress_rim_mean, the mean over the outermost tenth of the radius, "
                          "or for base_stress_at_half_radius");
     }
-    std::string list;
-    for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
-    const std::string near = nearest_word(name, known);
-    throw SceneMistake("want.quantities",
-                       "this analysis has no '" + name + "'" +
-                           (near.empty() ? "." : "; did you mean '" + near + "'?") +
-                           " It has: " + list);
+    throw SceneMistake("want.quantities", "this analysis has no '" + name + "'" +
+                                              did_you_mean(name, known) +
+                                              " It has: " + listed(known));
   }
 }
 
@@ -62,6 +58,17 @@ EffectChoices choices_of(const std::map<std::string, std::string>& effects) {
         {{"auto", EffectChoice::kAuto}, {"on", EffectChoice::kOn}, {"off", EffectChoice::kOff}});
   }
   return choices;
+}
+
+MediumFile film_medium(const std::string& key, const RawMaterial& raw,
+                       const std::filesystem::path& folder) {
+  if (!raw.file.empty()) return read_medium(folder / raw.file);
+  if (!(raw.E_Pa > 0.0)) throw SceneMistake(key, "needs E (and nu, rho) or a file");
+  try {
+    return {.medium = isotropic_medium(raw.E_Pa, raw.nu, raw.rho_kg_m3)};
+  } catch (const std::invalid_argument& error) {
+    throw SceneMistake(key, error.what());
+  }
 }
 
 Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder) {

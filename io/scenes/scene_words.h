@@ -1,21 +1,31 @@
 #pragma once
 
-#include "io/basics/nearest_word.h"
-#include "io/basics/printed_value.h"
+#include "io/basics/words.h"
 #include "io/config/config_fields.h"
 #include "io/materials/piezo_file.h"
+#include "io/scenes/scene_file.h"
 #include "models/material/material.h"
 #include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/common/effect_estimate.h"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace viscard {
 
-// What the readers of all kinds of scenes share.
+// The readers of the kinds of scenes, and what they share.
+
+// Reads the fields that `show` shows from an open scene file.
+using FieldReader = std::function<void(const std::function<void(FieldVisitor&)>& show)>;
+
+// Read a scene of one pillar or of a row; data/scenes/pillar_*.toml and array_*.toml are commented
+// examples. Material files are looked for in `folder`. Throw SceneMistake, std::invalid_argument or
+// std::runtime_error for what is wrong.
+void read_pillar(const FieldReader& read, const std::filesystem::path& folder, SceneFile& file);
+void read_row(const FieldReader& read, const std::filesystem::path& folder, SceneFile& file);
 
 // The value of a word. Throws SceneMistake with the known words, and the nearest, for another.
 template <typename Value>
@@ -24,15 +34,9 @@ Value choice(const std::string& key, const std::string& word,
   const auto found = all.find(word);
   if (found != all.end()) return found->second;
   std::vector<std::string> known;
-  std::string list;
-  for (const auto& [name, value] : all) {
-    known.push_back(name);
-    list += (list.empty() ? "" : ", ") + name;
-  }
-  const std::string near = nearest_word(word, known);
-  throw SceneMistake(key, "cannot be '" + word + "'" +
-                              (near.empty() ? "." : "; did you mean '" + near + "'?") +
-                              " There are: " + list);
+  for (const auto& [name, value] : all) known.push_back(name);
+  throw SceneMistake(
+      key, "cannot be '" + word + "'" + did_you_mean(word, known) + " There are: " + listed(known));
 }
 
 // A material as it stands in a scene: a file, or an elastic one in place.
@@ -50,6 +54,9 @@ void check_wanted(const std::vector<std::string>& wanted, const std::vector<std:
 // [effects]: name to "auto", "on", "off" or nothing. Throws SceneMistake.
 EffectChoices choices_of(const std::map<std::string, std::string>& effects);
 
+// The film. Throws SceneMistake if the material has neither a file nor a modulus, or is unphysical.
+MediumFile film_medium(const std::string& key, const RawMaterial& raw,
+                       const std::filesystem::path& folder);
 // Files are looked for in `folder`. Throws SceneMistake for neither file nor modulus.
 Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder);
 

@@ -1,9 +1,11 @@
 #include "io/tables/column_map.h"
 
-#include "io/basics/nearest_word.h"
+#include "io/basics/number_text.h"
 #include "io/basics/units.h"
+#include "io/basics/words.h"
 #include "io/tables/column_names.h"
 #include "io/tables/csv_dialect.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <charconv>
@@ -104,28 +106,28 @@ std::size_t index_of(const CsvTable& table, std::string_view spec, std::string& 
   const bool is_bracketed = open != std::string_view::npos && open > 0 && said_unit.empty() &&
                             (spec.back() == ')' || spec.back() == ']');
   if (!is_bracketed) return std::string::npos;
-  said_unit = trimmed_cell(spec.substr(open + 1, spec.size() - open - 2));
-  return index_of(table, trimmed_cell(spec.substr(0, open)), said_unit);
+  said_unit = trimmed(spec.substr(open + 1, spec.size() - open - 2));
+  return index_of(table, trimmed(spec.substr(0, open)), said_unit);
 }
 
 ColumnUse mapped_column(const CsvTable& table, const Quantity& quantity,
                         const std::string& expression) {
   double factor = 1.0;
-  std::string_view spec = trimmed_cell(expression);
+  std::string_view spec = trimmed(expression);
   std::string said_unit;
   std::size_t index =
       index_of(table, spec, said_unit);  // a header may begin with a sign, so try it whole
   const std::size_t star = spec.find('*');
   if (index == std::string::npos && star != std::string_view::npos) {
-    const auto number = number_from_cell(trimmed_cell(spec.substr(0, star)), {});
+    const auto number = number_from_cell(trimmed(spec.substr(0, star)), {});
     if (number && std::isfinite(*number)) {
       factor = *number;
-      spec = trimmed_cell(spec.substr(star + 1));
+      spec = trimmed(spec.substr(star + 1));
     }
   }
   if (index == std::string::npos && !spec.empty() && spec.front() == '-') {
     factor = -factor;
-    spec = trimmed_cell(spec.substr(1));
+    spec = trimmed(spec.substr(1));
   }
   if (index == std::string::npos) {
     said_unit.clear();
@@ -177,12 +179,8 @@ ColumnMap column_map_from_words(const std::vector<std::string>& words) {
     const std::string name = word.substr(0, equals);
     const auto& names = column_names();
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-      const std::string near = nearest_word(name, names);
-      std::string all;
-      for (const std::string& one : names) all += (all.empty() ? "" : ", ") + one;
       throw std::invalid_argument("--column: there is no quantity '" + name + "'" +
-                                  (near.empty() ? "." : "; did you mean '" + near + "'?") +
-                                  " There are " + all);
+                                  did_you_mean(name, names) + " There are " + listed(names));
     }
     if (!map.emplace(name, word.substr(equals + 1)).second) {
       throw std::invalid_argument("--column names " + name + " twice");
@@ -237,11 +235,7 @@ CsvTable rows_of_segment(const CsvTable& table, const std::string& segment, cons
     const bool is_new = std::find(names.begin(), names.end(), segments[row]) == names.end();
     if (is_new && names.size() < 20) names.push_back(segments[row]);
   }
-  if (rows.empty()) {
-    std::string all;
-    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-    fail(table, "has no segment '" + segment + "'; there are " + all);
-  }
+  if (rows.empty()) fail(table, "has no segment '" + segment + "'; there are " + listed(names));
   CsvTable out = table;
   out.lines.clear();
   for (const std::size_t row : rows) out.lines.push_back(table.lines[row]);

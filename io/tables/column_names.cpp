@@ -1,6 +1,5 @@
 #include "io/tables/column_names.h"
 
-#include <algorithm>
 #include <numbers>
 #include <stdexcept>
 

@@ -1,5 +1,8 @@
 #include "io/tables/csv_dialect.h"
 
+#include "io/basics/words.h"
+#include "models/maths/text_of_number.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -60,17 +63,9 @@ bool is_utf8(std::string_view bytes) {
       i += 8;
       continue;
     }
-    const unsigned char first = byte_at(bytes, i);
-    if (first < 0x80) {
-      ++i;
-      continue;
-    }
-    const std::size_t more = first >> 5 == 6 ? 1 : first >> 4 == 14 ? 2 : first >> 3 == 30 ? 3 : 9;
-    if (more == 9 || i + more >= bytes.size()) return false;
-    for (std::size_t j = 1; j <= more; ++j) {
-      if (byte_at(bytes, i + j) >> 6 != 2) return false;
-    }
-    i += more + 1;
+    const std::size_t length = utf8_length(bytes, i);
+    if (length == 0) return false;
+    i += length;
   }
   return true;
 }
@@ -137,12 +132,6 @@ char detect_separator(const std::vector<TextLine>& sample) {
 
 }  // namespace
 
-std::string_view trimmed_cell(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && (is_blank(text.back()) || text.back() == '\r')) text.remove_suffix(1);
-  return text;
-}
-
 std::string utf8_from_bytes(std::string_view bytes, const std::string& name) {
   if (const auto is_big_endian = is_big_endian_utf16(bytes)) {
     std::string text = from_utf16(bytes, *is_big_endian);
@@ -182,12 +171,11 @@ std::string_view LineReader::take_line() {
 
 bool LineReader::next(TextLine& line) {
   while (!rest_.empty()) {
-    const std::string_view text = trimmed_cell(take_line());
+    const std::string_view text = trimmed(take_line());
     ++number_;
     if (text.empty()) continue;
     if (is_comment(text)) {
-      last_comment_ =
-          trimmed_cell(text.substr(std::min(text.size(), text.find_first_not_of("#%/"))));
+      last_comment_ = trimmed(text.substr(std::min(text.size(), text.find_first_not_of("#%/"))));
       continue;
     }
     line = {number_, text};
@@ -203,7 +191,7 @@ void split_cells(const TextLine& line, char separator, std::vector<std::string_v
     while (!rest.empty() && is_blank(rest.front()) && rest.front() != separator) {
       rest.remove_prefix(1);
     }
-    if (separator == ' ') rest = trimmed_cell(rest);
+    if (separator == ' ') rest = trimmed(rest);
     if (!rest.empty() && rest.front() == '"') {
       std::size_t close = rest.find('"', 1);
       while (close != std::string_view::npos && rest.substr(close, 2) == "\"\"") {
@@ -213,15 +201,15 @@ void split_cells(const TextLine& line, char separator, std::vector<std::string_v
         throw std::runtime_error("line " + std::to_string(line.number) +
                                  ": a quote is not closed on the same line; close it or remove it");
       }
-      cells.push_back(trimmed_cell(rest.substr(1, close - 1)));
+      cells.push_back(trimmed(rest.substr(1, close - 1)));
       rest.remove_prefix(close + 1);
     } else {
       const std::size_t end = separator == ' ' ? rest.find_first_of(" \t") : rest.find(separator);
-      cells.push_back(trimmed_cell(rest.substr(0, end)));
+      cells.push_back(trimmed(rest.substr(0, end)));
       rest.remove_prefix(std::min(rest.size(), end));
     }
     if (separator == ' ') {
-      rest = trimmed_cell(rest);
+      rest = trimmed(rest);
       if (rest.empty()) return;
       continue;
     }

@@ -53,6 +53,4 @@ std::optional<double> number_from_cell(std::string_view cell, const Dialect& dia
 // Throws std::runtime_error naming the file if it mixes decimal points and decimal commas.
 Dialect detect_dialect(const std::vector<TextLine>& sample, const std::string& name);
 
-std::string_view trimmed_cell(std::string_view text);
-
 }  // namespace viscard

@@ -3,12 +3,12 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/units.h"
 #include "io/tables/csv_dialect.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 #include <stdexcept>
 
 namespace viscard {
@@ -28,7 +28,7 @@ std::string without_doubled_quotes(std::string_view cell) {
 std::string_view without_brackets(std::string_view cell) {
   const bool is_bracketed = cell.size() >= 2 && ((cell.front() == '(' && cell.back() == ')') ||
                                                  (cell.front() == '[' && cell.back() == ']'));
-  return is_bracketed ? trimmed_cell(cell.substr(1, cell.size() - 2)) : cell;
+  return is_bracketed ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
 }
 
 // E(t), G'(w): the argument of a function, not a unit.
@@ -45,18 +45,18 @@ void split_header(CsvColumn& column) {
   const std::size_t open = header.find_last_of("([");
   const char close = header.back();
   if (open != std::string_view::npos && open > 0 && (close == ')' || close == ']')) {
-    const std::string_view inside = trimmed_cell(header.substr(open + 1, header.size() - open - 2));
+    const std::string_view inside = trimmed(header.substr(open + 1, header.size() - open - 2));
     if (is_argument(header, open, inside) || !is_unit(inside)) return;
-    column.name = trimmed_cell(header.substr(0, open));
+    column.name = trimmed(header.substr(0, open));
     column.unit = inside;
     return;
   }
   for (const char* mark : {" / ", ", ", "/"}) {  // "Force / N", "Force, N", "F/N"
     const std::size_t at = header.rfind(mark);
     if (at == std::string_view::npos || at == 0) continue;
-    const std::string_view unit = trimmed_cell(header.substr(at + std::string_view(mark).size()));
+    const std::string_view unit = trimmed(header.substr(at + std::string_view(mark).size()));
     if (unit.empty() || !is_unit(unit)) continue;
-    column.name = trimmed_cell(header.substr(0, at));
+    column.name = trimmed(header.substr(0, at));
     column.unit = unit;
     return;
   }

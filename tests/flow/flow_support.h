@@ -6,7 +6,7 @@
 
 namespace viscard::test {
 
-// A folder that goes away with the object.
+// A folder that the destructor removes.
 class TemporaryFolder {
  public:
   TemporaryFolder();

@@ -1,6 +1,6 @@
-// Recovery of the truth on the emulated rig: capture through both ptys, fit, score. The numbers the
-// demo promises, over many seeds.
-#include "io/cli/report/demo_score.h"
+// Captures on the emulated rig through both ptys, fits them and compares with the truth, for many
+// seeds: the numbers that the demo promises.
+#include "io/cli/report/report_commands.h"
 #include "io/config/config_file.h"
 #include "io/materials/material_file.h"
 #include "tests/flow/flow_support.h"

@@ -1,4 +1,4 @@
-// From an emulated rig to the page, as a user would type it, on a test short enough for every day.
+// All commands from an emulated rig to the page, as a user types them, with a short test.
 #include "io/basics/atomic_file.h"
 #include "io/materials/material_file.h"
 #include "tests/flow/flow_support.h"
@@ -51,8 +51,8 @@ TEST_CASE("a capture becomes a card, a validated pillar and a page", "[flow][pty
   must_run({"export", capture, "--out", table});
   const std::string fit_json = must_run({"fit", capture, "--out", material, "--json"});
   for (const char* target : {"abaqus", "ansys", "febio", "json"}) {
-    // A hold of 15 s is short, and the emulated noise follows the machine's clock: now and then the
-    // fit rightly doubts its slowest term, which is no reason not to write the card.
+    // A hold of 15 s is short, and the emulated noise depends on the machine's clock, so the fit
+    // sometimes flags its slowest term. The card is written in any case.
     must_run({"card", material, "--for", target, "--units", "mm-t-s", "--accept-flags", "--out",
               folder / (std::string("card.") + target)});
   }

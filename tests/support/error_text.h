@@ -5,7 +5,7 @@
 
 namespace viscard::test {
 
-// What the exception says that the action throws; "" if it throws none.
+// The message of the exception that the action throws; "" if it throws none.
 template <typename Action>
 std::string error_text(Action&& action) {
   try {

@@ -21,7 +21,7 @@ bool is_number_start(std::string_view text, std::size_t at) {
   return !follows_word && (is_digit(at) || (text[at] == '-' && is_digit(at + 1)));
 }
 
-// Takes a number off the front of both lines; false when they differ by more than allowed.
+// Removes a number from the front of both lines; false if they differ by more than allowed.
 bool same_number(std::string_view& a, std::string_view& b, double relative, double absolute) {
   double first = 0.0, second = 0.0;
   const auto end_a = std::from_chars(a.data(), a.data() + a.size(), first).ptr;

@@ -20,7 +20,7 @@ class Bench {
  public:
   explicit Bench(const EmulatedTruth& truth) : truth_(truth), specimen_(stiffness(truth)) {}
 
-  // Stage at z after dt. Out of contact the surface recovers with no force on it.
+  // Moves the stage to z in dt. Without contact, the surface recovers under zero force.
   double advance_N(double dt_s, double z_m) {
     const double press_m = z_m - truth_.surface_position_m;
     const double algorithmic = specimen_.algorithmic_modulus_Pa(dt_s);
@@ -55,7 +55,7 @@ Plan true_moves(const EmulatedTruth& truth, const TestPlan& plan, const RunCondi
   const double guess_N_m = conditions.guess_over_truth * k_N_m;
   const double share = 1.0 + guess_N_m / truth.frame_stiffness_N_m;
   std::uniform_real_distribution<double> within(-0.5, 0.5);
-  // The rig believes the surface to lie where the contact search ended: a few micrometres off.
+  // The contact search ends a few micrometres from the surface, and the rig uses that position.
   const double guess_error_m = conditions.touched_N * (1.0 / k_N_m - 1.0 / guess_N_m);
   const double believed_m = truth.surface_position_m + guess_error_m + 4e-6 * within(random);
   const double from_m = quantised_m(believed_m - plan.gap_m, truth.steps_per_m);

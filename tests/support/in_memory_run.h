@@ -5,9 +5,9 @@
 
 namespace viscard::test {
 
-// A whole run as viscard capture would have recorded it, made in memory: no ports, no threads, no
-// waiting. The force is computed by stepping the specimen and the frame spring (HereditaryStress),
-// not by the closed forms that the fit uses; the stage stands on whole steps; readings carry the
+// A whole run as viscard capture records it, computed in memory without ports, threads or waiting.
+// The force comes from time steps of the specimen and the frame spring (HereditaryStress), not from
+// the closed forms that the fit uses. Positions of the stage are whole steps. The readings have the
 // amplifier's clock, a random delay of each message, noise, drift and counts.
 struct RunConditions {
   double clock_rate = 1.0;  // amplifier's clock over the host's
@@ -15,17 +15,16 @@ struct RunConditions {
   double message_delay_s = 2e-3;              // mean of an exponential delay, every message
   double start_latency_s = 20e-3;             // moves begin up to this after they were commanded
   double lost_from_s = 0.0, lost_to_s = 0.0;  // readings lost, counted from the ramp's start
-  // The rig's guess of the modulus over the truth: the surface is taken to lie where a straight
-  // line of the guessed stiffness through `touched_N` ends, and the frame's share of the way is
-  // wrong.
+  // The rig's guess of the modulus divided by the true modulus. The contact position is where a
+  // straight line of the guessed stiffness through `touched_N` reaches zero, so it is wrong by the
+  // error of the guess.
   double guess_over_truth = 1.0;
   double touched_N = 0.1;
 };
 CapturedRun in_memory_run(const EmulatedTruth& truth, const TestPlan& plan,
                           const RunConditions& conditions = {});
 
-// The three materials of the demo (Table 6.1 of the thesis the seed comes from): ratio 10, 13
-// or 20.
+// The three materials of the demo (Table 6.1 of the thesis): ratio 10, 13 or 20.
 EmulatedTruth demo_truth(int mixing_ratio, std::uint64_t seed);
 
 }  // namespace viscard::test

@@ -7,9 +7,9 @@
 
 namespace viscard::test {
 
-// A number as it was printed, "1.4816453" or "3.875785e-5": equal is what rounds to it, half a unit
-// of its last digit to either side. `unit` is that of the print ("7.058807" mV: 1e-3); `last` lets
-// so many units of the last digit pass instead of a half, where the print itself is uncertain.
+// A number as it was printed, "1.4816453" or "3.875785e-5". A value is equal to it if it differs by
+// at most half a unit of the last digit, or by `last` units if the printed number is uncertain.
+// `unit` is the unit of the printed number ("7.058807" mV: 1e-3).
 inline Catch::Detail::Approx printed(const std::string& text, double unit = 1.0,
                                      double last = 0.5) {
   const std::size_t exponent_at = text.find_first_of("eE");
@@ -21,7 +21,7 @@ inline Catch::Detail::Approx printed(const std::string& text, double unit = 1.0,
       exponent_at == std::string::npos ? 0 : std::stoi(text.substr(exponent_at + 1));
   const double digit = std::pow(10.0, exponent - decimals) * unit;
   const double value = std::stod(text) * unit;
-  // Halves themselves may fall to either side by rounding.
+  // Exactly half a unit may be rounded up or down.
   return Catch::Detail::Approx(value).epsilon(0.0).margin(last * digit + 1e-15 * std::abs(value));
 }
 

@@ -5,8 +5,8 @@
 
 namespace viscard::test {
 
-// Draws from a seeded generator by own formulas, not <random>'s distributions, which differ between
-// libraries.
+// Random numbers from a seeded generator. The distributions of <random> differ between standard
+// libraries, so the formulas are written out here.
 class Draw {
  public:
   explicit Draw(std::mt19937_64& random) : random_(random) {}

@@ -8,7 +8,7 @@
 
 namespace viscard::test {
 
-// What a command printed and how it ended.
+// The output and the exit status of a command.
 struct CommandOutcome {
   int status = 0;
   std::string out, err;

@@ -7,7 +7,7 @@
 
 namespace viscard::test {
 
-// A folder of its own for one test, gone when the test is over.
+// A temporary folder for one test, which the destructor removes.
 class ScratchFolder {
  public:
   ScratchFolder() {

@@ -1,5 +1,6 @@
 #include "io/cards/targets/calculix_proof.h"
 
+#include "io/basics/atomic_file.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/deck.h"
 #include "io/cards/targets/card_targets.h"
@@ -59,13 +60,6 @@ class TemporaryFolder {
   ::_exit(127);
 }
 
-std::string file_text(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::ostringstream contents;
-  contents << file.rdbuf();
-  return contents.str();
-}
-
 std::string first_error(const std::string& log) {
   const std::size_t at = log.find("*ERROR");
   if (at == std::string::npos) return "no error message";
@@ -91,7 +85,7 @@ void run_ccx(const std::filesystem::path& folder) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
     throw std::runtime_error("ccx is not installed; run: apt-get install calculix-ccx");
   }
-  const std::string log = file_text(folder / "log");
+  const std::string log = read_file(folder / "log");
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || log.find("*ERROR") != std::string::npos) {
     throw std::runtime_error("ccx stopped: " + first_error(log));
   }
@@ -123,7 +117,7 @@ std::vector<Sample> run_test(const Card& card, const UnitSystem& units, const El
   std::ofstream(folder.path() / "deck.inp")
       << calculix_target().deck->files(input, "deck").front().text;
   run_ccx(folder.path());
-  std::vector<Sample> samples = samples_in(file_text(folder.path() / "deck.dat"));
+  std::vector<Sample> samples = samples_in(read_file(folder.path() / "deck.dat"));
   if (samples.empty()) throw std::runtime_error("ccx ran but printed no result");
   const double scale = input.is_creep() ? test.amplitude : input.stress();
   for (Sample& sample : samples) {

@@ -1,5 +1,7 @@
 #include "io/cards/targets/card_targets.h"
 
+#include "io/basics/words.h"
+
 #include <stdexcept>
 
 namespace viscard {
@@ -16,23 +18,23 @@ const std::vector<CardTarget>& card_targets() {
 }
 
 const CardTarget& card_target(const std::string& name) {
-  std::string names;
+  std::vector<std::string> names;
   for (const CardTarget& target : card_targets()) {
     if (target.name == name) return target;
-    names += names.empty() ? target.name : ", " + target.name;
+    names.push_back(target.name);
   }
-  throw std::invalid_argument("there is no card target '" + name + "'; there are " + names);
+  throw std::invalid_argument("there is no card target '" + name + "'; there are " + listed(names));
 }
 
 const DeckWriter& card_deck(const std::string& name) {
-  std::string names;
+  std::vector<std::string> names;
   for (const CardTarget& target : card_targets()) {
     if (!target.deck) continue;
     if (target.name == name) return *target.deck;
-    names += names.empty() ? target.name : ", " + target.name;
+    names.push_back(target.name);
   }
   throw std::invalid_argument("there is no one-element model for " + name + "; there are for " +
-                              names);
+                              listed(names));
 }
 
 }  // namespace viscard

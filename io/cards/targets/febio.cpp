@@ -61,7 +61,7 @@ std::optional<double> tag_value(const std::string& text, const std::string& tag)
   const std::regex pattern("<" + tag + "(\\s[^>]*)?>([^<]*)</" + tag + ">");
   std::smatch match;
   if (!std::regex_search(text, match, pattern)) return std::nullopt;
-  return card_number(trimmed(match[2].str()),
+  return card_number(std::string(trimmed(match[2].str())),
                      line_of(text, static_cast<std::size_t>(match.position(2))), tag);
 }
 
@@ -133,8 +133,10 @@ void read_febio(const std::string& commented, ReadCard& card) {
 // The unit cube and its rollers.
 std::string febio_mesh(const std::string& material) {
   std::string out = "<Mesh>\n<Nodes name=\"nodes\">\n";
-  const char* corners[] = {"0,0,0", "1,0,0", "1,1,0", "0,1,0", "0,0,1", "1,0,1", "1,1,1", "0,1,1"};
-  for (int i = 0; i < 8; ++i) out += fmt::format("<node id=\"{}\">{}</node>\n", i + 1, corners[i]);
+  int id = 0;
+  for (const auto& [x, y, z] : kCubeCorners) {
+    out += fmt::format("<node id=\"{}\">{},{},{}</node>\n", ++id, x, y, z);
+  }
   out +=
       "</Nodes>\n<Elements type=\"hex8\" name=\"cube\"><elem id=\"1\">1,2,3,4,5,6,7,8</elem>"
       "</Elements>\n<NodeSet name=\"x0\">1,4,5,8</NodeSet>\n<NodeSet "

@@ -51,9 +51,10 @@ void read_frontistr(const std::string& text, ReadCard& card) {
 
 std::string frontistr_mesh() {
   std::string out = "!HEADER\n one element\n!NODE\n";
-  const char* corners[] = {"0., 0., 0.", "1., 0., 0.", "1., 1., 0.", "0., 1., 0.",
-                           "0., 0., 1.", "1., 0., 1.", "1., 1., 1.", "0., 1., 1."};
-  for (int i = 0; i < 8; ++i) out += fmt::format(" {}, {}\n", i + 1, corners[i]);
+  int id = 0;
+  for (const auto& [x, y, z] : kCubeCorners) {
+    out += fmt::format(" {}, {}., {}., {}.\n", ++id, x, y, z);
+  }
   return out +
          "!ELEMENT, TYPE=361, EGRP=E\n 1, 1, 2, 3, 4, 5, 6, 7, 8\n"
          "!SECTION, TYPE=SOLID, EGRP=E, MATERIAL=M\n!MATERIAL, NAME=M, ITEM=1\n!ITEM=1, SUBITEM=2\n"

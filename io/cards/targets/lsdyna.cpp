@@ -2,10 +2,10 @@
 // Manual R13, vol. II for the materials, vol. I for the one-element model (*CONTROL_IMPLICIT_*,
 // *BOUNDARY_*, *DEFINE_CURVE), which LS-DYNA has not run here. OpenRadioss and PyDYNA readers agree
 // on the fields.
+#include "io/basics/number_text.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/column_fields.h"
 #include "io/cards/known_mistakes.h"
-#include "io/cards/number_text.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
 

@@ -1,11 +1,12 @@
 #include "io/basics/atomic_file.h"
+#include "io/cards/card.h"
 #include "io/cards/card_numbers.h"
 #include "io/cards/deck.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/calculix_proof.h"
 #include "io/cards/targets/card_targets.h"
-#include "io/cards/write_card.h"
 #include "io/cli/card/card_words.h"
+#include "io/cli/words/output_paths.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -78,13 +79,7 @@ int write_deck_files(const CardWords& words, Streams& streams) {
   std::filesystem::create_directories(folder, error);
   if (error) throw std::runtime_error(words.out + ": cannot make this folder: " + error.message());
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  for (const DeckFile& file : deck.files) {
-    if (!words.force && std::filesystem::exists(folder / file.name)) {
-      throw std::runtime_error(
-          (folder / file.name).string() +
-          " exists already; pass --force to replace it, or choose another folder");
-    }
-  }
+  for (const DeckFile& file : deck.files) refuse_existing(folder / file.name, words.force);
   for (const DeckFile& file : deck.files) {
     write_file(folder / file.name, file.text, words.force);
     files.push_back((folder / file.name).string());

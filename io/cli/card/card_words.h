@@ -6,9 +6,11 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace viscard {
+
+// viscard card: writes a material card for a solver, lists targets, checks cards, proves them.
+int run_card(const Words& words, Streams& streams);
 
 // What the user asked of `viscard card`, checked.
 struct CardWords {

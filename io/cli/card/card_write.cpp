@@ -1,9 +1,9 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/timestamp.h"
+#include "io/cards/card.h"
 #include "io/cards/targets/card_targets.h"
-#include "io/cards/write_card.h"
 #include "io/cli/card/card_words.h"
-#include "io/materials/ratio_file.h"
+#include "io/materials/material_file.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>

@@ -1,10 +1,11 @@
-#include "io/cli/card/command_card.h"
-
-#include "io/basics/nearest_word.h"
+#include "io/basics/words.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
 #include "io/cli/card/card_words.h"
 #include "io/cli/words/command_line.h"
+#include "models/maths/text_of_number.h"
+
+#include <algorithm>
 
 namespace po = boost::program_options;
 
@@ -13,14 +14,9 @@ namespace {
 
 void check_word(const std::string& kind, const std::string& word,
                 const std::vector<std::string>& known) {
-  std::string list;
-  for (const std::string& name : known) {
-    if (word == name) return;
-    list += (list.empty() ? "" : ", ") + name;
-  }
-  const std::string near = nearest_word(word, known);
-  throw UsageError("there is no " + kind + " '" + word + "'" +
-                   (near.empty() ? "." : "; did you mean '" + near + "'?") + " There are: " + list);
+  if (std::find(known.begin(), known.end(), word) != known.end()) return;
+  throw UsageError("there is no " + kind + " '" + word + "'" + did_you_mean(word, known) +
+                   " There are: " + listed(known));
 }
 
 std::vector<std::string> target_names() {
@@ -35,55 +31,50 @@ std::vector<std::string> unit_names() {
   return names;
 }
 
-void add_options(CommandSyntax& syntax, CardWords& words, std::string& terms, double& nu) {
-  syntax.options.add_options()("for", po::value(&words.target)->value_name("TARGET"),
-                               "solver the card is for; --list shows them all")(
-      "units", po::value(&words.units)->value_name("SYSTEM"),
-      "SI (default), mm-t-s, mm-kg-ms, mm-g-ms, um-kg-s or cgs")(
-      "out", po::value(&words.out)->value_name("FILE"), "where to write; stdout if not given")(
-      "list", po::bool_switch(&words.list), "show targets, conventions, limits and evidence")(
-      "check", po::value(&words.check)->value_name("CARD"),
-      "read a card back, say what it means, and compare it with the material if one is named")(
-      "tolerance", po::value<double>()->value_name("X"),
+void add_options(CommandSyntax& syntax, CardWords& words) {
+  auto add = syntax.options.add_options();
+  add("for", po::value(&words.target)->value_name("TARGET"),
+      "solver the card is for; --list shows them all");
+  add("units", po::value(&words.units)->value_name("SYSTEM"),
+      "SI (default), mm-t-s, mm-kg-ms, mm-g-ms, um-kg-s or cgs");
+  add("out", po::value(&words.out)->value_name("FILE"), "where to write; stdout if not given");
+  add("list", po::bool_switch(&words.list), "show targets, conventions, limits and evidence");
+  add("check", po::value(&words.check)->value_name("CARD"),
+      "read a card back, say what it means, and compare it with the material if one is named");
+  add("tolerance", into(words.tolerance)->value_name("X"),
       "largest relative difference of E(t) that --check accepts; if not given 1e-6, or what the "
-      "target's columns can hold")(
-      "prove", po::value(&words.prove)->value_name("CARD"),
-      "run a card on one element in its solver (calculix) against the exact answer")(
-      "deck", po::value(&words.deck)->value_name("TEST"),
-      "relaxation or creep: write a one-element model with the expected curve beside it")(
-      "approximate", po::bool_switch(&words.may_approximate),
+      "target's columns can hold");
+  add("prove", po::value(&words.prove)->value_name("CARD"),
+      "run a card on one element in its solver (calculix) against the exact answer");
+  add("deck", po::value(&words.deck)->value_name("TEST"),
+      "relaxation or creep: write a one-element model with the expected curve beside it");
+  add("approximate", po::bool_switch(&words.may_approximate),
       "write what the target cannot take exactly, with the error in the header; too many terms are "
-      "refitted to fewer")("terms", po::value(&terms)->value_name("N"),
-                           "with --approximate: refit to N terms")(
-      "ratio", po::value<double>()->value_name("R"),
-      "mixing ratio, when the material is a joint fit: measured, or between measured ones")(
-      "extrapolate", po::bool_switch(&words.may_extrapolate),
-      "with --ratio: also outside the measured range; the header says so")(
-      "bound", po::value(&words.bound)->value_name("END"),
-      "lower or upper: the card at that end of the 95 % intervals of E0 and E_inf")(
-      "elastic-only", po::value(&words.elastic_only)->value_name("WHEN"),
-      "instantaneous or long-term: leave relaxation out")(
-      "clamp-nu", po::value(&nu)->value_name("NU"),
-      "use this Poisson ratio instead of a larger one")("accept-flags",
-                                                        po::bool_switch(&words.accepts_flags),
-                                                        "write terms that the fit has flagged")(
-      "reproducible", po::bool_switch(&words.is_reproducible),
-      "no date and no command line in the header: the same input gives the same bytes")(
-      "force", po::bool_switch(&words.force), "replace an existing file");
+      "refitted to fewer");
+  add("terms", po::value<std::string>()->value_name("N"), "with --approximate: refit to N terms");
+  add("ratio", into(words.ratio)->value_name("R"),
+      "mixing ratio, when the material is a joint fit: measured, or between measured ones");
+  add("extrapolate", po::bool_switch(&words.may_extrapolate),
+      "with --ratio: also outside the measured range; the header says so");
+  add("bound", po::value(&words.bound)->value_name("END"),
+      "lower or upper: the card at that end of the 95 % intervals of E0 and E_inf");
+  add("elastic-only", po::value(&words.elastic_only)->value_name("WHEN"),
+      "instantaneous or long-term: leave relaxation out");
+  add("clamp-nu", into(words.clamped_nu)->value_name("NU"),
+      "use this Poisson ratio instead of a larger one");
+  add("accept-flags", po::bool_switch(&words.accepts_flags),
+      "write terms that the fit has flagged");
+  add("reproducible", po::bool_switch(&words.is_reproducible),
+      "no date and no command line in the header: the same input gives the same bytes");
+  add("force", po::bool_switch(&words.force), "replace an existing file");
 }
 
 int number_of_terms(const std::string& text) {
-  std::size_t end = 0;
-  int terms = 0;
-  try {
-    terms = std::stoi(text, &end);
-  } catch (const std::exception&) {
-    end = 0;
-  }
-  if (end != text.size() || terms < 1 || terms > 100) {
+  const auto terms = integer_from_text(text);
+  if (!terms || *terms < 1 || *terms > 100) {
     throw UsageError("--terms " + text + " must be a whole number from 1 to 100");
   }
-  return terms;
+  return static_cast<int>(*terms);
 }
 
 void check_words(CardWords& words) {
@@ -117,10 +108,8 @@ void check_words(CardWords& words) {
 
 }  // namespace
 
-int run_card(const std::vector<std::string>& words, Streams& streams) {
+int run_card(const Words& words, Streams& streams) {
   CardWords card;
-  std::string terms;
-  double nu = 0.0;
   CommandSyntax syntax{
       "viscard card MATERIAL.json --for TARGET [--units SYSTEM] [--out FILE] [OPTIONS]",
       "Writes a material card for a solver, right by that solver's conventions and read back "
@@ -129,16 +118,13 @@ int run_card(const std::vector<std::string>& words, Streams& streams) {
       "it,\n"
       "or writes a one-element model to run it in.",
       "viscard card data/materials/pdms_1to10_seed.json --for abaqus --units mm-t-s"};
-  add_options(syntax, card, terms, nu);
+  add_options(syntax, card);
   syntax.positional = {"material"};
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
-  if (values->count("material") > 0) card.material = (*values)["material"].as<std::string>();
+  card.material = given(*values, "material").value_or("");
   card.json = values->count("json") > 0;
-  if (values->count("terms") > 0) card.terms = number_of_terms(terms);
-  if (values->count("clamp-nu") > 0) card.clamped_nu = nu;
-  if (values->count("ratio") > 0) card.ratio = (*values)["ratio"].as<double>();
-  if (values->count("tolerance") > 0) card.tolerance = (*values)["tolerance"].as<double>();
+  if (const auto terms = given(*values, "terms")) card.terms = number_of_terms(*terms);
   card.command_line = quoted_command_line("card", words);
   check_words(card);
   if (card.list) return list_card_targets(card, streams);

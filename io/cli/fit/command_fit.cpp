@@ -1,19 +1,14 @@
-#include "io/cli/fit/command_fit.h"
-
 #include "fit/intervals/flags.h"
 #include "io/basics/atomic_file.h"
-#include "io/cli/fit/fit_joint.h"
-#include "io/cli/fit/fit_options.h"
-#include "io/cli/fit/fit_output.h"
+#include "io/cli/fit/fit_command.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
-#include "io/flow/fit_files.h"
-#include "io/flow/material_from_fitted.h"
+#include "io/flow/fit_file.h"
 #include "io/materials/material_file.h"
 
 #include <nlohmann/json.hpp>
 
-#include <filesystem>
 #include <ostream>
 
 namespace po = boost::program_options;
@@ -21,7 +16,7 @@ namespace po = boost::program_options;
 namespace viscard {
 namespace {
 
-using Words = std::vector<std::string>;
+using Numbers = std::vector<double>;
 
 // How to fit.
 void add_fit_options(po::options_description& options) {
@@ -64,7 +59,7 @@ void add_data_options(po::options_description& options) {
       "of the master curve of a table with several temperatures (temperature_C), such as "
       "\"20 degC\"; default: the middle one");
   add("density", po::value<std::string>(), "for the material file, such as \"965 kg/m3\"");
-  add("ratio", po::value<std::vector<double>>()->composing(),
+  add("ratio", po::value<Numbers>()->composing(),
       "mixing ratio, parts of base to one of curing agent; with --joint once for each file");
 }
 
@@ -94,13 +89,14 @@ CommandSyntax fit_syntax() {
 
 int run_joint(const po::variables_map& values, const Words& files, const std::string& command,
               Streams& streams) {
-  JointWords joint{.files = files, .fit = words_from(values)};
-  if (values.count("ratio") > 0) joint.ratios = values["ratio"].as<std::vector<double>>();
-  if (values.count("share") > 0) joint.shared = values["share"].as<Words>();
-  joint.material = material_words(values, command);
-  if (values.count("out") > 0) joint.out = values["out"].as<std::string>();
-  joint.overwrite = values.count("force") > 0;
-  joint.json = values.count("json") > 0;
+  const JointWords joint{.files = files,
+                         .ratios = given<Numbers>(values, "ratio").value_or(Numbers{}),
+                         .shared = given<Words>(values, "share").value_or(Words{}),
+                         .fit = words_from(values),
+                         .material = material_words(values, command),
+                         .out = given(values, "out").value_or(""),
+                         .overwrite = values.count("force") > 0,
+                         .json = values.count("json") > 0};
   return run_joint_fit(joint, streams);
 }
 
@@ -143,30 +139,23 @@ int run_fit(const Words& words, Streams& streams) {
   CommandSyntax syntax = fit_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
-  if (values->count("file") == 0) {
-    throw UsageError(std::string("which file? usage: ") + syntax.usage);
-  }
-  const auto files = (*values)["file"].as<Words>();
-  const bool has_out = values->count("out") > 0;
+  const auto files = required<Words>(*values, "file", syntax);
+  const auto out = given(*values, "out");
   const bool is_joint = values->count("joint") > 0;
   if (!is_joint && values->count("share") > 0) throw UsageError("--share needs --joint");
   if (!is_joint && values->count("ratio") > 0 && files.size() > 1) {
     throw UsageError(
         "--ratio is for one input file; for several, give it once for each with --joint");
   }
-  if (has_out && files.size() > 1 && !is_joint) {
+  if (out && files.size() > 1 && !is_joint) {
     throw UsageError("--out writes the material of one input file, but there are " +
                      std::to_string(files.size()) + "; fit them one by one, or with --joint");
   }
   const bool overwrite = values->count("force") > 0;
-  if (has_out && !overwrite && std::filesystem::exists((*values)["out"].as<std::string>())) {
-    throw std::runtime_error(
-        "'" + (*values)["out"].as<std::string>() +
-        "' exists already. Choose another --out, or add --force to replace it");
-  }
+  if (out) refuse_existing(*out, overwrite);
   if (is_joint) return run_joint(*values, files, quoted_command_line("fit", words), streams);
   FitRequest fit_words = words_from(*values);
-  fit_words.needs_modulus = has_out;
+  fit_words.needs_modulus = out.has_value();
   const MaterialRequest about = material_words(
       *values, quoted_command_line("fit", words));  // refuses bad words before the fit
   Progress progress(streams, "fit");
@@ -174,12 +163,10 @@ int run_fit(const Words& words, Streams& streams) {
       files, fit_words, [&](double done, const std::string& file) { progress.show(done, file); });
   progress.clear();
   print(fitted, values->count("json") > 0, streams.out);
-  if (has_out) {
+  if (out) {
     Material material = material_from_fitted(fitted.front(), about);
-    if (values->count("ratio") > 0) {
-      material.mixing_ratio = (*values)["ratio"].as<std::vector<double>>().front();
-    }
-    write_file((*values)["out"].as<std::string>(), json_from_material(material), overwrite);
+    if (const auto ratio = given<Numbers>(*values, "ratio")) material.mixing_ratio = ratio->front();
+    write_file(*out, json_from_material(material), overwrite);
   }
   return report_defects(fitted, streams.err);
 }

@@ -1,10 +1,9 @@
-#include "io/cli/fit/fit_joint.h"
-
 #include "fit/laws/fit_mixing_ratio.h"
 #include "io/basics/atomic_file.h"
+#include "io/cli/fit/fit_command.h"
 #include "io/cli/words/progress.h"
-#include "io/flow/joint_fit.h"
-#include "io/materials/ratio_file.h"
+#include "io/flow/fit_file.h"
+#include "io/materials/material_file.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>

@@ -1,10 +1,8 @@
-#include "io/cli/fit/fit_options.h"
-
 #include "fit/assembly/constraints.h"
 #include "io/basics/atomic_file.h"
-#include "io/basics/nearest_word.h"
 #include "io/basics/timestamp.h"
-#include "io/basics/units.h"
+#include "io/basics/words.h"
+#include "io/cli/fit/fit_command.h"
 #include "io/cli/words/command_line.h"
 #include "io/config/config_file.h"
 
@@ -18,16 +16,7 @@ namespace po = boost::program_options;
 namespace viscard {
 namespace {
 
-using Words = std::vector<std::string>;
-
-// Reads a quantity from the command line. Throws UsageError if the text is not one.
-double quantity(const po::variables_map& values, const char* option, const char* si_unit) {
-  try {
-    return si_from_text(values[option].as<std::string>(), si_unit);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--") + option + ": " + error.what());
-  }
-}
+using Numbers = std::vector<double>;
 
 FitKind kind_from_word(const std::string& word) {
   static const std::vector<std::pair<std::string, FitKind>> kKinds{
@@ -40,9 +29,7 @@ FitKind kind_from_word(const std::string& word) {
     if (word == name) return kind;
     names.push_back(name);
   }
-  const std::string near = nearest_word(word, names);
-  throw UsageError("--kind " + word + " is not known" +
-                   (near.empty() ? "." : "; did you mean '" + near + "'?") +
+  throw UsageError("--kind " + word + " is not known" + did_you_mean(word, names) +
                    " Use indentation, relaxation, creep or dma");
 }
 
@@ -50,12 +37,11 @@ FitKind kind_from_word(const std::string& word) {
 std::vector<ParameterConstraint> constraints_from(const po::variables_map& values) {
   Words texts;
   for (const char* option : {"fix", "bound"}) {
-    if (values.count(option) == 0) continue;
-    const auto words = values[option].as<Words>();
+    const Words words = given<Words>(values, option).value_or(Words{});
     texts.insert(texts.end(), words.begin(), words.end());
   }
-  if (values.count("constraints") > 0) {
-    std::istringstream lines(read_file(values["constraints"].as<std::string>()));
+  if (const auto file = given(values, "constraints")) {
+    std::istringstream lines(read_file(*file));
     for (std::string line; std::getline(lines, line);) {
       line.resize(std::min(line.find('#'), line.size()));
       std::erase_if(line, [](unsigned char c) { return std::isspace(c) != 0; });
@@ -65,8 +51,8 @@ std::vector<ParameterConstraint> constraints_from(const po::variables_map& value
   std::vector<ParameterConstraint> constraints;
   try {
     for (const std::string& text : texts) constraints.push_back(constraint_from_text(text));
-    const int n_terms = values.count("terms") > 0 ? values["terms"].as<int>() : 1000;
-    validate(constraints, n_terms, values.count("allow-negative") > 0);
+    validate(constraints, given<int>(values, "terms").value_or(1000),
+             values.count("allow-negative") > 0);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
@@ -77,7 +63,7 @@ FitOptions options_from(const po::variables_map& values) {
   FitOptions options;
   constexpr int kMost = 100;
   options.max_terms = values["max-terms"].as<int>();
-  if (values.count("terms") > 0) options.n_terms = values["terms"].as<int>();
+  options.n_terms = given<int>(values, "terms");
   const int wanted = options.n_terms.value_or(options.max_terms);
   if (wanted < 0 || wanted > kMost) {
     throw UsageError(std::string(options.n_terms ? "--terms " : "--max-terms ") +
@@ -87,8 +73,8 @@ FitOptions options_from(const po::variables_map& values) {
   options.allow_negative = values.count("allow-negative") > 0;
   options.full_data = values.count("full-data") > 0;
   options.with_profiles = values.count("profiles") > 0;
-  if (values.count("bootstrap") > 0) {
-    options.n_bootstrap = values["bootstrap"].as<int>();
+  if (const auto n_bootstrap = given<int>(values, "bootstrap")) {
+    options.n_bootstrap = *n_bootstrap;
     constexpr int kFewest = 20;  // fewer give no 95 % percentiles
     constexpr int kMostResamples = 100000;
     if (options.n_bootstrap < kFewest || options.n_bootstrap > kMostResamples) {
@@ -113,24 +99,21 @@ FitOptions options_from(const po::variables_map& values) {
 
 std::optional<Specimen> specimen_from(const po::variables_map& values) {
   std::optional<Specimen> specimen;
-  if (values.count("specimen") > 0) specimen = read_specimen(values["specimen"].as<std::string>());
-  if (values.count("punch-diameter") > 0) {
+  const auto layer_m = given_quantity(values, "layer-thickness", "m");
+  const auto nu = given<double>(values, "poisson-ratio");
+  if (const auto file = given(values, "specimen")) specimen = read_specimen(*file);
+  if (const auto diameter_m = given_quantity(values, "punch-diameter", "m")) {
     if (!specimen) {
       specimen.emplace();
       specimen->contact.poisson_ratio = 0.495;
     }
-    specimen->contact.punch_radius_m = 0.5 * quantity(values, "punch-diameter", "m");
-  } else if (!specimen &&
-             (values.count("layer-thickness") > 0 || values.count("poisson-ratio") > 0)) {
+    specimen->contact.punch_radius_m = 0.5 * *diameter_m;
+  } else if (!specimen && (layer_m || nu)) {
     throw UsageError("--layer-thickness and --poisson-ratio need --punch-diameter or --specimen");
   }
   if (!specimen) return specimen;
-  if (values.count("layer-thickness") > 0) {
-    specimen->contact.layer_thickness_m = quantity(values, "layer-thickness", "m");
-  }
-  if (values.count("poisson-ratio") > 0) {
-    specimen->contact.poisson_ratio = values["poisson-ratio"].as<double>();
-  }
+  if (layer_m) specimen->contact.layer_thickness_m = *layer_m;
+  if (nu) specimen->contact.poisson_ratio = *nu;
   validate(specimen->contact);
   return specimen;
 }
@@ -139,44 +122,37 @@ std::optional<Specimen> specimen_from(const po::variables_map& values) {
 
 FitRequest words_from(const po::variables_map& values) {
   FitRequest words;
-  if (values.count("kind") > 0) words.kind = kind_from_word(values["kind"].as<std::string>());
+  if (const auto kind = given(values, "kind")) words.kind = kind_from_word(*kind);
   words.options = options_from(values);
   words.diagnose = values.count("diagnose") > 0;
-  words.time_zero_s = quantity(values, "time-zero", "s");
-  if (values.count("column") > 0) {
-    try {
-      words.columns = column_map_from_words(values["column"].as<Words>());
-    } catch (const std::invalid_argument& error) {
-      throw UsageError(error.what());
-    }
+  words.time_zero_s = *given_quantity(values, "time-zero", "s");
+  try {
+    words.columns = column_map_from_words(given<Words>(values, "column").value_or(Words{}));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
   }
-  if (values.count("segment") > 0) words.segments = values["segment"].as<Words>();
-  if (values.count("frame-stiffness") > 0) {
-    words.frame_stiffness_N_m = quantity(values, "frame-stiffness", "N/m");
+  words.segments = given<Words>(values, "segment").value_or(Words{});
+  if (const auto stiffness_N_m = given_quantity(values, "frame-stiffness", "N/m")) {
+    words.frame_stiffness_N_m = *stiffness_N_m;
     if (!(words.frame_stiffness_N_m > 0.0)) {
       throw UsageError("--frame-stiffness must be positive; omit it for a rigid frame");
     }
   }
-  if (values.count("reference-temperature") > 0) {
-    words.T_ref_C = quantity(values, "reference-temperature", "degC");
-  }
+  words.T_ref_C = given_quantity(values, "reference-temperature", "degC");
   words.specimen = specimen_from(values);
   return words;
 }
 
 MaterialRequest material_words(const po::variables_map& values, const std::string& command) {
   MaterialRequest words{.command = command, .created_at = now_iso8601()};
-  if (values.count("poisson-ratio") > 0) words.nu = values["poisson-ratio"].as<double>();
-  if (values.count("density") > 0) {
-    words.rho_kg_m3 = quantity(values, "density", "kg/m3");
-    if (!(words.rho_kg_m3 > 0.0))
-      throw UsageError("--density must be positive, such as \"965 kg/m3\"");
+  words.nu = given<double>(values, "poisson-ratio");
+  words.rho_kg_m3 = given_quantity(values, "density", "kg/m3");
+  if (words.rho_kg_m3 && !(*words.rho_kg_m3 > 0.0)) {
+    throw UsageError("--density must be positive, such as \"965 kg/m3\"");
   }
-  if (values.count("ratio") > 0) {
-    for (const double ratio : values["ratio"].as<std::vector<double>>()) {
-      if (!(ratio > 0.0))
-        throw UsageError("--ratio must be positive; give parts of base to one of curing agent");
-    }
+  for (const double ratio : given<Numbers>(values, "ratio").value_or(Numbers{})) {
+    if (ratio > 0.0) continue;
+    throw UsageError("--ratio must be positive; give parts of base to one of curing agent");
   }
   return words;
 }

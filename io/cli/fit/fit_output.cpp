@@ -1,5 +1,5 @@
-#include "io/cli/fit/fit_output.h"
-
+#include "io/cli/fit/fit_command.h"
+#include "io/materials/material_json.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -10,28 +10,13 @@
 namespace viscard {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-Json interval(const Interval& range) {
-  return Json::array({number(range.low), number(range.high)});
-}
-
 const char* kind_name(FitKind kind) {
-  switch (kind) {
-    case FitKind::kIndentation:
-      return "indentation";
-    case FitKind::kRelaxation:
-      return "relaxation";
-    case FitKind::kCreep:
-      return "creep";
-    case FitKind::kDma:
-      return "dma";
-  }
-  return "";
+  constexpr const char* kNames[] = {"indentation", "relaxation", "creep", "dma"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 Json terms_of(const FitResult& fit, const std::string& unit) {
@@ -44,9 +29,9 @@ Json terms_of(const FitResult& fit, const std::string& unit) {
     row["tau_s"] = number(term.tau_s);
     row[stem + "_se" + unit] = number(term.modulus_se_Pa);
     row["ln_tau_se"] = number(term.ln_tau_se);
-    row["interval_95"][stem + unit] = interval(term.modulus_Pa_95);
-    row["interval_95"]["g"] = interval(term.g_95);
-    row["interval_95"]["tau_s"] = interval(term.tau_s_95);
+    row["interval_95"][stem + unit] = json_from(term.modulus_Pa_95);
+    row["interval_95"]["g"] = json_from(term.g_95);
+    row["interval_95"]["tau_s"] = json_from(term.tau_s_95);
     terms.push_back(row);
   }
   return terms;
@@ -82,7 +67,7 @@ Json profiles_of(const FitResult& fit) {
     profiles.push_back({{"parameter", curve.parameter},
                         {"value", curve.value},
                         {"rise", curve.rise},
-                        {"interval_95", interval(curve.interval_95)}});
+                        {"interval_95", json_from(curve.interval_95)}});
   }
   return profiles;
 }
@@ -125,10 +110,10 @@ Json json_of(const TemperatureShift& shift, double chi2, double bic) {
   if (shift.law == ShiftLaw::kWlf) {
     json = {{"C1", number(shift.C1)},
             {"C2_K", number(shift.C2_K)},
-            {"interval_95", {{"C1", interval(shift.C1_95)}, {"C2_K", interval(shift.C2_K_95)}}}};
+            {"interval_95", {{"C1", json_from(shift.C1_95)}, {"C2_K", json_from(shift.C2_K_95)}}}};
   } else {
     json = {{"activation_J_mol", number(shift.activation_J_mol)},
-            {"interval_95", {{"activation_J_mol", interval(shift.activation_J_mol_95)}}}};
+            {"interval_95", {{"activation_J_mol", json_from(shift.activation_J_mol_95)}}}};
   }
   json["chi2"] = number(chi2);
   json["bic"] = number(bic);
@@ -207,10 +192,10 @@ Json json_from_fit(const FittedFile& fitted) {
   json[letter + "_inf" + unit] = number(fit.E_inf_Pa);
   json[letter + "0_se" + unit] = number(fit.E0_se_Pa);
   json[letter + "_inf_se" + unit] = number(fit.E_inf_se_Pa);
-  json[letter + "0_interval_95"] = interval(fit.E0_interval_95);
-  json[letter + "_inf_interval_95"] = interval(fit.E_inf_interval_95);
+  json[letter + "0_interval_95"] = json_from(fit.E0_interval_95);
+  json[letter + "_inf_interval_95"] = json_from(fit.E_inf_interval_95);
   json["sum_g"] = number(fit.sum_g);
-  json["sum_g_interval_95"] = interval(fit.sum_g_95);
+  json["sum_g_interval_95"] = json_from(fit.sum_g_95);
   json["terms"] = terms_of(fit, unit);
   json["rss"] = number(fit.rss);
   json["n_samples"] = fit.n_samples;
@@ -222,9 +207,9 @@ Json json_from_fit(const FittedFile& fitted) {
   json["gain_drift_relative"] = number(fit.gain_drift_relative);
   // Including the systematic part, in quadrature.
   json[letter + "0_combined_interval_95"] =
-      interval(combined_95(fit.E0_interval_95, fit.E0_Pa, fit.systematic_relative));
+      json_from(combined_95(fit.E0_interval_95, fit.E0_Pa, fit.systematic_relative));
   json[letter + "_inf_combined_interval_95"] =
-      interval(combined_95(fit.E_inf_interval_95, fit.E_inf_Pa, fit.systematic_relative));
+      json_from(combined_95(fit.E_inf_interval_95, fit.E_inf_Pa, fit.systematic_relative));
   json["fit_from_s"] = number(fit.fit_from_s);
   json["fit_to_s"] = number(fit.fit_to_s);
   if (fit.contact_position_m) json["contact_position_m"] = number(*fit.contact_position_m);

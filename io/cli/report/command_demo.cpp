@@ -1,6 +1,4 @@
-#include "io/cli/report/command_demo.h"
-
-#include "io/cli/report/demo_score.h"
+#include "io/cli/report/report_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/config/config_file.h"
 #include "io/materials/material_file.h"
@@ -11,7 +9,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <sstream>
 
 namespace fs = std::filesystem;
@@ -72,7 +69,7 @@ class Demo {
         is_forced_(is_forced) {}
 
   // Runs one command unless its outputs are up to date. Throws std::runtime_error if it fails.
-  void step(const std::vector<std::string>& words, const std::vector<fs::path>& outputs,
+  void step(const Words& words, const std::vector<fs::path>& outputs,
             std::vector<fs::path> inputs) {
     inputs.push_back("/proc/self/exe");  // a newer program makes the results out of date
     if (!is_forced_ && is_up_to_date(outputs, inputs)) {
@@ -207,8 +204,7 @@ CommandSyntax demo_syntax() {
 
 }  // namespace
 
-int run_demo(const std::vector<std::string>& words, Streams& streams,
-             const CommandRunner& run_command) {
+int run_demo(const Words& words, Streams& streams, const CommandRunner& run_command) {
   CommandSyntax syntax = demo_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
@@ -222,10 +218,7 @@ int run_demo(const std::vector<std::string>& words, Streams& streams,
   for (const DemoSpecimen& specimen : kSpecimens) demo.run_specimen(specimen);
   const fs::path page = fs::absolute(demo.run_report());
   const std::vector<ScoreRow> rows = demo.scores();
-  if (values->count("json") > 0) {
-    streams.out << json_from_scores(rows, page).dump(2) << "\n";
-    return kDone;
-  }
+  if (print_json(*values, json_from_scores(rows, page), streams)) return kDone;
   if (demo.n_kept() > 0) {
     streams.err << fmt::format(
         "{} results were up to date and kept (--force runs every step again).\n", demo.n_kept());

@@ -1,13 +1,12 @@
-#include "io/cli/report/command_report.h"
-
 #include "io/basics/atomic_file.h"
 #include "io/basics/timestamp.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
+#include "io/cli/report/report_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
-#include "io/flow/material_from_fitted.h"
-#include "io/flow/mixing_law.h"
+#include "io/flow/fit_file.h"
 #include "io/flow/specimen_reports.h"
 #include "io/report/report.h"
 #include "models/maths/text_of_number.h"
@@ -52,19 +51,14 @@ CommandSyntax report_syntax() {
   return syntax;
 }
 
-ReportRequest checked_words(const po::variables_map& values, const std::vector<std::string>& words,
-                            const char* usage) {
-  const auto list = [&](const char* name) {
-    return values.count(name) > 0 ? values[name].as<std::vector<std::string>>()
-                                  : std::vector<std::string>{};
-  };
-  ReportRequest report{list("files"),
-                       list("truth"),
-                       list("card"),
+ReportRequest checked_words(const po::variables_map& values, const Words& words,
+                            const CommandSyntax& syntax) {
+  ReportRequest report{required<Words>(values, "files", syntax),
+                       given<Words>(values, "truth").value_or(Words{}),
+                       given<Words>(values, "card").value_or(Words{}),
                        values["units"].as<std::string>(),
                        "",
                        quoted_command_line("report", words)};
-  if (report.files.empty()) throw UsageError(std::string("which files? usage: ") + usage);
   if (values.count("out") == 0) {
     throw UsageError("which page? name it with --out report.html");
   }
@@ -96,14 +90,6 @@ ReportInput input_from_words(const ReportRequest& words, const std::string& titl
       words, [&](double fraction, const std::string& what) { progress.show(fraction, what); });
   input.law = mixing_law_of(words.files, input.specimens);
   return input;
-}
-
-// Refuses to replace a file before the work starts.
-void refuse_existing(const fs::path& path, bool is_forced) {
-  if (fs::exists(path) && !is_forced) {
-    throw std::runtime_error(path.string() +
-                             " exists already; pass --force to replace it, or choose another name");
-  }
 }
 
 std::vector<std::string> write_pictures(const RenderedReport& report, const fs::path& folder,
@@ -165,11 +151,11 @@ nlohmann::json json_from_specimens(const ReportInput& input) {
 
 }  // namespace
 
-int run_report(const std::vector<std::string>& words, Streams& streams) {
+int run_report(const Words& words, Streams& streams) {
   CommandSyntax syntax = report_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
-  const ReportRequest report = checked_words(*values, words, syntax.usage);
+  const ReportRequest report = checked_words(*values, words, syntax);
   const fs::path page = (*values)["out"].as<std::string>();
   const bool is_forced = values->count("force") > 0;
   refuse_existing(page, is_forced);
@@ -177,20 +163,17 @@ int run_report(const std::vector<std::string>& words, Streams& streams) {
   const ReportInput input = input_from_words(report, (*values)["title"].as<std::string>(), streams);
   const RenderedReport rendered = render_report(input);
   std::vector<std::string> pictures;
-  if (values->count("pictures") > 0) {
-    pictures = write_pictures(rendered, (*values)["pictures"].as<std::string>(), is_forced);
+  if (const auto folder = given(*values, "pictures")) {
+    pictures = write_pictures(rendered, *folder, is_forced);
   }
   write_file(page, rendered.html, is_forced);
   const std::vector<std::string> defects = defects_of(input);
-  if (values->count("json") > 0) {
-    streams.out << nlohmann::json{{"report", page.string()},
-                                  {"specimens", json_from_specimens(input)},
-                                  {"figures", rendered.pictures.size()},
-                                  {"pictures", pictures},
-                                  {"defects", defects}}
-                       .dump(2)
-                << "\n";
-  } else {
+  const nlohmann::json object{{"report", page.string()},
+                              {"specimens", json_from_specimens(input)},
+                              {"figures", rendered.pictures.size()},
+                              {"pictures", pictures},
+                              {"defects", defects}};
+  if (!print_json(*values, object, streams)) {
     streams.out << fmt::format(
         "{}: {}, {}, {} kB\n", page.string(), counted(input.specimens.size(), "specimen"),
         counted(rendered.pictures.size(), "figure"), rendered.html.size() / 1024);

@@ -1,5 +1,6 @@
 #include "fit/calibration/fit_frame_stiffness.h"
 #include "io/basics/atomic_file.h"
+#include "io/basics/timestamp.h"
 #include "io/capture/capture_file.h"
 #include "io/cli/rig/calibrate_words.h"
 #include "io/cli/words/stop_on_signal.h"
@@ -62,13 +63,11 @@ CapturedRun press_block(const CalibrateWords& words, RigConfig rig) {
   if (rig.frame.stiffness_N_m == 0.0) rig.frame.stiffness_N_m = kUsualFrame_N_m;
   const Specimen block = rigid_block();
   if (words.is_emulated) {
-    EmulatedRigOptions options;
-    options.truth = calibrate_truth(words);
-    options.truth.material.E0_Pa = kBlock_Pa;
-    options.truth.material.terms.clear();
-    options.truth.contact = block.contact;
-    options.config = rig;
-    emulated = std::make_unique<EmulatedRig>(options);
+    EmulatedTruth truth = calibrate_truth(words);
+    truth.material.E0_Pa = kBlock_Pa;
+    truth.material.terms.clear();
+    truth.contact = block.contact;
+    emulated = std::make_unique<EmulatedRig>(EmulatedRigOptions{.truth = truth, .config = rig});
     rig = emulated->config();
   }
   const StopOnSignal on_signal;

@@ -1,4 +1,5 @@
 #include "io/basics/atomic_file.h"
+#include "io/basics/timestamp.h"
 #include "io/capture/capture_file.h"
 #include "io/cli/rig/calibrate_words.h"
 #include "io/cli/words/stop_on_signal.h"
@@ -196,8 +197,7 @@ void check_line(const LoadCellFit& fit, const WeightReadings& readings) {
   }
   throw std::runtime_error(fmt::format(
       "the readings do not lie on a line: they deviate by {:.0f} % of the largest force, at most 5 "
-      "% "
-      "is allowed. The largest deviation is at reading {} of {} ({:.4f} N), by {:.4f} N. Was a "
+      "% is allowed. The largest deviation is at reading {} of {} ({:.4f} N), by {:.4f} N. Was a "
       "weight mixed up, or did something touch the load cell? Nothing was written; weigh again",
       100.0 * worst, furthest + 1, readings.force_N.size(), readings.force_N[furthest], largest_N));
 }
@@ -214,10 +214,8 @@ WeightReadings readings_on_rig(const RigConfig& rig, const CalibrateWords& words
   }
   std::unique_ptr<EmulatedRig> emulated;
   if (words.is_emulated) {
-    EmulatedRigOptions options;
-    options.truth = calibrate_truth(words);
-    options.config = rig;
-    emulated = std::make_unique<EmulatedRig>(options);
+    emulated = std::make_unique<EmulatedRig>(
+        EmulatedRigOptions{.truth = calibrate_truth(words), .config = rig});
   }
   return weigh_on(rig, words, emulated.get(), streams);
 }

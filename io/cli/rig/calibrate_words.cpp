@@ -2,17 +2,7 @@
 
 #include "rig/emulator/demo_rig.h"
 
-#include <ctime>
-
 namespace viscard {
-
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[16];
-  return {text, std::strftime(text, sizeof text, "%Y-%m-%d", &utc)};
-}
 
 RigConfig calibrate_rig(const CalibrateWords& words) {
   RigConfig rig = words.rig_file ? read_rig(*words.rig_file) : demo_rig();

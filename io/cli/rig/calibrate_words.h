@@ -40,8 +40,6 @@ int calibrate_load_cell(const CalibrateWords& words, Streams& streams);
 // Measures the frame's stiffness on a rigid block, from a table, a capture or on the rig; likewise.
 int calibrate_frame(const CalibrateWords& words, Streams& streams);
 
-// "2026-11-21", UTC.
-std::string today();
 // Configuration and truth of the emulated rig for these words.
 RigConfig calibrate_rig(const CalibrateWords& words);
 EmulatedTruth calibrate_truth(const CalibrateWords& words);

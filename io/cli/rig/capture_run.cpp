@@ -1,5 +1,4 @@
-#include "io/cli/rig/capture_run.h"
-
+#include "io/cli/rig/capture_words.h"
 #include "io/cli/rig/live_view.h"
 #include "io/cli/words/stop_on_signal.h"
 

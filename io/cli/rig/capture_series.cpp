@@ -1,7 +1,6 @@
-#include "io/cli/rig/capture_series.h"
-
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_lock.h"
+#include "io/cli/rig/capture_words.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,4 @@
-#include "io/cli/rig/capture_setup.h"
-
+#include "io/cli/rig/capture_words.h"
 #include "io/cli/words/streams.h"
 #include "io/config/config_file.h"
 #include "rig/emulator/demo_rig.h"

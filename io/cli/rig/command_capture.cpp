@@ -1,12 +1,10 @@
-#include "io/cli/rig/command_capture.h"
-
-#include "io/cli/rig/calibrate_words.h"
-#include "io/cli/rig/capture_run.h"
-#include "io/cli/rig/capture_series.h"
-#include "io/cli/rig/capture_setup.h"
-#include "io/cli/rig/live_picture.h"
+#include "io/basics/timestamp.h"
+#include "io/cli/rig/capture_words.h"
+#include "io/cli/rig/live_view.h"
+#include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
-#include "io/flow/emulated_truth.h"
+#include "io/cli/words/output_paths.h"
+#include "io/flow/capture_to_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,7 +13,6 @@
 #include <filesystem>
 #include <iostream>
 #include <ostream>
-#include <vector>
 
 namespace po = boost::program_options;
 
@@ -26,7 +23,7 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kPictureWidth = 60;
 
-CommandSyntax capture_syntax() {
+CommandSyntax capture_syntax(CaptureWords& words) {
   CommandSyntax syntax;
   syntax.usage = "viscard capture --rig FILE --test FILE --specimen FILE... --out FILE [OPTIONS]";
   syntax.description =
@@ -37,48 +34,27 @@ CommandSyntax capture_syntax() {
       "a series: --out is then a folder, and --resume captures what is not finished in it.";
   syntax.example = "viscard capture --emulate --speed 50 --out run.viscap";
   auto add = syntax.options.add_options();
-  add("rig", po::value<std::string>(), "rig.toml: ports, calibration");
-  add("test", po::value<std::string>(), "test.toml: depth, ramp, hold");
-  add("specimen", po::value<std::vector<std::string>>(),
+  add("rig", into(words.rig_file), "rig.toml: ports, calibration");
+  add("test", into(words.test_file), "test.toml: depth, ramp, hold");
+  add("specimen", po::value(&words.specimen_files),
       "specimen.toml: geometry, modulus guess; repeat for each further specimen");
-  add("out", po::value<std::string>(), "capture file to write (*.viscap), or a folder");
-  add("resume", "skip finished captures, repeat interrupted ones in files beside them");
-  add("yes", "do not wait for Enter between specimens");
-  add("live", "keep a page with force against time beside the capture: *.live.html");
-  add("acknowledge", "report on stderr how many records are safe from a crash");
-  add("uncalibrated", "capture although the load cell's calibration has expired");
-  add("emulate", "use an emulated rig");
-  add("truth", po::value<std::string>(), "truth.toml: what the emulated specimen is made of");
-  add("seed", po::value<std::uint64_t>(), "seed of the emulated noise");
-  add("speed", po::value<double>()->default_value(1.0),
+  add("out", po::value(&words.out_file), "capture file to write (*.viscap), or a folder");
+  add("resume", po::bool_switch(&words.resumes),
+      "skip finished captures, repeat interrupted ones in files beside them");
+  add("yes", po::bool_switch(&words.asks_nobody), "do not wait for Enter between specimens");
+  add("live", po::bool_switch(&words.shows_page),
+      "keep a page with force against time beside the capture: *.live.html");
+  add("acknowledge", po::bool_switch(&words.acknowledges),
+      "report on stderr how many records are safe from a crash");
+  add("uncalibrated", po::bool_switch(&words.is_uncalibrated),
+      "capture although the load cell's calibration has expired");
+  add("emulate", po::bool_switch(&words.is_emulated), "use an emulated rig");
+  add("truth", into(words.truth_file), "truth.toml: what the emulated specimen is made of");
+  add("seed", into(words.seed), "seed of the emulated noise");
+  add("speed", po::value(&words.speed)->default_value(1.0),
       "emulated clock over wall clock, up to 500");
-  add("force", "replace an existing capture file");
+  add("force", po::bool_switch(&words.overwrite), "replace an existing capture file");
   return syntax;
-}
-
-CaptureWords capture_words_from(const po::variables_map& values) {
-  const auto text = [&](const char* name) {
-    return values.count(name) > 0 ? std::optional(values[name].as<std::string>()) : std::nullopt;
-  };
-  CaptureWords words;
-  words.rig_file = text("rig");
-  words.test_file = text("test");
-  if (values.count("specimen") > 0) {
-    words.specimen_files = values["specimen"].as<std::vector<std::string>>();
-  }
-  words.truth_file = text("truth");
-  words.out_file = text("out").value_or("");
-  words.is_emulated = values.count("emulate") > 0;
-  if (values.count("seed") > 0) words.seed = values["seed"].as<std::uint64_t>();
-  words.speed = values["speed"].as<double>();
-  words.overwrite = values.count("force") > 0;
-  words.as_json = values.count("json") > 0;
-  words.resumes = values.count("resume") > 0;
-  words.asks_nobody = values.count("yes") > 0;
-  words.shows_page = values.count("live") > 0;
-  words.acknowledges = values.count("acknowledge") > 0;
-  words.is_uncalibrated = values.count("uncalibrated") > 0;
-  return words;
 }
 
 // An expired calibration is refused. One without a date is a warning on a real rig.
@@ -95,18 +71,13 @@ void check_calibration(const CaptureWords& words, const CaptureSetup& setup, Str
 void check_before_start(const CaptureWords& words, const CaptureSetup& setup) {
   const Preflight expected = preflight(setup.rig, setup.plan, setup.specimen);
   if (!expected.problems.empty()) throw std::runtime_error(expected.problems.front());
-  if (words.overwrite) return;
   const std::filesystem::path file = words.out_file;
-  std::vector<std::filesystem::path> written{file};
-  if (setup.truth) written.push_back(std::filesystem::path(file).replace_extension(kTruthEnding));
-  if (words.shows_page)
-    written.push_back(std::filesystem::path(file).replace_extension(kPageEnding));
-  for (const std::filesystem::path& path : written) {
-    if (!std::filesystem::exists(path)) continue;
-    throw std::runtime_error(
-        "'" + path.string() +
-        "' exists already. Choose another --out, or add --force to replace it");
-  }
+  const auto beside = [&](const char* ending) {
+    return std::filesystem::path(file).replace_extension(ending);
+  };
+  refuse_existing(file, words.overwrite);
+  if (setup.truth) refuse_existing(beside(kTruthEnding), words.overwrite);
+  if (words.shows_page) refuse_existing(beside(kPageEnding), words.overwrite);
 }
 
 void print_text(const CaptureOutcome& capture, std::ostream& out) {
@@ -222,11 +193,12 @@ SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords
 
 }  // namespace
 
-int run_capture(const std::vector<std::string>& words, Streams& streams) {
-  CommandSyntax syntax = capture_syntax();
+int run_capture(const Words& words, Streams& streams) {
+  CaptureWords asked;
+  CommandSyntax syntax = capture_syntax(asked);
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
-  const CaptureWords asked = capture_words_from(*values);
+  asked.as_json = values->count("json") > 0;
   check_words(asked);
   const std::vector<SeriesStep> steps = series_from_words(asked);
   std::size_t n_left = 0;

@@ -1,8 +1,7 @@
-#include "io/cli/rig/command_export.h"
-
 #include "io/basics/atomic_file.h"
 #include "io/capture/capture_export.h"
 #include "io/capture/capture_file.h"
+#include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
 #include "models/maths/text_of_number.h"
 
@@ -51,7 +50,7 @@ nlohmann::ordered_json summary_of(const CapturedRun& run, const std::string& cap
 
 }  // namespace
 
-int run_export(const std::vector<std::string>& words, Streams& streams) {
+int run_export(const Words& words, Streams& streams) {
   CommandSyntax syntax = export_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
@@ -64,12 +63,11 @@ int run_export(const std::vector<std::string>& words, Streams& streams) {
   const CapturedRun run = read_capture(capture);
   const std::string table = is_raw ? csv_from_raw_bytes(capture) : csv_from_capture(run);
   nlohmann::ordered_json summary = summary_of(run, capture);
-  if (values->count("out") > 0) {
-    const auto out = (*values)["out"].as<std::string>();
-    write_file(out, table, values->count("force") > 0);
-    summary["out"] = out;
+  if (const auto out = given(*values, "out")) {
+    write_file(*out, table, values->count("force") > 0);
+    summary["out"] = *out;
     if (!is_json) {
-      streams.err << out << ": " << counted(run.load_samples.size(), "sample") << " of " << capture
+      streams.err << *out << ": " << counted(run.load_samples.size(), "sample") << " of " << capture
                   << ", " << run.status << "\n";
     }
   } else if (!is_json) {

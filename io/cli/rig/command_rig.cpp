@@ -1,7 +1,6 @@
-#include "io/cli/rig/command_rig.h"
-
-#include "io/cli/rig/calibrate_words.h"
+#include "io/basics/timestamp.h"
 #include "io/cli/rig/overshoot_study.h"
+#include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/progress.h"
 #include "io/config/config_file.h"
@@ -46,10 +45,8 @@ int list_ports(bool as_json, Streams& streams) {
 RigCheck check(RigConfig rig, bool is_emulated, double seconds) {
   std::unique_ptr<EmulatedRig> emulated;
   if (is_emulated) {
-    EmulatedRigOptions options;
-    options.truth = demo_truth(10.0, 1);
-    options.config = rig;
-    emulated = std::make_unique<EmulatedRig>(options);
+    emulated = std::make_unique<EmulatedRig>(
+        EmulatedRigOptions{.truth = demo_truth(10.0, 1), .config = rig});
     rig = emulated->config();
   }
   const RigClock clock(rig.clock_speed);
@@ -181,7 +178,7 @@ int check_and_print(const po::variables_map& values, bool as_json, Streams& stre
 
 }  // namespace
 
-int run_rig(const std::vector<std::string>& words, Streams& streams) {
+int run_rig(const Words& words, Streams& streams) {
   CommandSyntax syntax = rig_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;

@@ -6,7 +6,6 @@
 #include "rig/run/preflight.h"
 #include "rig/run/run_session.h"
 
-#include <algorithm>
 #include <optional>
 
 namespace viscard {

@@ -2,7 +2,6 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/cli/scene/answer_pictures.h"
-#include "io/cli/scene/command_plan.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -25,13 +24,9 @@ nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s) {
                      {"frequency_Hz", m.frequency_Hz},
                      {"error_estimate", m.error_estimate}});
   }
-  nlohmann::json effects = nlohmann::json::array();
-  for (const SceneEffect& e : answer.effects) {
-    effects.push_back(json_from_effect(e));
-  }
   return {{"results", results},
           {"modes", modes},
-          {"effects", effects},
+          {"effects", json_from_effects(answer.effects)},
           {"discretisation",
            {{"degree", answer.discretisation.degree}, {"layers", answer.discretisation.layers}}},
           {"notes", answer.notes},
@@ -138,23 +133,16 @@ void write_pictures(const std::vector<std::pair<std::string, std::string>>& pict
 void write_files(const SceneAnswer& answer, const nlohmann::json& object, const std::string& folder,
                  const std::string& command, bool overwrite) {
   std::filesystem::create_directories(folder);
+  const auto write = [&](const std::string& name, const std::string& text) {
+    write_file(std::filesystem::path(folder) / name, text, overwrite);
+  };
   nlohmann::json with_command = object;
   with_command["command"] = command;
   with_command["created_by"] = "viscard " VISCARD_VERSION;
-  write_file(std::filesystem::path(folder) / "results.json", with_command.dump(2) + "\n",
-             overwrite);
-  if (!answer.results.empty()) {
-    write_file(std::filesystem::path(folder) / "results.csv",
-               csv_of_results(answer.results, command), overwrite);
-  }
-  if (!answer.modes.empty()) {
-    write_file(std::filesystem::path(folder) / "modes.csv", csv_of_modes(answer.modes, command),
-               overwrite);
-  }
-  for (const SceneCurve& curve : answer.curves) {
-    write_file(std::filesystem::path(folder) / (curve.name + ".csv"), csv_of(curve, command),
-               overwrite);
-  }
+  write("results.json", with_command.dump(2) + "\n");
+  if (!answer.results.empty()) write("results.csv", csv_of_results(answer.results, command));
+  if (!answer.modes.empty()) write("modes.csv", csv_of_modes(answer.modes, command));
+  for (const SceneCurve& curve : answer.curves) write(curve.name + ".csv", csv_of(curve, command));
   write_pictures(pictures_of(answer), folder, overwrite);
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "io/scenes/scene_file.h"
 #include "models/scene/common/scene_answer.h"
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <optional>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -14,13 +16,16 @@ namespace viscard {
 // How the answer of any scene is printed and stored.
 
 nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s);
+// A list of {name, on, estimate, number, value, forced, counted, reason}; estimate is null where
+// the effect has nothing to act on.
+nlohmann::json json_from_effects(const std::vector<SceneEffect>& effects);
 void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out);
 
-// Drops the results that are not among the wanted ones, if any are; a wanted name also stands for
-// the same with a pillar's number behind it, and the name of a curve for what is read off it.
+// Removes the results that are not wanted, unless the list is empty. A wanted name also stands for
+// the same name with a pillar's number, and the name of a curve for the results from it.
 void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer);
 
-// Name and SVG each.
+// Writes pictures, name and SVG each.
 void write_pictures(const std::vector<std::pair<std::string, std::string>>& pictures,
                     const std::string& folder, bool overwrite);
 
@@ -28,5 +33,26 @@ void write_pictures(const std::vector<std::pair<std::string, std::string>>& pict
 // std::runtime_error if a file exists and may not be overwritten.
 void write_files(const SceneAnswer& answer, const nlohmann::json& object, const std::string& folder,
                  const std::string& command, bool overwrite);
+
+// A value that a publication prints, and ours.
+struct PrintedComparison {
+  std::string name;
+  double printed = 0.0;
+  double ours = 0.0;
+  std::string unit;  // SI
+  double difference_percent =
+      0.0;           // of the magnitudes, printed relative to ours; signs are conventions
+  std::string note;  // why they differ
+  std::optional<double> difference_points;  // printed minus ours, for values in per cent
+};
+
+// Compares the [[printed]] entries of a scene with its answer. The name of an entry is that of a
+// result, or the family and number of a mode: "lateral 2". Throws std::runtime_error naming the
+// entry if the answer has no such value.
+std::vector<PrintedComparison> compare_printed(const std::vector<PrintedValue>& printed,
+                                               const SceneAnswer& answer);
+
+void print_comparison(const std::vector<PrintedComparison>& rows, std::ostream& out);
+nlohmann::json json_from_comparison(const std::vector<PrintedComparison>& rows);
 
 }  // namespace viscard

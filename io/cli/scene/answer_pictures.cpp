@@ -1,6 +1,5 @@
 #include "io/cli/scene/answer_pictures.h"
 
-#include "io/plots/plot.h"
 #include "io/report/report_numbers.h"
 
 #include <algorithm>
@@ -17,6 +16,15 @@ bool spans_decades(const std::vector<double>& values) {
     high = std::max(high, std::abs(value));
   }
   return high > 30.0 * low;
+}
+
+bool draw(const std::string& name, const Plot& plot, const char* id, Pictures& pictures) {
+  try {
+    pictures.emplace_back(name, svg_from_plot(plot, id));
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+  return true;
 }
 
 namespace {
@@ -37,7 +45,7 @@ PlotPanel panel_of(const SceneCurve& curve) {
   const bool in_time = curve.x_name == "time_s";
   const bool is_size = curve.name.ends_with("_magnitude") || curve.name.ends_with("_spectrum");
   const bool is_log = is_size && spans_decades(curve.value);
-  // Logarithmic axes carry powers of ten as they are; the others want numbers one can read.
+  // Logarithmic axes stay in the base unit; linear ones get a prefix.
   const ShownUnit x_unit = in_time ? shown_unit("s", curve.x) : ShownUnit{1.0, "Hz"};
   const ShownUnit y_unit =
       is_log ? ShownUnit{1.0, curve.unit} : shown_unit(curve.unit, curve.value);
@@ -71,8 +79,8 @@ const SceneCurve* find(const SceneAnswer& answer, const std::string& name) {
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> pictures_of(const SceneAnswer& answer) {
-  std::vector<std::pair<std::string, std::string>> pictures;
+Pictures pictures_of(const SceneAnswer& answer) {
+  Pictures pictures;
   for (const SceneCurve& curve : answer.curves) {
     const bool is_part = curve.name.ends_with("_real") || curve.name.ends_with("_imaginary") ||
                          curve.name.ends_with("_phase");
@@ -88,11 +96,7 @@ std::vector<std::pair<std::string, std::string>> pictures_of(const SceneAnswer& 
       plot.panels.push_back(panel_of(*phase));
       plot.height_px = 560;
     }
-    try {
-      pictures.emplace_back(curve.name, svg_from_plot(plot, "curve"));
-    } catch (const std::runtime_error&) {
-      return {};  // no gnuplot
-    }
+    if (!draw(curve.name, plot, "curve", pictures)) return {};
   }
   return pictures;
 }

@@ -1,19 +1,46 @@
 #pragma once
 
+#include "io/cli/scene/array_sweep.h"
+#include "io/plots/plot.h"
 #include "models/scene/common/scene_answer.h"
+#include "models/sensor/sensor_design.h"
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace viscard {
 
-// Pictures of a scene's curves, name and SVG: histories over time, responses over frequency
-// (magnitude on logarithmic axes above phase), spectra. Empty where gnuplot is not installed: the
-// numbers are in the CSV files all the same.
-std::vector<std::pair<std::string, std::string>> pictures_of(const SceneAnswer& answer);
+// Pictures of answers, name and SVG. Empty if gnuplot is not installed; the tables hold the same
+// numbers.
+using Pictures = std::vector<std::pair<std::string, std::string>>;
 
-// True when the largest size is over 30 times the smallest that is not zero: a logarithmic axis.
+// Curves: histories over time, responses over frequency (magnitude on logarithmic axes above
+// phase), spectra.
+Pictures pictures_of(const SceneAnswer& answer);
+
+// A result that every pillar of a row has ("centre_voltage_1", "centre_voltage_2", ...) over the
+// numbers of the pillars, with its error. If the pillars differ by decades, its magnitude on a
+// logarithmic axis.
+Pictures pictures_over_pillars(const SceneAnswer& answer);
+
+// Each result of a sweep over the parameter with the most values, one line for each combination of
+// the others, with the limit on the deviation if the sweep has one.
+Pictures pictures_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoint>& points,
+                             const std::map<std::size_t, SweepRow>& rows);
+
+// True if the largest magnitude is over 30 times the smallest that is not zero: a logarithmic axis.
 bool spans_decades(const std::vector<double>& values);
+
+// Draws a picture with this id in its SVG; false if gnuplot is not installed.
+bool draw(const std::string& name, const Plot& plot, const char* id, Pictures& pictures);
+
+// File names and pictures: buckling and matting limits of the length against spacing, the widest
+// flaw-insensitive pillar against the adhesion strength, sensitivity and pitch against spacing, and
+// the admissible lengths at the design's diameter and around it.
+std::vector<std::pair<std::string, Plot>> design_pictures(const SensorGeometry& geometry,
+                                                          const SensorMaterial& material,
+                                                          const SensorRequirements& requirements);
 
 }  // namespace viscard

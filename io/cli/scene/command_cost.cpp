@@ -1,7 +1,5 @@
-#include "io/cli/scene/command_cost.h"
-
 #include "io/basics/atomic_file.h"
-#include "io/basics/units.h"
+#include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/progress.h"
 #include "io/cost/study_cost.h"
@@ -146,42 +144,25 @@ CommandSyntax cost_syntax() {
   return syntax;
 }
 
-double budget_s(const std::string& text) {
-  double value = 0.0;
-  try {
-    value = si_from_text(text, "s");
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--budget: ") + error.what());
-  }
-  if (!(value > 0.0)) throw UsageError("--budget must be positive, such as 60s");
-  return value;
-}
-
 }  // namespace
 
-int run_cost(const std::vector<std::string>& words, Streams& streams) {
+int run_cost(const Words& words, Streams& streams) {
   CommandSyntax syntax = cost_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
-  if (values->count("scene") == 0) {
-    throw UsageError(std::string("which scene? usage: ") + syntax.usage);
-  }
-  const auto path = (*values)["scene"].as<std::string>();
-  CostOptions options{.budget_s = budget_s((*values)["budget"].as<std::string>())};
+  const auto path = required(*values, "scene", syntax);
+  CostOptions options{.budget_s = *given_quantity(*values, "budget", "s")};
+  if (!(options.budget_s > 0.0)) throw UsageError("--budget must be positive, such as 60s");
   const Scene scene = read_scene(path).scene;
   CostStudy study;
   {
     Progress progress(streams, "cost");
     options.progress = [&](double done, const std::string& name) { progress.show(done, name); };
-    try {
-      study = study_cost(scene, options);
-    } catch (const SceneMistake& mistake) {
-      throw std::runtime_error(told_with_line(path, mistake));
-    }
+    study = with_lines_of(path, [&] { return study_cost(scene, options); });
   }
   const nlohmann::json object = json_from_study(study);
-  if (values->count("out") > 0) {
-    const std::filesystem::path folder = (*values)["out"].as<std::string>();
+  if (const auto out = given(*values, "out")) {
+    const std::filesystem::path folder = *out;
     const bool overwrite = values->count("force") > 0;
     const std::string command = quoted_command_line("cost", words);
     std::filesystem::create_directories(folder);
@@ -190,11 +171,7 @@ int run_cost(const std::vector<std::string>& words, Streams& streams) {
     const std::string name = std::filesystem::path(path).filename().string();
     write_file(folder / "cost.svg", svg_from_plot(plot_from_study(study, name), "cost"), overwrite);
   }
-  if (values->count("json") > 0) {
-    streams.out << object.dump(2) << "\n";
-  } else {
-    print_study(study, path, streams.out);
-  }
+  if (!print_json(*values, object, streams)) print_study(study, path, streams.out);
   return kDone;
 }
 

@@ -1,9 +1,7 @@
-#include "io/cli/scene/command_design.h"
-
 #include "io/basics/atomic_file.h"
-#include "io/basics/nearest_word.h"
-#include "io/basics/units.h"
-#include "io/cli/scene/design_pictures.h"
+#include "io/basics/words.h"
+#include "io/cli/scene/answer_pictures.h"
+#include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
 #include "models/sensor/sensor_design.h"
 
@@ -82,28 +80,21 @@ Lattice lattice_of(const std::string& word) {
   if (word == "square") return Lattice::kSquare;
   if (word == "hexagonal") return Lattice::kHexagonal;
   if (word == "plain") return Lattice::kPlain;
-  const std::string near = nearest_word(word, {"square", "hexagonal", "plain"});
   throw UsageError("--lattice cannot be '" + word + "'" +
-                   (near.empty() ? "." : "; did you mean '" + near + "'?") +
+                   did_you_mean(word, {"square", "hexagonal", "plain"}) +
                    " There are: square, hexagonal, plain");
 }
 
 Design design_from(const po::variables_map& values) {
   Design design;
   for (const DesignOption& option : options_of(design)) {
-    if (values.count(option.name) == 0) continue;
-    try {
-      *option.value = si_from_text(values[option.name].as<std::string>(), option.unit);
-    } catch (const std::invalid_argument& error) {
-      throw UsageError(std::string("--") + option.name + ": " + error.what());
-    }
+    const auto value = given_quantity(values, option.name, option.unit);
+    if (value) *option.value = *value;
   }
   if (values.count("work-of-adhesion") == 0) {
     design.material.work_of_adhesion_J_m2 = 2.0 * design.material.surface_energy_J_m2;
   }
-  if (values.count("lattice") > 0) {
-    design.requirements.lattice = lattice_of(values["lattice"].as<std::string>());
-  }
+  if (const auto word = given(values, "lattice")) design.requirements.lattice = lattice_of(*word);
   try {
     validate(design.geometry, design.material, design.requirements);
   } catch (const std::invalid_argument& error) {
@@ -168,7 +159,7 @@ void print_design(const Design& d, const std::vector<DesignLimit>& limits,
 
 }  // namespace
 
-int run_design(const std::vector<std::string>& words, Streams& streams) {
+int run_design(const Words& words, Streams& streams) {
   Design defaults;
   CommandSyntax syntax = design_syntax(defaults);
   const auto values = parse_words(syntax, words, streams);
@@ -179,8 +170,8 @@ int run_design(const std::vector<std::string>& words, Streams& streams) {
   const LongestPillar longest =
       longest_pillar(g.diameter_m, g.spacing_m, design.material, design.requirements);
   nlohmann::json object = json_from_design(design, limits, longest);
-  if (values->count("out") > 0) {
-    const std::filesystem::path folder = (*values)["out"].as<std::string>();
+  if (const auto out = given(*values, "out")) {
+    const std::filesystem::path folder = *out;
     const bool overwrite = values->count("force") > 0;
     std::filesystem::create_directories(folder);
     nlohmann::json stored = object;
@@ -191,11 +182,7 @@ int run_design(const std::vector<std::string>& words, Streams& streams) {
       write_file(folder / (name + ".svg"), svg_from_plot(plot, "design-" + name) + "\n", overwrite);
     }
   }
-  if (values->count("json") > 0) {
-    streams.out << object.dump(2) << "\n";
-  } else {
-    print_design(design, limits, longest, streams.out);
-  }
+  if (!print_json(*values, object, streams)) print_design(design, limits, longest, streams.out);
   return kDone;
 }
 

@@ -1,6 +1,5 @@
-#include "io/cli/scene/command_plan.h"
-
-#include "io/cli/scene/tolerance_option.h"
+#include "io/cli/scene/answer_output.h"
+#include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/scenes/scene_file.h"
 #include "models/scene/plan.h"
@@ -52,50 +51,51 @@ CommandSyntax plan_syntax() {
 
 }  // namespace
 
-nlohmann::json json_from_effect(const SceneEffect& effect) {
-  nlohmann::json object{{"name", effect.name},
-                        {"on", effect.on},
-                        {"estimate", nullptr},
-                        {"number", nullptr},
-                        {"value", nullptr},
-                        {"forced", effect.is_forced},
-                        {"counted", effect.is_counted},
-                        {"reason", effect.reason}};
-  if (acts(effect)) object["estimate"] = effect.estimate;
-  if (!effect.number.empty()) {
-    object["number"] = effect.number;
-    object["value"] = effect.value;
+nlohmann::json json_from_effects(const std::vector<SceneEffect>& effects) {
+  using nlohmann::json;
+  json list = json::array();
+  for (const SceneEffect& effect : effects) {
+    const bool has_number = !effect.number.empty();
+    list.push_back({{"name", effect.name},
+                    {"on", effect.on},
+                    {"estimate", acts(effect) ? json(effect.estimate) : json()},
+                    {"number", has_number ? json(effect.number) : json()},
+                    {"value", has_number ? json(effect.value) : json()},
+                    {"forced", effect.is_forced},
+                    {"counted", effect.is_counted},
+                    {"reason", effect.reason}});
   }
-  return object;
+  return list;
 }
 
-int run_plan(const std::vector<std::string>& words, Streams& streams) {
+void add_tolerance_option(po::options_description& options) {
+  options.add_options()("tol", po::value<double>(),
+                        "relative error allowed, instead of the scene's");
+}
+
+void apply_tolerance(const po::variables_map& values, Scene& scene) {
+  const auto tolerance = given<double>(values, "tol");
+  if (!tolerance) return;
+  const ToleranceRange& range = tolerances_of(scene);
+  if (!range.contains(*tolerance)) {
+    throw UsageError(std::string("--tol must lie between ") + range.words);
+  }
+  common(scene).tolerance = *tolerance;
+}
+
+int run_plan(const Words& words, Streams& streams) {
   CommandSyntax syntax = plan_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
-  if (values->count("scene") == 0) {
-    throw UsageError(std::string("which scene? usage: ") + syntax.usage);
-  }
-  const auto path = (*values)["scene"].as<std::string>();
+  const auto path = required(*values, "scene", syntax);
   Scene scene = read_scene(path).scene;
   apply_tolerance(*values, scene);
-  ScenePlan plan;
-  try {
-    plan = checked_plan(scene);
-  } catch (const SceneMistake& mistake) {
-    throw std::runtime_error(told_with_line(path, mistake));
-  }
-  if (values->count("json") == 0) {
-    print_plan(path, scene, plan, streams.out);
-    return kDone;
-  }
-  nlohmann::json effects = nlohmann::json::array();
-  for (const SceneEffect& effect : plan.effects) effects.push_back(json_from_effect(effect));
-  const nlohmann::json object{{"effects", effects},
+  const ScenePlan plan = with_lines_of(path, [&] { return checked_plan(scene); });
+  const nlohmann::json object{{"effects", json_from_effects(plan.effects)},
                               {"tolerance", common(scene).tolerance},
                               {"left_out", plan.left_out},
                               {"mesh_tolerance", common(plan.reduced).tolerance}};
-  streams.out << object.dump(2) << "\n";
+  if (!print_json(*values, object, streams)) print_plan(path, scene, plan, streams.out);
   return kDone;
 }
 

@@ -1,6 +1,5 @@
-#include "io/cli/scene/command_scene.h"
-
 #include "io/basics/atomic_file.h"
+#include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/pictures/scene_picture.h"
 #include "io/scenes/scene_file.h"
@@ -30,30 +29,22 @@ CommandSyntax scene_syntax() {
 
 }  // namespace
 
-int run_scene(const std::vector<std::string>& words, Streams& streams) {
+int run_scene(const Words& words, Streams& streams) {
   CommandSyntax syntax = scene_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
-  if (values->count("what") == 0 || (*values)["what"].as<std::string>() != "check" ||
-      values->count("scene") == 0) {
+  if (given(*values, "what") != "check" || values->count("scene") == 0) {
     throw UsageError(std::string("usage: ") + syntax.usage);
   }
-  const auto path = (*values)["scene"].as<std::string>();
+  const auto path = required(*values, "scene", syntax);
   const Scene scene = read_scene(path).scene;
-  try {
-    checked_plan(scene);  // reading finds neither effects that cannot be off nor buckling
-  } catch (const SceneMistake& mistake) {
-    throw std::runtime_error(told_with_line(path, mistake));
-  }
+  // Reading finds neither effects that cannot be off nor buckling.
+  with_lines_of(path, [&] { return checked_plan(scene); });
   const std::string name = std::filesystem::path(path).filename().string();
   const std::string drawing = svg_from_scene(scene, name);
-  if (values->count("svg") > 0) {
-    write_file((*values)["svg"].as<std::string>(), drawing, values->count("force") > 0);
-  }
-  if (values->count("json") > 0) {
-    streams.out << nlohmann::json({{"scene", path}, {"kind", kind_of(scene)}, {"ok", true}}).dump(2)
-                << "\n";
-  } else {
+  if (const auto svg = given(*values, "svg")) write_file(*svg, drawing, values->count("force") > 0);
+  const nlohmann::json object{{"scene", path}, {"kind", kind_of(scene)}, {"ok", true}};
+  if (!print_json(*values, object, streams)) {
     streams.out << path << ": nothing contradicts itself\n";
   }
   return kDone;

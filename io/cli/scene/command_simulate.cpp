@@ -1,15 +1,11 @@
-#include "io/cli/scene/command_simulate.h"
-
 #include "io/basics/atomic_file.h"
 #include "io/cli/scene/answer_output.h"
-#include "io/cli/scene/row_pictures.h"
-#include "io/cli/scene/sweep_run.h"
-#include "io/cli/scene/tolerance_option.h"
+#include "io/cli/scene/answer_pictures.h"
+#include "io/cli/scene/array_sweep.h"
+#include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
-#include "io/cli/words/printed_values.h"
 #include "io/cli/words/progress.h"
 #include "io/pictures/section_picture.h"
-#include "io/pictures/vtk_file.h"
 #include "io/scenes/scene_file.h"
 #include "models/scene/simulate.h"
 
@@ -30,14 +26,14 @@ SceneAnswer answer_of(Scene scene, const std::string& path, Streams& streams) {
   try {
     return simulate(scene);
   } catch (const SceneMistake& mistake) {
-    throw std::runtime_error(told_with_line(path, mistake));
+    throw std::runtime_error(text_with_line(path, mistake));
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(path + ": " + error.what());
   }
 }
 
-// To look at, and for ParaView: the solution on the mesh that met the tolerance, and results over
-// the pillars' numbers.
+// Pictures and ParaView files of the solution on the mesh that met the tolerance, and results over
+// the numbers of the pillars.
 void write_looks(const Scene& scene, const SceneAnswer& answer, const SweepOutput& output) {
   const std::filesystem::path in = output.folder;
   for (const SectionGrid& grid : solution_fields(scene, answer.discretisation)) {
@@ -65,17 +61,15 @@ CommandSyntax simulate_syntax() {
 
 }  // namespace
 
-int run_simulate(const std::vector<std::string>& words, Streams& streams) {
+int run_simulate(const Words& words, Streams& streams) {
   CommandSyntax syntax = simulate_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
-  if (values->count("scene") == 0)
-    throw UsageError(std::string("which scene? usage: ") + syntax.usage);
-  const auto path = (*values)["scene"].as<std::string>();
+  const auto path = required(*values, "scene", syntax);
   SceneFile file = read_scene(path);
   apply_tolerance(*values, file.scene);
   const bool is_sweep = !file.sweep.is_empty();
-  const std::string folder = values->count("out") > 0 ? (*values)["out"].as<std::string>() : "";
+  const std::string folder = given(*values, "out").value_or("");
   const SweepOutput output{folder, quoted_command_line("simulate", words),
                            values->count("force") > 0};
   const auto start = std::chrono::steady_clock::now();
@@ -91,13 +85,10 @@ int run_simulate(const std::vector<std::string>& words, Streams& streams) {
     write_files(answer, object, folder, output.command, output.overwrite);
     if (!is_sweep) write_looks(file.scene, answer, output);
   }
-  if (values->count("json") > 0) {
-    streams.out << object.dump(2) << "\n";
-  } else {
-    streams.out << path << "\n";
-    print_answer(answer, wall_s, streams.out);
-    print_comparison(printed, streams.out);
-  }
+  if (print_json(*values, object, streams)) return kDone;
+  streams.out << path << "\n";
+  print_answer(answer, wall_s, streams.out);
+  print_comparison(printed, streams.out);
   return kDone;
 }
 

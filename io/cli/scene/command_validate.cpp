@@ -1,6 +1,5 @@
-#include "io/cli/scene/command_validate.h"
-
 #include "io/basics/atomic_file.h"
+#include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/progress.h"
 #include "io/materials/material_file.h"
@@ -86,19 +85,16 @@ CommandSyntax validate_syntax() {
 
 }  // namespace
 
-int run_validate(const std::vector<std::string>& words, Streams& streams) {
+int run_validate(const Words& words, Streams& streams) {
   CommandSyntax syntax = validate_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
-  if (values->count("material") == 0) {
-    throw UsageError(std::string("which material? usage: ") + syntax.usage);
-  }
+  const auto path = required(*values, "material", syntax);
   ValidateOptions options;
   options.tolerance = (*values)["max-error"].as<double>();
   if (!(options.tolerance > 0.0 && options.tolerance < 1.0)) {
     throw UsageError("--max-error must lie between 0 and 1");
   }
-  const auto path = (*values)["material"].as<std::string>();
   const Material material = read_material(path).material;
   const std::string name = material.name.empty() ? path : material.name;
   Progress progress(streams, "validate");
@@ -108,15 +104,14 @@ int run_validate(const std::vector<std::string>& words, Streams& streams) {
 
   const std::string command = quoted_command_line("validate", words);
   const auto write = [&](const char* option, const ValidationCurve& curve, const char* quantity) {
-    if (values->count(option) == 0) return;
-    write_file((*values)[option].as<std::string>(), csv_from_curve(curve, quantity, command),
+    const auto path_of_curve = given(*values, option);
+    if (!path_of_curve) return;
+    write_file(*path_of_curve, csv_from_curve(curve, quantity, command),
                values->count("force") > 0);
   };
   write("csv", result.relaxation, "stress_Pa");
   write("creep-csv", result.creep, "displacement_m");
-  if (values->count("json") > 0) {
-    streams.out << json_from_result(result, name).dump(2) << "\n";
-  } else {
+  if (!print_json(*values, json_from_result(result, name), streams)) {
     print_result(result, name, streams.out);
   }
   if (result.passed) return kDone;

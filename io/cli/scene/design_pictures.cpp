@@ -1,8 +1,7 @@
-#include "io/cli/scene/design_pictures.h"
+#include "io/cli/scene/answer_pictures.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>

@@ -1,7 +1,4 @@
-#include "io/cli/scene/row_pictures.h"
-
 #include "io/cli/scene/answer_pictures.h"
-#include "io/plots/plot.h"
 #include "io/report/report_numbers.h"
 
 #include <fmt/format.h>
@@ -15,9 +12,7 @@ namespace {
 
 constexpr double kUm_m = 1e6;  // lengths are shown in micrometres
 
-using Pictures = std::vector<std::pair<std::string, std::string>>;
-
-// "crosstalk_percent" -> "crosstalk": its unit says the rest.
+// "crosstalk_percent" -> "crosstalk", because the axis shows the unit.
 std::string words_of(std::string name) {
   if (const std::size_t at = name.find("_percent"); at != std::string::npos) name.erase(at, 8);
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -28,7 +23,7 @@ std::string labelled(const std::string& name, const std::string& unit) {
   return unit.empty() || unit == "1" ? words_of(name) : words_of(name) + " (" + unit + ")";
 }
 
-// "centre_voltage_12" -> "centre_voltage" and 12; no number: 0.
+// "centre_voltage_12" -> "centre_voltage" and 12; 0 without a number.
 std::pair<std::string, int> stem_and_pillar(const std::string& name) {
   const std::size_t end = name.find_last_not_of("0123456789");
   const bool has_number = end != std::string::npos && name[end] == '_' && end + 1 < name.size() &&
@@ -61,7 +56,7 @@ std::vector<OverPillars> grouped(const std::vector<SceneResult>& results) {
 
 Plot plot_over_pillars(const OverPillars& group) {
   const bool is_log = spans_decades(group.value);
-  // Powers of ten stay in the base unit; the others want numbers one can read.
+  // Logarithmic axes stay in the base unit; linear ones get a prefix.
   const ShownUnit unit = is_log ? ShownUnit{1.0, group.unit} : shown_unit(group.unit, group.value);
   PlotSeries dots{.mark = Mark::kErrorBars, .x = group.pillar};
   for (std::size_t i = 0; i < group.value.size(); ++i) {
@@ -91,7 +86,7 @@ struct SweepKey {
   std::size_t values;
 };
 
-// Spacing where several have as many values: what a designer chooses last.
+// The spacing if several parameters have as many values.
 SweepKey key_with_most_values(const ArraySweep& sweep) {
   const SweepKey keys[] = {
       {"spacing", &ArrayGeometry::spacing_m, sweep.spacing_m.size()},
@@ -101,7 +96,7 @@ SweepKey key_with_most_values(const ArraySweep& sweep) {
                            [](const auto& a, const auto& b) { return a.values < b.values; });
 }
 
-// The names of the lines: what varies apart from the abscissa.
+// The label of a line: the parameters that vary besides the abscissa.
 std::string others_of(const ArraySweep& sweep, const ArrayGeometry& g, const SweepKey& abscissa) {
   std::string text;
   const auto add = [&](const char* name, std::size_t values, double ArrayGeometry::*of) {
@@ -122,7 +117,7 @@ PlotSeries limit_line(const PlotPanel& panel, double limit) {
     for (const double x : series.x) low = std::min(low, x), high = std::max(high, x);
   }
   line.x = {low, high, high, low, high};
-  line.y = {limit, limit, NAN, -limit, -limit};  // the gap in the middle parts the two
+  line.y = {limit, limit, NAN, -limit, -limit};  // NAN separates the two lines
   return line;
 }
 
@@ -147,7 +142,7 @@ Plot plot_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoint>& poi
   }
   const std::size_t lines = panel.series.size();
   for (std::size_t i = 0; i < lines; ++i) {
-    PlotSeries dots = panel.series[i];  // where the sweep has points
+    PlotSeries dots = panel.series[i];  // at the points of the sweep
     dots.mark = Mark::kPoints;
     dots.label.clear();
     panel.series.push_back(std::move(dots));
@@ -162,23 +157,13 @@ Plot plot_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoint>& poi
   return plot;
 }
 
-// None at all without gnuplot.
-bool draw(const std::string& name, const Plot& plot, Pictures& pictures) {
-  try {
-    pictures.emplace_back(name, svg_from_plot(plot, "row"));
-  } catch (const std::runtime_error&) {
-    return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 Pictures pictures_over_pillars(const SceneAnswer& answer) {
   Pictures pictures;
-  if (!answer.curves.empty()) return pictures;  // those have pictures of their own
+  if (!answer.curves.empty()) return pictures;  // curves have their own pictures
   for (const OverPillars& group : grouped(answer.results)) {
-    if (!draw(group.name, plot_over_pillars(group), pictures)) return {};
+    if (!draw(group.name, plot_over_pillars(group), "row", pictures)) return {};
   }
   return pictures;
 }
@@ -189,7 +174,7 @@ Pictures pictures_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoi
   if (rows.size() < 2 || key_with_most_values(sweep).values < 2) return pictures;
   for (std::size_t column = 0; column < rows.begin()->second.size(); ++column) {
     const std::string& name = rows.begin()->second[column].name;
-    if (!draw(name, plot_over_sweep(sweep, points, rows, column), pictures)) return {};
+    if (!draw(name, plot_over_sweep(sweep, points, rows, column), "row", pictures)) return {};
   }
   return pictures;
 }

@@ -1,10 +1,8 @@
-#include "io/cli/scene/sweep_run.h"
-
 #include "io/basics/atomic_file.h"
-#include "io/basics/sha256.h"
 #include "io/cli/scene/answer_output.h"
+#include "io/cli/scene/answer_pictures.h"
 #include "io/cli/scene/array_sweep.h"
-#include "io/cli/scene/row_pictures.h"
+#include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
 #include "models/scene/simulate.h"
 
@@ -32,9 +30,7 @@ SceneAnswer run_sweep(const SceneFile& file, const std::string& path, const Swee
   const std::string& folder = output.folder;
   const bool overwrite = output.overwrite;
   const std::filesystem::path table = std::filesystem::path(folder) / "sweep.csv";
-  if (!folder.empty() && !overwrite && std::filesystem::exists(table)) {
-    throw std::runtime_error(table.string() + " exists; add --force to overwrite it");
-  }
+  if (!folder.empty()) refuse_existing(table, overwrite);
   SweepStore store(folder, key_of(scene, path));
   if (!store.done().empty()) {
     streams.err << fmt::format("continuing: {} of {} points are done\n", store.done().size(),

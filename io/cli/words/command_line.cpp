@@ -1,6 +1,7 @@
 #include "io/cli/words/command_line.h"
 
-#include "io/basics/nearest_word.h"
+#include "io/basics/units.h"
+#include "io/basics/words.h"
 #include "io/cli/words/output_paths.h"
 
 #include <ostream>
@@ -18,15 +19,13 @@ std::vector<std::string> option_names(const po::options_description& options) {
 
 [[noreturn]] void throw_unknown(const std::string& word, const po::options_description& options,
                                 const char* usage) {
-  const std::string near = nearest_word(word, option_names(options));
-  throw UsageError("there is no option '" + word + "'" +
-                   (near.empty() ? "." : "; did you mean '" + near + "'?") + " Usage: " + usage);
+  throw UsageError("there is no option '" + word + "'" + did_you_mean(word, option_names(options)) +
+                   " Usage: " + usage);
 }
 
 }  // namespace
 
-std::optional<po::variables_map> parse_words(CommandSyntax& syntax,
-                                             const std::vector<std::string>& words,
+std::optional<po::variables_map> parse_words(CommandSyntax& syntax, const Words& words,
                                              Streams& streams) {
   syntax.options.add_options()("json", "print one machine-readable object on stdout, nothing else")(
       "help,h", "print this");
@@ -71,7 +70,18 @@ std::optional<po::variables_map> parse_words(CommandSyntax& syntax,
   return values;
 }
 
-std::string quoted_command_line(const std::string& command, const std::vector<std::string>& words) {
+std::optional<double> given_quantity(const po::variables_map& values, const char* name,
+                                     const char* si_unit) {
+  const auto text = given(values, name);
+  if (!text) return std::nullopt;
+  try {
+    return si_from_text(*text, si_unit);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--") + name + ": " + error.what());
+  }
+}
+
+std::string quoted_command_line(const std::string& command, const Words& words) {
   const std::string plain =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789@%_-+=:,./";
   std::string line = "viscard " + command;

@@ -5,6 +5,7 @@
 #include <boost/program_options.hpp>
 
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -25,10 +26,45 @@ struct CommandSyntax {
 // --json to every command. Throws UsageError for an unknown option (with the nearest known one), a
 // missing value or a value that cannot be read, and what check_output_paths() throws if an output
 // would replace an input.
-std::optional<boost::program_options::variables_map> parse_words(
-    CommandSyntax& syntax, const std::vector<std::string>& words, Streams& streams);
+std::optional<boost::program_options::variables_map> parse_words(CommandSyntax& syntax,
+                                                                 const Words& words,
+                                                                 Streams& streams);
+
+// The value of an option that sets `target` if it is given.
+template <typename Value>
+auto* into(std::optional<Value>& target) {
+  return boost::program_options::value<Value>()->notifier(
+      [&target](const Value& value) { target = value; });
+}
+
+// A value that was given or has a default.
+template <typename Value = std::string>
+std::optional<Value> given(const boost::program_options::variables_map& values, const char* name) {
+  return values.count(name) > 0 ? std::optional(values[name].as<Value>()) : std::nullopt;
+}
+
+// The same in SI of a number or a text with its unit. Throws UsageError naming the option.
+std::optional<double> given_quantity(const boost::program_options::variables_map& values,
+                                     const char* name, const char* si_unit);
+
+// A positional word. Throws UsageError "which scene? usage: ..." if it is missing.
+template <typename Value = std::string>
+Value required(const boost::program_options::variables_map& values, const char* name,
+               const CommandSyntax& syntax) {
+  if (const auto value = given<Value>(values, name)) return *value;
+  throw UsageError(std::string("which ") + name + "? usage: " + syntax.usage);
+}
+
+// With --json, prints the object and returns true.
+template <typename Json>
+bool print_json(const boost::program_options::variables_map& values, const Json& object,
+                Streams& streams) {
+  if (values.count("json") == 0) return false;
+  streams.out << object.dump(2) << "\n";
+  return true;
+}
 
 // "viscard" and the words, quoted for a shell; output files record it.
-std::string quoted_command_line(const std::string& command, const std::vector<std::string>& words);
+std::string quoted_command_line(const std::string& command, const Words& words);
 
 }  // namespace viscard

@@ -4,10 +4,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -31,8 +31,7 @@ struct NamedPath {
 std::vector<NamedPath> paths_among(const po::variables_map& values) {
   std::vector<NamedPath> paths;
   for (const auto& [name, value] : values) {
-    bool is_output = false;
-    for (const std::string_view output : kOutputs) is_output = is_output || output == name;
+    const bool is_output = std::find(kOutputs.begin(), kOutputs.end(), name) != kOutputs.end();
     const boost::any& held = value.value();
     if (const auto* text = boost::any_cast<std::string>(&held)) {
       if (!text->empty()) paths.push_back({name, *text, is_output});
@@ -89,6 +88,12 @@ void check_output_paths(const po::variables_map& values) {
     refuse_shared_file(path, paths);
     refuse_unwritable_folder(path);
   }
+}
+
+void refuse_existing(const fs::path& output, bool overwrite) {
+  if (overwrite || !fs::exists(output)) return;
+  throw std::runtime_error("'" + output.string() +
+                           "' exists already; pass --force to replace it, or choose another name");
 }
 
 }  // namespace viscard

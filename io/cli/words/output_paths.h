@@ -2,6 +2,8 @@
 
 #include <boost/program_options/variables_map.hpp>
 
+#include <filesystem>
+
 namespace viscard {
 
 // Checks every option that names an output (--out, --csv, --creep-csv, --svg, --vtk) before the
@@ -9,5 +11,8 @@ namespace viscard {
 // destroy it) or another output, and std::runtime_error if its folder is not a folder or cannot be
 // written to.
 void check_output_paths(const boost::program_options::variables_map& values);
+
+// Throws std::runtime_error if the output exists and may not be overwritten, before work is lost.
+void refuse_existing(const std::filesystem::path& output, bool overwrite);
 
 }  // namespace viscard

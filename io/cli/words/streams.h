@@ -2,8 +2,13 @@
 
 #include <iosfwd>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace viscard {
+
+// The words of a command line after the name of the command.
+using Words = std::vector<std::string>;
 
 // Output of a command: results go to out, progress and messages to err.
 struct Streams {

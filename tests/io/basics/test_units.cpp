@@ -1,3 +1,4 @@
+#include "io/basics/number_text.h"
 #include "io/basics/units.h"
 
 #include <catch2/catch.hpp>

@@ -1,8 +1,8 @@
+#include "io/basics/number_text.h"
+#include "io/cards/card.h"
 #include "io/cards/card_numbers.h"
-#include "io/cards/number_text.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
-#include "io/cards/write_card.h"
 #include "tests/io/cards/card_materials.h"
 
 #include <catch2/catch.hpp>

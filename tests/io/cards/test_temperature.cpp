@@ -1,6 +1,6 @@
+#include "io/cards/card.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
-#include "io/cards/write_card.h"
 #include "tests/io/cards/card_materials.h"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
+#include "io/cards/card.h"
 #include "io/cards/targets/card_targets.h"
-#include "io/cards/write_card.h"
 #include "models/material/prony_series.h"
 #include "tests/io/cards/card_materials.h"
 

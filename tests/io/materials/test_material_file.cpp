@@ -1,5 +1,4 @@
 #include "io/basics/atomic_file.h"
-#include "io/basics/sha256.h"
 #include "io/materials/material_file.h"
 #include "models/contact/punch_contact.h"
 #include "tests/support/error_text.h"

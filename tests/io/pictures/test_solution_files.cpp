@@ -1,6 +1,5 @@
 // Fields for ParaView, and pictures of them.
 #include "io/pictures/section_picture.h"
-#include "io/pictures/vtk_file.h"
 #include "io/scenes/scene_file.h"
 #include "models/scene/simulate.h"
 

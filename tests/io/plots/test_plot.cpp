@@ -1,5 +1,5 @@
 #include "io/plots/plot.h"
-#include "io/plots/plot_gnuplot.h"
+#include "io/plots/plot_script.h"
 #include "io/plots/plot_svg.h"
 #include "tests/io/plots/markup.h"
 

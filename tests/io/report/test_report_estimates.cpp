@@ -1,7 +1,6 @@
-#include "io/report/report_campaign.h"
 #include "io/report/report_estimates.h"
+#include "io/report/report_figures.h"
 #include "io/report/report_numbers.h"
-#include "io/report/report_run.h"
 #include "tests/io/report/synthetic_report.h"
 
 #include <catch2/catch.hpp>

@@ -2,7 +2,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
-#include "io/cli/card/command_card.h"
+#include "io/cli/card/card_words.h"
 #include "io/materials/material_file.h"
 #include "tests/io/cards/card_materials.h"
 

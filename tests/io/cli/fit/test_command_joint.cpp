@@ -1,4 +1,4 @@
-#include "io/materials/ratio_file.h"
+#include "io/materials/material_file.h"
 #include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
 

@@ -1,4 +1,4 @@
-#include "io/cli/report/demo_score.h"
+#include "io/cli/report/report_commands.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "io/cli/rig/command_calibrate.h"
+#include "io/cli/rig/rig_commands.h"
 #include "io/config/config_file.h"
 #include "tests/support/scratch_folder.h"
 

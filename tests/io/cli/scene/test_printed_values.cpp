@@ -1,4 +1,4 @@
-#include "io/cli/words/printed_values.h"
+#include "io/cli/scene/answer_output.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

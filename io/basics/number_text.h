@@ -4,8 +4,10 @@
 
 namespace viscard {
 
-// Numbers as solvers read them, locale-free and ASCII, in a limited width. Without a limit, writers
-// use fmt's "{}": the shortest text that reads back as exactly the same double.
+// Numbers as files and solvers read them: ASCII, with a decimal point in every locale.
+
+// Returns the shortest text that reads back as exactly this double.
+std::string text_from_number(double value);
 
 // At most `columns` characters, with as many digits as fit, for free formats that silently cut
 // longer numbers.

@@ -1,7 +1,9 @@
-#include "io/cards/number_text.h"
+#include "io/basics/number_text.h"
 
 #include <fmt/format.h>
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -32,6 +34,12 @@ std::string squeezed(std::string text) {
 }
 
 }  // namespace
+
+std::string text_from_number(double value) {
+  std::array<char, 40> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
 
 std::string number_within(double value, int columns) {
   std::string text = fmt::format("{}", value);

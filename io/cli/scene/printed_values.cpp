@@ -1,7 +1,6 @@
-#include "io/cli/words/printed_values.h"
-
-#include "io/basics/nearest_word.h"
 #include "io/basics/units.h"
+#include "io/basics/words.h"
+#include "io/cli/scene/answer_output.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -42,9 +41,8 @@ std::vector<PrintedComparison> compare_printed(const std::vector<PrintedValue>& 
     const auto ours =
         std::find_if(all.begin(), all.end(), [&](const Named& n) { return n.name == p.name; });
     if (ours == all.end()) {
-      const std::string near = nearest_word(p.name, known);
       throw std::runtime_error("[[printed]]: the answer has no '" + p.name + "'" +
-                               (near.empty() ? "" : "; did you mean '" + near + "'?"));
+                               did_you_mean(p.name, known, ""));
     }
     const double value = si_from_text(p.value, ours->unit.c_str());
     // Publications print voltages and displacements without their sign.

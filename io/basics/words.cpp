@@ -1,0 +1,77 @@
+#include "io/basics/words.h"
+
+#include <algorithm>
+
+namespace viscard {
+namespace {
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substitute = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
+    }
+  }
+  return row[b.size()];
+}
+
+bool continues_character(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u;
+}
+
+}  // namespace
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+  return list;
+}
+
+std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
+  std::string best;
+  // At least one letter must agree: "SI" is not near "mm".
+  std::size_t best_distance = std::min(std::max<std::size_t>(2, word.size() / 3) + 1,
+                                       std::max<std::size_t>(1, word.size()));
+  for (const std::string& candidate : known) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known,
+                         const char* otherwise) {
+  const std::string near = nearest_word(word, known);
+  return near.empty() ? otherwise : "; did you mean '" + near + "'?";
+}
+
+std::size_t utf8_length(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+  };
+  const unsigned lead = byte(at), second = byte(at + 1);
+  if (lead < 0x80) return 1;
+  const std::size_t length = lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+  // Too long a form, half of a surrogate pair, or beyond the last character.
+  const bool is_bad = lead > 0xF4 || (lead == 0xE0 && second < 0xA0) ||
+                      (lead == 0xED && second > 0x9F) || (lead == 0xF0 && second < 0x90) ||
+                      (lead == 0xF4 && second > 0x8F);
+  if (is_bad || at + length > text.size()) return 0;
+  const std::string_view rest = text.substr(at, length).substr(std::min<std::size_t>(1, length));
+  return std::all_of(rest.begin(), rest.end(), continues_character) ? length : 0;
+}
+
+std::size_t length_in_characters(std::string_view text) {
+  return text.size() -
+         static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues_character));
+}
+
+}  // namespace viscard

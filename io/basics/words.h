@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace viscard {
+
+// Words and characters in messages, tables and pictures.
+
+// "a, b, c".
+std::string listed(const std::vector<std::string>& words);
+
+// Returns the entry of `known` with the smallest edit distance (insertions, deletions,
+// substitutions) to `word`, or "" if every distance exceeds a third of the word's length (at least
+// 2).
+std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
+
+// "; did you mean 'grbl'?" with the nearest known word, or `otherwise` if none is near.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known,
+                         const char* otherwise = ".");
+
+// The length in bytes of the UTF-8 character that begins at `at`; 0 if none does.
+std::size_t utf8_length(std::string_view text, std::size_t at);
+
+// The number of characters of UTF-8 text, which is what a reader sees; size() counts bytes.
+std::size_t length_in_characters(std::string_view text);
+
+}  // namespace viscard

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "io/cli/words/streams.h"
+#include "io/flow/fit_file.h"
+
+#include <boost/program_options/variables_map.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+namespace viscard {
+
+// viscard fit: fits a modulus and a Prony series to captures or tables; prints them, as text or
+// JSON, and writes a material file.
+int run_fit(const Words& words, Streams& streams);
+
+// Convert the options of viscard fit. Both throw UsageError for values that are not allowed.
+FitRequest words_from(const boost::program_options::variables_map& values);
+// command: the whole command line, for the provenance of the material.
+MaterialRequest material_words(const boost::program_options::variables_map& values,
+                               const std::string& command);
+
+// The object that `viscard fit --json` prints; its keys are those of FitResult with the unit in the
+// name. Numbers that are not finite become null.
+nlohmann::ordered_json json_from_fit(const FittedFile& fitted);
+// Prints the fit as text: moduli with intervals, the table of orders, flags.
+void print_fit(const FittedFile& fitted, std::ostream& out);
+
+// The options of `viscard fit --joint`.
+struct JointWords {
+  Words files;                 // captures, tables, material files
+  std::vector<double> ratios;  // --ratio, one for each file; empty: from the files
+  Words shared;                // --share: E0, g, tau
+  FitRequest fit;
+  MaterialRequest material;
+  std::string out;
+  bool overwrite = false, json = false;
+};
+
+// Fits all captures and tables with the same number of terms, then the law in the mixing ratio.
+int run_joint_fit(const JointWords& words, Streams& streams);
+
+}  // namespace viscard

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "io/cli/words/streams.h"
+#include "io/flow/capture_to_file.h"
+#include "rig/run/run_outcome.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// The options of `viscard capture`.
+struct CaptureWords {
+  std::optional<std::string> rig_file, test_file, truth_file;
+  std::vector<std::string> specimen_files;  // in the order of the captures
+  std::string out_file;                     // a folder if there are several specimens
+  bool is_emulated = false;
+  std::optional<std::uint64_t> seed;
+  double speed = 1.0;
+  bool overwrite = false;
+  bool as_json = false;
+  bool resumes = false;          // skip specimens with a finished capture
+  bool asks_nobody = false;      // no prompt between specimens
+  bool shows_page = false;       // --live
+  bool is_uncalibrated = false;  // accept an expired calibration
+  bool acknowledges = false;     // report on stderr how many records are safe
+};
+
+// Throws UsageError on options that cannot be combined.
+void check_words(const CaptureWords& words);
+
+// The setup for one specimen (empty: the emulated rig's own). Throws std::runtime_error on a bad
+// file.
+CaptureSetup capture_setup(const CaptureWords& words, const std::string& specimen_file);
+
+// One specimen of a series and the file of its capture.
+struct SeriesStep {
+  std::string specimen_file;  // empty: the emulated rig's own
+  std::string out_file;
+  std::string finished_file;  // an existing finished capture of it; then there is nothing to do
+};
+
+// The captures that a command line asks for. For one specimen --out is the file; for several it is
+// a folder, and the files in it are named by number and specimen file, 01_NAME.viscap. With
+// --resume a specimen with a finished capture is skipped, and one whose capture was interrupted
+// gets another file beside it, NAME.2.viscap and so on: nothing is overwritten or continued in the
+// middle. Throws std::runtime_error if another program is writing one of the captures.
+std::vector<SeriesStep> series_from_words(const CaptureWords& words);
+
+// Extension of the live page beside a capture.
+inline constexpr const char* kPageEnding = ".live.html";
+
+// How one capture ended, and its forces for the summary.
+struct CaptureOutcome {
+  RunOutcome run;
+  std::string file;
+  std::vector<double> force_N;  // thinned out
+};
+
+// capture_to_file() with a live view on the terminal and, if asked for, a page. SIGINT, SIGTERM and
+// SIGHUP first stop the stage.
+CaptureOutcome capture_once(const CaptureWords& words, const CaptureSetup& setup,
+                            const std::string& command, Streams& streams);
+
+}  // namespace viscard

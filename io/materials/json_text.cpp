@@ -1,0 +1,86 @@
+#include "io/materials/material_json.h"
+
+#include <map>
+#include <set>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+const std::set<std::string>& known_keys(const std::string& section) {
+  static const std::map<std::string, std::set<std::string>> kKnown{
+      {"",
+       {"schema", "name", "E0_Pa", "nu", "rho_kg_m3", "terms", "T_ref_C", "valid", "uncertainty",
+        "flags", "provenance", "mixing_ratio", "shift"}},
+      {"shift",
+       {"law", "C1", "C2_K", "activation_J_mol", "T_ref_C", "T_min_C", "T_max_C", "C1_interval_95",
+        "C2_K_interval_95", "activation_J_mol_interval_95"}},
+      {"terms", {"g", "k", "tau_s", "modulus_se_Pa", "ln_tau_se", "interval_95"}},
+      {"interval_95", {"modulus_Pa", "g", "tau_s"}},
+      {"valid", {"t_min_s", "t_max_s", "strain_max"}},
+      {"uncertainty",
+       {"E0_interval_95", "E_inf_interval_95", "systematic_relative", "covariance_parameters",
+        "covariance"}},
+      {"flags", {"name", "term", "text"}},
+      {"provenance",
+       {"created_by", "created_at", "command", "raw_files", "fit_from_s", "fit_to_s", "nu_origin",
+        "bulk_origin"}},
+      {"raw_files", {"path", "sha256"}}};
+  static const std::set<std::string> kNone;
+  const auto found = kKnown.find(section);
+  return found == kKnown.end() ? kNone : found->second;
+}
+
+void carry_unknown(const Json& original, Json& fresh, const std::string& section) {
+  const auto& known = known_keys(section);
+  for (const auto& [key, value] : original.items()) {
+    if (known.count(key) == 0) {
+      fresh[key] = value;
+    } else if (fresh.contains(key) && value.is_object() && fresh[key].is_object()) {
+      carry_unknown(value, fresh[key], key);
+    } else if (fresh.contains(key) && value.is_array() && fresh[key].is_array() &&
+               value.size() == fresh[key].size()) {
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        if (value[i].is_object() && fresh[key][i].is_object()) {
+          carry_unknown(value[i], fresh[key][i], key);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Json parse_json(const std::string& text, const std::string& name) {
+  std::vector<std::set<std::string>> keys;  // of the objects not yet closed
+  std::string repeated;
+  bool is_deep = false;  // deeper nesting could overflow the stack when the text is written again
+  const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    is_deep = is_deep || depth > 64;
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key &&
+        !keys.back().insert(parsed.get<std::string>()).second) {
+      repeated = parsed.get<std::string>();
+    }
+    return true;
+  };
+  Json json;
+  try {
+    json = Json::parse(text, watch);
+  } catch (const Json::exception& error) {
+    std::string what = error.what();  // "[json.exception.parse_error.101] parse error at line ..."
+    const std::size_t tag = what.find("] ");
+    if (tag != std::string::npos) what.erase(0, tag + 2);
+    throw std::runtime_error(name + ": is not JSON: " + what);
+  }
+  if (is_deep) throw std::runtime_error(name + ": is nested deeper than 64 levels, the limit");
+  if (!repeated.empty()) throw std::runtime_error(name + ": key '" + repeated + "' is given twice");
+  return json;
+}
+
+void carry_unknown_keys(const Json& original, Json& fresh) {
+  carry_unknown(original, fresh, "");
+}
+
+}  // namespace viscard
