@@ -45,7 +45,8 @@ double error_at(const ReducedSpan& span, const ViscoelasticSystem& body,
   const double nearest = std::max(smallest_singular_value(lu), kNearestPole);
   double largest = 0.0;
   for (const Eigen::VectorXd& load : loads) {
-    const Eigen::VectorXcd c = lu.solve((span.basis().transpose() * load).cast<Complex>());
+    const Eigen::VectorXcd c =
+        lu.solve(Eigen::VectorXcd((span.basis().transpose() * load).cast<Complex>()));
     const Eigen::VectorXcd residual =
         load.cast<Complex>() - span.image_of(m.shear, m.bulk, omega2, c);
     const double size =
