@@ -26,6 +26,17 @@ CardLine line_of(const std::string& text, std::size_t at) {
   return {static_cast<int>(newlines) + 1, ""};
 }
 
+std::optional<Match> first_match(const std::string& text, const std::string& pattern) {
+  std::smatch found;
+  if (!std::regex_search(text, found, std::regex(pattern))) return std::nullopt;
+  Match match;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    match.group.push_back(found[i].str());
+    match.at.push_back(static_cast<std::size_t>(found.position(i)));
+  }
+  return match;
+}
+
 NamedNumbers named_lists(const std::string& text, const std::string& pattern) {
   NamedNumbers out;
   const std::regex expression(pattern);

@@ -4,6 +4,7 @@
 #include "io/cards/deck.h"
 #include "io/cards/known_mistakes.h"
 #include "io/cards/material_difference.h"
+#include "io/cards/named_values.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
 #include "models/material/prony_series.h"
@@ -12,7 +13,6 @@
 
 #include <cmath>
 #include <map>
-#include <regex>
 #include <stdexcept>
 
 namespace viscard {
@@ -92,25 +92,27 @@ void read_comsol(const std::string& text, ReadCard& card) {
   card.units_were_stated = true;
   std::map<int, CardBranch> branches;
   bool has_young = false;
-  const std::regex row("^\\s*(\\w+)\\s+([-+.\\deE]+)(?:\\[([^\\]]*)\\])?(?:\\s.*)?$");
-  const std::regex suffix("^(.*_)?(Einf|E_inf|nuinf|nu|rho|Tref|C1|C2|G\\d+|tau\\d+)$");
+  const char* row = "^\\s*(\\w+)\\s+([-+.\\deE]+)(?:\\[([^\\]]*)\\])?(?:\\s.*)?$";
+  const char* suffix = "^(.*_)?(Einf|E_inf|nuinf|nu|rho|Tref|C1|C2|G\\d+|tau\\d+)$";
   for (const CardLine& line : card_lines(text, "%")) {
-    std::smatch match, role;
-    if (!std::regex_match(line.text, match, row)) continue;
-    const std::string name = match[1].str(), unit = match[3].str();
-    if (!std::regex_match(name, role, suffix)) continue;
-    const std::string kind = role[2].str();
+    const auto match = first_match(line.text, row);
+    if (!match) continue;
+    const std::string& name = match->group[1];
+    const std::string& unit = match->group[3];
+    const auto role = first_match(name, suffix);
+    if (!role) continue;
+    const std::string& kind = role->group[2];
     if (kind == "Tref" || kind == "C1" || kind == "C2") {
-      read_shift(kind, card_number(match[2].str(), line, name), unit, card);
+      read_shift(kind, card_number(match->group[2], line, name), unit, card);
       continue;
     }
     const double factor = unit_factor(unit, line);
-    const double number = card_number(match[2].str(), line, name);
+    const double number = card_number(match->group[2], line, name);
     const double value = factor < 1.0 ? number / std::round(1.0 / factor) : number * factor;
     if (kind == "Einf" || kind == "E_inf") {
       card.numbers.young = value;
       has_young = true;
-      if (role[1].length() > 0) card.name = role[1].str().substr(0, role[1].str().size() - 1);
+      if (!role->group[1].empty()) card.name = role->group[1].substr(0, role->group[1].size() - 1);
     } else if (kind == "nuinf" || kind == "nu") {
       card.numbers.poisson = value;
     } else if (kind == "rho") {

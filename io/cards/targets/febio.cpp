@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <regex>
 #include <stdexcept>
 
 namespace viscard {
@@ -58,11 +57,9 @@ std::string without_xml_comments(std::string text) {
 
 // The number in <tag ...>number</tag>.
 std::optional<double> tag_value(const std::string& text, const std::string& tag) {
-  const std::regex pattern("<" + tag + "(\\s[^>]*)?>([^<]*)</" + tag + ">");
-  std::smatch match;
-  if (!std::regex_search(text, match, pattern)) return std::nullopt;
-  return card_number(std::string(trimmed(match[2].str())),
-                     line_of(text, static_cast<std::size_t>(match.position(2))), tag);
+  const auto match = first_match(text, "<" + tag + "(\\s[^>]*)?>([^<]*)</" + tag + ">");
+  if (!match) return std::nullopt;
+  return card_number(std::string(trimmed(match->group[2])), line_of(text, match->at[2]), tag);
 }
 
 double required_tag(const std::string& text, const std::string& tag) {
@@ -74,10 +71,10 @@ double required_tag(const std::string& text, const std::string& tag) {
 // The first viscoelastic material as a separate text, with the newlines before it. If there is
 // none, the whole text: the reader then reports the type that it finds.
 std::string viscoelastic_material(const std::string& text) {
-  const std::regex one("<material\\s[^>]*type\\s*=\\s*[\"'](uncoupled )?viscoelastic[\"']");
-  std::smatch match;
-  if (!std::regex_search(text, match, one)) return text;
-  const auto begin = static_cast<std::size_t>(match.position(0));
+  const auto match =
+      first_match(text, "<material\\s[^>]*type\\s*=\\s*[\"'](uncoupled )?viscoelastic[\"']");
+  if (!match) return text;
+  const std::size_t begin = match->at[0];
   const std::size_t end = text.find("</material>", begin);
   const std::string before(static_cast<std::size_t>(line_of(text, begin).number - 1), '\n');
   return before + text.substr(begin, end == std::string::npos ? end : end - begin);
@@ -100,16 +97,11 @@ void read_child(const std::string& text, const std::string& type, ReadCard& card
 
 void read_febio(const std::string& commented, ReadCard& card) {
   const std::string text = viscoelastic_material(without_xml_comments(commented));
-  std::smatch match;
-  if (!std::regex_search(text, match,
-                         std::regex("<material\\s[^>]*type\\s*=\\s*[\"']([^\"']*)[\"']"))) {
-    throw std::runtime_error("the card has no <material type=\"...\">");
-  }
-  read_child(text, match[1].str(), card);
-  if (std::regex_search(text, match,
-                        std::regex("<material\\s[^>]*name\\s*=\\s*[\"']([^\"']*)[\"']"))) {
-    card.name = match[1].str();
-  }
+  const auto type = first_match(text, "<material\\s[^>]*type\\s*=\\s*[\"']([^\"']*)[\"']");
+  if (!type) throw std::runtime_error("the card has no <material type=\"...\">");
+  read_child(text, type->group[1], card);
+  const auto name = first_match(text, "<material\\s[^>]*name\\s*=\\s*[\"']([^\"']*)[\"']");
+  if (name) card.name = name->group[1];
   card.numbers.density = tag_value(text, "density").value_or(0.0);
   double sum = 0.0;
   for (int i = 1; i <= 6; ++i) {

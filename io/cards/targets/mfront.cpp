@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <regex>
-
 namespace viscard {
 namespace {
 
@@ -125,9 +123,8 @@ void read_mfront(const std::string& commented, ReadCard& card) {
   }
   const NamedNumbers named =
       named_lists(text, "@Parameter\\s+\\w+\\s+(\\w+)\\s*(?:\\[\\s*\\w+\\s*\\])?\\s*=\\s*([^;]*);");
-  std::smatch match;
-  if (std::regex_search(text, match, std::regex("@Behaviour\\s+(\\w+)")))
-    card.name = match[1].str();
+  const auto name = first_match(text, "@Behaviour\\s+(\\w+)");
+  if (name) card.name = name->group[1];
   card.numbers.young = one_of(named, "E0");
   card.numbers.poisson = one_of(named, "nu0");
   const std::size_t count = named.count("tau") > 0 ? named.at("tau").size() : 0;

@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <regex>
-
 namespace viscard {
 namespace {
 
@@ -58,15 +56,12 @@ void read_moose(const std::string& commented, ReadCard& card) {
       text,
       "(young_modulus|youngs_modulus|poisson_ratio|poissons_ratio|creep_modulus|"
       "creep_viscosity|creep_ratio|prop_values)\\s*=\\s*('[^']*'|\"[^\"]*\"|[^\\s\\[]+)");
-  std::smatch match;
-  if (std::regex_search(text, match,
-                        std::regex("\\[(?:\\./)?(\\w+)\\]\\s*type\\s*=\\s*(Gen|ComputeIso)"))) {
-    card.name = match[1].str();
-  }
+  const auto name = first_match(text, "\\[(?:\\./)?(\\w+)\\]\\s*type\\s*=\\s*(Gen|ComputeIso)");
+  if (name) card.name = name->group[1];
   const bool is_elastic = named.count("young_modulus") == 0;
   card.numbers.young = one_of(named, is_elastic ? "youngs_modulus" : "young_modulus");
   card.numbers.poisson = one_of(named, is_elastic ? "poissons_ratio" : "poisson_ratio");
-  if (std::regex_search(text, std::regex("prop_names\\s*=\\s*['\"]?density"))) {
+  if (first_match(text, "prop_names\\s*=\\s*['\"]?density")) {
     card.numbers.density = one_of(named, "prop_values");
   }
   const std::size_t count =
