@@ -21,6 +21,15 @@ std::string key_of(const ArrayScene& scene, const std::string& path) {
                      VISCARD_VERSION);
 }
 
+// Points finish in any order: the answer of a sweep holds each effect as it is at the point where
+// leaving it out costs most.
+void keep_largest(const std::vector<SceneEffect>& point, std::vector<SceneEffect>& sum) {
+  if (sum.empty()) sum = point;
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    if (point[i].estimate > sum[i].estimate) sum[i] = point[i];
+  }
+}
+
 }  // namespace
 
 SceneAnswer run_sweep(const SceneFile& file, const std::string& path, const SweepOutput& output,
@@ -49,11 +58,11 @@ SceneAnswer run_sweep(const SceneFile& file, const std::string& path, const Swee
     SceneAnswer kept = answer;
     keep_wanted(scene.wanted, kept);
     store.add(number[i], kept.results);
-    sum.unknowns = std::max(sum.unknowns, answer.unknowns);
-    if (answer.discretisation.degree >= sum.discretisation.degree) {
+    if (answer.unknowns > sum.unknowns) {
+      sum.unknowns = answer.unknowns;
       sum.discretisation = answer.discretisation;
     }
-    sum.effects = answer.effects;
+    keep_largest(answer.effects, sum.effects);
     progress.show(static_cast<double>(store.done().size()) / static_cast<double>(points.size()),
                   points[number[i]].label);
   });

@@ -1,8 +1,10 @@
 #include "io/basics/atomic_file.h"
 #include "io/cli/scene/array_sweep.h"
+#include "models/scene/plan.h"
 #include "tests/io/scenes/scene_text.h"
 #include "tests/support/run_command.h"
 
+#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -46,6 +49,29 @@ std::string rows_of(const std::filesystem::path& folder) {
 }
 
 }  // namespace
+
+TEST_CASE("the answer of a sweep holds each effect's largest estimate over the points",
+          "[cli][scene][array]") {
+  const SceneText scene(kMap);
+  const CommandOutcome outcome = run_command({"simulate", scene.path(), "--json"});
+  REQUIRE(outcome.status == 0);
+  const SceneFile file = read_scene(scene.path());
+  std::map<std::string, double> largest;
+  for (const SweepPoint& point : points_of(std::get<ArrayScene>(file.scene), file.sweep)) {
+    for (const SceneEffect& effect : plan_effects(point.scene).effects) {
+      largest[effect.name] = std::max(largest[effect.name], effect.estimate);
+    }
+  }
+  const nlohmann::json answer = nlohmann::json::parse(outcome.out);
+  int checked = 0;
+  for (const auto& effect : answer["effects"]) {
+    if (!effect["estimate"].is_number()) continue;
+    CAPTURE(effect["name"]);
+    CHECK(effect["estimate"] == largest.at(effect["name"]));
+    ++checked;
+  }
+  CHECK(checked > 2);
+}
 
 TEST_CASE("a sweep that was killed goes on and gives the same table", "[cli][scene][array]") {
   const SceneText scene(kMap);
