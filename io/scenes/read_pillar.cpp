@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <map>
-#include <stdexcept>
 
 namespace viscard {
 namespace {

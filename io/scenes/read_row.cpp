@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <map>
-#include <stdexcept>
 
 namespace viscard {
 namespace {

@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
-#include <complex>
 
 // Decompositions of dense matrices of any size, compiled once. Eigen's are templates: each file that
 // uses one directly compiles it again, which takes 2 to 7 s per decomposition and file. All methods

@@ -4,7 +4,6 @@
 #include "rig/lines/rig_error.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace viscard {

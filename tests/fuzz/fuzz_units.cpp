@@ -1,7 +1,6 @@
 // Any text is read as a quantity or refused by one exception with a text.
 #include "io/basics/units.h"
 
-#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 

@@ -8,7 +8,6 @@
 
 #include <atomic>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace viscard {

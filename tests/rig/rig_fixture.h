@@ -12,9 +12,7 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <ostream>
 
 namespace po = boost::program_options;
 

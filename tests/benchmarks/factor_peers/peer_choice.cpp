@@ -2,7 +2,6 @@
 
 #include "models/pillar/system/supernodal_factor.h"
 
-#include <algorithm>
 #include <ctime>
 #include <stdexcept>
 

@@ -4,7 +4,6 @@
 #include <Eigen/SparseCore>
 
 #include <memory>
-#include <string>
 
 // Which factorisation the pillar solver uses in this benchmark, and the processor time that its
 // parts take.

@@ -10,7 +10,6 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <memory>
 
 using namespace viscard;
 using namespace viscard::test;

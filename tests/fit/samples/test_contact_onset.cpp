@@ -8,9 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <random>
-#include <string>
 
 using namespace viscard;
 using namespace viscard::test;

@@ -9,7 +9,6 @@
 #include <Eigen/QR>
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 

@@ -9,7 +9,6 @@
 #include <limits>
 #include <regex>
 #include <set>
-#include <sstream>
 
 using namespace viscard;
 using namespace viscard::test;

@@ -3,8 +3,6 @@
 
 #include <catch2/catch.hpp>
 
-#include <cmath>
-#include <stdexcept>
 
 using namespace viscard;
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <variant>
 
 namespace viscard::test {
 

@@ -7,10 +7,6 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <functional>
 #include <sstream>
 
 using namespace viscard;

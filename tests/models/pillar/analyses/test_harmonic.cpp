@@ -10,10 +10,8 @@
 
 #include <catch2/catch.hpp>
 
-#include <chrono>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 
 using namespace viscard;

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
 using namespace viscard;

@@ -8,7 +8,6 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <complex>
 #include <limits>
 
 using namespace viscard;
