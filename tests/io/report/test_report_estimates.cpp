@@ -1,6 +1,7 @@
 #include "io/report/report_estimates.h"
 #include "io/report/report_figures.h"
 #include "io/report/report_numbers.h"
+#include "io/report/report_tables.h"
 #include "tests/io/report/synthetic_report.h"
 
 #include <catch2/catch.hpp>
