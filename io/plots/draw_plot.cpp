@@ -1,5 +1,4 @@
 #include "io/plots/plot.h"
-
 #include "io/plots/plot_points.h"
 #include "io/plots/plot_script.h"
 #include "io/plots/plot_svg.h"

@@ -1,7 +1,6 @@
-#include "io/scenes/scene_file.h"
-
 #include "io/basics/atomic_file.h"
 #include "io/config/config_fields.h"
+#include "io/scenes/scene_file.h"
 #include "io/scenes/scene_words.h"
 
 #include <toml++/toml.h>
