@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
-
 // Decompositions of dense matrices of any size, compiled once. Eigen's are templates: each file that
 // uses one directly compiles it again, which takes 2 to 7 s per decomposition and file. All methods
 // and their accuracy are described in Golub & Van Loan, Matrix Computations (2013), ch. 3 to 5, 8.

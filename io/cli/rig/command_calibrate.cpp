@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-
 namespace po = boost::program_options;
 
 namespace viscard {

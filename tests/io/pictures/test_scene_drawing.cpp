@@ -3,7 +3,6 @@
 #include "tests/io/scenes/scene_text.h"
 #include "tests/support/run_command.h"
 
-
 using namespace viscard;
 using namespace viscard::test;
 

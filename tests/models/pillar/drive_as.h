@@ -1,6 +1,5 @@
 #pragma once
 
-
 namespace viscard::test {
 
 // The drive of a scene as one of its alternatives; throws if it is another.

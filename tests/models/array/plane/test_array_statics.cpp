@@ -4,7 +4,6 @@
 
 #include <catch2/catch.hpp>
 
-
 using namespace viscard;
 using namespace viscard::test;
 
