@@ -92,7 +92,7 @@ TEST_CASE("the work of the plate is the strain energy, and a plate is stiffer th
   SceneAnswer answer;
   answer.discretisation = mesh;
   analysis_of(scene).run(scene, answer);
-  const PillarModel model = model_of(scene, Motion::kLongitudinal, answer);
+  const PillarModel model = model_of(scene, Motion::kLongitudinal, mesh);
   const double force_N = value_of(answer, "top_force");
   const Eigen::VectorXd per_N = model.top_traction() / model.top_traction().sum();
   const PillarState state = model.solve(force_N * per_N);
@@ -199,9 +199,7 @@ TEST_CASE("a strip takes E b u/L per metre, and a film left out changes force wi
 TEST_CASE("a force on a wider tip stays the same force", "[pillar]") {
   PillarScene scene = moved_pillar(-1e-6, .33);
   scene.geometry.tip = {10e-6, 10e-6};
-  SceneAnswer on_mesh;
-  on_mesh.discretisation = Discretisation{};
-  const PillarModel model = model_of(scene, Motion::kLongitudinal, on_mesh);
+  const PillarModel model = model_of(scene, Motion::kLongitudinal, Discretisation{});
   CHECK(unit_top_force(model).sum() == Approx(1.0).epsilon(1e-12));
 }
 

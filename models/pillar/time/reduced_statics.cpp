@@ -1,6 +1,5 @@
-#include "models/pillar/time/model_reduction.h"
-
 #include "models/material/material.h"
+#include "models/pillar/time/model_reduction.h"
 #include "models/pillar/time/reduced_span.h"
 
 #include <Eigen/Cholesky>
