@@ -1,6 +1,5 @@
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
-#include "models/pillar/analyses/top_load.h"
 #include "models/scene/common/drive_parts.h"
 #include "models/scene/scene_effects.h"
 

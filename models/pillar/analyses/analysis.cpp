@@ -1,6 +1,5 @@
 #include "models/pillar/analyses/analysis.h"
 
-#include "models/pillar/analyses/top_load.h"
 #include "models/pillar/time/spectrum.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/analyses/top_load.h"
 #include "models/pillar/body/pillar_modes.h"
 #include "models/pillar/mesh/pillar_mesh.h"
 #include "models/pillar/mesh/scene_mistake.h"

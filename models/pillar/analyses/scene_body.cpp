@@ -1,7 +1,6 @@
 #include "models/pillar/analyses/scene_body.h"
 
 #include "models/pillar/analyses/analysis.h"
-#include "models/pillar/analyses/top_load.h"
 #include "models/pillar/body/piezo_static.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/time/viscoelastic_pillar.h"

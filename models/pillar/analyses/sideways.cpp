@@ -68,10 +68,6 @@ void check_quadrants(const PillarScene& scene) {
 
 }  // namespace
 
-bool reads_quadrants(const PillarScene& scene) {
-  return is_lateral(scene) && scene.electrodes && scene.electrodes->quadrants;
-}
-
 void check_sideways(const PillarScene& scene) {
   if (!scene.electrodes) return;
   if (!scene.electrodes->quadrants) refuse_round_electrode();

@@ -9,10 +9,6 @@
 
 namespace viscard {
 
-bool moves_top(const PillarScene& scene) {
-  return displacement_m(scene).has_value();
-}
-
 double top_pressure_Pa(const PillarScene& scene, double displacement_per_Pa_m,
                        double moved_by_voltage_m) {
   if (!moves_top(scene)) return pressure_Pa(scene);

@@ -17,8 +17,6 @@ namespace viscard {
 //   p = (u - a V)/s,
 // s: displacement per Pa; a V: the displacement of a free top by a voltage on the electrode.
 
-bool moves_top(const PillarScene& scene);
-
 // Mean pressure or shear on the top, Pa.
 double top_pressure_Pa(const PillarScene& scene, double displacement_per_Pa_m,
                        double moved_by_voltage_m = 0.0);
@@ -44,8 +42,7 @@ void check_sideways(const PillarScene& scene);
 void run_sideways(const PillarScene& scene, SceneAnswer& answer);
 std::vector<SectionGrid> sideways_fields(const PillarScene& scene, const Discretisation& mesh);
 
-// In time or frequency: checks, and whether an electrode in quadrants reads the load.
+// In time or frequency: checks.
 void check_sideways_in_time(const PillarScene& scene);
-bool reads_quadrants(const PillarScene& scene);
 
 }  // namespace viscard

@@ -38,6 +38,14 @@ std::optional<double> displacement_m(const PillarScene& scene) {
       std::optional<double>());
 }
 
+bool moves_top(const PillarScene& scene) {
+  return displacement_m(scene).has_value();
+}
+
+bool reads_quadrants(const PillarScene& scene) {
+  return is_lateral(scene) && scene.electrodes && scene.electrodes->quadrants;
+}
+
 double base_acceleration_m_s2(const PillarScene& scene) {
   return part_of(
       scene.drive, [](const auto& d) requires requires { d.base_acceleration_m_s2; } {

@@ -39,6 +39,8 @@ LoadPlace load_place(const PillarScene& scene);
 bool is_lateral(const PillarScene& scene);
 double pressure_Pa(const PillarScene& scene);  // at rest or amplitude; lateral: shear
 std::optional<double> displacement_m(const PillarScene& scene);
+bool moves_top(const PillarScene& scene);        // by a given displacement
+bool reads_quadrants(const PillarScene& scene);  // sideways, with an electrode in quadrants
 double base_acceleration_m_s2(const PillarScene& scene);
 double drive_V(const PillarScene& scene);
 bool plate_on_top(const PillarScene& scene);

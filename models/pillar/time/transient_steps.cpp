@@ -1,8 +1,7 @@
-#include "models/pillar/time/transient_run.h"
-
 #include "models/maths/require.h"
 #include "models/pillar/time/inertial_stepper.h"
 #include "models/pillar/time/modal_response.h"
+#include "models/pillar/time/transient_run.h"
 
 #include <algorithm>
 #include <cmath>
