@@ -84,7 +84,8 @@ double galerkin_factor(double r, double nu, Index pairs) {
     Eigen::VectorXd normal(kPanels * points), shear(normal.size()), coupling(normal.size());
     for (Index k = 0; k < normal.size(); ++k) {
       const auto i = static_cast<std::size_t>(k % points);
-      const double x = static_cast<double>(k / points) + panel.points[i];
+      const Index whole = k / points;
+      const double x = static_cast<double>(whole) + panel.points[i];
       const Compliance compliance = layer_less_half_space(x, nu);
       bessel.col(k) = spherical_bessel(r * x, count);
       normal[k] = r * panel.weights[i] * compliance.normal;

@@ -1,9 +1,6 @@
 #include "models/material/material.h"
-<<<<<<< HEAD:models/pillar/time/model_reduction.cpp
 #include "models/maths/dense.h"
-=======
 #include "models/pillar/time/model_reduction.h"
->>>>>>> h_lm:models/pillar/time/reduced_statics.cpp
 #include "models/pillar/time/reduced_span.h"
 
 #include <algorithm>

@@ -92,11 +92,7 @@ TEST_CASE("the work of the plate is the strain energy, and a plate is stiffer th
   SceneAnswer answer;
   answer.discretisation = mesh;
   analysis_of(scene).run(scene, answer);
-<<<<<<< HEAD
-  const PillarModel model = model_of(scene, Motion::kLongitudinal, answer.discretisation);
-=======
   const PillarModel model = model_of(scene, Motion::kLongitudinal, mesh);
->>>>>>> h_lm
   const double force_N = value_of(answer, "top_force");
   const Eigen::VectorXd per_N = model.top_traction() / model.top_traction().sum();
   const PillarState state = model.solve(force_N * per_N);
