@@ -1,5 +1,4 @@
 #include "io/cli/rig/live_view.h"
-#include "io/plots/plot.h"
 #include "io/plots/plot_svg.h"
 
 #include <fmt/format.h>
@@ -7,12 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 namespace viscard {
 namespace {
 
 constexpr std::size_t kSparkWidth = 24;
+constexpr int kWidth_px = 960, kHeight_px = 420, kMargin_px = 56;
 
 constexpr const char* kStyle =
     "body{font:16px/1.5 system-ui,sans-serif;margin:2rem auto;max-width:62rem;color:#222}"
@@ -20,25 +19,64 @@ constexpr const char* kStyle =
     "dl{display:flex;gap:2.5rem;margin:0 0 1rem}dt{color:#666;font-size:.8rem}"
     "dd{margin:0;font-size:1.5rem;font-variant-numeric:tabular-nums}";
 
-// The limit is drawn once the force comes close to it.
+struct Scale {
+  double low = 0.0, high = 1.0;
+  double from_px = 0.0, to_px = 1.0;
+  double px(double value) const {
+    return from_px + (value - low) / (high - low) * (to_px - from_px);
+  }
+};
+
+// A step of 1, 2 or 5 times a power of ten, of which the range has about five.
+double tick_step(double range) {
+  const double raw = range / 5.0;
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  const double share = raw / power;
+  return power * (share < 1.5 ? 1.0 : share < 3.5 ? 2.0 : share < 7.5 ? 5.0 : 10.0);
+}
+
+std::string ticks(const Scale& x, const Scale& y) {
+  std::string svg;
+  const double dx = tick_step(x.high - x.low), dy = tick_step(y.high - y.low);
+  for (double t = std::ceil(x.low / dx) * dx; t <= x.high; t += dx) {
+    svg += fmt::format("<text x='{:.1f}' y='{}' text-anchor='middle'>{:g}</text>", x.px(t),
+                       kHeight_px - kMargin_px + 20, t);
+  }
+  for (double f = std::ceil(y.low / dy) * dy; f <= y.high; f += dy) {
+    const double shown = std::abs(f) < 1e-9 * dy ? 0.0 : f;
+    svg += fmt::format(
+        "<line x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}' stroke='#ddd'/>"
+        "<text x='{3}' y='{4:.1f}' text-anchor='end'>{5:g}</text>",
+        kMargin_px, kWidth_px - 10, y.px(f), kMargin_px - 8, y.px(f) + 5, shown);
+  }
+  return svg;
+}
+
 std::string curve(const LiveHistory& history, double limit_N) {
   const auto& t = history.time_s();
   const auto& f = history.force_N();
   if (t.size() < 2 || !(t.back() > t.front())) return "<p>Waiting for readings.</p>";
-  PlotPanel panel{.x = {.label = "time (s)"}, .y = {.label = "force (N)"}};
-  panel.series.push_back({.x = t, .y = f});
-  if (limit_N < 1.05 * *std::max_element(f.begin(), f.end())) {
-    panel.series.push_back({.label = "limit",
-                            .x = {t.front(), t.back()},
-                            .y = {limit_N, limit_N},
-                            .ink = Ink::kVermillion});
+  const auto [least, most] = std::minmax_element(f.begin(), f.end());
+  const double margin = std::max(1e-3, 0.05 * (*most - *least));
+  const Scale x{t.front(), t.back(), 1.0 * kMargin_px, kWidth_px - 10.0};
+  const Scale y{*least - margin, *most + margin, 1.0 * kHeight_px - kMargin_px, 10.0};
+  std::string svg = fmt::format(
+      "<svg viewBox='0 0 {} {}' role='img' aria-label='force against time' font-size='14'>",
+      kWidth_px, kHeight_px);
+  svg += ticks(x, y);
+  if (limit_N < y.high) {
+    svg += fmt::format("<line x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}' stroke='#d55e00'/>",
+                       kMargin_px, kWidth_px - 10, y.px(limit_N));
   }
-  try {
-    return svg_from_plot({.title = "Force against time", .panels = {panel}, .height_px = 420},
-                         "live");
-  } catch (const std::runtime_error& error) {  // a run does not need gnuplot
-    return "<p>" + escaped_markup(error.what()) + "</p>";
+  svg += "<polyline fill='none' stroke='#0072b2' stroke-width='1.5' points='";
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    svg += fmt::format("{:.1f},{:.1f} ", x.px(t[i]), y.px(f[i]));
   }
+  return svg + fmt::format(
+                   "'/><text x='{}' y='{}' text-anchor='middle'>time (s)</text>"
+                   "<text x='12' y='{}' transform='rotate(-90 12 {})' "
+                   "text-anchor='middle'>force (N)</text></svg>",
+                   kWidth_px / 2, kHeight_px - 12, kHeight_px / 2, kHeight_px / 2);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ TEST_CASE("the live page reloads until the run is over and escapes its text", "[
   CHECK(contains(page, "http-equiv='refresh'"));
   CHECK(contains(page, "a &amp; b"));
   CHECK(contains(page, "&lt;b&gt;"));
-  CHECK(contains(page, "rgb(213,  94,   0)"));  // the limit lies within the picture
+  CHECK(contains(page, "#d55e00"));  // the limit lies within the picture
 }
 
 }  // namespace viscard
