@@ -60,7 +60,7 @@ TEST_CASE("one relaxing shear term makes one Young's term with its time stretche
 TEST_CASE("unphysical materials are refused with their value", "[models]") {
   Material material = reference_material(false);
   material.terms[1].g = 0.995;
-  CHECK_THROWS_WITH(validate(material), Catch::Contains("must stay below 1"));
+  CHECK_THROWS_WITH(validate(material), Catch::Contains("must be below 1"));
   material = reference_material(false);
   material.nu = 0.51;
   CHECK_THROWS_WITH(validate(material), Catch::Contains("Poisson"));

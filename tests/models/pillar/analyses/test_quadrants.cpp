@@ -223,7 +223,7 @@ TEST_CASE("a charge amplifier reads a quadrant", "[pillar]") {
         Approx(curve_of(answer, "quadrant_charge_magnitude").value[1] / 1e-12).epsilon(2e-4));
   CHECK(value_of(answer, "readout_time_constant") == Approx(0.01).epsilon(1e-12));
   scene.readout->kind = ReadoutKind::kVoltage;
-  CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("width of a gap"));
+  CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("between touching quadrants"));
   scene.readout->kind = ReadoutKind::kCharge;
   scene.electrodes->quadrants = false;
   CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("quadrants = true"));
