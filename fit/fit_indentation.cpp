@@ -156,7 +156,7 @@ ContactTable contact_table(const IndentationData& data) {
   table.n_left_out = clean.n_left_out();
   table.n_spikes = spikes.size();
   std::vector<Column>& columns = table.columns;
-  for (const std::size_t i : {0, 1, 2}) {
+  for (const std::size_t i : {0U, 1U, 2U}) {
     columns.emplace_back(clean.column(i).begin(), clean.column(i).end());
   }
   check_depth(columns[1], columns[2]);

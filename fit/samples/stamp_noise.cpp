@@ -115,7 +115,7 @@ double log_likelihood(const StageResidual& left, const Eigen::VectorXd& squares,
 }  // namespace
 
 StageNoise stage_noise(const StageResidual& left) {
-  const StageNoise plain = plain_noise(left);
+  StageNoise plain = plain_noise(left);
   const ForceCurve curve(left);
   const double usual_N = usual_size(left.residual_N);
   if (curve.empty() || !(usual_N > 0.0)) return plain;

@@ -21,7 +21,7 @@ int days_of(int month, int year) {
 bool is_iso_day(const std::string& text) {
   const std::string day = text.substr(0, 10);
   if (day.size() < 10 || day[4] != '-' || day[7] != '-') return false;
-  for (const std::size_t i : {0, 1, 2, 3, 5, 6, 8, 9}) {
+  for (const std::size_t i : {0U, 1U, 2U, 3U, 5U, 6U, 8U, 9U}) {
     if (day[i] < '0' || day[i] > '9') return false;
   }
   if (text.size() > 10 && text[10] != 'T' && text[10] != ' ') return false;

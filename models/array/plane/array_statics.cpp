@@ -49,7 +49,7 @@ ArrayModel::ArrayModel(const ArrayGeometry& geometry, const ArrayElectrodes& ele
 }
 
 CondensedPiece ArrayModel::piece(const ArrayMesh& mesh, const ArrayMedia& media, int degree,
-                                 FilmPiece film) {
+                                 const FilmPiece& film) {
   CondensedPiece made = condensed_film(film, mesh, media, electrodes_.grounded, degree);
   unknowns_ += made.unknowns;
   return made;

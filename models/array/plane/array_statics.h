@@ -34,7 +34,8 @@ class ArrayModel {
   int unknowns() const { return unknowns_; }
 
  private:
-  CondensedPiece piece(const ArrayMesh& mesh, const ArrayMedia& media, int degree, FilmPiece film);
+  CondensedPiece piece(const ArrayMesh& mesh, const ArrayMedia& media, int degree,
+                       const FilmPiece& film);
 
   ArrayGeometry geometry_;
   ArrayElectrodes electrodes_;

@@ -120,7 +120,7 @@ Eigen::VectorXcd ArrayTransfer::at(Complex s, Eigen::VectorXd* slope) const {
   const auto out = [&](const Eigen::VectorXcd& of) {
     return Eigen::VectorXcd(soft * (out_pillar_ * of) + out_film_ * of);
   };
-  const Eigen::VectorXcd value =
+  Eigen::VectorXcd value =
       soft * static_pillar_.cast<Complex>() + static_film_.cast<Complex>() + out(weight);
   if (slope != nullptr) *slope = value.cwiseAbs() + out(steep).cwiseAbs();
   return value;

@@ -234,7 +234,7 @@ Buckling search_buckling(const PillarModel& axial, const PillarModel& lateral, i
 }  // namespace
 
 Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int count) {
-  const Buckling found = search_buckling(axial, lateral, count);
+  Buckling found = search_buckling(axial, lateral, count);
   if (found.pressure_Pa > 0.0) return found;
   throw std::runtime_error(
       "no buckling load of the whole pillar was found beside local modes at the rim of the bond. A "

@@ -51,8 +51,8 @@ struct ScaledOperator {
 // that have not converged.
 class Lanczos : public Spectra::SymEigsBase<ScaledOperator, InnerProduct> {
  public:
-  Lanczos(ScaledOperator op, const InnerProduct& B, int count, int space)
-      : SymEigsBase(std::move(op), B, count, space) {}
+  Lanczos(const ScaledOperator& op, const InnerProduct& B, int count, int space)
+      : SymEigsBase(ScaledOperator(op), B, count, space) {}
   Eigen::VectorXd rough_values() const { return m_ritz_val.head(m_nev); }
 };
 

@@ -21,7 +21,7 @@ class StiffnessFactor {
   // Throws std::runtime_error if the matrix is singular or a pivot has the wrong sign.
   void factor(const SymmetricSparse& matrix);
   // `penalty` is the matrix C, scaled as it is in the factored matrix.
-  void constrain(SymmetricSparse penalty) { penalty_ = std::move(penalty); }
+  void constrain(const SymmetricSparse& penalty) { penalty_ = penalty; }
 
   // With a constraint, `pressure_source` (if given) receives the w whose penalty force C w equals
   // the force of the pressures; the pressures are the penalty modulus times the projected div w.
