@@ -39,9 +39,9 @@ std::string EmulatedAmplifier::convert(double force_N, bool is_cell_broken) {
 
 std::string EmulatedAmplifier::line(double counts, double time_s) const {
   const double since_s = (time_s - reset_s_) * (1.0 + 1e-6 * options_.clock_ppm);
-  const auto micros = static_cast<std::uint32_t>(options_.micros_at_reset +
-                                                 static_cast<std::uint64_t>(since_s * 1e6 + 0.5));
-  const std::string number = text_from_number(counts, 0);
+  const auto micros = static_cast<std::uint32_t>(
+      options_.micros_at_reset + static_cast<std::uint64_t>(std::llround(since_s * 1e6)));
+  std::string number = text_from_number(counts, 0);
   switch (options_.format) {
     case AmplifierFormat::kMicrosCounts:
       return std::to_string(micros) + "," + number;

@@ -48,7 +48,7 @@ constexpr std::size_t kSauterLength = 7;
 
 // The unit of a gauge that does not send one; N unless the rig file has another.
 std::string checked_unit(const std::string& unit) {
-  const std::string word = unit.empty() ? "N" : unit;
+  std::string word = unit.empty() ? "N" : unit;
   if (newtons_per_unit(word)) return word;
   throw RigError(
       "unit '" + unit +
