@@ -20,7 +20,9 @@ std::vector<CardLine> card_lines(const std::string& text, const std::string& com
 
 std::string upper(std::string_view text) {
   std::string out;
-  for (const unsigned char c : text) out += static_cast<char>(std::toupper(c));
+  for (const char c : text) {
+    out += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
   return out;
 }
 

@@ -74,7 +74,7 @@ void put_on_one_clock(CapturedRun& run) {
 // terms they take long and the figure would be too crowded to read.
 FittedFile fit_for_page(const std::string& path) {
   constexpr std::size_t kFewTerms = 6;
-  const FittedFile fitted = fit_file(path, {});
+  FittedFile fitted = fit_file(path, {});
   if (fitted.result.terms.size() > kFewTerms) return fitted;
   FitRequest request;
   request.options.with_profiles = true;

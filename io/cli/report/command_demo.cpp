@@ -109,7 +109,7 @@ class Demo {
   }
 
   fs::path run_report() {
-    const fs::path page = out_ / "report.html";
+    fs::path page = out_ / "report.html";
     std::vector<std::string> words{"report"};
     std::vector<fs::path> inputs;
     for (const DemoSpecimen& specimen : kSpecimens) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
 #include <utility>
 
@@ -25,7 +26,7 @@ void Progress::show(double fraction, const std::string& note) {
   last_drawn_ = now;
   fraction = std::clamp(fraction, 0.0, 1.0);
   constexpr int kWidth = 24;
-  const int filled = static_cast<int>(fraction * kWidth + 0.5);
+  const int filled = static_cast<int>(std::lround(fraction * kWidth));
   const double spent_s = std::chrono::duration<double>(now - started_).count();
   const std::string left =
       fraction > 0.02 ? fmt::format(" {:.0f} s left", spent_s * (1.0 - fraction) / fraction) : "";
