@@ -21,8 +21,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Averages of measured and fitted force for plots, in log time from the start of each motion; only
-// rows in contact.
+// Averages of measured and fitted force in contact for plots, in log time from each motion's start.
 void fill_curves(const StageModel& model, const IndentationData& data, const SpectralState& state,
                  const Eigen::VectorXd& residual_N, FitResult& result) {
   FitCurves& curves = result.curves;

@@ -30,9 +30,8 @@ struct IndentationData {
   std::vector<double> force_N;  // positive in compression; its zero is fitted
   std::vector<double> depth_m;  // into the specimen; negative before contact
 
-  // From a capture: moves on the time base of time_s. The start of each is only known to lie in
-  // [start_time_s - start_early_s, start_time_s + start_late_s]. The ramp comes first, then the
-  // moves in contact.
+  // From a capture: moves on the time base of time_s. Each starts within [start_time_s -
+  // start_early_s, start_time_s + start_late_s]. The ramp comes first, then the moves in contact.
   std::vector<StageMove> moves;
   double start_early_s = 0.0;
   double start_late_s = 0.0;

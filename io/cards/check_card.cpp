@@ -152,8 +152,7 @@ void compare(const Material& reference, CardCheck& check) {
   }
 }
 
-// The header of a card by viscard states E0. It shows that the numbers below were edited, even if
-// no material is given.
+// The header of a card by viscard states E0. It reveals edited numbers, even without a material.
 void compare_with_header(const std::string& text, CardCheck& check) {
   const std::string mark = "E0 (instantaneous) = ";
   const std::size_t at = text.find(mark);

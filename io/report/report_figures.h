@@ -57,8 +57,7 @@ std::optional<Plot> ratio_plot(const ReportInput& input,
 std::optional<Plot> spectrum_plot(const ReportInput& input,
                                   const std::vector<SpecimenEstimates>& estimates);
 
-// Relaxation and creep of the pillar relative to their first value, from the solver and exact, and
-// the relative error.
+// Relaxation and creep of the pillar over their first value, by solver and exact, and their error.
 std::optional<Plot> pillar_plot(const ReportInput& input,
                                 const std::vector<SpecimenEstimates>& estimates);
 

@@ -29,8 +29,7 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr std::size_t kMostDirect = 16;
 
 // Answers one frequency at a time. The tolerance of an output refers to |y| + |omega dy/domega|: a
-// curve is right if it is within the tolerance in amplitude or in frequency. Close to a pole no
-// mesh can give more.
+// curve is right within the tolerance in amplitude or frequency. Near a pole no mesh can give more.
 class Response {
  public:
   Response(const PillarScene& scene, const SceneBody& body, const ReducedBody& reduced)
