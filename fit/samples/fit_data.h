@@ -23,8 +23,7 @@ struct RelaxationData {
 
 // Flat-punch indentation, F(t) = c int E(t-s) d(depth)/ds ds + offset + drift t (fit/README.md, eq.
 // 2) with c = force_per_modulus_and_depth_m(contact). Without a contact c = 1 and the results are
-// stiffnesses in N/m. Depth is either measured (depth_m) or computed from the stage moves and the
-// frame's compliance.
+// stiffnesses in N/m. Depth is measured (depth_m) or follows from moves and frame compliance.
 struct IndentationData {
   std::vector<double> time_s;
   std::vector<double> force_N;  // positive in compression; its zero is fitted

@@ -134,16 +134,15 @@ void note_poles(const PillarScene& scene, const Sweep& sweep, SceneAnswer& answe
   if (count == 0) return;
   // A coarse mesh may resonate where the pillar does not; every answer reaches degree 5.
   if (harmonic_drive(scene).frequencies_Hz.size() == 1 && answer.discretisation.degree >= 5) {
-    throw std::runtime_error(
-        "at " + list +
-        " Hz the pillar is on a resonance, or a node between two, with too little damping: the "
-        "amplitude changes too sharply with frequency for the tolerance. Choose another frequency, "
-        "or a material with damping");
+    throw std::runtime_error("at " + list +
+                             " Hz the pillar is on a resonance, or a node between two, with too "
+                             "little damping: the amplitude changes too sharply with frequency for "
+                             "the tolerance. Choose another frequency, or a material with damping");
   }
   answer.notes.push_back(std::to_string(count) + " of the frequencies (" + list +
                          (count > 4 ? ", ..." : "") +
-                         " Hz) lie on a resonance or a node too sharp for the tolerance; the "
-                         "error column shows by how much");
+                         " Hz) lie on a resonance or a node too sharp for the tolerance; the error "
+                         "column shows by how much");
 }
 
 bool is_solved_one_by_one(const PillarScene& scene, const SceneBody& body) {
