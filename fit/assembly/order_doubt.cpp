@@ -22,9 +22,8 @@ double width(const Interval& interval) {
   return interval.high - interval.low;
 }
 
-// The lowest E_inf for which the sum of squares rises by at most 3.84 variances when one more term
-// at the end of the range replaces part of E_inf. The steps double; the root of the rise is
-// interpolated linearly.
+// The lowest E_inf at which the sum of squares rises by at most 3.84 variances if one more term at
+// the end of the range replaces part of E_inf. The steps double; the root is interpolated linearly.
 double lowest_equilibrium(const SpectralModel& fine, const SpectralFit& fit, double step) {
   const std::unique_ptr<SpectralModel> coarse = fine.coarse();
   const SpectralModel& model = coarse ? *coarse : fine;
@@ -84,8 +83,7 @@ void carry_order_doubt(const SpectralModel& model, const SpectralFit& fit,
   // From a tenth of the record on; ln_tau_max() is three times the record.
   const double late = model.ln_tau_max() - std::log(30.0);
   if (fit.state.n_terms() == 0 || fit.state.ln_tau.maxCoeff() < late) return;
-  // Only if the state's parameter is the material's own (no frame, no creep) and its sign is
-  // constrained.
+  // Only if the state's parameter is the material's (no frame, no creep) with a constrained sign.
   const bool is_own =
       model.n_common() > 0 && !model.common()[0].is_free &&
       series_from_state(fit.state).equilibrium_modulus_Pa == fit.state.coefficients[0] &&

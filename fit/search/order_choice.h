@@ -7,13 +7,11 @@
 
 namespace viscard {
 
-// Scores of every order of a path and the choice among them. fit/search/README.md, "Choice of the
-// order", states the rules.
+// Scores of all orders and the choice among them by fit/search/README.md, "Choice of the order".
 struct OrderScores {
   std::vector<OrderRow> rows;  // one is marked as chosen
   std::size_t chosen = 0;      // index in the path
-  // Higher orders describe the data much better, but have a time at the end of the range that the
-  // record can show.
+  // Higher orders describe the data much better, but have a time at the end of the record's range.
   bool wants_faster = false;
   bool wants_slower = false;
 };

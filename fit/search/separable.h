@@ -8,8 +8,7 @@
 
 namespace viscard {
 
-// Best coefficients at given times and nuisances. Moduli are not negative unless the model allows
-// it.
+// Best coefficients at given times and nuisances. Moduli are negative only if the model allows it.
 SpectralState solve_coefficients(const SpectralModel& model, const Eigen::VectorXd& ln_tau,
                                  const Eigen::VectorXd& nuisance);
 
@@ -19,8 +18,7 @@ SpectralState solve_coefficients(const SpectralModel& model, const Eigen::Vector
 struct RefineOptions {
   int max_iterations = 200;
   double tolerance = 1e-12;  // relative change of the residual sum of squares
-  // quick_search() also ends when a step gains less than this multiple of the model's
-  // sample_variance().
+  // quick_search() also ends if a step gains less than this times the model's sample_variance().
   double unseen_variances = 0.0;
   Eigen::Index held = -1;  // index of a time that quick_search() keeps fixed; -1: none
   // quick_search() gives up a fit that is not expected to fall below this sum of squares.
@@ -40,8 +38,7 @@ SpectralState quick_search(const SpectralModel& model, const SpectralState& star
 // that would leave the bounds or increase the residual.
 SpectralState polish(const SpectralModel& model, const SpectralState& start);
 
-// Derivative of the (weighted) model by all parameters, in the order common, moduli, ln tau,
-// nuisance.
+// Derivative of the (weighted) model by all parameters, ordered common, moduli, ln tau, nuisance.
 Eigen::MatrixXd full_jacobian(const SpectralModel& model, const SpectralState& state);
 
 }  // namespace viscard

@@ -48,8 +48,7 @@ std::string columns_there(const CsvTable& table) {
   throw std::runtime_error(table.file + ": " + what);
 }
 
-// Returns the scale of a column from the unit on the command line, the table's unit, or the suffix
-// of its name.
+// Returns a column's scale from the command line's unit, the table's unit or its name's suffix.
 UnitScale scale_of(const CsvTable& table, const CsvColumn& column, const Quantity& quantity,
                    const std::string& said_unit) {
   if (quantity.is_text) return {};
@@ -173,8 +172,7 @@ ColumnMap column_map_from_words(const std::vector<std::string>& words) {
     if (equals == std::string::npos || equals == 0 || equals + 1 == word.size()) {
       throw std::invalid_argument(
           "--column '" + word +
-          "' is not of the form NAME=COLUMN; write it like time_s=\"Time (s)\" or "
-          "force_N=2");
+          "' is not of the form NAME=COLUMN; write it like time_s=\"Time (s)\" or force_N=2");
     }
     const std::string name = word.substr(0, equals);
     const auto& names = column_names();

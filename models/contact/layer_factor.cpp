@@ -12,9 +12,8 @@
 namespace viscard {
 namespace {
 
-// 1 - K(x), where K is the compliance of the bonded layer in Hankel space over that of the
-// half-space (eq. 10). Numerator and denominator are divided by cosh 2x, so that they never
-// overflow.
+// 1 - K(x); K is the compliance of the bonded layer in Hankel space over that of the half-space
+// (eq. 10). Numerator and denominator are divided by cosh 2x, so they never overflow.
 double missing_compliance(double x, double nu) {
   const double k = 3.0 - 4.0 * nu;
   const double e = std::exp(-2.0 * x);
@@ -38,8 +37,7 @@ double layer_factor(double radius_over_thickness, double poisson_ratio) {
   require_layer(radius_over_thickness, poisson_ratio);
   if (radius_over_thickness == 0.0) return 1.0;
 
-  // Quadrature over the transform variable x from 0 to 30, beyond which 1 - K is below 1e-20, in
-  // panels of length 1.
+  // Quadrature over the transform variable x in panels of length 1; 1 - K is below 1e-20 beyond 30.
   static const QuadratureRule panel = gauss_legendre(24);
   constexpr int kPanels = 30;
   std::vector<double> x, weight;

@@ -10,8 +10,7 @@ namespace viscard {
 
 // Numbers as text and text as numbers. Nothing here depends on the locale.
 
-// A number as a person reads it in a message: "1e-14", "0.495", "nan". std::to_string would print
-// the first as 0.000000.
+// A number for a message: "1e-14", "0.495", "nan". std::to_string prints the first as 0.000000.
 std::string text_of(double value, int significant_digits = 6);
 
 // A length: "12.5 um".
@@ -28,8 +27,7 @@ std::string counted(std::size_t count, const std::string& one);
 // instruments cannot read "-0.000".
 std::string text_from_number(double value, int decimals);
 
-// The number that `text` holds, or nothing if anything but blanks stands beside it. nan and inf are
-// refused.
+// The number in `text`, or nothing if anything but blanks is beside it. nan and inf are refused.
 std::optional<double> number_from_text(std::string_view text);
 std::optional<long long> integer_from_text(std::string_view text);
 

@@ -16,9 +16,8 @@ struct ArrayMedia {
   PlaneState plane = PlaneState::kStress;
 };
 
-// Ports (plane_system.h) of a pillar, in this order: 1 Pa of pressure on its top, 1 Pa of shear
-// along +x on its top, then the inertia of each of its lowest modes on a fixed base (eq. A2), unit
-// mass norm.
+// Ports (plane_system.h) of a pillar, in order: 1 Pa of pressure on its top, 1 Pa of shear along +x
+// there, then the inertia of each of its lowest modes on a fixed base (eq. A2), unit mass norm.
 constexpr int kPressurePort = 0;
 constexpr int kShearPort = 1;
 constexpr int kFirstModePort = 2;
@@ -37,14 +36,12 @@ struct CondensedPillar {
     return -matrix.bottomRightCorner(port_count(), port_count());
   }
 };
-// `modes`: how many modes to give ports; 0 for statics. At nu = 0.5 in plane strain the bulk
-// modulus is 1e6 shear moduli, which moves answers by about 1e-6. Throws std::runtime_error if the
-// modes do not converge.
+// `modes`: how many get ports; 0 for statics. At nu = 0.5 in plane strain the bulk modulus is 1e6
+// shear moduli, which moves answers by about 1e-6. Throws std::runtime_error without convergence.
 CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media, int degree,
                                  int modes = 0);
 
-// Mean of the film's potential over [from, to] on the face that is not grounded, or its value at
-// from = to.
+// Mean of the film's potential over [from, to] on the ungrounded face, or its value at from = to.
 struct PotentialReading {
   double from_m = 0.0;
   double to_m = 0.0;
@@ -73,8 +70,7 @@ struct FilmPiece {
 };
 CondensedPiece condensed_film(const FilmPiece& piece, const ArrayMesh& mesh,
                               const ArrayMedia& media, FilmFace grounded, int degree);
-// The piece seen in a mirror across x. Its ports must be symmetric, as readings of the potential
-// are.
+// The piece mirrored across x. Its ports must be symmetric, as readings of the potential are.
 CondensedPiece mirrored(const CondensedPiece& piece);
 
 }  // namespace viscard
