@@ -12,7 +12,6 @@ using namespace viscard;
 
 namespace {
 
-
 // Longitudinal system of a pillar with its lowest line held (fixed foot) or only rolling.
 DiscreteSystem longitudinal_system(const PillarMesh& mesh, bool rolling = false) {
   const Kinematics kinematics = kinematics_of(Motion::kLongitudinal);
