@@ -128,8 +128,7 @@ Eigen::MatrixXd coupled_form(const Medium& medium) {
 }
 
 Eigen::MatrixXd material_form(const Medium& medium, bool is_electric, bool is_plane_stress) {
-  Eigen::MatrixXd form =
-      is_electric ? coupled_form(medium) : Eigen::MatrixXd(medium.stiffness_Pa);
+  Eigen::MatrixXd form = is_electric ? coupled_form(medium) : Eigen::MatrixXd(medium.stiffness_Pa);
   if (!is_plane_stress) return form;
   // E/(1 - nu^2) is finite at nu = 0.5, K is not: condense three-dimensional moduli just below.
   if (!is_electric && medium.is_isotropic && medium.poisson_ratio == 0.5) {
