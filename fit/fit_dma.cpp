@@ -69,8 +69,7 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
   }
   check_sign(storage_Pa, "a storage modulus", "storage_modulus_Pa");
   const DmaModel model(frequency_Hz, storage_Pa, loss_Pa, options);
-  // A block is a run of neighbouring frequencies; E' and E'' of one frequency belong to the same
-  // block.
+  // A block is a run of neighbouring frequencies; E' and E'' of one frequency share a block.
   std::vector<int> blocks = log_time_blocks(frequency_Hz, 0.0, 1);
   blocks.insert(blocks.end(), blocks.begin(), blocks.end());
   const SpectralFit fit = fit_spectrum(model, blocks, options);

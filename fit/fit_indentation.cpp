@@ -51,8 +51,7 @@ void check_depth(const Column& force_N, const Column& depth_m) {
   }
 }
 
-// Saturation is a long run of samples exactly at the largest value: the end of the converter's
-// range.
+// Saturation is a long run of samples equal to the largest: the end of the converter's range.
 void flag_saturation(const Column& force_N, FitResult& result) {
   const double top = *std::max_element(force_N.begin(), force_N.end());
   std::size_t run = 0;
@@ -103,8 +102,7 @@ HistoryInput history_input(const std::vector<Column>& columns, const TableContac
   const std::size_t loaded = end_of_loading(input.input);
   const double limit_m = contact.is_fitted ? contact.depth_m : 0.0;
   std::size_t end = loaded;
-  // The contact of a sphere or cone must not shrink, because the hereditary integral does not hold
-  // then.
+  // Under a sphere or cone the contact must not shrink: the hereditary integral would not hold.
   const double least_m =
       law.power == 1.0 ? limit_m : limit_m + 0.98 * (input.input[loaded] - limit_m);
   while (end < input.time_s.size() && input.input[end] > least_m) ++end;

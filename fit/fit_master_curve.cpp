@@ -22,8 +22,7 @@ std::string celsius(double temperature_C) {
   return text_of(temperature_C, 4) + " C";
 }
 
-// Rows sorted by temperature and split where the temperature rises by more than the width of a
-// segment.
+// Rows sorted by temperature and split where it rises by more than the width of a segment.
 std::vector<std::vector<std::size_t>> rows_by_temperature(
     const std::vector<double>& temperature_C) {
   std::vector<std::size_t> order;

@@ -27,11 +27,10 @@ struct MasterCurve {
   ShiftLaws laws;
 };
 
-// Fits all segments together: one spectrum and one factor on time for each temperature, estimated
-// jointly, without vertical shift. The start values of the factors come from equal moduli of
-// neighbouring segments, so these must overlap. Throws std::runtime_error that names the
-// temperatures that do not overlap, and for fewer than two segments of three rows or no segment at
-// the reference.
+// Fits all segments together: one spectrum and one factor on time for each temperature, without
+// vertical shift. The start values of the factors come from equal moduli of neighbouring segments,
+// so these must overlap. Throws std::runtime_error that names the temperatures that do not overlap,
+// and for fewer than two segments of three rows or no segment at the reference.
 MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options = {});
 
 // True if the temperatures form more than one segment.

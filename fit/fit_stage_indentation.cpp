@@ -62,8 +62,7 @@ void fill_curves(const StageModel& model, const IndentationData& data, const Spe
   curves.unit = "N";
 }
 
-// The two-point modulus of the loading part, with the depth from the stage minus the frame's
-// deflection.
+// The two-point modulus of loading, with the depth from the stage minus the frame's deflection.
 std::optional<TwoPointModulus> two_points(const IndentationData& data, const SpectralState& state,
                                           double offset_N, double sigma_N) {
   if (!data.contact) return std::nullopt;
@@ -235,8 +234,7 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
   IndentationData kept = data;
   std::optional<std::size_t> lifting = first_lifting_move(kept);
   ContactFit fit;
-  // Usually one round. The fit may detect a loss of contact that the force record alone does not
-  // show.
+  // Usually one round. The fit may detect a loss of contact that the force alone does not show.
   while (true) {
     if (lifting) kept = before_move(std::move(kept), *lifting);
     fit = fit_in_contact(kept, options);

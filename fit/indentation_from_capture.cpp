@@ -98,8 +98,7 @@ double still_since_s(const CapturedRun& run, const CommandedMove& first) {
   return since_s;
 }
 
-// End of contact, and the time from which the force is zero again; without a retraction that never
-// happens.
+// End of contact and the time from which the force is zero again; never without a retraction.
 double free_again_s(const CapturedRun& run, IndentationData& data) {
   const CommandedMove* retract = first_move(run, "retract");
   if (retract == nullptr) return 1e300;
@@ -123,9 +122,8 @@ void take_moves_in_contact(const CapturedRun& run, IndentationData& data) {
 
 ClockLine line_from_below(const std::vector<double>& x, const std::vector<double>& y) {
   if (x.size() < 2 || !(x.back() > x.front())) return {x.empty() ? 0.0 : y[0] - x[0], 1.0};
-  // The least delayed message near each end gives the slope. Which message that is depends on the
-  // slope, so a few rounds are needed. An edge of the lower convex hull may be short and tilt the
-  // line.
+  // The least delayed message near each end gives the slope. Which it is depends on the slope, so a
+  // few rounds are needed. An edge of the lower convex hull may be short and tilt the line.
   const std::size_t count = x.size();
   const std::size_t third = std::max<std::size_t>(1, count / 3);
   ClockLine line{0.0, (y.back() - y.front()) / (x.back() - x.front())};
@@ -166,8 +164,7 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
   const ClockLine clock = line_from_below(readings.clock_s, readings.host_s);
 
   // The clock line is early by the smallest delay of a message and may be tilted by the spread of
-  // the delays. Both are unknown but short. Samples this close to a motion that is not modelled are
-  // left out.
+  // delays. Both are unknown but short. Samples this close to an unmodelled motion are left out.
   data.start_early_s = 0.02 * std::max(1.0, run.rig.clock_speed);
   data.contact_from_s = ramp->move.start_time_s;
   data.first_reading_s = clock.at(readings.clock_s.front());

@@ -15,9 +15,8 @@ namespace viscard {
 SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blocks,
                          const FitOptions& options);
 
-// Fills everything in a result that follows from the fit alone: parameters, intervals (with the
-// uncertainty of the order, and with profiles and bootstrap if the options ask for them), orders,
-// noise.
+// Fills what follows from the fit alone: parameters, intervals (with the uncertainty of the order,
+// and with profiles and bootstrap if the options ask for them), orders, noise.
 void fill_result(const SpectralModel& model, const SpectralFit& fit,
                  const SeriesFromState& series_from_state, FitResult& result);
 
@@ -29,9 +28,8 @@ void fill_step_curves(const StepModel& model, const SpectralFit& fit, const std:
 // then the moduli. The model must outlive the returned function.
 SeriesFromState relaxation_series_of(const SpectralModel& model, bool is_liquid);
 
-// Block indices for cross-validation: contiguous runs of rows. A run ends when it covers a tenth of
-// a decade of the time since `zero_s` and has `shortest` rows, or when it has a fiftieth of all
-// rows.
+// Block indices for cross-validation: runs of rows. A run ends when it covers a tenth of a decade
+// of the time since `zero_s` and has `shortest` rows, or when it has a fiftieth of all rows.
 std::vector<int> log_time_blocks(std::span<const double> time_s, double zero_s,
                                  std::size_t shortest);
 

@@ -25,8 +25,7 @@ Box box_of(const Parametrisation& form, const std::vector<ParameterConstraint>& 
     const ParameterName name = parameter_name(one.name);
     const Index at = form.position(name);
     const bool is_time = name.stem == Stem::kTime;
-    // A lower bound is raised to what the signs allow; the upper bound of a share or time is the
-    // user's.
+    // The signs may raise a lower bound; the upper bound of a share or time is the user's.
     const double low = is_time ? std::log(one.low) : one.low;
     box.low[at] = is_time || one.low == one.high ? low : std::max(box.low[at], low);
     box.high[at] = is_time ? std::log(one.high) : one.high;
@@ -34,8 +33,7 @@ Box box_of(const Parametrisation& form, const std::vector<ParameterConstraint>& 
   return box;
 }
 
-// A time that the record cannot show leaves its modulus undetermined, unless the modulus is held
-// too.
+// A time that the record cannot show leaves its modulus undetermined, unless that is held too.
 void check_times(const SpectralModel& model, const std::vector<ParameterConstraint>& constraints) {
   for (const ParameterConstraint& one : constraints) {
     const ParameterName name = parameter_name(one.name);
@@ -85,13 +83,11 @@ void check_solution(const SpectralState& state, const std::vector<ParameterConst
   }
 }
 
-// Compares the residual of the constrained fit with that of the free fit and adds a note if it is
-// larger.
+// Adds a note if the residual of the constrained fit is larger than that of the free fit.
 void flag_contradiction(double free_rss, double free_variance, double inflation, int n_held,
                         SpectralFit& fit) {
   const double rise = (fit.rss - free_rss) / std::max(free_variance * inflation, 1e-300);
-  // Holding n_held true values raises the residual sum by n_held +- sqrt(2 n_held) variances by
-  // chance.
+  // Holding n true values raises the residual sum by n +- sqrt(2 n) variances by chance.
   const double by_chance = n_held + 5.0 * std::sqrt(2.0 * n_held);
   if (!(rise > by_chance)) return;
   constexpr double kPlain = 2.0;  // a factor that is visible without statistics
@@ -128,8 +124,7 @@ SpectralState spread_start(const SpectralModel& model, const Parametrisation& fo
   return solve_coefficients(model, ln_tau, fit.state.nuisance);
 }
 
-// Covariance of the free parameters, extended to all: fixed parameters and those on a bound have
-// none.
+// Covariance of the free parameters, extended to all: fixed ones and those on a bound have none.
 Eigen::MatrixXd free_covariance(const Parametrisation& form, const Box& box,
                                 const SpectralState& state, double variance) {
   const Eigen::VectorXd theta = form.theta_of(state);

@@ -84,8 +84,7 @@ void carry_order_doubt(const SpectralModel& model, const SpectralFit& fit,
   // From a tenth of the record on; ln_tau_max() is three times the record.
   const double late = model.ln_tau_max() - std::log(30.0);
   if (fit.state.n_terms() == 0 || fit.state.ln_tau.maxCoeff() < late) return;
-  // Only if the state's parameter is the material's own (no frame, no creep) and its sign is
-  // constrained.
+  // Only if the state's parameter is the material's (no frame, no creep) with a constrained sign.
   const bool is_own =
       model.n_common() > 0 && !model.common()[0].is_free &&
       series_from_state(fit.state).equilibrium_modulus_Pa == fit.state.coefficients[0] &&

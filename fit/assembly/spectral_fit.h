@@ -23,13 +23,12 @@ struct SpectralFit {
 };
 
 // Replaces the state of the fit by the best one that satisfies the constraints: least squares in
-// all parameters within bounds (trust region of Ceres), started from the free optimum and from the
-// fixed times. The covariance is that of the free parameters; a parameter that ends on a bound
-// counts as fixed. Nuisances and the common columns other than the first (E_inf) stay free. Throws
-// std::invalid_argument if the constraints leave no possible material: E_inf < 0, terms out of
-// order, a time that the record cannot show. Adds the note constraints-strained if the constraints
-// fit the data visibly worse than the free fit does, or contradicts-data if that makes the result
-// untrustworthy.
+// all parameters within bounds (trust region of Ceres), started from the free optimum and the fixed
+// times. The covariance is that of the free parameters; a parameter that ends on a bound counts as
+// fixed. Nuisances and the common columns other than the first (E_inf) stay free. Throws
+// std::invalid_argument if the constraints allow no material: E_inf < 0, terms out of order, a time
+// that the record cannot show. Adds the note constraints-strained if the constraints fit the data
+// visibly worse than the free fit, or contradicts-data if that makes the result untrustworthy.
 void constrain(const SpectralModel& model, const FitOptions& options, SpectralFit& fit);
 
 // Widens the intervals of E0 and E_inf for the uncertainty of the order. They then include the
@@ -37,8 +36,7 @@ void constrain(const SpectralModel& model, const FitOptions& options, SpectralFi
 // less than "strong", Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773). If the slowest time is
 // above a tenth of the record, the interval of E_inf extends down to the lowest value that the
 // likelihood allows with one more term at the end of the range, because such a record cannot
-// exclude that term. Adds the flag order-uncertain if other orders widen an interval by more than
-// half.
+// exclude it. Adds the flag order-uncertain if other orders widen an interval by more than half.
 void carry_order_doubt(const SpectralModel& model, const SpectralFit& fit,
                        const SeriesFromState& series_from_state, FitResult& result);
 

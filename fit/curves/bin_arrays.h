@@ -13,8 +13,7 @@ namespace viscard {
 // Moments of many bins as arrays, for evaluating whole columns of a model at once.
 struct BinArrays {
   explicit BinArrays(const std::vector<LogBin>& bins);
-  // For the decay averaged over every bin times sqrt(count); without moments if each bin is one
-  // sample.
+  // For the decay averaged over each bin times sqrt(count); no moments if each bin is one sample.
   DecayPlaces places(bool has_averages) const;
 
   Eigen::ArrayXd time_s, weight;  // mean time, sqrt(count)

@@ -9,8 +9,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// x/(1 + x^2) and x^2/(1 + x^2) with their derivatives by ln x, without overflow for small or large
-// x.
+// x/(1 + x^2), x^2/(1 + x^2) and their derivatives by ln x, without overflow for small or large x.
 struct Debye {
   double storage, loss, storage_slope, loss_slope;
 };
@@ -32,8 +31,7 @@ DmaModel::DmaModel(std::span<const double> frequency_Hz, std::span<const double>
   for (Index i = 0; i < count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     angular_1_s_.push_back(2.0 * std::numbers::pi * frequency_Hz[k]);
-    // A loss modulus near zero has the error of the complex modulus, not an error relative to
-    // itself.
+    // A loss modulus near zero has the error of the complex modulus, not one relative to itself.
     const double size_Pa = std::hypot(storage_Pa[k], loss_Pa[k]);
     sigma_Pa_[i] = std::max(std::abs(storage_Pa[k]), 0.01 * size_Pa);
     sigma_Pa_[count + i] = std::max(std::abs(loss_Pa[k]), 0.01 * size_Pa);

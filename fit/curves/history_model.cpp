@@ -122,8 +122,7 @@ void HistoryModel::fill_equilibrium(const Onset& onset, Column into) const {
   }
 }
 
-// Recursion over the samples, with the derivatives by ln tau and by the contact position on
-// request.
+// Recursion over the samples, on request with the derivatives by ln tau and contact position.
 void HistoryModel::fill_term(const Onset& onset, double tau_s, Column into) const {
   const double c = in_.factor;
   StepFactors step;

@@ -31,8 +31,7 @@ struct HistoryInput {
   bool with_drift = false;
 };
 
-// First sample whose input is at least 98 % of the largest: the end of loading, even if the input
-// drifts later.
+// First sample with at least 98 % of the largest input: the end of loading, despite later drift.
 std::size_t end_of_loading(const std::vector<double>& input);
 
 class HistoryModel final : public SpectralModel {

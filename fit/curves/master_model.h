@@ -21,9 +21,8 @@ struct MasterSegment {
 // All segments share one spectrum, and each has its own factor on time (fit/README.md,
 // "Temperatures"):
 //   E_k(t) = E(t/a_k),   E'_k(w) = E'(w a_k),   E''_k(w) = E''(w a_k)
-// The ln a_k of every segment but the reference are nuisances. The weight of a row is relative to
-// its own value, but to at least 1e-3 of the largest, because master curves span decades of
-// modulus.
+// The ln a_k of all segments but the reference are nuisances. A row's weight is relative to its
+// value, but to at least 1e-3 of the largest, because master curves span decades of modulus.
 class MasterModel final : public SpectralModel {
  public:
   // start: ln a_k of all segments, 0 for the reference.

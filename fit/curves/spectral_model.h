@@ -118,8 +118,7 @@ class SpectralModel {
   double ln_tau_max_ = 0.0;
 };
 
-// The columns whose coefficient may have either sign: free common ones, and terms if the model
-// allows it.
+// The columns with coefficients of either sign: free common ones, and terms if the model allows it.
 std::vector<bool> free_columns(const SpectralModel& model, Eigen::Index n_terms);
 
 }  // namespace viscard

@@ -28,8 +28,7 @@ double median_force_N(const IndentationData& data, double from_s, double to_s, d
   return values.empty() ? otherwise : median(std::move(values));
 }
 
-// First time after from_s at which the force crosses a level, interpolated linearly between
-// samples.
+// First time after from_s at which the force crosses a level, by linear interpolation.
 double crossing_s(const IndentationData& data, double from_s, double level_N, bool rising) {
   for (std::size_t i = 1; i < data.time_s.size(); ++i) {
     if (data.time_s[i] < from_s) continue;

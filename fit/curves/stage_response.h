@@ -14,9 +14,8 @@ struct BranchResponse {
   double rate_m_s = 0.0;  // dq/dt
 };
 
-// The velocity of a move is linear between its knots. A step of length dt from velocity v_0 to v_1
-// takes q to exp(-x) q + dt [v_0 phi_1(x) + (v_1 - v_0) phi_2(x)], x = dt/tau (fit/README.md, eq.
-// 3).
+// The velocity of a move is linear between its knots. A step dt from velocity v_0 to v_1 takes q to
+// exp(-x) q + dt [v_0 phi_1(x) + (v_1 - v_0) phi_2(x)], x = dt/tau (fit/README.md, eq. 3).
 class StageResponse {
  public:
   // The same move, but it presses only from time from_s on (the contact).

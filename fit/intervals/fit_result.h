@@ -103,8 +103,7 @@ struct FitResult {
   FitCurves curves;
 };
 
-// An interval about a value, with a relative standard uncertainty added to both sides in
-// quadrature.
+// Adds a relative standard uncertainty to both sides of a value's interval, in quadrature.
 Interval combined_95(const Interval& interval, double value, double relative_u);
 
 // The material that a fit describes, without provenance. Throws std::invalid_argument if the fit is

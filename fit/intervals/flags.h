@@ -36,9 +36,8 @@ inline constexpr const char* kContradictsData = "contradicts-data";
 void add_defect(FitResult& result, const std::string& name, const std::string& text);
 
 // Adds the defect misfit if the model does not describe the record: its residual is many times the
-// noise out of contact and not small compared with the force. sigma: residual of one sample;
-// quiet_sigma: noise out of contact, from n_quiet samples; peak: largest force. All in the same
-// unit.
+// noise out of contact and not small against the force. sigma: residual of one sample; quiet_sigma:
+// noise out of contact, from n_quiet samples; peak: largest force. All in one unit.
 void flag_misfit(double sigma, double quiet_sigma, std::size_t n_quiet, double peak,
                  FitResult& result);
 

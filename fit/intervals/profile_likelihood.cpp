@@ -19,16 +19,14 @@ struct Axis {
   double best = 0.0, step = 0.0, low = 0.0, high = 0.0;
 };
 
-// Rise of the sum of squares with the parameter held at a value, and the material's own parameter
-// there.
+// Rise of the sum of squares with the parameter held, and the material's own parameter there.
 struct Point {
   double rise = 0.0, shown = 0.0;
 };
 using Hold = std::function<Point(double)>;
 
 // Steps from the estimate to one side until the rise exceeds its limit or the bound is reached.
-// `hold` fits all other parameters with this one held, starting from the result of its previous
-// call.
+// `hold` fits all other parameters with this one held, starting from its previous result.
 double walk(const Axis& axis, double sign, double shown_best, const Hold& hold,
             ProfileCurve& curve) {
   double last = shown_best;

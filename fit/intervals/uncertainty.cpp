@@ -61,8 +61,7 @@ Eigen::MatrixXd series_slopes(const SpectralModel& model, const SpectralState& s
   return slopes;
 }
 
-// C x for every column x. C holds the correlations between rows; each row is sqrt(n) times a mean
-// of samples.
+// C x for every column x. C correlates the rows; a row is sqrt(n) times a mean of samples.
 Eigen::MatrixXd correlated(const Eigen::MatrixXd& x, const std::vector<std::size_t>& begins,
                            const Autoregression& noise) {
   const PairSums sums(noise);

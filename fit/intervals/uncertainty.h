@@ -27,8 +27,7 @@ using SeriesFromState = std::function<PronySeries(const SpectralState&)>;
 
 // Fills terms, E0, E_inf, their standard errors, 95 % intervals and covariance of a result from a
 // state and the covariance of its parameters, by first-order propagation through series_from_state.
-// Intervals of relaxation times are symmetric in the logarithm; the errors of g_i use the joint
-// covariance.
+// Intervals of relaxation times are symmetric in ln tau; errors of g_i use the joint covariance.
 void fill_parameters(const SpectralModel& model, const SpectralState& state,
                      const Eigen::MatrixXd& covariance, const SeriesFromState& series_from_state,
                      FitResult& result);

@@ -20,8 +20,7 @@ struct FractionalDiagnosis {
   double bic_difference = 0.0;
 };
 
-// Returns nothing for kinds of test other than relaxation after a step, and for fewer than five
-// averages.
+// Returns nothing for tests other than relaxation after a step, and for fewer than five averages.
 std::optional<FractionalDiagnosis> diagnose_fractional(const FitResult& fit);
 
 }  // namespace viscard

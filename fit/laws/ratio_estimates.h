@@ -8,8 +8,7 @@
 
 namespace viscard {
 
-// One specimen in the joint fit: (ln E0, ln g_i, ln tau_i) with the covariance of the errors of its
-// own fit.
+// One specimen in the joint fit: (ln E0, ln g_i, ln tau_i) with the error covariance of its fit.
 struct RatioEstimate {
   double ratio = 0.0;
   Eigen::VectorXd theta;

@@ -139,8 +139,7 @@ ShiftLaws fit_shift_laws(const std::vector<ShiftFactor>& factors, const Eigen::M
     (*shift)->T_min_C = std::min(T_ref_C, temperature_C.minCoeff());
     (*shift)->T_max_C = std::max(T_ref_C, temperature_C.maxCoeff());
   }
-  // BIC in units of the scatter about the better law, which is at least that of the factors' own
-  // errors.
+  // BIC in units of the scatter about the better law, which is at least the factors' own error.
   double scale = std::max(1.0, laws.arrhenius_chi2 / std::max(1.0, static_cast<double>(n) - 1.0));
   if (laws.wlf && n > 2) {
     scale = std::min(scale, std::max(1.0, laws.wlf_chi2 / (static_cast<double>(n) - 2.0)));

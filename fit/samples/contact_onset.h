@@ -60,8 +60,7 @@ TableContact find_contact(const std::vector<double>& force_N, const std::vector<
                           std::size_t loaded, double power);
 
 // A table of a capture also holds the touch that found the surface. That is an indentation of its
-// own, which the model of a single ramp does not describe. Returns the first row after it, 0 if
-// there is none.
+// own, which the model of a single ramp does not describe. Returns the first row after it, or 0.
 std::size_t end_of_earlier_touch(const std::vector<double>& depth_m, std::size_t loaded,
                                  double contact_m);
 

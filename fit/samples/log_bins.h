@@ -7,8 +7,7 @@
 namespace viscard {
 
 // The average of samples over a short stretch of log time, with the moments needed to average a
-// smooth function over exactly the same samples: sum f(t_k)/n = f(m) + f''(m) m2/2 + f'''(m) m3/6 +
-// ...
+// smooth function over the same samples: sum f(t_k)/n = f(m) + f''(m) m2/2 + f'''(m) m3/6 + ...
 struct LogBin {
   std::size_t begin = 0, end = 0;  // range of samples
   double count = 0.0;
@@ -25,8 +24,7 @@ inline constexpr double kBinsPerDecade = 60.0;
 // A record of up to this many samples is fitted sample by sample.
 inline constexpr std::size_t kSmallRecord = 2000;
 
-// Bins of sorted times; with per_decade <= 0 every sample is a bin. Samples at t <= 0 get a bin
-// each.
+// Bins of sorted times. Samples at t <= 0 get a bin each; with per_decade <= 0 all samples do.
 std::vector<LogBin> log_bins(std::span<const double> time_s, std::span<const double> value,
                              double per_decade);
 

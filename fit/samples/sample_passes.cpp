@@ -8,8 +8,7 @@
 namespace viscard {
 namespace {
 
-// Sums in four lanes, so that an addition does not wait for the previous one; the lanes are added
-// at the end.
+// Sums in four lanes, added at the end, so that an addition does not wait for the previous one.
 constexpr std::size_t kLanes = 4;
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double)), aligned(8), may_alias));
 using Flags = long long __attribute__((vector_size(kLanes * sizeof(double))));

@@ -13,8 +13,7 @@ namespace {
 
 constexpr std::size_t kLeastRecord = 200;
 
-// Noise from several stretches of the record; a few thousand differences determine the median well
-// enough.
+// Noise from several stretches of the record; a few thousand differences suffice for the median.
 double noise_of(std::span<const double> values) {
   constexpr std::size_t kStretches = 16;
   constexpr std::size_t kLength = 128;

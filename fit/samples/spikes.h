@@ -8,10 +8,9 @@ namespace viscard {
 
 // Indices of isolated spikes: samples that differ from the mean of their two neighbours by more
 // than eight standard deviations of the noise (median of third differences, which spikes do not
-// change), and by more than twice the difference of the neighbours, so that a steep part of a curve
-// is not taken for a spike. Only for evenly sampled records of at least 200 samples; elsewhere the
-// neighbours give no estimate. A local form of Hampel's identifier (J. Am. Stat. Assoc. 69 (1974)
-// 383).
+// change), and by more than twice the difference of the neighbours, so that a steep curve is not
+// taken for a spike. Only for evenly sampled records of at least 200 samples; elsewhere neighbours
+// give no estimate. A local form of Hampel's identifier (J. Am. Stat. Assoc. 69 (1974) 383).
 std::vector<std::size_t> isolated_spikes(std::span<const double> time_s,
                                          std::span<const double> values);
 

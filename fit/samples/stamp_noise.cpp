@@ -36,8 +36,7 @@ class ForceCurve {
   std::vector<double> time_s_, force_N_;
 };
 
-// Mean square of F(t + d) - F(t) for normally distributed d, by three-point Gauss-Hermite
-// quadrature.
+// Mean square of F(t + d) - F(t) for normal d, by three-point Gauss-Hermite quadrature.
 Eigen::VectorXd squares_of_stamps(const StageResidual& left, const ForceCurve& curve,
                                   double stamp_s) {
   const double reach_s = std::sqrt(3.0) * stamp_s;
@@ -69,8 +68,7 @@ StageNoise plain_noise(const StageResidual& left) {
   return noise;
 }
 
-// Root mean square residual of the readings that even the largest scatter of the stamps would not
-// change.
+// RMS residual of the readings that even the largest scatter of the stamps would not change.
 double quiet_N(const StageResidual& left, const Eigen::VectorXd& largest_squares, double usual_N) {
   constexpr double kNothing = 1e-2;  // share of the variance
   double sum = 0.0, count = 0.0;

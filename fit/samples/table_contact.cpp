@@ -8,9 +8,8 @@ namespace {
 
 using Column = std::vector<double>;
 
-// True if the force rises over the first samples as it does in contact. Then the record has no
-// stretch out of contact, and the offset of the line's zero is the curvature of a relaxing
-// material.
+// True if the force rises over the first samples as in contact. Then there is no stretch out of
+// contact, and the offset of the line's zero is the curvature of a relaxing material.
 bool rises_like_contact(const Column& force_N, const Column& depth_m, std::size_t count,
                         double slope) {
   const auto n = static_cast<double>(count);

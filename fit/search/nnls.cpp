@@ -132,8 +132,7 @@ SignedLeastSquares::SignedLeastSquares(const Eigen::MatrixXd& columns, const Eig
   for (std::size_t j = 0; j < in_use_.size(); ++j) {
     in_use_[j] = is_free[j] || guess[static_cast<Index>(j)] > 0.0;
   }
-  // QR may find a wrong sign that rounding hid in the normal equations: remove the column, solve
-  // again.
+  // QR may find a wrong sign that rounding hid in the normal equations: solve without the column.
   while (!solve(columns, data, is_free)) {
     for (std::size_t j = 0; j < in_use_.size(); ++j) {
       if (!is_free[j] && x_[static_cast<Index>(j)] < 0.0) in_use_[j] = false;

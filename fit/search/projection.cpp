@@ -50,8 +50,7 @@ class NormalSolution {
   const Eigen::VectorXd& x() const { return x_; }
   // One step of iterative refinement with the residual y - V x.
   void refine(const Eigen::VectorXd& right) { x_(used_) += solve(right); }
-  // Gram matrix of the projections of other columns D onto the columns in use, from products = V^T
-  // D.
+  // Gram matrix of the projections of other columns D onto the used columns, from products = V^T D.
   Eigen::MatrixXd shared(const Eigen::MatrixXd& products) const {
     if (used_.empty() || products.cols() == 0) {
       return Eigen::MatrixXd::Zero(products.cols(), products.cols());

@@ -16,8 +16,7 @@ struct Projection {
   Eigen::VectorXd gradient;  // J^T r
 };
 
-// The non-linear parameters of the searches, p = ln tau, then nuisances divided by their scale; and
-// the way back.
+// Non-linear parameters p of searches: ln tau, then nuisances over their scale; and the way back.
 Eigen::VectorXd search_parameters(const SpectralModel& model, const Eigen::VectorXd& ln_tau,
                                   const Eigen::VectorXd& nuisance);
 Eigen::VectorXd nuisance_from(const SpectralModel& model, const Eigen::VectorXd& p);
@@ -31,8 +30,7 @@ Eigen::MatrixXd nonlinear_slopes(const SpectralModel& model, const ModelColumns&
 // gradient is computed from the residual itself and keeps its digits in both cases.
 Projection project(const SpectralModel& model, const Eigen::VectorXd& p);
 
-// The coefficients and their residual sum of squares only, by normal equations or QR in the same
-// way.
+// Only the coefficients and their residual sum of squares, likewise by normal equations or QR.
 struct Coefficients {
   Eigen::VectorXd x;
   double rss = 0.0;

@@ -69,8 +69,7 @@ SpectralState quick_search(const SpectralModel& model, const SpectralState& star
     const double little = std::max(options.tolerance * at.rss, unseen);
     is_converged = std::max(std::abs(gain), step.predicted) <= little;
     if (gain > 0.0) {
-      // Convergence is at least linear, so the next ten steps gain at most ten times what this one
-      // gained.
+      // Convergence is at least linear, so the next ten steps gain at most ten times this gain.
       constexpr double kStepsLeft = 10.0;
       if (i > 2 && next.rss - kStepsLeft * gain > options.target) i = options.max_iterations;
       const double ratio = gain / std::max(step.predicted, 1e-300);

@@ -15,8 +15,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Factor L of N = L L^T for a matrix that may be singular: a direction of zero length gets a zero
-// column.
+// Factor L of a matrix N = L L^T that may be singular: directions of length zero get a zero column.
 Eigen::MatrixXd lower_factor(Eigen::MatrixXd n) {
   Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(n.rows(), n.cols());
   const Eigen::VectorXd length = n.diagonal();
@@ -35,8 +34,7 @@ Eigen::MatrixXd lower_factor(Eigen::MatrixXd n) {
 // smallest problem that has the same three.
 class ProjectedCost final : public ceres::CostFunction {
  public:
-  // The solver's thresholds are absolute; this scaling makes them independent of the unit of the
-  // data.
+  // The solver's thresholds are absolute; this scaling makes them independent of the data's unit.
   ProjectedCost(const SpectralModel& model, Index n_terms)
       : model_(model), scale_(1e6 / std::max(model.data().norm(), 1e-280)) {
     const int size = static_cast<int>(n_terms + model.n_nuisances());

@@ -8,8 +8,7 @@
 
 namespace viscard {
 
-// Best coefficients at given times and nuisances. Moduli are not negative unless the model allows
-// it.
+// Best coefficients at given times and nuisances. Moduli are negative only if the model allows it.
 SpectralState solve_coefficients(const SpectralModel& model, const Eigen::VectorXd& ln_tau,
                                  const Eigen::VectorXd& nuisance);
 
@@ -40,8 +39,7 @@ SpectralState quick_search(const SpectralModel& model, const SpectralState& star
 // that would leave the bounds or increase the residual.
 SpectralState polish(const SpectralModel& model, const SpectralState& start);
 
-// Derivative of the (weighted) model by all parameters, in the order common, moduli, ln tau,
-// nuisance.
+// Derivative of the (weighted) model by all parameters, ordered common, moduli, ln tau, nuisance.
 Eigen::MatrixXd full_jacobian(const SpectralModel& model, const SpectralState& state);
 
 }  // namespace viscard

@@ -15,9 +15,8 @@ struct UnitScale {
 };
 
 // Returns the value of "40 um", "10 kPa", "0.7255 V/N" or "250 gf" in si_unit ("m", "Pa", "V/N",
-// "N"). A number without a unit is in si_unit already. With si_unit "degC", "23 C", "23 degC" and
-// "296.15 K" are accepted. Throws std::invalid_argument naming the text, the unit expected and an
-// example.
+// "N"). A number without a unit is in si_unit. With si_unit "degC" it accepts "23 C", "23 degC" and
+// "296.15 K". Throws std::invalid_argument naming the text, the unit expected and an example.
 double si_from_text(std::string_view text, const char* si_unit);
 
 // Returns the scale from unit_text ("ms", "MPa", "%") to si_unit. "", "-" and "1" mean no unit and

@@ -27,8 +27,7 @@ struct CheckOptions {
   std::optional<double> tolerance = {};
 };
 
-// Throws where read_card does. Without a reference it reports only what is wrong in the card
-// itself.
+// Throws where read_card does. Without a reference it reports only mistakes in the card itself.
 CardCheck check_card(const std::string& text, const CardTarget& target, const CheckOptions& options,
                      const Material* reference);
 

@@ -10,8 +10,7 @@
 
 namespace viscard {
 
-// A one-element model that holds the card: it lets users try the card in their own solver in one
-// run.
+// A one-element model that holds the card, so that users can try it in their solver in one run.
 struct DeckFile {
   std::string name;  // "relaxation.feb"
   std::string text;
@@ -56,8 +55,7 @@ struct DeckInput {
   double stress() const {
     return to_card(test.amplitude * card.written.E0_Pa, units.stress_exponent);
   }
-  // Held after the ramp: the displacement of the face z = 1, or the force on each of its four
-  // nodes.
+  // Held after the ramp: the displacement of face z = 1, or the force on each of its four nodes.
   double pull() const { return is_creep() ? 0.25 * stress() : test.amplitude; }
   std::vector<DeckBlock> blocks() const;
 };

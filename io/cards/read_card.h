@@ -34,9 +34,8 @@ struct ReadCard {
 };
 
 // Reads a card, written by viscard or by hand, as the target's solver would. `units` names the unit
-// system; empty: the one the header states, else SI. Throws std::runtime_error naming the line and
-// what was expected there, std::invalid_argument for an unknown unit system or a card that is a
-// table (csv).
+// system; empty: that of the header, else SI. Throws std::runtime_error naming the line and what
+// was expected there, std::invalid_argument for an unknown unit system or a csv table.
 ReadCard read_card(const std::string& text, const CardTarget& target, const std::string& units);
 
 }  // namespace viscard

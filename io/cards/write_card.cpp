@@ -14,8 +14,7 @@
 namespace viscard {
 namespace {
 
-// Of E(t), relative. A card that is rounded by more is refused; above kExact the header states the
-// rounding.
+// Of E(t), relative. A card rounded by more is refused; above kExact the header states it.
 constexpr double kWorstRounding = 1e-4;
 constexpr double kExact = 1e-9;
 

@@ -51,8 +51,7 @@ struct LinearFactor {
   bool is_extrapolated = false;  // finer linear meshes than any that were run
   std::string quickest;          // discretisation it is compared with
 };
-// Empty where no row reaches the error or there are fewer than two h1 rows whose errors fall with
-// the mesh.
+// Empty if no row reaches the error or fewer than two h1 rows have errors that fall with the mesh.
 std::optional<LinearFactor> factor_over_linear(const CostStudy& study, double error);
 
 // Throws what simulate() throws for a scene that contradicts itself.

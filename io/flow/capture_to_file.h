@@ -16,8 +16,7 @@
 
 namespace viscard {
 
-// All that one run needs, read from files; an emulated rig has defaults for files that are left
-// out.
+// All that one run needs, read from files; an emulated rig has defaults for missing files.
 struct CaptureSetup {
   RigConfig rig;
   TestPlan plan;

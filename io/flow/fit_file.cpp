@@ -88,8 +88,7 @@ FitResult fit_indentation_table(const CsvTable& table, const FitRequest& request
   return fit_indentation(data, request.options);
 }
 
-// Fits a master curve if a table of relaxation moduli or of frequency sweeps has several
-// temperatures.
+// Fits a master curve if a table of relaxation moduli or frequency sweeps has several temperatures.
 std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
                                             const FitRequest& request) {
   const bool is_step =

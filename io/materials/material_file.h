@@ -39,8 +39,7 @@ std::string json_from_ratio_fit(const RatioFit& fit);
 // Throws std::runtime_error naming the file and the key.
 RatioFit read_ratio_fit(const std::filesystem::path& path);
 
-// True for a JSON file with the schema of a joint fit; false for any other file, or if there is
-// none.
+// True for a JSON file with the schema of a joint fit; false for any other or missing file.
 bool looks_like_ratio_file(const std::filesystem::path& path);
 
 }  // namespace viscard

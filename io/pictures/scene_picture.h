@@ -11,8 +11,7 @@ namespace viscard {
 std::string svg_from_scene(const Scene& scene, const std::string& title);
 
 std::string svg_from_scene(const PillarScene& scene, const std::string& title);
-// A long row shows its first and last pillars; an endless one shows, faint, the neighbours beyond
-// the mirrors.
+// A long row shows its first and last pillars, an endless one faint neighbours beyond the mirrors.
 std::string svg_from_scene(const ArrayScene& scene, const std::string& title);
 
 }  // namespace viscard

@@ -120,8 +120,7 @@ void write_axis(Out out, char name, const PlotAxis& axis, const AxisSpan& span, 
                  quoted(has_labels ? axis.label : ""), kTextColour);
 }
 
-// gnuplot would print the names of short phases over each other, so those without room are left
-// out.
+// gnuplot would print names of short phases over each other, so those without room are left out.
 void write_notes(Out out, const PlotPanel& panel, const AxisSpan& x, double width_px) {
   std::string names;
   for (std::size_t i = 0; i < panel.notes.size(); ++i) {

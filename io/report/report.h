@@ -36,8 +36,7 @@ struct ReportCard {
   std::string refusal;  // why the card was not written; then text is empty
 };
 
-// The data of one specimen. The page omits the parts that are missing; a fit or a material is
-// required.
+// The data of one specimen. The page omits missing parts; a fit or a material is required.
 struct SpecimenReport {
   Specimen specimen;  // its id is the section's title; without an id, the material's name
   std::optional<CapturedRun> run;      // raw record

@@ -11,8 +11,7 @@
 
 namespace viscard {
 
-// The estimates of a specimen in one form for the page, from its fit or, without a fit, from its
-// material file.
+// The estimates of a specimen in one form for the page, from its fit or else its material file.
 struct Estimate {
   double value = 0.0;
   Interval interval_95;  // {0, 0}: not given

@@ -11,8 +11,7 @@ namespace {
 constexpr double kLatency_s = 0.5;  // every controller begins a move within this time
 constexpr double kClear_m = 5e-6;   // at this distance the punch does not touch
 
-// Position of the stage over time: from its moves, or without them interpolated between its
-// reports.
+// Position of the stage over time: from its moves, or else interpolated between its reports.
 class StagePath {
  public:
   StagePath(const CapturedRun& run, const std::vector<double>& motion_start_s)

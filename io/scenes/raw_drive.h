@@ -39,8 +39,7 @@ void show_times(FieldVisitor& analysis_table, const char* unit, RawDrive& drive)
 // [readout]: kind = "voltage" | "charge", resistance, capacitance, film_resistivity.
 void show_readout(FieldVisitor& readout_table, RawDrive& drive);
 
-// The list of frequencies, and the history or pulse; empty if the file gives none. Throw
-// SceneMistake.
+// The frequencies, and the history or pulse; empty if the file gives none. Throw SceneMistake.
 std::vector<double> frequencies_of(const RawDrive& drive);
 std::vector<HistoryPoint> history_of(const RawDrive& drive);
 

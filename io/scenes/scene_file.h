@@ -10,8 +10,7 @@
 
 namespace viscard {
 
-// Values that a sweep over rows of pillars combines; an empty list stands for the scene's own
-// value.
+// Values that a sweep over rows of pillars combines; an empty list means the scene's own value.
 struct ArraySweep {
   std::vector<double> diameter_m, spacing_m, thickness_m;
   double length_over_diameter = 0.0;  // 0: the scene's length at every diameter
@@ -51,8 +50,8 @@ std::vector<SweepPoint> points_of(const ArrayScene& scene, const ArraySweep& swe
 // "file:line: key: what".
 std::string text_with_line(const std::filesystem::path& path, const SceneMistake& mistake);
 
-// Does the work on a scene of the file. A mistake that only shows there becomes std::runtime_error
-// with its line.
+// Does the work on a scene of the file. A mistake found there becomes std::runtime_error with its
+// line.
 template <typename Work>
 auto with_lines_of(const std::filesystem::path& path, const Work& work) {
   try {

@@ -48,8 +48,7 @@ std::string columns_there(const CsvTable& table) {
   throw std::runtime_error(table.file + ": " + what);
 }
 
-// Returns the scale of a column from the unit on the command line, the table's unit, or the suffix
-// of its name.
+// Returns a column's scale from the command line's unit, the table's unit or its name's suffix.
 UnitScale scale_of(const CsvTable& table, const CsvColumn& column, const Quantity& quantity,
                    const std::string& said_unit) {
   if (quantity.is_text) return {};

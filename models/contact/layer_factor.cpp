@@ -12,9 +12,8 @@
 namespace viscard {
 namespace {
 
-// 1 - K(x), where K is the compliance of the bonded layer in Hankel space over that of the
-// half-space (eq. 10). Numerator and denominator are divided by cosh 2x, so that they never
-// overflow.
+// 1 - K(x); K is the compliance of the bonded layer in Hankel space over that of the half-space
+// (eq. 10). Numerator and denominator are divided by cosh 2x, so they never overflow.
 double missing_compliance(double x, double nu) {
   const double k = 3.0 - 4.0 * nu;
   const double e = std::exp(-2.0 * x);

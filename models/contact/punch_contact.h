@@ -45,8 +45,7 @@ struct DepthLaw {
 };
 DepthLaw depth_law(const PunchContact& contact);
 
-// F/(E depth) of a flat punch, 2 a kappa/(1 - nu^2) in m. Throws std::invalid_argument for other
-// tips.
+// F/(E depth) of a flat punch, 2a kappa/(1 - nu^2), m. Throws std::invalid_argument for other tips.
 double force_per_modulus_and_depth_m(const PunchContact& contact);
 
 // Relative standard uncertainty of DepthLaw::factor, to first order in those of the inputs.

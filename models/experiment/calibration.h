@@ -18,8 +18,7 @@ struct LoadCellCalibration {
   std::string date;                 // ISO 8601
   std::string valid_until;          // ISO 8601, the last day; empty: a year after date
   std::string file;  // of the record that a rig file names; empty after it has been read
-  // From the readings with dead weights, relative to the reading at the largest load; 0 if not
-  // measured.
+  // From the readings with dead weights, relative to that at the largest load; 0 if not measured.
   double nonlinearity = 0.0;   // largest departure from the line
   double hysteresis = 0.0;     // largest difference between falling and rising load
   double repeatability = 0.0;  // standard deviation when the same load is repeated

@@ -17,8 +17,7 @@ struct StageConfig {
   double travel_m = 10e-3;   // largest travel toward the specimen from the position at connection
   double backlash_m = 0.0;
   bool home = false;  // run the controller's homing cycle before a test
-  // Zaber only: length of one microstep of the motor, from the maker's page. No controller knows
-  // it.
+  // Zaber only: length of a microstep of the motor, from the maker's page. No controller knows it.
   double microstep_m = 0.0;
   int device = 1;  // address on the chain
   int axis_number = 1;

@@ -46,8 +46,7 @@ struct ValidityWindow {
   double strain_max = 0.0;  // 0: unknown
 };
 
-// An identifiability flag: something that the data do not determine. Cards annotate or refuse
-// flagged terms.
+// An identifiability flag: what the data do not determine. Cards annotate or refuse flagged terms.
 struct MaterialFlag {
   std::string name;  // short and stable, e.g. "tau-below-sampling"
   int term = 0;      // 1-based; 0 for the whole material

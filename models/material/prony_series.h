@@ -28,8 +28,7 @@ double instantaneous_modulus_Pa(const PronySeries& series);
 // E(t), Pa, for t >= 0 s.
 double relaxation_modulus_Pa(const PronySeries& series, double time_s);
 
-// E'(w) and E''(w), Pa (eq. 2), w in rad/s. Written so that neither w tau = 1e12 nor 1e-12 loses
-// digits.
+// E'(w) and E''(w), Pa (eq. 2), w in rad/s. Neither w tau = 1e12 nor 1e-12 loses digits.
 struct ComplexModulus {
   double storage_Pa = 0.0;
   double loss_Pa = 0.0;

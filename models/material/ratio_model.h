@@ -77,8 +77,7 @@ struct RatioBand {
   std::vector<double> ratio, E0_Pa, E0_low_Pa, E0_high_Pa;
 };
 
-// A joint fit: the forms compared, the best one, and the best law for ratios that were not
-// measured.
+// A joint fit: the forms compared, the best one, and the best law for unmeasured ratios.
 struct RatioComparison {
   RatioForm form;
   int n_parameters = 0;

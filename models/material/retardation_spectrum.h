@@ -6,9 +6,8 @@
 
 namespace viscard {
 
-// Creep compliance of the same solid, J(t) = J_g + sum_j J_j (1 - exp(-t/lambda_j)) + t/eta
-// (eq. 3). Compliances in 1/Pa, times in s. fluidity_1_Pa_s = 1/eta is zero unless the series is a
-// liquid.
+// Creep compliance of the same solid, J(t) = J_g + sum_j J_j (1 - exp(-t/lambda_j)) + t/eta (eq.
+// 3). Compliances in 1/Pa, times in s. fluidity_1_Pa_s = 1/eta is zero except for a liquid.
 struct RetardationTerm {
   double compliance_1_Pa = 0.0;
   double retardation_time_s = 0.0;

@@ -13,8 +13,7 @@ inline void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument(what);
 }
 
-// Throws "WHAT is VALUE UNIT; it must be EXPECTED" unless the condition holds and the value is
-// finite.
+// Throws "WHAT is VALUE UNIT; it must be EXPECTED" unless the condition holds for a finite value.
 inline void require_value(bool holds, const std::string& what, double value,
                           const std::string& unit, const std::string& expected) {
   if (holds && std::isfinite(value)) return;

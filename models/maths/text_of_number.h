@@ -28,8 +28,7 @@ std::string counted(std::size_t count, const std::string& one);
 // instruments cannot read "-0.000".
 std::string text_from_number(double value, int decimals);
 
-// The number that `text` holds, or nothing if anything but blanks stands beside it. nan and inf are
-// refused.
+// The number in `text`, or nothing if anything but blanks is beside it. nan and inf are refused.
 std::optional<double> number_from_text(std::string_view text);
 std::optional<long long> integer_from_text(std::string_view text);
 

@@ -15,17 +15,15 @@ struct ScenePlan {
 };
 
 // Leaves out the effects with the smallest estimates as long as their sum stays within half the
-// tolerance; the mesh gets the rest. Throws SceneMistake naming an unknown effect, one that is
-// forced off although the results need it, or one that is forced on although no analysis can
-// compute it.
+// tolerance; the mesh gets the rest. Throws SceneMistake naming an unknown effect, one forced off
+// although the results need it, or one forced on although no analysis can compute it.
 ScenePlan plan_effects(const Scene& scene);
 
 // The plan of a scene whose load the straight pillar bears: refuses what plan_effects() and
 // refuse_beyond_buckling() refuse.
 ScenePlan checked_plan(const Scene& scene);
 
-// The scene with every effect forced on that the plan might leave out, except choices between kinds
-// of elements.
+// The scene with every effect forced on that the plan might leave out, except choices of elements.
 Scene with_all_effects_on(const Scene& scene);
 
 }  // namespace viscard

@@ -40,8 +40,7 @@ double film_share(const ArrayScene& scene) {
   return bends ? std::max(axial, kUnevenTraction * shares.lateral()) : axial;
 }
 
-// Distance over the film's thickness at which the nearest neighbour, or the film's end mirrored, is
-// felt.
+// Distance over film thickness at which the nearest neighbour, or the film's mirrored end, is felt.
 double nearest_over_thickness(const ArrayScene& scene) {
   const ArrayGeometry& g = scene.geometry;
   const bool has_gap = g.count > 1 || g.ends == FilmEnds::kMirror;

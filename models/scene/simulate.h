@@ -19,10 +19,9 @@ SceneAnswer simulate(const Scene& scene);
 // The scene as it stands, with no plan, on one mesh and without mesh errors.
 SceneAnswer answer_on(const Scene& scene, const Discretisation& mesh);
 
-// The solution on a mesh, with the effects of the scene's plan, for pictures. Static:
-// displacement (m), axial stress (Pa), with electrodes the potential (V). Modal: the shapes of
-// every family, largest displacement 1. Other analyses and rows of pillars have none. The scene is
-// solved anew.
+// The solution on a mesh, with the plan's effects, for pictures. Static: displacement (m), axial
+// stress (Pa), with electrodes the potential (V). Modal: the shapes of every family, largest
+// displacement 1. Other analyses and rows of pillars have none. The scene is solved anew.
 std::vector<SectionGrid> solution_fields(const Scene& scene, const Discretisation& mesh);
 
 // Answers all `points` on all cores; done(i, answer) is called for one at a time, in the order in

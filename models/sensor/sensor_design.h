@@ -6,8 +6,7 @@
 namespace viscard {
 
 // Closed-form limits of a pillar sensor: pillars of diameter d and length l stand at an
-// edge-to-edge spacing s on a piezoelectric film of thickness t and are pressed together by a mean
-// pressure p.
+// edge-to-edge spacing s on a piezoelectric film of thickness t and carry a mean pressure p.
 
 // The arrangement of the pillars determines their share of the area (README.md, eq. D1).
 enum class Lattice {

@@ -13,8 +13,7 @@ const std::vector<CardTarget>& card_targets();
 // Throws std::invalid_argument listing the targets.
 const CardTarget& card_target(const std::string& name);
 
-// The one-element model of a target. Throws std::invalid_argument listing the targets that have
-// one.
+// The one-element model of a target. Throws std::invalid_argument listing the targets with one.
 const DeckWriter& card_deck(const std::string& name);
 
 // The rows of the table, each defined in the file of its solver.

@@ -1,7 +1,6 @@
 // LS-DYNA, *MAT_GENERAL_VISCOELASTIC (076) and *MAT_VISCOELASTIC (006). Sources: Keyword User's
-// Manual R13, vol. II for the materials, vol. I for the one-element model (*CONTROL_IMPLICIT_*,
-// *BOUNDARY_*, *DEFINE_CURVE), which LS-DYNA has not run here. OpenRadioss and PyDYNA readers agree
-// on the fields.
+// Manual R13, vol. II for materials, vol. I for the one-element model (*CONTROL_IMPLICIT_*,
+// *BOUNDARY_*, *DEFINE_CURVE), not run in LS-DYNA. OpenRadioss and PyDYNA readers agree on fields.
 #include "io/basics/number_text.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/column_fields.h"
@@ -28,8 +27,7 @@ std::string field(double value) {
   return right(is_near ? nine : nearest_number(value, 10), 10);
 }
 
-// MID, RO, BULK. LS-DYNA refuses a density of 0 (not given); a blank field shows that it is
-// missing.
+// MID, RO, BULK. LS-DYNA refuses a density of 0 (not given); a blank field shows the omission.
 std::string first_fields(const CardNumbers& numbers) {
   return right("1", 10) + (numbers.density > 0.0 ? field(numbers.density) : right("", 10)) +
          field(numbers.bulk);

@@ -12,8 +12,7 @@
 
 namespace viscard {
 
-// Pictures of answers, name and SVG. Empty if gnuplot is not installed; the tables hold the same
-// numbers.
+// Pictures of answers, name and SVG. Empty without gnuplot; the tables hold the same numbers.
 using Pictures = std::vector<std::pair<std::string, std::string>>;
 
 // Curves: histories over time, responses over frequency (magnitude on logarithmic axes above

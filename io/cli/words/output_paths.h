@@ -7,9 +7,8 @@
 namespace viscard {
 
 // Checks every option that names an output (--out, --csv, --creep-csv, --svg, --vtk) before the
-// work starts. Throws UsageError if the output is also an input of the same command (--force would
-// destroy it) or another output, and std::runtime_error if its folder is not a folder or cannot be
-// written to.
+// work starts. Throws UsageError if the output is also an input of the command (--force would
+// destroy it) or another output, std::runtime_error if its folder is not a folder or not writable.
 void check_output_paths(const boost::program_options::variables_map& values);
 
 // Throws std::runtime_error if the output exists and may not be overwritten, before work is lost.

@@ -16,9 +16,8 @@ struct ArrayMedia {
   PlaneState plane = PlaneState::kStress;
 };
 
-// Ports (plane_system.h) of a pillar, in this order: 1 Pa of pressure on its top, 1 Pa of shear
-// along +x on its top, then the inertia of each of its lowest modes on a fixed base (eq. A2), unit
-// mass norm.
+// Ports (plane_system.h) of a pillar, in order: 1 Pa of pressure on its top, 1 Pa of shear along +x
+// there, then the inertia of each of its lowest modes on a fixed base (eq. A2), unit mass norm.
 constexpr int kPressurePort = 0;
 constexpr int kShearPort = 1;
 constexpr int kFirstModePort = 2;
@@ -43,8 +42,7 @@ struct CondensedPillar {
 CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media, int degree,
                                  int modes = 0);
 
-// Mean of the film's potential over [from, to] on the face that is not grounded, or its value at
-// from = to.
+// Mean of the film's potential over [from, to] on the ungrounded face, or its value at from = to.
 struct PotentialReading {
   double from_m = 0.0;
   double to_m = 0.0;
@@ -73,8 +71,7 @@ struct FilmPiece {
 };
 CondensedPiece condensed_film(const FilmPiece& piece, const ArrayMesh& mesh,
                               const ArrayMedia& media, FilmFace grounded, int degree);
-// The piece seen in a mirror across x. Its ports must be symmetric, as readings of the potential
-// are.
+// The piece mirrored across x. Its ports must be symmetric, as readings of the potential are.
 CondensedPiece mirrored(const CondensedPiece& piece);
 
 }  // namespace viscard

@@ -68,8 +68,7 @@ double tail_beyond(double omega_rad_s, double first_rad_s, const Roughness& load
   return 0.4 * load.jumps * ratio + 0.2 * load.kinks_1_s * ratio / omega_rad_s;
 }
 
-// The frequency beyond which this tail is a share of the tolerance, for an answer that is twice the
-// static one.
+// The frequency beyond which this tail is a share of the tolerance for twice the static answer.
 constexpr double kFarthest = 60.0;  // first resonances; meshes and bases end there
 constexpr int kLargestBasis = 450;
 double reach_rad_s(const PillarScene& scene, double first_rad_s) {

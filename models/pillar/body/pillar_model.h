@@ -117,22 +117,19 @@ class PillarModel {
   std::unique_ptr<DiscreteSystem> system_;
 };
 
-// Loads along the direction in which a family of motion moves the pillar as a whole: along its axis
-// for axial families, sideways (x) for lateral families. For a strip all forces are per metre of
-// thickness.
+// Loads along the direction in which a family of motion moves the whole pillar: along its axis for
+// axial families, sideways (x) for lateral ones. For a strip, forces are per metre of thickness.
 
 // Area of the top, m^2; of a strip per metre, m.
 double top_area_m2(const PillarModel& model);
 
-// A pull of 1 N spread evenly over the top, so that load.u is the mean displacement of the top, m.
-// Throws std::invalid_argument for torsion and harmonics above 1, which do not move the pillar as a
-// whole.
+// A pull of 1 N evenly over the top, so that load.u is the top's mean displacement, m. Throws
+// std::invalid_argument for torsion and harmonics above 1, which do not move the whole pillar.
 Eigen::VectorXd unit_top_force(const PillarModel& model);
 
 // Inertial force of an acceleration of 1 m/s^2 of the whole body, in N. If the bottom is shaken,
-// the motion relative to the bottom is that of a body under minus this force times the
-// acceleration. It also gives the participating mass: for a rigid motion of 1 m, load.u is the mass
-// in kg.
+// the motion relative to it is that of a body under minus this force times the acceleration. It
+// also gives the participating mass: for a rigid motion of 1 m, load.u is the mass in kg.
 Eigen::VectorXd unit_acceleration_force(const PillarModel& model);
 
 // Number of rigid motions of an unsupported body within one family of motion: along its axis
@@ -140,8 +137,7 @@ Eigen::VectorXd unit_acceleration_force(const PillarModel& model);
 int rigid_motion_count(Motion motion);
 
 // The rigid motions of a model whose bottom is free, as columns of its unknowns: 1 m along z or x,
-// and a rotation by 1 rad about the middle of the bottom. Meshes of degree 2 and more contain them
-// exactly.
+// and 1 rad about the middle of the bottom. Meshes of degree 2 and more contain them exactly.
 Eigen::MatrixXd rigid_motions(const PillarModel& model);
 
 // One held unknown per rigid motion (a field at the middle or at the rim of the bottom), so that

@@ -70,10 +70,9 @@ double free_shift_1_s2(const PillarModel& model) {
   return std::max(1e-4 * slowest, 1e-11 * fastest) / (extent_m * extent_m);
 }
 
-// Where the rim of the bond makes the stress singular, the values of modes localised at the rim
-// decrease without bound as meshes are refined. These modes belong to the idealised corner, not to
-// the pillar. Therefore this many modes above a shift are searched for the one that bends the whole
-// pillar.
+// Where the rim of the bond makes the stress singular, the values of modes localised there decrease
+// without bound as meshes are refined. These modes belong to the idealised corner, not the pillar.
+// Therefore this many modes above a shift are searched for the one that bends the whole pillar.
 constexpr int kMostModes = 8;
 
 // The pencil K, M of a model, searched from a shift upward: pairs of largest 1/(omega^2 + shift).

@@ -12,9 +12,8 @@ struct PillarMode {
 };
 
 // The lowest undamped modes of one family of motion, ascending. For a body with a free bottom the
-// rigid motions are removed: the modes are its elastic ones, orthogonal to the rigid motions. Each
-// mode of a harmonic m >= 1 represents two. Throws std::runtime_error if the iteration does not
-// converge.
+// modes are its elastic ones, orthogonal to the rigid motions. Each mode of a harmonic m >= 1
+// represents two. Throws std::runtime_error if the iteration does not converge.
 std::vector<PillarMode> lowest_modes(const PillarModel& model, int count);
 
 // Pressure on the top at which the straight pillar buckles sideways (linear buckling with the full

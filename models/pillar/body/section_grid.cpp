@@ -8,8 +8,7 @@
 namespace viscard {
 namespace {
 
-// Number of pieces of an element in one direction, short against the radius so that curves look
-// smooth.
+// Number of pieces of an element in one direction, short against the radius to look smooth.
 int pieces_of(double length_m, double radius_m) {
   return std::clamp(static_cast<int>(std::ceil(6.0 * length_m / radius_m)), 2, 16);
 }

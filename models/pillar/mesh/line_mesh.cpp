@@ -16,8 +16,7 @@ std::vector<double> lobatto_points(int degree) {
   require_value(degree >= 1 && degree <= 20, "element degree", degree, "", "from 1 to 20");
   std::vector<double> points;
   for (int i = 0; i <= degree; ++i) {
-    // Newton's method for (1 - x^2) P_p'(x) = 0 from the Chebyshev-Lobatto points; the ends are
-    // fixed.
+    // Newton's method for (1 - x^2) P_p'(x) = 0 from the Chebyshev-Lobatto points with fixed ends.
     double x = -std::cos(std::numbers::pi * i / degree);
     for (int iteration = 0; iteration < 100; ++iteration) {
       const auto [value, previous] = legendre_pair(degree, x);
@@ -107,8 +106,7 @@ LineMesh::LineMesh(std::vector<double> breaks, int degree)
                                 text_of(breaks_[i - 1]) + " to " + text_of(breaks_[i]) +
                                 " m has no positive length");
   }
-  // p + 1 points integrate r N N exactly; three more are for the 1/r of elements away from the
-  // axis.
+  // p + 1 points integrate r N N exactly; three more serve the 1/r of elements off the axis.
   const QuadratureRule gauss = gauss_legendre(degree + 4);
   reference_points_ = gauss.points;
   reference_weights_ = Eigen::Map<const Eigen::VectorXd>(

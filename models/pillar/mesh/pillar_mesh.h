@@ -7,8 +7,7 @@
 
 namespace viscard {
 
-// A film under the pillar, as a disc whose bottom is held. Without a film the pillar stands on a
-// rigid base.
+// A film under the pillar, as a disc whose bottom is held. Without a film the base is rigid.
 struct FilmGeometry {
   double thickness_m = 0.0;
   double radius_m = 0.0;            // outer edge, free; at least the radius of the pillar
@@ -42,9 +41,8 @@ struct Discretisation {
   int film_elements = 1;   // across the film outside the graded part
   // Largest element size of the pillar in both directions, about one wavelength; 0: no limit.
   double longest_m = 0.0;
-  // For waves that decay: longest_m applies only within this distance of the pillar's side and of
-  // its top (or foot). Deeper elements may be longer by their extra distance. 0: longest_m applies
-  // everywhere.
+  // For waves that decay: longest_m applies only within this distance of the pillar's side and its
+  // top (or foot). Deeper elements may be longer by their extra distance. 0 applies it everywhere.
   double skin_m = 0.0;
   bool skin_at_foot = false;
   // Uniform mesh instead of a graded one: elements of about this size in both directions.
@@ -75,17 +73,15 @@ PillarMesh pillar_mesh(const PillarGeometry& geometry, const Discretisation& dis
 std::vector<int> nodes_on_break(const Section& section, int break_row, int first_column,
                                 int last_column);
 
-// Meshes of rising degree p and with more layers at the singular rim. Their polynomial spaces are
-// nested. By Galerkin orthogonality, the change of a quantity from one mesh to the next is then its
+// Meshes of rising degree p and more layers at the singular rim, with nested polynomial spaces. By
+// Galerkin orthogonality, the change of a quantity from one mesh to the next is then its
 // dual-weighted residual: that of the coarser solution, weighted by the finer dual solution. This
-// holds for quantities that are their own dual (a deflection under its load, a frequency) and for
-// others (the voltage of an electrode, a stress). Source: Becker & Rannacher, Acta Numerica 10
-// (2001) 1.
+// holds for quantities that are their own dual (a deflection under its load, a frequency) and
+// others (an electrode's voltage, a stress). Source: Becker & Rannacher, Acta Numerica 10 (2001) 1.
 std::vector<Discretisation> mesh_sequence(const PillarGeometry& geometry);
 
-// Three meshes that end with the given one. On uniform meshes each has elements half as large as
-// the one before; on graded meshes each has one degree more, and `finest` must have degree 3 or
-// more.
+// Three meshes that end with the given one. On uniform meshes each halves the elements of the one
+// before; on graded ones each has one degree more, and `finest` must have degree 3 or more.
 std::vector<Discretisation> refinements_to(const Discretisation& finest);
 
 }  // namespace viscard

@@ -9,9 +9,8 @@ namespace viscard {
 
 // A meridian (r, z) or plane (x, z) section: the cells of a rectilinear grid, each filled with one
 // region or empty, with tensor-product elements of degree p. On rectangles every matrix is a sum of
-// Kronecker products of one-dimensional matrices (models/pillar/README.md, eq. 13). Where the
-// outline of a region is not straight, its cells are stretched along x: x = scale(z) times the x of
-// the grid.
+// Kronecker products of one-dimensional matrices (models/pillar/README.md, eq. 13). Where a
+// region's outline is not straight, its cells are stretched along x: x = scale(z) x_grid.
 struct Stretch {
   double scale = 1.0;
   double slope_1_m = 0.0;  // d scale/dz

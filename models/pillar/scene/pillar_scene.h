@@ -17,9 +17,8 @@ struct PillarScene : SceneCommon {
   std::optional<ElectrodeOptions> electrodes;
   PiezoMatrix film_charge_C_N = PiezoMatrix::Zero();
   std::optional<PlaneState> plane;  // a strip 1 m thick instead of a cylinder
-  // The bottom of the film, or of the pillar if there is no film. A free body reports its elastic
-  // modes, not its rigid motions, and how a voltage moves the top relative to the middle of the
-  // bottom.
+  // The bottom of the film, or of the pillar without a film. A free body reports its elastic modes,
+  // no rigid motions, and how a voltage moves the top relative to the middle of the bottom.
   bool fixed_bottom = true;
   std::optional<Readout> readout;  // the circuit on the electrode; none: open
 

@@ -161,8 +161,7 @@ std::vector<int> postorder(const std::vector<int>& parent) {
   return place;
 }
 
-// Positions below the diagonal of each column of L: those of the matrix and those that its children
-// pass up.
+// Positions below the diagonal of each column of L: the matrix's own and those from its children.
 std::vector<std::vector<int>> factor_columns(const std::vector<std::vector<int>>& earlier,
                                              const std::vector<int>& parent) {
   const std::size_t n = earlier.size();

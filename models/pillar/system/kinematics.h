@@ -35,8 +35,7 @@ struct Kinematics {
   int potential_field = -1;
 
   std::vector<OperatorRow> strain_and_field() const;  // [strain; electric field]
-  // Fields that vanish on x = 0: on an axis because the displacement is smooth (eq. 12), in a plane
-  // by symmetry.
+  // Fields that vanish on x = 0: on an axis because u is smooth (eq. 12), in a plane by symmetry.
   std::vector<int> zero_on_axis;
 };
 

@@ -12,10 +12,9 @@ namespace viscard {
 // Vanderbei, SIAM J. Optim. 5 (1995) 100.
 //
 // With a constraint, solve() returns the u that minimises u'Au/2 - r'u subject to C u = 0. C is
-// positive semidefinite (the volume form of an incompressible body) and is already contained in the
-// factored matrix with a large factor. The method is conjugate gradients on the pressures,
-// preconditioned by the factored matrix. Source: Fortin & Glowinski, Augmented Lagrangian Methods
-// (1983), ch. 1.
+// positive semidefinite (the volume form of an incompressible body) and is part of the factored
+// matrix with a large factor. The method is conjugate gradients on the pressures, preconditioned by
+// the factored matrix. Source: Fortin & Glowinski, Augmented Lagrangian Methods (1983), ch. 1.
 class StiffnessFactor {
  public:
   // Throws std::runtime_error if the matrix is singular or a pivot has the wrong sign.

@@ -10,12 +10,11 @@
 namespace viscard {
 
 // Multifrontal L D L^T without pivoting of a sparse symmetric matrix that is definite or
-// quasi-definite, so that the factors exist in any elimination order. Columns with the same rows
-// below them are eliminated together as a dense block. Each block passes its update (Schur
-// complement) to its parent as one dense matrix. High-order elements give large blocks, so nearly
-// all work is dense. `./run bench pillar` compares its time with CHOLMOD and Eigen
-// (models/README.md). Source: Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302; order and blocks:
-// block_order.h.
+// quasi-definite, so that factors exist in any order. Columns with the same rows below them are
+// eliminated together as a dense block. Each block passes its update (Schur complement) to its
+// parent as one dense matrix. High-order elements give large blocks, so nearly all work is dense.
+// `./run bench pillar` compares its time with CHOLMOD and Eigen (models/README.md). Source: Duff &
+// Reid, ACM Trans. Math. Softw. 9 (1983) 302; order and blocks: block_order.h.
 class SupernodalFactor {
  public:
   // Chooses the order and the blocks from the pattern of the lower triangle.

@@ -22,8 +22,7 @@ Eigen::VectorXcd solve_harmonic(const ViscoelasticSystem& body, const Eigen::Vec
 class HarmonicSolver {
  public:
   explicit HarmonicSolver(const ViscoelasticSystem& small);
-  // Columns of `loads` give columns of the solution, which is huge (or not finite) at an undamped
-  // pole.
+  // Each column of `loads` gives a solution, which is huge (or not finite) at an undamped pole.
   Eigen::MatrixXcd solve(double omega_rad_s, const Eigen::MatrixXcd& loads) const;
 
  private:

@@ -50,8 +50,7 @@ struct HistoryResult {
 // with the number of decades and not with the duration. Every block is divided into equal steps.
 // All steps are halved together until the answer changes by less than the tolerance. The last
 // change is the error estimate; the next halving would reduce it by about 2^order. Throws
-// std::invalid_argument unless the history starts at time 0, ends later and never goes back in
-// time.
+// std::invalid_argument unless the history starts at time 0, ends later and never goes back.
 HistoryResult run_history(const ViscoelasticSystem& system, Control control,
                           const std::vector<HistoryPoint>& history, const HistoryOptions& options);
 

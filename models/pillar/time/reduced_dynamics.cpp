@@ -168,8 +168,7 @@ ReducedBody reduce_dynamic(const ViscoelasticSystem& system,
     if (!is_last && span.count() < next_check) continue;
     verdict = test_basis(span, system, loads, range);
     if (verdict.error <= range.tolerance) break;
-    // Krylov chains do not include the relaxation of shapes. If they stall, a whole-body solution
-    // helps.
+    // Krylov chains lack the relaxation of shapes. If they stall, a whole-body solution helps.
     if (answers_left > 0 && verdict.error > 0.1 * last_error) {
       grows = add_answers(system, loads, verdict.worst_rad_s, span) || grows;
       --answers_left;

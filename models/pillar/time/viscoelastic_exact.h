@@ -22,8 +22,7 @@ double inverse_laplace(const std::function<std::complex<double>(std::complex<dou
 class ExactViscoelasticBody {
  public:
   // Dense eigenproblem of system.load.size() unknowns. Throws std::invalid_argument if the system
-  // has an elastic part or is incompressible (then its Poisson ratio is constant and E(t) is
-  // sufficient).
+  // has an elastic part or is incompressible (then the Poisson ratio is constant; E(t) suffices).
   explicit ExactViscoelasticBody(const ViscoelasticSystem& system);
 
   double creep_displacement(double time_s) const;  // load.u under the unit load applied at 0

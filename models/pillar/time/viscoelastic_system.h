@@ -23,8 +23,7 @@ struct ViscoelasticSystem {
   Eigen::VectorXd load;  // force vector of a unit load; load.u is the conjugate displacement
 };
 
-// elastic + shear_factor shear + bulk_factor bulk; the penalty of an incompressible body keeps
-// factor 1.
+// elastic + shear_factor shear + bulk_factor bulk; an incompressible body's penalty keeps factor 1.
 SymmetricSparse stiffness_at(const ViscoelasticSystem& system, double shear_factor,
                              double bulk_factor);
 
@@ -32,12 +31,11 @@ enum class Control { kForce, kDisplacement };
 
 // Steps the body with internal variables d_i = int exp(-(t-s)/tau_i) du(s). The recursion
 //   d_i <- exp(-x) d_i + sum_m weight_m(x) (increment of step m), x = dt/tau_i   (eq. 17)
-// integrates them exactly, for any x, if the displacement is a polynomial through the last `order`
-// + 1 points. Order 1 is the usual recursion for strain linear per step, exact for relaxation at
-// constant Poisson ratio. For steps much longer than all relaxation times it becomes the backward
-// differentiation formula of that order. Sources: Taylor, Pister & Goudreau, IJNME 2 (1970) 45;
-// Simo & Hughes, Computational Inelasticity (1998), ch. 10; Hairer & Wanner, Solving ODEs II
-// (1996), V.1.
+// integrates them exactly for any x if u is a polynomial through the last `order` + 1 points. Order
+// 1 is the usual recursion for strain linear per step, exact for relaxation at constant Poisson
+// ratio. For steps much longer than every tau_i it becomes the backward differentiation formula of
+// that order. Sources: Taylor, Pister & Goudreau, IJNME 2 (1970) 45; Simo & Hughes, Computational
+// Inelasticity (1998), ch. 10; Hairer & Wanner, Solving ODEs II (1996), V.1.
 class ViscoelasticStepper {
  public:
   // The system must outlive the stepper.

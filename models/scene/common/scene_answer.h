@@ -36,8 +36,7 @@ struct SceneEffect {
   bool is_counted = false;  // left out, and its estimate is part of the reported error
 };
 
-// A quantity against time or frequency. The curves of one scene have the same abscissa on every
-// mesh.
+// A quantity against time or frequency. A scene's curves have the same abscissa on every mesh.
 struct SceneCurve {
   std::string name;  // of the second column
   std::string unit;
