@@ -114,8 +114,7 @@ Parameters least_squares(const Problem& problem, Parameters p, const Eigen::Vect
   return p;
 }
 
-// Iterative reweighting towards the p-norm for p = 4, 8, ... 64; returns the parameters with the
-// smallest maximum error.
+// Iterative reweighting to p-norms, p = 4, 8, ... 64; returns the parameters of least peak error.
 Parameters sharpen(const Problem& problem, Parameters p) {
   Best best;
   best.offer(problem, p);
@@ -144,8 +143,7 @@ std::vector<Eigen::Index> peaks_of(const Eigen::VectorXd& r) {
   return peaks;
 }
 
-// Remez exchange: Newton steps that make the 2n + 2 alternating peaks equal. Returns the best
-// parameters found.
+// Remez exchange: Newton steps that equalise 2n + 2 alternating peaks. Returns the best parameters.
 Parameters equalise(const Problem& problem, Parameters p) {
   Best best;
   best.offer(problem, p);

@@ -21,8 +21,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Averages of measured and fitted force for plots, in log time from the start of each motion; only
-// rows in contact.
+// Averages of measured and fitted force in contact for plots, in log time from each motion's start.
 void fill_curves(const StageModel& model, const IndentationData& data, const SpectralState& state,
                  const Eigen::VectorXd& residual_N, FitResult& result) {
   FitCurves& curves = result.curves;
@@ -102,8 +101,7 @@ void flag_gap_in_ramp(const IndentationData& data, const SpectralState& state, F
   }
 }
 
-// The move during or after which the fitted force falls below zero. A punch cannot pull, so it was
-// out of contact.
+// The move during or after which the fitted force is negative: a punch cannot pull, so it lifted.
 std::optional<std::size_t> move_losing_contact(const IndentationData& data,
                                                const SpectralState& state, double offset_N,
                                                const Eigen::VectorXd& residual_N, double sigma_N) {
@@ -159,11 +157,10 @@ void report_stage_fit(const StageModel& model, const IndentationData& data, cons
   }
   flag_stage_misfit(data, result);
   if (!model.has_drift()) {
-    result.flags.push_back(
-        {"drift-unseen", 0,
-         "no readings out of contact after the test: drift of the load cell cannot be separated "
-         "from slow relaxation; E_inf and the slowest term may include it, their intervals "
-         "do not"});
+    result.flags.push_back({"drift-unseen", 0,
+                            "no readings out of contact after the test: drift of the load cell "
+                            "cannot be separated from slow relaxation; E_inf and the slowest term "
+                            "may include it, their intervals do not"});
   }
 }
 
@@ -245,12 +242,11 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
     add_defect(fit.result, "contact-lost", "the punch loses contact during the first hold");
   }
   if (kept.moves.size() < data.moves.size()) {
-    fit.result.flags.push_back(
-        {"unloading-left-out", 0,
-         "move " + std::to_string(kept.moves.size() + 1) +
-             " of the test lifted the punch off the specimen; this move and all later "
-             "ones were left out. "
-             "Unload to a larger share of the depth, and check modulus_guess of the specimen"});
+    fit.result.flags.push_back({"unloading-left-out", 0,
+                                "move " + std::to_string(kept.moves.size() + 1) +
+                                    " of the test lifted the punch off the specimen; this move and "
+                                    "all later ones were left out. Unload to a larger share of the "
+                                    "depth, and check modulus_guess of the specimen"});
   }
   return fit.result;
 }

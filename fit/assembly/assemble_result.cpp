@@ -38,8 +38,8 @@ std::vector<SpectralState> path_for(const SpectralModel& model, const FitOptions
   }
   if (path.empty()) {
     throw std::runtime_error(
-        "no model fits these data: every fitted modulus is zero. Check the sign of the "
-        "fitted column");
+        "no model fits these data: every fitted modulus is zero. Check the sign of the fitted "
+        "column");
   }
   return path;
 }
@@ -151,10 +151,9 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
   result.noise.sigma = std::sqrt(fit.variance);
   result.noise.inflation = fit.noise.inflation();
   if (fit.scores.wants_faster) {
-    result.flags.push_back(
-        {"faster-relaxation", 0,
-         "part of the relaxation is faster than the first samples can show: E0 is the modulus at "
-         "the first sample, a lower bound"});
+    result.flags.push_back({"faster-relaxation", 0,
+                            "part of the relaxation is faster than the first samples can show: E0 "
+                            "is the modulus at the first sample, a lower bound"});
   }
   if (fit.scores.wants_slower) {
     result.flags.push_back(

@@ -10,8 +10,7 @@
 
 namespace viscard {
 
-// Fits the path of orders and chooses one. blocks: index of each row's block for cross-validation
-// (log_time_blocks).
+// Fits the path of orders and chooses one. blocks: log_time_blocks() of the rows.
 SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blocks,
                          const FitOptions& options);
 

@@ -36,8 +36,7 @@ ParameterName parameter_name(const std::string& text) {
   }
   throw std::invalid_argument(
       "'" + text +
-      "' is not a parameter; there are E0, E_inf, and E_1, g_1, tau_1 ... for "
-      "each term");
+      "' is not a parameter; there are E0, E_inf, and E_1, g_1, tau_1 ... for each term");
 }
 
 std::string range_text(const ParameterConstraint& one) {

@@ -22,9 +22,8 @@ double width(const Interval& interval) {
   return interval.high - interval.low;
 }
 
-// The lowest E_inf for which the sum of squares rises by at most 3.84 variances when one more term
-// at the end of the range replaces part of E_inf. The steps double; the root of the rise is
-// interpolated linearly.
+// The lowest E_inf at which the sum of squares rises by at most 3.84 variances if one more term at
+// the end of the range replaces part of E_inf. The steps double; the root is interpolated linearly.
 double lowest_equilibrium(const SpectralModel& fine, const SpectralFit& fit, double step) {
   const std::unique_ptr<SpectralModel> coarse = fine.coarse();
   const SpectralModel& model = coarse ? *coarse : fine;

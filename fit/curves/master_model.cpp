@@ -10,8 +10,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// A term's value and its derivative by ln tau, at u = ln(t/(a tau)) or -ln(w a tau). The derivative
-// by ln a is the same.
+// A term's value and its derivative by ln tau or ln a, at u = ln(t/(a tau)) or -ln(w a tau).
 struct Response {
   double value = 0.0, slope = 0.0;
 };

@@ -9,8 +9,7 @@
 
 namespace viscard {
 
-// Data and a model of them that is linear in all parameters except the relaxation times and a few
-// nuisance parameters:
+// Data and a model that is linear in all parameters except relaxation times and a few nuisances:
 //   y = sum_j x_j A_j(nuisance) + sum_i E_i b(tau_i, nuisance)      (fit/README.md, eq. 1)
 // The x_j are common to all orders: equilibrium modulus, force offset, drift. Every kind of test is
 // one such model. Rows are weighted by 1/sigma, so that residuals have unit variance.
@@ -104,8 +103,7 @@ class SpectralModel {
   virtual std::unique_ptr<SpectralModel> coarse() const { return nullptr; }
   // Standard deviation by which each row was divided; empty: rows are in the unit of the data.
   virtual Eigen::VectorXd row_sigma() const { return {}; }
-  // Weighted residuals of consecutive samples (part of them for very long records), for their
-  // autocorrelation.
+  // Weighted residuals of consecutive samples (some, in long records), for their autocorrelation.
   virtual Eigen::VectorXd residual_series(const SpectralState& state) const;
 
  protected:

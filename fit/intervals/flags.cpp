@@ -95,11 +95,10 @@ void add_identifiability_flags(const SpectralModel& model, const SpectralState& 
     const int n = static_cast<int>(i) + 1;
     const double ln_tau = state.ln_tau[i];
     if (model.is_shortest(ln_tau) || model.is_longest(ln_tau)) {
-      result.flags.push_back(
-          {"on-bound", n,
-           "term " + std::to_string(n) +
-               ": its time is at the end of the range that the record can show, so neither time "
-               "nor modulus is determined"});
+      result.flags.push_back({"on-bound", n,
+                              "term " + std::to_string(n) +
+                                  ": its time is at the end of the range that the record can show, "
+                                  "so neither time nor modulus is determined"});
     }
     for (Index j = i + 1; j < n_terms; ++j) {
       const bool strong = std::abs(correlation(covariance, first + i, first + j)) > kStrong;

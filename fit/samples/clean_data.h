@@ -7,10 +7,9 @@
 
 namespace viscard {
 
-// Columns ready for a fit: rows with a value that is not finite are removed and the others are
-// sorted by time, which is the first column (rows of equal time keep their order). A record that is
-// already finite and sorted, as most long ones are, is not copied. The input and this object must
-// outlive the views.
+// Columns ready for a fit: rows with a non-finite value are removed and the others sorted by time,
+// the first column (rows of equal time keep their order). A finite and sorted record, as most long
+// ones are, is not copied. The input and this object must outlive the views.
 class CleanViews {
  public:
   // Throws std::invalid_argument if the columns differ in length, and std::runtime_error if fewer

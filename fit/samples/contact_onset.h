@@ -51,9 +51,8 @@ struct TableContact {
 };
 
 // Depth at which the line through the loading curve (force^(1/power) over depth, between a fifth
-// and four fifths of the force) meets zero force. The contact is fitted if there are samples before
-// that depth. Otherwise the table's own zero of depth is used (or its first sample, if the record
-// begins under load).
+// and four fifths of the force) meets zero force. The contact is fitted if samples precede that
+// depth. Otherwise the table's zero of depth is used (or its first sample if it begins under load).
 //   loaded: index of the last sample of loading.
 //   power: the force grows with this power of the depth.
 TableContact find_contact(const std::vector<double>& force_N, const std::vector<double>& depth_m,

@@ -23,16 +23,14 @@ struct RelaxationData {
 
 // Flat-punch indentation, F(t) = c int E(t-s) d(depth)/ds ds + offset + drift t (fit/README.md, eq.
 // 2) with c = force_per_modulus_and_depth_m(contact). Without a contact c = 1 and the results are
-// stiffnesses in N/m. Depth is either measured (depth_m) or computed from the stage moves and the
-// frame's compliance.
+// stiffnesses in N/m. Depth is measured (depth_m) or follows from moves and frame compliance.
 struct IndentationData {
   std::vector<double> time_s;
   std::vector<double> force_N;  // positive in compression; its zero is fitted
   std::vector<double> depth_m;  // into the specimen; negative before contact
 
-  // From a capture: moves on the time base of time_s. The start of each is only known to lie in
-  // [start_time_s - start_early_s, start_time_s + start_late_s]. The ramp comes first, then the
-  // moves in contact.
+  // From a capture: moves on the time base of time_s. Each starts within [start_time_s -
+  // start_early_s, start_time_s + start_late_s]. The ramp comes first, then the moves in contact.
   std::vector<StageMove> moves;
   double start_early_s = 0.0;
   double start_late_s = 0.0;

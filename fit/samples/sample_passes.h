@@ -26,8 +26,7 @@ struct StepRange {
 };
 StepRange step_range(std::span<const double> times);
 
-// Indices of the samples (neither first nor last) that differ from the mean of their neighbours by
-// more than `far`.
+// Indices of the inner samples that differ from the mean of their neighbours by more than `far`.
 std::vector<std::size_t> far_from_neighbours(std::span<const double> values, double far);
 
 // Sums over a stretch of samples of d^k, y d^k and y^2, with d = t - centre, y = value - level.

@@ -17,8 +17,7 @@ Eigen::VectorXd nonnegative_from_normal_equations(const Eigen::MatrixXd& gram,
                                                   const Eigen::VectorXd& right,
                                                   const std::vector<bool>& is_free);
 
-// The same problem solved from A itself by QR of scaled columns, to full accuracy. Columns held at
-// zero get exact zeros.
+// The same solved from A by QR of scaled columns, to full accuracy. Columns held at zero get zeros.
 class SignedLeastSquares {
  public:
   SignedLeastSquares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& data,

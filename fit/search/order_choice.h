@@ -12,8 +12,7 @@ namespace viscard {
 struct OrderScores {
   std::vector<OrderRow> rows;  // one is marked as chosen
   std::size_t chosen = 0;      // index in the path
-  // Higher orders describe the data much better, but have a time at the end of the range that the
-  // record can show.
+  // Higher orders describe the data much better, but have a time at the end of the record's range.
   bool wants_faster = false;
   bool wants_slower = false;
 };

@@ -25,8 +25,7 @@ void drop_useless_orders(std::vector<SpectralState>& path);
 SpectralState with_one_more_term(const SpectralModel& model, const SpectralState& state,
                                  const OrderPathOptions& options);
 
-// Steps from one order to the next, ranked before any search by the exact update of the linear
-// least-squares problem.
+// Steps to the next order, ranked before any search by the exact update of the linear problem.
 
 // The vector without one entry.
 Eigen::VectorXd without(const Eigen::VectorXd& values, Eigen::Index leave_out);

@@ -18,8 +18,7 @@ SpectralState solve_coefficients(const SpectralModel& model, const Eigen::Vector
 struct RefineOptions {
   int max_iterations = 200;
   double tolerance = 1e-12;  // relative change of the residual sum of squares
-  // quick_search() also ends when a step gains less than this multiple of the model's
-  // sample_variance().
+  // quick_search() also ends if a step gains less than this times the model's sample_variance().
   double unseen_variances = 0.0;
   Eigen::Index held = -1;  // index of a time that quick_search() keeps fixed; -1: none
   // quick_search() gives up a fit that is not expected to fall below this sum of squares.

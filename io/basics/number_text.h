@@ -9,8 +9,7 @@ namespace viscard {
 // Returns the shortest text that reads back as exactly this double.
 std::string text_from_number(double value);
 
-// At most `columns` characters, with as many digits as fit, for free formats that silently cut
-// longer numbers.
+// As many digits as fit in `columns` characters, for free formats that silently cut longer numbers.
 std::string number_within(double value, int columns);
 
 // The text of at most `columns` characters that reads back nearest to value, for fixed columns: no

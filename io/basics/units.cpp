@@ -176,8 +176,7 @@ std::optional<int> power_of_ten(double factor) {
   return is_power ? std::optional<int>(static_cast<int>(exponent)) : std::nullopt;
 }
 
-// Shifts the decimal point in the text, because 0.13 * 1e-3 may differ from the double nearest to
-// 0.13e-3 in the last bit.
+// Shifts the decimal point in the text: 0.13 * 1e-3 may differ from 0.13e-3 in the last bit.
 double scaled(std::string_view digits, double value, const UnitScale& scale) {
   const auto shift = power_of_ten(scale.factor);
   if (!shift || scale.offset != 0.0) return value * scale.factor + scale.offset;

@@ -77,15 +77,13 @@ struct CardTarget {
   std::string comment;    // opens a comment line; "<!--" closes with "-->"; "": no comments
 
   std::reference_wrapper<std::string(const CardBody& body)> write;  // the text after the header
-  // Fills numbers, findings and understood. Throws std::runtime_error with the line and what was
-  // expected there.
+  // Fills numbers, findings and understood. Throws std::runtime_error with line and expectation.
   std::reference_wrapper<void(const std::string& text, ReadCard& card)> read;
   // For a card that is a table of E(t): its largest relative difference from E(t) of a material.
   double (*table_difference)(const std::string& text, const Material& material) = nullptr;
   std::vector<CompanionFile> (*companions)(const CardBody& body) = nullptr;
   std::optional<DeckWriter> deck = std::nullopt;
-  // Mistakes that only this solver's cards have, put into or renamed in the list of those of the
-  // elastic numbers.
+  // Mistakes of only this solver's cards, added to or renamed in the list of the elastic numbers.
   void (*add_mistakes)(const CardContext& context, std::vector<CardMistake>& list) = nullptr;
 
   ElasticForm elastic = ElasticForm::kYoungPoisson;

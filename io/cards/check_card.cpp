@@ -58,13 +58,11 @@ std::optional<CardFinding> bulk_finding(const ReadCard& read, const Material& re
   if (!(found.E0_Pa > 0.0) || found.nu == reference.nu) return std::nullopt;
   const double found_Pa = bulk_Pa(found), expected_Pa = bulk_Pa(reference);
   if (std::abs(found_Pa / expected_Pa - 1.0) <= kHandTyped) return std::nullopt;
-  return CardFinding{
-      "poisson-ratio",
-      fmt::format(
-          "nu is {:g} and the material's {:g}: the bulk modulus is {:.3g} Pa where it should "
-          "be {:.3g} Pa",
-          found.nu, reference.nu, found_Pa, expected_Pa),
-      true};
+  return CardFinding{"poisson-ratio",
+                     fmt::format("nu is {:g} and the material's {:g}: the bulk modulus is {:.3g} "
+                                 "Pa where it should be {:.3g} Pa",
+                                 found.nu, reference.nu, found_Pa, expected_Pa),
+                     true};
 }
 
 std::optional<CardFinding> density_finding(const ReadCard& read, const Material& reference) {
@@ -152,8 +150,7 @@ void compare(const Material& reference, CardCheck& check) {
   }
 }
 
-// The header of a card by viscard states E0. It shows that the numbers below were edited, even if
-// no material is given.
+// The header of a card by viscard states E0. It reveals edited numbers, even without a material.
 void compare_with_header(const std::string& text, CardCheck& check) {
   const std::string mark = "E0 (instantaneous) = ";
   const std::size_t at = text.find(mark);

@@ -37,8 +37,7 @@ void check_static_step(const KeywordBlock& block, const char* wanted, ReadCard& 
 // Throws "the card has no *ELASTIC".
 void require(bool is_there, const std::string& what);
 
-// At most 20 characters: Abaqus and CalculiX read 20 characters of a number and drop the rest,
-// including the exponent.
+// At most 20 characters: Abaqus and CalculiX read 20 and drop the rest, including the exponent.
 std::string number_of_20(double value);
 // T_ref, C1, C2: the order of Abaqus, ANSYS and FrontISTR.
 std::string wlf_row(const TemperatureShift& shift);

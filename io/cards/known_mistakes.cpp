@@ -62,20 +62,18 @@ void add_modulus_mistake(const CardContext& context, const CardNumbers& other,
 void add_equilibrium_mistake(const CardContext& context, const CardNumbers& expected,
                              std::vector<CardMistake>& list) {
   if (context.target.branch == BranchNumber::kRelative) {
-    list.push_back(
-        {"g0-left-at-1",
-         "g0 is 1 beside the instantaneous modulus: everything is too stiff by (1 + sum g); "
-         "write g0 = 1 - sum g",
-         [](CardNumbers& n) { n.equilibrium = 1.0; }});
+    list.push_back({"g0-left-at-1",
+                    "g0 is 1 beside the instantaneous modulus: everything is too stiff by (1 + sum "
+                    "g); write g0 = 1 - sum g",
+                    [](CardNumbers& n) { n.equilibrium = 1.0; }});
     return;
   }
   double sum = 0.0;
   for (const CardBranch& branch : expected.branches) sum += branch.shear;
-  list.push_back(
-      {"instantaneous-as-equilibrium",
-       "the equilibrium branch carries the instantaneous modulus; the other branches come "
-       "on top of it",
-       [sum](CardNumbers& n) { n.equilibrium += sum; }});
+  list.push_back({"instantaneous-as-equilibrium",
+                  "the equilibrium branch carries the instantaneous modulus; the other branches "
+                  "come on top of it",
+                  [sum](CardNumbers& n) { n.equilibrium += sum; }});
 }
 
 void add_elastic_mistakes(const CardContext& context, std::vector<CardMistake>& list) {

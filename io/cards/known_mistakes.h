@@ -26,8 +26,7 @@ struct CardMistake {
   std::function<void(CardNumbers&)> plant;
 };
 
-// Those that are possible in a card of the target. Of mistakes that explain a card equally well
-// the first is reported.
+// Those possible in a card of the target. Of equally good explanations the first is reported.
 std::vector<CardMistake> known_mistakes(const CardContext& context);
 
 }  // namespace viscard

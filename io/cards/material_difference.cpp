@@ -4,6 +4,21 @@
 #include <cmath>
 
 namespace viscard {
+namespace {
+
+double largest_difference(const PronySeries& one, const PronySeries& reference,
+                          const std::vector<double>& times_s) {
+  double largest = 0.0;
+  for (const double time_s : times_s) {
+    const double expected_Pa = relaxation_modulus_Pa(reference, time_s);
+    const double difference =
+        std::abs(relaxation_modulus_Pa(one, time_s) - expected_Pa) / expected_Pa;
+    if (!(difference <= largest)) largest = difference;  // NaN counts as the largest
+  }
+  return largest;
+}
+
+}  // namespace
 
 std::vector<double> comparison_times_s(const Material& material, int count) {
   double from_s = material.valid.t_min_s, to_s = material.valid.t_max_s;
@@ -26,26 +41,12 @@ std::vector<double> comparison_times_s(const Material& material, int count) {
 
 double largest_E_difference(const Material& one, const Material& reference,
                             const std::vector<double>& times_s) {
-  const PronySeries first = young_series(one), second = young_series(reference);
-  double largest = 0.0;
-  for (const double time_s : times_s) {
-    const double expected_Pa = relaxation_modulus_Pa(second, time_s);
-    const double difference =
-        std::abs(relaxation_modulus_Pa(first, time_s) - expected_Pa) / expected_Pa;
-    if (!(difference <= largest)) largest = difference;  // NaN counts as the largest
-  }
-  return largest;
+  return largest_difference(young_series(one), young_series(reference), times_s);
 }
 
 double largest_G_difference(const Material& one, const Material& reference,
                             const std::vector<double>& times_s) {
-  const PronySeries first = shear_series(one), second = shear_series(reference);
-  double largest = 0.0;
-  for (const double time_s : times_s) {
-    const double expected_Pa = relaxation_modulus_Pa(second, time_s);
-    largest = std::max(largest, std::abs(relaxation_modulus_Pa(first, time_s) / expected_Pa - 1.0));
-  }
-  return largest;
+  return largest_difference(shear_series(one), shear_series(reference), times_s);
 }
 
 }  // namespace viscard

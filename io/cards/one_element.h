@@ -41,8 +41,7 @@ ElementTest element_test(const Material& material, const ElementTestOptions& opt
 // E(t) or the creep compliance J(t), integrated over the ramp (models/README.md, eq. 1, 3, 5).
 double exact_response(const Material& material, const ElementTest& test, double time_s);
 
-// The header, then rows of time and expected response, four for each block. time_factor turns s
-// into the card's unit.
+// The header, then rows of time and response, four per block. time_factor: s to the card's unit.
 std::string expected_curve_csv(const Material& material, const ElementTest& test,
                                double time_factor, const std::string& header);
 

@@ -25,11 +25,11 @@ FitKind kind_of_table(const CsvTable& table, const FitRequest& request) {
   if (has("modulus_Pa") || has("stress_Pa")) return FitKind::kRelaxation;
   if (has("compliance_1_Pa")) return FitKind::kCreep;
   if (has("storage_modulus_Pa") && has("loss_modulus_Pa")) return FitKind::kDma;
-  throw std::runtime_error(table.file +
-                           ": no known column to fit; expected force_N with depth_m, modulus_Pa, "
-                           "stress_Pa, compliance_1_Pa, or storage_modulus_Pa with "
-                           "loss_modulus_Pa. Name a column with --column modulus_Pa=\"HEADER\", or "
-                           "with its number from 1");
+  throw std::runtime_error(
+      table.file +
+      ": no known column to fit; expected force_N with depth_m, modulus_Pa, stress_Pa, "
+      "compliance_1_Pa, or storage_modulus_Pa with loss_modulus_Pa. Name a column with --column "
+      "modulus_Pa=\"HEADER\", or with its number from 1");
 }
 
 // The rows of the chosen segments, in the order of the file.
@@ -76,8 +76,7 @@ FitResult fit_indentation_table(const CsvTable& table, const FitRequest& request
   if (request.needs_modulus && !request.specimen) {
     throw std::runtime_error(
         "--out writes moduli, but an indentation without punch geometry gives only stiffnesses; "
-        "add "
-        "--specimen FILE, or --punch-diameter (and --layer-thickness)");
+        "add --specimen FILE, or --punch-diameter (and --layer-thickness)");
   }
   IndentationData data;
   data.time_s = time_of(table, request);
@@ -100,8 +99,7 @@ std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
     if (!request.T_ref_C) return std::nullopt;
     throw std::runtime_error(
         "--reference-temperature applies only to tables of modulus_Pa, or of storage and loss "
-        "moduli, "
-        "with several temperatures in a column temperature_C; omit it");
+        "moduli, with several temperatures in a column temperature_C; omit it");
   }
   if (is_step) {
     data.argument = time_of(table, request);
@@ -196,8 +194,7 @@ FittedFile fit_file(const std::string& path, const FitRequest& request) {
       if (!fitted.fractional) {
         throw std::runtime_error(
             "--diagnose compares relaxation after a step (modulus_Pa or stress_Pa over time_s) "
-            "with "
-            "a power law; these data are of another kind, so omit it");
+            "with a power law; these data are of another kind, so omit it");
       }
     }
     return fitted;

@@ -47,8 +47,7 @@ FittedFile fit_file(const std::string& path, const FitRequest& request);
 // Called with the fraction done and the name of the step that was finished last; may be empty.
 using FlowProgress = std::function<void(double fraction, const std::string& step)>;
 
-// Fits all files on all cores. If some fail, rethrows the exception of the first of them in the
-// order of the files.
+// Fits all files on all cores. If some fail, rethrows the exception of the first such file.
 std::vector<FittedFile> fit_files(const std::vector<std::string>& files, const FitRequest& request,
                                   const FlowProgress& progress);
 

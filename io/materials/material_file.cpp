@@ -28,10 +28,9 @@ std::string json_from_material(const MaterialFile& file) {
   try {
     return out.dump(2) + "\n";
   } catch (const Json::exception&) {
-    throw std::invalid_argument(
-        "material '" + file.material.name +
-        "' contains text that is not UTF-8 and cannot be written as JSON; correct its name, flags "
-        "and provenance");
+    throw std::invalid_argument("material '" + file.material.name +
+                                "' contains text that is not UTF-8 and cannot be written as JSON; "
+                                "correct its name, flags and provenance");
   }
 }
 

@@ -8,12 +8,10 @@
 
 namespace viscard {
 
-// Conversions between a Material and its JSON, for the files of this room. Keys keep the order in
-// which they are written.
+// Conversions between a Material and its JSON, for the files of this room. Keys keep their order.
 using Json = nlohmann::ordered_json;
 
-// Throws std::runtime_error naming the file (name) and the line and column of the fault, or a key
-// that is given twice.
+// Throws std::runtime_error naming the file (name), line and column of a fault, or a duplicate key.
 Json parse_json(const std::string& text, const std::string& name);
 
 // Throws std::runtime_error naming the file (name) and the key.

@@ -12,8 +12,7 @@ namespace viscard {
 // in m (z up, z = 0 on the film), placed in pixels.
 class SceneDrawing {
  public:
-  // What lies between these bounds is drawn as large as the page allows, its widest side over
-  // `width_px` at most.
+  // What lies between these bounds is drawn as large as the page allows, at most `width_px` wide.
   SceneDrawing(double left_m, double right_m, double low_m, double high_m, double width_px);
 
   double x(double m) const { return left_px_ + (m - left_m_) * scale_; }

@@ -131,11 +131,10 @@ void write_notes(Out out, const PlotPanel& panel, const AxisSpan& x, double widt
     const double left_px = px(note.x);
     const double right_px = i + 1 < panel.notes.size() ? px(panel.notes[i + 1].x) : width_px;
     if (left_px > 0.0 && left_px < width_px) {
-      fmt::format_to(
-          out,
-          "set arrow from first {0:.12g}, graph 0 to first {0:.12g}, graph 1 nohead back "
-          "lc rgb '{1}' lw 0.8 dashtype (4,3)\n",
-          note.x, kNoteColour);
+      fmt::format_to(out,
+                     "set arrow from first {0:.12g}, graph 0 to first {0:.12g}, graph 1 nohead "
+                     "back lc rgb '{1}' lw 0.8 dashtype (4,3)\n",
+                     note.x, kNoteColour);
     }
     const double needed_px =
         kNoteCharacter_px * static_cast<double>(length_in_characters(note.text));
@@ -145,8 +144,8 @@ void write_notes(Out out, const PlotPanel& panel, const AxisSpan& x, double widt
   }
   if (names.empty()) return;
   fmt::format_to(out,
-                 "set x2tics left scale 0 offset 0,-0.4 noenhanced "
-                 "font 'sans-serif,10' textcolor rgb '{}' ({})\n",
+                 "set x2tics left scale 0 offset 0,-0.4 noenhanced font 'sans-serif,10' textcolor "
+                 "rgb '{}' ({})\n",
                  kAxisColour, names);
 }
 
@@ -249,8 +248,8 @@ std::string gnuplot_script(const Plot& plot) {
                  plot.width_px, plot.height_px, kAxisColour, kTextColour, kGridColour, kLeftMargin,
                  kRightMargin);
   fmt::format_to(out,
-                 "set key tmargin left Left reverse horizontal samplen 1.6 noenhanced "
-                 "textcolor rgb '{}'\nset multiplot\n",
+                 "set key tmargin left Left reverse horizontal samplen 1.6 noenhanced textcolor "
+                 "rgb '{}'\nset multiplot\n",
                  kTextColour);
   for (std::size_t i = 0; i < plot.panels.size(); ++i) {
     write_panel(out, plot, plot.panels[i], places[i]);

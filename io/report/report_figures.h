@@ -57,16 +57,14 @@ std::optional<Plot> ratio_plot(const ReportInput& input,
 std::optional<Plot> spectrum_plot(const ReportInput& input,
                                   const std::vector<SpecimenEstimates>& estimates);
 
-// Relaxation and creep of the pillar relative to their first value, from the solver and exact, and
-// the relative error.
+// Relaxation and creep of the pillar over their first value, by solver and exact, and their error.
 std::optional<Plot> pillar_plot(const ReportInput& input,
                                 const std::vector<SpecimenEstimates>& estimates);
 
 // Output of the load cell and depth (or stage position) of one run over time.
 std::optional<Plot> run_plot(const RunSeries& series);
 
-// Data with fit, and residuals divided by their standard deviation, over the logarithm of the time
-// since each motion began.
+// Data with fit, and residuals over their standard deviation, against log time since each motion.
 std::optional<Plot> fit_plot(const FitResult& fit);
 
 // Profile likelihoods: rise of the sum of squares over E_inf and over each relaxation time, one

@@ -59,16 +59,15 @@ void add_methods(Page& page, const ReportInput& input) {
   std::string intervals =
       "Intervals are 95 % intervals. They follow from the covariance of the parameters with "
       "autocorrelated noise (an autoregression of the residuals)";
-  intervals +=
-      has_profiles
-          ? "; the intervals of the equilibrium modulus and, without a frame in series, of "
-            "the times come from profile likelihoods (Venzon and Moolgavkar, 1988). "
-          : ". ";
+  intervals += has_profiles
+                   ? "; the intervals of the equilibrium modulus and, without a frame in series, "
+                     "of the times come from profile likelihoods (Venzon and Moolgavkar, 1988). "
+                   : ". ";
   if (is_punch) {
     intervals +=
         "If the record shows a drift of the load cell before contact, the intervals of the moduli "
-        "include it. Errors of punch, layer, Poisson ratio, calibration and frame scale all "
-        "moduli of a specimen together; they are reported separately as the systematic part.";
+        "include it. Errors of punch, layer, Poisson ratio, calibration and frame scale all moduli "
+        "of a specimen together; they are reported separately as the systematic part.";
   }
   page.add_paragraph(intervals);
   if (!input.law) return;

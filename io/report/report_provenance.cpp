@@ -30,8 +30,7 @@ std::string card_html(const ReportCard& card, const std::string& label) {
   return fmt::format(
       "<details>\n<summary><b>{0}</b> for {1}, units {2}: <code>{3}</code></summary>\n"
       "<p class=\"tools\"><a download=\"{3}\" href=\"data:text/plain;charset=utf-8,{4}\">Save as "
-      "{3}</a>"
-      "</p>\n<pre tabindex=\"0\" aria-label=\"Card {3}\">{5}</pre>\n</details>\n",
+      "{3}</a></p>\n<pre tabindex=\"0\" aria-label=\"Card {3}\">{5}</pre>\n</details>\n",
       escaped_markup(card.target), escaped_markup(label), escaped_markup(card.units), name,
       percent_encoded(card.text), escaped_markup(card.text));
 }

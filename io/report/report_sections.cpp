@@ -37,10 +37,9 @@ std::string summary_caption(const std::vector<SpecimenEstimates>& estimates) {
   std::string text =
       estimates.front().is_stiffness
           ? "Instantaneous stiffness (<i>R</i><sub>0</sub>) and equilibrium stiffness "
-            "(<i>R</i><sub>∞</sub>). No punch geometry was given, so no modulus is "
-            "claimed."
-          : "Instantaneous (<i>E</i><sub>0</sub>) and equilibrium "
-            "(<i>E</i><sub>∞</sub>) Young's modulus.";
+            "(<i>R</i><sub>∞</sub>). No punch geometry was given, so no modulus is claimed."
+          : "Instantaneous (<i>E</i><sub>0</sub>) and equilibrium (<i>E</i><sub>∞</sub>) Young's "
+            "modulus.";
   text +=
       " Brackets hold 95 % intervals from the record alone. The systematic part (geometry, "
       "calibration, frame), also at 95 %, scales all moduli of a specimen together and does not "
@@ -110,11 +109,10 @@ void add_summary(Page& page, const ReportInput& input,
   const std::string dashes =
       has_truth(input) ? " Dashed: the true material of the emulated rig." : "";
   if (const auto plot = relaxation_plot(input, estimates)) {
-    page.add_figure(
-        *plot, "relaxation",
-        "Relaxation of all specimens: absolute (left) and relative to the first value (right). "
-        "Bands are 95 % intervals from the records alone." +
-            dashes);
+    page.add_figure(*plot, "relaxation",
+                    "Relaxation of all specimens: absolute (left) and relative to the first value "
+                    "(right). Bands are 95 % intervals from the records alone." +
+                        dashes);
   }
   page.add_html("<div class=\"row\">\n");  // side by side if the page is wide enough
   if (const auto plot = ratio_plot(input, estimates)) {
@@ -123,26 +121,26 @@ void add_summary(Page& page, const ReportInput& input,
     page.add_figure(*plot, "mixing_ratio", caption);
   }
   if (const auto plot = spectrum_plot(input, estimates)) {
-    page.add_figure(*plot, "spectrum",
-                    "Relaxation spectrum: relative moduli over relaxation times. Bars are 95 % "
-                    "intervals.");
+    page.add_figure(
+        *plot, "spectrum",
+        "Relaxation spectrum: relative moduli over relaxation times. Bars are 95 % intervals.");
   }
   page.add_html("</div>\n");
   const HtmlTable spread = spread_table(estimates);
   if (!spread.is_empty()) {
     page.add_table(
         spread,
-        "Repeated specimens of a mixing ratio: the standard deviation between specimens, "
-        "relative to the mean, and the median standard error of a single fit. If the first is "
-        "larger, the specimens differ by more than the error of the fit.");
+        "Repeated specimens of a mixing ratio: the standard deviation between specimens, relative "
+        "to the mean, and the median standard error of a single fit. If the first is larger, the "
+        "specimens differ by more than the error of the fit.");
   }
   const HtmlTable terms = terms_table(estimates);
   if (!terms.is_empty()) {
     const char* form = estimates.front().is_stiffness ? "R" : "E";
     page.add_table(terms,
-                   fmt::format("Prony series <i>{0}</i>(<i>t</i>) = <i>{0}</i><sub>0</sub> [1 − "
-                               "Σ <i>g<sub>i</sub></i> (1 − e<sup>−<i>t</i>/<i>τ<sub>i</sub></i>"
-                               "</sup>)], with 95 % intervals.",
+                   fmt::format("Prony series <i>{0}</i>(<i>t</i>) = <i>{0}</i><sub>0</sub> [1 − Σ "
+                               "<i>g<sub>i</sub></i> (1 − "
+                               "e<sup>−<i>t</i>/<i>τ<sub>i</sub></i></sup>)], with 95 % intervals.",
                                form));
   }
   add_flags(page, estimates);
@@ -186,11 +184,10 @@ void add_pillar(Page& page, const ReportInput& input,
                    rough_html(pillar->creep.largest_relative_error)});
   }
   if (!setup.empty()) page.add_paragraph(escaped_markup(setup));
-  page.add_figure(
-      *plot, "pillar",
-      "Above: the time-stepping solver (rings, some of its steps) and the exact solution (lines), "
-      "relative to the first value. Below: the relative error of every step; errors below 10⁻¹⁶ "
-      "are drawn at 10⁻¹⁶.");
+  page.add_figure(*plot, "pillar",
+                  "Above: the time-stepping solver (rings, some of its steps) and the exact "
+                  "solution (lines), relative to the first value. Below: the relative error of "
+                  "every step; errors below 10⁻¹⁶ are drawn at 10⁻¹⁶.");
   page.add_table(table, "Agreement of the solver with the exact solution.");
 }
 
@@ -219,15 +216,14 @@ void add_specimen(Page& page, const SpecimenReport& specimen, const SpecimenEsti
         "Profile likelihoods: rise of the residual sum of squares, divided by the variance of the "
         "noise, while one parameter is held and all others are fitted again. The 95 % interval "
         "ends at the dashed line, 3.84; it is asymmetric if the curve is not a parabola." +
-            std::string(specimen.run ? " The times are those of specimen and frame in "
-                                       "series."
+            std::string(specimen.run ? " The times are those of specimen and frame in series."
                                      : ""));
   }
   if (has_orders) {
     page.add_table(
         orders_table(*specimen.fit),
-        "Orders tried. AICc and BIC are differences from their smallest value; cross-validation "
-        "is the error of predicting omitted blocks, divided by that of the noise.");
+        "Orders tried. AICc and BIC are differences from their smallest value; cross-validation is "
+        "the error of predicting omitted blocks, divided by that of the noise.");
   }
 }
 

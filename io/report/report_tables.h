@@ -13,9 +13,8 @@ namespace viscard {
 // One row per specimen: E0, E_inf, number of terms, systematic part, two-point modulus.
 HtmlTable summary_table(const std::vector<SpecimenEstimates>& estimates);
 
-// One row for each ratio with at least two specimens: the mean of E0 and of 1 - E_inf/E0, their
-// standard deviation between specimens, and the median standard error of a single fit. Empty if no
-// ratio is repeated.
+// One row per ratio with at least two specimens: the mean of E0 and of 1 - E_inf/E0, their standard
+// deviation between specimens, and the median standard error of a fit. Empty if none is repeated.
 HtmlTable spread_table(const std::vector<SpecimenEstimates>& estimates);
 
 // One row per term.

@@ -164,9 +164,8 @@ void fill_electrode(const RawScene& raw, PillarScene& scene) {
                        sampled ? 0.0 : raw.electrode_radius_m, raw.quadrants};
 }
 
-// A mesh that is asked for instead of left to the tolerance: "graded-p" shrinks toward the rim of
-// the bond; "h1" and "h2" are the linear and quadratic elements of ordinary programs, "p" equal
-// ones of any degree.
+// A mesh that the user asks for: "graded-p" shrinks toward the rim of the bond; "h1" and "h2" are
+// the linear and quadratic elements of ordinary programs, "p" equal ones of any degree.
 void fill_mesh(const RawScene& raw, PillarScene& scene) {
   if (raw.mesh_kind.empty()) return;
   const auto degree = static_cast<int>(raw.degree);

@@ -50,8 +50,7 @@ std::vector<SweepPoint> points_of(const ArrayScene& scene, const ArraySweep& swe
 // "file:line: key: what".
 std::string text_with_line(const std::filesystem::path& path, const SceneMistake& mistake);
 
-// Does the work on a scene of the file. A mistake found there becomes std::runtime_error with its
-// line.
+// Works on a scene of the file. A mistake found there becomes std::runtime_error with its line.
 template <typename Work>
 auto with_lines_of(const std::filesystem::path& path, const Work& work) {
   try {

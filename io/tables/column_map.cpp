@@ -172,8 +172,7 @@ ColumnMap column_map_from_words(const std::vector<std::string>& words) {
     if (equals == std::string::npos || equals == 0 || equals + 1 == word.size()) {
       throw std::invalid_argument(
           "--column '" + word +
-          "' is not of the form NAME=COLUMN; write it like time_s=\"Time (s)\" or "
-          "force_N=2");
+          "' is not of the form NAME=COLUMN; write it like time_s=\"Time (s)\" or force_N=2");
     }
     const std::string name = word.substr(0, equals);
     const auto& names = column_names();

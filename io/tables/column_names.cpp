@@ -1,5 +1,6 @@
 #include "io/tables/column_names.h"
 
+#include <algorithm>
 #include <numbers>
 #include <stdexcept>
 
@@ -18,10 +19,12 @@ std::string plain(const std::string& text) {
   return out;
 }
 
-bool is_alias(const std::string& name, const char* alias) {
-  const std::string text = alias;
-  const bool is_letter = text.size() == 1 || text.find('\'') == 1;  // t, T, E', G''
-  return is_letter ? name == text : plain(name) == text;
+bool has_alias(const Quantity& quantity, const std::string& name) {
+  return std::any_of(quantity.aliases.begin(), quantity.aliases.end(), [&](const char* alias) {
+    const std::string text = alias;
+    const bool is_letter = text.size() == 1 || text.find('\'') == 1;  // t, T, E', G''
+    return (is_letter ? name : plain(name)) == text;
+  });
 }
 
 // omega and w are angular frequencies, in rad/s even if the column has no unit.
@@ -46,40 +49,27 @@ std::optional<UnitScale> scale_if_fits(const CsvColumn& column, const std::strin
 
 const std::vector<Quantity>& quantities() {
   static const std::vector<Quantity> kQuantities{
-      {"time_s", "time", "s", {"t", "time", "elapsed time", "test time", "run time", "zeit"}},
-      {"force_N", "force", "N", {"F", "force", "load", "normal force", "kraft"}},
+      {"time_s", "time", "s", {"t", "elapsed time", "test time", "run time", "zeit"}},
+      {"force_N", "force", "N", {"F", "load", "normal force", "kraft"}},
       {"depth_m",
        "depth",
        "m",
-       {"h", "depth", "indentation", "indentation depth", "displacement", "penetration"}},
+       {"h", "indentation", "indentation depth", "displacement", "penetration"}},
       {"modulus_Pa",
        "modulus",
        "Pa",
-       {"E", "G", "E(t)", "G(t)", "e relax", "g relax", "e(t)", "g(t)", "modulus",
-        "relaxation modulus"}},
-      {"stress_Pa", "stress", "Pa", {"stress", "sigma", "σ"}},
-      {"strain", "strain", "1", {"strain", "epsilon", "eps", "ε", "gamma"}},
-      {"compliance_1_Pa",
-       "compliance",
-       "1/Pa",
-       {"J", "D", "j(t)", "d(t)", "compliance", "creep compliance"}},
-      {"frequency_Hz",
-       "frequency",
-       "Hz",
-       {"f", "freq", "frequency", "w", "ω", "omega", "angular frequency"}},
-      {"storage_modulus_Pa",
-       "storage_modulus",
-       "Pa",
-       {"E'", "G'", "e stor", "g stor", "storage modulus", "storage"}},
-      {"loss_modulus_Pa",
-       "loss_modulus",
-       "Pa",
-       {"E''", "G''", "E\"", "G\"", "e loss", "g loss", "loss modulus", "loss"}},
-      {"mass_kg", "mass", "kg", {"m", "mass", "weight"}},
-      {"volts_V", "volts", "V", {"U", "V", "volts", "voltage", "reading", "output", "amplifier"}},
-      {"position_m", "position", "m", {"z", "position", "stage", "stage position"}},
-      {"temperature_C", "temperature", "degC", {"T", "temp", "temperature"}},
-      {"segment", "segment", "1", {"segment", "set", "phase", "step", "step name"}, true}};
+       {"E", "G", "e relax", "g relax", "e(t)", "g(t)", "relaxation modulus"}},
+      {"stress_Pa", "stress", "Pa", {"sigma", "σ"}},
+      {"strain", "strain", "1", {"epsilon", "eps", "ε", "gamma"}},
+      {"compliance_1_Pa", "compliance", "1/Pa", {"J", "D", "j(t)", "d(t)", "creep compliance"}},
+      {"frequency_Hz", "frequency", "Hz", {"f", "freq", "w", "ω", "omega", "angular frequency"}},
+      {"storage_modulus_Pa", "storage_modulus", "Pa", {"E'", "G'", "e stor", "g stor", "storage"}},
+      {"loss_modulus_Pa", "loss_modulus", "Pa", {"E''", "G''", "e loss", "g loss", "loss"}},
+      {"mass_kg", "mass", "kg", {"m", "weight"}},
+      {"volts_V", "volts", "V", {"U", "V", "voltage", "reading", "output", "amplifier"}},
+      {"position_m", "position", "m", {"z", "stage", "stage position"}},
+      {"temperature_C", "temperature", "degC", {"T", "temp"}},
+      {"segment", "segment", "1", {"set", "phase", "step", "step name"}, true}};
   return kQuantities;
 }
 
@@ -101,12 +91,10 @@ std::optional<HeaderMatch> match_header(const CsvColumn& column, const Quantity&
     if (!scale || (names_unit && !is_si)) return std::nullopt;
     return HeaderMatch{3, *scale};
   }
-  for (const char* alias : quantity.aliases) {
-    if (!is_alias(column.name, alias)) continue;
+  const bool is_own_name = plain(column.name) == plain(quantity.base);
+  if (is_own_name || has_alias(quantity, column.name)) {
     const auto scale = scale_if_fits(column, column.unit, quantity);
-    if (!scale) return std::nullopt;
-    const bool is_own_name = plain(column.name) == plain(quantity.base);
-    return HeaderMatch{is_own_name ? 2 : 1, *scale};
+    return scale ? std::optional(HeaderMatch{is_own_name ? 2 : 1, *scale}) : std::nullopt;
   }
   // force_mN, depth_um: the quantity's own name followed by another unit.
   const std::string head = std::string(quantity.base) + "_";

@@ -14,7 +14,7 @@ struct Quantity {
   const char* name;                  // "force_N"
   const char* base;                  // "force"
   const char* si_unit;               // "N"; "1" for a plain number
-  std::vector<const char*> aliases;  // lower case; a single letter keeps its case, which matters
+  std::vector<const char*> aliases;  // beside base; lower case, but single letters keep theirs
   bool is_text = false;
 };
 

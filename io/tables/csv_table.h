@@ -35,8 +35,7 @@ struct CsvTable {
 };
 
 // Throws std::runtime_error naming the file (and line) if it is missing, empty, not text, or has
-// rows of different lengths. A cell that is not a number is accepted here; column_map.h refuses it
-// if its column is used.
+// rows of different lengths. A cell may hold no number; column_map.h refuses it in a used column.
 CsvTable read_csv(const std::filesystem::path& path);
 
 // The same from bytes; name stands for the file in messages.

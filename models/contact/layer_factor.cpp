@@ -37,8 +37,7 @@ double layer_factor(double radius_over_thickness, double poisson_ratio) {
   require_layer(radius_over_thickness, poisson_ratio);
   if (radius_over_thickness == 0.0) return 1.0;
 
-  // Quadrature over the transform variable x from 0 to 30, beyond which 1 - K is below 1e-20, in
-  // panels of length 1.
+  // Quadrature over the transform variable x in panels of length 1; 1 - K is below 1e-20 beyond 30.
   static const QuadratureRule panel = gauss_legendre(24);
   constexpr int kPanels = 30;
   std::vector<double> x, weight;

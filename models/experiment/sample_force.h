@@ -7,9 +7,8 @@
 
 namespace viscard {
 
-// The reading in the unit of the calibration: volts (counts times volts_per_count) or, from an
-// instrument that sends forces, newtons. Nothing if the sample has no number, or counts without
-// volts_per_count.
+// The reading in the calibration's unit: volts (counts times volts_per_count) or newtons from an
+// instrument that sends forces. Nothing without a number, or for counts without volts_per_count.
 std::optional<double> reading_from_sample(const LoadSample& sample, const LoadCellConfig& cell);
 
 // Force in N, positive in compression, before any tare:

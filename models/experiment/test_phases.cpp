@@ -184,10 +184,9 @@ std::vector<TestPhase> phases_from_plan(const TestPlan& plan) {
   require_plan(
       plan.approach_speed_m_s > 0.0 && plan.unload_speed_m_s > 0.0 && plan.retract_speed_m_s > 0.0,
       "all speeds must be positive");
-  require_plan(
-      plan.contact_force_N > 0.0 && plan.gap_m > 0.0 && plan.retract_m >= plan.gap_m,
-      "contact_force and gap under [approach] must be positive, and distance under [retract] not "
-      "below gap");
+  require_plan(plan.contact_force_N > 0.0 && plan.gap_m > 0.0 && plan.retract_m >= plan.gap_m,
+               "contact_force and gap under [approach] must be positive, and distance under "
+               "[retract] not below gap");
   require_plan(plan.preload_N >= 0.0 && plan.preload_s >= 0.0,
                "force and hold under [preload] must not be negative");
   const AddPhases add = protocol_named(plan.protocol);

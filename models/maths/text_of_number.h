@@ -10,8 +10,7 @@ namespace viscard {
 
 // Numbers as text and text as numbers. Nothing here depends on the locale.
 
-// A number as a person reads it in a message: "1e-14", "0.495", "nan". std::to_string would print
-// the first as 0.000000.
+// A number for a message: "1e-14", "0.495", "nan". std::to_string prints the first as 0.000000.
 std::string text_of(double value, int significant_digits = 6);
 
 // A length: "12.5 um".

@@ -22,8 +22,7 @@ struct Effect {
   const char* changes;
   const char* cost;
   std::tuple<EffectOn<PillarScene>, EffectOn<ArrayScene>> on;
-  // True for a choice between kinds of elements that give the same answer: studies of accuracy
-  // leave it to the plan.
+  // True for a choice between kinds of elements with the same answer; studies leave it to the plan.
   bool is_choice_of_elements = false;
 };
 

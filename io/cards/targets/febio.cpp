@@ -1,5 +1,4 @@
-// FEBio, "viscoelastic" and "uncoupled viscoelastic". Sources: FEViscoElasticMaterial.cpp; FEBio 4
-// format specification.
+// FEBio viscoelastic, uncoupled viscoelastic. Sources: FEViscoElasticMaterial.cpp, FEBio 4 format.
 #include "io/cards/deck.h"
 #include "io/cards/known_mistakes.h"
 #include "io/cards/named_values.h"

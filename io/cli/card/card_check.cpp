@@ -133,10 +133,9 @@ int list_card_targets(const CardWords& words, Streams& streams) {
                                target.takes_incompressible ? "yes" : "no", to_word(target.evidence),
                                target.code, conventions_in_words(target));
   }
-  streams.out
-      << "\nevidence: run = the solver returned the exact answer; parsed = independent readers "
-         "found the\nnumbers; source = its open source, not run; documentation = its manual, not "
-         "run\n\nunits: ";
+  streams.out << "\nevidence: run = the solver returned the exact answer; parsed = independent "
+                 "readers found the\nnumbers; source = its open source, not run; documentation = "
+                 "its manual, not run\n\nunits: ";
   const char* between = "";
   for (const UnitSystem& system : unit_systems()) {
     streams.out << between << system.name << " (" << system.description << ")";

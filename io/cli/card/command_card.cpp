@@ -113,10 +113,8 @@ int run_card(const Words& words, Streams& streams) {
   CommandSyntax syntax{
       "viscard card MATERIAL.json --for TARGET [--units SYSTEM] [--out FILE] [OPTIONS]",
       "Writes a material card for a solver, right by that solver's conventions and read back "
-      "before it\n"
-      "is saved. With --list, --check, --prove or --deck: shows the targets, checks a card, runs "
-      "it,\n"
-      "or writes a one-element model to run it in.",
+      "before it is saved. With --list, --check, --prove or --deck: shows the targets, checks a "
+      "card, runs it, or writes a one-element model to run it in.",
       "viscard card data/materials/pdms_1to10_seed.json --for abaqus --units mm-t-s"};
   add_options(syntax, card);
   syntax.positional = {"material"};

@@ -67,10 +67,10 @@ CommandSyntax fit_syntax() {
   CommandSyntax syntax;
   syntax.usage = "viscard fit FILE... [OPTIONS]";
   syntax.description =
-      "Fits the instantaneous modulus and a Prony series, with 95 % intervals, to captures\n"
-      "(*.viscap) or tables from any machine. Columns are found by name and unit (force_N,\n"
-      "\"Force [N]\", t (s)). The fit uses the exact loading history and chooses the number of\n"
-      "terms unless it is given.";
+      "Fits the instantaneous modulus and a Prony series, with 95 % intervals, to captures "
+      "(*.viscap) or tables from any machine. Columns are found by name and unit (force_N, \"Force "
+      "[N]\", t (s)). The fit uses the exact loading history and chooses the number of terms "
+      "unless it is given.";
   syntax.example = "viscard fit data/demo/example_relaxation.csv --out material.json";
   add_fit_options(syntax.options);
   add_data_options(syntax.options);

@@ -249,8 +249,7 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   if (fit.systematic_relative > 0.0) {
     out << fmt::format(
         "  systematic part, common to all moduli: {:.2g} % (geometry, calibration, frame); "
-        "including "
-        "it, E0 is {} {}\n",
+        "including it, E0 is {} {}\n",
         100.0 * fit.systematic_relative,
         range(combined_95(fit.E0_interval_95, fit.E0_Pa, fit.systematic_relative), shown.factor, 4),
         shown.unit);

@@ -185,13 +185,12 @@ nlohmann::json json_from_scores(const std::vector<ScoreRow>& rows, const fs::pat
 }
 
 CommandSyntax demo_syntax() {
-  CommandSyntax syntax{"viscard demo [--out DIR] [OPTIONS]",
-                       "Runs the whole flow on the emulated rig for three mixing ratios of PDMS: "
-                       "capture, fit, cards,\n"
-                       "validation and one HTML page. Prints each command as you would type it. "
-                       "Results of an earlier\n"
-                       "demo that are up to date are kept.",
-                       "viscard demo --out demo"};
+  CommandSyntax syntax{
+      "viscard demo [--out DIR] [OPTIONS]",
+      "Runs the whole flow on the emulated rig for three mixing ratios of PDMS: capture, fit, "
+      "cards, validation and one HTML page. Prints each command as you would type it. Results of "
+      "an earlier demo that are up to date are kept.",
+      "viscard demo --out demo"};
   auto add = syntax.options.add_options();
   add("out", po::value<std::string>()->default_value("demo"), "folder for all results");
   add("data", po::value<std::string>()->default_value(VISCARD_DEMO_DATA),

@@ -28,9 +28,8 @@ CommandSyntax report_syntax() {
   CommandSyntax syntax{
       "viscard report FILE... --out PAGE.html [OPTIONS]",
       "Writes one self-contained HTML page about captures and tables (which it fits), material "
-      "files\n"
-      "and a joint fit: estimates with intervals, raw record, fit and residuals, spectrum, mixing\n"
-      "ratios, the pillar, cards and provenance.",
+      "files and a joint fit: estimates with intervals, raw record, fit and residuals, spectrum, "
+      "mixing ratios, the pillar, cards and provenance.",
       "viscard report data/materials/pdms_1to10_seed.json --out report.html"};
   auto add = syntax.options.add_options();
   add("out", po::value<std::string>(), "the page");
@@ -38,8 +37,7 @@ CommandSyntax report_syntax() {
       "heading of the page");
   add("truth", po::value<std::vector<std::string>>(),
       "truth of an emulated specimen; once for each capture, in their order. Default: the file "
-      "that "
-      "capture --emulate wrote beside the capture");
+      "that capture --emulate wrote beside the capture");
   add("card", po::value<std::vector<std::string>>(),
       "target of a card to show (repeatable; default: abaqus, ansys, febio, json)");
   add("units", po::value<std::string>()->default_value("mm-t-s"), "unit system of the cards");

@@ -15,13 +15,11 @@ namespace viscard {
 // Pictures of answers, name and SVG. Empty without gnuplot; the tables hold the same numbers.
 using Pictures = std::vector<std::pair<std::string, std::string>>;
 
-// Curves: histories over time, responses over frequency (magnitude on logarithmic axes above
-// phase), spectra.
+// Curves: histories over time, responses over frequency (log magnitude above phase), spectra.
 Pictures pictures_of(const SceneAnswer& answer);
 
 // A result that every pillar of a row has ("centre_voltage_1", "centre_voltage_2", ...) over the
-// numbers of the pillars, with its error. If the pillars differ by decades, its magnitude on a
-// logarithmic axis.
+// pillars, with its error. If they differ by decades, its magnitude on a logarithmic axis.
 Pictures pictures_over_pillars(const SceneAnswer& answer);
 
 // Each result of a sweep over the parameter with the most values, one line for each combination of

@@ -53,9 +53,8 @@ void SweepStore::read(const std::string& key) {
   std::istringstream in(read_file(path_));
   std::string line;
   if (!std::getline(in, line) || line != "# " + key) {
-    throw std::runtime_error(path_.string() +
-                             " holds the points of another sweep; remove it, or choose another "
-                             "folder");
+    throw std::runtime_error(
+        path_.string() + " holds the points of another sweep; remove it, or choose another folder");
   }
   std::string kept = line + "\n";
   while (std::getline(in, line)) {

@@ -100,8 +100,8 @@ Plot plot_from_study(const CostStudy& study, const std::string& scene) {
   }
   return {.title = "What accuracy costs: " + scene,
           .description =
-              "Relative error against time for each discretisation, with the front of "
-              "those that no other beats in both.",
+              "Relative error against time for each discretisation, with the front of those that "
+              "no other beats in both.",
           .panels = {panel},
           .width_px = 760,
           .height_px = 460};
@@ -131,11 +131,10 @@ void print_study(const CostStudy& study, const std::string& path, std::ostream& 
 }
 
 CommandSyntax cost_syntax() {
-  CommandSyntax syntax{
-      "viscard cost SCENE.toml [OPTIONS]",
-      "Shows what accuracy costs: error against time, memory and unknowns over discretisations and "
-      "effects,\nand the cheapest for each tolerance.",
-      "viscard cost data/scenes/pillar_modal.toml --budget 20s"};
+  CommandSyntax syntax{"viscard cost SCENE.toml [OPTIONS]",
+                       "Shows what accuracy costs: error against time, memory and unknowns over "
+                       "discretisations and effects, and the cheapest for each tolerance.",
+                       "viscard cost data/scenes/pillar_modal.toml --budget 20s"};
   syntax.options.add_options()("budget", po::value<std::string>()->default_value("60s"),
                                "time to spend, such as 60s or 5min")(
       "out", po::value<std::string>(), "folder for cost.csv, cost.json and cost.svg")(

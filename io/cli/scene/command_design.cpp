@@ -59,9 +59,9 @@ std::vector<DesignOption> options_of(Design& d) {
 CommandSyntax design_syntax(Design& defaults) {
   CommandSyntax syntax{
       "viscard design [OPTIONS]",
-      "Closed-form limits of a pillar sensor: buckling, matting, ground collapse, flaw\n"
-      "insensitivity, sensitivity, resolution, manufacture; the longest admissible pillar.\n"
-      "Values are in SI or carry their unit.",
+      "Closed-form limits of a pillar sensor: buckling, matting, ground collapse, flaw "
+      "insensitivity, sensitivity, resolution, manufacture; the longest admissible pillar. Values "
+      "are in SI or carry their unit.",
       "viscard design --diameter \"40 um\" --spacing \"60 um\" --length \"120 um\""};
   for (const DesignOption& option : options_of(defaults)) {
     const std::string what = fmt::format("{} ({:g}{}{})", option.what, *option.value,

@@ -41,7 +41,7 @@ void print_plan(const std::string& path, const Scene& scene, const ScenePlan& pl
 CommandSyntax plan_syntax() {
   CommandSyntax syntax{"viscard plan SCENE.toml [OPTIONS]",
                        "Says which effects a scene needs at its tolerance, with the number that "
-                       "decides and the error\nof leaving each out. 'viscard simulate' follows it; "
+                       "decides and the error of leaving each out. 'viscard simulate' follows it; "
                        "[effects] in the scene overrules it.",
                        "viscard plan data/scenes/pillar_modal.toml"};
   add_tolerance_option(syntax.options);

@@ -18,8 +18,8 @@ namespace {
 CommandSyntax scene_syntax() {
   CommandSyntax syntax{
       "viscard scene check SCENE.toml [OPTIONS]",
-      "Reads a scene, says with the line of the file what is missing or "
-      "contradicts itself,\nand draws the geometry. Nothing is solved.",
+      "Reads a scene, says with the line of the file what is missing or contradicts itself, and "
+      "draws the geometry. Nothing is solved.",
       "viscard scene check data/scenes/pillar_sensor.toml --svg sensor.svg --force"};
   syntax.options.add_options()("svg", po::value<std::string>(), "file for the drawing")(
       "force", "overwrite an existing file");

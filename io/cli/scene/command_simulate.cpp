@@ -47,7 +47,7 @@ CommandSyntax simulate_syntax() {
   CommandSyntax syntax{
       "viscard simulate SCENE.toml [OPTIONS]",
       "Answers a scene: static, modal, buckling, creep, relaxation, harmonic or transient of one "
-      "pillar, on a rigid base or a film,\nor voltages, cross-talk and modes of a row of pillars. "
+      "pillar, on a rigid base or a film, or voltages, cross-talk and modes of a row of pillars. "
       "The mesh is refined until the estimated error meets the tolerance.",
       "viscard simulate data/scenes/pillar_modal.toml"};
   add_tolerance_option(syntax.options);

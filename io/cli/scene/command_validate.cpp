@@ -68,13 +68,11 @@ void print_result(const ValidationResult& result, const std::string& name, std::
 }
 
 CommandSyntax validate_syntax() {
-  CommandSyntax syntax{
-      "viscard validate MATERIAL.json [OPTIONS]",
-      "Runs a pillar (40 um across, 120 um long, fixed base) in relaxation and in creep with the "
-      "material through\nthe time-stepping solver and compares with the exact answers. Exit status "
-      "1 "
-      "if they differ by more than allowed.",
-      "viscard validate data/materials/pdms_1to10_seed.json"};
+  CommandSyntax syntax{"viscard validate MATERIAL.json [OPTIONS]",
+                       "Runs a pillar (40 um across, 120 um long, fixed base) in relaxation and in "
+                       "creep with the material through the time-stepping solver and compares with "
+                       "the exact answers. Exit status 1 if they differ by more than allowed.",
+                       "viscard validate data/materials/pdms_1to10_seed.json"};
   syntax.options.add_options()("csv", po::value<std::string>(), "write the relaxation curve here")(
       "creep-csv", po::value<std::string>(), "write the creep curve here")(
       "max-error", po::value<double>()->default_value(1e-6, "1e-6"),

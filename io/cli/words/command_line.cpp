@@ -5,6 +5,7 @@
 #include "io/cli/words/output_paths.h"
 
 #include <ostream>
+#include <sstream>
 
 namespace po = boost::program_options;
 
@@ -21,6 +22,21 @@ std::vector<std::string> option_names(const po::options_description& options) {
                                 const char* usage) {
   throw UsageError("there is no option '" + word + "'" + did_you_mean(word, option_names(options)) +
                    " Usage: " + usage);
+}
+
+// The words of a text in lines of at most 96 characters, as wide as the table of options.
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t kColumns = 96;
+  std::istringstream words(text);
+  std::string lines, word;
+  std::size_t used = 0;
+  while (words >> word) {
+    const bool fits = used + 1 + word.size() <= kColumns;
+    if (used > 0) lines += fits ? ' ' : '\n';
+    used = (used > 0 && fits ? used + 1 : 0) + word.size();
+    lines += word;
+  }
+  return lines;
 }
 
 }  // namespace
@@ -61,7 +77,7 @@ std::optional<po::variables_map> parse_words(CommandSyntax& syntax, const Words&
   }
   if (values.count("help") > 0) {
     streams.out << "usage: " << syntax.usage << "\n\n"
-                << syntax.description << "\n\n"
+                << wrapped(syntax.description) << "\n\n"
                 << syntax.options << "\nExample: " << syntax.example << "\n";
     return std::nullopt;
   }

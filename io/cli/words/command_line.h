@@ -14,7 +14,7 @@ namespace viscard {
 // The syntax of one command, for parsing and for --help.
 struct CommandSyntax {
   const char* usage;        // "viscard fit FILE... [OPTIONS]"
-  const char* description;  // one or two sentences, in lines of at most 96 characters
+  const char* description;  // one or two sentences; --help breaks them into lines
   const char* example;      // a command line that works as printed
   boost::program_options::options_description options{"Options", 96};
   // Names of positional words in order; a repeatable last one takes all remaining words.

@@ -32,8 +32,7 @@ struct ArrayElectrodes {
   bool is_equipotential = false;  // false: the face carries no charge, and its potential is read
 };
 
-// Throws SceneMistake naming the length that is wrong, or the electrodes that overlap or
-// leave the film.
+// Throws SceneMistake naming the wrong length, or electrodes that overlap or leave the film.
 void validate(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes);
 
 double electrode_half_width_m(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes);

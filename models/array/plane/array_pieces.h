@@ -36,9 +36,8 @@ struct CondensedPillar {
     return -matrix.bottomRightCorner(port_count(), port_count());
   }
 };
-// `modes`: how many modes to give ports; 0 for statics. At nu = 0.5 in plane strain the bulk
-// modulus is 1e6 shear moduli, which moves answers by about 1e-6. Throws std::runtime_error if the
-// modes do not converge.
+// `modes`: how many get ports; 0 for statics. At nu = 0.5 in plane strain the bulk modulus is 1e6
+// shear moduli, which moves answers by about 1e-6. Throws std::runtime_error without convergence.
 CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media, int degree,
                                  int modes = 0);
 

@@ -18,13 +18,11 @@ namespace viscard {
 //   coupling_percent_i          100 (V_midway/2)/V, V the mean at both loaded neighbours' centres
 //   crosstalk_percent_i         mean or electrode voltage of an unloaded pillar over a loaded one's
 //   crosstalk_centre_percent_i  the same of the centres
-//   neighbours_percent_i        contribution of the other loaded pillars to the centre (electrode)
-//                               voltage
+//   neighbours_percent_i        share of the other loaded pillars in the centre (electrode) voltage
 //   deviation_percent_i         centre (electrode) voltage against that of a lone pillar on a wide
 //                               film; only if wanted, because it needs a second model
-// Harmonic and transient analyses give curves of the top's displacement and of the voltage of each
-// pillar (array_transfer.h). Throws std::runtime_error if the finest mesh does not meet the
-// tolerance.
+// Harmonic and transient analyses give curves of the displacement and voltage of each pillar's top
+// (array_transfer.h). Throws std::runtime_error if the finest mesh does not meet the tolerance.
 SceneAnswer simulate_array(const ArrayScene& scene);
 
 // The scene on one mesh, without mesh errors, and the meshes that simulate_array() goes through.

@@ -23,8 +23,7 @@ enum class FreeBottom {
 enum class HistoryOf { kNothing, kPressure, kShortening };
 
 // One analysis of a pillar: what it needs, what it may be asked for, and its answer on one mesh.
-// All other code reads this row and never asks which analysis it is. README.md shows how to add
-// one.
+// All other code reads this row and never asks which analysis it is. README.md: how to add one.
 struct Analysis {
   const char* name;   // the word in a scene file
   PillarDrive drive;  // its alternative of the variant, with default values

@@ -29,8 +29,7 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr std::size_t kMostDirect = 16;
 
 // Answers one frequency at a time. The tolerance of an output refers to |y| + |omega dy/domega|: a
-// curve is right if it is within the tolerance in amplitude or in frequency. Close to a pole no
-// mesh can give more.
+// curve is right within the tolerance in amplitude or frequency. Near a pole no mesh can give more.
 class Response {
  public:
   Response(const PillarScene& scene, const SceneBody& body, const ReducedBody& reduced)
@@ -135,16 +134,15 @@ void note_poles(const PillarScene& scene, const Sweep& sweep, SceneAnswer& answe
   if (count == 0) return;
   // A coarse mesh may resonate where the pillar does not; every answer reaches degree 5.
   if (harmonic_drive(scene).frequencies_Hz.size() == 1 && answer.discretisation.degree >= 5) {
-    throw std::runtime_error(
-        "at " + list +
-        " Hz the pillar is on a resonance, or a node between two, with too little damping: the "
-        "amplitude changes too sharply with frequency for the tolerance. Choose another frequency, "
-        "or a material with damping");
+    throw std::runtime_error("at " + list +
+                             " Hz the pillar is on a resonance, or a node between two, with too "
+                             "little damping: the amplitude changes too sharply with frequency for "
+                             "the tolerance. Choose another frequency, or a material with damping");
   }
   answer.notes.push_back(std::to_string(count) + " of the frequencies (" + list +
                          (count > 4 ? ", ..." : "") +
-                         " Hz) lie on a resonance or a node too sharp for the tolerance; the "
-                         "error column shows by how much");
+                         " Hz) lie on a resonance or a node too sharp for the tolerance; the error "
+                         "column shows by how much");
 }
 
 bool is_solved_one_by_one(const PillarScene& scene, const SceneBody& body) {

@@ -49,8 +49,7 @@ void check_mesh(const PillarScene& scene) {
                                                         text_of(kMost, 2) + "; make them larger");
 }
 
-// A body that nothing holds can vibrate, and can bear loads that balance themselves, as the field
-// of an electrode does.
+// A free body can vibrate and bear loads that balance themselves, such as an electrode's field.
 void check_bottom(const PillarScene& scene) {
   if (scene.fixed_bottom) return;
   const char* const key = scene.geometry.film ? "geometry.film.bottom" : "geometry.bottom";

@@ -11,9 +11,8 @@
 
 namespace viscard {
 
-// Penalty of the augmented Lagrangian at nu = 0.5, over the shear modulus. It determines the number
-// of iterations, not the solution. Larger values would add the rounding errors of nearly rigid
-// motions to the solution.
+// Penalty of the augmented Lagrangian at nu = 0.5, over the shear modulus. It sets the number of
+// iterations, not the solution. Larger values would add rounding errors of nearly rigid motions.
 constexpr double kPenaltyOverShear = 10.0;
 
 enum class PlaneState { kStrain, kStress };  // of the plane motions

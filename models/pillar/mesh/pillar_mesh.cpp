@@ -204,10 +204,9 @@ void validate(const PillarGeometry& g) {
   // Relative to the diameter; rounding of node positions matters below.
   constexpr double kThinnest = 1e-6;
   if (g.film->thickness_m < kThinnest * g.diameter_m) {
-    throw SceneMistake(
-        "geometry.film.thickness",
-        "the film is thinner than a millionth of the pillar's diameter, too thin for "
-        "any mesh here; leave the film out");
+    throw SceneMistake("geometry.film.thickness",
+                       "the film is thinner than a millionth of the pillar's diameter, too thin "
+                       "for any mesh here; leave the film out");
   }
   if (g.film->radius_m < bond_radius_m(g) * (1.0 - 1e-12)) {
     throw SceneMistake("geometry.film.radius",

@@ -89,8 +89,7 @@ class LanczosSearch {
   double scale_ = 1.0;
 };
 
-// All eigenpairs of a small op, from its matrix: the Lanczos method cannot find as many eigenpairs
-// as there are unknowns.
+// All eigenpairs of a small op, from its matrix: the Lanczos method cannot find all of them.
 EigenPairs all_eigenpairs(const PencilMap& op, const LinearMap& B, int size) {
   Eigen::MatrixXd matrix(size, size);
   for (int i = 0; i < size; ++i) {

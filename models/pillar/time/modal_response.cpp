@@ -42,9 +42,8 @@ double characteristic(const std::vector<MaterialTerm>& terms, std::size_t i, dou
   return value;
 }
 
-// Distance of the real root from the pole -1/tau_i to its left. D runs from minus to plus infinity
-// (or to its value at 0) between that pole and the next. Bisects in the logarithm first, because
-// the offset may be tiny.
+// Distance of the real root from the pole -1/tau_i to its left. D runs from -inf to inf (or its
+// value at 0) between that pole and the next. Bisects in the logarithm first: offsets may be tiny.
 double root_offset(const std::vector<MaterialTerm>& terms, std::size_t i, double omega) {
   const double rate = 1.0 / terms[i].tau_s;
   const double width = i + 1 < terms.size() ? rate - 1.0 / terms[i + 1].tau_s : rate;

@@ -12,9 +12,8 @@ Eigen::VectorXd exponential_moments(double x, int highest);
 // A step of length h ends at t_1. The steps before it have the lengths earlier_over_h * h, latest
 // first. The displacement is the polynomial through the ends of all these steps, and
 //   int_step exp(-(t_1 - s)/tau) u'(s) ds = sum_m weight_m (increment of step m)
-// with m = 0 for the new step and x = h/tau (eq. 17). One earlier step gives degree 2, none gives
-// degree 1 (weight phi_1). For x -> infinity, h/tau * weight tends to the backward differentiation
-// formula of that order.
+// with m = 0 for the new step and x = h/tau (eq. 17). One earlier step gives degree 2, none degree
+// 1 (weight phi_1). For x -> inf, h/tau * weight tends to backward differentiation of that order.
 class StepWeights {
  public:
   explicit StepWeights(const std::vector<double>& earlier_over_h);

@@ -24,8 +24,7 @@ enum class TopLoad {
 };
 
 // Longitudinal (m = 0) model of a pillar of one viscoelastic material, on a rigid base or an
-// elastic film. The unit load is a pull of 1 N along +z, so load.u is the (mean) axial displacement
-// of the top in m.
+// elastic film. Its load is 1 N along +z, so load.u is the top's (mean) axial displacement, m.
 class ViscoelasticPillar {
  public:
   // `film` must be given if and only if the geometry has a film. Throws std::invalid_argument for a

@@ -7,12 +7,10 @@
 namespace viscard {
 
 // A drive is what one analysis does to a scene: its loads, history or frequencies. The drives of a
-// kind of scene form a std::variant with one struct for each analysis. Structs that have the same
-// thing give the member the same name, so that all other code asks for the part it needs and never
-// for the analysis:
-//   part_of(drive, [](const auto& d) requires requires { d.pressure_Pa; } { return d.pressure_Pa;
-//   },
-//           0.0)
+// kind of scene form a std::variant with one struct for each analysis. The same thing has the same
+// name in every struct, so that other code asks for the part it needs, not for the analysis:
+//   part_of(drive,
+//       [](const auto& d) requires requires { d.pressure_Pa; } { return d.pressure_Pa; }, 0.0)
 
 // True if the current drive has the part that `read` reads.
 template <typename Drive, typename Read>

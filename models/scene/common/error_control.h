@@ -14,8 +14,7 @@ struct ErrorControl {
   double tolerance = 1e-3;  // relative, of every result, frequency and point of a curve
   std::vector<Discretisation> meshes;
   std::function<void(double)> progress;  // fraction of the meshes done; may be empty
-  // Least share of the last change that is assumed to remain, if the mesh gained a layer at the
-  // singular rim with it.
+  // Least share of the last change that is assumed to remain if the mesh gained a layer at the rim.
   double share_left = kShareLeft;
 
   static constexpr double kShareLeft = 0.1;
