@@ -7,7 +7,7 @@ namespace {
 
 // A device that drops trailing zeros (one line in ten with two decimals) must be noticed by then:
 // it sends 64 lines of one shape with probability 0.9^64, one in a thousand.
-constexpr std::size_t kToKnow = 64;
+constexpr std::size_t kLinesToKnow = 64;
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -37,7 +37,7 @@ std::string shape_of_line(std::string_view text) {
 bool LineShape::fits(std::string_view text) {
   if (is_mixed_) return true;
   std::string shape = shape_of_line(text);
-  if (n_same_ >= kToKnow) return shape == shape_;
+  if (n_same_ >= kLinesToKnow) return shape == shape_;
   if (n_same_ > 0 && shape != shape_) {
     is_mixed_ = true;
     return true;
