@@ -12,7 +12,6 @@ using namespace viscard;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 
 // Longitudinal system of a pillar with its lowest line held (fixed foot) or only rolling.
 DiscreteSystem longitudinal_system(const PillarMesh& mesh, bool rolling = false) {
