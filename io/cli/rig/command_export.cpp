@@ -3,6 +3,7 @@
 #include "io/capture/capture_file.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/flow/table_from_capture.h"
 #include "models/maths/text_of_number.h"
 
 #include <nlohmann/json.hpp>
@@ -20,6 +21,8 @@ CommandSyntax export_syntax() {
   syntax.description =
       "Writes every sample of a capture as CSV: time, counts, volts, force, stage position, "
       "phase.\n"
+      "Times and positions are on the clock that viscard fit uses; host_time_s is the time of "
+      "receipt.\n"
       "Of an interrupted run all committed samples are written, and the head states that it was "
       "interrupted.\n"
       "Without --out the table goes to standard output.";
@@ -61,7 +64,7 @@ int run_export(const Words& words, Streams& streams) {
   const bool is_json = values->count("json") > 0;
   const bool is_raw = values->count("raw") > 0;
   const CapturedRun run = read_capture(capture);
-  const std::string table = is_raw ? csv_from_raw_bytes(capture) : csv_from_capture(run);
+  const std::string table = is_raw ? csv_from_raw_bytes(capture) : table_from_capture(run);
   nlohmann::ordered_json summary = summary_of(run, capture);
   if (const auto out = given(*values, "out")) {
     write_file(*out, table, values->count("force") > 0);
