@@ -54,7 +54,9 @@ void CaptureDatabase::write(const std::vector<RunRecord>& batch, bool is_synced)
 }
 
 void CaptureDatabase::finish(const std::string& status) {
-  database_.execute("PRAGMA synchronous=FULL");
+  // EXTRA syncs the folder after a rollback journal is removed. Otherwise the journal of the switch
+  // away from WAL could return after a power cut and roll the finished file back.
+  database_.execute("PRAGMA synchronous=EXTRA");
   database_.execute("BEGIN");
   set("status", status);
   set("finished_at", now_iso8601());
@@ -73,7 +75,7 @@ void CaptureDatabase::finish(const std::string& status) {
 // Tables and the description of the run are written before the switch to WAL, so that they are in
 // the main file.
 void CaptureDatabase::create(const std::filesystem::path& path, const CapturedRun& about) {
-  database_.execute("PRAGMA synchronous=FULL");
+  database_.execute("PRAGMA synchronous=EXTRA");  // as in finish()
   database_.execute("BEGIN");
   database_.execute(("PRAGMA application_id=" + std::to_string(kCaptureApplicationId)).c_str());
   database_.execute(("PRAGMA user_version=" + std::to_string(kCaptureSchemaVersion)).c_str());
