@@ -13,7 +13,7 @@ namespace {
 using Index = Eigen::Index;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Residuals as a function of all parameters, scaled so that absolute thresholds suit any unit.
+// Residuals as a function of all parameters, scaled so that the solver's thresholds suit any unit.
 class FullCost final : public ceres::CostFunction {
  public:
   explicit FullCost(const Parametrisation& form)

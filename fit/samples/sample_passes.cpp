@@ -103,8 +103,7 @@ VISCARD_WIDE_LOOP StepRange steps_of_samples(const double* times, std::size_t co
   return {low, high};
 }
 
-// True if any sample of a stretch is far from the mean of its neighbours. Every sample must have a
-// neighbour on either side.
+// True if any sample of a stretch is far from the mean of its two neighbours, which must exist.
 VISCARD_WIDE_LOOP bool has_far_sample(const double* values, std::size_t count, double far) {
   Flags any = {};
   std::size_t i = 0;

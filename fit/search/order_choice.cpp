@@ -159,7 +159,7 @@ OrderRow scored(const SpectralModel& model, const SpectralState& state, double r
 Candidates candidates_of(const SpectralModel& model, const std::vector<SpectralState>& path,
                          const ChoiceInput& input) {
   Candidates all;
-  // If the largest order misses the data, its residual is not noise and its autocorrelation does
+  // If even the largest order does not fit, its residual is not noise and its autocorrelation does
   // not measure information. So assume at least five independent values per parameter.
   const double granted = std::min(input.n_samples, 5.0 * n_parameters(model, path.back()));
   const double n_effective = std::max(granted, input.n_samples / input.inflation);

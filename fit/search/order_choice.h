@@ -7,8 +7,7 @@
 
 namespace viscard {
 
-// Scores of every order of a path and the choice among them. fit/search/README.md, "Choice of the
-// order", states the rules.
+// Scores of all orders and the choice among them by fit/search/README.md, "Choice of the order".
 struct OrderScores {
   std::vector<OrderRow> rows;  // one is marked as chosen
   std::size_t chosen = 0;      // index in the path

@@ -77,7 +77,7 @@ struct CardTarget {
   std::string comment;    // opens a comment line; "<!--" closes with "-->"; "": no comments
 
   std::reference_wrapper<std::string(const CardBody& body)> write;  // the text after the header
-  // Fills numbers, findings and understood. Throws std::runtime_error with line and expectation.
+  // Fills numbers, findings and understood. Throws std::runtime_error with line and expected text.
   std::reference_wrapper<void(const std::string& text, ReadCard& card)> read;
   // For a card that is a table of E(t): its largest relative difference from E(t) of a material.
   double (*table_difference)(const std::string& text, const Material& material) = nullptr;

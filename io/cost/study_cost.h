@@ -10,7 +10,7 @@
 
 namespace viscard {
 
-// What accuracy costs: one scene on many discretisations, and with effects on and off, each compared
+// What accuracy costs: one scene on many discretisations, with effects on and off, each compared
 // with an answer on a finer mesh with all effects on.
 struct CostRow {
   std::string discretisation;  // "h1 5 um", "p4", "graded p5, 2 layers"

@@ -16,9 +16,8 @@ bool is_material_file(const std::string& file) {
   return std::filesystem::path(file).extension() == ".json" && !looks_like_capture(file);
 }
 
-// The law compares the terms one by one, so all specimens need the same number of terms: that of
-// the material files, or the most frequent choice among the measured specimens (the smallest if
-// several are equally frequent).
+// The law compares terms one by one, so all specimens need the same number: that of the material
+// files, or the most frequent choice among the measured specimens (the smallest of equals).
 int common_order(const std::vector<FittedFile>& fitted, const std::vector<Material>& given) {
   if (!given.empty()) return static_cast<int>(given.front().terms.size());
   std::map<int, int> votes;

@@ -12,8 +12,7 @@ namespace {
 constexpr double kRowWidth_px = 980.0;
 constexpr int kMostPillars = 16;
 
-// The pillars that are drawn and their middles. A long row shows only its first and last ones, with
-// a shortened gap between them.
+// The pillars drawn and their middles. A long row shows its first and last ones, with a short gap.
 struct ShownRow {
   std::vector<std::pair<int, double>> pillars;  // number from 1, middle in m
   double left_m = 0.0, right_m = 0.0;           // of the film

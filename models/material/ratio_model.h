@@ -55,8 +55,7 @@ struct RatioModel {
   int n_parameters = 0;  // beta and three spreads
 };
 
-// The polynomials use (variable - middle)/half, which runs from -1 to 1 over the measured range and
-// keeps them well conditioned.
+// Polynomials of (variable - middle)/half, -1 to 1 over the measured range, are well conditioned.
 struct ScaledVariable {
   double middle = 0.0;
   double half = 1.0;

@@ -21,7 +21,7 @@ namespace viscard {
 //   neighbours_percent_i        share of the other loaded pillars in the centre (electrode) voltage
 //   deviation_percent_i         centre (electrode) voltage against that of a lone pillar on a wide
 //                               film; only if wanted, because it needs a second model
-// Harmonic and transient analyses give curves of the displacement and voltage of each pillar's top
+// Harmonic and transient analyses give curves of each pillar's top displacement and voltage
 // (array_transfer.h). Throws std::runtime_error if the finest mesh does not meet the tolerance.
 SceneAnswer simulate_array(const ArrayScene& scene);
 

@@ -32,7 +32,7 @@ struct ReducedBody {
 
 // Reduction without inertia, under system.load. The basis holds solutions at real Laplace variables
 // s. New ones are added where the residual is largest until the error's energy norm is below the
-// tolerance for all times. With constant Poisson ratio and no film the first solution is exact.
+// tolerance for every tau. With constant Poisson ratio and no film the first solution is exact.
 ReducedBody reduce_quasi_static(const ViscoelasticSystem& system, double tolerance);
 
 // Reduction with inertia, under any of the loads, from rest to the highest frequency. The basis

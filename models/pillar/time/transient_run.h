@@ -22,7 +22,7 @@ struct TransientRequest {
   double spacing_s() const { return end_s / outputs; }
 };
 
-// One interval without corners of the load: its length and its end load factors, linear between.
+// One interval without corners of the load: length, and load factors at its ends, linear between.
 struct TransientPiece {
   double length_s = 0.0;
   double first = 0.0;
