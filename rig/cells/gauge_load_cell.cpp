@@ -109,6 +109,7 @@ void GaugeLoadCell::connect(const Pump& pump) {
 
 void GaugeLoadCell::service() {
   const Chunk chunk = transport_.read_available();
+  listened_at_s_ = chunk.time_s;
   if (!chunk.bytes.empty()) feed(chunk);
   if (is_connected_) ask_if_due();
 }

@@ -6,6 +6,7 @@
 #include "rig/lines/rig_clock.h"
 #include "rig/lines/transport.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -51,8 +52,14 @@ class LoadCell {
   double period_s() const { return period_s_; }
   // Rig time at which the newest reading arrived.
   double last_arrival_s() const { return last_arrival_s_; }
-  // Best estimate of the rig time at which a reading was made: the time of its arrival, or its
-  // device time plus the smallest offset seen lately (a delay is never negative).
+  // Rig time at which bytes were last looked for. Everything sent before a pause of this program has
+  // been read by then, so the age of the newest reading counts up to this time.
+  double listened_at_s() const { return listened_at_s_; }
+  // Of everything received.
+  std::size_t n_bytes() const { return splitter_.n_bytes(); }
+  // Best estimate of the rig time at which a reading was made: its device time plus the smallest
+  // offset seen lately (a delay is never negative), or without a clock the time of its arrival, less
+  // what the stream has fallen behind.
   virtual double made_at_s(const LoadSample& sample) const = 0;
 
  protected:
@@ -79,6 +86,7 @@ class LoadCell {
   std::string unit_;  // as sent with the readings; may be empty
   StreamCounts counts_;
   double last_arrival_s_ = 0.0;
+  double listened_at_s_ = 0.0;
 };
 
 }  // namespace viscard

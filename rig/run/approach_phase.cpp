@@ -151,6 +151,7 @@ void carry_out_approach(TestRun& run) {
   const ContactEstimate contact = contact_from_stops(
       touch.before, touch.at, run.outcome.noise_N, 1.0 / run.session.stage().dynamics().steps_per_m,
       run.outcome.expected.total_stiffness_N_m);
+  run.session.expect_stiffness(contact.least_stiffness_N_m);
   check_stiffness(run, contact.least_stiffness_N_m);
   back_off(run, contact.position_m);
 }

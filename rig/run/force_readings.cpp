@@ -19,6 +19,7 @@ ForceReadings::Reading ForceReadings::take(const LoadSample& sample, double made
   peak_force_N_ = std::max(peak_force_N_, force_N);
   if (threshold_N_ && std::abs(force_N) > *threshold_N_) has_exceeded_ = true;
   last_made_s_ = std::max(last_made_s_, made_at_s);
+  newest_made_s_ = made_at_s;
   if (collects_from_s_ && made_at_s >= *collects_from_s_) collect(absolute_N, made_at_s);
   return {force_N, false};
 }

@@ -34,6 +34,7 @@ class ForceReadings {
   double tare_N() const { return tare_N_; }
   std::int64_t n_forces() const { return n_forces_; }  // readings that were not doubtful
   double last_made_s() const { return last_made_s_; }
+  double newest_made_s() const { return newest_made_s_; }  // of the newest force
 
   // Moves the zero by this force and forgets the peak.
   void add_to_tare(double force_N);
@@ -60,6 +61,7 @@ class ForceReadings {
   double peak_force_N_ = 0.0;
   std::int64_t n_forces_ = 0;
   double last_made_s_ = 0.0;
+  double newest_made_s_ = 0.0;
   std::optional<double> threshold_N_;
   bool has_exceeded_ = false;
   std::optional<double> collects_from_s_;

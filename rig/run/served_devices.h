@@ -44,6 +44,7 @@ class ServedDevices {
 
   Stage& stage() { return stage_; }
   LoadCell& load_cell() { return load_cell_; }
+  const LoadCell& load_cell() const { return load_cell_; }
 
   // The load cell first, so that the force is known before the stage may home.
   void connect(const Pump& pump);
