@@ -156,14 +156,16 @@ void RunSession::throw_limit(GuardAction action, double force_N) const {
 void RunSession::check_stream() {
   const auto silence = devices_.silence();
   if (!silence) return;
-  devices_.stop_hard();
+  const bool is_moving = stage().is_moving();
+  if (is_moving) devices_.stop_hard();
   event("limit", "silent",
-        "No reading of the load cell for " + text_from_number(silence->silent_s, 3) +
-            " s while the stage moved, which may be " + text_from_number(silence->limit_s, 3) +
-            " s: it was reset");
-  throw RigError(
-      "the load cell fell silent while the stage was moving; the stage was stopped. Check "
-      "the amplifier and its cable, then start the run again");
+        "No reading of the load cell for " + text_from_number(silence->silent_s, 3) + " s " +
+            (is_moving ? "while the stage moved" : "at rest") + ", which may be " +
+            text_from_number(silence->limit_s, 3) + " s" + (is_moving ? ": it was reset" : ""));
+  throw RigError(std::string("the load cell fell silent ") +
+                 (is_moving ? "while the stage was moving; the stage was stopped"
+                            : "while the stage stood still") +
+                 ". Check the amplifier and its cable, then start the run again");
 }
 
 ForceMean RunSession::mean_force(double duration_s) {

@@ -65,7 +65,8 @@ class ServedDevices {
     double silent_s = 0.0;  // wall time without a reading
     double limit_s = 0.0;
   };
-  // Nothing unless the stage moves and readings have stopped for longer than the limit.
+  // Nothing unless readings have stopped for longer than the limit, which is much shorter while the
+  // stage moves.
   std::optional<Silence> silence() const;
 
   bool is_stage_connected() const { return is_stage_connected_; }
