@@ -158,8 +158,11 @@ void GaugeLoadCell::take_answer(const std::string& text, double time_s) {
     }
     return;
   }
-  check_unit(answer->unit);
   n_silent_ = n_refused_ = 0;
+  if (!has_known_unit(answer->unit, text, time_s)) {
+    asked_s_.reset();
+    return;
+  }
   take_reading(*answer, time_s);
 }
 

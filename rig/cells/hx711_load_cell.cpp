@@ -75,7 +75,7 @@ void Hx711LoadCell::take_line(const ReceivedLine& line) {
   // A new unit, or "ovf", has another shape but is no garbled line; both are handled below.
   const bool is_judged = reading && reading->value && reading->unit == unit_;
   if (reading && (!is_judged || shape_.fits(line.text))) {
-    take_reading(*reading, line.time_s);
+    take_reading(*reading, line.text, line.time_s);
   } else {
     take_text(line);
   }
@@ -128,10 +128,10 @@ void Hx711LoadCell::throw_if_restarted(double time_s) const {
                         "'); its tare is gone. Check its supply, then start the run again");
 }
 
-void Hx711LoadCell::take_reading(const Hx711Line& reading, double time_s) {
+void Hx711LoadCell::take_reading(const Hx711Line& reading, const std::string& text, double time_s) {
   throw_if_restarted(time_s);
   banner_.clear();
-  check_unit(reading.unit);
+  if (!has_known_unit(reading.unit, text, time_s)) return;
   if (reading.ticks && device_clock_) {
     if (!take_clock(*reading.ticks, time_s)) return;
   } else if (counts_.received > 0) {

@@ -40,7 +40,7 @@ class Hx711LoadCell final : public LoadCell {
  private:
   void take_line(const ReceivedLine& line);
   void learn(const ReceivedLine& line);
-  void take_reading(const Hx711Line& reading, double time_s);
+  void take_reading(const Hx711Line& reading, const std::string& text, double time_s);
   void take_text(const ReceivedLine& line);
   void throw_if_restarted(double time_s) const;
   bool take_clock(double ticks, double time_s);

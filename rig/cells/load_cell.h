@@ -68,8 +68,9 @@ class LoadCell {
 
   // For a line that is no reading.
   void note_unreadable(const std::string& text, double time_s);
-  // Throws RigError if the unit is not that of the readings before.
-  void check_unit(const std::string& unit);
+  // True if the unit is that of the readings before. A reading with another unit is left out, because
+  // its unit may be garbled; throws RigError at the third one in a row with the same other unit.
+  bool has_known_unit(const std::string& unit, const std::string& text, double time_s);
   // Keeps the longest gap. A step above least_s between readings is reported as missing readings;
   // returns their number.
   std::int64_t note_gap(double step_s, double least_s, double time_s);
@@ -84,6 +85,8 @@ class LoadCell {
   bool is_connected_ = false;
   double period_s_;
   std::string unit_;  // as sent with the readings; may be empty
+  std::string other_unit_;
+  int n_other_unit_ = 0;
   StreamCounts counts_;
   double last_arrival_s_ = 0.0;
   double listened_at_s_ = 0.0;

@@ -55,7 +55,9 @@ void RunSession::pump() {
     }
     check_stream();
     check_age();
-    if (guards_force()) act_on(guard_.silent_until(clock_.now_s()), readings_.force_N());
+    // At rest a doubtful reading waits for the next one; a stream that has stopped is noticed above.
+    if (guards_force() && stage().is_moving())
+      act_on(guard_.silent_until(clock_.now_s()), readings_.force_N());
   }
   progress_.report(readings_.force_N(), devices_.stage().position_m());
 }
@@ -85,8 +87,8 @@ void RunSession::take_sample(const LoadSample& sample) {
   if (!is_doubtful) value = sample.counts ? sample.counts : force_N_from_sample(sample, rig_);
   marks_.take(sample, value, load_cell().period_s());
   if (!guards_force() && !devices_.is_stopping()) return;
-  const GuardAction action =
-      guard_.take(force_N, is_doubtful, sample.host_time_s, load_cell().period_s());
+  const GuardAction action = guard_.take(force_N, is_doubtful, sample.host_time_s,
+                                         load_cell().period_s(), stage().is_moving());
   if (is_guarded_) {
     act_on(action, force_N);
   } else if (action == GuardAction::kHardStop) {

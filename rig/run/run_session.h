@@ -71,6 +71,7 @@ class RunSession {
   bool is_stage_connected() const { return devices_.is_stage_connected(); }
   bool has_moved() const { return has_moved_; }
   double force_N() const { return readings_.force_N(); }
+  double sound_force_N(double noise_N) const { return readings_.sound_force_N(noise_N); }
   double peak_force_N() const { return readings_.peak_force_N(); }
   // Readings marked by an event "implausible".
   int n_implausible() const { return marks_.n_marked(); }
