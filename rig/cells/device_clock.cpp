@@ -67,10 +67,10 @@ void DeviceClock::accept(double ticks, double step_s, double host_time_s) {
   if (recent_ticks_.size() > kRemembered) recent_ticks_.pop_front();
   step_s_ = step_s;
   time_s_ += step_s;
-  last_ = Accepted{ticks, time_s_, host_time_s};
   const double delay_s = host_time_s - time_s_;
-  least_before_s_ = window_.empty() ? delay_s : least_delay_s_ + kClockError * step_s;
+  least_before_s_ = last_ ? least_delay_s_ + kClockError * step_s : delay_s;
   least_delay_s_ = std::min(delay_s, least_before_s_);
+  last_ = Accepted{ticks, time_s_, host_time_s};
   while (!window_.empty() && window_.back().second >= delay_s) window_.pop_back();
   window_.emplace_back(time_s_, delay_s);
   while (window_.front().first < time_s_ - kWindow_s) window_.pop_front();

@@ -17,7 +17,7 @@ struct ForceMean {
   int n = 0;
 };
 
-// Values without those that stand out of both neighbours by more than 8 times the noise: a garbled
+// Values without those that stand out of both neighbours by more than 16 times the noise: a garbled
 // digit. A force that rises, falls or relaxes loses none.
 std::vector<double> without_spikes(const std::vector<double>& values);
 
