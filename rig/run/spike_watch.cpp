@@ -11,8 +11,8 @@ constexpr std::size_t kSide = 5;    // readings to which a line is fitted
 constexpr std::size_t kFirst = 32;  // readings judged together
 constexpr std::size_t kRing = 256;  // distances kept
 constexpr std::size_t kRenew = 16;  // new distances before the median is computed again
-constexpr double kSigmas = 6.3;
-constexpr double kFewMore = 40.0;      // over the number of known distances: added to kSigmas
+constexpr double kSpikeSigmas = 6.3;
+constexpr double kFewMore = 40.0;      // over the number of known distances: added to kSpikeSigmas
 constexpr double kPerMedian = 1.4826;  // standard deviation over median of |normal|
 // Standard deviation of the distance between a reading and its prediction, over that of one
 // reading: for the mean of ten neighbours sqrt(1 + 1/10), for one line sqrt(1 + 1/5 + 9/10).
@@ -122,7 +122,7 @@ bool SpikeWatch::departs(const Line& before, std::size_t at, std::size_t from) c
   const double unsure =
       std::sqrt(1.0 + 1.0 / kSide + (away + kMiddle) * (away + kMiddle) / kSpread);
   const double distance = std::abs(readings_[at].value - before.value - before.slope * away);
-  return distance > kSigmas * unsure * noise() + kEarlyOrLate * std::abs(before.slope);
+  return distance > kSpikeSigmas * unsure * noise() + kEarlyOrLate * std::abs(before.slope);
 }
 
 double SpikeWatch::noise() const {
@@ -140,7 +140,7 @@ bool SpikeWatch::judge(std::size_t at) {
   const Line behind = predicted(at, 1, &before);
   if (!before.is_known && !behind.is_known) return false;
   const double sigmas =
-      kSigmas + kFewMore / static_cast<double>(std::max(n_learnt_, std::size_t{1}));
+      kSpikeSigmas + kFewMore / static_cast<double>(std::max(n_learnt_, std::size_t{1}));
   const double one = sigmas * kOfOne * noise();
   const double value = readings_[at].value;
   if (!before.is_known || !behind.is_known) {
