@@ -28,6 +28,7 @@ class IndentationRun {
     session.connect();
     run_.start_m = session.stage().position_m();
     outcome.expected = preflight(run_.rig, run_.plan, run_.specimen, session.stage().dynamics());
+    session.expect_stiffness(outcome.expected.total_stiffness_N_m);
     if (!outcome.expected.problems.empty()) throw RigError(outcome.expected.problems.front());
     for (const std::string& text : outcome.expected.warnings) session.event("advice", "test", text);
     for (const std::string& text : session.stage().advice()) session.event("advice", "stage", text);

@@ -29,6 +29,8 @@ class DeviceClock {
   // Time since the previous good reading (after kLastWasBad: the one before it); 0 for the first.
   double step_s() const { return step_s_; }
   // Host time minus device time: the smallest of the last window, because delays are not negative.
+  // On a line that falls behind every delay of the window is too large, so that the smallest one of
+  // all before counts, raised by the largest error of a device's clock.
   double host_minus_device_s() const;
 
  private:
@@ -49,6 +51,8 @@ class DeviceClock {
   std::optional<double> suspect_ticks_;
   double suspect_host_s_ = 0.0;
   std::deque<std::pair<double, double>> window_;  // device time, delay: ascending in both
+  double least_delay_s_ = 0.0;   // of all before, raised by the error of the device's clock since
+  double least_before_s_ = 0.0;  // the same, without the newest reading
 };
 
 }  // namespace viscard

@@ -109,6 +109,7 @@ void GaugeLoadCell::connect(const Pump& pump) {
 
 void GaugeLoadCell::service() {
   const Chunk chunk = transport_.read_available();
+  listened_at_s_ = chunk.time_s;
   if (!chunk.bytes.empty()) feed(chunk);
   if (is_connected_) ask_if_due();
 }
@@ -157,8 +158,11 @@ void GaugeLoadCell::take_answer(const std::string& text, double time_s) {
     }
     return;
   }
-  check_unit(answer->unit);
   n_silent_ = n_refused_ = 0;
+  if (!has_known_unit(answer->unit, text, time_s)) {
+    asked_s_.reset();
+    return;
+  }
   take_reading(*answer, time_s);
 }
 

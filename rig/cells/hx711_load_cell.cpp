@@ -14,6 +14,7 @@ namespace {
 constexpr double kFirstReading_wall_s = 15.0;  // banner and messages of a tare last up to 10 s
 constexpr std::size_t kLinesToLearn = 6;
 constexpr double kLateness_wall_s = 0.3;  // of a line, if the device or this machine stalls
+constexpr double kJitter_wall_s = 0.1;    // of arrivals
 constexpr double kGapPeriods = 1.5;
 constexpr double kBurst = 0.5;  // of a period: readings closer together were delayed before
 
@@ -24,7 +25,8 @@ Hx711LoadCell::Hx711LoadCell(Transport& transport, const LoadCellConfig& config,
     : LoadCell(transport, config, clock, std::move(sink)),
       patience_(patience),
       format_(declared_hx711_format(config)),
-      declared_unit_(config.unit) {
+      declared_unit_(config.unit),
+      arrival_clock_(period_s_) {
   if (!config.unit.empty() && !newtons_per_unit(config.unit)) {
     throw RigError("unit '" + config.unit +
                    "' under [load_cell] of the rig file is unknown; choose N, mN, g, kg or lb");
@@ -53,6 +55,7 @@ void Hx711LoadCell::connect(const Pump& pump) {
 
 void Hx711LoadCell::service() {
   const Chunk chunk = transport_.read_available();
+  listened_at_s_ = chunk.time_s;
   if (!chunk.bytes.empty()) {
     sink_(RawBytes{Device::kLoadCell, false, chunk.time_s, chunk.bytes});
     splitter_.feed(chunk.bytes, chunk.time_s, 10.0 / transport_.baud());
@@ -72,7 +75,7 @@ void Hx711LoadCell::take_line(const ReceivedLine& line) {
   // A new unit, or "ovf", has another shape but is no garbled line; both are handled below.
   const bool is_judged = reading && reading->value && reading->unit == unit_;
   if (reading && (!is_judged || shape_.fits(line.text))) {
-    take_reading(*reading, line.time_s);
+    take_reading(*reading, line.text, line.time_s);
   } else {
     take_text(line);
   }
@@ -125,14 +128,19 @@ void Hx711LoadCell::throw_if_restarted(double time_s) const {
                         "'); its tare is gone. Check its supply, then start the run again");
 }
 
-void Hx711LoadCell::take_reading(const Hx711Line& reading, double time_s) {
+void Hx711LoadCell::take_reading(const Hx711Line& reading, const std::string& text, double time_s) {
   throw_if_restarted(time_s);
   banner_.clear();
-  check_unit(reading.unit);
+  if (!has_known_unit(reading.unit, text, time_s)) return;
   if (reading.ticks && device_clock_) {
     if (!take_clock(*reading.ticks, time_s)) return;
   } else if (counts_.received > 0) {
     take_arrival(time_s);
+  }
+  if (!device_clock_) {
+    const std::int64_t n_periods = counts_.received + counts_.missing + counts_.unreadable;
+    arrival_clock_.take(static_cast<double>(n_periods - std::exchange(n_periods_, n_periods)),
+                        time_s);
   }
   LoadSample sample = sample_of(reading, time_s);
   hand_out(sample);
@@ -234,7 +242,11 @@ std::string Hx711LoadCell::reads_as() const {
 }
 
 double Hx711LoadCell::made_at_s(const LoadSample& sample) const {
-  if (!sample.device_time_s || !device_clock_) return sample.host_time_s;
+  if (!sample.device_time_s || !device_clock_) {
+    // Smaller delays are the jitter of arrivals.
+    const double lag_s = arrival_clock_.lag_s();
+    return sample.host_time_s - (lag_s > clock_.from_wall_s(kJitter_wall_s) ? lag_s : 0.0);
+  }
   return *sample.device_time_s + device_clock_->host_minus_device_s();
 }
 

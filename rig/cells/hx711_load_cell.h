@@ -1,5 +1,6 @@
 #pragma once
 
+#include "rig/cells/arrival_clock.h"
 #include "rig/cells/device_clock.h"
 #include "rig/cells/line_shape.h"
 #include "rig/cells/load_cell.h"
@@ -39,7 +40,7 @@ class Hx711LoadCell final : public LoadCell {
  private:
   void take_line(const ReceivedLine& line);
   void learn(const ReceivedLine& line);
-  void take_reading(const Hx711Line& reading, double time_s);
+  void take_reading(const Hx711Line& reading, const std::string& text, double time_s);
   void take_text(const ReceivedLine& line);
   void throw_if_restarted(double time_s) const;
   bool take_clock(double ticks, double time_s);
@@ -57,6 +58,8 @@ class Hx711LoadCell final : public LoadCell {
   bool is_past_first_line_ = false;
   std::vector<ReceivedLine> first_lines_;
   std::optional<DeviceClock> device_clock_;
+  ArrivalClock arrival_clock_;  // if there is no device clock
+  std::int64_t n_periods_ = 0;  // that arrival_clock_ has counted
   std::optional<double> previous_counts_;
   LineShape shape_;
   std::string banner_;                    // text that arrived since the last reading

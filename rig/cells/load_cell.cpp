@@ -21,12 +21,21 @@ void LoadCell::note_unreadable(const std::string& text, double time_s) {
                  "A line from the load cell is no reading"});
 }
 
-void LoadCell::check_unit(const std::string& unit) {
-  if (counts_.received > 0 && unit != unit_) {
+bool LoadCell::has_known_unit(const std::string& unit, const std::string& text, double time_s) {
+  constexpr int kToChange = 3;
+  if (counts_.received == 0 || unit == unit_) {
+    unit_ = unit;
+    n_other_unit_ = 0;
+    return true;
+  }
+  n_other_unit_ = unit == other_unit_ ? n_other_unit_ + 1 : 1;
+  other_unit_ = unit;
+  if (n_other_unit_ >= kToChange) {
     throw RigError("the load cell changed its unit from '" + unit_ + "' to '" + unit +
                    "' in the middle of the run. Set it back, then start the run again");
   }
-  unit_ = unit;
+  note_unreadable(text, time_s);
+  return false;
 }
 
 std::int64_t LoadCell::note_gap(double step_s, double least_s, double time_s) {

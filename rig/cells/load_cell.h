@@ -6,6 +6,7 @@
 #include "rig/lines/rig_clock.h"
 #include "rig/lines/transport.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -51,8 +52,14 @@ class LoadCell {
   double period_s() const { return period_s_; }
   // Rig time at which the newest reading arrived.
   double last_arrival_s() const { return last_arrival_s_; }
-  // Best estimate of the rig time at which a reading was made: the time of its arrival, or its
-  // device time plus the smallest offset seen lately (a delay is never negative).
+  // Rig time at which bytes were last looked for. Everything sent before a pause of this program has
+  // been read by then, so the age of the newest reading counts up to this time.
+  double listened_at_s() const { return listened_at_s_; }
+  // Of everything received.
+  std::size_t n_bytes() const { return splitter_.n_bytes(); }
+  // Best estimate of the rig time at which a reading was made: its device time plus the smallest
+  // offset seen lately (a delay is never negative), or without a clock the time of its arrival, less
+  // what the stream has fallen behind.
   virtual double made_at_s(const LoadSample& sample) const = 0;
 
  protected:
@@ -61,8 +68,9 @@ class LoadCell {
 
   // For a line that is no reading.
   void note_unreadable(const std::string& text, double time_s);
-  // Throws RigError if the unit is not that of the readings before.
-  void check_unit(const std::string& unit);
+  // True if the unit is that of the readings before. A reading with another unit is left out, because
+  // its unit may be garbled; throws RigError at the third one in a row with the same other unit.
+  bool has_known_unit(const std::string& unit, const std::string& text, double time_s);
   // Keeps the longest gap. A step above least_s between readings is reported as missing readings;
   // returns their number.
   std::int64_t note_gap(double step_s, double least_s, double time_s);
@@ -77,8 +85,11 @@ class LoadCell {
   bool is_connected_ = false;
   double period_s_;
   std::string unit_;  // as sent with the readings; may be empty
+  std::string other_unit_;
+  int n_other_unit_ = 0;
   StreamCounts counts_;
   double last_arrival_s_ = 0.0;
+  double listened_at_s_ = 0.0;
 };
 
 }  // namespace viscard

@@ -67,7 +67,7 @@ Touch jog_until_touched(TestRun& run, double threshold_N) {
                      " mm. Bring the punch nearer to the specimen, or raise limit under "
                      "[approach] of the test file");
     }
-    const JogEnd before{session.stage().position_m(), session.force_N()};
+    const JogEnd before{session.stage().position_m(), session.sound_force_N(run.outcome.noise_N)};
     if (!session.move(next_m, run.plan.approach_speed_m_s, "approach", threshold_N)) continue;
     const double touched_N = session.mean_force(kSettle_s).force_N;
     if (std::abs(touched_N) > kStillThere * threshold_N) {
@@ -151,6 +151,7 @@ void carry_out_approach(TestRun& run) {
   const ContactEstimate contact = contact_from_stops(
       touch.before, touch.at, run.outcome.noise_N, 1.0 / run.session.stage().dynamics().steps_per_m,
       run.outcome.expected.total_stiffness_N_m);
+  run.session.expect_stiffness(contact.least_stiffness_N_m);
   check_stiffness(run, contact.least_stiffness_N_m);
   back_off(run, contact.position_m);
 }

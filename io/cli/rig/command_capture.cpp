@@ -45,7 +45,7 @@ CommandSyntax capture_syntax(CaptureWords& words) {
   add("live", po::bool_switch(&words.shows_page),
       "keep a page with force against time beside the capture: *.live.html");
   add("acknowledge", po::bool_switch(&words.acknowledges),
-      "report on stderr how many records are safe from a crash");
+      "report on stderr how many records are safe from a crash, and how many from a power cut");
   add("uncalibrated", po::bool_switch(&words.is_uncalibrated),
       "capture although the load cell's calibration has expired");
   add("emulate", po::bool_switch(&words.is_emulated), "use an emulated rig");

@@ -146,8 +146,21 @@ TEST_CASE("a unit that changes during the run ends it, and the reason names both
   ScriptedAmplifier amplifier("volts");
   for (int i = 0; i < 10; ++i) amplifier.send("12.5 g\n");
   amplifier.cell.connect([&] { amplifier.serve(); });
-  amplifier.send("12.5 g\n0.44 lbs\n");
+  amplifier.send("12.5 g\n0.44 lbs\n0.44 lbs\n0.44 lbs\n");
   CHECK_THAT(amplifier.error(), Contains("from 'g' to 'lbs'"));
+}
+
+TEST_CASE("one line with a garbled unit is left out and changes no unit", "[rig][pty]") {
+  ScriptedAmplifier amplifier("volts");
+  for (int i = 0; i < 10; ++i) amplifier.send("12.5 g\n");
+  amplifier.cell.connect([&] { amplifier.serve(); });
+  amplifier.serve_all();
+  const std::int64_t n_before = amplifier.cell.counts().received;
+  amplifier.send("12.5 g\n12.5 N\n12.5 g\n12.5 kg\n12.5 N\n12.5 g\n");
+  CHECK(amplifier.error().empty());
+  CHECK(amplifier.cell.counts().received == n_before + 3);
+  CHECK(amplifier.cell.counts().unreadable == 3);
+  CHECK(amplifier.cell.reads_as() == "g");
 }
 
 TEST_CASE("a missing converter is an error in the middle of a stream too", "[rig][pty]") {
