@@ -79,8 +79,4 @@ CapturedRun read_capture(const std::filesystem::path& path);
 void read_raw_bytes(const std::filesystem::path& path,
                     const std::function<void(const RawBytes&)>& take);
 
-// True if the file is named *.viscap or begins like an SQLite database, so that a command can
-// distinguish a capture, even a damaged one, from a table.
-bool looks_like_capture(const std::filesystem::path& path);
-
 }  // namespace viscard

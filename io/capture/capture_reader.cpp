@@ -1,4 +1,5 @@
 #include "io/capture/capture_file.h"
+#include "io/capture/capture_header.h"
 #include "io/capture/open_capture.h"
 #include "io/config/config_file.h"
 

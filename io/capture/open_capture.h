@@ -30,7 +30,4 @@ class OpenCapture {
   bool is_running_ = false;
 };
 
-// True if the capture has a write-ahead log beside it.
-bool has_journal(const std::filesystem::path& capture);
-
 }  // namespace viscard

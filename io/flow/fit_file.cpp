@@ -6,6 +6,7 @@
 #include "fit/fit_relaxation.h"
 #include "fit/indentation_from_capture.h"
 #include "io/capture/capture_file.h"
+#include "io/capture/capture_header.h"
 #include "io/tables/csv_table.h"
 
 #include <algorithm>

@@ -23,8 +23,8 @@ GuardAction ForceGuard::take(double force_N, bool is_doubtful, double time_s, do
   }
   doubtful_until_s_.reset();
   const bool is_above = !(load_N < soft_N_);
-  const bool is_first = is_above && !std::exchange(was_above_, is_above);
-  if (is_first && !is_moving) return GuardAction::kNone;
+  const bool was_above = std::exchange(was_above_, is_above);
+  if (is_above && !was_above && !is_moving) return GuardAction::kNone;  // one garbled reading
   if (!(load_N < hard_N_)) return GuardAction::kHardStop;
   if (stop_force_N_) {
     const bool is_rising = load_N > *stop_force_N_ + rise_N_;

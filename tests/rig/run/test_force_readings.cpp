@@ -19,6 +19,12 @@ std::vector<double> noisy(std::vector<double> values, unsigned seed = 7) {
   return values;
 }
 
+RigConfig rig_with_force_gauge() {
+  RigConfig rig = demo_rig();
+  rig.calibration.volts_per_newton = 1.0;  // of an instrument that sends newtons
+  return rig;
+}
+
 ForceReadings readings_of(const RigConfig& rig, const std::vector<double>& forces_N) {
   ForceReadings readings(rig);
   readings.collect_from(0.0);
@@ -33,7 +39,7 @@ ForceReadings readings_of(const RigConfig& rig, const std::vector<double>& force
 }  // namespace
 
 TEST_CASE("one garbled reading at any place does not move a mean force", "[rig]") {
-  const RigConfig rig = demo_rig();
+  const RigConfig rig = rig_with_force_gauge();
   for (std::size_t at = 0; at < 20; ++at) {
     for (const double garbled_N : {2.0, -0.9, 0.13}) {
       CAPTURE(at, garbled_N);
@@ -67,7 +73,7 @@ TEST_CASE("the mean of a clean force keeps every reading", "[rig]") {
 }
 
 TEST_CASE("the sound force is the newest one unless that stands out", "[rig]") {
-  const RigConfig rig = demo_rig();
+  const RigConfig rig = rig_with_force_gauge();
   CHECK(readings_of(rig, {0.001, 0.002, 0.003}).sound_force_N(kNoise_N) == Approx(0.003));
   CHECK(readings_of(rig, {0.001, 0.008, 0.015}).sound_force_N(kNoise_N) == Approx(0.015));
   CHECK(readings_of(rig, {0.001, 0.002, 0.012}).sound_force_N(kNoise_N) == Approx(0.002));
