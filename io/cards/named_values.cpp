@@ -1,9 +1,10 @@
 #include "io/cards/named_values.h"
 
+#include "io/basics/patterns.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <regex>
 #include <stdexcept>
 
 namespace viscard {
@@ -11,9 +12,8 @@ namespace {
 
 std::vector<double> numbers_in(const std::string& list, const CardLine& line) {
   std::vector<double> out;
-  const std::regex word("[^\\s,{}'\"]+");
-  for (std::sregex_iterator it(list.begin(), list.end(), word), end; it != end; ++it) {
-    out.push_back(card_number(it->str(), line, "number"));
+  for (const Match& word : all_matches(list, "[^\\s,{}'\"]+")) {
+    out.push_back(card_number(word.group[0], line, "number"));
   }
   return out;
 }
@@ -26,23 +26,10 @@ CardLine line_of(const std::string& text, std::size_t at) {
   return {static_cast<int>(newlines) + 1, ""};
 }
 
-std::optional<Match> first_match(const std::string& text, const std::string& pattern) {
-  std::smatch found;
-  if (!std::regex_search(text, found, std::regex(pattern))) return std::nullopt;
-  Match match;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    match.group.push_back(found[i].str());
-    match.at.push_back(static_cast<std::size_t>(found.position(i)));
-  }
-  return match;
-}
-
 NamedNumbers named_lists(const std::string& text, const std::string& pattern) {
   NamedNumbers out;
-  const std::regex expression(pattern);
-  for (std::sregex_iterator it(text.begin(), text.end(), expression), end; it != end; ++it) {
-    out[(*it)[1].str()] =
-        numbers_in((*it)[2].str(), line_of(text, static_cast<std::size_t>(it->position(2))));
+  for (const Match& match : all_matches(text, pattern)) {
+    out[match.group[1]] = numbers_in(match.group[2], line_of(text, match.at[2]));
   }
   return out;
 }

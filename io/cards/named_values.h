@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,14 +15,6 @@ namespace viscard {
 // The line of a place in the text, for messages.
 CardLine line_of(const std::string& text, std::size_t at);
 std::string without_line_comments(const std::string& text, const std::string& comment);
-
-// The first place where a regular expression matches: each group and where it begins; the first is
-// the whole match. Empty if there is none.
-struct Match {
-  std::vector<std::string> group;
-  std::vector<std::size_t> at;
-};
-std::optional<Match> first_match(const std::string& text, const std::string& pattern);
 
 using NamedNumbers = std::map<std::string, std::vector<double>>;
 

@@ -1,10 +1,10 @@
 #include "io/plots/plot_svg.h"
 
+#include "io/basics/patterns.h"
 #include "io/basics/words.h"
 
 #include <fmt/format.h>
 
-#include <regex>
 #include <stdexcept>
 #include <string_view>
 
@@ -92,8 +92,7 @@ std::string figure_from_gnuplot_svg(const std::string& document, const std::stri
   erase_all(body, "<title>", "</title>");
   erase_all(body, "<filter", "</filter>");
   // Curves get ids that nothing refers to; symbols get ids that <use> needs.
-  static const std::regex curve_id(" ?id=\"[A-Za-z0-9_-]*(_plot_[0-9]+[a-z]*|gnuplot_canvas)\" ?");
-  body = std::regex_replace(body, curve_id, "");
+  body = without_matches(body, " ?id=\"[A-Za-z0-9_-]*(_plot_[0-9]+[a-z]*|gnuplot_canvas)\" ?");
   replace_all(body, "id='gp", "id='" + id + "-gp");
   replace_all(body, "href='#gp", "href='#" + id + "-gp");
   // gnuplot dashes grid lines even if the script asks for solid ones.

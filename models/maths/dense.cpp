@@ -140,11 +140,6 @@ EigenSystem generalized_eigen(const MatrixXd& a, const MatrixXd& b) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-EigenSystem real_eigen(const MatrixXd& matrix) {
-  const Eigen::EigenSolver<MatrixXd> solver(matrix);
-  return {solver.eigenvalues().real(), solver.eigenvectors().real()};
-}
-
 MatrixXd pseudo_inverse(const MatrixXd& matrix) {
   return matrix.completeOrthogonalDecomposition().pseudoInverse();
 }

@@ -107,9 +107,6 @@ EigenSystem symmetric_eigen(const Eigen::MatrixXd& matrix);
 // std::runtime_error if the iteration does not converge.
 EigenSystem generalized_eigen(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-// A v = lambda v of a matrix that has real eigenvalues although it is not symmetric; in no order.
-EigenSystem real_eigen(const Eigen::MatrixXd& matrix);
-
 // The pseudo-inverse, by a complete orthogonal decomposition.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix);
 

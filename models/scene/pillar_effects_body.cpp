@@ -85,7 +85,10 @@ EffectEstimate finite_strain_estimate(const PillarScene& scene) {
       strain = std::max(strain, std::abs(point.value) / scene.geometry.length_m);
     }
   }
-  if (strain == 0.0) return {.reason = "small vibrations about the unloaded shape"};
+  if (strain == 0.0) {
+    return {.reason = analysis_of(scene).has_inertia ? "small vibrations about the unloaded shape"
+                                                     : "no load strains the pillar"};
+  }
   return {EffectRole::kOutside, 2.3 * strain, "strain", strain,
           "small strains are assumed; not in the error"};
 }

@@ -141,7 +141,10 @@ EffectEstimate finite_strain_estimate(const ArrayScene& scene) {
   for (const HistoryPoint& point : history(scene)) {
     peak_Pa = std::max(peak_Pa, std::abs(point.value));
   }
-  if (peak_Pa == 0.0) return {.reason = "small vibrations about the unloaded shape"};
+  if (peak_Pa == 0.0) {
+    return {.reason = analysis_of(scene).has_inertia ? "small vibrations about the unloaded shape"
+                                                     : "no load strains the pillars"};
+  }
   double strain = peak_Pa / scene.pillar.E0_Pa;
   if (scene.load == ArrayLoad::kShear) {  // 6 l/d times the shear stress where a cantilever is held
     strain *= 6.0 * scene.geometry.length_m / scene.geometry.diameter_m;

@@ -1,5 +1,6 @@
 // COMSOL, linear elastic material with Viscoelasticity. Source: public documentation; the Java
 // calls of the one-element model are those of exported model files, and COMSOL has not run it here.
+#include "io/basics/patterns.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/deck.h"
 #include "io/cards/known_mistakes.h"

@@ -1,4 +1,5 @@
 // FEBio viscoelastic, uncoupled viscoelastic. Sources: FEViscoElasticMaterial.cpp, FEBio 4 format.
+#include "io/basics/patterns.h"
 #include "io/cards/deck.h"
 #include "io/cards/known_mistakes.h"
 #include "io/cards/named_values.h"

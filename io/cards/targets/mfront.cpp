@@ -1,4 +1,5 @@
 // MFront behaviour. Source of the property names: TFEL's gallery, GeneralizedMaxwell.mfront.
+#include "io/basics/patterns.h"
 #include "io/cards/deck.h"
 #include "io/cards/named_values.h"
 #include "io/cards/read_card.h"

@@ -1,5 +1,6 @@
 // MOOSE GeneralizedMaxwellModel. Sources: GeneralizedMaxwellModel.C; the solid mechanics module's
 // test gen_maxwell_relax.i for the one-element model, which MOOSE has not run here.
+#include "io/basics/patterns.h"
 #include "io/cards/deck.h"
 #include "io/cards/named_values.h"
 #include "io/cards/read_card.h"

@@ -6,12 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace viscard {
 namespace {
@@ -89,24 +87,29 @@ class LanczosSearch {
   double scale_ = 1.0;
 };
 
-// All eigenpairs of a small op, from its matrix: the Lanczos method cannot find all of them.
+// All eigenpairs of a small op: the Lanczos method cannot find all of them. With B = R'R the matrix
+// R op R^-1 is symmetric. Directions without B (no mass) have mu = 0 and no norm: their vector is 0.
 EigenPairs all_eigenpairs(const PencilMap& op, const LinearMap& B, int size) {
-  Eigen::MatrixXd matrix(size, size);
+  Eigen::MatrixXd b(size, size);
+  Eigen::MatrixXd images(size, size);
   for (int i = 0; i < size; ++i) {
     const Eigen::VectorXd unit = Eigen::VectorXd::Unit(size, i);
-    matrix.col(i) = op(unit, B(unit));
+    b.col(i) = B(unit);
+    images.col(i) = op(unit, b.col(i));
   }
-  const EigenSystem all = real_eigen(matrix);
-  const Eigen::VectorXd& values = all.values;
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(size));
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](Eigen::Index a, Eigen::Index b) { return values[a] > values[b]; });
-  EigenPairs pairs{values(order), all.vectors(Eigen::all, order), true};
-  for (auto v : pairs.vectors.colwise()) {
-    const double square = v.dot(B(v));
-    if (square > 0.0) v /= std::sqrt(square);
-  }
+  const EigenSystem root = symmetric_eigen(b);
+  const double smallest = 1e-14 * root.values.maxCoeff();
+  const Eigen::Index none = (root.values.array() <= smallest).count();
+  const Eigen::Index rank = size - none;
+  const Eigen::VectorXd scale = root.values.tail(rank).cwiseSqrt();
+  const Eigen::MatrixXd R_inverse =
+      root.vectors.rightCols(rank) * scale.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd R = scale.asDiagonal() * root.vectors.rightCols(rank).transpose();
+  const EigenSystem all = symmetric_eigen(R * images * R_inverse);
+
+  EigenPairs pairs{Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size), true};
+  pairs.values.head(rank) = all.values.reverse();
+  pairs.vectors.leftCols(rank) = (R_inverse * all.vectors).rowwise().reverse();
   return pairs;
 }
 

@@ -72,6 +72,20 @@ TEST_CASE("modes that are nearly equal are all found", "[pillar]") {
   for (int i = 0; i < 4; ++i) CHECK(pairs.values[i] == Approx(body.value[i]).epsilon(1e-12));
 }
 
+TEST_CASE("equal modes are found at least once, and every mode found is one of the system",
+          "[pillar]") {
+  const int equal = GENERATE(2, 3, 8);
+  Diagonal body = string_like(200);
+  for (int i = 1; i < equal; ++i) body.value[i] = body.value[0];
+  const EigenPairs pairs = body.largest(3, {});
+  REQUIRE(pairs.converged);
+  CAPTURE(equal, pairs.values);
+  CHECK(pairs.values[0] == Approx(body.value[0]).epsilon(1e-12));
+  CHECK(body.residual(pairs) <= 1e-8);
+  const Eigen::MatrixXd gram = pairs.vectors.transpose() * body.B.asDiagonal() * pairs.vectors;
+  CHECK((gram - Eigen::MatrixXd::Identity(3, 3)).cwiseAbs().maxCoeff() < 1e-12);
+}
+
 TEST_CASE("a small system gives all its modes, and a small space stops with too few", "[pillar]") {
   const Diagonal small = string_like(7);
   const EigenPairs all = small.largest(7, {});
