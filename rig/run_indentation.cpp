@@ -135,8 +135,9 @@ std::string place_of_punch(TestRun& run, const SafeEnd& end, bool had_moved, boo
   }
   if (!end.trouble.empty()) return "";
   if (!had_moved) return ". The stage was not moved: the punch is where it was before the run";
-  return ". The stage was stopped; it was not lifted, because the punch is at its place of the "
-         "start or above";
+  return knows_position
+             ? ". The stage was stopped; it was not lifted, because it stands where it started"
+             : ". The stage was stopped; it was not lifted: look at the punch";
 }
 
 // Ends a run that did not finish: notes why, stops the stage and lifts the punch.
@@ -148,7 +149,8 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
   outcome.has_begun = run.session.has_moved();
   if (run.is_in_contact) note_depth(run);
   const SafeEnd end = run.session.make_safe(phases.safe_position_m(), run.plan.retract_speed_m_s);
-  const bool knows_position = dynamic_cast<const DeviceRestarted*>(&error) == nullptr;
+  const bool knows_position = dynamic_cast<const DeviceRestarted*>(&error) == nullptr &&
+                              dynamic_cast<const StageAlarm*>(&error) == nullptr;
   outcome.reason += place_of_punch(run, end, outcome.has_begun, knows_position);
   if (!end.trouble.empty()) outcome.reason += ". And: " + end.trouble;
 }
