@@ -145,8 +145,11 @@ RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, cons
     load_cell.service();
     stage.service();
   };
+  load_cell.accept_restarts(true);  // opening its port may reset a board, late
   load_cell.connect(pump);
   stage.connect(pump);
+  if (load_cell.n_restarts() > 0) load_cell.connect(pump);
+  load_cell.accept_restarts(false);
   Readings readings;
   load_cell.set_listener([&](const LoadSample& sample) {
     const double made_s = load_cell.made_at_s(sample);

@@ -2,6 +2,7 @@
 
 #include "io/basics/number_text.h"
 #include "io/basics/units.h"
+#include "io/basics/words.h"
 #include "io/capture/capture_file.h"
 #include "models/experiment/calibration.h"
 #include "models/experiment/motion_profile.h"
@@ -34,16 +35,9 @@ std::optional<double> number_of_event(const CapturedRun& run, const std::string&
   return found;
 }
 
-std::string on_one_line(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  }
-  return text;
-}
-
 void append_head(Buffer& out, const CapturedRun& run, const RunTiming& timing, double tare_N) {
   const auto line = [&out](const std::string& text) {
-    fmt::format_to(std::back_inserter(out), "# {}\n", on_one_line(text));
+    fmt::format_to(std::back_inserter(out), "# {}\n", utf8_on_one_line(text));
   };
   line("load-cell samples of a capture, written by viscard " VISCARD_VERSION);
   line("captured: " + run.started_at + " by " + run.program + ": " + run.command);

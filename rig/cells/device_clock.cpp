@@ -28,7 +28,7 @@ bool DeviceClock::continues(const Accepted& from, double ticks, double host_time
 
 DeviceClock::Verdict DeviceClock::take(double ticks, double host_time_s, double period_s) {
   if (!last_) {
-    time_s_ = ticks * tick_s_;
+    time_s_ = start_s_.value_or(ticks * tick_s_);
     accept(ticks, 0.0, host_time_s);
     return Verdict::kGood;
   }

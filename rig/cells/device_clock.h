@@ -21,6 +21,9 @@ class DeviceClock {
   // tick_s: unit of the counter; slack_s: how late a line can arrive.
   DeviceClock(double tick_s, double slack_s) : tick_s_(tick_s), slack_s_(slack_s) {}
 
+  // The time of the first reading; without this it is what its counter shows.
+  void start_at(double time_s) { start_s_ = time_s; }
+
   // ticks as sent; host_time_s: arrival of the line. After kGood and kLastWasBad, time_s() is the
   // time of this reading.
   Verdict take(double ticks, double host_time_s, double period_s);
@@ -43,6 +46,7 @@ class DeviceClock {
   bool continues(const Accepted& from, double ticks, double host_time_s, double period_s) const;
 
   double tick_s_;
+  std::optional<double> start_s_;
   double slack_s_;
   std::optional<Accepted> last_, before_last_;
   double time_s_ = 0.0;

@@ -41,6 +41,10 @@ GaugeProtocol gauge_protocol(const LoadCellConfig& config) {
 
 }  // namespace
 
+void check_gauge_words(const LoadCellConfig& config) {
+  gauge_protocol(config);
+}
+
 GaugeLoadCell::GaugeLoadCell(Transport& transport, const LoadCellConfig& config,
                              const RigClock& clock, RecordSink sink)
     : LoadCell(transport, config, clock, std::move(sink)), protocol_(gauge_protocol(config)) {}
@@ -140,7 +144,7 @@ void GaugeLoadCell::take_answer(const std::string& text, double time_s) {
   if (trimmed(text) == trimmed(protocol_.query)) return;  // the echo of an adapter
   if (!asked_s_ || waits_for_quiet_) {
     ++counts_.duplicate;
-    sink_(RunEvent{time_s, "load_cell_late", text.substr(0, 80),
+    sink_(RunEvent{time_s, "load_cell_late", shown_bytes(text, 80),
                    "An answer of the load cell to no open question was left out"});
     return;
   }

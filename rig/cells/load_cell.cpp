@@ -17,7 +17,7 @@ LoadCell::LoadCell(Transport& transport, const LoadCellConfig& config, const Rig
 
 void LoadCell::note_unreadable(const std::string& text, double time_s) {
   ++counts_.unreadable;
-  sink_(RunEvent{time_s, "load_cell_unreadable", text.substr(0, 80),
+  sink_(RunEvent{time_s, "load_cell_unreadable", shown_bytes(text, 80),
                  "A line from the load cell is no reading"});
 }
 
@@ -53,7 +53,7 @@ std::int64_t LoadCell::note_gap(double step_s, double least_s, double time_s) {
 }
 
 void LoadCell::hand_out(LoadSample& sample) {
-  sample.index = counts_.received++;
+  sample.index = n_skipped_ + counts_.received++;
   last_arrival_s_ = sample.host_time_s;
   counts_.saturated += sample.is_saturated ? 1 : 0;
   counts_.glitch += sample.is_glitch ? 1 : 0;

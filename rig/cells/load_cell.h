@@ -38,6 +38,10 @@ class LoadCell {
   Transport& transport() { return transport_; }
   // Waits until readings arrive and the format of the lines is known.
   virtual void connect(const Pump& pump) = 0;
+  // While restarts are accepted, a device that restarts is learnt anew instead of DeviceRestarted;
+  // connect() waits until that is done. Boards reset when their port is opened, and may do so late.
+  void accept_restarts(bool is_accepted) { accepts_restarts_ = is_accepted; }
+  std::int64_t n_restarts() const { return n_restarts_; }
   // Reads what has arrived and passes each reading to the sink, then to the listener. Call often.
   virtual void service() = 0;
   void set_listener(std::function<void(const LoadSample&)> listener) {
@@ -48,6 +52,8 @@ class LoadCell {
   // The assumed unit of its numbers, "counts", "volts", "N", "g" ...; empty if the instrument's
   // protocol fixes it.
   virtual std::string reads_as() const { return {}; }
+  // The format of its lines as a rig file names it; empty if the instrument's protocol fixes it.
+  virtual std::string line_format() const { return {}; }
   // Measured time between readings, rig seconds.
   double period_s() const { return period_s_; }
   // Rig time at which the newest reading arrived.
@@ -83,6 +89,11 @@ class LoadCell {
   std::function<void(const LoadSample&)> listener_;
   LineSplitter splitter_;
   bool is_connected_ = false;
+  bool accepts_restarts_ = false;
+  std::int64_t n_restarts_ = 0;
+  // Readings that a restart has cost: numbers that no reading has, so that the numbers of a stream
+  // without a clock still count its time.
+  std::int64_t n_skipped_ = 0;
   double period_s_;
   std::string unit_;  // as sent with the readings; may be empty
   std::string other_unit_;
