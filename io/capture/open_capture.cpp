@@ -10,15 +10,7 @@
 #include <stdexcept>
 
 namespace viscard {
-namespace {
-
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const fs::path& path, const std::string& what) {
-  throw std::runtime_error(path.string() + " " + what);
-}
-
-}  // namespace
 
 OpenCapture::OpenCapture(const fs::path& path) : path_(path) {
   check_capture_header(path);
@@ -40,8 +32,10 @@ OpenCapture::~OpenCapture() {
 
 void OpenCapture::explain(const SqliteError& error) const {
   if (error.code() == SQLITE_CORRUPT || error.code() == SQLITE_NOTADB) {
-    fail(path_, "is damaged; use another copy of it, or save what is left with: sqlite3 " +
-                    path_.string() + " .recover");
+    throw std::runtime_error(path_.string() +
+                             " is damaged; use another copy of it, or save what is left with: "
+                             "sqlite3 " +
+                             path_.string() + " .recover");
   }
   throw std::runtime_error(error.what());
 }

@@ -129,8 +129,16 @@ double SpikeWatch::noise() const {
   return std::max(usual_, least_ > 0.0 ? least_ : 0.5 * least_step_);
 }
 
-bool SpikeWatch::lies_between(std::size_t at, double slack) const {
-  const double before = readings_[at - 1].value, behind = readings_[at + 1].value;
+// The one behind is the first that continues the line before, so that a second bad reading beside
+// this one does not hide it; if none does (a corner, a staircase), the next one.
+bool SpikeWatch::lies_between(std::size_t at, const Line& line, double slack) const {
+  std::size_t next = at + 1;
+  if (line.scatter <= kLikely * noise()) {
+    const std::size_t end = std::min(at + 1 + kSide, readings_.size());
+    while (next < end && departs(line, next, at)) ++next;
+    if (next == end) next = at + 1;
+  }
+  const double before = readings_[at - 1].value, behind = readings_[next].value;
   const double value = readings_[at].value;
   return value > std::min(before, behind) - slack && value < std::max(before, behind) + slack;
 }
@@ -157,7 +165,7 @@ bool SpikeWatch::judge(std::size_t at) {
       std::max(0.0, std::max(before.scatter, behind.scatter) - kLikely * noise());
   const double slack = kRounded * corner + kEarlyOrLate * ramp + kStaircase * scatter;
   // On a ramp a reading between its two neighbours is no spike: a staircase never turns back.
-  if (slope > kLikely * noise() && lies_between(at, kLikely * noise())) return false;
+  if (slope > kLikely * noise() && lies_between(at, before, kLikely * noise())) return false;
   const double apart = std::abs(before.value - behind.value);
   const double middle = 0.5 * (before.value + behind.value);
   // Two lines through pure noise are seldom further apart than this.

@@ -59,7 +59,7 @@ class SpikeWatch {
   Line predicted(std::size_t at, int direction, const Line* before = nullptr) const;
   bool departs(const Line& before, std::size_t at, std::size_t from) const;
   double mean_around(std::size_t at, double middle, double slope) const;
-  bool lies_between(std::size_t at, double slack) const;
+  bool lies_between(std::size_t at, const Line& line, double slack) const;
   bool judge(std::size_t at);
   std::vector<std::int64_t> judge_until(std::size_t end);
   void learn(double distance);
