@@ -10,7 +10,11 @@
 #include <stdexcept>
 
 namespace viscard {
+namespace {
+
 namespace fs = std::filesystem;
+
+}  // namespace
 
 OpenCapture::OpenCapture(const fs::path& path) : path_(path) {
   check_capture_header(path);
