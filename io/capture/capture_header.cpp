@@ -83,4 +83,12 @@ bool has_journal(const fs::path& path) {
   return !ignored && size > 0;
 }
 
+bool looks_like_capture(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  if (path.extension() == ".viscap") return true;
+  Header header{};
+  return has_magic(header, read_header(path, header));
+}
+
 }  // namespace viscard
