@@ -74,6 +74,14 @@ class CaptureWriter {
 // or of a newer schema.
 CapturedRun read_capture(const std::filesystem::path& path);
 
+// What a list of captures shows of each; read without its records.
+struct CaptureState {
+  std::string status;      // as CapturedRun::status
+  std::string started_at;  // ISO 8601
+};
+// Throws as read_capture() does, but does not notice damage to the records.
+CaptureState read_capture_state(const std::filesystem::path& path);
+
 // Calls take with the raw bytes, in the order of reception or sending. Throws as read_capture()
 // does.
 void read_raw_bytes(const std::filesystem::path& path,

@@ -118,6 +118,19 @@ CapturedRun read_capture(const std::filesystem::path& path) {
   return run;
 }
 
+CaptureState read_capture_state(const std::filesystem::path& path) {
+  OpenCapture capture(path);
+  CaptureState state;
+  try {
+    state.started_at = run_value(capture.database(), "started_at");
+    state.status = run_value(capture.database(), "status");
+    if (state.status == "open") state.status = capture.is_running() ? "running" : "interrupted";
+  } catch (const SqliteError& error) {
+    capture.explain(error);
+  }
+  return state;
+}
+
 void read_raw_bytes(const std::filesystem::path& path,
                     const std::function<void(const RawBytes&)>& take) {
   OpenCapture capture(path);

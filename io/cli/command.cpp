@@ -6,6 +6,7 @@
 #include "io/cli/report/report_commands.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/scene/scene_commands.h"
+#include "io/cli/serve/serve_command.h"
 
 #include <filesystem>
 #include <ostream>
@@ -48,6 +49,7 @@ const std::vector<Command>& commands() {
   static const std::vector<Command> table{
       {"rig", "list serial ports, check a rig", run_rig},
       {"capture", "run one indentation on the rig, or on an emulated one", run_capture},
+      {"serve", "show a page at the rig: run a series of specimens and fit it", run_serve},
       {"calibrate", "find the load cell's gain with weights, or the frame's stiffness on a block",
        run_calibrate},
       {"export", "write a capture as CSV", run_export},

@@ -72,7 +72,9 @@ RunOutcome capture_with(const RigConfig& rig, const CaptureRequest& request,
   RunControl control;
   control.clock = &clock;
   control.stop = watch.stop;
+  control.stop_at_once = watch.stop_at_once;
   control.progress = watch.progress;
+  control.reading = watch.reading;
   RunOutcome outcome = run_indentation(*devices.stage, *devices.load_cell, rig, setup.plan,
                                        setup.specimen, sink, control);
   if (outcome.has_begun) {

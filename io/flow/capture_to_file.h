@@ -34,11 +34,13 @@ struct CaptureRequest {
 
 // Who watches a capture while it runs. Any of these may be empty.
 struct CaptureWatch {
-  const std::atomic<bool>* stop = nullptr;  // ends the run when set
+  const std::atomic<bool>* stop = nullptr;          // ends the run when set
+  const std::atomic<bool>* stop_at_once = nullptr;  // the same without braking
   // The file is open and the drivers are ready; the writer lives until `closing` has returned.
   std::function<void(const RigConfig& rig, const CaptureWriter& writer)> opened;
   std::function<void(const RunProgress& now)> progress;
-  std::function<void()> closing;  // the run is over, also if it threw
+  std::function<void(const RunReading& reading)> reading;  // every one that is not doubtful
+  std::function<void()> closing;                           // the run is over, also if it threw
 };
 
 // Opens both ports (or makes an emulated rig), creates the file and runs one test. A capture that

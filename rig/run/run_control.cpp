@@ -21,11 +21,18 @@ void ProgressReport::report(double force_N, double position_m) {
   progress.time_left_s = std::max(0.0, planned_rest_s_ - (now_s - phase_start_s_));
   progress.fraction = now_s / std::max(1e-9, now_s + progress.time_left_s);
   progress.force_N = force_N;
-  if (contact_m_) {
-    const double frame_m = frame_stiffness_N_m_ > 0.0 ? force_N / frame_stiffness_N_m_ : 0.0;
-    progress.depth_m = std::max(0.0, position_m - *contact_m_ - frame_m);
-  }
+  progress.depth_m = depth_m(force_N, position_m);
   control_.progress(progress);
+}
+
+void ProgressReport::report_reading(double time_s, double force_N, double position_m) const {
+  if (control_.reading) control_.reading({time_s, force_N, depth_m(force_N, position_m)});
+}
+
+double ProgressReport::depth_m(double force_N, double position_m) const {
+  if (!contact_m_) return 0.0;
+  const double frame_m = frame_stiffness_N_m_ > 0.0 ? force_N / frame_stiffness_N_m_ : 0.0;
+  return std::max(0.0, position_m - *contact_m_ - frame_m);
 }
 
 }  // namespace viscard

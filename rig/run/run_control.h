@@ -20,11 +20,21 @@ struct RunProgress {
   double time_left_s = 0.0;
 };
 
+// One reading of the load cell that is not doubtful.
+struct RunReading {
+  double time_s = 0.0;   // when it was made, in rig seconds since the run began
+  double force_N = 0.0;  // from the tare
+  double depth_m = 0.0;  // as in RunProgress
+};
+
 // How a run is observed and ended from outside.
 struct RunControl {
-  const RigClock* clock = nullptr;                   // the one the devices were made with
-  const std::atomic<bool>* stop = nullptr;           // set by a signal handler to end the run
+  const RigClock* clock = nullptr;          // the one the devices were made with
+  const std::atomic<bool>* stop = nullptr;  // set by a signal handler to end the run
+  // Stops the stage at once, without braking, also if it is braking because of `stop`.
+  const std::atomic<bool>* stop_at_once = nullptr;
   std::function<void(const RunProgress&)> progress;  // may be empty
+  std::function<void(const RunReading&)> reading;    // every one; may be empty
 };
 
 // A person asked the run to end.
@@ -58,8 +68,11 @@ class ProgressReport {
   bool has_contact() const { return contact_m_.has_value(); }
 
   void report(double force_N, double position_m);
+  void report_reading(double time_s, double force_N, double position_m) const;
 
  private:
+  double depth_m(double force_N, double position_m) const;
+
   const RunControl& control_;
   const RigClock& clock_;
   double frame_stiffness_N_m_;

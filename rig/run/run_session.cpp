@@ -49,6 +49,7 @@ void RunSession::connect() {
 
 void RunSession::pump() {
   devices_.serve(is_guarded_);
+  if (control_.stop_at_once != nullptr && *control_.stop_at_once) stop_at_once();
   if (is_guarded_) {
     if (control_.stop != nullptr && *control_.stop) {
       throw RunInterrupted("the run was interrupted; what was recorded is kept");
@@ -82,7 +83,10 @@ bool RunSession::guards_force() const {
 void RunSession::take_sample(const LoadSample& sample) {
   const double made_at_s = load_cell().made_at_s(sample);
   const auto [force_N, is_doubtful] = readings_.take(sample, made_at_s);
-  if (!is_doubtful) ages_.take(force_N, made_at_s);
+  if (!is_doubtful) {
+    ages_.take(force_N, made_at_s);
+    progress_.report_reading(made_at_s, force_N, stage().position_m());
+  }
   std::optional<double> value;
   if (!is_doubtful) value = sample.counts ? sample.counts : force_N_from_sample(sample, rig_);
   marks_.take(sample, value, load_cell().period_s());
@@ -94,6 +98,19 @@ void RunSession::take_sample(const LoadSample& sample) {
   } else if (action == GuardAction::kHardStop) {
     stop_hard_while_stopping(force_N);
   }
+}
+
+// A person asked for it. The lift afterwards begins with a recovery, so a second stop is not needed.
+void RunSession::stop_at_once() {
+  if (has_stopped_at_once_) return;
+  has_stopped_at_once_ = true;
+  const bool was_moving = devices_.is_stage_connected() && stage().is_moving();
+  devices_.end_gentle_stop();
+  if (was_moving) devices_.stop_hard();
+  event("limit", "person",
+        was_moving ? "A person asked to stop at once: the stage was reset"
+                   : "A person asked to stop at once; the stage stood still");
+  if (is_guarded_) throw RunInterrupted("the run was stopped at once; what was recorded is kept");
 }
 
 // The gentle stop of make_safe() was too slow.

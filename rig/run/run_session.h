@@ -82,6 +82,7 @@ class RunSession {
   void take_sample(const LoadSample& sample);
   void act_on(GuardAction action, double force_N);
   void stop_hard_while_stopping(double force_N);
+  void stop_at_once();
   [[noreturn]] void throw_limit(GuardAction action, double force_N) const;
   void check_stream();
   void check_age();
@@ -106,6 +107,7 @@ class RunSession {
   AgeWatch ages_;
   ProgressReport progress_;
   bool is_guarded_ = false;
+  bool has_stopped_at_once_ = false;
   bool has_moved_ = false;
   bool is_pressing_ = false;  // a move toward the specimen that is judged by the readings' age
   double stiffness_N_m_ = 0.0;

@@ -5,6 +5,7 @@
 #include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
 #include "io/flow/fit_file.h"
+#include "io/flow/flow_json.h"
 #include "io/materials/material_file.h"
 
 #include <nlohmann/json.hpp>

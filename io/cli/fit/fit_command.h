@@ -4,7 +4,6 @@
 #include "io/flow/fit_file.h"
 
 #include <boost/program_options/variables_map.hpp>
-#include <nlohmann/json_fwd.hpp>
 
 namespace viscard {
 
@@ -18,9 +17,6 @@ FitRequest words_from(const boost::program_options::variables_map& values);
 MaterialRequest material_words(const boost::program_options::variables_map& values,
                                const std::string& command);
 
-// The object that `viscard fit --json` prints; its keys are those of FitResult with the unit in the
-// name. Numbers that are not finite become null.
-nlohmann::ordered_json json_from_fit(const FittedFile& fitted);
 // Prints the fit as text: moduli with intervals, the table of orders, flags.
 void print_fit(const FittedFile& fitted, std::ostream& out);
 

@@ -1,76 +1,13 @@
 #include "io/cli/fit/fit_command.h"
-#include "io/materials/material_json.h"
+#include "io/flow/flow_json.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 
 namespace viscard {
 namespace {
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-const char* kind_name(FitKind kind) {
-  constexpr const char* kNames[] = {"indentation", "relaxation", "creep", "dma"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
-
-Json terms_of(const FitResult& fit, const std::string& unit) {
-  Json terms = Json::array();
-  const std::string stem = fit.is_stiffness ? "stiffness" : "modulus";
-  for (const FittedTerm& term : fit.terms) {
-    Json row;
-    row[stem + unit] = number(term.modulus_Pa);
-    row["g"] = number(term.g);
-    row["tau_s"] = number(term.tau_s);
-    row[stem + "_se" + unit] = number(term.modulus_se_Pa);
-    row["ln_tau_se"] = number(term.ln_tau_se);
-    row["interval_95"][stem + unit] = json_from(term.modulus_Pa_95);
-    row["interval_95"]["g"] = json_from(term.g_95);
-    row["interval_95"]["tau_s"] = json_from(term.tau_s_95);
-    terms.push_back(row);
-  }
-  return terms;
-}
-
-Json orders_of(const FitResult& fit) {
-  Json orders = Json::array();
-  for (const OrderRow& row : fit.orders) {
-    orders.push_back({{"n_terms", row.n_terms},
-                      {"rss", number(row.rss)},
-                      {"aicc", number(row.aicc)},
-                      {"bic", number(row.bic)},
-                      {"cv", number(row.cv)},
-                      {"chosen", row.is_chosen}});
-  }
-  return orders;
-}
-
-Json flags_of(const FitResult& fit) {
-  Json flags = Json::array();
-  for (const MaterialFlag& flag : fit.flags) {
-    Json row{{"name", flag.name}};
-    if (flag.term > 0) row["term"] = flag.term;
-    row["text"] = flag.text;
-    flags.push_back(row);
-  }
-  return flags;
-}
-
-Json profiles_of(const FitResult& fit) {
-  Json profiles = Json::array();
-  for (const ProfileCurve& curve : fit.profiles) {
-    profiles.push_back({{"parameter", curve.parameter},
-                        {"value", curve.value},
-                        {"rise", curve.rise},
-                        {"interval_95", json_from(curve.interval_95)}});
-  }
-  return profiles;
-}
 
 // The unit for moduli: 1.88e6 Pa is printed as "1.88 MPa".
 struct Shown {
@@ -103,48 +40,6 @@ void print_orders(const FitResult& fit, const std::string& unit, std::ostream& o
     out << fmt::format("{} {:>5} {:>14.6g} {:>12.2f} {:>12.2f} {:>10.4g}\n",
                        row.is_chosen ? "*" : " ", row.n_terms, row.rss, row.aicc, row.bic, row.cv);
   }
-}
-
-Json json_of(const TemperatureShift& shift, double chi2, double bic) {
-  Json json;
-  if (shift.law == ShiftLaw::kWlf) {
-    json = {{"C1", number(shift.C1)},
-            {"C2_K", number(shift.C2_K)},
-            {"interval_95", {{"C1", json_from(shift.C1_95)}, {"C2_K", json_from(shift.C2_K_95)}}}};
-  } else {
-    json = {{"activation_J_mol", number(shift.activation_J_mol)},
-            {"interval_95", {{"activation_J_mol", json_from(shift.activation_J_mol_95)}}}};
-  }
-  json["chi2"] = number(chi2);
-  json["bic"] = number(bic);
-  return json;
-}
-
-Json json_of(const MasterCurve& curve) {
-  const ShiftLaws& laws = curve.laws;
-  Json json{{"T_ref_C", number(curve.T_ref_C)}};
-  json["factors"] = Json::array();
-  for (const ShiftFactor& factor : curve.factors) {
-    json["factors"].push_back({{"temperature_C", number(factor.temperature_C)},
-                               {"ln_a", number(factor.ln_a)},
-                               {"ln_a_se", number(factor.ln_a_se)}});
-  }
-  if (laws.wlf) json["wlf"] = json_of(*laws.wlf, laws.wlf_chi2, laws.wlf_bic);
-  if (laws.arrhenius) {
-    json["arrhenius"] = json_of(*laws.arrhenius, laws.arrhenius_chi2, laws.arrhenius_bic);
-  }
-  if (laws.better() != nullptr) json["better"] = laws.wlf_is_better ? "wlf" : "arrhenius";
-  return json;
-}
-
-Json json_of(const FractionalDiagnosis& fractional) {
-  return {{"E_inf_Pa", number(fractional.model.equilibrium_Pa)},
-          {"E_1_Pa", number(fractional.model.branch_Pa)},
-          {"tau_s", number(fractional.model.tau_s)},
-          {"alpha", number(fractional.model.alpha)},
-          {"chi_square", number(fractional.chi_square)},
-          {"series_chi_square", number(fractional.series_chi_square)},
-          {"bic_difference", number(fractional.bic_difference)}};
 }
 
 void print_fractional(const FractionalDiagnosis& fractional, std::ostream& out) {
@@ -180,59 +75,11 @@ void print_master(const MasterCurve& curve, std::ostream& out) {
 
 }  // namespace
 
-Json json_from_fit(const FittedFile& fitted) {
-  const FitResult& fit = fitted.result;
-  const std::string unit = fit.is_stiffness ? "_N_m" : "_Pa";
-  const std::string letter = fit.is_stiffness ? "K" : "E";
-  Json json;
-  json["file"] = fitted.path;
-  json["kind"] = kind_name(fit.kind);
-  json["trustworthy"] = fit.is_trustworthy;
-  json[letter + "0" + unit] = number(fit.E0_Pa);
-  json[letter + "_inf" + unit] = number(fit.E_inf_Pa);
-  json[letter + "0_se" + unit] = number(fit.E0_se_Pa);
-  json[letter + "_inf_se" + unit] = number(fit.E_inf_se_Pa);
-  json[letter + "0_interval_95"] = json_from(fit.E0_interval_95);
-  json[letter + "_inf_interval_95"] = json_from(fit.E_inf_interval_95);
-  json["sum_g"] = number(fit.sum_g);
-  json["sum_g_interval_95"] = json_from(fit.sum_g_95);
-  json["terms"] = terms_of(fit, unit);
-  json["rss"] = number(fit.rss);
-  json["n_samples"] = fit.n_samples;
-  json["n_terms"] = fit.terms.size();
-  json["orders"] = orders_of(fit);
-  json["flags"] = flags_of(fit);
-  json["noise"] = {{"sigma", number(fit.noise.sigma)}, {"inflation", number(fit.noise.inflation)}};
-  json["systematic_relative"] = number(fit.systematic_relative);
-  json["gain_drift_relative"] = number(fit.gain_drift_relative);
-  // Including the systematic part, in quadrature.
-  json[letter + "0_combined_interval_95"] =
-      json_from(combined_95(fit.E0_interval_95, fit.E0_Pa, fit.systematic_relative));
-  json[letter + "_inf_combined_interval_95"] =
-      json_from(combined_95(fit.E_inf_interval_95, fit.E_inf_Pa, fit.systematic_relative));
-  json["fit_from_s"] = number(fit.fit_from_s);
-  json["fit_to_s"] = number(fit.fit_to_s);
-  if (fit.contact_position_m) json["contact_position_m"] = number(*fit.contact_position_m);
-  if (fit.two_point) {
-    json["two_point"] = {{"modulus_Pa", number(fit.two_point->modulus_Pa)},
-                         {"se_Pa", number(fit.two_point->se_Pa)},
-                         {"half_space_modulus_Pa", number(fit.two_point->half_space_modulus_Pa)},
-                         {"bias", fit.two_point->bias}};
-  }
-  if (fit.n_bootstrap > 0) json["n_bootstrap"] = fit.n_bootstrap;
-  if (!fit.profiles.empty()) json["profiles"] = profiles_of(fit);
-  if (fitted.master) json["shift"] = json_of(*fitted.master);
-  if (fitted.fractional) json["fractional_zener"] = json_of(*fitted.fractional);
-  json["n_spikes"] = fit.n_spikes;
-  json["n_left_out"] = fit.n_left_out;
-  return json;
-}
-
 void print_fit(const FittedFile& fitted, std::ostream& out) {
   const FitResult& fit = fitted.result;
   const Shown shown = shown_modulus(fit);
   const char* letter = fit.is_stiffness ? "K" : "E";
-  out << fmt::format("{}: {}, {}\n", fitted.path, kind_name(fit.kind),
+  out << fmt::format("{}: {}, {}\n", fitted.path, name_of_kind(fit.kind),
                      counted(fit.n_samples, "sample"));
   if (fit.is_stiffness) {
     out << "  stiffnesses in N/m: no punch geometry was given (--specimen, or --punch-diameter)\n";

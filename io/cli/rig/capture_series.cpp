@@ -1,6 +1,5 @@
-#include "io/capture/capture_file.h"
-#include "io/capture/capture_lock.h"
 #include "io/cli/rig/capture_words.h"
+#include "io/flow/series_files.h"
 
 #include <fmt/format.h>
 
@@ -12,38 +11,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The n-th file for the same specimen: run.viscap, run.2.viscap, run.3.viscap ...
-fs::path attempt_path(const fs::path& first, int n) {
-  if (n == 1) return first;
-  fs::path path = first;
-  return path.replace_filename(
-      fmt::format("{}.{}{}", first.stem().string(), n, first.extension().string()));
-}
-
-// An empty or damaged capture counts as unfinished.
-bool is_finished(const fs::path& path) {
-  try {
-    return read_capture(path).status == "finished";
-  } catch (const std::runtime_error&) {
-    return false;
-  }
-}
-
 void choose_file(SeriesStep& step) {
-  for (int n = 1;; ++n) {
-    const fs::path path = attempt_path(step.out_file, n);
-    if (!fs::exists(path)) {
-      step.out_file = path.string();
-      return;
-    }
-    if (is_being_captured(path)) {
-      throw std::runtime_error(path.string() +
-                               " is being written by another capture. Wait for it to end");
-    }
-    if (is_finished(path)) {
-      step.finished_file = path.string();
-      return;
-    }
+  const NextCapture next = next_capture(step.out_file);
+  if (next.finished.empty()) {
+    step.out_file = next.file.string();
+  } else {
+    step.finished_file = next.finished.string();
   }
 }
 

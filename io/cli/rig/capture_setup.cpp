@@ -1,32 +1,11 @@
+#include "io/flow/capture_setup.h"
+
 #include "io/cli/rig/capture_words.h"
 #include "io/cli/words/streams.h"
-#include "io/config/config_file.h"
-#include "rig/emulator/demo_rig.h"
 
 #include <fmt/format.h>
 
 namespace viscard {
-namespace {
-
-constexpr double kFastest = 500.0;
-
-// An emulated specimen with the geometry of the specimen file. The material is PDMS of the
-// demonstration if the mixing ratio is one of its three, otherwise its relaxation with the guessed
-// modulus.
-EmulatedTruth truth_like(const Specimen& specimen, std::uint64_t seed) {
-  const bool is_known = specimen.mixing_ratio == 13.0 || specimen.mixing_ratio == 20.0;
-  EmulatedTruth truth = demo_truth(is_known ? specimen.mixing_ratio : 10.0, seed);
-  if (!is_known && specimen.mixing_ratio != 10.0 && specimen.modulus_guess_Pa > 0.0) {
-    truth.material.name = specimen.material;
-    truth.material.E0_Pa = specimen.modulus_guess_Pa;
-  }
-  truth.contact = specimen.contact;
-  truth.material.nu = specimen.contact.poisson_ratio;
-  return truth;
-}
-
-}  // namespace
-
 void check_words(const CaptureWords& words) {
   if (words.out_file.empty()) {
     throw UsageError("capture needs --out FILE, the capture file to write");
@@ -34,9 +13,9 @@ void check_words(const CaptureWords& words) {
   if (words.resumes && words.overwrite) {
     throw UsageError("--resume keeps what is there and --force replaces it: give one of them");
   }
-  if (!(words.speed > 0.0) || words.speed > kFastest) {
-    throw UsageError(
-        fmt::format("--speed is {}; it must be above 0 and at most {}", words.speed, kFastest));
+  if (!(words.speed > 0.0) || words.speed > kFastestEmulation) {
+    throw UsageError(fmt::format("--speed is {}; it must be above 0 and at most {}", words.speed,
+                                 kFastestEmulation));
   }
   if (words.is_emulated) return;
   if (words.truth_file || words.seed || words.speed != 1.0) {
@@ -49,20 +28,8 @@ void check_words(const CaptureWords& words) {
 }
 
 CaptureSetup capture_setup(const CaptureWords& words, const std::string& specimen_file) {
-  CaptureSetup setup;
-  setup.rig = words.rig_file ? read_rig(*words.rig_file) : demo_rig();
-  setup.plan = words.test_file ? read_test(*words.test_file) : TestPlan{};
-  setup.specimen = specimen_file.empty() ? demo_specimen(10.0) : read_specimen(specimen_file);
-  if (!words.is_emulated) return setup;
-  setup.truth = words.truth_file ? read_truth(*words.truth_file)
-                                 : truth_like(setup.specimen, words.seed.value_or(1));
-  if (words.seed) setup.truth->seed = *words.seed;
-  setup.rig.load_cell.expected_rate_Hz = setup.truth->sample_rate_Hz;
-  if (setup.rig.load_cell.volts_per_count == 0.0) {
-    setup.rig.load_cell.volts_per_count = demo_rig().load_cell.volts_per_count;
-  }
-  setup.rig.clock_speed = words.speed;
-  return setup;
+  return setup_from_files({words.rig_file, words.test_file, words.truth_file, specimen_file,
+                           words.is_emulated, words.seed, words.speed});
 }
 
 }  // namespace viscard

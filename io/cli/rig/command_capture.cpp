@@ -5,6 +5,7 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/output_paths.h"
 #include "io/flow/capture_to_file.h"
+#include "io/flow/flow_json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -111,37 +112,6 @@ void print_text(const CaptureOutcome& capture, std::ostream& out) {
   }
 }
 
-ordered_json json_from_outcome(const CaptureOutcome& capture) {
-  const RunOutcome& outcome = capture.run;
-  const StreamCounts& stream = outcome.stream;
-  ordered_json json;
-  json["file"] = capture.file;
-  json["status"] = outcome.status;
-  json["reason"] = outcome.reason;
-  json["peak_force_N"] = outcome.peak_force_N;
-  json["expected_peak_force_N"] = outcome.expected.peak_force_N;
-  json["limit_N"] = outcome.expected.limit_N;
-  json["depth_m"] = outcome.achieved_depth_m;
-  json["contact_position_m"] = outcome.contact_position_m
-                                   ? ordered_json(*outcome.contact_position_m)
-                                   : ordered_json(nullptr);
-  json["noise_N"] = outcome.noise_N;
-  json["hidden_error_N"] = outcome.hidden_error_N;
-  json["doubts"] = outcome.doubts;
-  json["line_format"] = outcome.line_format;
-  json["readings"] = {{"expected", stream.expected()},
-                      {"received", stream.received},
-                      {"missing", stream.missing},
-                      {"duplicate", stream.duplicate},
-                      {"glitch", stream.glitch},
-                      {"saturated", stream.saturated},
-                      {"unreadable", stream.unreadable},
-                      {"implausible", stream.implausible},
-                      {"longest_gap_s", stream.longest_gap_s},
-                      {"longest_gap_at_s", stream.longest_gap_at_s}};
-  return json;
-}
-
 // Waits until the person has changed the specimen; false if the person ended the series.
 bool is_next_ready(const SeriesStep& step, const CaptureWords& words, Streams& streams) {
   if (words.is_emulated || words.asks_nobody) return true;
@@ -186,7 +156,7 @@ SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords
     }
     is_first = false;
     const CaptureOutcome outcome = capture_once(one, setup, command, streams);
-    result.runs.push_back(json_from_outcome(outcome));
+    result.runs.push_back(json_from_outcome(outcome.run, outcome.file));
     if (!words.as_json) print_text(outcome, streams.out);
     if (outcome.run.status == "finished") continue;
     result.trouble = outcome.run.reason;

@@ -1,20 +1,17 @@
-#include "io/basics/timestamp.h"
 #include "io/cli/rig/overshoot_study.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/progress.h"
 #include "io/config/config_file.h"
+#include "io/flow/check_rig_config.h"
+#include "io/flow/flow_json.h"
 #include "models/maths/text_of_number.h"
 #include "rig/emulator/demo_rig.h"
-#include "rig/emulator/emulated_rig.h"
 #include "rig/lines/port_probe.h"
-#include "rig/open_devices.h"
-#include "rig/rig_check.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <memory>
 #include <ostream>
 
 namespace po = boost::program_options;
@@ -42,30 +39,6 @@ int list_ports(bool as_json, Streams& streams) {
   return kDone;
 }
 
-RigCheck check(RigConfig rig, bool is_emulated, double seconds) {
-  std::unique_ptr<EmulatedRig> emulated;
-  if (is_emulated) {
-    emulated = std::make_unique<EmulatedRig>(
-        EmulatedRigOptions{.truth = demo_truth(10.0, 1), .config = rig});
-    rig = emulated->config();
-  }
-  const RigClock clock(rig.clock_speed);
-  const RecordSink nowhere = [](const RunRecord&) {};
-  rig.stage.home = false;  // a check moves nothing
-  RigDevices devices = open_ports(rig, clock);
-  add_drivers(devices, rig, clock, nowhere);
-  return check_rig(*devices.stage, *devices.load_cell, rig, clock, seconds);
-}
-
-// As in a capture: an expired calibration, or one dated later than today, forbids a test; one
-// without a date is only a warning.
-void add_calibration(const RigConfig& rig, RigCheck& found) {
-  const std::string trouble = calibration_trouble(rig.calibration, today());
-  if (trouble.empty()) return;
-  found.advice.push_back(trouble);
-  if (!last_valid_day(rig.calibration).empty()) found.is_usable = false;
-}
-
 void print_text(const RigCheck& found, std::ostream& out) {
   out << fmt::format(
              "stage      {}, {:.0f} steps/mm, {:.0f} mm/s2, {:.3f} to {:.1f} mm/s, at {:.3f} mm\n",
@@ -84,33 +57,6 @@ void print_text(const RigCheck& found, std::ostream& out) {
                      found.noise_N * 1e3);
   for (const std::string& text : found.advice) out << "advice     " << text << "\n";
   out << (found.is_usable ? "ready\n" : "not fit for a test yet\n");
-}
-
-void print_json(const RigCheck& found, std::ostream& out) {
-  const ordered_json json = {{"is_usable", found.is_usable},
-                             {"stage",
-                              {{"identity", found.stage_identity},
-                               {"steps_per_m", found.dynamics.steps_per_m},
-                               {"acceleration_m_s2", found.dynamics.acceleration_m_s2},
-                               {"min_speed_m_s", found.dynamics.min_speed_m_s},
-                               {"max_speed_m_s", found.dynamics.max_speed_m_s},
-                               {"position_m", found.position_m},
-                               {"latency_mean_s", found.latency.mean_s},
-                               {"latency_longest_s", found.latency.longest_s},
-                               {"reports", found.latency.n},
-                               {"reports_lost", found.latency.n_lost}}},
-                             {"load_cell",
-                              {{"rate_Hz", found.rate_Hz},
-                               {"jitter_s", found.jitter_s},
-                               {"falls_behind", found.falls_behind},
-                               {"line_bytes", found.line_bytes},
-                               {"missing", found.stream.missing},
-                               {"unreadable", found.stream.unreadable},
-                               {"reads_as", found.reads_as},
-                               {"force_N", found.force_N},
-                               {"noise_N", found.noise_N}}},
-                             {"advice", found.advice}};
-  out << json.dump() << "\n";
 }
 
 int show_overshoot(bool as_json, Streams& streams) {
@@ -168,10 +114,10 @@ int check_and_print(const po::variables_map& values, bool as_json, Streams& stre
   }
   const RigConfig rig =
       values.count("rig") > 0 ? read_rig(values["rig"].as<std::string>()) : demo_rig();
-  RigCheck found = check(rig, is_emulated, seconds);
+  RigCheck found = check_rig_config(rig, is_emulated, seconds);
   if (values.count("rig") > 0) add_calibration(rig, found);
   if (as_json) {
-    print_json(found, streams.out);
+    streams.out << json_from_rig_check(found).dump() << "\n";
   } else {
     print_text(found, streams.out);
   }

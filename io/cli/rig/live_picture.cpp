@@ -81,20 +81,6 @@ std::string curve(const LiveHistory& history, double limit_N) {
 
 }  // namespace
 
-void LiveHistory::add(double time_s, double force_N) {
-  if (n_seen_++ % keep_every_ != 0) return;
-  time_s_.push_back(time_s);
-  force_N_.push_back(force_N);
-  if (time_s_.size() < kMost) return;
-  for (std::size_t i = 0; i < kMost / 2; ++i) {
-    time_s_[i] = time_s_[2 * i];
-    force_N_[i] = force_N_[2 * i];
-  }
-  time_s_.resize(kMost / 2);
-  force_N_.resize(kMost / 2);
-  keep_every_ *= 2;
-}
-
 std::string sparkline(const std::vector<double>& values, std::size_t width) {
   static constexpr std::array<const char*, 8> kBlocks{"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
   if (values.empty() || width == 0) return "";

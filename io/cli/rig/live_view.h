@@ -2,6 +2,7 @@
 
 #include "io/capture/capture_file.h"
 #include "io/cli/words/streams.h"
+#include "io/flow/live_history.h"
 #include "rig/run/run_control.h"
 
 #include <condition_variable>
@@ -15,21 +16,6 @@
 #include <vector>
 
 namespace viscard {
-
-// Force against time during a run, thinned out to at most kMost points however long the run is.
-class LiveHistory {
- public:
-  static constexpr std::size_t kMost = 2000;
-
-  void add(double time_s, double force_N);
-  const std::vector<double>& time_s() const { return time_s_; }
-  const std::vector<double>& force_N() const { return force_N_; }
-
- private:
-  std::vector<double> time_s_, force_N_;
-  std::size_t keep_every_ = 1;
-  std::size_t n_seen_ = 0;
-};
 
 // Draws each value as one of eight blocks, scaled from the smallest to the largest value. If there
 // are more values than width, each block shows the largest value of its share.

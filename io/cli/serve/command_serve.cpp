@@ -1,0 +1,95 @@
+#include "io/cli/serve/serve_command.h"
+#include "io/cli/words/command_line.h"
+#include "io/cli/words/stop_on_signal.h"
+#include "io/flow/capture_setup.h"
+#include "io/serve/rig_server.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <ostream>
+#include <thread>
+
+namespace po = boost::program_options;
+
+namespace viscard {
+namespace {
+
+constexpr std::chrono::milliseconds kPoll{50};
+constexpr int kHighestPort = 65535;
+
+CommandSyntax serve_syntax(ServeOptions& options, std::string& folder) {
+  CommandSyntax syntax;
+  syntax.usage = "viscard serve FOLDER --rig FILE [OPTIONS]";
+  syntax.description =
+      "Shows a page at the rig: devices, specimens, the test, its expected course, live force and\n"
+      "depth, stop, and the fit. FOLDER holds the series; it is created if it does not exist.\n"
+      "Open the printed address in a browser on this machine. Closing the page stops nothing;\n"
+      "Ctrl-C here stops a run, lifts the punch and ends the program.";
+  syntax.example = "viscard serve series --emulate --speed 10";
+  auto add = syntax.options.add_options();
+  add("folder", po::value(&folder), "folder of the series");
+  add("rig", into(options.rig_file), "rig.toml: ports, calibration");
+  add("port", po::value(&options.port)->default_value(0), "port of 127.0.0.1; 0: any free one");
+  add("uncalibrated", po::bool_switch(&options.is_uncalibrated),
+      "capture although the load cell's calibration has expired");
+  add("emulate", po::bool_switch(&options.is_emulated), "use an emulated rig");
+  add("seed", into(options.seed), "seed of the emulated noise");
+  add("speed", po::value(&options.speed)->default_value(1.0),
+      "emulated clock over wall clock, up to 500");
+  syntax.positional = {"folder"};
+  return syntax;
+}
+
+void check_options(const ServeOptions& options) {
+  if (options.folder.empty()) {
+    throw UsageError("serve needs the folder of the series: viscard serve FOLDER --rig FILE");
+  }
+  if (options.port < 0 || options.port > kHighestPort) {
+    throw UsageError(fmt::format("--port {} is outside 0 to {}", options.port, kHighestPort));
+  }
+  if (!(options.speed > 0.0) || options.speed > kFastestEmulation) {
+    throw UsageError(fmt::format("--speed is {}; it must be above 0 and at most {}", options.speed,
+                                 kFastestEmulation));
+  }
+  if (options.is_emulated) return;
+  if (options.seed || options.speed != 1.0) {
+    throw UsageError("--seed and --speed are for an emulated rig: add --emulate");
+  }
+  if (!options.rig_file) {
+    throw UsageError("serve needs --rig FILE (or --emulate to try it without hardware)");
+  }
+}
+
+}  // namespace
+
+int run_serve(const Words& words, Streams& streams) {
+  ServeOptions options;
+  std::string folder;
+  CommandSyntax syntax = serve_syntax(options, folder);
+  const auto values = parse_words(syntax, words, streams);
+  if (!values) return kDone;
+  options.folder = folder;
+  options.command = quoted_command_line("serve", words);
+  check_options(options);
+  const StopOnSignal on_signal;
+  RigServer server(options);
+  const nlohmann::ordered_json about = {
+      {"address", server.address()}, {"port", server.port()}, {"folder", folder}};
+  if (!print_json(*values, about, streams)) {
+    streams.out << "Open in a browser on this machine: " << server.address() << "\n";
+    streams.err << "Ctrl-C ends it; a run is then stopped and the punch lifted\n";
+  }
+  streams.out << std::flush;
+  while (!StopOnSignal::is_asked()) std::this_thread::sleep_for(kPoll);
+  const bool was_running = server.last_run().is_running;
+  server.close();
+  if (!was_running) return kDone;
+  const LiveState run = server.last_run();
+  if (run.outcome && run.outcome->status == "finished") return kDone;
+  streams.err << "viscard: " << (run.outcome ? run.outcome->reason : run.trouble) << "\n";
+  return kFailed;
+}
+
+}  // namespace viscard

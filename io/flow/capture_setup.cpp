@@ -1,0 +1,44 @@
+#include "io/flow/capture_setup.h"
+
+#include "io/config/config_file.h"
+#include "rig/emulator/demo_rig.h"
+
+namespace viscard {
+namespace {
+
+// An emulated specimen with the geometry of the specimen file. The material is PDMS of the
+// demonstration if the mixing ratio is one of its three, otherwise its relaxation with the guessed
+// modulus.
+EmulatedTruth truth_like(const Specimen& specimen, std::uint64_t seed) {
+  const bool is_known = specimen.mixing_ratio == 13.0 || specimen.mixing_ratio == 20.0;
+  EmulatedTruth truth = demo_truth(is_known ? specimen.mixing_ratio : 10.0, seed);
+  if (!is_known && specimen.mixing_ratio != 10.0 && specimen.modulus_guess_Pa > 0.0) {
+    truth.material.name = specimen.material;
+    truth.material.E0_Pa = specimen.modulus_guess_Pa;
+  }
+  truth.contact = specimen.contact;
+  truth.material.nu = specimen.contact.poisson_ratio;
+  return truth;
+}
+
+}  // namespace
+
+CaptureSetup setup_from_files(const SetupRequest& request) {
+  CaptureSetup setup;
+  setup.rig = request.rig_file ? read_rig(*request.rig_file) : demo_rig();
+  setup.plan = request.test_file ? read_test(*request.test_file) : TestPlan{};
+  setup.specimen =
+      request.specimen_file.empty() ? demo_specimen(10.0) : read_specimen(request.specimen_file);
+  if (!request.is_emulated) return setup;
+  setup.truth = request.truth_file ? read_truth(*request.truth_file)
+                                   : truth_like(setup.specimen, request.seed.value_or(1));
+  if (request.seed) setup.truth->seed = *request.seed;
+  setup.rig.load_cell.expected_rate_Hz = setup.truth->sample_rate_Hz;
+  if (setup.rig.load_cell.volts_per_count == 0.0) {
+    setup.rig.load_cell.volts_per_count = demo_rig().load_cell.volts_per_count;
+  }
+  setup.rig.clock_speed = request.speed;
+  return setup;
+}
+
+}  // namespace viscard

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "io/flow/capture_to_file.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace viscard {
+
+// The files that describe one capture. An emulated rig needs none of them.
+struct SetupRequest {
+  std::optional<std::string> rig_file, test_file, truth_file;
+  std::string specimen_file;  // empty: the emulated rig's own
+  bool is_emulated = false;
+  std::optional<std::uint64_t> seed;
+  double speed = 1.0;  // of the emulated clock over the wall clock
+};
+
+// The largest speed of an emulated clock.
+inline constexpr double kFastestEmulation = 500.0;
+
+// Without a truth file, an emulated specimen has the geometry of the specimen file and the material
+// of the demonstration, or its relaxation with the guessed modulus. Throws std::runtime_error on a
+// bad file.
+CaptureSetup setup_from_files(const SetupRequest& request);
+
+}  // namespace viscard

@@ -1,0 +1,63 @@
+#include "io/flow/flow_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace viscard {
+
+nlohmann::ordered_json json_from_rig_check(const RigCheck& found) {
+  return {{"is_usable", found.is_usable},
+          {"stage",
+           {{"identity", found.stage_identity},
+            {"steps_per_m", found.dynamics.steps_per_m},
+            {"acceleration_m_s2", found.dynamics.acceleration_m_s2},
+            {"min_speed_m_s", found.dynamics.min_speed_m_s},
+            {"max_speed_m_s", found.dynamics.max_speed_m_s},
+            {"position_m", found.position_m},
+            {"latency_mean_s", found.latency.mean_s},
+            {"latency_longest_s", found.latency.longest_s},
+            {"reports", found.latency.n},
+            {"reports_lost", found.latency.n_lost}}},
+          {"load_cell",
+           {{"rate_Hz", found.rate_Hz},
+            {"jitter_s", found.jitter_s},
+            {"falls_behind", found.falls_behind},
+            {"line_bytes", found.line_bytes},
+            {"missing", found.stream.missing},
+            {"unreadable", found.stream.unreadable},
+            {"reads_as", found.reads_as},
+            {"force_N", found.force_N},
+            {"noise_N", found.noise_N}}},
+          {"advice", found.advice}};
+}
+
+nlohmann::ordered_json json_from_outcome(const RunOutcome& outcome, const std::string& file) {
+  const StreamCounts& stream = outcome.stream;
+  nlohmann::ordered_json json;
+  json["file"] = file;
+  json["status"] = outcome.status;
+  json["reason"] = outcome.reason;
+  json["peak_force_N"] = outcome.peak_force_N;
+  json["expected_peak_force_N"] = outcome.expected.peak_force_N;
+  json["limit_N"] = outcome.expected.limit_N;
+  json["depth_m"] = outcome.achieved_depth_m;
+  json["contact_position_m"] = outcome.contact_position_m
+                                   ? nlohmann::ordered_json(*outcome.contact_position_m)
+                                   : nlohmann::ordered_json(nullptr);
+  json["noise_N"] = outcome.noise_N;
+  json["hidden_error_N"] = outcome.hidden_error_N;
+  json["doubts"] = outcome.doubts;
+  json["line_format"] = outcome.line_format;
+  json["readings"] = {{"expected", stream.expected()},
+                      {"received", stream.received},
+                      {"missing", stream.missing},
+                      {"duplicate", stream.duplicate},
+                      {"glitch", stream.glitch},
+                      {"saturated", stream.saturated},
+                      {"unreadable", stream.unreadable},
+                      {"implausible", stream.implausible},
+                      {"longest_gap_s", stream.longest_gap_s},
+                      {"longest_gap_at_s", stream.longest_gap_at_s}};
+  return json;
+}
+
+}  // namespace viscard

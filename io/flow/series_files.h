@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+
+namespace viscard {
+
+// The captures of one specimen of a series: run.viscap, and run.2.viscap, run.3.viscap ... for
+// further attempts. Nothing is overwritten or continued in the middle.
+
+// The n-th file, from 1.
+std::filesystem::path attempt_path(const std::filesystem::path& first, int n);
+
+// Where the next capture goes.
+struct NextCapture {
+  std::filesystem::path file;      // does not exist yet; empty if there is a finished capture
+  std::filesystem::path finished;  // the first finished capture, or empty
+};
+
+// An empty or damaged capture counts as unfinished. Throws std::runtime_error if another program is
+// writing one of the captures.
+NextCapture next_capture(const std::filesystem::path& first);
+
+// The first file that does not exist, also if there is a finished capture. Throws likewise.
+std::filesystem::path further_capture(const std::filesystem::path& first);
+
+}  // namespace viscard

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "io/flow/capture_to_file.h"
+#include "io/flow/live_history.h"
+
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace viscard {
+
+// What is known of the running capture, or of the last one.
+struct LiveState {
+  bool is_known = false;  // there was a run since the program began
+  bool is_running = false;
+  bool is_stopping = false;  // a person asked for it
+  std::string specimen;      // its name in the series
+  std::string file;          // name of the capture
+  double clock_speed = 1.0;
+  RunProgress now;
+  std::string phase_text;
+  double peak_force_N = 0.0;
+  CaptureCounts counts;
+  std::optional<RunOutcome> outcome;  // once the run has ended
+  std::string trouble;                // why it could not begin or be recorded
+  LiveHistory history;
+};
+
+// The one capture that can run at a time, on a thread of its own. Nobody needs to watch it: a page
+// that is closed changes nothing.
+class LiveRun {
+ public:
+  LiveRun() = default;
+  // Stops a run gently and waits for the lift.
+  ~LiveRun();
+  LiveRun(const LiveRun&) = delete;
+  LiveRun& operator=(const LiveRun&) = delete;
+
+  // on_end is called by the thread of the run. Precondition: no run is going on.
+  void start(const std::string& specimen, CaptureRequest request, std::function<void()> on_end);
+  // The stage brakes and the punch is lifted; with at_once the stage is reset first.
+  void stop(bool at_once);
+  bool is_running() const;
+  // Waits until the run has ended.
+  void wait();
+  LiveState state() const;
+
+ private:
+  void work(const CaptureRequest& request);
+  CaptureWatch watch();
+  std::string text_of_phase(const std::string& phase) const;
+
+  std::atomic<bool> stop_{false}, stop_at_once_{false};
+  std::thread thread_;
+  mutable std::mutex mutex_;  // guards the rest
+  LiveState state_;
+  TestPlan plan_;
+  const CaptureWriter* writer_ = nullptr;
+};
+
+}  // namespace viscard

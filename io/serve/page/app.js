@@ -1,0 +1,65 @@
+// Puts the parts of the page together and asks viscard serve what is new. The page holds nothing that
+// the folder of the series and the running test do not: reloading or closing it changes nothing.
+import { ask, Refused } from "./api.js";
+import { element, showText } from "./format.js";
+import { refreshPlan, showPlan, showStart, startPlan } from "./plan.js";
+import { fitCapture, startResult } from "./result.js";
+import { showRig, startRig } from "./rig.js";
+import { isRunning, pollRun, showRigLimits, startRun } from "./run.js";
+import { chooseNext, showSeries, startSeries } from "./series.js";
+
+const kRunning_ms = 200, kIdle_ms = 1500;
+const kStateEvery = 3;  // idle polls
+
+let state = null;
+
+async function refresh() {
+  state = await ask("/api/state");
+  showRig(state);
+  showRigLimits(state);
+  showSeries(state);
+  showPlan(state);
+}
+
+function showLink(error) {
+  const isLost = Boolean(error);
+  element("link").textContent = isLost ? "not connected" : "connected";
+  if (!isLost) return showText(element("lost"), "");
+  const text = error instanceof Refused ? `${error.message}.`
+    : `${error.message}. If it has ended, start it again and open the address that it prints. `
+      + (isRunning() ? "A run was going on: look at the rig." : "");
+  showText(element("lost"), text);
+}
+
+async function pollForever() {
+  for (let n = 0; ; ++n) {
+    try {
+      const isNow = await pollRun();
+      if (state === null || (!isNow && n % kStateEvery === 0)) await refresh();
+      showLink(null);
+    } catch (error) {
+      showLink(error);
+    }
+    await new Promise((done) => setTimeout(done, isRunning() ? kRunning_ms : kIdle_ms));
+  }
+}
+
+async function runEnded(run) {
+  await refresh();
+  if (!run.outcome || run.outcome.status !== "finished") return;
+  await fitCapture(run.file);
+  chooseNext(state);
+}
+
+const quietly = (work) => work().catch(showLink);
+
+startRig();
+startSeries({
+  onChoice: () => { showStart(); quietly(refreshPlan); },
+  onChange: () => quietly(refresh),
+  onFit: (capture) => quietly(() => fitCapture(capture)),
+});
+startPlan({ onStart: () => quietly(async () => { await pollRun(); await refresh(); }) });
+startRun({ onEnd: (run) => quietly(() => runEnded(run)) });
+startResult({ onFitted: () => quietly(refresh) });
+pollForever();

@@ -1,0 +1,123 @@
+// Line charts by dygraphs (MIT): force and depth with the limit lines of the load cell.
+/* global Dygraph */
+
+const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+const isTouch = matchMedia("(pointer: coarse)").matches;
+const charts = new Set();
+
+// One chart. options: labels of the columns, colors by name, right: label of the column on the right
+// axis, limits: [{value, text, color}], range() of the left axis, readout(row), points, band.
+export class Chart {
+  constructor(node, options) {
+    this.node = node;
+    this.options = options;
+    this.data = [];
+    this.graph = null;
+    charts.add(this);
+  }
+
+  show(data) {
+    this.data = data;
+    if (data.length < 2) return;
+    if (this.graph) this.graph.updateOptions({ file: data, ...this.ranges() });
+    else this.build();
+  }
+
+  // Draws everything again: another theme, another test.
+  rebuild() {
+    if (this.graph) this.graph.destroy();
+    this.graph = null;
+    if (this.data.length >= 2) this.build();
+  }
+
+  ranges() {
+    const axes = { y: { valueRange: this.options.range ? this.options.range() : null } };
+    return { axes: { ...this.axes(), y: { ...this.axes().y, ...axes.y } } };
+  }
+
+  axes() {
+    const label = { axisLabelWidth: 56, drawGrid: true };
+    return { x: { drawGrid: false }, y: label, y2: { axisLabelWidth: 50, drawGrid: false, independentTicks: true } };
+  }
+
+  build() {
+    const { labels, colors, right, points } = this.options;
+    const series = {};
+    labels.slice(1).forEach((name, i) => {
+      series[name] = { color: color(colors[i]), strokeWidth: 2 };
+      if (name === right) series[name].axis = "y2";
+      if (points && points.includes(name)) {
+        Object.assign(series[name], { strokeWidth: 0, drawPoints: true, pointSize: 1.5 });
+      }
+    });
+    this.graph = new Dygraph(this.node, this.data, {
+      labels, series, legend: "never", rightGap: 12, xRangePad: 4, connectSeparatedPoints: true,
+      gridLineColor: color("line"), axisLineColor: color("line"), axisLabelFontSize: 13,
+      digitsAfterDecimal: 4, ...this.ranges(),
+      // A finger must be able to scroll the page over a chart.
+      ...(isTouch ? { interactionModel: {} } : {}),
+      underlayCallback: (context, area, graph) => this.drawUnder(context, area, graph),
+      highlightCallback: (event, x, row) => this.options.readout && this.options.readout(x, row),
+      unhighlightCallback: () => this.options.readout && this.options.readout(null),
+    });
+  }
+
+  drawUnder(context, area, graph) {
+    context.save();
+    context.font = "12px system-ui, sans-serif";
+    if (this.options.band) {
+      const [low, high] = this.options.band.map((y) => graph.toDomYCoord(y));
+      context.fillStyle = color("band");
+      context.fillRect(area.x, high, area.w, low - high);
+    }
+    for (const limit of this.options.limits ? this.options.limits() : []) {
+      const y = graph.toDomYCoord(limit.value);
+      if (y < area.y || y > area.y + area.h) continue;
+      context.strokeStyle = context.fillStyle = color(limit.color);
+      context.lineWidth = 1.5;
+      context.setLineDash(limit.dash || []);
+      context.beginPath();
+      context.moveTo(area.x, y);
+      context.lineTo(area.x + area.w, y);
+      context.stroke();
+      context.textAlign = limit.atRight ? "right" : "left";
+      context.fillText(limit.text, limit.atRight ? area.x + area.w - 6 : area.x + 6, y - 4);
+    }
+    this.drawPhases(context, area, graph);
+    context.restore();
+  }
+
+  drawPhases(context, area, graph) {
+    context.setLineDash([]);
+    context.textAlign = "left";
+    context.strokeStyle = color("line");
+    context.fillStyle = color("soft-ink");
+    let free_from = -Infinity;
+    for (const phase of this.options.phases ? this.options.phases() : []) {
+      const x = graph.toDomXCoord(phase.start_s);
+      if (x < area.x - 1 || x > area.x + area.w) continue;
+      context.beginPath();
+      context.moveTo(x, area.y);
+      context.lineTo(x, area.y + area.h);
+      context.stroke();
+      if (x < free_from) continue;
+      const text = phase.name.replaceAll("_", " ");
+      const width = context.measureText(text).width;
+      if (x + 4 + width > area.x + area.w) continue;
+      context.fillText(text, x + 4, area.y + area.h - 6);
+      free_from = x + 12 + width;
+    }
+  }
+}
+
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+  for (const chart of charts) chart.rebuild();
+});
+
+// The limit lines of a rig, for the left axis in N.
+export function limitsOf(rig) {
+  if (!rig || rig.trouble) return [];
+  return [{ value: rig.hard_N, text: `reset at ${rig.hard_N.toFixed(2)} N`, color: "limit" },
+          { value: rig.soft_N, text: `stop at ${rig.soft_N.toFixed(2)} N`, color: "limit", dash: [8, 4] },
+          { value: rig.warn_N, text: `warning at ${rig.warn_N.toFixed(2)} N`, color: "warn", dash: [2, 4], atRight: true }];
+}

@@ -1,0 +1,71 @@
+// Numbers and small pieces of the page.
+
+export const element = (id) => document.getElementById(id);
+
+// A new element with attributes and children; a text becomes a text node, so nothing is parsed.
+export function make(name, attributes = {}, ...children) {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (value === true) made.setAttribute(key, "");
+    else if (value !== false && value !== undefined) made.setAttribute(key, value);
+  }
+  made.append(...children);
+  return made;
+}
+
+// As many digits as a person reads: 0.12346 -> "0.1235".
+export function significant(value, digits = 4) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  const text = Number(value.toPrecision(digits)).toString();
+  return text.replace("-", "−");
+}
+
+export function clock(seconds) {
+  const whole = Math.max(0, Math.ceil(seconds));
+  const two = (n) => String(n).padStart(2, "0");
+  const h = Math.floor(whole / 3600), m = Math.floor(whole / 60) % 60, s = whole % 60;
+  return h > 0 ? `${h}:${two(m)}:${two(s)}` : `${m}:${two(s)}`;
+}
+
+// The unit in which moduli of this size are shown.
+export function modulusUnit(Pa) {
+  const size = Math.abs(Pa);
+  if (size >= 1e9) return { factor: 1e-9, unit: "GPa" };
+  if (size >= 1e6) return { factor: 1e-6, unit: "MPa" };
+  if (size >= 1e3) return { factor: 1e-3, unit: "kPa" };
+  return { factor: 1, unit: "Pa" };
+}
+
+export function range(interval, factor = 1, digits = 4) {
+  if (!interval) return "–";
+  const end = (x, open) => (x === null ? open : significant(x * factor, digits));
+  return `${end(interval[0], "unbounded")} to ${end(interval[1], "unbounded")}`;
+}
+
+export function show(node, isShown) {
+  node.hidden = !isShown;
+}
+
+export function showText(node, text) {
+  if (node.textContent !== text) node.textContent = text;
+  node.hidden = text === "";
+}
+
+export function list(node, texts) {
+  node.replaceChildren(...texts.map((text) => make("li", {}, text)));
+  node.hidden = texts.length === 0;
+}
+
+// A number field: key and factor of the request, label, unit and starting value as shown.
+export function numberField(prefix, field) {
+  const input = make("input", { id: `${prefix}-${field.key}`, name: field.key, inputmode: "decimal",
+                                autocomplete: "off", value: field.value ?? "" });
+  return make("label", {}, field.label,
+              make("span", { class: "with-unit" }, input, field.unit ? make("span", {}, field.unit) : ""));
+}
+
+// Reads "0,13" and "0.13"; NaN for anything else.
+export function numberFrom(text) {
+  const tidy = text.trim().replace(",", ".").replace("−", "-");
+  return tidy === "" ? NaN : Number(tidy);
+}

@@ -1,0 +1,79 @@
+// The fit of a capture: moduli and terms with intervals, data with fit, residuals.
+import { order } from "./api.js";
+import { Chart } from "./charts.js";
+import { element, list, make, modulusUnit, range, show, showText, significant } from "./format.js";
+
+let onFitted = () => {};
+
+const fitChart = new Chart(element("fit-chart"), {
+  labels: ["time", "measured", "fit"], colors: ["measured", "fit"], points: ["measured"],
+  readout: (x, row) => {
+    const data = fitChart.data[row];
+    element("fit-readout").textContent = x === null ? ""
+      : `${significant(x, 4)} s: measured ${significant(data[1], 5)} N, fit ${significant(data[2], 5)} N`;
+  },
+});
+const residualChart = new Chart(element("residual-chart"), {
+  labels: ["time", "residual"], colors: ["depth"], points: ["residual"], band: [-2, 2],
+  range: () => {
+    const largest = Math.max(3, ...residualChart.data.map((row) => Math.abs(row[1])));
+    return [-1.1 * largest, 1.1 * largest];
+  },
+});
+
+const sub = (letter, index) => [make("i", {}, letter), make("sub", {}, index)];
+
+function rowsOf(fit) {
+  const stem = "E0_Pa" in fit ? "E" : "K";
+  const suffix = stem === "E" ? "_Pa" : "_N_m";
+  const shown = stem === "E" ? modulusUnit(fit.E0_Pa) : { factor: 1, unit: "N/m" };
+  const rows = ["0", "_inf"].map((which) => [
+    sub(stem, which === "0" ? "0" : "∞"),
+    `${significant(fit[`${stem}${which}${suffix}`] * shown.factor, 5)} ${shown.unit}`,
+    `${range(fit[`${stem}${which}_interval_95`], shown.factor, 5)} ${shown.unit}`]);
+  fit.terms.forEach((term, i) => {
+    rows.push([sub("g", String(i + 1)), significant(term.g, 4), range(term.interval_95.g)]);
+    rows.push([sub("τ", String(i + 1)), `${significant(term.tau_s, 4)} s`, `${range(term.interval_95.tau_s)} s`]);
+  });
+  return rows;
+}
+
+function showFit(fit) {
+  element("result-table").tBodies[0].replaceChildren(...rowsOf(fit).map(([name, value, interval]) =>
+    make("tr", {}, make("th", { scope: "row" }, ...name), make("td", { class: "number" }, value),
+         make("td", { class: "number" }, interval))));
+  const saved = fit.material_file ? ` The material is in ${fit.material_file}.` : "";
+  element("result-note").textContent =
+    `Intervals cover the scatter alone; geometry, calibration and frame add ${significant(100 * fit.systematic_relative, 2)} % to all moduli together.${saved}`;
+  list(element("result-flags"), fit.flags.map((flag) => flag.text));
+  const { time_s, measured, fitted, sigma } = fit.curves;
+  show(element("result-body"), true);
+  fitChart.show(time_s.map((t, i) => [t, measured[i], fitted[i]]));
+  fitChart.rebuild();
+  residualChart.show(time_s.map((t, i) => [t, (measured[i] - fitted[i]) / (sigma[i] || 1)]));
+  residualChart.rebuild();
+}
+
+export async function fitCapture(capture) {
+  show(element("result"), true);
+  show(element("result-body"), false);
+  showText(element("result-name"), capture);
+  const status = element("result-status");
+  status.className = "";
+  showText(status, "Fitting …");
+  try {
+    const fit = await order("/api/fit", { capture });
+    showFit(fit);
+    status.className = fit.trustworthy && fit.status === "finished" ? "good" : "note";
+    showText(status, fit.status !== "finished" ? "The run was not finished; this is a fit of what was recorded."
+      : fit.trustworthy ? "The fit describes the data." : "Do not trust this fit before you have read the notes below.");
+  } catch (error) {
+    status.className = "alert";
+    showText(status, error.message);
+  }
+  await onFitted();
+}
+
+export function startResult(handlers) {
+  ({ onFitted } = handlers);
+}

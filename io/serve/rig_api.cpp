@@ -1,0 +1,264 @@
+#include "io/serve/rig_api.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/basics/timestamp.h"
+#include "io/config/config_file.h"
+#include "io/flow/capture_setup.h"
+#include "io/flow/check_rig_config.h"
+#include "io/flow/fit_file.h"
+#include "io/flow/flow_json.h"
+#include "io/flow/series_files.h"
+#include "io/materials/material_file.h"
+#include "io/materials/material_json.h"
+#include "io/serve/api_error.h"
+#include "io/serve/series_json.h"
+#include "rig/emulator/demo_rig.h"
+#include "rig/lines/port_probe.h"
+
+#include <nlohmann/json.hpp>
+
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr double kCheck_s = 2.0;
+
+// Ends a job at the end of a scope.
+class JobEnd {
+ public:
+  explicit JobEnd(OneJob& job) : job_(job) {}
+  ~JobEnd() { job_.end(); }
+  JobEnd(const JobEnd&) = delete;
+  JobEnd& operator=(const JobEnd&) = delete;
+
+ private:
+  OneJob& job_;
+};
+
+// What make() returns, or {"trouble"} with the reason why a file cannot be used.
+template <typename Make>
+Json or_trouble(Make&& make) {
+  try {
+    return make();
+  } catch (const std::exception& error) {
+    return {{"trouble", error.what()}};
+  }
+}
+
+Json curves_of(const FitCurves& curves) {
+  return {{"time_s", curves.time_s}, {"measured", curves.measured},
+          {"fitted", curves.fitted}, {"sigma", curves.sigma},
+          {"unit", curves.unit},     {"motion_start_s", curves.motion_start_s}};
+}
+
+}  // namespace
+
+RigApi::RigApi(ServeOptions options) : options_(std::move(options)), folder_(options_.folder) {}
+
+RigConfig RigApi::rig() const {
+  return options_.rig_file ? read_rig(*options_.rig_file) : demo_rig();
+}
+
+CaptureSetup RigApi::setup_of(const std::string& specimen) const {
+  SetupRequest request;
+  request.rig_file = options_.rig_file;
+  if (std::filesystem::exists(folder_.test_file())) request.test_file = folder_.test_file();
+  request.specimen_file = folder_.specimen_file(folder_.specimen_named(specimen).name);
+  request.is_emulated = options_.is_emulated;
+  request.seed = options_.seed;
+  request.speed = options_.speed;
+  if (options_.is_emulated) request.truth_file = folder_.truth_file(specimen);
+  CaptureSetup setup = setup_from_files(request);
+  setup.plan = folder_.test();
+  return setup;
+}
+
+Json RigApi::state() const {
+  Json json = {{"program", "viscard " VISCARD_VERSION},
+               {"folder", folder_.path().string()},
+               {"is_emulated", options_.is_emulated},
+               {"clock_speed", options_.speed},
+               {"job", job_.what()}};
+  json["rig"] = or_trouble([&] {
+    const RigConfig found = rig();
+    return json_of_rig(
+        found, options_.rig_file ? calibration_trouble(found.calibration, today()) : std::string());
+  });
+  json["test"] = or_trouble([&] { return json_of_test(folder_.test()); });
+  json["specimens"] = Json::array();
+  json["next"] = nullptr;
+  for (const SeriesSpecimen& specimen : folder_.specimens()) {
+    json["specimens"].push_back(json_of_specimen(specimen, folder_));
+    const std::string how = specimen.state();
+    if (json["next"].is_null() && how != "finished" && how != "running") {
+      json["next"] = specimen.name;
+    }
+  }
+  return json;
+}
+
+Json RigApi::ports() const {
+  Json rows = Json::array();
+  for (const std::string& path : present_ports()) {
+    const PortStatus status = port_status(path);
+    rows.push_back({{"port", status.path}, {"device", status.device}, {"trouble", status.trouble}});
+  }
+  return {{"ports", rows}};
+}
+
+void RigApi::begin_job(const std::string& what) {
+  if (is_closing_) throw ApiError(409, "closing", "viscard serve is ending; start it again");
+  if (job_.try_begin(what)) return;
+  throw ApiError(409, "busy", "First " + job_.what() + " must end; then try again");
+}
+
+Json RigApi::check_rig() {
+  begin_job("a check of the rig");
+  const JobEnd at_end(job_);
+  const RigConfig config = rig();
+  RigCheck found = check_rig_config(config, options_.is_emulated, kCheck_s);
+  if (options_.rig_file) add_calibration(config, found);
+  return json_from_rig_check(found);
+}
+
+Json RigApi::preflight_of(const Json& request) const {
+  const Json changes = request.contains("test") ? request.at("test") : Json::object();
+  const TestPlan plan = test_with(folder_.test(), changes);
+  folder_.check_test(plan);
+  const SeriesSpecimen found = folder_.specimen_named(text_at(request, "specimen"));
+  if (!found.specimen) throw std::runtime_error(found.trouble);
+  const Preflight expected = preflight(rig(), plan, *found.specimen);
+  return json_of_preflight(expected, expected_course(plan, expected));
+}
+
+Json RigApi::save_test(const Json& request) {
+  const TestPlan plan =
+      test_with(folder_.test(), request.contains("test") ? request.at("test") : Json());
+  folder_.save_test(plan);
+  return json_of_test(plan);
+}
+
+Json RigApi::add_specimen(const Json& request) {
+  const Specimen specimen =
+      specimen_from(request.contains("specimen") ? request.at("specimen") : Json());
+  return {{"name", folder_.add_specimen(specimen)}};
+}
+
+Json RigApi::remove_specimen(const Json& request) {
+  const std::string name = text_at(request, "name");
+  folder_.remove_specimen(name);
+  return {{"name", name}};
+}
+
+// As `viscard capture` does.
+void RigApi::check_before_run(const CaptureSetup& setup) const {
+  const Preflight expected = preflight(setup.rig, setup.plan, setup.specimen);
+  if (!expected.problems.empty()) throw ApiError(422, "refused", expected.problems.front());
+  if (!options_.rig_file || options_.is_uncalibrated) return;
+  const std::string trouble = calibration_trouble(setup.rig.calibration, today());
+  if (trouble.empty() || last_valid_day(setup.rig.calibration).empty()) return;
+  throw ApiError(422, "refused",
+                 trouble + "; or start viscard serve with --uncalibrated to capture without one");
+}
+
+Json RigApi::start_run(const Json& request) {
+  const std::string name = text_at(request, "specimen");
+  const bool repeats = request.value("repeat", false);
+  begin_job("the run of " + name);
+  try {
+    CaptureRequest capture;
+    capture.setup = setup_of(name);
+    check_before_run(capture.setup);
+    const std::filesystem::path first = folder_.first_capture(name);
+    const NextCapture next = next_capture(first);
+    if (!next.finished.empty() && !repeats) {
+      throw ApiError(409, "finished",
+                     name + " has a finished capture, " + next.finished.filename().string() +
+                         ". Choose another specimen, or repeat it on purpose");
+    }
+    capture.path = next.finished.empty() ? next.file : further_capture(first);
+    capture.command = options_.command;
+    const std::string file = capture.path.filename().string();
+    live_.start(name, std::move(capture), [this] { job_.end(); });
+    return {{"file", file}};
+  } catch (...) {
+    job_.end();
+    throw;
+  }
+}
+
+Json RigApi::stop_run(const Json& request) {
+  const std::string how = text_at(request, "how");
+  if (how != "gently" && how != "at once") {
+    throw ApiError(400, "bad-value", "'how' is '" + how + "'; it must be 'gently' or 'at once'");
+  }
+  if (!live_.is_running()) throw ApiError(409, "no-run", "No run is going on");
+  live_.stop(how == "at once");
+  return {{"is_stopping", true}};
+}
+
+Json RigApi::run(std::size_t from, std::size_t keep_every) const {
+  const LiveState state = live_.state();
+  if (!state.is_known) return {{"is_known", false}, {"is_running", false}};
+  const LiveHistory& history = state.history;
+  const std::size_t n = history.time_s().size();
+  const std::size_t first = keep_every == history.keep_every() && from <= n ? from : 0;
+  const auto rest = [&](const std::vector<double>& values, double step) {
+    return rounded({values.begin() + static_cast<std::ptrdiff_t>(first), values.end()}, step);
+  };
+  Json json = {
+      {"is_known", true},
+      {"is_running", state.is_running},
+      {"is_stopping", state.is_stopping},
+      {"specimen", state.specimen},
+      {"file", state.file},
+      {"phase", state.now.phase},
+      {"phase_text", state.phase_text},
+      {"time_s", state.now.time_s},
+      {"time_left_wall_s", state.now.time_left_s / state.clock_speed},
+      {"fraction", state.now.fraction},
+      {"force_N", state.now.force_N},
+      {"depth_m", state.now.depth_m},
+      {"peak_force_N", state.peak_force_N},
+      {"records", {{"committed", state.counts.committed}, {"synced", state.counts.synced}}},
+      {"trouble", state.trouble}};
+  json["outcome"] = state.outcome ? json_from_outcome(*state.outcome, state.file) : Json(nullptr);
+  json["points"] = {{"keep_every", history.keep_every()},
+                    {"from", first},
+                    {"time_s", rest(history.time_s(), 1e-4)},
+                    {"force_N", rest(history.force_N(), 1e-6)},
+                    {"depth_m", rest(history.depth_m(), 1e-8)}};
+  return json;
+}
+
+Json RigApi::fit(const Json& request) {
+  const std::filesystem::path path = folder_.capture_named(text_at(request, "capture"));
+  begin_job("the fit of " + path.filename().string());
+  const JobEnd at_end(job_);
+  const FittedFile fitted = fit_file(path, {});
+  Json json = json_from_fit(fitted);
+  json["file"] = path.filename().string();
+  json["status"] = read_capture_state(path).status;
+  json["curves"] = curves_of(fitted.result.curves);
+  json["material_file"] = nullptr;
+  if (json["status"] != "finished") return json;
+  const std::string name = path.filename().string();
+  const std::filesystem::path material =
+      folder_.path() / (name.substr(0, name.find('.')) + ".json");
+  if (!std::filesystem::exists(material)) {
+    MaterialRequest wanted;
+    wanted.command = options_.command;
+    wanted.created_at = now_iso8601();
+    write_file(material, json_from_material(material_from_fitted(fitted, wanted)), false);
+  }
+  json["material_file"] = material.filename().string();
+  return json;
+}
+
+void RigApi::close() {
+  is_closing_ = true;
+  if (live_.is_running()) live_.stop(false);
+}
+
+}  // namespace viscard

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "io/serve/live_run.h"
+#include "io/serve/one_job.h"
+#include "io/serve/series_folder.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace viscard {
+
+// Which rig and which series a page shows.
+struct ServeOptions {
+  std::filesystem::path folder;
+  std::optional<std::string> rig_file;  // required unless emulated
+  bool is_emulated = false;
+  std::optional<std::uint64_t> seed;
+  double speed = 1.0;            // of the emulated clock
+  bool is_uncalibrated = false;  // accept an expired calibration
+  int port = 0;                  // 0: any free one
+  std::string command;           // recorded in the captures as their origin
+};
+
+// What the page asks for, as functions from JSON to JSON (README.md lists them). All state is in the
+// folder and in the running capture; files are read again for each request. Functions throw
+// ApiError, or std::exception with a message for a person. Any thread may call them.
+class RigApi {
+ public:
+  explicit RigApi(ServeOptions options);
+
+  // Rig, test, specimens with their captures, what to do next, and what is going on.
+  nlohmann::ordered_json state() const;
+  nlohmann::ordered_json ports() const;
+  // Opens both devices for some seconds; moves nothing.
+  nlohmann::ordered_json check_rig();
+  // {"specimen", "test"}: the expected course of a test that need not be saved.
+  nlohmann::ordered_json preflight_of(const nlohmann::ordered_json& request) const;
+  nlohmann::ordered_json save_test(const nlohmann::ordered_json& request);
+  nlohmann::ordered_json add_specimen(const nlohmann::ordered_json& request);
+  nlohmann::ordered_json remove_specimen(const nlohmann::ordered_json& request);
+  // {"specimen", "repeat"}; repeat: although there is a finished capture.
+  nlohmann::ordered_json start_run(const nlohmann::ordered_json& request);
+  // {"how": "gently" | "at once"}.
+  nlohmann::ordered_json stop_run(const nlohmann::ordered_json& request);
+  // The run, with the points from number `from` on if `keep_every` still holds, else all.
+  nlohmann::ordered_json run(std::size_t from, std::size_t keep_every) const;
+  // {"capture"}: fits it; the material of a finished one is written beside it unless it is there.
+  nlohmann::ordered_json fit(const nlohmann::ordered_json& request);
+
+  // No more work is begun; a run is stopped gently. Returns at once.
+  void close();
+  bool is_running() const { return live_.is_running(); }
+  // How the last run ended.
+  LiveState last_run() const { return live_.state(); }
+
+ private:
+  RigConfig rig() const;
+  CaptureSetup setup_of(const std::string& specimen) const;
+  void begin_job(const std::string& what);
+  void check_before_run(const CaptureSetup& setup) const;
+
+  ServeOptions options_;
+  SeriesFolder folder_;
+  OneJob job_;
+  std::atomic<bool> is_closing_{false};
+  LiveRun live_;  // destroyed first: its thread uses the others
+};
+
+}  // namespace viscard

@@ -1,0 +1,183 @@
+#include "io/serve/series_folder.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/capture/capture_file.h"
+#include "io/config/config_file.h"
+#include "io/config/sensible_bounds.h"
+#include "io/flow/series_files.h"
+#include "io/serve/api_error.h"
+#include "models/experiment/test_phases.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace viscard {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSpecimenEnding = ".toml";
+constexpr const char* kTruthTomlEnding = ".truth.toml";
+constexpr const char* kCaptureEnding = ".viscap";
+constexpr std::size_t kLongestName = 40;
+
+bool ends_with(const std::string& text, const std::string& ending) {
+  return text.size() >= ending.size() &&
+         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+bool is_specimen_file(const std::string& file) {
+  return ends_with(file, kSpecimenEnding) && !ends_with(file, kTruthTomlEnding) &&
+         file != "test.toml" && file != "rig.toml" && file.front() != '.';
+}
+
+// Lower-case letters, digits and hyphens of a name that a person has typed.
+std::string file_name_from(const std::string& id) {
+  std::string name;
+  for (const char c : id) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80 && std::isalnum(byte) != 0) {
+      name += static_cast<char>(std::tolower(byte));
+    } else if (!name.empty() && name.back() != '-') {
+      name += '-';
+    }
+  }
+  name.resize(std::min(name.size(), kLongestName));
+  while (!name.empty() && name.back() == '-') name.pop_back();
+  return name.empty() ? "specimen" : name;
+}
+
+std::vector<SeriesSpecimen::Capture> captures_of(const fs::path& first) {
+  std::vector<SeriesSpecimen::Capture> captures;
+  for (int n = 1; fs::exists(attempt_path(first, n)); ++n) {
+    const fs::path path = attempt_path(first, n);
+    SeriesSpecimen::Capture capture{path.filename().string(), "unreadable", "", ""};
+    try {
+      const CaptureState state = read_capture_state(path);
+      capture.status = state.status;
+      capture.started_at = state.started_at;
+    } catch (const std::exception& error) {
+      capture.trouble = error.what();
+    }
+    captures.push_back(capture);
+  }
+  return captures;
+}
+
+}  // namespace
+
+std::string SeriesSpecimen::state() const {
+  const auto has = [&](const char* status) {
+    return std::any_of(captures.begin(), captures.end(),
+                       [&](const Capture& capture) { return capture.status == status; });
+  };
+  if (has("running")) return "running";
+  if (has("finished")) return "finished";
+  return captures.empty() ? "none" : "interrupted";
+}
+
+SeriesFolder::SeriesFolder(fs::path folder) : folder_(fs::absolute(folder)) {
+  if (fs::exists(folder_) && !fs::is_directory(folder_)) {
+    throw std::runtime_error(folder_.string() +
+                             " is a file; name the folder that holds the series");
+  }
+  fs::create_directories(folder_);
+}
+
+fs::path SeriesFolder::specimen_file(const std::string& name) const {
+  return folder_ / (name + kSpecimenEnding);
+}
+
+fs::path SeriesFolder::first_capture(const std::string& name) const {
+  return folder_ / (name + kCaptureEnding);
+}
+
+std::optional<std::string> SeriesFolder::truth_file(const std::string& name) const {
+  const fs::path file = folder_ / (name + kTruthTomlEnding);
+  return fs::exists(file) ? std::optional(file.string()) : std::nullopt;
+}
+
+TestPlan SeriesFolder::test() const {
+  if (fs::exists(test_file())) return read_test(test_file());
+  TestPlan plan;
+  plan.name = "stress relaxation";
+  return plan;
+}
+
+void SeriesFolder::check_test(const TestPlan& plan) const {
+  phases_from_plan(plan);
+  const std::string toml = toml_from_test(plan);
+  refuse_senseless(test_from_toml(toml, "test.toml"), toml, "test.toml");
+}
+
+void SeriesFolder::save_test(const TestPlan& plan) const {
+  check_test(plan);
+  write_file(test_file(), toml_from_test(plan), true);
+}
+
+std::vector<SeriesSpecimen> SeriesFolder::specimens() const {
+  std::vector<SeriesSpecimen> specimens;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
+    const std::string file = entry.path().filename().string();
+    if (!is_specimen_file(file) || !entry.is_regular_file()) continue;
+    SeriesSpecimen specimen;
+    specimen.name = entry.path().stem().string();
+    try {
+      specimen.specimen = read_specimen(entry.path());
+    } catch (const std::exception& error) {
+      specimen.trouble = error.what();
+    }
+    specimen.captures = captures_of(first_capture(specimen.name));
+    const fs::path material = folder_ / (specimen.name + ".json");
+    if (fs::exists(material)) specimen.material_file = material.filename().string();
+    specimens.push_back(std::move(specimen));
+  }
+  std::sort(specimens.begin(), specimens.end(),
+            [](const SeriesSpecimen& a, const SeriesSpecimen& b) { return a.name < b.name; });
+  return specimens;
+}
+
+SeriesSpecimen SeriesFolder::specimen_named(const std::string& name) const {
+  for (SeriesSpecimen& specimen : specimens()) {
+    if (specimen.name == name) return specimen;
+  }
+  throw ApiError(404, "not-found",
+                 "There is no specimen '" + name + "' in " + folder_.string() +
+                     ". Choose one of the list, or add it");
+}
+
+std::string SeriesFolder::add_specimen(const Specimen& specimen) const {
+  const std::string toml = toml_from_specimen(specimen);
+  refuse_senseless(specimen_from_toml(toml, "specimen"), toml, "specimen");
+  int number = 1;
+  for (const SeriesSpecimen& other : specimens()) {
+    number = std::max(number, 1 + std::atoi(other.name.c_str()));
+  }
+  const std::string name = fmt::format("{:02}_{}", number, file_name_from(specimen.id));
+  write_file(specimen_file(name), toml, false);
+  return name;
+}
+
+void SeriesFolder::remove_specimen(const std::string& name) const {
+  const SeriesSpecimen specimen = specimen_named(name);
+  if (!specimen.captures.empty()) {
+    throw ApiError(409, "has-captures",
+                   "'" + name + "' has captures, so it is kept. Move " + name +
+                       ".toml and its captures to another folder by hand");
+  }
+  fs::remove(specimen_file(name));
+  sync_folder(folder_);
+}
+
+fs::path SeriesFolder::capture_named(const std::string& file) const {
+  for (const SeriesSpecimen& specimen : specimens()) {
+    for (const SeriesSpecimen::Capture& capture : specimen.captures) {
+      if (capture.file == file) return folder_ / file;
+    }
+  }
+  throw ApiError(404, "not-found", "There is no capture '" + file + "' in " + folder_.string());
+}
+
+}  // namespace viscard

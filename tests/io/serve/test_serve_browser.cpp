@@ -1,0 +1,134 @@
+// The page itself, in Chromium.
+#include "io/capture/capture_file.h"
+#include "tests/io/serve/browser.h"
+#include "tests/io/serve/served_rig.h"
+#include "tests/support/error_text.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+#include <iostream>
+#include <optional>
+
+namespace viscard {
+namespace {
+
+using test::Browser;
+using test::contains;
+using test::ScratchFolder;
+
+constexpr const char* kForce =
+    "return parseFloat(document.getElementById('run-force').textContent) > ";
+
+// With VISCARD_SCREENSHOTS=FOLDER the test leaves pictures of the page there.
+void picture(Browser& browser, const std::string& name) {
+  const char* folder = std::getenv("VISCARD_SCREENSHOTS");
+  if (folder == nullptr) return;
+  const struct {
+    const char* ending;
+    int width, height;
+    bool is_dark, is_phone;
+  } views[] = {{"light", 1280, 1500, false, false},
+               {"dark", 1280, 1500, true, false},
+               {"phone", 390, 2600, false, true},
+               {"phone_dark", 390, 844, true, true}};
+  for (const auto& view : views) {
+    browser.set_window(view.width, view.height, view.is_dark, view.is_phone);
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    browser.save_screenshot(std::filesystem::path(folder) / (name + "_" + view.ending + ".png"));
+  }
+  browser.set_window(1280, 1000, false, false);
+}
+
+bool is_without_browser() {
+  const std::string missing = Browser::missing();
+  if (missing.empty()) return false;
+  std::cout << "skipped: " << missing << "\n";
+  return true;
+}
+
+TEST_CASE("a person starts a run on the page, sees the force rise, and stops it", "[serve][slow]") {
+  if (is_without_browser()) return;
+  ScratchFolder scratch;
+  RigServer server({.folder = scratch / "series", .is_emulated = true, .speed = 10.0});
+  Browser browser(scratch / "profile");
+  browser.set_window(1280, 1000, false, false);
+  browser.open(server.address());
+  REQUIRE(
+      browser.wait_until("return document.getElementById('link').textContent === 'connected'", 20));
+  CHECK(browser.run("return location.hash") == "");  // the token does not stay in the address line
+  picture(browser, "1_empty");
+
+  browser.click("#add-submit");
+  browser.type("#plan-hold_s", "300");
+  picture(browser, "2_ready");
+  browser.click("#start");
+  REQUIRE(browser.wait_until(std::string(kForce) + "0.1", 60));
+  REQUIRE(browser.wait_until(std::string(kForce) + "1.0", 60));
+  CHECK(browser.is_shown("#stop-gently"));
+  CHECK(browser.run("return document.querySelectorAll('#run-chart canvas').length > 0") == true);
+  picture(browser, "3_running");
+
+  browser.open("about:blank");  // closing the page stops nothing
+  CHECK(server.last_run().is_running);
+  browser.open(server.address());
+  browser.click("#stop-gently");
+  REQUIRE(browser.wait_until("return !!document.getElementById('outcome-text')", 60));
+  CHECK(contains(browser.text("#outcome-text"), "above the contact"));
+  CHECK_FALSE(browser.is_shown("#stop-bar"));
+  picture(browser, "4_stopped");
+  CHECK_FALSE(server.last_run().is_running);
+  const CapturedRun run = read_capture(scratch / "series/01_pdms-1to10.viscap");
+  CHECK(run.status == "interrupted");
+  REQUIRE_FALSE(run.stage_reports.empty());
+  double deepest_m = 0.0;
+  for (const StageReport& report : run.stage_reports) {
+    deepest_m = std::max(deepest_m, report.position_m);
+  }
+  CHECK(run.stage_reports.back().position_m < deepest_m - 0.4e-3);
+  CHECK(browser.errors() == nlohmann::json::array());
+}
+
+TEST_CASE("three specimens go through the page one after another, with the fit of each",
+          "[serve][slow]") {
+  if (is_without_browser()) return;
+  ScratchFolder scratch;
+  RigServer server({.folder = scratch / "series", .is_emulated = true, .speed = 40.0});
+  Browser browser(scratch / "profile");
+  browser.set_window(1280, 1000, false, false);
+  browser.open(server.address());
+  int number = 0;
+  for (const char* ratio : {"10", "13", "20"}) {
+    ++number;
+    CAPTURE(ratio);
+    const std::string name = "0" + std::to_string(number) + "_pdms-1to" + ratio;
+    if (number > 1) browser.click("#add summary");
+    browser.type("#add-id", std::string("pdms-1to") + ratio);
+    browser.type("#add-mixing_ratio", ratio);
+    browser.click("#add-submit");
+    REQUIRE(browser.wait_until(
+        "return document.getElementById('start').textContent === 'Start " + name + "'", 20));
+    browser.click("#start");
+    REQUIRE(browser.wait_until(
+        "const s = document.getElementById('result-name').textContent; const t = "
+        "document.getElementById('result-status').className; return s === '" +
+            name + ".viscap' && t !== ''",
+        90));
+    CHECK(browser.text("#result-status") == "The fit describes the data.");
+    CHECK(read_capture(scratch / ("series/" + name + ".viscap")).status == "finished");
+    CHECK(std::filesystem::exists(scratch / ("series/" + name + ".json")));
+  }
+  picture(browser, "5_result");
+  // Escape stops a run.
+  browser.click("#start");
+  REQUIRE(browser.wait_until("return document.body.classList.contains('running')", 20));
+  browser.press_key("\uE00C");
+  REQUIRE(
+      browser.wait_until("const t = document.getElementById('outcome-text'); return !!t && "
+                         "t.textContent.startsWith('Interrupted')",
+                         30));
+  CHECK(browser.errors() == nlohmann::json::array());
+}
+
+}  // namespace
+}  // namespace viscard
