@@ -32,10 +32,8 @@ void LiveRun::start(const std::string& specimen, CaptureRequest request,
     state_.history = LiveHistory(kMostPoints);
     plan_ = request.setup.plan;
   }
-  thread_ = std::thread([this, request = std::move(request), on_end = std::move(on_end)] {
-    work(request);
-    on_end();
-  });
+  thread_ = std::thread(
+      [this, request = std::move(request), on_end = std::move(on_end)] { work(request, on_end); });
 }
 
 void LiveRun::stop(bool at_once) {
@@ -62,7 +60,7 @@ LiveState LiveRun::state() const {
   return state;
 }
 
-void LiveRun::work(const CaptureRequest& request) {
+void LiveRun::work(const CaptureRequest& request, const std::function<void()>& on_end) {
   std::optional<RunOutcome> outcome;
   std::string trouble;
   try {
@@ -70,6 +68,7 @@ void LiveRun::work(const CaptureRequest& request) {
   } catch (const std::exception& error) {
     trouble = error.what();
   }
+  on_end();
   const std::lock_guard<std::mutex> lock(mutex_);
   state_.is_running = false;
   state_.outcome = std::move(outcome);

@@ -39,7 +39,7 @@ class LiveRun {
   LiveRun(const LiveRun&) = delete;
   LiveRun& operator=(const LiveRun&) = delete;
 
-  // on_end is called by the thread of the run. Precondition: no run is going on.
+  // on_end is called by the thread of the run, before is_running() turns false. Precondition: no run is going on.
   void start(const std::string& specimen, CaptureRequest request, std::function<void()> on_end);
   // The stage brakes and the punch is lifted; with at_once the stage is reset first.
   void stop(bool at_once);
@@ -49,7 +49,7 @@ class LiveRun {
   LiveState state() const;
 
  private:
-  void work(const CaptureRequest& request);
+  void work(const CaptureRequest& request, const std::function<void()>& on_end);
   CaptureWatch watch();
   std::string text_of_phase(const std::string& phase) const;
 

@@ -125,13 +125,15 @@ class RigServer::Impl {
 
   bool is_admitted(const httplib::Request& request, httplib::Response& response) const {
     const auto header = [&](const char* name) { return request.get_header_value(name); };
-    const std::string refusal =
-        refusal_of({header("Host"), header("Origin"), header("Sec-Fetch-Site")}, port_);
+    const bool is_api = request.path.rfind("/api/", 0) == 0;
+    // The page itself may be opened by a link on another page; what it asks for may not.
+    const std::string site = is_api ? header("Sec-Fetch-Site") : std::string();
+    const std::string refusal = refusal_of({header("Host"), header("Origin"), site}, port_);
     if (!refusal.empty()) {
       answer_error(response, 403, "forbidden", refusal, "");
       return false;
     }
-    if (request.path.rfind("/api/", 0) != 0) return true;
+    if (!is_api) return true;
     if (!is_same_token(header("X-Viscard-Token"), token_)) {
       answer_error(response, 403, "wrong-token",
                    "this page belongs to an earlier start of viscard serve. Open the address that "

@@ -19,7 +19,7 @@ namespace {
 constexpr std::chrono::milliseconds kPoll{50};
 constexpr int kHighestPort = 65535;
 
-CommandSyntax serve_syntax(ServeOptions& options, std::string& folder) {
+CommandSyntax serve_syntax(ServeOptions& options) {
   CommandSyntax syntax;
   syntax.usage = "viscard serve FOLDER --rig FILE [OPTIONS]";
   syntax.description =
@@ -29,7 +29,6 @@ CommandSyntax serve_syntax(ServeOptions& options, std::string& folder) {
       "Ctrl-C here stops a run, lifts the punch and ends the program.";
   syntax.example = "viscard serve series --emulate --speed 10";
   auto add = syntax.options.add_options();
-  add("folder", po::value(&folder), "folder of the series");
   add("rig", into(options.rig_file), "rig.toml: ports, calibration");
   add("port", po::value(&options.port)->default_value(0), "port of 127.0.0.1; 0: any free one");
   add("uncalibrated", po::bool_switch(&options.is_uncalibrated),
@@ -66,10 +65,10 @@ void check_options(const ServeOptions& options) {
 
 int run_serve(const Words& words, Streams& streams) {
   ServeOptions options;
-  std::string folder;
-  CommandSyntax syntax = serve_syntax(options, folder);
+  CommandSyntax syntax = serve_syntax(options);
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
+  const std::string folder = given(*values, "folder").value_or("");
   options.folder = folder;
   options.command = quoted_command_line("serve", words);
   check_options(options);

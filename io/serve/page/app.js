@@ -23,7 +23,7 @@ async function refresh() {
 
 function showLink(error) {
   const isLost = Boolean(error);
-  element("link").textContent = isLost ? "not connected" : "connected";
+  showText(element("link"), isLost ? "not connected" : "connected");
   if (!isLost) return showText(element("lost"), "");
   const text = error instanceof Refused ? `${error.message}.`
     : `${error.message}. If it has ended, start it again and open the address that it prints. `

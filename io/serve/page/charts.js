@@ -5,8 +5,12 @@ const color = (name) => getComputedStyle(document.documentElement).getPropertyVa
 const isTouch = matchMedia("(pointer: coarse)").matches;
 const charts = new Set();
 
+// The page has legends of its own, and this one sets styles that the content security policy forbids.
+Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
+
 // One chart. options: labels of the columns, colors by name, right: label of the column on the right
-// axis, limits: [{value, text, color}], range() of the left axis, readout(row), points, band.
+// axis, limits: [{value, text, color}], range() of the left axis, window() of the time, readout(row),
+// points, band.
 export class Chart {
   constructor(node, options) {
     this.node = node;
@@ -30,14 +34,22 @@ export class Chart {
     if (this.data.length >= 2) this.build();
   }
 
+  // The zeros of both axes lie at one height, and the right one reaches half of the height, so that its
+  // curve does not meet the limit lines of the left one.
   ranges() {
-    const axes = { y: { valueRange: this.options.range ? this.options.range() : null } };
-    return { axes: { ...this.axes(), y: { ...this.axes().y, ...axes.y } } };
-  }
-
-  axes() {
-    const label = { axisLabelWidth: 56, drawGrid: true };
-    return { x: { drawGrid: false }, y: label, y2: { axisLabelWidth: 50, drawGrid: false, independentTicks: true } };
+    const left = this.options.range ? this.options.range() : null;
+    const most = this.options.right ? Math.max(...this.data.map((row) => row[2])) : 0;
+    const scale = left && most > 0 ? 2 * most / left[1] : 0;
+    const label = { axisLabelWidth: 44, drawGrid: true };
+    return {
+      axes: {
+        x: { drawGrid: false, pixelsPerLabel: 45 },
+        y: { ...label, valueRange: left },
+        y2: { ...label, drawGrid: false, independentTicks: true,
+              valueRange: scale > 0 ? left.map((end) => end * scale) : null },
+      },
+      ...(this.options.window ? { dateWindow: this.options.window() } : {}),
+    };
   }
 
   build() {
@@ -70,6 +82,7 @@ export class Chart {
       context.fillStyle = color("band");
       context.fillRect(area.x, high, area.w, low - high);
     }
+    this.drawPhases(context, area, graph);
     for (const limit of this.options.limits ? this.options.limits() : []) {
       const y = graph.toDomYCoord(limit.value);
       if (y < area.y || y > area.y + area.h) continue;
@@ -83,7 +96,6 @@ export class Chart {
       context.textAlign = limit.atRight ? "right" : "left";
       context.fillText(limit.text, limit.atRight ? area.x + area.w - 6 : area.x + 6, y - 4);
     }
-    this.drawPhases(context, area, graph);
     context.restore();
   }
 
@@ -104,7 +116,7 @@ export class Chart {
       const text = phase.name.replaceAll("_", " ");
       const width = context.measureText(text).width;
       if (x + 4 + width > area.x + area.w) continue;
-      context.fillText(text, x + 4, area.y + area.h - 6);
+      context.fillText(text, x + 4, area.y + 12);
       free_from = x + 12 + width;
     }
   }

@@ -7,7 +7,7 @@ import { chosenSpecimen } from "./series.js";
 const kFields = [{ key: "depth_m", label: "Depth", unit: "mm", factor: 1e-3 },
                  { key: "ramp_s", label: "Ramp", unit: "s", factor: 1 },
                  { key: "hold_s", label: "Hold", unit: "s", factor: 1 },
-                 { key: "unload_to_fraction", label: "Unload to a share of", unit: "× depth", factor: 1 },
+                 { key: "unload_to_fraction", label: "Unload to (share)", factor: 1 },
                  { key: "recovery_s", label: "Second hold", unit: "s", factor: 1 },
                  { key: "approach_speed_m_s", label: "Approach at", unit: "mm/s", factor: 1e-3 },
                  { key: "approach_limit_m", label: "Approach at most", unit: "mm", factor: 1e-3 },

@@ -3,10 +3,30 @@ import { order } from "./api.js";
 import { Chart } from "./charts.js";
 import { element, list, make, modulusUnit, range, show, showText, significant } from "./format.js";
 
-let onFitted = () => {};
+let onFitted = () => {}, starts = [];
+
+// The first hold, in which the force changes by some per cent only: its rows, or none.
+function firstHold(data) {
+  const end = starts.length > 1 ? starts[1] : Infinity;
+  const rows = data.filter((row) => row[0] < end);
+  const peak = rows.reduce((best, row, i) => (row[1] > rows[best][1] ? i : best), 0);
+  return rows.length - peak > 10 ? rows.slice(peak) : [];
+}
+
+const isWhole = () => element("fit-whole").checked;
 
 const fitChart = new Chart(element("fit-chart"), {
   labels: ["time", "measured", "fit"], colors: ["measured", "fit"], points: ["measured"],
+  window: () => {
+    const hold = isWhole() ? [] : firstHold(fitChart.data);
+    return hold.length > 0 ? [Math.min(0, hold[0][0]), hold[hold.length - 1][0]] : null;
+  },
+  range: () => {
+    const values = (isWhole() ? [] : firstHold(fitChart.data)).map((row) => row[1]);
+    if (values.length === 0) return null;
+    const low = Math.min(...values), high = Math.max(...values);
+    return [low - 0.15 * (high - low), high + 0.15 * (high - low)];
+  },
   readout: (x, row) => {
     const data = fitChart.data[row];
     element("fit-readout").textContent = x === null ? ""
@@ -48,6 +68,7 @@ function showFit(fit) {
   list(element("result-flags"), fit.flags.map((flag) => flag.text));
   const { time_s, measured, fitted, sigma } = fit.curves;
   show(element("result-body"), true);
+  starts = fit.curves.motion_start_s;
   fitChart.show(time_s.map((t, i) => [t, measured[i], fitted[i]]));
   fitChart.rebuild();
   residualChart.show(time_s.map((t, i) => [t, (measured[i] - fitted[i]) / (sigma[i] || 1)]));
@@ -76,4 +97,5 @@ export async function fitCapture(capture) {
 
 export function startResult(handlers) {
   ({ onFitted } = handlers);
+  element("fit-whole").addEventListener("change", () => fitChart.rebuild());
 }

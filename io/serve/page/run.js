@@ -77,8 +77,8 @@ export async function pollRun() {
     keepEvery = 0;
     return pollRun();
   }
+  show(element("run"), true);  // first, because a hidden chart has no width
   take(answer);
-  show(element("run"), true);
   showNumbers();
   showRunning(answer.is_running);
   if (answer.is_running && (isOther || !before.is_running)) {
@@ -86,7 +86,7 @@ export async function pollRun() {
     showOutcome();
     chart.rebuild();
     element("run").scrollIntoView({ block: "start" });
-    element("stop-gently").focus({ preventScroll: true });
+    element("run-title").focus({ preventScroll: true });
   }
   if (!answer.is_running && (isOther || before.is_running)) {
     showOutcome();

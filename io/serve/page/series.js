@@ -48,6 +48,7 @@ async function add(event) {
     chosen = (await order("/api/specimens", { specimen })).name;
     element("add").open = false;
     await onChange();
+    onChoice();
     element("add").querySelector("summary").focus();
   } catch (error) {
     showText(element("series-error"), error.message);
@@ -102,7 +103,7 @@ function rowOf(entry) {
   const ratio = entry.specimen && entry.specimen.mixing_ratio > 0 ? `${significant(entry.specimen.mixing_ratio)} : 1` : "";
   const material = entry.material && entry.material.E0_interval_95
     ? { title: `95 %: ${range(entry.material.E0_interval_95, 1e-6)} MPa` } : {};
-  const state = make("td", {}, kStates[entry.state], ...actionsOf(entry));
+  const state = make("td", { class: "state" }, kStates[entry.state], ...actionsOf(entry));
   if (entry.trouble) state.append(make("div", { class: "alert" }, entry.trouble));
   const row = make("tr", { "data-name": entry.name },
                    make("td", {}, make("label", {}, radio, make("span", {}, entry.name))),
