@@ -25,8 +25,14 @@ void ProgressReport::report(double force_N, double position_m) {
   control_.progress(progress);
 }
 
-void ProgressReport::report_reading(double time_s, double force_N, double position_m) const {
-  if (control_.reading) control_.reading({time_s, force_N, depth_m(force_N, position_m)});
+void ProgressReport::report_reading(double time_s, double force_N, double position_m,
+                                    bool is_moving) {
+  if (!control_.reading) return;
+  if (!is_moving || position_m != reported_position_m_) {
+    reported_depth_m_ = depth_m(force_N, position_m);
+  }
+  reported_position_m_ = position_m;
+  control_.reading({time_s, force_N, reported_depth_m_});
 }
 
 double ProgressReport::depth_m(double force_N, double position_m) const {

@@ -68,7 +68,9 @@ class ProgressReport {
   bool has_contact() const { return contact_m_.has_value(); }
 
   void report(double force_N, double position_m);
-  void report_reading(double time_s, double force_N, double position_m) const;
+  // While the stage moves, the depth of a reading is that at the last position report: the position is
+  // older than the reading, and the difference would look like a jump.
+  void report_reading(double time_s, double force_N, double position_m, bool is_moving);
 
  private:
   double depth_m(double force_N, double position_m) const;
@@ -81,6 +83,7 @@ class ProgressReport {
   double planned_rest_s_ = 0.0;
   double last_report_wall_s_ = 0.0;
   std::optional<double> contact_m_;
+  double reported_position_m_ = 0.0, reported_depth_m_ = 0.0;  // of the last reading
 };
 
 }  // namespace viscard

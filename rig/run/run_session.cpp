@@ -85,7 +85,7 @@ void RunSession::take_sample(const LoadSample& sample) {
   const auto [force_N, is_doubtful] = readings_.take(sample, made_at_s);
   if (!is_doubtful) {
     ages_.take(force_N, made_at_s);
-    progress_.report_reading(made_at_s, force_N, stage().position_m());
+    progress_.report_reading(made_at_s, force_N, stage().position_m(), stage().is_moving());
   }
   std::optional<double> value;
   if (!is_doubtful) value = sample.counts ? sample.counts : force_N_from_sample(sample, rig_);

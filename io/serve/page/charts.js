@@ -56,10 +56,10 @@ export class Chart {
     const { labels, colors, right, points } = this.options;
     const series = {};
     labels.slice(1).forEach((name, i) => {
-      series[name] = { color: color(colors[i]), strokeWidth: 2 };
+      series[name] = { color: color(colors[i]), strokeWidth: 1.75 };
       if (name === right) series[name].axis = "y2";
       if (points && points.includes(name)) {
-        Object.assign(series[name], { strokeWidth: 0, drawPoints: true, pointSize: 1.5 });
+        Object.assign(series[name], { strokeWidth: 0, drawPoints: true, pointSize: 2.2 });
       }
     });
     this.graph = new Dygraph(this.node, this.data, {

@@ -20,6 +20,12 @@ export function significant(value, digits = 4) {
   return text.replace("-", "−");
 }
 
+// Always as many decimals, without a minus before zero.
+export function fixed(value, decimals) {
+  const text = value.toFixed(decimals);
+  return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
+}
+
 export function clock(seconds) {
   const whole = Math.max(0, Math.ceil(seconds));
   const two = (n) => String(n).padStart(2, "0");

@@ -62,10 +62,14 @@ function problem(text) {
   element("plan-problems").replaceChildren(...(text ? [make("p", { class: "alert" }, text)] : []));
 }
 
+function showPicture(isThere) {
+  for (const id of ["plan-legend", "plan-chart", "plan-summary"]) show(element(id), isThere);
+}
+
 function showExpected() {
   problem(expected.problems.join(" "));
   list(element("plan-warnings"), expected.warnings);
-  show(element("plan-legend"), true);
+  showPicture(true);
   const course = expected.course;
   chart.show(course.time_s.map((t, i) => [t, course.force_N[i], course.depth_m[i] * 1e6]));
   chart.rebuild();
@@ -73,7 +77,7 @@ function showExpected() {
   element("plan-summary").textContent =
     `At most ${significant(expected.peak_force_N, 3)} N are expected; the stage stops at ${significant(expected.limit_N, 3)} N. `
     + `For this specimen a depth of ${significant(Math.floor(expected.deepest_safe_depth_m * 1e6) * 1e-3, 4)} mm is still safe. `
-    + `With the approach the test takes at most ${minutes}.`;
+    + `With the approach the test takes at most ${minutes} (min:s).`;
   element("plan-chart").setAttribute("aria-label",
     `Expected course: up to ${significant(expected.peak_force_N, 3)} N at ${significant(Math.max(...course.depth_m) * 1e6, 4)} µm; limit ${significant(expected.limit_N, 3)} N`);
 }
@@ -84,6 +88,7 @@ export async function refreshPlan() {
   const specimen = chosenSpecimen();
   if (!specimen || !state || state.rig.trouble || state.test.trouble) {
     problem(state ? state.test.trouble || "" : "");
+    showPicture(false);
     return;
   }
   const number = ++asked;

@@ -19,7 +19,7 @@ const fitChart = new Chart(element("fit-chart"), {
   labels: ["time", "measured", "fit"], colors: ["measured", "fit"], points: ["measured"],
   window: () => {
     const hold = isWhole() ? [] : firstHold(fitChart.data);
-    return hold.length > 0 ? [Math.min(0, hold[0][0]), hold[hold.length - 1][0]] : null;
+    return hold.length > 0 ? [starts.length > 0 ? starts[0] : hold[0][0], hold[hold.length - 1][0]] : null;
   },
   range: () => {
     const values = (isWhole() ? [] : firstHold(fitChart.data)).map((row) => row[1]);

@@ -15,7 +15,7 @@ export function showRig(state) {
   if (rig.trouble) return;
   const facts = [["Stage", state.is_emulated ? `emulated ${rig.stage.driver}` : kPortNames(rig.stage)],
                  ["Load cell", state.is_emulated ? `emulated ${rig.load_cell.driver}` : kPortNames(rig.load_cell)],
-                 ["Capacity", `${significant(rig.capacity_N, 4)} N; the stage stops at ${significant(rig.soft_N, 3)} N`],
+                 ["Capacity", `${significant(rig.capacity_N, 4)}\u00a0N; the stage stops at ${significant(rig.soft_N, 3)}\u00a0N`],
                  ["Frame", rig.frame_stiffness_N_m > 0 ? `${significant(rig.frame_stiffness_N_m * 1e-3, 4)} N/mm` : "rigid"],
                  ["Calibration", rig.calibration_id || "without a name"]];
   element("rig-facts").replaceChildren(

@@ -1,7 +1,7 @@
 // The running test: force and depth as they arrive, time left, and the two ways to stop it.
 import { ask, order } from "./api.js";
 import { Chart, limitsOf } from "./charts.js";
-import { clock, element, list, make, show, showText, significant } from "./format.js";
+import { clock, element, fixed, list, make, show, showText, significant } from "./format.js";
 
 let rig = null, run = null, points = [], keepEvery = 0, isWatched = false, onEnd = () => {};
 
@@ -29,16 +29,16 @@ function showNumbers() {
   showText(element("run-name"), `${run.specimen}, ${run.file}`);
   const phase = run.is_running ? run.phase_text || run.phase.replaceAll("_", " ") : "The run is over.";
   showText(element("run-phase"), run.is_stopping && run.is_running ? "Stopping and lifting the punch" : phase);
-  element("run-force").textContent = `${run.force_N.toFixed(3)} N`.replace("-", "−");
-  element("run-share").textContent = rig && !rig.trouble ? `${(100 * run.force_N / rig.soft_N).toFixed(0)} %`.replace("-", "−") : "–";
-  element("run-depth").textContent = `${(run.depth_m * 1e6).toFixed(1)} µm`;
+  element("run-force").textContent = `${fixed(run.force_N, 3)} N`;
+  element("run-share").textContent = rig && !rig.trouble ? `${fixed(100 * run.force_N / rig.soft_N, 0)} %` : "–";
+  element("run-depth").textContent = `${fixed(run.depth_m * 1e6, 1)} µm`;
   element("run-left").textContent = run.is_running ? clock(run.time_left_wall_s) : "0:00";
   element("run-progress").value = run.is_running ? run.fraction : 1;
   element("run-records").textContent = run.records.committed > 0
     ? `${run.records.committed} records are safe from a crash of this program, ${run.records.synced} of them from a power cut.` : "";
-  element("stop-text").textContent = `${phase}: ${run.force_N.toFixed(3)} N, ${clock(run.time_left_wall_s)} left`.replace("-", "−");
+  element("stop-text").textContent = `${phase}: ${fixed(run.force_N, 3)} N, ${clock(run.time_left_wall_s)} left`;
   element("run-chart").setAttribute("aria-label",
-    `Force and depth against time: ${run.force_N.toFixed(3)} N now, ${run.peak_force_N.toFixed(3)} N at most`);
+    `Force and depth against time: ${fixed(run.force_N, 3)} N now, ${fixed(run.peak_force_N, 3)} N at most`);
 }
 
 function showOutcome() {
