@@ -46,6 +46,14 @@ Json or_trouble(Make&& make) {
   }
 }
 
+// Why a port of the rig cannot be used, as far as its name tells.
+void add_port_troubles(Json& rig) {
+  for (const char* device : {"stage", "load_cell"}) {
+    if (!rig.contains(device)) continue;
+    rig[device]["trouble"] = port_status(rig[device].at("port").get<std::string>()).trouble;
+  }
+}
+
 Json curves_of(const FitCurves& curves) {
   return {{"time_s", curves.time_s}, {"measured", curves.measured},
           {"fitted", curves.fitted}, {"sigma", curves.sigma},
@@ -85,6 +93,8 @@ Json RigApi::state() const {
     return json_of_rig(
         found, options_.rig_file ? calibration_trouble(found.calibration, today()) : std::string());
   });
+  // During a job this program itself holds the ports.
+  if (!options_.is_emulated && json["job"] == "") add_port_troubles(json["rig"]);
   json["test"] = or_trouble([&] { return json_of_test(folder_.test()); });
   json["specimens"] = Json::array();
   json["next"] = nullptr;
@@ -164,7 +174,8 @@ void RigApi::check_before_run(const CaptureSetup& setup) const {
 
 Json RigApi::start_run(const Json& request) {
   const std::string name = text_at(request, "specimen");
-  const bool repeats = request.value("repeat", false);
+  const Json repeat = request.contains("repeat") ? request.at("repeat") : Json(false);
+  if (!repeat.is_boolean()) throw ApiError(400, "bad-value", "'repeat' must be true or false");
   begin_job("the run of " + name);
   try {
     CaptureRequest capture;
@@ -172,7 +183,7 @@ Json RigApi::start_run(const Json& request) {
     check_before_run(capture.setup);
     const std::filesystem::path first = folder_.first_capture(name);
     const NextCapture next = next_capture(first);
-    if (!next.finished.empty() && !repeats) {
+    if (!next.finished.empty() && !repeat.get<bool>()) {
       throw ApiError(409, "finished",
                      name + " has a finished capture, " + next.finished.filename().string() +
                          ". Choose another specimen, or repeat it on purpose");

@@ -53,6 +53,21 @@ void answer_error(httplib::Response& response, int status, const std::string& co
          {{"error", {{"code", code}, {"message", message}, {"where", where}, {"hint", ""}}}});
 }
 
+// A request that no route has taken.
+void answer_unread(const httplib::Request& request, httplib::Response& response) {
+  const int status = response.status;
+  if (status == 404) {
+    answer_error(response, status, "not-found",
+                 fmt::format("viscard serve has nothing at {} {}", request.method, request.path),
+                 request.path);
+  } else if (status == 413) {
+    answer_error(response, status, "too-large",
+                 fmt::format("the request is larger than {} bytes", kLargestRequest), request.path);
+  } else {
+    answer_error(response, status, "bad-request", "the request cannot be read", request.path);
+  }
+}
+
 std::size_t number_of(const httplib::Request& request, const char* name) {
   const std::string text = request.get_param_value(name);
   if (text.empty()) return 0;
@@ -116,10 +131,7 @@ class RigServer::Impl {
                                                 : httplib::Server::HandlerResponse::Handled;
         });
     server_.set_error_handler([](const httplib::Request& request, httplib::Response& response) {
-      if (!response.body.empty()) return;
-      answer_error(response, response.status, "not-found",
-                   fmt::format("viscard serve has nothing at {} {}", request.method, request.path),
-                   request.path);
+      if (response.body.empty()) answer_unread(request, response);
     });
   }
 

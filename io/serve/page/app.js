@@ -1,7 +1,7 @@
 // Puts the parts of the page together and asks viscard serve what is new. The page holds nothing that
 // the folder of the series and the running test do not: reloading or closing it changes nothing.
 import { ask, Refused } from "./api.js";
-import { element, showText } from "./format.js";
+import { element, sentence, showText } from "./format.js";
 import { refreshPlan, showPlan, showStart, startPlan } from "./plan.js";
 import { fitCapture, startResult } from "./result.js";
 import { showRig, startRig } from "./rig.js";
@@ -25,8 +25,8 @@ function showLink(error) {
   const isLost = Boolean(error);
   showText(element("link"), isLost ? "not connected" : "connected");
   if (!isLost) return showText(element("lost"), "");
-  const text = error instanceof Refused ? `${error.message}.`
-    : `${error.message}. If it has ended, start it again and open the address that it prints. `
+  const text = error instanceof Refused ? sentence(error.message)
+    : `${sentence(error.message)} If it has ended, start it again and open the address that it prints. `
       + (isRunning() ? "A run was going on: look at the rig." : "");
   showText(element("lost"), text);
 }

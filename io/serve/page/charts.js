@@ -126,6 +126,25 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
   for (const chart of charts) chart.rebuild();
 });
 
+// At most about `most` of the rows: of each group of rows those with the lowest and the highest force.
+// Drawing 20 000 rows takes ten times as long as this, five times a second, beside a running test.
+export function thinned(rows, most) {
+  if (rows.length <= most) return rows;
+  const size = Math.ceil(2 * rows.length / most);
+  const kept = [];
+  for (let from = 0; from < rows.length; from += size) {
+    let low = from, high = from;
+    const end = Math.min(rows.length, from + size);
+    for (let i = from; i < end; ++i) {
+      if (rows[i][1] < rows[low][1]) low = i;
+      if (rows[i][1] > rows[high][1]) high = i;
+    }
+    kept.push(rows[Math.min(low, high)]);
+    if (low !== high) kept.push(rows[Math.max(low, high)]);
+  }
+  return kept;
+}
+
 // The limit lines of a rig, for the left axis in N.
 export function limitsOf(rig) {
   if (!rig || rig.trouble) return [];

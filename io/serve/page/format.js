@@ -20,6 +20,13 @@ export function significant(value, digits = 4) {
   return text.replace("-", "−");
 }
 
+// "the port is busy" -> "The port is busy."
+export function sentence(text) {
+  if (!text) return "";
+  const whole = /[.!?:]$/.test(text) ? text : `${text}.`;
+  return whole[0].toUpperCase() + whole.slice(1);
+}
+
 // Always as many decimals, without a minus before zero.
 export function fixed(value, decimals) {
   const text = value.toFixed(decimals);

@@ -1,7 +1,7 @@
 // The test: its numbers, its expected course as a picture, and the start of a run.
 import { order } from "./api.js";
 import { Chart, limitsOf } from "./charts.js";
-import { clock, element, list, make, numberField, numberFrom, show, showText, significant } from "./format.js";
+import { clock, element, list, make, numberField, numberFrom, show, showText, sentence, significant } from "./format.js";
 import { chosenSpecimen } from "./series.js";
 
 const kFields = [{ key: "depth_m", label: "Depth", unit: "mm", factor: 1e-3 },
@@ -59,7 +59,7 @@ function fillForm() {
 }
 
 function problem(text) {
-  element("plan-problems").replaceChildren(...(text ? [make("p", { class: "alert" }, text)] : []));
+  element("plan-problems").replaceChildren(...(text ? [make("p", { class: "alert" }, sentence(text))] : []));
 }
 
 function showPicture(isThere) {

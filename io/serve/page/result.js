@@ -1,7 +1,7 @@
 // The fit of a capture: moduli and terms with intervals, data with fit, residuals.
 import { order } from "./api.js";
 import { Chart } from "./charts.js";
-import { element, list, make, modulusUnit, range, show, showText, significant } from "./format.js";
+import { element, list, make, modulusUnit, range, sentence, show, showText, significant } from "./format.js";
 
 let onFitted = () => {}, starts = [];
 
@@ -65,7 +65,7 @@ function showFit(fit) {
   const saved = fit.material_file ? ` The material is in ${fit.material_file}.` : "";
   element("result-note").textContent =
     `Intervals cover the scatter alone; geometry, calibration and frame add ${significant(100 * fit.systematic_relative, 2)} % to all moduli together.${saved}`;
-  list(element("result-flags"), fit.flags.map((flag) => flag.text));
+  list(element("result-flags"), fit.flags.map((flag) => sentence(flag.text)));
   const { time_s, measured, fitted, sigma } = fit.curves;
   show(element("result-body"), true);
   starts = fit.curves.motion_start_s;
@@ -90,7 +90,7 @@ export async function fitCapture(capture) {
       : fit.trustworthy ? "The fit describes the data." : "Do not trust this fit before you have read the notes below.");
   } catch (error) {
     status.className = "alert";
-    showText(status, error.message);
+    showText(status, sentence(error.message));
   }
   await onFitted();
 }

@@ -1,12 +1,14 @@
 // The rig: what its file says, the ports that are present, and a check of both devices.
 import { ask, order } from "./api.js";
-import { element, list, make, show, showText, significant } from "./format.js";
+import { element, list, make, sentence, show, showText, significant } from "./format.js";
 
 const kPortNames = (device) => (device.port ? `${device.driver} at ${device.port}` : device.driver);
 
 export function showRig(state) {
   const rig = state.rig;
-  showText(element("rig-trouble"), rig.trouble || rig.calibration_trouble || "");
+  const ports = [rig.stage, rig.load_cell].map((device) => (device && device.trouble) || "");
+  const troubles = [rig.trouble, rig.calibration_trouble, ...ports].filter(Boolean);
+  showText(element("rig-trouble"), troubles.map(sentence).join(" "));
   show(element("rig-facts"), !rig.trouble);
   showText(element("rig-name"), rig.trouble ? "" : rig.name);
   const speed = state.clock_speed === 1 ? "" : `, clock × ${state.clock_speed}`;
@@ -44,7 +46,7 @@ async function check() {
            ...rowsOfCheck(found).flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)])),
       advice);
   } catch (error) {
-    result.replaceChildren(make("p", { class: "alert" }, error.message));
+    result.replaceChildren(make("p", { class: "alert" }, sentence(error.message)));
   }
   element("check").disabled = false;
 }

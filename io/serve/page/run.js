@@ -1,7 +1,9 @@
 // The running test: force and depth as they arrive, time left, and the two ways to stop it.
 import { ask, order } from "./api.js";
-import { Chart, limitsOf } from "./charts.js";
-import { clock, element, fixed, list, make, show, showText, significant } from "./format.js";
+import { Chart, limitsOf, thinned } from "./charts.js";
+import { clock, element, fixed, list, make, show, showText, sentence, significant } from "./format.js";
+
+const kMostDrawn = 3000;
 
 let rig = null, run = null, points = [], keepEvery = 0, isWatched = false, onEnd = () => {};
 
@@ -10,7 +12,7 @@ const chart = new Chart(element("run-chart"), {
   limits: () => limitsOf(rig),
   range: () => (element("run-limits").checked && rig && !rig.trouble ? [-0.05 * rig.hard_N, 1.12 * rig.hard_N] : null),
   readout: (x, row) => {
-    const data = points[row];
+    const data = chart.data[row];
     element("run-readout").textContent = x === null || !data ? ""
       : `${significant(x, 5)} s: ${significant(data[1], 4)} N, ${significant(data[2], 4)} µm`;
   },
@@ -22,7 +24,7 @@ function take(answer) {
   points = isNew && answer.points.from === 0 ? rows : points.slice(0, answer.points.from).concat(rows);
   keepEvery = answer.points.keep_every;
   run = answer;
-  chart.show(points);
+  chart.show(thinned(points, kMostDrawn));
 }
 
 function showNumbers() {
@@ -46,14 +48,14 @@ function showOutcome() {
   if (run.is_running) return place.replaceChildren();
   const outcome = run.outcome;
   if (!outcome) {
-    return place.replaceChildren(make("p", { class: "alert" }, `The test did not begin: ${run.trouble}`));
+    return place.replaceChildren(make("p", { class: "alert" }, `The test did not begin: ${sentence(run.trouble)}`));
   }
   const doubts = make("ul", { class: "note" });
   list(doubts, outcome.doubts);
   const isFinished = outcome.status === "finished";
   const text = isFinished
     ? `Finished: ${significant(outcome.peak_force_N, 4)} N at most, ${significant(outcome.depth_m * 1e6, 4)} µm deep, ${outcome.readings.received} readings, ${outcome.readings.missing} missing.`
-    : `${outcome.status === "stopped" ? "Stopped by a limit" : "Interrupted"}: ${outcome.reason}.`;
+    : `${outcome.status === "stopped" ? "Stopped by a limit" : "Interrupted"}: ${sentence(outcome.reason)}`;
   place.replaceChildren(make("p", { class: isFinished ? "good" : "alert", id: "outcome-text" }, text), doubts);
 }
 
@@ -102,7 +104,7 @@ async function stop(how) {
     await order("/api/run/stop", { how });
   } catch (error) {
     element("stop-gently").disabled = false;
-    showText(element("stop-text"), `${error.message}. Use the emergency stop of the stage if it still moves.`);
+    showText(element("stop-text"), `${sentence(error.message)} Use the emergency stop of the stage if it still moves.`);
   }
 }
 
@@ -114,7 +116,7 @@ export function startRun(handlers) {
   ({ onEnd } = handlers);
   element("stop-gently").addEventListener("click", () => stop("gently"));
   element("stop-at-once").addEventListener("click", () => stop("at once"));
-  element("run-limits").addEventListener("change", () => chart.show(points));
+  element("run-limits").addEventListener("change", () => chart.show(chart.data));
   document.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && isRunning()) stop("gently");
   });

@@ -1,6 +1,6 @@
 // The specimens of the series, read from its folder.
 import { order } from "./api.js";
-import { element, make, modulusUnit, numberField, numberFrom, range, show, showText, significant } from "./format.js";
+import { element, make, modulusUnit, numberField, numberFrom, range, sentence, show, showText, significant } from "./format.js";
 
 // factor: from the unit shown to SI.
 const kFields = [{ key: "mixing_ratio", label: "Mixing ratio, base to one of curing agent", value: "10", factor: 1 },
@@ -51,7 +51,7 @@ async function add(event) {
     onChoice();
     element("add").querySelector("summary").focus();
   } catch (error) {
-    showText(element("series-error"), error.message);
+    showText(element("series-error"), sentence(error.message));
   }
 }
 
@@ -61,7 +61,7 @@ async function remove(name) {
     if (chosen === name) chosen = null;
     showText(element("series-error"), "");
   } catch (error) {
-    showText(element("series-error"), error.message);
+    showText(element("series-error"), sentence(error.message));
   }
   await onChange();
 }
@@ -104,7 +104,7 @@ function rowOf(entry) {
   const material = entry.material && entry.material.E0_interval_95
     ? { title: `95 %: ${range(entry.material.E0_interval_95, 1e-6)} MPa` } : {};
   const state = make("td", { class: "state" }, kStates[entry.state], ...actionsOf(entry));
-  if (entry.trouble) state.append(make("div", { class: "alert" }, entry.trouble));
+  if (entry.trouble) state.append(make("div", { class: "alert" }, sentence(entry.trouble)));
   const row = make("tr", { "data-name": entry.name },
                    make("td", {}, make("label", {}, radio, make("span", {}, entry.name))),
                    make("td", { class: "number" }, ratio), state,
