@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/basics/timestamp.h"
+#include "io/capture/capture_file.h"
 #include "io/config/config_file.h"
 #include "io/flow/capture_setup.h"
 #include "io/flow/check_rig_config.h"
@@ -120,7 +121,7 @@ Json RigApi::ports() const {
 void RigApi::begin_job(const std::string& what) {
   if (is_closing_) throw ApiError(409, "closing", "viscard serve is ending; start it again");
   if (job_.try_begin(what)) return;
-  throw ApiError(409, "busy", "First " + job_.what() + " must end; then try again");
+  throw ApiError(409, "busy", "first " + job_.what() + " must end; then try again");
 }
 
 Json RigApi::check_rig() {
@@ -204,7 +205,7 @@ Json RigApi::stop_run(const Json& request) {
   if (how != "gently" && how != "at once") {
     throw ApiError(400, "bad-value", "'how' is '" + how + "'; it must be 'gently' or 'at once'");
   }
-  if (!live_.is_running()) throw ApiError(409, "no-run", "No run is going on");
+  if (!live_.is_running()) throw ApiError(409, "no-run", "no run is going on");
   live_.stop(how == "at once");
   return {{"is_stopping", true}};
 }
@@ -244,19 +245,19 @@ Json RigApi::run(std::size_t from, std::size_t keep_every) const {
 }
 
 Json RigApi::fit(const Json& request) {
-  const std::filesystem::path path = folder_.capture_named(text_at(request, "capture"));
-  begin_job("the fit of " + path.filename().string());
+  const std::string file = text_at(request, "capture");
+  const std::string specimen = folder_.specimen_of_capture(file).name;
+  const std::filesystem::path path = folder_.path() / file;
+  begin_job("the fit of " + file);
   const JobEnd at_end(job_);
   const FittedFile fitted = fit_file(path, {});
   Json json = json_from_fit(fitted);
-  json["file"] = path.filename().string();
+  json["file"] = file;
   json["status"] = read_capture_state(path).status;
   json["curves"] = curves_of(fitted.result.curves);
   json["material_file"] = nullptr;
   if (json["status"] != "finished") return json;
-  const std::string name = path.filename().string();
-  const std::filesystem::path material =
-      folder_.path() / (name.substr(0, name.find('.')) + ".json");
+  const std::filesystem::path material = folder_.path() / (specimen + ".json");
   if (!std::filesystem::exists(material)) {
     MaterialRequest wanted;
     wanted.command = options_.command;

@@ -144,7 +144,7 @@ SeriesSpecimen SeriesFolder::specimen_named(const std::string& name) const {
     if (specimen.name == name) return specimen;
   }
   throw ApiError(404, "not-found",
-                 "There is no specimen '" + name + "' in " + folder_.string() +
+                 "there is no specimen '" + name + "' in " + folder_.string() +
                      ". Choose one of the list, or add it");
 }
 
@@ -171,13 +171,13 @@ void SeriesFolder::remove_specimen(const std::string& name) const {
   sync_folder(folder_);
 }
 
-fs::path SeriesFolder::capture_named(const std::string& file) const {
-  for (const SeriesSpecimen& specimen : specimens()) {
+SeriesSpecimen SeriesFolder::specimen_of_capture(const std::string& file) const {
+  for (SeriesSpecimen& specimen : specimens()) {
     for (const SeriesSpecimen::Capture& capture : specimen.captures) {
-      if (capture.file == file) return folder_ / file;
+      if (capture.file == file) return specimen;
     }
   }
-  throw ApiError(404, "not-found", "There is no capture '" + file + "' in " + folder_.string());
+  throw ApiError(404, "not-found", "there is no capture '" + file + "' in " + folder_.string());
 }
 
 }  // namespace viscard

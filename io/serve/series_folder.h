@@ -62,8 +62,8 @@ class SeriesFolder {
   // Throws ApiError 409 if there is a capture of it.
   void remove_specimen(const std::string& name) const;
 
-  // The path of a capture that is listed in specimens(). Throws ApiError 404 for any other name.
-  std::filesystem::path capture_named(const std::string& file) const;
+  // The specimen that lists a capture of this name. Throws ApiError 404 if there is none.
+  SeriesSpecimen specimen_of_capture(const std::string& file) const;
 
  private:
   std::filesystem::path folder_;
