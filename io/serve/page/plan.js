@@ -22,7 +22,7 @@ const chart = new Chart(element("plan-chart"), {
   range: () => {
     const rig = state && state.rig;
     const top = Math.max(rig && !rig.trouble ? rig.hard_N : 0, expected ? expected.peak_force_N : 0);
-    return [-0.03 * top, 1.12 * top];
+    return [-0.03 * top, 1.2 * top];
   },
   readout: (x, row) => {
     const data = chart.data[row];
