@@ -19,35 +19,47 @@ const CommandedMove* first_move(const CapturedRun& run, const std::string& purpo
   return nullptr;
 }
 
-double force_of(const LoadSample& sample, const RigConfig& rig) {
-  const std::optional<double> force_N = force_N_from_sample(sample, rig);
-  if (!force_N) {
-    throw std::runtime_error(
-        "the capture holds raw counts, but its rig has no volts_per_count. Add "
-        "it under [load_cell] in the rig file");
-  }
-  return *force_N;
-}
-
+// A reading, its time on the amplifier's clock and its place in the capture.
 struct Reading {
-  double clock_s = 0.0, host_s = 0.0, force_N = 0.0;
+  double clock_s = 0.0, host_s = 0.0;
+  std::size_t place = 0;
 };
 
-// Readings in the order of their time stamps. Scatter of the stamps may swap neighbours. A stamp
-// that lies back by more than a few readings comes from a clock that restarted; an equal stamp is a
-// reading that was sent twice.
-std::vector<Reading> in_order(const std::vector<Reading>& received) {
+bool has_clock(const CapturedRun& run) {
+  return std::all_of(run.load_samples.begin(), run.load_samples.end(),
+                     [](const LoadSample& s) { return s.device_time_s.has_value(); });
+}
+
+// Without a clock the readings are taken as evenly spaced.
+double clock_of(const LoadSample& sample, bool has_clock) {
+  return has_clock ? *sample.device_time_s : static_cast<double>(sample.index);
+}
+
+bool is_usable(const LoadSample& sample) {
+  return !sample.is_saturated && !sample.is_glitch &&
+         (sample.volts || sample.counts || sample.force_N);
+}
+
+// Scatter of the stamps may swap neighbours. A stamp that lies back by more than this comes from a
+// clock that restarted.
+double longest_swap_s(const std::vector<Reading>& received) {
   constexpr double kFewReadings = 5.0;
   std::vector<double> steps;
   for (std::size_t i = 1; i < received.size(); ++i) {
     steps.push_back(std::abs(received[i].clock_s - received[i - 1].clock_s));
   }
-  if (steps.empty()) return received;
-  const double few_s = kFewReadings * median(std::move(steps));
+  return steps.empty() ? 0.0 : kFewReadings * median(std::move(steps));
+}
+
+// Readings in the order of their time stamps, without those after a restart of the clock. An equal
+// stamp is a reading that was sent twice.
+std::vector<Reading> in_order(const std::vector<Reading>& received) {
+  if (received.size() < 2) return received;
+  const double swap_s = longest_swap_s(received);
   std::vector<Reading> kept;
   double newest_s = received.front().clock_s;
   for (const Reading& reading : received) {
-    if (reading.clock_s < newest_s - few_s) continue;
+    if (reading.clock_s < newest_s - swap_s) continue;
     newest_s = std::max(newest_s, reading.clock_s);
     kept.push_back(reading);
   }
@@ -60,28 +72,48 @@ std::vector<Reading> in_order(const std::vector<Reading>& received) {
   return kept;
 }
 
+std::vector<Reading> usable_readings(const CapturedRun& run) {
+  const bool with_clock = has_clock(run);
+  std::vector<Reading> received;
+  for (std::size_t i = 0; i < run.load_samples.size(); ++i) {
+    const LoadSample& sample = run.load_samples[i];
+    if (!is_usable(sample)) continue;
+    received.push_back({clock_of(sample, with_clock), sample.host_time_s, i});
+  }
+  return received;
+}
+
+ClockLine line_of(const std::vector<Reading>& ordered) {
+  std::vector<double> clock_s, host_s;
+  for (const Reading& reading : ordered) {
+    clock_s.push_back(reading.clock_s);
+    host_s.push_back(reading.host_s);
+  }
+  return line_from_below(clock_s, host_s);
+}
+
 struct Readings {
-  std::vector<double> clock_s, host_s, force_N;
+  std::vector<double> time_s, force_N;
 };
 
 Readings good_readings(const CapturedRun& run, IndentationData& data) {
-  std::vector<Reading> received;
-  const bool has_clock =
-      std::all_of(run.load_samples.begin(), run.load_samples.end(),
-                  [](const LoadSample& s) { return s.device_time_s.has_value(); });
   for (const LoadSample& sample : run.load_samples) {
     if (sample.is_saturated) ++data.n_saturated;
     if (sample.is_glitch) ++data.n_glitch;
-    if (sample.is_saturated || sample.is_glitch) continue;
-    if (!sample.volts && !sample.counts && !sample.force_N) continue;
-    const double clock = has_clock ? *sample.device_time_s : static_cast<double>(sample.index);
-    received.push_back({clock, sample.host_time_s, force_of(sample, run.rig)});
   }
+  const std::vector<Reading> ordered = in_order(usable_readings(run));
+  const ClockLine line = line_of(ordered);
   Readings readings;
-  for (const Reading& reading : in_order(received)) {
-    readings.clock_s.push_back(reading.clock_s);
-    readings.host_s.push_back(reading.host_s);
-    readings.force_N.push_back(reading.force_N);
+  for (const Reading& reading : ordered) {
+    const std::optional<double> force_N =
+        force_N_from_sample(run.load_samples[reading.place], run.rig);
+    if (!force_N) {
+      throw std::runtime_error(
+          "the capture holds raw counts, but its rig has no volts_per_count. Add "
+          "it under [load_cell] in the rig file");
+    }
+    readings.time_s.push_back(line.at(reading.clock_s));
+    readings.force_N.push_back(*force_N);
   }
   return readings;
 }
@@ -144,6 +176,27 @@ ClockLine line_from_below(const std::vector<double>& x, const std::vector<double
   return line;
 }
 
+std::optional<double> usable_force_N(const LoadSample& sample, const RigConfig& rig) {
+  return is_usable(sample) ? force_N_from_sample(sample, rig) : std::nullopt;
+}
+
+std::vector<double> sample_times_s(const CapturedRun& run) {
+  const bool with_clock = has_clock(run);
+  const std::vector<Reading> received = usable_readings(run);
+  const std::vector<Reading> ordered = in_order(received);
+  const ClockLine line = line_of(ordered);
+  const double swap_s = longest_swap_s(received);
+  std::vector<double> times_s;
+  double newest_s = ordered.empty() ? 0.0 : ordered.front().clock_s;
+  for (const LoadSample& sample : run.load_samples) {
+    const double clock_s = clock_of(sample, with_clock);
+    const bool is_known = ordered.size() > 1 && clock_s >= newest_s - swap_s;
+    times_s.push_back(is_known ? line.at(clock_s) : sample.host_time_s);
+    if (is_usable(sample)) newest_s = std::max(newest_s, clock_s);
+  }
+  return times_s;
+}
+
 IndentationData indentation_from_capture(const CapturedRun& run) {
   IndentationData data;
   validate(run.rig.calibration);
@@ -155,20 +208,18 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
                              ") before the punch was driven in. Repeat it with viscard capture");
   }
   const Readings readings = good_readings(run, data);
-  if (readings.clock_s.size() < 20) {
-    throw std::runtime_error("the capture holds only " + std::to_string(readings.clock_s.size()) +
+  if (readings.time_s.size() < 20) {
+    throw std::runtime_error("the capture holds only " + std::to_string(readings.time_s.size()) +
                              " usable force readings (" + std::to_string(data.n_saturated) +
                              " saturated, " + std::to_string(data.n_glitch) +
                              " glitches). Check the amplifier, then repeat the run");
   }
-  const ClockLine clock = line_from_below(readings.clock_s, readings.host_s);
-
   // The clock line is early by the smallest delay of a message and may be tilted by the spread of
   // delays. Both are unknown but short. Samples this close to an unmodelled motion are left out.
   data.start_early_s = 0.02 * std::max(1.0, run.rig.clock_speed);
   data.contact_from_s = ramp->move.start_time_s;
-  data.first_reading_s = clock.at(readings.clock_s.front());
-  data.contact_to_s = clock.at(readings.clock_s.back());
+  data.first_reading_s = readings.time_s.front();
+  data.contact_to_s = readings.time_s.back();
   const double free_s = free_again_s(run, data);
   const double still_s = still_since_s(run, *ramp);
   take_moves_in_contact(run, data);
@@ -177,8 +228,8 @@ IndentationData indentation_from_capture(const CapturedRun& run) {
         "the readings end before the punch is driven in, so there is nothing to fit. Repeat the "
         "run with viscard capture");
   }
-  for (std::size_t i = 0; i < readings.clock_s.size(); ++i) {
-    const double t = clock.at(readings.clock_s[i]);
+  for (std::size_t i = 0; i < readings.time_s.size(); ++i) {
+    const double t = readings.time_s[i];
     const bool before = t > still_s && t < data.contact_from_s;
     const bool contact = t >= data.contact_from_s && t <= data.contact_to_s;
     if (!before && !contact && !(t > free_s)) continue;

@@ -29,17 +29,31 @@ struct StageDriver {
 // One row per value of driver under [stage].
 constexpr StageDriver kStages[] = {{"grbl", made<GrblStage>}, {"zaber", made<ZaberStage>}};
 
+const StageDriver& stage_driver(const std::string& name) {
+  std::string known;
+  for (const StageDriver& driver : kStages) {
+    if (name == driver.name) return driver;
+    known += (known.empty() ? "" : ", ") + std::string(driver.name);
+  }
+  throw RigError("driver '" + name + "' under [stage] of the rig file is unknown; known are " +
+                 known);
+}
+
+// A wrong word of the rig file is reported before a port that is missing: it is in any case wrong.
+void check_words(const RigConfig& rig) {
+  stage_driver(rig.stage.driver);
+  if (rig.load_cell.driver == "hx711") {
+    declared_hx711_format(rig.load_cell);
+  } else {
+    check_gauge_words(rig.load_cell);
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<Stage> make_stage(Transport& transport, const StageConfig& config,
                                   const RigClock& clock, const RecordSink& sink) {
-  std::string known;
-  for (const StageDriver& driver : kStages) {
-    if (config.driver == driver.name) return driver.make(transport, config, clock, sink);
-    known += (known.empty() ? "" : ", ") + std::string(driver.name);
-  }
-  throw RigError("driver '" + config.driver +
-                 "' under [stage] of the rig file is unknown; known are " + known);
+  return stage_driver(config.driver).make(transport, config, clock, sink);
 }
 
 std::unique_ptr<LoadCell> make_load_cell(Transport& transport, const LoadCellConfig& config,
@@ -51,6 +65,7 @@ std::unique_ptr<LoadCell> make_load_cell(Transport& transport, const LoadCellCon
 }
 
 RigDevices open_ports(const RigConfig& rig, const RigClock& clock) {
+  check_words(rig);
   RigDevices devices;
   devices.stage_line = std::make_unique<SerialLine>(rig.stage.port, rig.stage.baud, clock);
   devices.cell_line = std::make_unique<SerialLine>(rig.load_cell.port, rig.load_cell.baud, clock,

@@ -25,7 +25,8 @@ struct RigDevices {
   std::unique_ptr<LoadCell> load_cell;
 };
 
-// Opens both ports. Throws RigError with the reason why a port cannot be opened.
+// Opens both ports. Throws RigError on an unknown driver or format, and with the reason why a port
+// cannot be opened.
 RigDevices open_ports(const RigConfig& rig, const RigClock& clock);
 // Adds the drivers to the open ports.
 void add_drivers(RigDevices& devices, const RigConfig& rig, const RigClock& clock,

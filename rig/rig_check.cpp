@@ -6,7 +6,10 @@
 #include "rig/run/preflight.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 namespace viscard {
 namespace {
@@ -14,12 +17,82 @@ namespace {
 constexpr int kFewestReadings = 10;
 constexpr double kSlowLink_s = 0.020;
 constexpr double kLeastRate_Hz = 20.0;
+constexpr double kFullLine = 0.95;           // of what a baud rate carries
+constexpr double kBits = 10.0;               // of one byte on the wire
+constexpr double kBaudReserve = 1.25;        // of the baud rate proposed over the one needed
+constexpr double kFallsBehind = 0.01;        // more than the error of a device's clock
+constexpr double kFallsBehind_wall_s = 0.1;  // more than a busy machine delays
+constexpr double kSlowestShare = 0.9;  // of the expected rate; below it the readings count as late
+
+struct Delay {
+  double at_s = 0.0, delay_s = 0.0;
+};
 
 struct Readings {
+  std::vector<Delay> delays;  // host time minus device time, if the device has a clock
   std::vector<double> force_N;
   double first_made_s = 0.0, last_made_s = 0.0;
   double shortest_delay_s = 1e9, longest_delay_s = -1e9;
 };
+
+// Growth of the delay from the first to the last quarter of the readings; in each quarter the
+// smallest delay counts.
+double falls_behind(const std::vector<Delay>& delays, const RigClock& clock) {
+  const std::size_t quarter = delays.size() / 4;
+  if (quarter == 0) return 0.0;
+  const auto smaller = [](const Delay& a, const Delay& b) { return a.delay_s < b.delay_s; };
+  const auto n = static_cast<std::ptrdiff_t>(quarter);
+  const Delay first = *std::min_element(delays.begin(), delays.begin() + n, smaller);
+  const Delay last = *std::min_element(delays.end() - n, delays.end(), smaller);
+  const double growth_s = last.delay_s - first.delay_s;
+  const double over_s = last.at_s - first.at_s;
+  const bool is_real =
+      growth_s > kFallsBehind * over_s + clock.from_wall_s(kFallsBehind_wall_s) && over_s > 0.0;
+  return is_real ? growth_s / over_s : 0.0;
+}
+
+int baud_for(double bytes_per_s) {
+  constexpr std::array<int, 9> kBauds{9600,   19200,  38400,  57600,  115200,
+                                      230400, 460800, 921600, 2000000};
+  for (const int baud : kBauds) {
+    if (baud >= kBaudReserve * kBits * bytes_per_s) return baud;
+  }
+  return kBauds.back();
+}
+
+// What is wrong with the line of an amplifier that sends by itself, or "": its readings become older
+// and older.
+std::string lag_trouble(const RigConfig& rig, const RigCheck& check) {
+  const LoadCellConfig& cell = rig.load_cell;
+  if (cell.driver != "hx711") return "";
+  const bool is_slow = check.rate_Hz < kSlowestShare * cell.expected_rate_Hz && !check.has_clock;
+  const double rate_Hz = check.has_clock ? check.rate_Hz : cell.expected_rate_Hz;
+  const double needed_B_s = check.line_bytes * std::max(rate_Hz, check.rate_Hz);
+  const std::string needs = text_from_number(rate_Hz, 0) + " lines/s of " +
+                            text_from_number(check.line_bytes, 1) + " bytes need " +
+                            text_from_number(needed_B_s, 0) + " bytes/s";
+  const std::string remedy = "Set the amplifier, and baud under [load_cell] of the rig file, to " +
+                             std::to_string(std::max(baud_for(needed_B_s), cell.baud)) +
+                             " baud or more";
+  if (needed_B_s > kFullLine * cell.baud / kBits) {
+    return "the readings become older and older: " + needs + ", and " + std::to_string(cell.baud) +
+           " baud carry " + text_from_number(cell.baud / kBits, 0) + ". " + remedy;
+  }
+  if (check.falls_behind > 0.0) {
+    return "each second the readings fall behind by " + text_from_number(check.falls_behind, 3) +
+           " s: " + needs + ", and the line carries less than its " + std::to_string(cell.baud) +
+           " baud. Look for a slower part of it (adapter, radio link); that part needs " +
+           std::to_string(baud_for(needed_B_s)) + " baud or more";
+  }
+  if (!is_slow) return "";
+  return "the readings come at " + text_from_number(check.rate_Hz, 1) + "/s and not at the " +
+         text_from_number(cell.expected_rate_Hz, 1) +
+         "/s of expected_rate, and without a clock in the lines a slow line looks like that too: " +
+         needs +
+         ". If the amplifier makes no more readings, set expected_rate under [load_cell] "
+         "of the rig file to that; otherwise look for the slow part of the line, which needs " +
+         std::to_string(baud_for(needed_B_s)) + " baud or more";
+}
 
 void advise(const RigConfig& rig, RigCheck& check) {
   const auto add = [&](bool is_fatal, const std::string& text) {
@@ -27,11 +100,13 @@ void advise(const RigConfig& rig, RigCheck& check) {
     check.is_usable = check.is_usable && !is_fatal;
   };
   const double capacity_N = rig.calibration.capacity_N;
+  const std::string lag = lag_trouble(rig, check);
+  if (!lag.empty()) add(true, lag);
   if (check.rate_Hz < kLeastRate_Hz) {
     add(true, text_from_number(check.rate_Hz, 1) +
                   " readings/s are too few to stop an approach in time: " +
                   remedy_for_slow_readings(rig.load_cell));
-  } else if (std::abs(check.rate_Hz / rig.load_cell.expected_rate_Hz - 1.0) > 0.1) {
+  } else if (lag.empty() && std::abs(check.rate_Hz / rig.load_cell.expected_rate_Hz - 1.0) > 0.1) {
     add(false, "the readings come at " + text_from_number(check.rate_Hz, 1) +
                    "/s: set expected_rate of the load cell in the rig file to that");
   }
@@ -70,20 +145,28 @@ RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, cons
     load_cell.service();
     stage.service();
   };
+  load_cell.accept_restarts(true);  // opening its port may reset a board, late
   load_cell.connect(pump);
   stage.connect(pump);
+  if (load_cell.n_restarts() > 0) load_cell.connect(pump);
+  load_cell.accept_restarts(false);
   Readings readings;
   load_cell.set_listener([&](const LoadSample& sample) {
     const double made_s = load_cell.made_at_s(sample);
     const double delay_s = sample.host_time_s - made_s;
     if (readings.force_N.empty()) readings.first_made_s = made_s;
     readings.last_made_s = made_s;
+    if (sample.device_time_s) {
+      readings.delays.push_back({sample.host_time_s, sample.host_time_s - *sample.device_time_s});
+    }
     readings.shortest_delay_s = std::min(readings.shortest_delay_s, delay_s);
     readings.longest_delay_s = std::max(readings.longest_delay_s, delay_s);
     const std::optional<double> force_N = force_N_from_sample(sample, rig);
     if (sample.is_glitch || sample.is_saturated || !force_N) return;
     readings.force_N.push_back(*force_N);
   });
+  const std::size_t n_bytes_before = load_cell.n_bytes();
+  const std::int64_t n_before = load_cell.counts().received;
   const double end_s = clock.now_s() + duration_s;
   while (clock.now_s() < end_s) pump();
   load_cell.set_listener({});
@@ -109,6 +192,10 @@ RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, cons
   check.noise_N = std::sqrt(check.noise_N);
   check.rate_Hz = (n - 1.0) / (readings.last_made_s - readings.first_made_s);
   check.jitter_s = (readings.longest_delay_s - readings.shortest_delay_s) / clock.speed();
+  check.has_clock = !readings.delays.empty();
+  check.falls_behind = falls_behind(readings.delays, clock);
+  check.line_bytes = static_cast<double>(load_cell.n_bytes() - n_bytes_before) /
+                     static_cast<double>(load_cell.counts().received - n_before);
   advise(rig, check);
   return check;
 }

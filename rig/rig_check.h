@@ -17,9 +17,14 @@ struct RigCheck {
   double position_m = 0.0;
   ReportLatency latency;
   StreamCounts stream;
-  std::string reads_as;             // assumed unit of the readings: "counts", "volts", "g" ...
-  double rate_Hz = 0.0;             // of readings, by the device's clock if it has one
-  double jitter_s = 0.0;            // largest minus smallest delay of a reading, wall time
+  std::string reads_as;   // assumed unit of the readings: "counts", "volts", "g" ...
+  double rate_Hz = 0.0;   // of readings, by the device's clock if it has one
+  double jitter_s = 0.0;  // largest minus smallest delay of a reading, wall time
+  // Time by which a reading is later than the one a second before it, by the device's clock: above 0
+  // if the line carries less than is sent.
+  double falls_behind = 0.0;
+  bool has_clock = false;           // the lines carry the device's own time
+  double line_bytes = 0.0;          // of one reading, with its terminator
   double force_N = 0.0;             // mean by the calibration, without a tare
   double noise_N = 0.0;             // standard deviation of one reading
   std::vector<std::string> advice;  // what to change and why

@@ -25,9 +25,11 @@ class IndentationRun {
     RunSession& session = run_.session;
     RunOutcome& outcome = run_.outcome;
     session.begin_phase("connect", planned_from_s(0), "Waiting for both devices");
+    session.load_cell().accept_restarts(true);  // until the tare is done
     session.connect();
     run_.start_m = session.stage().position_m();
     outcome.expected = preflight(run_.rig, run_.plan, run_.specimen, session.stage().dynamics());
+    session.expect_stiffness(outcome.expected.total_stiffness_N_m);
     if (!outcome.expected.problems.empty()) throw RigError(outcome.expected.problems.front());
     for (const std::string& text : outcome.expected.warnings) session.event("advice", "test", text);
     for (const std::string& text : session.stage().advice()) session.event("advice", "stage", text);
@@ -116,6 +118,29 @@ class IndentationRun {
   bool is_begun_ = false;
 };
 
+std::string mm_text(double length_m) {
+  return text_from_number(length_m * 1e3, 3) + " mm";
+}
+
+// Where a run that ended early has left the punch: what a person at the rig must know first.
+// Empty if only the trouble of the lift is known.
+std::string place_of_punch(TestRun& run, const SafeEnd& end, bool had_moved, bool knows_position) {
+  if (end.lifted_m > 0.0) {
+    std::string text = ". The stage was stopped and lifted by " + mm_text(end.lifted_m);
+    if (run.outcome.contact_position_m && knows_position) {
+      const double clear_m = run.contact_m - run.session.stage().position_m();
+      text += clear_m > 0.0 ? ": the punch is " + mm_text(clear_m) + " above the contact"
+                            : ": the punch is still " + mm_text(-clear_m) + " below the contact";
+    }
+    return text;
+  }
+  if (!end.trouble.empty()) return "";
+  if (!had_moved) return ". The stage was not moved: the punch is where it was before the run";
+  return knows_position
+             ? ". The stage was stopped; it was not lifted, because it stands where it started"
+             : ". The stage was stopped; it was not lifted: look at the punch";
+}
+
 // Ends a run that did not finish: notes why, stops the stage and lifts the punch.
 void end_early(TestRun& run, const IndentationRun& phases, const char* status,
                const std::exception& error) {
@@ -124,13 +149,10 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
   outcome.reason = error.what();
   outcome.has_begun = run.session.has_moved();
   if (run.is_in_contact) note_depth(run);
-  const bool reports_lift = outcome.status == "stopped" || phases.presses_at_start();
   const SafeEnd end = run.session.make_safe(phases.safe_position_m(), run.plan.retract_speed_m_s);
-  if (reports_lift) {
-    outcome.reason += end.lifted_m > 0.0 ? ". The stage was stopped and lifted by " +
-                                               text_from_number(end.lifted_m * 1e3, 3) + " mm"
-                                         : ". The stage was stopped; it was not lifted";
-  }
+  const bool knows_position = dynamic_cast<const DeviceRestarted*>(&error) == nullptr &&
+                              dynamic_cast<const StageAlarm*>(&error) == nullptr;
+  outcome.reason += place_of_punch(run, end, outcome.has_begun, knows_position);
   if (!end.trouble.empty()) outcome.reason += ". And: " + end.trouble;
 }
 

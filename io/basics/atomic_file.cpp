@@ -1,12 +1,18 @@
 #include "io/basics/atomic_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <map>
+#include <mutex>
+#include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -44,11 +50,101 @@ void write_all(int fd, const std::string& contents, const std::filesystem::path&
   }
 }
 
+namespace fs = std::filesystem;
+
+constexpr std::string_view kTemporaryEnding = ".tmp";
+
+fs::path temporary_for(const fs::path& folder, const fs::path& path) {
+  return folder / ("." + path.filename().string() + "." + std::to_string(::getpid()) +
+                   std::string(kTemporaryEnding));
+}
+
+// A temporary file and the process that wrote it.
+struct Leftover {
+  fs::path file;
+  pid_t writer = 0;
+};
+
+// Reads ".NAME.PID.tmp"; returns NAME.
+std::optional<std::string> target_of(const fs::path& file, pid_t& writer) {
+  const std::string name = file.filename().string();
+  if (name.size() < 8 || name.front() != '.' || !name.ends_with(kTemporaryEnding)) return {};
+  const std::size_t end = name.size() - kTemporaryEnding.size();
+  const std::size_t dot = name.rfind('.', end - 1);
+  const std::string pid = name.substr(dot + 1, end - dot - 1);
+  const bool is_number =
+      !pid.empty() && pid.size() < 10 && pid.find_first_not_of("0123456789") == std::string::npos;
+  if (dot == 0 || !is_number) return {};
+  writer = static_cast<pid_t>(std::stol(pid));
+  return name.substr(1, dot - 1);
+}
+
+using Leftovers = std::multimap<std::string, Leftover>;
+
+Leftovers leftovers_in(const fs::path& folder) {
+  Leftovers found;
+  std::error_code ignored;
+  for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    Leftover leftover{entry->path(), 0};
+    const auto target = target_of(leftover.file, leftover.writer);
+    if (target) found.emplace(*target, leftover);
+  }
+  return found;
+}
+
+// On a network share the writer may live on another machine; then it holds the lock.
+bool is_abandoned(const Leftover& leftover) {
+  if (leftover.writer == ::getpid() || ::kill(leftover.writer, 0) == 0 || errno != ESRCH) {
+    return false;
+  }
+  const Descriptor file(::open(leftover.file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+  return file.get() >= 0 && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0;
+}
+
+// Removes what an earlier process, ended by a power cut or a kill, has left of this file. A folder
+// is listed once per process, because a run may write thousands of files into it.
+void remove_leftovers(const fs::path& folder, const fs::path& path) {
+  static std::mutex mutex;
+  static std::map<std::string, Leftovers> listed;
+  const std::lock_guard<std::mutex> lock(mutex);
+  std::error_code ignored;
+  const std::string key = fs::absolute(folder, ignored).string();
+  auto place = listed.find(key);
+  if (place == listed.end()) place = listed.emplace(key, leftovers_in(folder)).first;
+  const auto [begin, end] = place->second.equal_range(path.filename().string());
+  for (auto one = begin; one != end; ++one) {
+    if (is_abandoned(one->second)) fs::remove(one->second.file, ignored);
+  }
+  place->second.erase(begin, end);
+}
+
+// Gives the complete temporary file its name.
+void put_in_place(const fs::path& temporary, const fs::path& path, bool overwrite) {
+  if (overwrite) {
+    if (::rename(temporary.c_str(), path.c_str()) != 0) fail(path, "cannot rename", errno);
+    return;
+  }
+  // link() refuses an existing name, so a file that another process creates meanwhile is kept.
+  if (::link(temporary.c_str(), path.c_str()) == 0) {
+    ::unlink(temporary.c_str());
+  } else if (errno != EPERM && errno != EOPNOTSUPP) {
+    fail(path, "cannot create", errno);
+  } else if (::rename(temporary.c_str(), path.c_str()) != 0) {  // FAT has no hard links
+    fail(path, "cannot rename", errno);
+  }
+}
+
 }  // namespace
 
 void sync_folder(const std::filesystem::path& folder) {
+  const std::string what =
+      "cannot sync this folder, so a power cut may lose what was written in it";
   const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (directory.get() >= 0) ::fsync(directory.get());
+  if (directory.get() < 0) fail(folder, what, errno);
+  if (::fsync(directory.get()) != 0 && errno != EINVAL && errno != ENOTSUP) {
+    fail(folder, what, errno);
+  }
 }
 
 void write_file(const std::filesystem::path& path, const std::string& contents, bool overwrite) {
@@ -64,26 +160,16 @@ void write_file(const std::filesystem::path& path, const std::string& contents, 
   }
   const std::filesystem::path folder =
       path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  const std::filesystem::path temporary =
-      folder / ("." + path.filename().string() + "." + std::to_string(::getpid()) + ".tmp");
+  remove_leftovers(folder, path);
+  const std::filesystem::path temporary = temporary_for(folder, path);
   Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (file.get() < 0) fail(path, "cannot create", errno);
+  ::flock(file.get(), LOCK_EX | LOCK_NB);  // marks a live writer; without locks the pid decides
   try {
     write_all(file.get(), contents, path);
     if (::fsync(file.get()) != 0) fail(path, "cannot sync", errno);
     if (::close(file.release()) != 0) fail(path, "cannot close", errno);
-    if (overwrite) {
-      if (::rename(temporary.c_str(), path.c_str()) != 0) fail(path, "cannot rename", errno);
-    } else {
-      // link() refuses an existing name, so a file that another process creates meanwhile is kept.
-      if (::link(temporary.c_str(), path.c_str()) == 0) {
-        ::unlink(temporary.c_str());
-      } else if (errno != EPERM && errno != EOPNOTSUPP) {
-        fail(path, "cannot create", errno);
-      } else if (::rename(temporary.c_str(), path.c_str()) != 0) {  // FAT has no hard links
-        fail(path, "cannot rename", errno);
-      }
-    }
+    put_in_place(temporary, path, overwrite);
     sync_folder(folder);
   } catch (...) {
     ::unlink(temporary.c_str());

@@ -9,10 +9,14 @@ namespace viscard {
 // temporary file in the same folder, syncs it, renames it and syncs the folder.
 // Throws std::runtime_error with the path, the reason and the next step if the target exists and
 // overwrite is false, if it is a folder, device or pipe, or if a step fails. The temporary file is
-// removed in every case.
+// removed in every case; one that a power cut or kill has left behind is removed by the next call for
+// the same file. A folder that cannot be synced is an error too: the file is there, but a power cut
+// may lose it.
 void write_file(const std::filesystem::path& path, const std::string& contents, bool overwrite);
 
-// Makes new and renamed entries of the folder survive a power cut, as far as the disk allows.
+// Makes new, renamed and removed entries of the folder survive a power cut. Throws
+// std::runtime_error naming the folder and the reason. File systems that cannot sync a folder (some
+// network shares) are accepted.
 void sync_folder(const std::filesystem::path& folder);
 
 // Returns the contents of a file. Throws std::runtime_error naming the file and the reason.

@@ -69,6 +69,24 @@ std::size_t utf8_length(std::string_view text, std::size_t at) {
   return std::all_of(rest.begin(), rest.end(), continues_character) ? length : 0;
 }
 
+std::string utf8_on_one_line(std::string_view text) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const std::size_t length = utf8_length(text, i);
+    if (length == 0) {
+      out += std::string("\\x") + kDigits[byte >> 4] + kDigits[byte & 15];
+    } else if (byte < 0x20 || byte == 0x7f) {
+      out += ' ';
+    } else {
+      out += text.substr(i, length);
+    }
+    i += std::max<std::size_t>(1, length);
+  }
+  return out;
+}
+
 std::size_t length_in_characters(std::string_view text) {
   return text.size() -
          static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues_character));

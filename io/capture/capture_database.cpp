@@ -38,15 +38,18 @@ CaptureDatabase::CaptureDatabase(const std::filesystem::path& path, const Captur
   move_.emplace(database_.prepare("INSERT INTO moves VALUES(?,?,?,?,?,?,?,?)"));
   event_.emplace(database_.prepare("INSERT INTO events VALUES(?,?,?,?,?)"));
   run_.emplace(database_.prepare("INSERT OR REPLACE INTO run VALUES(?,?)"));
+  checksum_.emplace(database_.prepare("INSERT INTO checksums VALUES(?,?,?,?,?)"));
 }
 
 void CaptureDatabase::write(const std::vector<RunRecord>& batch, bool is_synced) {
   if (is_synced) database_.execute("PRAGMA synchronous=FULL");
   database_.execute("BEGIN");
+  const std::int64_t first_seq = seq_ + 1;
   for (const RunRecord& record : batch) {
     ++seq_;
     std::visit([this](const auto& one) { insert(one); }, record);
   }
+  if (seq_ >= first_seq) store_checksums_from(first_seq);
   // With an empty batch this makes the transaction that is synced.
   if (is_synced) set("n_records_synced", std::to_string(seq_));
   database_.execute("COMMIT");
@@ -54,12 +57,15 @@ void CaptureDatabase::write(const std::vector<RunRecord>& batch, bool is_synced)
 }
 
 void CaptureDatabase::finish(const std::string& status) {
-  database_.execute("PRAGMA synchronous=FULL");
+  // EXTRA syncs the folder after a rollback journal is removed. Otherwise the journal of the switch
+  // away from WAL could return after a power cut and roll the finished file back.
+  database_.execute("PRAGMA synchronous=EXTRA");
   database_.execute("BEGIN");
   set("status", status);
   set("finished_at", now_iso8601());
   set("finish_clock_monotonic_s", text_from_number(clock_s(CLOCK_MONOTONIC)));
   set("finish_clock_realtime_s", text_from_number(clock_s(CLOCK_REALTIME)));
+  store_checksum(kRunEnd, seq_ + 1, checksum_of_run(database_, RunPart::kEnd));
   database_.execute("COMMIT");
   // From here on the run is safe. If a reader has the file open, only the side files stay.
   try {
@@ -73,12 +79,13 @@ void CaptureDatabase::finish(const std::string& status) {
 // Tables and the description of the run are written before the switch to WAL, so that they are in
 // the main file.
 void CaptureDatabase::create(const std::filesystem::path& path, const CapturedRun& about) {
-  database_.execute("PRAGMA synchronous=FULL");
+  database_.execute("PRAGMA synchronous=EXTRA");  // as in finish()
   database_.execute("BEGIN");
   database_.execute(("PRAGMA application_id=" + std::to_string(kCaptureApplicationId)).c_str());
   database_.execute(("PRAGMA user_version=" + std::to_string(kCaptureSchemaVersion)).c_str());
   database_.execute(kCaptureTables);
   run_.emplace(database_.prepare("INSERT OR REPLACE INTO run VALUES(?,?)"));
+  checksum_.emplace(database_.prepare("INSERT INTO checksums VALUES(?,?,?,?,?)"));
   set("status", "open");
   set("program", about.program.empty() ? "viscard " VISCARD_VERSION : about.program);
   set("command", about.command);
@@ -89,14 +96,31 @@ void CaptureDatabase::create(const std::filesystem::path& path, const CapturedRu
   set("rig_toml", toml_from_rig(about.rig));
   set("test_toml", toml_from_test(about.plan));
   set("specimen_toml", toml_from_specimen(about.specimen));
+  store_checksum(kRunStart, seq_ + 1, checksum_of_run(database_, RunPart::kStart));
   database_.execute("COMMIT");
   run_.reset();
+  checksum_.reset();
   if (database_.text_of("PRAGMA journal_mode=WAL") != "wal") {
     throw std::runtime_error(path.string() +
                              ": this disk cannot keep a write-ahead log (is it a network share?); "
                              "capture to a local disk");
   }
   database_.execute("PRAGMA synchronous=NORMAL");
+}
+
+void CaptureDatabase::store_checksum(const char* name, std::int64_t first_seq,
+                                     const RowChecksum& checksum) {
+  checksum_->run_with(std::string_view(name), first_seq, seq_,
+                      static_cast<std::int64_t>(checksum.n_rows()),
+                      static_cast<std::int64_t>(checksum.crc32()));
+}
+
+// Reads the rows back, so that writing and checking share the code that adds them up.
+void CaptureDatabase::store_checksums_from(std::int64_t first_seq) {
+  for (const char* table : kRecordTables) {
+    const RowChecksum checksum = checksum_of_rows(database_, table, first_seq, seq_);
+    if (checksum.n_rows() > 0) store_checksum(table, first_seq, checksum);
+  }
 }
 
 void CaptureDatabase::set(const char* key, const std::string& value) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/capture/row_checksum.h"
 #include "io/capture/sqlite_database.h"
 #include "models/experiment/captured_run.h"
 #include "models/experiment/run_record.h"
@@ -15,7 +16,8 @@ namespace viscard {
 // Tables of a capture file; io/capture/README.md explains the columns. seq counts the records of
 // all tables in the order of append().
 inline constexpr std::uint32_t kCaptureApplicationId = 0x56434150;  // "VCAP"
-inline constexpr std::uint32_t kCaptureSchemaVersion = 2;           // 2: load_samples.force_N
+inline constexpr std::uint32_t kCaptureSchemaVersion = 3;  // 2: load_samples.force_N, 3: checksums
+inline constexpr std::uint32_t kFirstSchemaWithChecksums = 3;
 
 inline constexpr const char* kCaptureTables = R"sql(
 CREATE TABLE run(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
@@ -28,6 +30,8 @@ CREATE TABLE stage_reports(seq INTEGER PRIMARY KEY, host_time_s REAL, position_m
 CREATE TABLE moves(seq INTEGER PRIMARY KEY, start_time_s REAL, from_m REAL, to_m REAL,
                    speed_m_s REAL, acceleration_m_s2 REAL, start_uncertainty_s REAL, purpose TEXT);
 CREATE TABLE events(seq INTEGER PRIMARY KEY, host_time_s REAL, name TEXT, value TEXT, text TEXT);
+CREATE TABLE checksums(table_name TEXT, first_seq INTEGER, last_seq INTEGER, n_rows INTEGER,
+                       crc32 INTEGER);
 )sql";
 
 // The tables of a capture that is being written: one connection and its prepared statements, for
@@ -38,7 +42,7 @@ class CaptureDatabase {
   // of `about`.
   CaptureDatabase(const std::filesystem::path& path, const CapturedRun& about);
 
-  // Writes one transaction; with is_synced it is on the medium when this returns.
+  // Writes one transaction with a checksum of its rows in each table; with is_synced it is on the medium when this returns.
   void write(const std::vector<RunRecord>& batch, bool is_synced);
 
   // Stores the status. Merges the journal into the main file unless a reader has the file open.
@@ -46,6 +50,8 @@ class CaptureDatabase {
 
  private:
   void create(const std::filesystem::path& path, const CapturedRun& about);
+  void store_checksum(const char* name, std::int64_t first_seq, const RowChecksum& checksum);
+  void store_checksums_from(std::int64_t first_seq);
   void set(const char* key, const std::string& value);
   void insert(const RawBytes& raw);
   void insert(const LoadSample& sample);
@@ -54,7 +60,7 @@ class CaptureDatabase {
   void insert(const RunEvent& event);
 
   Database database_;  // declared first, so that the statements are destroyed before it
-  std::optional<Statement> raw_, sample_, report_, move_, event_, run_;
+  std::optional<Statement> raw_, sample_, report_, move_, event_, run_, checksum_;
   std::int64_t seq_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include "io/basics/number_text.h"
 #include "io/basics/units.h"
+#include "io/basics/words.h"
 #include "io/capture/capture_file.h"
 #include "models/experiment/calibration.h"
 #include "models/experiment/motion_profile.h"
@@ -34,16 +35,9 @@ std::optional<double> number_of_event(const CapturedRun& run, const std::string&
   return found;
 }
 
-std::string on_one_line(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  }
-  return text;
-}
-
-void append_head(Buffer& out, const CapturedRun& run, double tare_N) {
+void append_head(Buffer& out, const CapturedRun& run, const RunTiming& timing, double tare_N) {
   const auto line = [&out](const std::string& text) {
-    fmt::format_to(std::back_inserter(out), "# {}\n", on_one_line(text));
+    fmt::format_to(std::back_inserter(out), "# {}\n", utf8_on_one_line(text));
   };
   line("load-cell samples of a capture, written by viscard " VISCARD_VERSION);
   line("captured: " + run.started_at + " by " + run.program + ": " + run.command);
@@ -56,6 +50,7 @@ void append_head(Buffer& out, const CapturedRun& run, double tare_N) {
        "(volts - " + text_from_number(run.rig.calibration.zero_volts) + " V)/(" +
        text_from_number(run.rig.calibration.volts_per_newton) + " V/N) - tare " +
        text_from_number(tare_N) + " N");
+  if (!timing.description.empty()) line(timing.description);
   for (const RunEvent& event : run.events) {
     line(fmt::format("event at {:.3f} s: {} {} {}", event.host_time_s, event.name, event.value,
                      event.text));
@@ -77,29 +72,37 @@ std::string quoted_cell(const std::string& text) {
 // Turns samples into rows, with force, position, depth and phase at the time of the sample.
 class SampleRows {
  public:
-  explicit SampleRows(const CapturedRun& run)
+  SampleRows(const CapturedRun& run, const RunTiming& timing)
       : run_(run),
+        timing_(timing),
         tare_N_(number_of_event(run, "tare").value_or(0.0)),
         contact_m_(number_of_event(run, "contact")) {
     for (const CommandedMove& move : run.moves) moves_.push_back(move.move);
+    if (timing.move_start_s.empty()) return;
+    for (std::size_t i = 0; i < moves_.size(); ++i) {
+      moves_[i].start_time_s = timing.move_start_s.at(i);
+    }
   }
 
   double tare_N() const { return tare_N_; }
   bool has_depth() const { return contact_m_.has_value() && !moves_.empty(); }
 
-  void append(Buffer& out, const LoadSample& sample) {
+  void append(Buffer& out, std::size_t row) {
+    const LoadSample& sample = run_.load_samples[row];
+    const double time_s = timing_.sample_s.empty() ? sample.host_time_s : timing_.sample_s.at(row);
     const std::optional<double> volts = volts_of(sample);
     const std::optional<double> force_N = force_of(sample);
+    append_cell(out, time_s);
     append_cell(out, sample.host_time_s);
     append_cell(out, sample.device_time_s);
     append_cell(out, sample.counts);
     append_cell(out, volts);
     append_cell(out, force_N);
     std::optional<double> stage_m;
-    if (!moves_.empty()) stage_m = position_m(moves_, sample.host_time_s);
+    if (!moves_.empty()) stage_m = position_m(moves_, time_s);
     append_cell(out, stage_m);
     if (has_depth()) append_cell(out, depth_of(*stage_m, force_N));
-    fmt::format_to(std::back_inserter(out), "{},{},{}\n", phase_at(sample.host_time_s),
+    fmt::format_to(std::back_inserter(out), "{},{},{}\n", phase_at(time_s),
                    sample.is_saturated ? 1 : 0, sample.is_glitch ? 1 : 0);
   }
 
@@ -116,7 +119,7 @@ class SampleRows {
     const double frame_N_m = run_.rig.frame.stiffness_N_m;
     return stage_m - *contact_m_ - (frame_N_m > 0.0 ? *force_N / frame_N_m : 0.0);
   }
-  // Samples are in order, so the events are read only once.
+  // The times rise but for swapped neighbours, so the events are read only once.
   const std::string& phase_at(double time_s) {
     while (next_event_ < run_.events.size() && run_.events[next_event_].host_time_s <= time_s) {
       const RunEvent& event = run_.events[next_event_++];
@@ -126,6 +129,7 @@ class SampleRows {
   }
 
   const CapturedRun& run_;
+  const RunTiming& timing_;
   double tare_N_;
   std::optional<double> contact_m_;
   std::vector<StageMove> moves_;
@@ -151,15 +155,15 @@ std::string escaped(const std::string& bytes) {
 
 }  // namespace
 
-std::string csv_from_capture(const CapturedRun& run) {
-  SampleRows rows(run);
+std::string csv_from_capture(const CapturedRun& run, const RunTiming& timing) {
+  SampleRows rows(run, timing);
   Buffer out;
-  append_head(out, run, rows.tare_N());
+  append_head(out, run, timing, rows.tare_N());
   fmt::format_to(std::back_inserter(out),
-                 "time_s,device_time_s,counts,volts,force_N,stage_position_m,{}phase,is_saturated,"
-                 "is_glitch\n",
+                 "time_s,host_time_s,device_time_s,counts,volts,force_N,stage_position_m,{}phase,"
+                 "is_saturated,is_glitch\n",
                  rows.has_depth() ? "depth_m," : "");
-  for (const LoadSample& sample : run.load_samples) rows.append(out, sample);
+  for (std::size_t row = 0; row < run.load_samples.size(); ++row) rows.append(out, row);
   return fmt::to_string(out);
 }
 

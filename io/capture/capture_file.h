@@ -17,7 +17,8 @@ namespace viscard {
 // - The first counts().committed records survive kill -9. These are all records appended longer ago
 //   than commit_interval_s, while the disk keeps up, and all of them after sync().
 // - The first counts().synced records survive a power cut. These are all but the last
-//   sync_interval_s, and all records before the last event.
+//   sync_interval_s (or twice the time of one sync, on a disk that takes longer than half of it), and
+//   all records before the last event.
 // The file of an unfinished run can be read as well; its status shows that it is unfinished.
 
 struct CaptureOptions {
@@ -77,9 +78,5 @@ CapturedRun read_capture(const std::filesystem::path& path);
 // does.
 void read_raw_bytes(const std::filesystem::path& path,
                     const std::function<void(const RawBytes&)>& take);
-
-// True if the file is named *.viscap or begins like an SQLite database, so that a command can
-// distinguish a capture, even a damaged one, from a table.
-bool looks_like_capture(const std::filesystem::path& path);
 
 }  // namespace viscard

@@ -88,7 +88,13 @@ CaptureLock::CaptureLock(const std::filesystem::path& path, bool overwrite) : ke
     ::close(fd_);
     throw std::runtime_error(path.string() + ": cannot lock: " + std::strerror(error));
   }
-  sync_folder(folder);
+  try {
+    sync_folder(folder);
+  } catch (...) {
+    ::close(fd_);
+    std::filesystem::remove(path);
+    throw;
+  }
   const std::lock_guard<std::mutex> lock(list_mutex());
   written_here().insert(key_);
 }

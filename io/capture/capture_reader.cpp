@@ -1,16 +1,10 @@
-#include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
-#include "io/capture/capture_lock.h"
-#include "io/capture/sqlite_database.h"
+#include "io/capture/capture_header.h"
+#include "io/capture/open_capture.h"
 #include "io/config/config_file.h"
 
-#include <fcntl.h>
 #include <sqlite3.h>
-#include <unistd.h>
 
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <optional>
 #include <stdexcept>
 #include <unordered_set>
@@ -19,122 +13,6 @@ namespace viscard {
 namespace {
 
 namespace fs = std::filesystem;
-
-// First 100 bytes of an SQLite file, numbers big-endian:
-// https://www.sqlite.org/fileformat2.html 1.3
-using Header = std::array<unsigned char, 100>;
-constexpr std::string_view kMagic{"SQLite format 3\0", 16};
-
-std::uint32_t big_endian(const Header& header, std::size_t from, std::size_t size) {
-  std::uint32_t value = 0;
-  for (std::size_t i = from; i < from + size; ++i) value = value << 8 | header[i];
-  return value;
-}
-
-[[noreturn]] void fail(const fs::path& path, const std::string& what) {
-  throw std::runtime_error(path.string() + " " + what);
-}
-
-// Reads with read(2), because a stream does not report why it fails.
-std::size_t read_header(const fs::path& path, Header& header) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  if (fd < 0) throw std::runtime_error(path.string() + ": cannot open: " + std::strerror(errno));
-  const ssize_t count = ::read(fd, header.data(), header.size());
-  ::close(fd);
-  return count < 0 ? 0 : static_cast<std::size_t>(count);
-}
-
-bool has_magic(const Header& header, std::size_t size) {
-  return size >= kMagic.size() && std::memcmp(header.data(), kMagic.data(), kMagic.size()) == 0;
-}
-
-bool has_journal(const fs::path& path) {
-  std::error_code ignored;
-  const auto size = fs::file_size(path.string() + "-wal", ignored);
-  return !ignored && size > 0;
-}
-
-// Checks the first bytes and the size, because SQLite's own messages would not help a user.
-void check_header(const fs::path& path) {
-  if (fs::is_directory(path)) fail(path, "is a folder; name the capture file in it");
-  Header header{};
-  const std::size_t size = read_header(path, header);
-  if (size == 0)
-    fail(path, "is empty: the capture ended before it wrote anything; there is nothing to read");
-  if (!has_magic(header, size)) fail(path, "is not a capture (a *.viscap file begins otherwise)");
-  if (size < header.size())
-    fail(path, "is truncated: its header is not complete; use a copy of it");
-  if (big_endian(header, 68, 4) != kCaptureApplicationId) {
-    fail(path, "is an SQLite database of another program, not a capture");
-  }
-  const std::uint32_t version = big_endian(header, 60, 4);
-  if (version > kCaptureSchemaVersion) {
-    fail(path, "was written by a newer viscard (schema " + std::to_string(version) +
-                   ", this one reads up to " + std::to_string(kCaptureSchemaVersion) +
-                   "); update viscard");
-  }
-  // With a journal beside it, the main file may be shorter than its header states.
-  const std::uint64_t page = big_endian(header, 16, 2) == 1 ? 65536 : big_endian(header, 16, 2);
-  const std::uint64_t expected = page * big_endian(header, 28, 4);
-  if (!has_journal(path) && fs::file_size(path) < expected) {
-    fail(path, "is truncated: " + std::to_string(fs::file_size(path)) + " of " +
-                   std::to_string(expected) +
-                   " bytes are there; use a whole copy, or save what is left with: sqlite3 " +
-                   path.string() + " .recover");
-  }
-}
-
-// A capture opened for reading. SQLite needs to create a side file to read a journal, so on a
-// read-only medium a copy is read.
-class OpenCapture {
- public:
-  explicit OpenCapture(const fs::path& path) : path_(path) {
-    check_header(path);
-    is_running_ = is_being_captured(path);
-    try {
-      database_.emplace(path, Database::Access::kReadOnly);
-      database_->text_of("SELECT count(*) FROM sqlite_schema");
-    } catch (const SqliteError& error) {
-      if (error.code() != SQLITE_CANTOPEN && error.code() != SQLITE_READONLY) explain(error);
-      open_copy();
-    }
-  }
-  ~OpenCapture() {
-    database_.reset();
-    std::error_code ignored;
-    if (!copy_.empty()) fs::remove_all(copy_, ignored);
-  }
-  OpenCapture(const OpenCapture&) = delete;
-  OpenCapture& operator=(const OpenCapture&) = delete;
-
-  Database& database() { return *database_; }
-  bool is_running() const { return is_running_; }
-
-  [[noreturn]] void explain(const SqliteError& error) const {
-    if (error.code() == SQLITE_CORRUPT || error.code() == SQLITE_NOTADB) {
-      fail(path_, "is damaged; use another copy of it, or save what is left with: sqlite3 " +
-                      path_.string() + " .recover");
-    }
-    throw std::runtime_error(error.what());
-  }
-
- private:
-  void open_copy() {
-    std::string folder = (fs::temp_directory_path() / "viscard-XXXXXX").string();
-    if (::mkdtemp(folder.data()) == nullptr) {
-      throw std::runtime_error(folder + ": cannot create: " + std::strerror(errno));
-    }
-    copy_ = folder;
-    const fs::path file = copy_ / "copy.viscap";
-    fs::copy_file(path_, file);
-    if (has_journal(path_)) fs::copy_file(path_.string() + "-wal", file.string() + "-wal");
-    database_.emplace(file, Database::Access::kReadWrite);
-  }
-
-  fs::path path_, copy_;
-  std::optional<Database> database_;
-  bool is_running_ = false;
-};
 
 std::string run_value(Database& database, const char* key) {
   Statement statement = database.prepare("SELECT value FROM run WHERE key = ?");
@@ -253,14 +131,6 @@ void read_raw_bytes(const std::filesystem::path& path,
   } catch (const SqliteError& error) {
     capture.explain(error);
   }
-}
-
-bool looks_like_capture(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return false;
-  if (path.extension() == ".viscap") return true;
-  Header header{};
-  return has_magic(header, read_header(path, header));
 }
 
 }  // namespace viscard

@@ -2,6 +2,7 @@
 #include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_lock.h"
+#include "io/capture/sync_schedule.h"
 
 #include <sys/statvfs.h>
 
@@ -19,6 +20,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMaxQueuedBytes = 64u << 20;  // of raw bytes that wait for the disk
+
+double now_s() {
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
 
 double host_time_s(const RunRecord& record) {
   if (const auto* move = std::get_if<CommandedMove>(&record)) return move->move.start_time_s;
@@ -56,7 +61,9 @@ void refuse_full_disk(const std::filesystem::path& path, std::size_t needed_byte
 class CaptureWriter::Impl {
  public:
   Impl(std::filesystem::path path, const CapturedRun& about, const CaptureOptions& options)
-      : path_(std::move(path)), options_(options) {
+      : path_(std::move(path)),
+        options_(options),
+        schedule_(options.sync_interval_s, options.commit_interval_s, now_s()) {
     refuse_full_disk(path_, options.min_free_bytes);
     lock_.emplace(path_, options.overwrite);
     try {
@@ -154,23 +161,24 @@ class CaptureWriter::Impl {
   bool write_once() {
     bool is_synced = false, is_last = false;
     std::size_t appended = 0;
+    double begun_s = 0.0;
     batch_.clear();
     {
       std::unique_lock<std::mutex> lock(mutex_);
       wake_.wait_for(lock, std::chrono::duration<double>(options_.commit_interval_s),
                      [&] { return is_ending_ || wants_sync_; });
       is_last = is_ending_;
-      const bool is_due = std::chrono::duration<double>(Clock::now() - last_sync_).count() >=
-                          options_.sync_interval_s - options_.commit_interval_s;
       appended = counts_.appended;
-      is_synced = wants_sync_ || is_last || (is_due && counts_.synced < appended);
+      begun_s = now_s();
+      is_synced =
+          wants_sync_ || is_last || (schedule_.is_due(begun_s) && counts_.synced < appended);
       wants_sync_ = false;
       std::swap(batch_, queue_);
       queued_bytes_ = 0;
       if (gap_records_ > 0) batch_.push_back(gap_event());
     }
     if (!batch_.empty() || is_synced) database_->write(batch_, is_synced);
-    if (is_synced) last_sync_ = Clock::now();
+    if (is_synced) schedule_.synced(begun_s, now_s());
     const std::lock_guard<std::mutex> lock(mutex_);
     counts_.committed = appended;
     if (is_synced) counts_.synced = appended;
@@ -193,7 +201,7 @@ class CaptureWriter::Impl {
   std::optional<CaptureLock> lock_;  // before the database, which must be closed first
   std::optional<CaptureDatabase> database_;
   std::vector<RunRecord> batch_;
-  Clock::time_point last_sync_ = Clock::now();
+  SyncSchedule schedule_;
 
   mutable std::mutex mutex_;  // guards everything below
   std::condition_variable wake_, synced_;

@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <bit>
 #include <map>
 
 namespace viscard {
@@ -92,6 +93,28 @@ std::string Statement::text(int column) const {
   if (bytes == nullptr) return {};
   return {static_cast<const char*>(bytes),
           static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+}
+
+std::string Statement::canonical_row() const {
+  std::string bytes;
+  const auto append = [&bytes](std::uint64_t value) {
+    for (int shift = 0; shift < 64; shift += 8) bytes += static_cast<char>(value >> shift & 0xff);
+  };
+  const int n_columns = sqlite3_column_count(statement_.get());
+  for (int column = 0; column < n_columns; ++column) {
+    const int type = sqlite3_column_type(statement_.get(), column);
+    bytes += static_cast<char>(type);
+    if (type == SQLITE_INTEGER) {
+      append(static_cast<std::uint64_t>(integer(column)));
+    } else if (type == SQLITE_FLOAT) {
+      append(std::bit_cast<std::uint64_t>(number(column)));
+    } else if (type != SQLITE_NULL) {
+      const std::string value = text(column);
+      append(value.size());
+      bytes += value;
+    }
+  }
+  return bytes;
 }
 
 void Database::Close::operator()(sqlite3* database) const {

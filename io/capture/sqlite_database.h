@@ -54,6 +54,8 @@ class Statement {
   std::int64_t integer(int column) const;
   std::optional<double> maybe_number(int column) const;
   std::string text(int column) const;  // text or blob
+  // Types and values of the row's columns as bytes that are the same on every machine.
+  std::string canonical_row() const;
 
  private:
   struct Finalize {

@@ -3,6 +3,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/config/config_fields.h"
 #include "io/config/config_show.h"
+#include "io/config/sensible_bounds.h"
 #include "models/experiment/test_phases.h"
 
 #include <cmath>
@@ -24,6 +25,16 @@ Config config_from_toml(const std::string& text, const std::string& name, Config
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(name + ": " + error.what());
   }
+  return config;
+}
+
+// Reads a file about to be used.
+template <typename Config>
+Config read_for_use(const std::filesystem::path& path,
+                    Config (*from_toml)(const std::string&, const std::string&)) {
+  const std::string text = read_file(path);
+  Config config = from_toml(text, path.string());
+  refuse_senseless(config, text, path.string());
   return config;
 }
 
@@ -110,7 +121,7 @@ void check_before_use(const RigConfig& rig, const std::string& name) {
 }  // namespace
 
 RigConfig read_rig(const std::filesystem::path& path) {
-  RigConfig rig = rig_from_toml(read_file(path), path.string());
+  RigConfig rig = read_for_use(path, rig_from_toml);
   check_before_use(rig, path.string());
   const std::filesystem::path folder = path.parent_path();
   // The record replaces the whole section, so that its numbers are never mixed with older ones.
@@ -140,10 +151,10 @@ RigConfig read_rig(const std::filesystem::path& path) {
 }
 
 TestPlan read_test(const std::filesystem::path& path) {
-  return test_from_toml(read_file(path), path.string());
+  return read_for_use(path, test_from_toml);
 }
 Specimen read_specimen(const std::filesystem::path& path) {
-  return specimen_from_toml(read_file(path), path.string());
+  return read_for_use(path, specimen_from_toml);
 }
 EmulatedTruth read_truth(const std::filesystem::path& path) {
   return truth_from_toml(read_file(path), path.string());

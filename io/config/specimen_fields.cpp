@@ -80,6 +80,7 @@ void show_specimen(FieldVisitor& fields, Specimen& specimen) {
   fields.text({"material", "PDMS"}, specimen.material);
   fields.quantity({"mixing_ratio", "1", kNotNegative}, specimen.mixing_ratio);
   fields.quantity({"modulus_guess", "Pa", kPositive, true}, specimen.modulus_guess_Pa);
+  fields.quantity({"relaxation_guess", "1", kFraction}, specimen.relaxation_guess);
   fields.quantity({"density", "kg/m3", kNotNegative}, specimen.rho_kg_m3);
   fields.quantity({"temperature", "degC"}, specimen.temperature_C);
   fields.section("tip", [&](FieldVisitor& inner) { show_tip(inner, specimen.contact); });

@@ -78,7 +78,8 @@ RunOutcome capture_with(const RigConfig& rig, const CaptureRequest& request,
   if (outcome.has_begun) {
     previous.drop();
   } else if (previous.is_aside()) {
-    outcome.reason += ". Nothing was moved: the record that --force was to replace is kept";
+    outcome.reason +=
+        ". The approach had not begun: the record that --force was to replace is kept";
   }
   close_file(writer, outcome);
   return outcome;

@@ -1,4 +1,4 @@
-#include "io/capture/capture_file.h"
+#include "io/capture/capture_header.h"
 #include "io/flow/fit_file.h"
 #include "io/materials/material_file.h"
 #include "models/maths/text_of_number.h"

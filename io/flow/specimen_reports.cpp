@@ -4,6 +4,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/parallel.h"
 #include "io/capture/capture_file.h"
+#include "io/capture/capture_header.h"
 #include "io/cards/card.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/config/config_file.h"

@@ -25,7 +25,7 @@ struct RawBytes {
 
 // One reading of the load cell's amplifier.
 struct LoadSample {
-  std::int64_t index = 0;  // number of the reading, from 0
+  std::int64_t index = 0;  // number of the reading, from 0; a restart skips some
   double host_time_s = 0.0;
   // Time of the amplifier's own clock, unwrapped; nothing if the device sends none.
   std::optional<double> device_time_s;

@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kWrap = 4294967296.0;  // at which millis() and micros() start again from 0
 constexpr std::size_t kRemembered = 64;
-constexpr double kWindow_s = 30.0;  // short, so that 0.1 % between the clocks stays below 30 ms
+constexpr double kClockError = 0.006;  // a ceramic resonator is off by up to 0.5 %
+constexpr double kWindow_s = 30.0;     // short, so that 0.1 % between the clocks stays below 30 ms
 
 // Modulo 2^32: a wrap is a small step forward, a step backward becomes a huge one.
 double step_s_between(double from_ticks, double to_ticks, double tick_s) {
@@ -27,7 +28,7 @@ bool DeviceClock::continues(const Accepted& from, double ticks, double host_time
 
 DeviceClock::Verdict DeviceClock::take(double ticks, double host_time_s, double period_s) {
   if (!last_) {
-    time_s_ = ticks * tick_s_;
+    time_s_ = start_s_.value_or(ticks * tick_s_);
     accept(ticks, 0.0, host_time_s);
     return Verdict::kGood;
   }
@@ -43,6 +44,7 @@ DeviceClock::Verdict DeviceClock::take(double ticks, double host_time_s, double 
   if (before_last_ && continues(*before_last_, ticks, host_time_s, period_s)) {
     time_s_ = before_last_->time_s;
     while (!window_.empty() && window_.back().first > time_s_) window_.pop_back();
+    least_delay_s_ = least_before_s_;  // the garbled time made the delay look small
     accept(ticks, step_s_between(before_last_->ticks, ticks, tick_s_), host_time_s);
     return Verdict::kLastWasBad;
   }
@@ -65,15 +67,17 @@ void DeviceClock::accept(double ticks, double step_s, double host_time_s) {
   if (recent_ticks_.size() > kRemembered) recent_ticks_.pop_front();
   step_s_ = step_s;
   time_s_ += step_s;
-  last_ = Accepted{ticks, time_s_, host_time_s};
   const double delay_s = host_time_s - time_s_;
+  least_before_s_ = last_ ? least_delay_s_ + kClockError * step_s : delay_s;
+  least_delay_s_ = std::min(delay_s, least_before_s_);
+  last_ = Accepted{ticks, time_s_, host_time_s};
   while (!window_.empty() && window_.back().second >= delay_s) window_.pop_back();
   window_.emplace_back(time_s_, delay_s);
   while (window_.front().first < time_s_ - kWindow_s) window_.pop_front();
 }
 
 double DeviceClock::host_minus_device_s() const {
-  return window_.empty() ? 0.0 : window_.front().second;
+  return window_.empty() ? 0.0 : std::min(window_.front().second, least_delay_s_);
 }
 
 }  // namespace viscard

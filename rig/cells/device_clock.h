@@ -21,6 +21,9 @@ class DeviceClock {
   // tick_s: unit of the counter; slack_s: how late a line can arrive.
   DeviceClock(double tick_s, double slack_s) : tick_s_(tick_s), slack_s_(slack_s) {}
 
+  // The time of the first reading; without this it is what its counter shows.
+  void start_at(double time_s) { start_s_ = time_s; }
+
   // ticks as sent; host_time_s: arrival of the line. After kGood and kLastWasBad, time_s() is the
   // time of this reading.
   Verdict take(double ticks, double host_time_s, double period_s);
@@ -29,6 +32,8 @@ class DeviceClock {
   // Time since the previous good reading (after kLastWasBad: the one before it); 0 for the first.
   double step_s() const { return step_s_; }
   // Host time minus device time: the smallest of the last window, because delays are not negative.
+  // On a line that falls behind every delay of the window is too large, so that the smallest one of
+  // all before counts, raised by the largest error of a device's clock.
   double host_minus_device_s() const;
 
  private:
@@ -41,6 +46,7 @@ class DeviceClock {
   bool continues(const Accepted& from, double ticks, double host_time_s, double period_s) const;
 
   double tick_s_;
+  std::optional<double> start_s_;
   double slack_s_;
   std::optional<Accepted> last_, before_last_;
   double time_s_ = 0.0;
@@ -49,6 +55,8 @@ class DeviceClock {
   std::optional<double> suspect_ticks_;
   double suspect_host_s_ = 0.0;
   std::deque<std::pair<double, double>> window_;  // device time, delay: ascending in both
+  double least_delay_s_ = 0.0;   // of all before, raised by the error of the device's clock since
+  double least_before_s_ = 0.0;  // the same, without the newest reading
 };
 
 }  // namespace viscard

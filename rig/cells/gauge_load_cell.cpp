@@ -41,6 +41,10 @@ GaugeProtocol gauge_protocol(const LoadCellConfig& config) {
 
 }  // namespace
 
+void check_gauge_words(const LoadCellConfig& config) {
+  gauge_protocol(config);
+}
+
 GaugeLoadCell::GaugeLoadCell(Transport& transport, const LoadCellConfig& config,
                              const RigClock& clock, RecordSink sink)
     : LoadCell(transport, config, clock, std::move(sink)), protocol_(gauge_protocol(config)) {}
@@ -109,6 +113,7 @@ void GaugeLoadCell::connect(const Pump& pump) {
 
 void GaugeLoadCell::service() {
   const Chunk chunk = transport_.read_available();
+  listened_at_s_ = chunk.time_s;
   if (!chunk.bytes.empty()) feed(chunk);
   if (is_connected_) ask_if_due();
 }
@@ -139,7 +144,7 @@ void GaugeLoadCell::take_answer(const std::string& text, double time_s) {
   if (trimmed(text) == trimmed(protocol_.query)) return;  // the echo of an adapter
   if (!asked_s_ || waits_for_quiet_) {
     ++counts_.duplicate;
-    sink_(RunEvent{time_s, "load_cell_late", text.substr(0, 80),
+    sink_(RunEvent{time_s, "load_cell_late", shown_bytes(text, 80),
                    "An answer of the load cell to no open question was left out"});
     return;
   }
@@ -157,8 +162,11 @@ void GaugeLoadCell::take_answer(const std::string& text, double time_s) {
     }
     return;
   }
-  check_unit(answer->unit);
   n_silent_ = n_refused_ = 0;
+  if (!has_known_unit(answer->unit, text, time_s)) {
+    asked_s_.reset();
+    return;
+  }
   take_reading(*answer, time_s);
 }
 

@@ -46,4 +46,7 @@ class GaugeLoadCell final : public LoadCell {
   double shortest_turn_s_ = 1e9;
 };
 
+// Throws RigError if the driver, dialect or unit of a polled instrument is unknown.
+void check_gauge_words(const LoadCellConfig& config);
+
 }  // namespace viscard

@@ -6,14 +6,16 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <utility>
 
 namespace viscard {
 namespace {
 
 constexpr double kFirstReading_wall_s = 15.0;  // banner and messages of a tare last up to 10 s
-constexpr std::size_t kLinesToLearn = 6;
+constexpr double kPeriodsToLearn = 20.0;
 constexpr double kLateness_wall_s = 0.3;  // of a line, if the device or this machine stalls
+constexpr double kJitter_wall_s = 0.1;    // of arrivals
 constexpr double kGapPeriods = 1.5;
 constexpr double kBurst = 0.5;  // of a period: readings closer together were delayed before
 
@@ -22,9 +24,12 @@ constexpr double kBurst = 0.5;  // of a period: readings closer together were de
 Hx711LoadCell::Hx711LoadCell(Transport& transport, const LoadCellConfig& config,
                              const RigClock& clock, RecordSink sink, double patience)
     : LoadCell(transport, config, clock, std::move(sink)),
+      config_(config),
       patience_(patience),
       format_(declared_hx711_format(config)),
-      declared_unit_(config.unit) {
+      declared_unit_(config.unit),
+      learner_(config),
+      arrival_clock_(period_s_) {
   if (!config.unit.empty() && !newtons_per_unit(config.unit)) {
     throw RigError("unit '" + config.unit +
                    "' under [load_cell] of the rig file is unknown; choose N, mN, g, kg or lb");
@@ -32,7 +37,9 @@ Hx711LoadCell::Hx711LoadCell(Transport& transport, const LoadCellConfig& config,
 }
 
 void Hx711LoadCell::connect(const Pump& pump) {
-  const double deadline_s = monotonic_s() + patience_ * kFirstReading_wall_s;
+  const double deadline_s =
+      monotonic_s() +
+      patience_ * (kFirstReading_wall_s + kPeriodsToLearn * period_s_ / clock_.speed());
   while (!is_connected_ && monotonic_s() < deadline_s) pump();
   if (is_connected_) return;
   const std::string where = "'" + transport_.name() + "'";
@@ -46,13 +53,14 @@ void Hx711LoadCell::connect(const Pump& pump) {
                    std::to_string(transport_.baud()) + " right?");
   }
   throw RigError("no line on " + where + " could be read as a reading; the last one was '" +
-                 (first_lines_.empty() ? std::string() : first_lines_.back().text.substr(0, 60)) +
+                 shown_bytes(learner_.newest_text()) +
                  "'. Set line_format in the rig file to counts, micros,counts, millis,counts or "
                  "volts");
 }
 
 void Hx711LoadCell::service() {
   const Chunk chunk = transport_.read_available();
+  listened_at_s_ = chunk.time_s;
   if (!chunk.bytes.empty()) {
     sink_(RawBytes{Device::kLoadCell, false, chunk.time_s, chunk.bytes});
     splitter_.feed(chunk.bytes, chunk.time_s, 10.0 / transport_.baud());
@@ -65,43 +73,44 @@ void Hx711LoadCell::take_line(const ReceivedLine& line) {
   if (!std::exchange(is_past_first_line_, true) || trimmed(line.text).empty()) return;
   if (is_hx711_fault(line.text)) {
     throw RigError("the amplifier on '" + transport_.name() + "' reports '" +
-                   line.text.substr(0, 60) + "'. Check the wires between it and its HX711");
+                   shown_bytes(line.text) + "'. Check the wires between it and its HX711");
   }
   if (!is_connected_) return learn(line);
-  const auto reading = parse_hx711_line(line.text, has_clock());
+  const auto reading = parse_hx711_line(line.text, has_clock(format_));
   // A new unit, or "ovf", has another shape but is no garbled line; both are handled below.
   const bool is_judged = reading && reading->value && reading->unit == unit_;
   if (reading && (!is_judged || shape_.fits(line.text))) {
-    take_reading(*reading, line.time_s);
+    take_reading(*reading, line.text, line.time_s);
   } else {
     take_text(line);
   }
 }
 
 void Hx711LoadCell::learn(const ReceivedLine& line) {
-  first_lines_.push_back(line);
-  if (first_lines_.size() > kLinesToLearn) first_lines_.erase(first_lines_.begin());
-  if (first_lines_.size() < kLinesToLearn) return;
-  const bool is_declared = format_ != Hx711Format::kAuto;
-  const auto fits = [&](const ReceivedLine& text) {
-    return parse_hx711_line(text.text, has_clock()).has_value();
-  };
-  if (is_declared) {
-    if (!std::all_of(first_lines_.begin(), first_lines_.end(), fits)) return;
-  } else {
-    const auto learnt = learnt_hx711_format(first_lines_, 1.0 / period_s_);
-    if (!learnt) return;
-    format_ = *learnt;
-  }
-  if (has_clock()) {
-    device_clock_.emplace(format_ == Hx711Format::kMicrosCounts ? 1e-6 : 1e-3,
-                          clock_.from_wall_s(kLateness_wall_s));
-    // Starts with the last of the lines, so that a restart right after them is noticed.
-    const auto last = parse_hx711_line(line.text, true);
-    if (last) device_clock_->take(*last->ticks, line.time_s, period_s_);
+  const auto format = learner_.take(line);
+  if (!format) return;
+  format_ = *format;
+  if (has_clock(format_)) {
+    start_clock(line);
+  } else if (counts_.received > 0) {
+    n_skipped_ += std::llround((line.time_s - last_arrival_s_) / period_s_);
   }
   last_arrival_s_ = line.time_s;
   is_connected_ = true;
+  sink_(RunEvent{line.time_s, "line_format", word_of(format_),
+                 "The lines of the load cell, such as '" + shown_bytes(line.text) +
+                     "', are read as " + word_of(format_)});
+}
+
+// The clock starts with the last of the lines, so that a restart right after them is noticed. After
+// a restart it continues the old one: the least delay stays the same.
+void Hx711LoadCell::start_clock(const ReceivedLine& line) {
+  DeviceClock started(format_ == Hx711Format::kMicrosCounts ? 1e-6 : 1e-3,
+                      clock_.from_wall_s(kLateness_wall_s));
+  if (device_clock_) started.start_at(line.time_s - device_clock_->host_minus_device_s());
+  const auto last = parse_hx711_line(line.text, true);
+  if (last) started.take(*last->ticks, line.time_s, period_s_);
+  device_clock_ = std::move(started);
 }
 
 // Text in the middle of a run is the banner of a restart if the readings pause, otherwise garbage.
@@ -109,30 +118,52 @@ void Hx711LoadCell::take_text(const ReceivedLine& line) {
   const auto n_letters = std::count_if(line.text.begin(), line.text.end(),
                                        [](unsigned char c) { return std::isalpha(c) != 0; });
   if (n_letters >= 4) {
-    banner_ = line.text.substr(0, 40);
-    throw_if_restarted(line.time_s);
+    banner_ = shown_bytes(line.text, 40);
+    if (has_restarted(line.time_s)) return begin_again("'" + banner_ + "'", line.time_s);
   }
   note_unreadable(line.text, line.time_s);
 }
 
 // A banner means a restart if there is a pause before it (the amplifier was switched off) or after
 // it (it starts its converter and takes its tare).
-void Hx711LoadCell::throw_if_restarted(double time_s) const {
+bool Hx711LoadCell::has_restarted(double time_s) const {
   const double pause_s = clock_.from_wall_s(0.3) + 10 * period_s_;
-  if (banner_.empty() || time_s - last_arrival_s_ <= pause_s) return;
-  throw DeviceRestarted("the load cell's amplifier restarted in the middle of the run ('" +
-                        banner_ +
-                        "'); its tare is gone. Check its supply, then start the run again");
+  return !banner_.empty() && time_s - last_arrival_s_ > pause_s;
 }
 
-void Hx711LoadCell::take_reading(const Hx711Line& reading, double time_s) {
-  throw_if_restarted(time_s);
+// Learns the lines anew if nothing has been measured yet; otherwise the run must end.
+void Hx711LoadCell::begin_again(const std::string& sign, double time_s) {
   banner_.clear();
-  check_unit(reading.unit);
+  if (!accepts_restarts_) {
+    throw DeviceRestarted("the load cell's amplifier restarted in the middle of the run (" + sign +
+                          "); its tare is gone. Check its supply, then start the run again");
+  }
+  ++n_restarts_;
+  is_connected_ = false;
+  learner_ = Hx711Learner(config_);
+  shape_ = LineShape();
+  previous_counts_.reset();
+  n_owed_ = n_late_ = last_missing_ = 0;
+  arrival_clock_ = ArrivalClock(1.0 / config_.expected_rate_Hz);
+  n_periods_ = counts_.received + counts_.missing + counts_.unreadable;
+  sink_(RunEvent{time_s, "load_cell_restarted", "",
+                 "The load cell's amplifier restarted (" + sign +
+                     ") before the tare was done: its lines are learnt anew"});
+}
+
+void Hx711LoadCell::take_reading(const Hx711Line& reading, const std::string& text, double time_s) {
+  if (has_restarted(time_s)) return begin_again("'" + banner_ + "'", time_s);
+  banner_.clear();
+  if (!has_known_unit(reading.unit, text, time_s)) return;
   if (reading.ticks && device_clock_) {
     if (!take_clock(*reading.ticks, time_s)) return;
   } else if (counts_.received > 0) {
     take_arrival(time_s);
+  }
+  if (!device_clock_) {
+    const std::int64_t n_periods = counts_.received + counts_.missing + counts_.unreadable;
+    arrival_clock_.take(static_cast<double>(n_periods - std::exchange(n_periods_, n_periods)),
+                        time_s);
   }
   LoadSample sample = sample_of(reading, time_s);
   hand_out(sample);
@@ -170,9 +201,8 @@ bool Hx711LoadCell::take_clock(double ticks, double time_s) {
                      "A reading whose clock does not fit was left out"});
       return false;
     case DeviceClock::Verdict::kRestarted:
-      throw DeviceRestarted(
-          "the load cell's amplifier restarted in the middle of the run (its clock began anew); "
-          "its tare is gone. Check its supply, then start the run again");
+      begin_again("its clock began anew", time_s);
+      return false;
     case DeviceClock::Verdict::kLastWasBad:
       doubt_last(time_s);
       break;
@@ -234,7 +264,11 @@ std::string Hx711LoadCell::reads_as() const {
 }
 
 double Hx711LoadCell::made_at_s(const LoadSample& sample) const {
-  if (!sample.device_time_s || !device_clock_) return sample.host_time_s;
+  if (!sample.device_time_s || !device_clock_) {
+    // Smaller delays are the jitter of arrivals.
+    const double lag_s = arrival_clock_.lag_s();
+    return sample.host_time_s - (lag_s > clock_.from_wall_s(kJitter_wall_s) ? lag_s : 0.0);
+  }
   return *sample.device_time_s + device_clock_->host_minus_device_s();
 }
 

@@ -17,16 +17,25 @@ LoadCell::LoadCell(Transport& transport, const LoadCellConfig& config, const Rig
 
 void LoadCell::note_unreadable(const std::string& text, double time_s) {
   ++counts_.unreadable;
-  sink_(RunEvent{time_s, "load_cell_unreadable", text.substr(0, 80),
+  sink_(RunEvent{time_s, "load_cell_unreadable", shown_bytes(text, 80),
                  "A line from the load cell is no reading"});
 }
 
-void LoadCell::check_unit(const std::string& unit) {
-  if (counts_.received > 0 && unit != unit_) {
+bool LoadCell::has_known_unit(const std::string& unit, const std::string& text, double time_s) {
+  constexpr int kToChange = 3;
+  if (counts_.received == 0 || unit == unit_) {
+    unit_ = unit;
+    n_other_unit_ = 0;
+    return true;
+  }
+  n_other_unit_ = unit == other_unit_ ? n_other_unit_ + 1 : 1;
+  other_unit_ = unit;
+  if (n_other_unit_ >= kToChange) {
     throw RigError("the load cell changed its unit from '" + unit_ + "' to '" + unit +
                    "' in the middle of the run. Set it back, then start the run again");
   }
-  unit_ = unit;
+  note_unreadable(text, time_s);
+  return false;
 }
 
 std::int64_t LoadCell::note_gap(double step_s, double least_s, double time_s) {
@@ -44,7 +53,7 @@ std::int64_t LoadCell::note_gap(double step_s, double least_s, double time_s) {
 }
 
 void LoadCell::hand_out(LoadSample& sample) {
-  sample.index = counts_.received++;
+  sample.index = n_skipped_ + counts_.received++;
   last_arrival_s_ = sample.host_time_s;
   counts_.saturated += sample.is_saturated ? 1 : 0;
   counts_.glitch += sample.is_glitch ? 1 : 0;

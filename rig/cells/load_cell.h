@@ -6,6 +6,7 @@
 #include "rig/lines/rig_clock.h"
 #include "rig/lines/transport.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -37,6 +38,10 @@ class LoadCell {
   Transport& transport() { return transport_; }
   // Waits until readings arrive and the format of the lines is known.
   virtual void connect(const Pump& pump) = 0;
+  // While restarts are accepted, a device that restarts is learnt anew instead of DeviceRestarted;
+  // connect() waits until that is done. Boards reset when their port is opened, and may do so late.
+  void accept_restarts(bool is_accepted) { accepts_restarts_ = is_accepted; }
+  std::int64_t n_restarts() const { return n_restarts_; }
   // Reads what has arrived and passes each reading to the sink, then to the listener. Call often.
   virtual void service() = 0;
   void set_listener(std::function<void(const LoadSample&)> listener) {
@@ -47,12 +52,20 @@ class LoadCell {
   // The assumed unit of its numbers, "counts", "volts", "N", "g" ...; empty if the instrument's
   // protocol fixes it.
   virtual std::string reads_as() const { return {}; }
+  // The format of its lines as a rig file names it; empty if the instrument's protocol fixes it.
+  virtual std::string line_format() const { return {}; }
   // Measured time between readings, rig seconds.
   double period_s() const { return period_s_; }
   // Rig time at which the newest reading arrived.
   double last_arrival_s() const { return last_arrival_s_; }
-  // Best estimate of the rig time at which a reading was made: the time of its arrival, or its
-  // device time plus the smallest offset seen lately (a delay is never negative).
+  // Rig time at which bytes were last looked for. Everything sent before a pause of this program has
+  // been read by then, so the age of the newest reading counts up to this time.
+  double listened_at_s() const { return listened_at_s_; }
+  // Of everything received.
+  std::size_t n_bytes() const { return splitter_.n_bytes(); }
+  // Best estimate of the rig time at which a reading was made: its device time plus the smallest
+  // offset seen lately (a delay is never negative), or without a clock the time of its arrival, less
+  // what the stream has fallen behind.
   virtual double made_at_s(const LoadSample& sample) const = 0;
 
  protected:
@@ -61,8 +74,9 @@ class LoadCell {
 
   // For a line that is no reading.
   void note_unreadable(const std::string& text, double time_s);
-  // Throws RigError if the unit is not that of the readings before.
-  void check_unit(const std::string& unit);
+  // True if the unit is that of the readings before. A reading with another unit is left out, because
+  // its unit may be garbled; throws RigError at the third one in a row with the same other unit.
+  bool has_known_unit(const std::string& unit, const std::string& text, double time_s);
   // Keeps the longest gap. A step above least_s between readings is reported as missing readings;
   // returns their number.
   std::int64_t note_gap(double step_s, double least_s, double time_s);
@@ -75,10 +89,18 @@ class LoadCell {
   std::function<void(const LoadSample&)> listener_;
   LineSplitter splitter_;
   bool is_connected_ = false;
+  bool accepts_restarts_ = false;
+  std::int64_t n_restarts_ = 0;
+  // Readings that a restart has cost: numbers that no reading has, so that the numbers of a stream
+  // without a clock still count its time.
+  std::int64_t n_skipped_ = 0;
   double period_s_;
   std::string unit_;  // as sent with the readings; may be empty
+  std::string other_unit_;
+  int n_other_unit_ = 0;
   StreamCounts counts_;
   double last_arrival_s_ = 0.0;
+  double listened_at_s_ = 0.0;
 };
 
 }  // namespace viscard

@@ -28,9 +28,13 @@ class FaultProxy::Lane {
 
   void take(std::string bytes, double now_s, FaultCounts& counts);
   std::string due(double now_s) { return bytes_.take_due(now_s); }
-  void clear() { bytes_.clear(); }
+  void clear() {
+    bytes_.clear();
+    busy_until_s_ = -1e300;
+  }
   void heal() { rates_ = {}; }
   bool wants_hang_up() const { return wants_hang_up_; }
+  void slow_to(double bytes_per_s) { bytes_per_s_ = bytes_per_s; }
 
  private:
   bool happens(double chance, FaultCounts& counts) {
@@ -44,13 +48,20 @@ class FaultProxy::Lane {
   double upto(double most) { return std::uniform_real_distribution<double>(0.0, most)(random_); }
   void corrupt(std::string& bytes, FaultCounts& counts);
   void push(std::string bytes, double due_s) {
-    bytes_.add(std::max(due_s, bytes_.last_due_s()), std::move(bytes));
+    due_s = std::max(due_s, bytes_.last_due_s());
+    if (bytes_per_s_ > 0.0) {
+      due_s = std::max(due_s, busy_until_s_) + static_cast<double>(bytes.size()) / bytes_per_s_;
+      busy_until_s_ = due_s;
+    }
+    bytes_.add(due_s, std::move(bytes));
   }
 
   FaultRates rates_;
   double longest_delay_s_;
   std::mt19937_64 random_;
   DelayedBytes bytes_;
+  double bytes_per_s_ = 0.0;
+  double busy_until_s_ = -1e300;
   bool wants_hang_up_ = false;
 };
 
@@ -94,7 +105,8 @@ void FaultProxy::Lane::take(std::string bytes, double now_s, FaultCounts& counts
 class FaultProxy::Impl {
  public:
   Impl(std::string device_path, const FaultPlan& plan)
-      : device_path_(std::move(device_path)),
+      : to_host_B_s_(plan.to_host_B_s),
+        device_path_(std::move(device_path)),
         to_host_(plan.to_host, plan.longest_delay_s, 2 * plan.seed),
         to_device_(plan.to_device, plan.longest_delay_s, 2 * plan.seed + 1),
         thread_([this] { run(); }) {}
@@ -112,6 +124,7 @@ class FaultProxy::Impl {
 
   std::atomic<bool> is_healed_{false};
   std::atomic<bool> is_cut_{false};
+  std::atomic<double> to_host_B_s_;
   PtyPort host_;
 
  private:
@@ -144,6 +157,7 @@ class FaultProxy::Impl {
       to_host_.heal();
       to_device_.heal();
     }
+    to_host_.slow_to(to_host_B_s_);
     const double now_s = monotonic_s();
     if (std::string bytes = host_.read_available(); !bytes.empty()) {
       to_device_.take(std::move(bytes), now_s, counts_);
@@ -197,6 +211,10 @@ FaultCounts FaultProxy::counts() const {
 
 void FaultProxy::heal() {
   impl_->is_healed_ = true;
+}
+
+void FaultProxy::slow_to(double bytes_per_s) {
+  impl_->to_host_B_s_ = bytes_per_s;
 }
 
 void FaultProxy::hang_up() {

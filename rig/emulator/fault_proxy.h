@@ -28,6 +28,7 @@ struct FaultPlan {
   std::uint64_t seed = 1;
   FaultRates to_host, to_device;
   double longest_delay_s = 0.15;  // wall
+  double to_host_B_s = 0.0;       // bytes that the line carries in a second of wall time; 0: all
 };
 
 // Connects a host to an emulated device and disturbs the line in both directions. Bytes never
@@ -43,6 +44,8 @@ class FaultProxy {
   // From now on there are no more faults.
   void heal();
   void hang_up();
+  // From now on the line to the host carries only so many bytes in a second of wall time.
+  void slow_to(double bytes_per_s);
 
  private:
   class Lane;

@@ -55,4 +55,16 @@ double LineSplitter::unprintable_fraction() const {
   return n_bytes_ == 0 ? 0.0 : static_cast<double>(n_unprintable_) / static_cast<double>(n_bytes_);
 }
 
+std::string shown_bytes(std::string_view bytes, std::size_t most) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string out;
+  for (const char c : bytes.substr(0, most)) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_printable = (byte >= 0x20 && byte < 0x7f) || c == '\t';
+    out += is_printable ? std::string(1, c)
+                        : std::string("\\x") + kDigits[byte >> 4] + kDigits[byte & 15];
+  }
+  return out;
+}
+
 }  // namespace viscard

@@ -13,6 +13,9 @@ struct ReceivedLine {
   double time_s = 0.0;  // latest rig time at which its last byte can have arrived; ascending
 };
 
+// The first bytes of a line for a message: what is no printable ASCII is written as \xHH.
+std::string shown_bytes(std::string_view bytes, std::size_t most = 60);
+
 // Cuts a byte stream into lines ended by CR, LF, CRLF or LFCR, however reads split it. A line
 // longer than max_length is dropped up to its terminator and counted, so that a stream without
 // terminators cannot fill the memory. Empty lines are kept, because GRBL answers them; CRLF and

@@ -54,12 +54,27 @@ bool read_value(std::string_view text, bool allow_comma, Hx711Line& line) {
 }  // namespace
 
 std::optional<Hx711Format> hx711_format_from_word(std::string_view word) {
-  if (word == "auto") return Hx711Format::kAuto;
-  if (word == "counts") return Hx711Format::kCounts;
-  if (word == "micros,counts") return Hx711Format::kMicrosCounts;
-  if (word == "millis,counts") return Hx711Format::kMillisCounts;
-  if (word == "volts") return Hx711Format::kVolts;
+  for (const auto format : {Hx711Format::kAuto, Hx711Format::kCounts, Hx711Format::kMicrosCounts,
+                            Hx711Format::kMillisCounts, Hx711Format::kVolts}) {
+    if (word == word_of(format)) return format;
+  }
   return std::nullopt;
+}
+
+const char* word_of(Hx711Format format) {
+  switch (format) {
+    case Hx711Format::kCounts:
+      return "counts";
+    case Hx711Format::kMicrosCounts:
+      return "micros,counts";
+    case Hx711Format::kMillisCounts:
+      return "millis,counts";
+    case Hx711Format::kVolts:
+      return "volts";
+    case Hx711Format::kAuto:
+      break;
+  }
+  return "auto";
 }
 
 std::optional<Hx711Line> parse_hx711_line(std::string_view text, bool has_clock) {

@@ -18,6 +18,12 @@ enum class Hx711Format { kAuto, kCounts, kMicrosCounts, kMillisCounts, kVolts };
 
 // "auto", "counts", "micros,counts", "millis,counts" or "volts"; nothing for another word.
 std::optional<Hx711Format> hx711_format_from_word(std::string_view word);
+// The word of a rig file for a format.
+const char* word_of(Hx711Format format);
+// True if its lines begin with the processor's clock.
+inline bool has_clock(Hx711Format format) {
+  return format == Hx711Format::kMicrosCounts || format == Hx711Format::kMillisCounts;
+}
 
 struct Hx711Line {
   std::optional<double> ticks;  // the processor's clock in its own unit, if the line has one

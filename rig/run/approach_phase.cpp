@@ -13,6 +13,7 @@ constexpr double kSettle_s = 0.25;      // force after a stop, long against the 
 constexpr double kContactSigmas = 6.0;  // contact threshold over the noise of one reading
 constexpr double kStillThere = 0.25;    // of the threshold: below, it was a single bad reading
 constexpr int kMostBackOffs = 10;
+constexpr int kMostRestarts = 3;     // of the amplifier before its zero is known
 constexpr double kSlow = 0.8;        // of the expected rate: measured again, then checked
 constexpr double kFarTooSlow = 0.5;  // of the expected rate: refused in any case
 
@@ -38,6 +39,33 @@ void check_rate(TestRun& run, const ForceMean& zero, double duration_s) {
                  ", or correct expected_rate under [load_cell] of the rig file");
 }
 
+// A board that restarts while its zero is measured gives another zero: it is measured again, from
+// the first readings that can be read. From then on a restart ends the run.
+ForceMean undisturbed_tare(TestRun& run, double duration_s) {
+  LoadCell& cell = run.session.load_cell();
+  for (int i = 0; i < kMostRestarts; ++i) {
+    if (cell.n_restarts() > 0) cell.connect([&] { run.session.pump(); });
+    const std::int64_t n_before = cell.n_restarts();
+    try {
+      const ForceMean zero = run.session.tare(duration_s);
+      if (cell.n_restarts() != n_before) continue;
+      cell.accept_restarts(false);
+      return zero;
+    } catch (const PortHungUp&) {
+      throw;
+    } catch (const LimitReached&) {
+      throw;
+    } catch (const RunInterrupted&) {
+      throw;
+    } catch (const RigError&) {
+      if (cell.n_restarts() == n_before) throw;  // otherwise too few readings because of it
+    }
+  }
+  throw RigError(
+      "the load cell's amplifier restarts again and again. Check its supply and its cable, then "
+      "start the run again");
+}
+
 struct Touch {
   JogEnd before;  // the last stop before the touch
   JogEnd at;
@@ -55,6 +83,18 @@ double contact_threshold_N(TestRun& run) {
   return threshold_N;
 }
 
+// What a person sees at the rig tells the three causes apart.
+std::string nothing_touched_text(const TestRun& run) {
+  const int sign = run.rig.stage.toward_specimen;
+  return "nothing was touched within " + text_from_number(run.plan.approach_limit_m * 1e3, 2) +
+         " mm. If the punch came nearer, bring it nearer to the specimen before the start, or "
+         "raise "
+         "limit under [approach] of the test file. If it moved away, set toward_specimen = " +
+         std::to_string(-sign) + " under [stage] of the rig file (it is " + std::to_string(sign) +
+         "). If it did not move at all, the motor is dead: check its supply, its cable and the "
+         "enable input of its driver";
+}
+
 Touch jog_until_touched(TestRun& run, double threshold_N) {
   RunSession& session = run.session;
   const double limit_m = run.start_m + run.plan.approach_limit_m;
@@ -62,12 +102,9 @@ Touch jog_until_touched(TestRun& run, double threshold_N) {
   while (true) {
     const double next_m = session.stage().position_m() + jog_m;
     if (next_m > limit_m) {
-      throw RigError("nothing was touched within " +
-                     text_from_number(run.plan.approach_limit_m * 1e3, 2) +
-                     " mm. Bring the punch nearer to the specimen, or raise limit under "
-                     "[approach] of the test file");
+      throw RigError(nothing_touched_text(run));
     }
-    const JogEnd before{session.stage().position_m(), session.force_N()};
+    const JogEnd before{session.stage().position_m(), session.sound_force_N(run.outcome.noise_N)};
     if (!session.move(next_m, run.plan.approach_speed_m_s, "approach", threshold_N)) continue;
     const double touched_N = session.mean_force(kSettle_s).force_N;
     if (std::abs(touched_N) > kStillThere * threshold_N) {
@@ -134,7 +171,7 @@ void back_off(TestRun& run, double contact_m) {
 }  // namespace
 
 void carry_out_tare(TestRun& run, const TestPhase& phase) {
-  const ForceMean zero = run.session.tare(phase.duration_s);
+  const ForceMean zero = undisturbed_tare(run, phase.duration_s);
   run.outcome.noise_N = zero.sd_N;
   if (std::abs(zero.force_N) > kPressesAtStart * limit_N(run)) {
     run.presses_at_start = true;
@@ -151,6 +188,7 @@ void carry_out_approach(TestRun& run) {
   const ContactEstimate contact = contact_from_stops(
       touch.before, touch.at, run.outcome.noise_N, 1.0 / run.session.stage().dynamics().steps_per_m,
       run.outcome.expected.total_stiffness_N_m);
+  run.session.expect_stiffness(contact.least_stiffness_N_m);
   check_stiffness(run, contact.least_stiffness_N_m);
   back_off(run, contact.position_m);
 }

@@ -1,6 +1,7 @@
 #include "rig/run/force_guard.h"
 
 #include <cmath>
+#include <utility>
 
 namespace viscard {
 
@@ -10,7 +11,8 @@ ForceGuard::ForceGuard(const SafetyConfig& safety, double capacity_N)
       hard_N_(safety.hard_fraction * capacity_N),
       rise_N_(0.005 * capacity_N) {}
 
-GuardAction ForceGuard::take(double force_N, bool is_doubtful, double time_s, double period_s) {
+GuardAction ForceGuard::take(double force_N, bool is_doubtful, double time_s, double period_s,
+                             bool is_moving) {
   constexpr double kDoubtPeriods = 2.0;
   constexpr int kReadingsAfterStop = 2;
   const double load_N = std::abs(force_N);  // tension harms the cell as well
@@ -20,6 +22,9 @@ GuardAction ForceGuard::take(double force_N, bool is_doubtful, double time_s, do
     return GuardAction::kNone;
   }
   doubtful_until_s_.reset();
+  const bool is_above = !(load_N < soft_N_);
+  const bool was_above = std::exchange(was_above_, is_above);
+  if (is_above && !was_above && !is_moving) return GuardAction::kNone;  // one garbled reading
   if (!(load_N < hard_N_)) return GuardAction::kHardStop;
   if (stop_force_N_) {
     const bool is_rising = load_N > *stop_force_N_ + rise_N_;

@@ -9,7 +9,8 @@ namespace viscard {
 enum class GuardAction { kNone, kWarn, kSoftStop, kHardStop };
 
 // Decides from the readings alone what must be done to protect the load cell: warn, stop with
-// deceleration, or stop at once. One reading above the hard limit is enough. A doubtful reading
+// deceleration, or stop at once. While the stage moves, one reading above a limit is enough; at rest
+// the next one must be above it too, because a garbled digit must not end a long hold. A doubtful reading
 // (the code of an interrupted or saturated conversion, or no number) waits for the next one; if
 // that is doubtful too or does not arrive in time, the stage is stopped at once.
 class ForceGuard {
@@ -17,8 +18,9 @@ class ForceGuard {
   ForceGuard(const SafetyConfig& safety, double capacity_N);
 
   // One reading from the tare. period_s: time between readings.
-  GuardAction take(double force_N, bool is_doubtful, double time_s, double period_s);
-  // To be called while waiting: no reading has arrived up to time_s.
+  GuardAction take(double force_N, bool is_doubtful, double time_s, double period_s,
+                   bool is_moving = true);
+  // To be called while the stage moves: no reading has arrived up to time_s.
   GuardAction silent_until(double time_s);
 
   double soft_limit_N() const { return soft_N_; }
@@ -30,6 +32,7 @@ class ForceGuard {
   bool has_warned_ = false;
   std::optional<double> stop_force_N_;  // force at the decelerating stop
   int n_since_stop_ = 0;
+  bool was_above_ = false;  // the last reading, made at rest, was above the soft limit
   std::optional<double> doubtful_until_s_;
 };
 

@@ -6,6 +6,59 @@
 #include <cmath>
 
 namespace viscard {
+namespace {
+
+constexpr double kSigmas = 8.0;
+// The noise of twenty readings is known to 27 %, so that a mean leaves out less.
+constexpr double kMeanSigmas = 16.0;
+constexpr double kPerStep = 0.954;  // median of the step between two readings over their noise
+constexpr double kSteeper = 2.5;    // an end may be so much steeper than the step beside it
+
+// How far the middle value stands out of both others; 0 if it lies between them.
+double stands_out(double before, double value, double behind) {
+  if ((value - before) * (value - behind) <= 0.0) return 0.0;
+  return std::min(std::abs(value - before), std::abs(value - behind));
+}
+
+// The same for a value at an end, which has neighbours on one side only.
+double end_stands_out(double end, double next, double next_but_one) {
+  return std::abs(end - next) - kSteeper * std::abs(next - next_but_one);
+}
+
+// Standard deviation of the noise, from the steps between neighbours.
+double noise_of_steps(const std::vector<double>& values) {
+  std::vector<double> steps;
+  double least = 1e300;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    steps.push_back(std::abs(values[i] - values[i - 1]));
+    if (steps.back() > 0.0) least = std::min(least, steps.back());
+  }
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return std::max(*middle, least < 1e300 ? least : 0.0) / kPerStep;
+}
+
+}  // namespace
+
+std::vector<double> without_spikes(const std::vector<double>& values) {
+  const std::size_t n = values.size();
+  if (n < 5) return values;
+  const double cut = kMeanSigmas * noise_of_steps(values);
+  std::vector<double> result;
+  result.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double by = i == 0       ? end_stands_out(values[0], values[1], values[2])
+                      : i == n - 1 ? end_stands_out(values[n - 1], values[n - 2], values[n - 3])
+                                   : stands_out(values[i - 1], values[i], values[i + 1]);
+    if (!(by > cut)) result.push_back(values[i]);
+  }
+  return result.size() < 2 ? values : result;
+}
+
+double ForceReadings::sound_force_N(double noise_N) const {
+  const double by_N = end_stands_out(force_N_, earlier_N_[0], earlier_N_[1]);
+  return n_forces_ >= 3 && by_N > kSigmas * noise_N ? earlier_N_[0] : force_N_;
+}
 
 ForceReadings::Reading ForceReadings::take(const LoadSample& sample, double made_at_s) {
   const std::optional<double> reading_N = force_N_from_sample(sample, rig_);
@@ -14,11 +67,13 @@ ForceReadings::Reading ForceReadings::take(const LoadSample& sample, double made
   const bool is_doubtful =
       sample.is_glitch || sample.is_saturated || !reading_N || !std::isfinite(*reading_N);
   if (is_doubtful) return {force_N, true};
+  earlier_N_ = {force_N_, earlier_N_[0]};
   force_N_ = force_N;
   ++n_forces_;
   peak_force_N_ = std::max(peak_force_N_, force_N);
   if (threshold_N_ && std::abs(force_N) > *threshold_N_) has_exceeded_ = true;
   last_made_s_ = std::max(last_made_s_, made_at_s);
+  newest_made_s_ = made_at_s;
   if (collects_from_s_ && made_at_s >= *collects_from_s_) collect(absolute_N, made_at_s);
   return {force_N, false};
 }
@@ -26,6 +81,7 @@ ForceReadings::Reading ForceReadings::take(const LoadSample& sample, double made
 void ForceReadings::add_to_tare(double force_N) {
   tare_N_ += force_N;
   force_N_ -= force_N;
+  for (double& earlier_N : earlier_N_) earlier_N -= force_N;
   peak_force_N_ = 0.0;
 }
 
@@ -47,16 +103,17 @@ void ForceReadings::collect(double absolute_N, double made_at_s) {
 }
 
 ForceMean ForceReadings::collected_mean() const {
+  const std::vector<double> sound_N = without_spikes(collected_N_);
   ForceMean result;
-  result.n = n_collected();
+  result.n = static_cast<int>(sound_N.size());
   double sum_N = 0.0;
-  for (const double force_N : collected_N_) sum_N += force_N;
+  for (const double force_N : sound_N) sum_N += force_N;
   const double mean_N = sum_N / result.n;
   double squares_N2 = 0.0;
-  for (const double force_N : collected_N_) squares_N2 += (force_N - mean_N) * (force_N - mean_N);
+  for (const double force_N : sound_N) squares_N2 += (force_N - mean_N) * (force_N - mean_N);
   result.force_N = mean_N - tare_N_;
   result.sd_N = std::sqrt(squares_N2 / (result.n - 1));
-  result.rate_Hz = (result.n - 1) / std::max(1e-9, collected_until_s_ - collected_first_s_);
+  result.rate_Hz = (n_collected() - 1) / std::max(1e-9, collected_until_s_ - collected_first_s_);
   return result;
 }
 

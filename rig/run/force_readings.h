@@ -3,6 +3,7 @@
 #include "models/experiment/rig_config.h"
 #include "models/experiment/run_record.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -10,11 +11,15 @@
 namespace viscard {
 
 struct ForceMean {
-  double force_N = 0.0;  // mean from the tare
+  double force_N = 0.0;  // mean from the tare, without readings that stand out of both neighbours
   double sd_N = 0.0;     // standard deviation of one reading
   double rate_Hz = 0.0;  // of the readings that have a force
   int n = 0;
 };
+
+// Values without those that stand out of both neighbours by more than 16 times the noise: a garbled
+// digit. A force that rises, falls or relaxes loses none.
+std::vector<double> without_spikes(const std::vector<double>& values);
 
 // Turns readings of the load cell into forces from the tare. Keeps the newest and the largest,
 // reports when a force passes a threshold, and collects the readings of a mean.
@@ -30,10 +35,14 @@ class ForceReadings {
   Reading take(const LoadSample& sample, double made_at_s);
 
   double force_N() const { return force_N_; }
+  // The newest force, or the one before it if the newest stands out of the last ones by more than 8
+  // times the noise.
+  double sound_force_N(double noise_N) const;
   double peak_force_N() const { return peak_force_N_; }
   double tare_N() const { return tare_N_; }
   std::int64_t n_forces() const { return n_forces_; }  // readings that were not doubtful
   double last_made_s() const { return last_made_s_; }
+  double newest_made_s() const { return newest_made_s_; }  // of the newest force
 
   // Moves the zero by this force and forgets the peak.
   void add_to_tare(double force_N);
@@ -57,9 +66,11 @@ class ForceReadings {
   const RigConfig& rig_;
   double tare_N_ = 0.0;
   double force_N_ = 0.0;
+  std::array<double, 2> earlier_N_{};  // the two forces before it, the newer one first
   double peak_force_N_ = 0.0;
   std::int64_t n_forces_ = 0;
   double last_made_s_ = 0.0;
+  double newest_made_s_ = 0.0;
   std::optional<double> threshold_N_;
   bool has_exceeded_ = false;
   std::optional<double> collects_from_s_;

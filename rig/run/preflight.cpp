@@ -46,6 +46,48 @@ void check_force(const RigConfig& rig, const std::vector<TestPhase>& phases, Pre
                             ". Lower " + highest.load_key + " of the test file to " + remedy);
 }
 
+// A force that no approach would notice is a mistake of the modulus or of the depth.
+void check_least_force(const RigConfig& rig, const TestPlan& plan, Preflight& result) {
+  if (result.peak_force_N > plan.contact_force_N) return;
+  result.problems.push_back(
+      "the expected peak force is only " + text_of(result.peak_force_N * 1e3, 3) +
+      " mN, not above the contact_force of " + text_of(plan.contact_force_N * 1e3, 3) +
+      " mN under [approach] of the test file. Is the unit of modulus_guess "
+      "of the specimen missing? Otherwise press deeper, or lower "
+      "contact_force; the cell takes " +
+      in_N(rig.calibration.capacity_N));
+}
+
+void check_travel(const RigConfig& rig, const TestPlan& plan, Preflight& result) {
+  if (plan.approach_limit_m <= rig.stage.travel_m) return;
+  result.problems.push_back(
+      "the approach may go " + in_mm(plan.approach_limit_m) + ", but the stage's travel is " +
+      in_mm(rig.stage.travel_m) + ". Lower limit under [approach] of the test file to " +
+      in_mm(0.5 * rig.stage.travel_m) + ", or correct travel under [stage] of the rig file");
+}
+
+// At a depth below the relaxed share of the largest depth before, the specimen, which has not
+// recovered yet, lies below the punch.
+void check_lift_off(const std::vector<TestPhase>& phases, double relaxation, Preflight& result) {
+  double deepest_m = 0.0;
+  for (const TestPhase& phase : phases) {
+    if (phase.kind != TestPhase::Kind::kMove) continue;
+    deepest_m = std::max(deepest_m, phase.depth_m);
+    if (phase.purpose != "unload" || phase.depth_m >= relaxation * deepest_m) continue;
+    const double enough = std::min(0.9, std::ceil(200.0 * relaxation) * 0.01);
+    result.warnings.push_back(
+        "the move '" + phase.name + "' goes back to " +
+        text_from_number(100.0 * phase.depth_m / deepest_m, 1) + " % of the depth, but " +
+        text_from_number(100.0 * relaxation, 1) +
+        " % of the force is expected to have relaxed: the punch will lift off. Raise " +
+        (phase.load_key.empty()
+             ? "unload_to_fraction of the test file to " + text_from_number(enough, 2)
+             : phase.load_key + " to " + in_mm(enough * deepest_m)) +
+        ", or correct relaxation_guess of the specimen");
+    return;  // the same holds for later moves
+  }
+}
+
 void check_rates(const RigConfig& rig, const std::vector<TestPhase>& phases, Preflight& result) {
   const double rate_Hz = rig.load_cell.expected_rate_Hz;
   if (rate_Hz < kSlowestRate_Hz) {
@@ -215,6 +257,9 @@ Preflight preflight(const RigConfig& rig, const TestPlan& plan, const Specimen& 
     break;
   }
   check_force(rig, phases, result);
+  check_least_force(rig, plan, result);
+  check_travel(rig, plan, result);
+  check_lift_off(phases, specimen.relaxation_guess, result);
   check_rates(rig, phases, result);
   if (dynamics) check_motion(rig, plan, phases, *dynamics, result);
   return result;

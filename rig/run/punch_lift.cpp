@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kStandstill_wall_s = 10.0;  // longest wait for standstill
 constexpr double kLargestLift_m = 2e-3;      // one lift is at most this long, contact known or not
+constexpr double kOldReadings_wall_s = 1.0;  // longest wait for a reading made after the lift
 constexpr int kAttempts = 4;
 constexpr double kFallen = 0.9;  // of the force before the lift
 
@@ -83,8 +84,15 @@ std::string PunchLift::trouble_with_force(double before_N) {
   const double wait_s =
       clock.now_s() + 10.0 * devices.load_cell().period_s() + clock.from_wall_s(0.1);
   while (clock.now_s() < wait_s) pump();
+  const double lifted_at_s = wait_s - clock.from_wall_s(0.1);
+  const double deadline_s = monotonic_s() + kOldReadings_wall_s;
+  while (readings.last_made_s() < lifted_at_s && readings.n_forces() > n_before &&
+         monotonic_s() < deadline_s) {
+    pump();
+  }
   if (devices.is_cell_restarted()) return unseen("has restarted");
   if (readings.n_forces() == n_before) return unseen("gives no force any more");
+  if (readings.last_made_s() < lifted_at_s) return unseen("sends readings that are too old");
   if (std::abs(readings.force_N()) <= kFallen * before_N) return "";
   return "THE FORCE DOES NOT FALL after lifting the punch: lift it by hand";
 }

@@ -33,6 +33,12 @@ class RunInterrupted : public RigError {
   using RigError::RigError;
 };
 
+// The newest reading of the load cell is too old for the stage to go on pressing.
+class ReadingsTooOld : public RigError {
+ public:
+  using RigError::RigError;
+};
+
 // The force reached a limit; the stage has been sent a stop.
 class LimitReached : public RigError {
  public:

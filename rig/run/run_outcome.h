@@ -25,6 +25,7 @@ struct RunOutcome {
   double peak_force_N = 0.0;
   double achieved_depth_m = 0.0;  // largest depth by the live estimate
   StreamCounts stream;
+  std::string line_format;  // of the load cell's lines as read; empty if its protocol fixes it
   std::vector<std::string> doubts;  // reasons to distrust the record of a finished run
 };
 

@@ -3,6 +3,7 @@
 #include "models/experiment/sample_force.h"
 #include "models/maths/text_of_number.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace viscard {
@@ -11,6 +12,8 @@ namespace {
 constexpr int kFewestReadings = 5;  // of a mean
 constexpr double kLate_wall_s = 1.0;
 constexpr double kLateMean_wall_s = 3.0;
+// On an emulated clock that runs fast, every stall of the machine counts as seconds of rig time.
+constexpr double kOldEmulated_wall_s = 2.0;
 constexpr double kPressingShare = 0.1;  // of the soft limit
 
 std::string force_text(double force_N) {
@@ -29,6 +32,8 @@ RunSession::RunSession(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
       readings_(rig_),
       marks_(clock_, sink_),
       guard_(rig.safety, rig.calibration.capacity_N),
+      ages_(rig.calibration.capacity_N,
+            clock_.speed() > 1.0 ? clock_.from_wall_s(kOldEmulated_wall_s) : 0.0),
       progress_(control_, rig.frame.stiffness_N_m) {
   load_cell.set_listener([this](const LoadSample& sample) { take_sample(sample); });
 }
@@ -49,7 +54,10 @@ void RunSession::pump() {
       throw RunInterrupted("the run was interrupted; what was recorded is kept");
     }
     check_stream();
-    if (guards_force()) act_on(guard_.silent_until(clock_.now_s()), readings_.force_N());
+    check_age();
+    // At rest a doubtful reading waits for the next one; a stream that has stopped is noticed above.
+    if (guards_force() && stage().is_moving())
+      act_on(guard_.silent_until(clock_.now_s()), readings_.force_N());
   }
   progress_.report(readings_.force_N(), devices_.stage().position_m());
 }
@@ -72,13 +80,15 @@ bool RunSession::guards_force() const {
 }
 
 void RunSession::take_sample(const LoadSample& sample) {
-  const auto [force_N, is_doubtful] = readings_.take(sample, load_cell().made_at_s(sample));
+  const double made_at_s = load_cell().made_at_s(sample);
+  const auto [force_N, is_doubtful] = readings_.take(sample, made_at_s);
+  if (!is_doubtful) ages_.take(force_N, made_at_s);
   std::optional<double> value;
   if (!is_doubtful) value = sample.counts ? sample.counts : force_N_from_sample(sample, rig_);
   marks_.take(sample, value, load_cell().period_s());
   if (!guards_force() && !devices_.is_stopping()) return;
-  const GuardAction action =
-      guard_.take(force_N, is_doubtful, sample.host_time_s, load_cell().period_s());
+  const GuardAction action = guard_.take(force_N, is_doubtful, sample.host_time_s,
+                                         load_cell().period_s(), stage().is_moving());
   if (is_guarded_) {
     act_on(action, force_N);
   } else if (action == GuardAction::kHardStop) {
@@ -148,39 +158,16 @@ void RunSession::throw_limit(GuardAction action, double force_N) const {
 void RunSession::check_stream() {
   const auto silence = devices_.silence();
   if (!silence) return;
-  devices_.stop_hard();
+  const bool is_moving = stage().is_moving();
+  if (is_moving) devices_.stop_hard();
   event("limit", "silent",
-        "No reading of the load cell for " + text_from_number(silence->silent_s, 3) +
-            " s while the stage moved, which may be " + text_from_number(silence->limit_s, 3) +
-            " s: it was reset");
-  throw RigError(
-      "the load cell fell silent while the stage was moving; the stage was stopped. Check "
-      "the amplifier and its cable, then start the run again");
-}
-
-bool RunSession::move(double to_m, double speed_m_s, const std::string& purpose,
-                      std::optional<double> stop_above_N) {
-  readings_.watch(stop_above_N);
-  stage().begin_move(to_m, speed_m_s, purpose);
-  has_moved_ = true;
-  bool is_stopping = false;
-  while (stage().is_moving()) {
-    pump();
-    if (readings_.has_exceeded() && !is_stopping && stage().is_moving()) {
-      stage().stop_soft();
-      is_stopping = true;
-    }
-  }
-  // Readings made before standstill may still be on their way.
-  const double stood_s = clock_.now_s();
-  const double deadline_s = monotonic_s() + kLate_wall_s;
-  if (stop_above_N) {
-    readings_.collect_from(stood_s);
-    while (readings_.n_collected() == 0 && monotonic_s() < deadline_s) pump();
-    readings_.stop_collecting();
-  }
-  readings_.stop_watching();
-  return readings_.has_exceeded();
+        "No reading of the load cell for " + text_from_number(silence->silent_s, 3) + " s " +
+            (is_moving ? "while the stage moved" : "at rest") + ", which may be " +
+            text_from_number(silence->limit_s, 3) + " s" + (is_moving ? ": it was reset" : ""));
+  throw RigError(std::string("the load cell fell silent ") +
+                 (is_moving ? "while the stage was moving; the stage was stopped"
+                            : "while the stage stood still") +
+                 ". Check the amplifier and its cable, then start the run again");
 }
 
 ForceMean RunSession::mean_force(double duration_s) {
@@ -191,6 +178,9 @@ ForceMean RunSession::mean_force(double duration_s) {
   readings_.stop_collecting();
   const int n = readings_.n_collected();
   if (n < kFewestReadings) {
+    if (readings_.newest_made_s() < start_s && load_cell().last_arrival_s() > start_s) {
+      throw_too_old("when its force was needed");
+    }
     throw RigError("only " + counted(static_cast<std::size_t>(n), "reading") +
                    " of a force came in " + text_from_number(duration_s, 1) +
                    " s. Check the load cell's rate with: viscard rig check");

@@ -3,6 +3,7 @@
 #include "models/experiment/rig_config.h"
 #include "rig/cells/load_cell.h"
 #include "rig/lines/record_sink.h"
+#include "rig/run/age_watch.h"
 #include "rig/run/force_guard.h"
 #include "rig/run/force_readings.h"
 #include "rig/run/punch_lift.h"
@@ -11,6 +12,7 @@
 #include "rig/run/spike_watch.h"
 #include "rig/stages/stage.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -39,7 +41,13 @@ class RunSession {
   // second of wall time: on a busy machine they arrive late.
   void pump_until_received(double time_s);
 
-  // Moves and waits for standstill. Returns true, after a gentle stop, if the force passed
+  // The stiffness of specimen and frame in series is at least this. Each move toward the specimen
+  // is judged by the largest value so far.
+  void expect_stiffness(double stiffness_N_m);
+  // Moves and waits for standstill. While it presses, the readings must be younger than AgeWatch
+  // allows, otherwise ReadingsTooOld is thrown after an immediate stop; if they come too rarely for
+  // that, the stage moves in steps and waits for a reading after each.
+  // Returns true, after a gentle stop, if the force passed
   // stop_above_N (from the tare) in either direction: if the load cell is wired the other way
   // round, its force falls while the punch presses.
   bool move(double to_m, double speed_m_s, const std::string& purpose,
@@ -63,6 +71,7 @@ class RunSession {
   bool is_stage_connected() const { return devices_.is_stage_connected(); }
   bool has_moved() const { return has_moved_; }
   double force_N() const { return readings_.force_N(); }
+  double sound_force_N(double noise_N) const { return readings_.sound_force_N(noise_N); }
   double peak_force_N() const { return readings_.peak_force_N(); }
   // Readings marked by an event "implausible".
   int n_implausible() const { return marks_.n_marked(); }
@@ -75,6 +84,15 @@ class RunSession {
   void stop_hard_while_stopping(double force_N);
   [[noreturn]] void throw_limit(GuardAction action, double force_N) const;
   void check_stream();
+  void check_age();
+  double age_s() const;
+  [[noreturn]] void throw_too_old(const std::string& what) const;
+  void press(double to_m, double speed_m_s, const std::string& purpose,
+             std::optional<double> stop_above_N);
+  void move_once(double to_m, double speed_m_s, const std::string& purpose,
+                 std::optional<double> stop_above_N);
+  bool pump_while(const std::function<bool()>& is_waiting, double listened_wall_s);
+  void await_reading_after(double time_s);
   bool guards_force() const;
 
   RigConfig rig_;
@@ -85,9 +103,12 @@ class RunSession {
   ForceReadings readings_;
   ReadingMarks marks_;
   ForceGuard guard_;
+  AgeWatch ages_;
   ProgressReport progress_;
   bool is_guarded_ = false;
   bool has_moved_ = false;
+  bool is_pressing_ = false;  // a move toward the specimen that is judged by the readings' age
+  double stiffness_N_m_ = 0.0;
 };
 
 }  // namespace viscard

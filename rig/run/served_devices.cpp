@@ -12,6 +12,10 @@ constexpr double kNap_wall_s = 0.005;
 constexpr double kSilence_wall_s = 0.1;
 // On an emulated clock that runs fast, every stall of the machine counts as seconds of rig time.
 constexpr double kSilenceEmulated_wall_s = 1.0;
+// At rest nothing presses harder meanwhile, but a hold without readings is worth nothing.
+constexpr double kDeadAtRest_wall_s = 1.5;
+constexpr double kDeadEmulated_wall_s = 3.0;
+constexpr double kDeadPeriods = 20.0;  // of a slow instrument
 
 }  // namespace
 
@@ -89,10 +93,13 @@ void ServedDevices::recover(const Pump& pump) {
 }
 
 std::optional<ServedDevices::Silence> ServedDevices::silence() const {
-  if (!is_cell_connected_ || !stage_.is_moving()) return std::nullopt;
+  if (!is_cell_connected_) return std::nullopt;
   const double period_s = load_cell_.period_s() / clock_.speed();
-  if (!silence_.is_silent(period_s)) return std::nullopt;
-  return Silence{silence_.silent_s(), silence_.limit_s(period_s)};
+  const double at_rest_s = std::max(
+      kDeadPeriods * period_s, clock_.speed() > 1.0 ? kDeadEmulated_wall_s : kDeadAtRest_wall_s);
+  const double limit_s = stage_.is_moving() ? silence_.limit_s(period_s) : at_rest_s;
+  if (silence_.silent_s() < limit_s) return std::nullopt;
+  return Silence{silence_.silent_s(), limit_s};
 }
 
 void SilenceWatch::pass(double wall_s, bool has_arrived, bool is_moving) {

@@ -44,6 +44,7 @@ class ServedDevices {
 
   Stage& stage() { return stage_; }
   LoadCell& load_cell() { return load_cell_; }
+  const LoadCell& load_cell() const { return load_cell_; }
 
   // The load cell first, so that the force is known before the stage may home.
   void connect(const Pump& pump);
@@ -64,7 +65,8 @@ class ServedDevices {
     double silent_s = 0.0;  // wall time without a reading
     double limit_s = 0.0;
   };
-  // Nothing unless the stage moves and readings have stopped for longer than the limit.
+  // Nothing unless readings have stopped for longer than the limit, which is much shorter while the
+  // stage moves.
   std::optional<Silence> silence() const;
 
   bool is_stage_connected() const { return is_stage_connected_; }

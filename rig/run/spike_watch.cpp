@@ -11,8 +11,8 @@ constexpr std::size_t kSide = 5;    // readings to which a line is fitted
 constexpr std::size_t kFirst = 32;  // readings judged together
 constexpr std::size_t kRing = 256;  // distances kept
 constexpr std::size_t kRenew = 16;  // new distances before the median is computed again
-constexpr double kSigmas = 6.3;
-constexpr double kFewMore = 40.0;      // over the number of known distances: added to kSigmas
+constexpr double kSpikeSigmas = 6.3;
+constexpr double kFewMore = 40.0;      // over the number of known distances: added to kSpikeSigmas
 constexpr double kPerMedian = 1.4826;  // standard deviation over median of |normal|
 // Standard deviation of the distance between a reading and its prediction, over that of one
 // reading: for the mean of ten neighbours sqrt(1 + 1/10), for one line sqrt(1 + 1/5 + 9/10).
@@ -72,13 +72,20 @@ std::vector<std::int64_t> SpikeWatch::judge_until(std::size_t end) {
 }
 
 // What the readings on one side predict for the one at `at`; spikes found before are left out.
-SpikeWatch::Line SpikeWatch::predicted(std::size_t at, int direction) const {
+// Of the side after, those that depart from the line before are left out, if three others do not.
+SpikeWatch::Line SpikeWatch::predicted(std::size_t at, int direction, const Line* before) const {
   std::array<std::size_t, kSide> side{};
   std::size_t n = 0;
   for (std::size_t k = 1; k <= kSide; ++k) {
     if (direction < 0 ? k > at : at + k >= readings_.size()) break;
     const std::size_t i = direction < 0 ? at - k : at + k;
     if (!readings_[i].is_spike) side[n++] = i;
+  }
+  if (before != nullptr && before->is_known && before->scatter <= kLikely * noise()) {
+    const auto end = side.begin() + static_cast<std::ptrdiff_t>(n);
+    const auto kept = std::stable_partition(
+        side.begin(), end, [&](std::size_t i) { return !departs(*before, i, at); });
+    if (kept - side.begin() >= 3) n = static_cast<std::size_t>(kept - side.begin());
   }
   if (n < 3) return {};
   std::vector<double> numbers;
@@ -107,22 +114,41 @@ SpikeWatch::Line SpikeWatch::predicted(std::size_t at, int direction) const {
   return line;
 }
 
+// Whether a reading is further from the line than noise explains, with the uncertainty of a line
+// through kSide readings that end beside `from`: their mean lies (kSide + 1)/2 before it.
+bool SpikeWatch::departs(const Line& before, std::size_t at, std::size_t from) const {
+  constexpr double kMiddle = 0.5 * (kSide + 1), kSpread = kSide * (kSide * kSide - 1) / 12.0;
+  const double away = readings_[at].place - readings_[from].place;
+  const double unsure =
+      std::sqrt(1.0 + 1.0 / kSide + (away + kMiddle) * (away + kMiddle) / kSpread);
+  const double distance = std::abs(readings_[at].value - before.value - before.slope * away);
+  return distance > kSpikeSigmas * unsure * noise() + kEarlyOrLate * std::abs(before.slope);
+}
+
 double SpikeWatch::noise() const {
   return std::max(usual_, least_ > 0.0 ? least_ : 0.5 * least_step_);
 }
 
-bool SpikeWatch::lies_between(std::size_t at, double slack) const {
-  const double before = readings_[at - 1].value, behind = readings_[at + 1].value;
+// The one behind is the first that continues the line before, so that a second bad reading beside
+// this one does not hide it; if none does (a corner, a staircase), the next one.
+bool SpikeWatch::lies_between(std::size_t at, const Line& line, double slack) const {
+  std::size_t next = at + 1;
+  if (line.scatter <= kLikely * noise()) {
+    const std::size_t end = std::min(at + 1 + kSide, readings_.size());
+    while (next < end && departs(line, next, at)) ++next;
+    if (next == end) next = at + 1;
+  }
+  const double before = readings_[at - 1].value, behind = readings_[next].value;
   const double value = readings_[at].value;
   return value > std::min(before, behind) - slack && value < std::max(before, behind) + slack;
 }
 
 bool SpikeWatch::judge(std::size_t at) {
   const Line before = predicted(at, -1);
-  const Line behind = predicted(at, 1);
+  const Line behind = predicted(at, 1, &before);
   if (!before.is_known && !behind.is_known) return false;
   const double sigmas =
-      kSigmas + kFewMore / static_cast<double>(std::max(n_learnt_, std::size_t{1}));
+      kSpikeSigmas + kFewMore / static_cast<double>(std::max(n_learnt_, std::size_t{1}));
   const double one = sigmas * kOfOne * noise();
   const double value = readings_[at].value;
   if (!before.is_known || !behind.is_known) {
@@ -139,7 +165,7 @@ bool SpikeWatch::judge(std::size_t at) {
       std::max(0.0, std::max(before.scatter, behind.scatter) - kLikely * noise());
   const double slack = kRounded * corner + kEarlyOrLate * ramp + kStaircase * scatter;
   // On a ramp a reading between its two neighbours is no spike: a staircase never turns back.
-  if (slope > kLikely * noise() && lies_between(at, kLikely * noise())) return false;
+  if (slope > kLikely * noise() && lies_between(at, before, kLikely * noise())) return false;
   const double apart = std::abs(before.value - behind.value);
   const double middle = 0.5 * (before.value + behind.value);
   // Two lines through pure noise are seldom further apart than this.

@@ -19,7 +19,8 @@ namespace viscard {
 //
 // One straight line is fitted to the five readings before and one to the five after (median of the
 // slopes: Theil 1950; Sen, J. Am. Stat. Assoc. 63 (1968) 1379), so that one bad reading on either
-// side does not move it. A reading is a spike if it lies outside the range that the two lines
+// side does not move it. Bad readings before have been found already; of the five after, up to two are
+// left out if the other three continue the line before. A reading is a spike if it lies outside the range that the two lines
 // predict; corners, steps and readings during a quick move lie within that range.
 // - If the lines agree, the prediction is the mean of all ten readings. Allowed are 6.3 robust
 //   standard deviations, 8 at the beginning of the stream.
@@ -55,9 +56,10 @@ class SpikeWatch {
     double value = 0.0, slope = 0.0, scatter = 0.0;
     bool is_known = false;
   };
-  Line predicted(std::size_t at, int direction) const;
+  Line predicted(std::size_t at, int direction, const Line* before = nullptr) const;
+  bool departs(const Line& before, std::size_t at, std::size_t from) const;
   double mean_around(std::size_t at, double middle, double slope) const;
-  bool lies_between(std::size_t at, double slack) const;
+  bool lies_between(std::size_t at, const Line& line, double slack) const;
   bool judge(std::size_t at);
   std::vector<std::int64_t> judge_until(std::size_t end);
   void learn(double distance);

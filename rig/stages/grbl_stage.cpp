@@ -93,7 +93,8 @@ void GrblStage::take_line(const ReceivedLine& line) {
   } else if (const auto message = parse_grbl_message(line.text)) {
     note(line.time_s, "stage_message", *message, "The stage says: " + *message);
   } else if (!is_grbl_push(line.text)) {
-    note(line.time_s, "stage_unreadable", line.text, "A line from the stage could not be read");
+    note(line.time_s, "stage_unreadable", shown_bytes(line.text, 256),
+         "A line from the stage could not be read");
   }
 }
 

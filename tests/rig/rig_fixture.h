@@ -54,11 +54,15 @@ struct RigFixture {
   }
 
   RunOutcome run(const TestPlan& plan, double ratio = 10.0) {
+    return run(plan, demo_specimen(ratio));
+  }
+
+  RunOutcome run(const TestPlan& plan, const Specimen& specimen) {
     RunControl control;
     control.clock = &clock;
     control.stop = &stop;
     control.progress = on_progress;
-    return run_indentation(stage, load_cell, config, plan, demo_specimen(ratio), sink, control);
+    return run_indentation(stage, load_cell, config, plan, specimen, sink, control);
   }
 
   template <class Record>

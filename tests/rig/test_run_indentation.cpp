@@ -1,5 +1,6 @@
 #include "models/contact/punch_contact.h"
 #include "models/material/material.h"
+#include "rig/open_devices.h"
 #include "tests/rig/rig_fixture.h"
 
 #include <catch2/catch.hpp>
@@ -156,6 +157,8 @@ TEST_CASE("a run that is asked to stop stops the stage, lifts the punch and keep
   INFO(phase << ": " << outcome.reason);
   CHECK(outcome.status == "interrupted");
   CHECK(is_at_rest_and_lifted(rig));
+  CHECK_THAT(outcome.reason, Contains("lifted by"));
+  if (phase != "approach") CHECK_THAT(outcome.reason, Contains("mm above the contact"));
   CHECK(rig.has_event("interrupted", "reason"));
   CHECK(rig.all<LoadSample>().size() > 20);
 }
@@ -203,7 +206,8 @@ TEST_CASE("a limit switch in any phase ends with the stage unlocked and the punc
   const RunOutcome outcome = rig.run(short_plan());
   INFO(phase << ": " << outcome.reason);
   CHECK(outcome.status == "interrupted");
-  CHECK_THAT(outcome.reason, Contains("alarm 1"));
+  CHECK_THAT(outcome.reason, Contains("alarm 1") && Contains("The stage was stopped"));
+  if (phase != "approach") CHECK_THAT(outcome.reason, Contains("lifted by"));
   CHECK(is_at_rest_and_lifted(rig));
 }
 
@@ -268,8 +272,37 @@ TEST_CASE("an approach that touches nothing within its limit is an error, and th
   plan.approach_limit_m = 0.5e-3;
   const RunOutcome outcome = rig.run(plan);
   CHECK(outcome.status == "interrupted");
-  CHECK_THAT(outcome.reason, Contains("nothing was touched"));
+  CHECK_THAT(outcome.reason, Contains("nothing was touched") && Contains("toward_specimen = 1") &&
+                                 Contains("motor is dead") && Contains("lifted by"));
   CHECK(rig.emulated.outcome().final_position_m == Approx(0.0).margin(1e-6));
+}
+
+TEST_CASE("a run that is stopped before anything moved reports that the stage stands",
+          "[rig][pty]") {
+  RigFixture rig(RigFixture::options(20.0));
+  when_phase(rig, "tare", [&rig] { rig.stop = true; });
+  const RunOutcome outcome = rig.run(short_plan());
+  CHECK_THAT(outcome.reason, Contains("The stage was not moved") && !Contains("lifted"));
+}
+
+TEST_CASE("a missing port does not hide a wrong driver name", "[rig]") {
+  RigConfig rig = demo_rig();
+  rig.stage.port = "/dev/viscard-no-such-stage";
+  rig.load_cell.port = "/dev/viscard-no-such-cell";
+  const RigClock clock;
+  CHECK_THROWS_WITH(open_ports(rig, clock), Contains("no-such-stage"));
+  SECTION("stage") {
+    rig.stage.driver = "grlb";
+    CHECK_THROWS_WITH(open_ports(rig, clock), Contains("driver 'grlb' under [stage]"));
+  }
+  SECTION("load cell") {
+    rig.load_cell.driver = "hx712";
+    CHECK_THROWS_WITH(open_ports(rig, clock), Contains("driver 'hx712' under [load_cell]"));
+  }
+  SECTION("format") {
+    rig.load_cell.line_format = "mikros";
+    CHECK_THROWS_WITH(open_ports(rig, clock), Contains("'mikros' is unknown"));
+  }
 }
 
 }  // namespace viscard

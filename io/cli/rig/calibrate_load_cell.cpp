@@ -1,6 +1,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/timestamp.h"
 #include "io/capture/capture_file.h"
+#include "io/capture/capture_header.h"
 #include "io/cli/rig/calibrate_words.h"
 #include "io/cli/words/stop_on_signal.h"
 #include "io/tables/column_map.h"

@@ -19,7 +19,7 @@ LiveViewOptions view_options(const CaptureWords& words, const CaptureSetup& setu
   if (words.shows_page) {
     options.page = std::filesystem::path(words.out_file).replace_extension(kPageEnding);
   }
-  if (words.acknowledges) options.n_safe = [&writer] { return writer.counts().committed; };
+  if (words.acknowledges) options.counts = [&writer] { return writer.counts(); };
   return options;
 }
 

@@ -25,7 +25,7 @@ struct CaptureWords {
   bool asks_nobody = false;      // no prompt between specimens
   bool shows_page = false;       // --live
   bool is_uncalibrated = false;  // accept an expired calibration
-  bool acknowledges = false;     // report on stderr how many records are safe
+  bool acknowledges = false;     // report on stderr how many records are safe, and from what
 };
 
 // Throws UsageError on options that cannot be combined.

@@ -45,7 +45,7 @@ CommandSyntax capture_syntax(CaptureWords& words) {
   add("live", po::bool_switch(&words.shows_page),
       "keep a page with force against time beside the capture: *.live.html");
   add("acknowledge", po::bool_switch(&words.acknowledges),
-      "report on stderr how many records are safe from a crash");
+      "report on stderr how many records are safe from a crash, and how many from a power cut");
   add("uncalibrated", po::bool_switch(&words.is_uncalibrated),
       "capture although the load cell's calibration has expired");
   add("emulate", po::bool_switch(&words.is_emulated), "use an emulated rig");
@@ -68,9 +68,10 @@ void check_calibration(const CaptureWords& words, const CaptureSetup& setup, Str
   if (!words.is_emulated) streams.err << "viscard: " << trouble << "\n";
 }
 
-void check_before_start(const CaptureWords& words, const CaptureSetup& setup) {
+void check_before_start(const CaptureWords& words, const CaptureSetup& setup, Streams& streams) {
   const Preflight expected = preflight(setup.rig, setup.plan, setup.specimen);
   if (!expected.problems.empty()) throw std::runtime_error(expected.problems.front());
+  for (const std::string& text : expected.warnings) streams.err << "viscard: " << text << "\n";
   const std::filesystem::path file = words.out_file;
   const auto beside = [&](const char* ending) {
     return std::filesystem::path(file).replace_extension(ending);
@@ -84,6 +85,8 @@ void print_text(const CaptureOutcome& capture, std::ostream& out) {
   const RunOutcome& outcome = capture.run;
   const StreamCounts& stream = outcome.stream;
   out << fmt::format("{}: {}\n", capture.file, outcome.status)
+      << (outcome.line_format.empty() ? std::string()
+                                      : fmt::format("  lines read as   {}\n", outcome.line_format))
       << fmt::format("  peak force      {:.4f} N (expected at most {:.4f}, limit {:.4f})\n",
                      outcome.peak_force_N, outcome.expected.peak_force_N, outcome.expected.limit_N)
       << (outcome.contact_position_m
@@ -125,6 +128,7 @@ ordered_json json_from_outcome(const CaptureOutcome& capture) {
   json["noise_N"] = outcome.noise_N;
   json["hidden_error_N"] = outcome.hidden_error_N;
   json["doubts"] = outcome.doubts;
+  json["line_format"] = outcome.line_format;
   json["readings"] = {{"expected", stream.expected()},
                       {"received", stream.received},
                       {"missing", stream.missing},
@@ -174,7 +178,7 @@ SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords
     CaptureWords one = words;
     one.out_file = step.out_file;
     const CaptureSetup setup = capture_setup(one, step.specimen_file);
-    check_before_start(one, setup);
+    check_before_start(one, setup, streams);
     check_calibration(one, setup, streams);
     if (!is_first && !is_next_ready(step, words, streams)) {
       result.trouble = "the series was ended before " + step.specimen_file;

@@ -1,8 +1,10 @@
 #include "io/basics/atomic_file.h"
+#include "io/capture/capture_check.h"
 #include "io/capture/capture_export.h"
 #include "io/capture/capture_file.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/flow/table_from_capture.h"
 #include "models/maths/text_of_number.h"
 
 #include <nlohmann/json.hpp>
@@ -20,13 +22,16 @@ CommandSyntax export_syntax() {
   syntax.description =
       "Writes every sample of a capture as CSV: time, counts, volts, force, stage position, "
       "phase.\n"
+      "Times and positions are on the clock that viscard fit uses; host_time_s is the time of "
+      "receipt.\n"
       "Of an interrupted run all committed samples are written, and the head states that it was "
       "interrupted.\n"
       "Without --out the table goes to standard output.";
   syntax.example = "viscard export run.viscap --out run.csv";
   syntax.options.add_options()("out", po::value<std::string>(), "CSV file to write")(
-      "raw", "the bytes as received and sent instead of the samples")("force",
-                                                                      "replace an existing file");
+      "raw", "the bytes as received and sent instead of the samples")(
+      "verify", "compare the capture with its checksums; writes no table")(
+      "force", "replace an existing file");
   syntax.positional = {"capture"};
   return syntax;
 }
@@ -48,6 +53,33 @@ nlohmann::ordered_json summary_of(const CapturedRun& run, const std::string& cap
           {"n_raw_bytes", run.n_raw_bytes}};
 }
 
+// Prints whether the capture holds what was written. A damaged one is a failure.
+int verify(const std::string& capture, bool is_json, Streams& streams) {
+  const CaptureCheck check = check_capture(capture);
+  if (is_json) {
+    const nlohmann::ordered_json object{{"capture", capture},
+                                        {"is_checked", check.is_checked},
+                                        {"n_batches", check.n_batches},
+                                        {"n_records", check.n_records},
+                                        {"faults", check.faults}};
+    streams.out << object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+                << "\n";
+  } else if (check.faults.empty()) {
+    streams.out << capture << ": "
+                << (check.is_checked
+                        ? counted(check.n_records, "record") + " match " +
+                              counted(check.n_batches, "checksum")
+                        : "unchecked: it was written before captures carried checksums")
+                << "\n";
+  }
+  for (const std::string& fault : check.faults) {
+    streams.err << "viscard: " << capture << ": " << fault << "\n";
+  }
+  if (check.faults.empty()) return kDone;
+  streams.err << "viscard: " << capture << " is damaged; use another copy of it\n";
+  return kFailed;
+}
+
 }  // namespace
 
 int run_export(const Words& words, Streams& streams) {
@@ -60,8 +92,14 @@ int run_export(const Words& words, Streams& streams) {
   const auto capture = (*values)["capture"].as<std::string>();
   const bool is_json = values->count("json") > 0;
   const bool is_raw = values->count("raw") > 0;
+  if (values->count("verify") > 0) {
+    if (is_raw || values->count("out") > 0) {
+      throw UsageError("--verify writes no table; omit --out and --raw");
+    }
+    return verify(capture, is_json, streams);
+  }
   const CapturedRun run = read_capture(capture);
-  const std::string table = is_raw ? csv_from_raw_bytes(capture) : csv_from_capture(run);
+  const std::string table = is_raw ? csv_from_raw_bytes(capture) : table_from_capture(run);
   nlohmann::ordered_json summary = summary_of(run, capture);
   if (const auto out = given(*values, "out")) {
     write_file(*out, table, values->count("force") > 0);

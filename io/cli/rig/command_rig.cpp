@@ -102,6 +102,8 @@ void print_json(const RigCheck& found, std::ostream& out) {
                              {"load_cell",
                               {{"rate_Hz", found.rate_Hz},
                                {"jitter_s", found.jitter_s},
+                               {"falls_behind", found.falls_behind},
+                               {"line_bytes", found.line_bytes},
                                {"missing", found.stream.missing},
                                {"unreadable", found.stream.unreadable},
                                {"reads_as", found.reads_as},

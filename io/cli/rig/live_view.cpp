@@ -66,7 +66,7 @@ void LiveView::work() {
       history = history_;
     }
     if (is_new && streams_.err_is_terminal && !is_over) draw_line(now, history);
-    if (options_.n_safe) announce();
+    if (options_.counts) announce();
     if (options_.page && (is_over || Clock::now() >= page_due)) {
       draw_page(now, history, is_over);
       page_due = Clock::now() + kPage;
@@ -94,10 +94,12 @@ void LiveView::draw_page(const RunProgress& now, const LiveHistory& history, boo
 }
 
 void LiveView::announce() {
-  const std::size_t n_safe = options_.n_safe();
-  if (n_safe == n_announced_) return;
-  n_announced_ = n_safe;
-  streams_.err << fmt::format("{} records are safe\n", n_safe) << std::flush;
+  const CaptureCounts counts = options_.counts();
+  if (counts.committed == announced_.committed && counts.synced == announced_.synced) return;
+  announced_ = counts;
+  streams_.err << fmt::format("{} records are safe from a crash, {} from a power cut\n",
+                              counts.committed, counts.synced)
+               << std::flush;
 }
 
 }  // namespace viscard

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/capture/capture_file.h"
 #include "io/cli/words/streams.h"
 #include "rig/run/run_control.h"
 
@@ -51,7 +52,7 @@ struct LiveViewOptions {
   double clock_speed = 1.0;
   std::string title;
   std::optional<std::filesystem::path> page;  // rewritten every second
-  std::function<std::size_t()> n_safe;        // records that survive a kill; reported if not empty
+  std::function<CaptureCounts()> counts;      // of the writer; reported if not empty
 };
 
 // Shows a run to the person at the rig, as one line at the bottom of the terminal and as a page. A
@@ -80,7 +81,7 @@ class LiveView {
   LiveViewOptions options_;
   bool is_line_drawn_ = false;
   bool is_page_lost_ = false;
-  std::size_t n_announced_ = 0;
+  CaptureCounts announced_;
 
   mutable std::mutex mutex_;  // guards the next five
   std::condition_variable wake_;

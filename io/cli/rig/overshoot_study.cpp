@@ -47,7 +47,7 @@ SafetyConfig safety_for(Stop stop, double capacity_N) {
   return safety;
 }
 
-double overshoot_N(const OvershootRow& row, Stop stop) {
+double measured_overshoot_N(const OvershootRow& row, Stop stop) {
   const EmulatedRigOptions options = bench(row);
   const EmulatedRig emulated(options);
   RigConfig rig = emulated.config();
@@ -68,6 +68,18 @@ double overshoot_N(const OvershootRow& row, Stop stop) {
   }
   session.make_safe(0.0, 2e-3);
   return emulated.outcome().peak_force_N - kLimit_N;
+}
+
+// On a busy machine the emulator's readings are late, and the stage stops before the limit.
+double overshoot_N(const OvershootRow& row, Stop stop) {
+  constexpr int kTries = 3;
+  for (int i = 1; i < kTries; ++i) {
+    try {
+      return measured_overshoot_N(row, stop);
+    } catch (const ReadingsTooOld&) {
+    }
+  }
+  return measured_overshoot_N(row, stop);
 }
 
 }  // namespace

@@ -59,6 +59,16 @@ TEST_CASE("without a contact there is no depth", "[io][capture]") {
   CHECK(csv_from_capture(run).find("depth_m") == std::string::npos);
 }
 
+TEST_CASE("bytes that are not text are escaped in the export", "[io][capture]") {
+  CapturedRun run = short_run();
+  run.specimen.id = "gel \xc2\xb5-7";  // a character of UTF-8 stays
+  run.events.push_back({0.04, "load_cell_unreadable", "12\xff\xc3(", "half \xe2\x82"});
+  const std::string csv = csv_from_capture(run);
+  CHECK(csv.find("# event at 0.040 s: load_cell_unreadable 12\\xff\\xc3( half \\xe2\\x82\n") !=
+        std::string::npos);
+  CHECK(csv.find("# specimen: gel \xc2\xb5-7, ") != std::string::npos);
+}
+
 TEST_CASE("raw bytes are exported so that each byte can be recovered", "[io][capture]") {
   const test::ScratchFolder folder;
   const auto path = folder / "run.viscap";

@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/capture/capture_file.h"
+#include "io/capture/capture_header.h"
 #include "tests/io/capture/capture_samples.h"
 #include "tests/support/error_text.h"
 #include "tests/support/scratch_folder.h"

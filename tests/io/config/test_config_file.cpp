@@ -1,4 +1,6 @@
+#include "io/basics/atomic_file.h"
 #include "io/config/config_file.h"
+#include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
 
@@ -7,6 +9,8 @@
 
 namespace viscard {
 namespace {
+
+using Catch::Matchers::Contains;
 
 const std::filesystem::path kDemo = std::filesystem::path(VISCARD_SOURCE_DIR) / "data" / "demo";
 
@@ -185,6 +189,44 @@ TEST_CASE("values that contradict each other are refused with the file's name", 
               "{g = 0.5, tau = 2}]\n",
               "truth.toml");
         }).find("truth.toml: ") == 0);
+}
+
+// What is printed when a demo file with one line replaced is about to be used.
+template <typename Config>
+std::string use_error(Config (*read)(const std::filesystem::path&), const std::string& file,
+                      const std::string& old_text, const std::string& new_text) {
+  const test::ScratchFolder folder;
+  std::string text = read_file(kDemo / file);
+  const std::size_t at = text.find(old_text);
+  REQUIRE(at != std::string::npos);
+  write_file(folder.path() / file, text.replace(at, old_text.size(), new_text), true);
+  return error_of([&] { read(folder.path() / file); });
+}
+
+TEST_CASE("values that no bench can have are refused with line, bounds and an example",
+          "[io][config]") {
+  const auto specimen_error = [](const std::string& old_text, const std::string& new_text) {
+    return use_error(read_specimen, "03_pdms_1to10.toml", old_text, new_text);
+  };
+  const auto test_error = [](const std::string& old_text, const std::string& new_text) {
+    return use_error(read_test, "02_test.toml", old_text, new_text);
+  };
+  CHECK_THAT(specimen_error("modulus_guess = \"2 MPa\"", "modulus_guess = 2"),
+             Contains(".toml:9: modulus_guess is 2 Pa; expected 100 Pa to 1 TPa") &&
+                 Contains("\"2 MPa\"") && Contains("unit"));
+  CHECK_THAT(specimen_error("temperature = \"23 degC\"", "temperature = \"-400 degC\""),
+             Contains("temperature is -400 degC") && Contains("23 degC"));
+  CHECK_THAT(specimen_error("id = \"pdms-1to10\"", "id = \" \""),
+             Contains(".toml:3: id is empty") && Contains("such as"));
+  CHECK_THAT(test_error("hold = \"60 s\"", "hold = 1e30"),
+             Contains("ramp.hold is 1e+30 s; expected 0 to 30 days"));
+  CHECK_THAT(test_error("limit = \"5 mm\"", "limit = \"1 km\""),
+             Contains("approach.limit is 1000 m") && Contains("5 mm"));
+  // What an old capture holds is still read.
+  CHECK(specimen_from_toml("id = \"\"\nmodulus_guess = 2\n[contact]\npunch_diameter = 1e-3\n"
+                           "layer_thickness = \"half-space\"\npoisson_ratio = 0.4\n",
+                           "specimen.toml")
+            .modulus_guess_Pa == 2.0);
 }
 
 }  // namespace

@@ -42,6 +42,23 @@ TEST_CASE("a force that still rises two readings after the gentle stop is stoppe
   }
 }
 
+TEST_CASE("at rest one reading above a limit waits for the next", "[rig]") {
+  const double garbled_N = GENERATE(0.9, 8.0);  // above the soft, above the hard limit
+  ForceGuard guard = guard_of_1_N();
+  double time_s = 0.0;
+  const auto take = [&](double force_N) {
+    return guard.take(force_N, false, time_s += kPeriod_s, kPeriod_s, false);
+  };
+  for (int i = 0; i < 3; ++i) {
+    CHECK(take(garbled_N) == GuardAction::kNone);
+    CHECK(take(0.4) == GuardAction::kNone);
+  }
+  CHECK(take(0.99) == GuardAction::kNone);
+  CHECK(take(0.99) == GuardAction::kHardStop);
+  ForceGuard moving = guard_of_1_N();
+  CHECK(moving.take(8.0, false, 0.0, kPeriod_s, true) == GuardAction::kHardStop);
+}
+
 TEST_CASE("a doubtful reading is forgiven only if the next one is good", "[rig]") {
   ForceGuard forgiven = guard_of_1_N();
   CHECK(forgiven.take(9.9, true, 0.0, kPeriod_s) == GuardAction::kNone);

@@ -59,4 +59,25 @@ TEST_CASE("a stall of this program changes no reading and stops nothing", "[rig]
   CHECK(n_progress > 8);
 }
 
+TEST_CASE("a load cell that dies in a hold is noticed within 2 s", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(1.0);
+  options.truth.surface_position_m = 0.06e-3;
+  RigFixture rig(options);
+  when_phase(rig, "hold", [&rig] { rig.emulated.cause(Incident::kSilenceLoadCell); });
+  TestPlan plan = short_plan();
+  plan.hold_s = 20.0;
+  const RunOutcome outcome = rig.run(plan);
+  INFO(outcome.reason);
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("fell silent while the stage stood still"));
+  CHECK_FALSE(rig.has_event("stage_alarm", "3"));  // a stage at rest needs no reset
+  // Of time spent listening; on a busy machine that is more of the wall's.
+  std::string noticed;
+  for (const RunEvent& event : rig.all<RunEvent>()) {
+    if (event.name == "limit" && event.value == "silent") noticed = event.text;
+  }
+  CHECK_THAT(noticed, Contains("at rest, which may be 1.5"));
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+}
+
 }  // namespace viscard

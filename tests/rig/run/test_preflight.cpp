@@ -118,4 +118,44 @@ TEST_CASE("impossible plans and rigs are refused with the value to change", "[ri
   CHECK_THROWS_AS(preflight(rig, TestPlan{}, demo_specimen(10.0)), std::invalid_argument);
 }
 
+TEST_CASE("a test that no approach would notice is refused before it starts", "[rig]") {
+  Specimen soft = demo_specimen(10.0);
+  soft.modulus_guess_Pa = 200.0;  // 2 MPa with a factor lost
+  const Preflight result = preflight(demo_rig(), TestPlan{}, soft);
+  REQUIRE(result.problems.size() == 1);
+  CHECK_THAT(result.problems[0],
+             Catch::Matchers::Contains("not above the contact_force of 10 mN") &&
+                 Catch::Matchers::Contains("modulus_guess") &&
+                 !Catch::Matchers::Contains("0.0000 N"));
+}
+
+TEST_CASE("an approach longer than the stage's travel is refused with a limit that fits", "[rig]") {
+  TestPlan plan;
+  plan.approach_limit_m = 0.9;
+  const Preflight result = preflight(demo_rig(), plan, demo_specimen(10.0));
+  REQUIRE(result.problems.size() == 1);
+  CHECK_THAT(result.problems[0], Catch::Matchers::Contains("travel is 10.0000 mm") &&
+                                     Catch::Matchers::Contains("limit under [approach]"));
+  plan.approach_limit_m = demo_rig().stage.travel_m;
+  CHECK(preflight(demo_rig(), plan, demo_specimen(10.0)).problems.empty());
+}
+
+TEST_CASE("an unloading that will lift off is a warning with a fraction that will not", "[rig]") {
+  TestPlan plan;
+  plan.unload_to_fraction = 0.03;
+  Specimen specimen = demo_specimen(10.0);
+  const auto warnings = [&] { return preflight(demo_rig(), plan, specimen).warnings; };
+  REQUIRE(warnings().size() == 1);
+  CHECK_THAT(warnings()[0],
+             Catch::Matchers::Contains("lift off") &&
+                 Catch::Matchers::Contains("unload_to_fraction of the test file to 0.10"));
+  specimen.relaxation_guess = 0.02;
+  CHECK(warnings().empty());
+  plan.unload_to_fraction = 0.1;
+  specimen.relaxation_guess = 0.3;
+  CHECK(warnings().size() == 1);
+  plan.unload_to_fraction = 0.6;
+  CHECK(warnings().empty());
+}
+
 }  // namespace viscard

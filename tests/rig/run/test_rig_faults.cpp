@@ -141,4 +141,24 @@ TEST_CASE("late answers are not counted as lost", "[rig][pty]") {
   CHECK(rig.stage.report_latency().n_lost == 0);
 }
 
+TEST_CASE("an amplifier that restarts in the tare gives its zero afterwards", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(10.0);
+  options.config.load_cell.line_format = "auto";
+  options.amplifier.boot_s = 1.0;
+  RigFixture rig(options);
+  when_phase(rig, "tare", [&rig] { rig.emulated.cause(Incident::kRestartLoadCell); });
+  const RunOutcome outcome = rig.run(short_plan());
+  INFO(outcome.reason);
+  CHECK(outcome.status == "finished");
+  CHECK(outcome.line_format == "micros,counts");
+  CHECK(rig.has_event("load_cell_restarted", ""));
+  const std::vector<RunEvent> events = rig.all<RunEvent>();
+  const auto restarted = std::find_if(events.begin(), events.end(), [](const RunEvent& event) {
+    return event.name == "load_cell_restarted";
+  });
+  CHECK(std::any_of(restarted, events.end(),
+                    [](const RunEvent& event) { return event.name == "tare"; }));
+  CHECK(rig.has_event("line_format", "micros,counts"));
+}
+
 }  // namespace viscard

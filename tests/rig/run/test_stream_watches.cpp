@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -111,6 +112,26 @@ TEST_CASE("garbled digits are found at the beginning, at the end and side by sid
   values[200] += 6000.0;
   values[201] += 6000.0;
   CHECK(spikes_in(values) == std::vector<std::int64_t>{0, 4, 9, 150, 151, 200, 201, 298, 299});
+}
+
+TEST_CASE("a garbled digit is found although two of the five readings behind it are bad", "[rig]") {
+  const double slope = GENERATE(0.0, 3000.0);  // ten times the noise per reading
+  for (std::size_t i = 1; i <= 5; ++i) {
+    for (std::size_t j = i + 1; j <= 5; ++j) {
+      for (const double sign : {1.0, -1.0}) {
+        CAPTURE(slope, i, j, sign);
+        std::vector<double> values;
+        for (int k = 0; k < 300; ++k) values.push_back(84213.0 + slope * k);
+        values = noisy(values, 300.0);
+        values[150] += 20000.0;
+        values[150 + i] += 20000.0;
+        values[150 + j] += sign * 20000.0;
+        const std::vector<std::int64_t> found = spikes_in(values);
+        CHECK(std::count(found.begin(), found.end(), 150) == 1);
+        CHECK(found.size() <= 3);
+      }
+    }
+  }
 }
 
 TEST_CASE("at rest an error of 8 times the noise is found, and noise is not marked", "[rig]") {

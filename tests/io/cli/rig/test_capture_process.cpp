@@ -154,7 +154,7 @@ std::size_t records_in(const std::filesystem::path& path) {
   return n;
 }
 
-// The number of the last "123 records are safe".
+// The number of the last "123 records are safe from a crash, 98 from a power cut".
 std::size_t last_acknowledged(const std::string& said) {
   const std::size_t end = said.rfind(" records are safe");
   if (end == std::string::npos) return 0;
@@ -180,6 +180,8 @@ void kill_captures(int n_kills) {
     n_killed += WIFSIGNALED(program.wait()) ? 1 : 0;
     const std::size_t said = last_acknowledged(program.said());
     const std::size_t there = records_in(path);
+    CHECK(contains(program.said(), " records are safe from a crash, "));
+    CHECK(contains(program.said(), " from a power cut\n"));
     CHECK(read_capture(path).status == "interrupted");
     acknowledged += said;
     found += there;

@@ -63,6 +63,27 @@ TEST_CASE("an interrupted capture is exported and marked as interrupted", "[cli]
   CHECK(column_SI(csv_from_text(outcome.out, "stdout"), "time_s").size() == 50);
 }
 
+TEST_CASE("viscard export --verify reports a capture that matches, and one with a flipped bit",
+          "[cli][capture]") {
+  const ScratchFolder folder;
+  const std::string capture = capture_of(folder, "finished");
+  const auto sound = run_command({"export", capture, "--verify"});
+  CHECK(sound.status == kDone);
+  CHECK(contains(sound.out, "51 records match "));
+  CHECK(run_command({"export", capture, "--verify", "--raw"}).status == kBadWords);
+  std::string bytes = read_file(capture);
+  bytes[bytes.rfind("phasehold")] ^= 1;
+  write_file(capture, bytes, true);
+  const auto damaged = run_command({"export", capture, "--verify"});
+  CHECK(damaged.status == kFailed);
+  CHECK(contains(damaged.err, "table events, records 1 to "));
+  CHECK(contains(damaged.err, "is damaged; use another copy"));
+  const auto json =
+      nlohmann::json::parse(run_command({"export", capture, "--verify", "--json"}).out);
+  CHECK(json["is_checked"] == true);
+  CHECK(json["faults"].size() == 1);
+}
+
 TEST_CASE("viscard export refuses a file that is no capture in one line", "[cli][capture]") {
   const ScratchFolder folder;
   CHECK(run_command({"export"}).status == kBadWords);

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "io/capture/sqlite_database.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace viscard {
+
+// A capture opened for reading. SQLite needs to create a side file to read a journal, so on a
+// read-only medium a copy is read. Throws std::runtime_error as read_capture() does.
+class OpenCapture {
+ public:
+  explicit OpenCapture(const std::filesystem::path& path);
+  ~OpenCapture();
+  OpenCapture(const OpenCapture&) = delete;
+  OpenCapture& operator=(const OpenCapture&) = delete;
+
+  Database& database() { return *database_; }
+  bool is_running() const { return is_running_; }
+
+  // Throws std::runtime_error that explains the error to a user.
+  [[noreturn]] void explain(const SqliteError& error) const;
+
+ private:
+  void open_copy();
+
+  std::filesystem::path path_, copy_;
+  std::optional<Database> database_;
+  bool is_running_ = false;
+};
+
+}  // namespace viscard

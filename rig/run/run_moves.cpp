@@ -1,0 +1,125 @@
+// The moves of a session, and the age of the readings by which they are judged.
+#include "models/maths/text_of_number.h"
+#include "rig/run/run_session.h"
+
+#include <algorithm>
+
+namespace viscard {
+namespace {
+
+constexpr double kFresh_wall_s = 1.0;          // longest wait for a reading that is young enough
+constexpr double kLongestPass_wall_s = 0.010;  // a longer one is a pause of this program
+constexpr double kLongestStep_m = 25e-6;
+
+}  // namespace
+
+// Only time spent listening counts: what was sent before a pause of this program has been read.
+double RunSession::age_s() const {
+  return devices_.load_cell().listened_at_s() - readings_.newest_made_s();
+}
+
+void RunSession::check_age() {
+  if (!is_pressing_ || !stage().is_moving()) return;
+  const double allowed_s = ages_.allowed_s(load_cell().period_s());
+  const double age = age_s();
+  if (age <= allowed_s) return;
+  devices_.stop_hard();
+  is_pressing_ = false;
+  event("limit", "old",
+        "The newest reading was " + text_from_number(age, 3) +
+            " s old while the stage pressed, which may be " + text_from_number(allowed_s, 3) +
+            " s: it was reset");
+  throw_too_old("while the stage was pressing; it was stopped at once");
+}
+
+void RunSession::throw_too_old(const std::string& what) const {
+  const LoadCell& cell = devices_.load_cell();
+  const double age = age_s();
+  if (cell.listened_at_s() - cell.last_arrival_s() > 0.5 * age) {
+    throw ReadingsTooOld("the load cell fell silent " + what +
+                         ". Check the amplifier and its cable, then start the run again");
+  }
+  throw ReadingsTooOld(
+      "the newest reading of the load cell was " + text_from_number(age, 2) + " s old " + what +
+      ". Its line falls behind (too slow for the lines that are sent, or a radio link), or a "
+      "converter without a clock is slower than expected_rate in the rig file. Measure both with: "
+      "viscard rig check");
+}
+
+void RunSession::expect_stiffness(double stiffness_N_m) {
+  stiffness_N_m_ = std::max(stiffness_N_m_, stiffness_N_m);
+}
+
+// False if it still waits after so much time spent listening.
+bool RunSession::pump_while(const std::function<bool()>& is_waiting, double listened_wall_s) {
+  double last_s = monotonic_s();
+  double listened_s = 0.0;
+  while (is_waiting()) {
+    if (listened_s > listened_wall_s) return false;
+    pump();
+    const double now_s = monotonic_s();
+    listened_s += std::min(now_s - last_s, kLongestPass_wall_s);
+    last_s = now_s;
+  }
+  return true;
+}
+
+bool RunSession::move(double to_m, double speed_m_s, const std::string& purpose,
+                      std::optional<double> stop_above_N) {
+  readings_.watch(stop_above_N);
+  if (to_m > stage().position_m()) {
+    press(to_m, speed_m_s, purpose, stop_above_N);
+  } else {
+    move_once(to_m, speed_m_s, purpose, stop_above_N);
+  }
+  readings_.stop_watching();
+  return readings_.has_exceeded();
+}
+
+// A move toward the specimen.
+void RunSession::press(double to_m, double speed_m_s, const std::string& purpose,
+                       std::optional<double> stop_above_N) {
+  const StageDynamics dynamics = stage().dynamics();
+  const double limit_N = std::min(guard_.soft_limit_N(), stop_above_N.value_or(1e300));
+  ages_.begin_move(limit_N, stiffness_N_m_ * std::max(speed_m_s, dynamics.min_speed_m_s));
+  const double period_s = load_cell().period_s();
+  const bool is_in_steps = ages_.needs_steps(period_s);
+  const double step_m = is_in_steps ? std::max(kLongestStep_m, 1.01 / dynamics.steps_per_m) : 1e300;
+  const auto is_old = [&] { return age_s() > ages_.allowed_s(period_s); };
+  while (!readings_.has_exceeded() && stage().position_m() < to_m) {
+    if (!pump_while(is_old, kFresh_wall_s)) throw_too_old("before the stage was to press");
+    if (readings_.has_exceeded()) return;
+    is_pressing_ = !is_in_steps;
+    const double next_m = std::min(to_m, stage().position_m() + step_m);
+    move_once(next_m, speed_m_s, purpose, stop_above_N);
+    is_pressing_ = false;
+    if (next_m == to_m) return;
+    await_reading_after(clock_.now_s());
+  }
+}
+
+void RunSession::move_once(double to_m, double speed_m_s, const std::string& purpose,
+                           std::optional<double> stop_above_N) {
+  stage().begin_move(to_m, speed_m_s, purpose);
+  has_moved_ = true;
+  bool is_stopping = false;
+  while (stage().is_moving()) {
+    pump();
+    if (readings_.has_exceeded() && !is_stopping && stage().is_moving()) {
+      stage().stop_soft();
+      is_stopping = true;
+      is_pressing_ = false;  // it comes to rest without more readings
+    }
+  }
+  // Readings made before standstill may still be on their way.
+  if (stop_above_N) await_reading_after(clock_.now_s());
+}
+
+void RunSession::await_reading_after(double time_s) {
+  readings_.collect_from(time_s);
+  const bool has_come = pump_while([&] { return readings_.n_collected() == 0; }, kFresh_wall_s);
+  readings_.stop_collecting();
+  if (!has_come) throw_too_old("after the stage had come to rest");
+}
+
+}  // namespace viscard
