@@ -113,9 +113,10 @@ void SilenceWatch::pass(double wall_s, bool has_arrived, bool is_moving) {
 }
 
 double SilenceWatch::limit_s(double period_s) const {
-  constexpr double kPeriods = 3.0, kLargestAllowance_s = 0.25;
+  constexpr double kSilentPeriods = 3.0, kLargestAllowance_s = 0.25;
   const double largest_s = std::max(kLargestAllowance_s, floor_s_);
-  return std::max(kPeriods * period_s, std::clamp(2.0 * longest_at_rest_s_, floor_s_, largest_s));
+  return std::max(kSilentPeriods * period_s,
+                  std::clamp(2.0 * longest_at_rest_s_, floor_s_, largest_s));
 }
 
 }  // namespace viscard

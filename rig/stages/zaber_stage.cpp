@@ -43,7 +43,7 @@ ZaberStage::Sent ZaberStage::send(const std::string& words) {
   next_id_ = (next_id_ + 1) % 100;
   const std::string line =
       format_zaber_command(config_.device, config_.axis_number, next_id_, words);
-  const Sent sent{next_id_, words, clock_.now_s(), 1};
+  Sent sent{next_id_, words, clock_.now_s(), 1};
   sink_(RawBytes{Device::kStage, true, sent.written_s, line});
   transport_.write(line);
   return sent;
