@@ -5,6 +5,7 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/output_paths.h"
 #include "io/flow/capture_to_file.h"
+#include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -105,6 +106,11 @@ void print_text(const CaptureOutcome& capture, std::ostream& out) {
         "  checked         against neighbours: errors above {:.3f} mN would show at rest\n",
         outcome.hidden_error_N * 1e3);
   }
+  if (outcome.n_late > 0) {
+    out << fmt::format("  computer        late by up to {:.2f} s, {} in all: not watched then\n",
+                       outcome.longest_late_s,
+                       counted(static_cast<std::size_t>(outcome.n_late), "time"));
+  }
   for (const std::string& doubt : outcome.doubts) out << "  doubt           " << doubt << "\n";
   if (!capture.force_N.empty()) {
     out << "  force           " << sparkline(capture.force_N, kPictureWidth) << "\n";
@@ -129,6 +135,7 @@ ordered_json json_from_outcome(const CaptureOutcome& capture) {
   json["hidden_error_N"] = outcome.hidden_error_N;
   json["doubts"] = outcome.doubts;
   json["line_format"] = outcome.line_format;
+  json["computer_late"] = {{"times", outcome.n_late}, {"longest_s", outcome.longest_late_s}};
   json["readings"] = {{"expected", stream.expected()},
                       {"received", stream.received},
                       {"missing", stream.missing},
