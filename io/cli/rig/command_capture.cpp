@@ -53,7 +53,7 @@ CommandSyntax capture_syntax(CaptureWords& words) {
   add("truth", into(words.truth_file), "truth.toml: what the emulated specimen is made of");
   add("seed", into(words.seed), "seed of the emulated noise");
   add("speed", po::value(&words.speed)->default_value(1.0),
-      "emulated clock over wall clock, up to 500");
+      "largest speed of the emulated clock over the wall clock, up to 500; changes no result");
   add("force", po::bool_switch(&words.overwrite), "replace an existing capture file");
   return syntax;
 }
