@@ -147,6 +147,12 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
   RunOutcome& outcome = run.outcome;
   outcome.status = status;
   outcome.reason = error.what();
+  // The rig may not be to blame for what follows a delay of this computer.
+  const std::string late = run.session.lateness_text();
+  if (dynamic_cast<const RunInterrupted*>(&error) == nullptr && !late.empty() &&
+      outcome.reason.find(late) == std::string::npos) {
+    outcome.reason = late + ". What followed may come from that: " + outcome.reason;
+  }
   outcome.has_begun = run.session.has_moved();
   if (run.is_in_contact) note_depth(run);
   const SafeEnd end = run.session.make_safe(phases.safe_position_m(), run.plan.retract_speed_m_s);

@@ -51,10 +51,9 @@ class ClosingCall {
   const CaptureWatch& watch_;
 };
 
-RunOutcome capture_with(const RigConfig& rig, const CaptureRequest& request,
+RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, const CaptureRequest& request,
                         const CaptureWatch& watch) {
   const CaptureSetup& setup = request.setup;
-  const RigClock clock(rig.clock_speed);
   RigDevices devices = open_ports(rig, clock);
   CaptureOptions options;
   options.overwrite = request.overwrite;
@@ -88,9 +87,10 @@ RunOutcome capture_with(const RigConfig& rig, const CaptureRequest& request,
 }  // namespace
 
 RunOutcome capture_to_file(const CaptureRequest& request, const CaptureWatch& watch) {
-  if (!request.setup.truth) return capture_with(request.setup.rig, request, watch);
-  const EmulatedRig emulated({.truth = *request.setup.truth, .config = request.setup.rig});
-  return capture_with(emulated.config(), request, watch);
+  const RigConfig& rig = request.setup.rig;
+  if (!request.setup.truth) return capture_with(rig, RigClock(rig.clock_speed), request, watch);
+  const EmulatedRig emulated({.truth = *request.setup.truth, .config = rig});
+  return capture_with(emulated.config(), emulated.clock(), request, watch);
 }
 
 }  // namespace viscard

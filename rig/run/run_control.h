@@ -39,6 +39,12 @@ class ReadingsTooOld : public RigError {
   using RigError::RigError;
 };
 
+// The computer was late while the stage was pressing, and nobody watched the force meanwhile.
+class ComputerLate : public RigError {
+ public:
+  using RigError::RigError;
+};
+
 // The force reached a limit; the stage has been sent a stop.
 class LimitReached : public RigError {
  public:

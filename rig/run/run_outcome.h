@@ -25,6 +25,9 @@ struct RunOutcome {
   double peak_force_N = 0.0;
   double achieved_depth_m = 0.0;  // largest depth by the live estimate
   StreamCounts stream;
+  // Delays of this computer in which nothing could be watched, of at least 0.1 s.
+  int n_late = 0;
+  double longest_late_s = 0.0;
   std::string line_format;  // of the load cell's lines as read; empty if its protocol fixes it
   std::vector<std::string> doubts;  // reasons to distrust the record of a finished run
 };

@@ -14,7 +14,7 @@ LiveViewOptions view_options(const CaptureWords& words, const CaptureSetup& setu
   LiveViewOptions options;
   options.capacity_N = rig.calibration.capacity_N;
   options.limit_N = rig.safety.soft_fraction * rig.calibration.capacity_N;
-  options.clock_speed = rig.clock_speed;
+  options.clock_speed = setup.rig.clock_speed;  // an emulated rig does not know its pace
   options.title = setup.specimen.id.empty() ? words.out_file : setup.specimen.id;
   if (words.shows_page) {
     options.page = std::filesystem::path(words.out_file).replace_extension(kPageEnding);

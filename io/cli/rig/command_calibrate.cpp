@@ -46,7 +46,8 @@ CommandSyntax calibrate_syntax(CalibrateWords& words) {
   add("out", po::value(&words.out_file), "record to write (*.toml)");
   add("emulate", po::bool_switch(&words.is_emulated), "calibrate an emulated rig");
   add("truth", into(words.truth_file), "truth.toml: what the emulated cell is like");
-  add("speed", po::value(&words.speed)->default_value(1.0), "emulated clock over wall clock");
+  add("speed", po::value(&words.speed)->default_value(1.0),
+      "largest speed of the emulated clock over the wall clock");
   add("yes", po::bool_switch(&words.asks_nobody),
       "do not wait for Enter before the block is pressed");
   add("force", po::bool_switch(&words.overwrite), "replace an existing record");

@@ -5,6 +5,7 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/output_paths.h"
 #include "io/flow/capture_to_file.h"
+#include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -52,7 +53,7 @@ CommandSyntax capture_syntax(CaptureWords& words) {
   add("truth", into(words.truth_file), "truth.toml: what the emulated specimen is made of");
   add("seed", into(words.seed), "seed of the emulated noise");
   add("speed", po::value(&words.speed)->default_value(1.0),
-      "emulated clock over wall clock, up to 500");
+      "largest speed of the emulated clock over the wall clock, up to 500; changes no result");
   add("force", po::bool_switch(&words.overwrite), "replace an existing capture file");
   return syntax;
 }
@@ -105,6 +106,11 @@ void print_text(const CaptureOutcome& capture, std::ostream& out) {
         "  checked         against neighbours: errors above {:.3f} mN would show at rest\n",
         outcome.hidden_error_N * 1e3);
   }
+  if (outcome.n_late > 0) {
+    out << fmt::format("  computer        late by up to {:.2f} s, {} in all: not watched then\n",
+                       outcome.longest_late_s,
+                       counted(static_cast<std::size_t>(outcome.n_late), "time"));
+  }
   for (const std::string& doubt : outcome.doubts) out << "  doubt           " << doubt << "\n";
   if (!capture.force_N.empty()) {
     out << "  force           " << sparkline(capture.force_N, kPictureWidth) << "\n";
@@ -129,6 +135,7 @@ ordered_json json_from_outcome(const CaptureOutcome& capture) {
   json["hidden_error_N"] = outcome.hidden_error_N;
   json["doubts"] = outcome.doubts;
   json["line_format"] = outcome.line_format;
+  json["computer_late"] = {{"times", outcome.n_late}, {"longest_s", outcome.longest_late_s}};
   json["readings"] = {{"expected", stream.expected()},
                       {"received", stream.received},
                       {"missing", stream.missing},

@@ -13,7 +13,7 @@ using Catch::Matchers::Contains;
 TEST_CASE(
     "a load cell of the wrong sign stops the approach at the touch, and the reason names the key",
     "[rig][pty]") {
-  RigFixture rig(RigFixture::options(20.0));
+  RigFixture rig(RigFixture::options());
   rig.config.load_cell.compression_is_positive = false;
   const RunOutcome outcome = rig.run(short_plan());
   CHECK(outcome.status == "interrupted");
@@ -28,7 +28,7 @@ TEST_CASE(
 
 TEST_CASE("readings far slower than in the rig file end the run before the approach",
           "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(20.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.truth.sample_rate_Hz = 10.0;
   options.config.load_cell.expected_rate_Hz = 80.0;
   RigFixture rig(options);
@@ -46,7 +46,7 @@ TEST_CASE("readings far slower than in the rig file end the run before the appro
 TEST_CASE("a punch that presses before the run is lifted, and the advice is not about the ramp",
           "[rig][pty]") {
   const bool is_beyond_limit = GENERATE(true, false);
-  EmulatedRigOptions options = RigFixture::options(20.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.truth.surface_position_m = is_beyond_limit ? -0.48e-3 : -0.2e-3;
   options.truth.overload_N = 100.0;
   RigFixture rig(options);
@@ -62,7 +62,7 @@ TEST_CASE("a punch that presses before the run is lifted, and the advice is not 
 }
 
 TEST_CASE("a force that cannot be read after the lift is not reported as unchanged", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(5.0);
+  EmulatedRigOptions options = RigFixture::options();
   RigFixture rig(options);
   when_phase(rig, "hold", [&rig] {
     rig.emulated.cause(Incident::kSilenceLoadCell);
@@ -74,10 +74,10 @@ TEST_CASE("a force that cannot be read after the lift is not reported as unchang
 }
 
 TEST_CASE("an amplifier without a clock that restarts in the hold ends the run", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(5.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.config.load_cell.line_format = "auto";
   options.amplifier.format = AmplifierFormat::kCounts;
-  options.amplifier.boot_s = 4.0;  // 0.8 s of wall time after its banner
+  options.amplifier.boot_s = 0.8;  // after its banner
   RigFixture rig(options);
   when_phase(rig, "hold", [&rig] { rig.emulated.cause(Incident::kRestartLoadCell); });
   TestPlan plan = short_plan();
@@ -89,7 +89,7 @@ TEST_CASE("an amplifier without a clock that restarts in the hold ends the run",
 
 TEST_CASE("readings delayed by a stall are not counted as missing, even without a clock",
           "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(1.0);
+  EmulatedRigOptions options = RigFixture::on_wall_clock(1.0);
   options.config.load_cell.line_format = "counts";
   options.amplifier.format = AmplifierFormat::kCounts;
   RigFixture rig(options);
@@ -98,7 +98,7 @@ TEST_CASE("readings delayed by a stall are not counted as missing, even without 
   const auto until = [&](std::int64_t n) {
     const std::int64_t target = rig.load_cell.counts().received + n;
     while (rig.load_cell.counts().received < target && monotonic_s() < deadline_s) {
-      wait_readable({&rig.cell_line}, 0.002);
+      wait_readable({&rig.cell_line}, rig.clock, 0.002);
       rig.load_cell.service();
     }
   };
@@ -110,7 +110,7 @@ TEST_CASE("readings delayed by a stall are not counted as missing, even without 
 }
 
 TEST_CASE("counts printed with a decimal point are read as counts", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(20.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.config.load_cell.line_format = "auto";
   options.amplifier.format = AmplifierFormat::kMeanText;
   RigFixture rig(options);
@@ -119,30 +119,30 @@ TEST_CASE("counts printed with a decimal point are read as counts", "[rig][pty]"
 }
 
 TEST_CASE("a lost answer leaves questions and answers in step", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(5.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.grbl.lose_status_every = 12;
   RigFixture rig(options);
   rig.stage.connect(rig.pump());
   // A report that may answer an older question has no latency; out of step, n stays below 12.
-  const double deadline_s = monotonic_s() + 20.0;
-  while (rig.stage.report_latency().n < 30 && monotonic_s() < deadline_s) rig.pump()();
+  const double deadline_s = rig.clock.awake_s() + 100.0;
+  while (rig.stage.report_latency().n < 30 && rig.clock.awake_s() < deadline_s) rig.pump()();
   CHECK(rig.stage.report_latency().n == 30);
   CHECK(rig.stage.report_latency().n_lost == 2);
 }
 
 TEST_CASE("late answers are not counted as lost", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(5.0);
-  options.grbl.status_delay_s = 0.35 * options.config.clock_speed;
+  EmulatedRigOptions options = RigFixture::options();
+  options.grbl.status_delay_s = 0.35;
   RigFixture rig(options);
   rig.stage.connect(rig.pump());
-  const double deadline_s = monotonic_s() + 1.5;
-  while (monotonic_s() < deadline_s) rig.pump()();
+  const double deadline_s = rig.clock.awake_s() + 7.5;
+  while (rig.clock.awake_s() < deadline_s) rig.pump()();
   CHECK(rig.all<StageReport>().size() > 2);
   CHECK(rig.stage.report_latency().n_lost == 0);
 }
 
 TEST_CASE("an amplifier that restarts in the tare gives its zero afterwards", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(10.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.config.load_cell.line_format = "auto";
   options.amplifier.boot_s = 1.0;
   RigFixture rig(options);
