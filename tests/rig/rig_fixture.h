@@ -62,6 +62,7 @@ struct RigFixture {
     control.clock = &clock;
     control.stop = &stop;
     control.progress = on_progress;
+    control.lifts_at_start = lifts_at_start;
     return run_indentation(stage, load_cell, config, plan, specimen, sink, control);
   }
 
@@ -98,6 +99,7 @@ struct RigFixture {
   GrblStage stage;
   Hx711LoadCell load_cell;
   std::atomic<bool> stop{false};
+  bool lifts_at_start = false;
   std::function<void(const RunProgress&)> on_progress;
 };
 
