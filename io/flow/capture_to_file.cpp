@@ -33,6 +33,7 @@ void close_file(CaptureWriter& writer, RunOutcome& outcome) {
   const std::size_t dropped = writer.counts().dropped;
   if (dropped == 0 || outcome.status != "finished") return;
   outcome.status = "interrupted";
+  outcome.code = "records-lost";
   outcome.reason = fmt::format(
       "{} records were lost because the disk did not keep up. Write to a faster disk", dropped);
 }
@@ -72,6 +73,7 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, const Captu
   control.clock = &clock;
   control.stop = watch.stop;
   control.progress = watch.progress;
+  control.lifts_at_start = request.lifts_at_start;
   RunOutcome outcome = run_indentation(*devices.stage, *devices.load_cell, rig, setup.plan,
                                        setup.specimen, sink, control);
   if (outcome.has_begun) {

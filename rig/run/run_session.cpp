@@ -150,8 +150,8 @@ void RunSession::throw_limit(GuardAction action, double force_N) const {
   }
   if (!has_moved_) {
     throw LimitReached(reached +
-                       ", before anything was moved: the punch is already pressing. Lift it by "
-                       "hand or jog it away; if nothing presses, correct zero_volts of the "
+                       ", before anything was moved: the punch was already pressing, or something "
+                       "else presses on the cell. Take that away, or correct zero_volts of the "
                        "calibration");
   }
   if (!progress_.has_contact()) {

@@ -73,6 +73,7 @@ struct RigFixture {
     control.clock = &clock;
     control.stop = &stop;
     control.progress = on_progress;
+    control.lifts_at_start = lifts_at_start;
     return run_indentation(stage, load_cell, config, plan, specimen, sink, control);
   }
 
@@ -109,6 +110,7 @@ struct RigFixture {
   GrblStage stage;
   Hx711LoadCell load_cell;
   std::atomic<bool> stop{false};
+  bool lifts_at_start = false;
   std::function<void(const RunProgress&)> on_progress;
   std::function<void(const RunRecord&)> on_record;  // of the drivers, also without a run
 };

@@ -1,6 +1,7 @@
 #include "io/basics/timestamp.h"
 #include "io/basics/units.h"
 #include "io/cli/rig/calibrate_words.h"
+#include "io/cli/rig/json_errors.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/output_paths.h"
@@ -127,9 +128,7 @@ void check_words(const CalibrateWords& words) {
   refuse_existing(words.out_file, words.overwrite);
 }
 
-}  // namespace
-
-int run_calibrate(const Words& words, Streams& streams) {
+int calibrate(const Words& words, Streams& streams) {
   CalibrateWords asked;
   CommandSyntax syntax = calibrate_syntax(asked);
   const auto values = parse_words(syntax, words, streams);
@@ -138,6 +137,12 @@ int run_calibrate(const Words& words, Streams& streams) {
   check_words(asked);
   return asked.is_compliance ? calibrate_frame(asked, streams)
                              : calibrate_load_cell(asked, streams);
+}
+
+}  // namespace
+
+int run_calibrate(const Words& words, Streams& streams) {
+  return with_json_errors(words, streams, [&] { return calibrate(words, streams); });
 }
 
 }  // namespace viscard

@@ -1,4 +1,5 @@
 // Runs on a rig that is set up wrongly, and what they report.
+#include "rig/open_devices.h"
 #include "tests/rig/rig_fixture.h"
 
 #include <catch2/catch.hpp>
@@ -56,9 +57,74 @@ TEST_CASE("a punch that presses before the run is lifted, and the advice is not 
   CHECK_THAT(outcome.reason,
              Contains(is_beyond_limit ? "already pressing" : "before anything was touched"));
   CHECK_THAT(outcome.reason, Contains("lifted by 0.5"));
-  CHECK_THAT(outcome.reason, !Contains("[ramp]") && !Contains("FALL"));
+  CHECK_THAT(outcome.reason, !Contains("[ramp]") && !Contains("FALL") && !Contains("by hand"));
+  CHECK(outcome.code == "pressing");
   CHECK(rig.emulated.outcome().final_position_m < -0.4e-3);
   CHECK(rig.all<LoadSample>().size() > 0);
+}
+
+TEST_CASE("a light press before the run is felt by a lift of 0.1 mm, and the punch is lifted",
+          "[rig][pty]") {
+  // 5.8 N/mm: 10 um press with 58 mN, 2.4 % of the capacity. That would be tared away.
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.surface_position_m = -10e-6;
+  RigFixture rig(options);
+  const RunOutcome outcome = rig.run(short_plan());
+  INFO(outcome.reason);
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("already pressing") && Contains("lifted by 0.500 mm") &&
+                                 Contains("--lift") && !Contains("FALL") &&
+                                 !Contains("not lifted"));
+  CHECK(rig.has_event("phase", "tare"));
+  CHECK_FALSE(rig.has_event("phase", "approach"));
+  CHECK(rig.emulated.outcome().final_position_m == Approx(-0.5e-3).margin(1e-6));
+  CHECK(rig.emulated.outcome().peak_force_N < 0.08);
+  CHECK_FALSE(outcome.has_begun);
+}
+
+TEST_CASE("with a lift at the start a run after a crash goes on from a free punch", "[rig][pty]") {
+  // 0.3 mm press with 1.7 N: the force of a crashed hold, below the soft limit.
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.surface_position_m = -0.3e-3;
+  options.truth.overload_N = 100.0;
+  RigFixture rig(options);
+  rig.lifts_at_start = true;
+  const RunOutcome outcome = rig.run(short_plan());
+  INFO(outcome.reason);
+  CHECK(outcome.status == "finished");
+  CHECK(rig.has_event("doubt", "pressed_before"));
+  REQUIRE(outcome.contact_position_m);
+  CHECK(*outcome.contact_position_m == Approx(-0.3e-3).margin(20e-6));
+  CHECK(outcome.peak_force_N > 1.4);
+}
+
+TEST_CASE("what presses on the cell without the punch is named, and nothing is pressed",
+          "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  RigFixture rig(options);
+  rig.emulated.hang_weight(0.3);  // above 10 % of 2.45 N
+  const RunOutcome outcome = rig.run(short_plan());
+  INFO(outcome.reason);
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("does not fall") && Contains("zero_volts"));
+  CHECK_FALSE(rig.has_event("phase", "approach"));
+  CHECK(rig.emulated.outcome().peak_force_N == 0.0);
+}
+
+TEST_CASE("a stage that moves the wrong way is noticed by the lift before the tare", "[rig][pty]") {
+  EmulatedRigOptions options = RigFixture::options(20.0);
+  options.truth.surface_position_m = 30e-6;  // the wrong way: reached by the second jog
+  RigFixture rig(options);
+  RigConfig wrong = rig.config;
+  wrong.stage.toward_specimen = -wrong.stage.toward_specimen;
+  GrblStage stage(rig.stage_line, wrong.stage, rig.clock, rig.sink);
+  const RunOutcome outcome = run_indentation(stage, rig.load_cell, wrong, short_plan(),
+                                             demo_specimen(10.0), rig.sink, {.clock = &rig.clock});
+  INFO(outcome.reason);
+  CHECK(outcome.status == "interrupted");
+  CHECK_THAT(outcome.reason, Contains("force rose") && Contains("toward_specimen = -1"));
+  CHECK(rig.emulated.outcome().peak_force_N < 0.3);
+  CHECK(rig.emulated.outcome().final_position_m == Approx(0.0).margin(2e-6));
 }
 
 TEST_CASE("a force that cannot be read after the lift is not reported as unchanged", "[rig][pty]") {
@@ -159,6 +225,26 @@ TEST_CASE("an amplifier that restarts in the tare gives its zero afterwards", "[
   CHECK(std::any_of(restarted, events.end(),
                     [](const RunEvent& event) { return event.name == "tare"; }));
   CHECK(rig.has_event("line_format", "micros,counts"));
+}
+
+TEST_CASE("a missing port does not hide a wrong driver name", "[rig]") {
+  RigConfig rig = demo_rig();
+  rig.stage.port = "/dev/viscard-no-such-stage";
+  rig.load_cell.port = "/dev/viscard-no-such-cell";
+  const RigClock clock;
+  CHECK_THROWS_WITH(open_ports(rig, clock), Contains("no-such-stage"));
+  SECTION("stage") {
+    rig.stage.driver = "grlb";
+    CHECK_THROWS_WITH(open_ports(rig, clock), Contains("driver 'grlb' under [stage]"));
+  }
+  SECTION("load cell") {
+    rig.load_cell.driver = "hx712";
+    CHECK_THROWS_WITH(open_ports(rig, clock), Contains("driver 'hx712' under [load_cell]"));
+  }
+  SECTION("format") {
+    rig.load_cell.line_format = "mikros";
+    CHECK_THROWS_WITH(open_ports(rig, clock), Contains("'mikros' is unknown"));
+  }
 }
 
 }  // namespace viscard

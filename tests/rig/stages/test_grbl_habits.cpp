@@ -287,6 +287,8 @@ TEST_CASE("after a restart of the controller under load the punch is lifted from
   INFO(outcome.reason);
   CHECK(outcome.status == "interrupted");
   CHECK_THAT(outcome.reason, Contains("restarted") && !Contains("And:"));
+  CHECK_THAT(outcome.reason, Contains("lifted by") && Contains("position is not known"));
+  CHECK(outcome.code == "device-restarted");
   CHECK_FALSE(rig.emulated.outcome().is_moving);
   CHECK(rig.emulated.outcome().final_position_m < demo_truth(10.0, 7).surface_position_m);
 }
