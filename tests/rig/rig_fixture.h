@@ -25,7 +25,7 @@ struct LineFaults {
 
 // An emulated rig with real drivers on its ports, or behind disturbed lines. Keeps all records.
 struct RigFixture {
-  explicit RigFixture(EmulatedRigOptions options,
+  explicit RigFixture(const EmulatedRigOptions& options,
                       const std::optional<LineFaults>& faults = std::nullopt, double patience = 1.0)
       : emulated(options),
         config(config_behind(faults)),
@@ -128,7 +128,8 @@ inline void pump_for(RigFixture& rig, double wall_s) {
 }
 
 // Calls a function when a phase begins.
-inline void when_phase(RigFixture& rig, const std::string& phase, std::function<void()> action) {
+inline void when_phase(RigFixture& rig, const std::string& phase,
+                       const std::function<void()>& action) {
   rig.sink = [&rig, phase, action](const RunRecord& record) {
     rig.records.push_back(record);
     const auto* event = std::get_if<RunEvent>(&record);

@@ -106,7 +106,7 @@ TEST_CASE("readings that arrive in single bytes, or many in one read, are the sa
 
 TEST_CASE("garbage before and between readings loses no other reading", "[rig][pty]") {
   ScriptedAmplifier amplifier;
-  amplifier.send(std::string("\xff\x80\0\x01garbage\n\xc3\x28\n9", 17));
+  amplifier.send(std::string("\xff\x80\0\x01garbage\n\xc3\x28\n9\0", 17));
   amplifier.send("\nTare... put nothing on the scale\nReadings:\n");
   amplifier.connect();
   amplifier.serve_all();
