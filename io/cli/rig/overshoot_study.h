@@ -25,7 +25,7 @@ struct OvershootSpeeds {
   std::vector<std::pair<double, double>> drives{{3200e3, 0.2}, {250e3, 0.01}};
 };
 
-// Takes about a second per row; progress, a fraction of the whole, may be empty.
+// Takes a fraction of a second per row; progress, a fraction of the whole, may be empty.
 std::vector<OvershootRow> study_overshoot(const OvershootSpeeds& what,
                                           const std::function<void(double)>& progress = {});
 
