@@ -16,7 +16,7 @@ RigCheck check_rig_config(RigConfig rig, bool is_emulated, double seconds) {
         EmulatedRigOptions{.truth = demo_truth(10.0, 1), .config = rig});
     rig = emulated->config();
   }
-  const RigClock clock(rig.clock_speed);
+  const RigClock clock = emulated ? emulated->clock() : RigClock(rig.clock_speed);
   const RecordSink nowhere = [](const RunRecord&) {};
   rig.stage.home = false;  // a check moves nothing
   RigDevices devices = open_ports(rig, clock);

@@ -33,11 +33,27 @@ FitKind kind_of_table(const CsvTable& table, const FitRequest& request) {
       "modulus_Pa=\"HEADER\", or with its number from 1");
 }
 
+// Segments of the exported table of a capture from its first baseline on; empty for any other
+// table. Before that the rig searches the surface, and its touch is an indentation of its own.
+std::vector<std::string> segments_of_test(const CsvTable& table, const FitRequest& request) {
+  if (!find_column(table, "segment", request.columns)) return {};
+  const std::vector<std::string> rows = column_text(table, "segment", request.columns);
+  const auto baseline = std::find(rows.begin(), rows.end(), "baseline");
+  if (baseline == rows.end() || std::find(rows.begin(), baseline, "tare") == baseline) return {};
+  std::vector<std::string> names;
+  for (auto row = baseline; row != rows.end(); ++row) {
+    if (std::find(names.begin(), names.end(), *row) == names.end()) names.push_back(*row);
+  }
+  return names;
+}
+
 // The rows of the chosen segments, in the order of the file.
 CsvTable rows_of_segments(const CsvTable& table, const FitRequest& request) {
-  if (request.segments.empty()) return table;
+  const std::vector<std::string> segments =
+      request.segments.empty() ? segments_of_test(table, request) : request.segments;
+  if (segments.empty()) return table;
   std::vector<CsvTable> parts;
-  for (const std::string& segment : request.segments) {
+  for (const std::string& segment : segments) {
     parts.push_back(rows_of_segment(table, segment, request.columns));
   }
   std::stable_sort(parts.begin(), parts.end(), [](const CsvTable& a, const CsvTable& b) {

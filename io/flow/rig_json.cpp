@@ -47,6 +47,7 @@ nlohmann::ordered_json json_from_outcome(const RunOutcome& outcome, const std::s
   json["hidden_error_N"] = outcome.hidden_error_N;
   json["doubts"] = outcome.doubts;
   json["line_format"] = outcome.line_format;
+  json["computer_late"] = {{"times", outcome.n_late}, {"longest_s", outcome.longest_late_s}};
   json["readings"] = {{"expected", stream.expected()},
                       {"received", stream.received},
                       {"missing", stream.missing},

@@ -55,6 +55,13 @@ void add_port_troubles(Json& rig) {
   }
 }
 
+// False if the key is missing. Throws ApiError 400 unless it is true or false.
+bool is_set(const Json& request, const char* key) {
+  if (!request.contains(key)) return false;
+  if (request.at(key).is_boolean()) return request.at(key).get<bool>();
+  throw ApiError(400, "bad-value", std::string("'") + key + "' must be true or false");
+}
+
 Json curves_of(const FitCurves& curves) {
   return {{"time_s", curves.time_s}, {"measured", curves.measured},
           {"fitted", curves.fitted}, {"sigma", curves.sigma},
@@ -175,8 +182,8 @@ void RigApi::check_before_run(const CaptureSetup& setup) const {
 
 Json RigApi::start_run(const Json& request) {
   const std::string name = text_at(request, "specimen");
-  const Json repeat = request.contains("repeat") ? request.at("repeat") : Json(false);
-  if (!repeat.is_boolean()) throw ApiError(400, "bad-value", "'repeat' must be true or false");
+  const bool repeats = is_set(request, "repeat");
+  const bool lifts = is_set(request, "lift");
   begin_job("the run of " + name);
   try {
     CaptureRequest capture;
@@ -184,13 +191,14 @@ Json RigApi::start_run(const Json& request) {
     check_before_run(capture.setup);
     const std::filesystem::path first = folder_.first_capture(name);
     const NextCapture next = next_capture(first);
-    if (!next.finished.empty() && !repeat.get<bool>()) {
+    if (!next.finished.empty() && !repeats) {
       throw ApiError(409, "finished",
                      name + " has a finished capture, " + next.finished.filename().string() +
                          ". Choose another specimen, or repeat it on purpose");
     }
     capture.path = next.finished.empty() ? next.file : further_capture(first);
     capture.command = options_.command;
+    capture.lifts_at_start = lifts;
     const std::string file = capture.path.filename().string();
     live_.start(name, std::move(capture), [this] { job_.end(); });
     return {{"file", file}};

@@ -43,7 +43,8 @@ class RigApi {
   nlohmann::ordered_json save_test(const nlohmann::ordered_json& request);
   nlohmann::ordered_json add_specimen(const nlohmann::ordered_json& request);
   nlohmann::ordered_json remove_specimen(const nlohmann::ordered_json& request);
-  // {"specimen", "repeat"}; repeat: although there is a finished capture.
+  // {"specimen", "repeat", "lift"}; repeat: although there is a finished capture; lift: a punch that
+  // presses at the start is lifted, and the test goes on.
   nlohmann::ordered_json start_run(const nlohmann::ordered_json& request);
   // {"how": "gently" | "at once"}.
   nlohmann::ordered_json stop_run(const nlohmann::ordered_json& request);

@@ -85,7 +85,7 @@ void stream(const char* name, const StreamBench& bench) {
   const long expected = bench.n_lines - 7;  // the first may be cut, the format is learnt from six
   while (n_samples < expected && monotonic_s() - quiet_since_s < 5.0) {
     const long before = n_samples;
-    wait_readable({&line}, 0.01);
+    wait_readable({&line}, clock, 0.01);
     cell.service();
     if (n_samples > before) quiet_since_s = monotonic_s();
     if (early_MB == 0.0 && n_samples > bench.n_lines / 10) early_MB = resident_MB();
@@ -113,7 +113,7 @@ void hour_of_hold() {
   const RigConfig rig = emulated.config();
   TestPlan plan;
   plan.hold_s = 3600.0;
-  const RigClock clock(rig.clock_speed);
+  const RigClock clock = emulated.clock();
   const auto path = std::filesystem::temp_directory_path() /
                     ("viscard-bench-" + std::to_string(getpid()) + ".viscap");
   CapturedRun about;
@@ -155,6 +155,7 @@ void share_at_80() {
   EmulatedRigOptions options;
   options.truth = demo_truth(10.0, 1);
   options.config = demo_rig();
+  options.is_on_wall_clock = true;
   const EmulatedRig emulated(options);
   const RigConfig rig = emulated.config();
   const RigClock clock;

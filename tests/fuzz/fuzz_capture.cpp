@@ -2,6 +2,7 @@
 // file itself, or it overwrites single bytes of a whole capture (two bytes of position, one of
 // value), so that the damage reaches deep.
 #include "io/basics/atomic_file.h"
+#include "io/capture/capture_check.h"
 #include "io/capture/capture_export.h"
 #include "io/capture/capture_file.h"
 
@@ -63,6 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   write_file(path, bytes, true);
   try {
     (void)csv_from_capture(read_capture(path));
+    (void)check_capture(path);
     read_raw_bytes(path, [](const RawBytes&) {});
   } catch (const std::runtime_error&) {
   }

@@ -1,3 +1,4 @@
+#include "io/cli/rig/json_errors.h"
 #include "io/cli/rig/overshoot_study.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
@@ -59,6 +60,16 @@ void print_text(const RigCheck& found, std::ostream& out) {
   out << (found.is_usable ? "ready\n" : "not fit for a test yet\n");
 }
 
+void print_json(const RigCheck& found, std::ostream& out) {
+  ordered_json json = json_from_rig_check(found);
+  if (!found.is_usable) {
+    const std::string why =
+        found.advice.empty() ? "the rig is not fit for a test" : found.advice.back();
+    json["error"] = ordered_json::parse(json_from_error(command_error("unfit", why)));
+  }
+  out << json.dump() << "\n";
+}
+
 int show_overshoot(bool as_json, Streams& streams) {
   Progress progress(streams, "overshoot");
   const std::vector<OvershootRow> rows =
@@ -117,16 +128,14 @@ int check_and_print(const po::variables_map& values, bool as_json, Streams& stre
   RigCheck found = check_rig_config(rig, is_emulated, seconds);
   if (values.count("rig") > 0) add_calibration(rig, found);
   if (as_json) {
-    streams.out << json_from_rig_check(found).dump() << "\n";
+    print_json(found, streams.out);
   } else {
     print_text(found, streams.out);
   }
   return found.is_usable ? kDone : kFailed;
 }
 
-}  // namespace
-
-int run_rig(const Words& words, Streams& streams) {
+int list_check_or_study(const Words& words, Streams& streams) {
   CommandSyntax syntax = rig_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
@@ -143,6 +152,12 @@ int run_rig(const Words& words, Streams& streams) {
                      std::string(syntax.usage));
   }
   return check_and_print(*values, as_json, streams);
+}
+
+}  // namespace
+
+int run_rig(const Words& words, Streams& streams) {
+  return with_json_errors(words, streams, [&] { return list_check_or_study(words, streams); });
 }
 
 }  // namespace viscard

@@ -36,7 +36,7 @@ CommandSyntax serve_syntax(ServeOptions& options) {
   add("emulate", po::bool_switch(&options.is_emulated), "use an emulated rig");
   add("seed", into(options.seed), "seed of the emulated noise");
   add("speed", po::value(&options.speed)->default_value(1.0),
-      "emulated clock over wall clock, up to 500");
+      "largest speed of the emulated clock over the wall clock, up to 500; changes no result");
   syntax.positional = {"folder"};
   return syntax;
 }

@@ -151,7 +151,8 @@ export function showPlan(newState) {
 async function start() {
   element("start").disabled = true;
   try {
-    await order("/api/run", { specimen: chosenSpecimen(), repeat: isRepeat() });
+    await order("/api/run", { specimen: chosenSpecimen(), repeat: isRepeat(),
+                             lift: element("lift").checked });
     problem("");
   } catch (error) {
     problem(error.message);

@@ -1,3 +1,4 @@
+#include "rig/protocols/grbl_protocol.h"
 #include "tests/rig/rig_fixture.h"
 
 #include <catch2/catch.hpp>
@@ -9,16 +10,10 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-void serve_for(RigFixture& rig, double wall_s) {
-  const double until_s = monotonic_s() + wall_s;
-  const Pump pump = rig.pump();
-  while (monotonic_s() < until_s) pump();
-}
-
 }  // namespace
 
 TEST_CASE("the format of an amplifier's lines is learnt", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(10.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.config.load_cell.line_format = "auto";
   Hx711Format expected = Hx711Format::kCounts;
   SECTION("micros,counts") {
@@ -43,7 +38,7 @@ TEST_CASE("the format of an amplifier's lines is learnt", "[rig][pty]") {
   RigFixture rig(options);
   rig.load_cell.connect(rig.pump());
   CHECK(rig.load_cell.format() == expected);
-  serve_for(rig, 0.3);
+  pump_for(rig, 3.0);
   CHECK(rig.load_cell.counts().received > 100);
   CHECK(rig.load_cell.counts().unreadable == 0);
 }
@@ -74,11 +69,11 @@ TEST_CASE("noise depends only on the seed and the number of the reading", "[rig]
 }
 
 TEST_CASE("a counter that wraps during the run loses no reading", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(10.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.amplifier.micros_at_reset = 4294967295u - 1500000u;  // wraps after 1.5 s
   RigFixture rig(options);
   rig.load_cell.connect(rig.pump());
-  serve_for(rig, 0.5);
+  pump_for(rig, 5.0);
   CHECK(rig.load_cell.counts().received > 250);
   CHECK(rig.load_cell.counts().missing == 0);
   const auto samples = rig.all<LoadSample>();
@@ -89,11 +84,11 @@ TEST_CASE("a counter that wraps during the run loses no reading", "[rig][pty]") 
 }
 
 TEST_CASE("the estimated time of a reading recovers from the delay of a stall", "[rig][pty]") {
-  RigFixture rig(RigFixture::options(1.0));
+  RigFixture rig(RigFixture::on_wall_clock(1.0));
   rig.load_cell.connect(rig.pump());
-  serve_for(rig, 0.5);
+  pump_for(rig, 0.5);
   rig.emulated.stall(0.1);
-  serve_for(rig, 0.5);
+  pump_for(rig, 0.5);
   const auto samples = rig.all<LoadSample>();
   REQUIRE(samples.size() > 60);
   double latest_arrival_s = 0.0;
@@ -107,26 +102,45 @@ TEST_CASE("the estimated time of a reading recovers from the delay of a stall", 
 }
 
 TEST_CASE("incidents of the amplifier are distinguished", "[rig][pty]") {
-  RigFixture rig(RigFixture::options(5.0));
+  RigFixture rig(RigFixture::options());
   rig.load_cell.connect(rig.pump());
   SECTION("restart") {
     rig.emulated.cause(Incident::kRestartLoadCell);
-    CHECK_THROWS_AS(serve_for(rig, 2.0), DeviceRestarted);
+    CHECK_THROWS_AS(pump_for(rig, 10.0), DeviceRestarted);
   }
   SECTION("cable pulled") {
     rig.emulated.cause(Incident::kPullLoadCellCable);
-    CHECK_THROWS_AS(serve_for(rig, 2.0), PortHungUp);
+    CHECK_THROWS_AS(pump_for(rig, 10.0), PortHungUp);
   }
 }
 
 TEST_CASE("a port without readings is refused with the bytes that came instead", "[rig][pty]") {
-  EmulatedRig emulated(RigFixture::options(1.0));
-  const RigClock clock;
+  EmulatedRig emulated(RigFixture::options());
+  const RigClock clock = emulated.clock();
   SerialLine line(emulated.load_cell_port(), 115200, clock);
   LoadCellConfig config;
   config.line_format = "parrots";
   CHECK_THROWS_WITH(Hx711LoadCell(line, config, clock, [](const RunRecord&) {}),
                     Contains("'parrots' is unknown"));
+}
+
+TEST_CASE("moves of the emulated GRBL are as slow as the firmware's timer makes them", "[rig]") {
+  // At 3200 steps/mm and 16 MHz, cycles of a step: ceil(16666.7) in 8 periods of 2083 + 1, 5000 in 4
+  // of 1250 + 1, 2500 in 2 of 1250 + 1, 1250 in 1 of 1250 + 1.
+  struct Row {
+    double speed_mm_s, cycles, with_timer;
+  };
+  const Row row = GENERATE(Row{0.3, 16e6 / 960.0, 8 * 2084.0}, Row{1.0, 5000.0, 4 * 1251.0},
+                           Row{2.0, 2500.0, 2 * 1251.0}, Row{4.0, 1250.0, 1251.0});
+  const bool is_hal = GENERATE(false, true);
+  EmulatedGrbl grbl(demo_truth(10.0, 1), 'Z', -1, {.is_hal = is_hal});
+  grbl.reset(0.0);
+  grbl.receive(format_grbl_jog('Z', -5.0, row.speed_mm_s * 60.0) + "\n", 1.0);
+  const double from_s = 1.1, to_s = 1.9;
+  const double speed_mm_s =
+      (grbl.bench_position_m(to_s) - grbl.bench_position_m(from_s)) * 1e3 / (to_s - from_s);
+  const double expected = is_hal ? 1.0 : row.cycles / row.with_timer;
+  CHECK(speed_mm_s / row.speed_mm_s == Approx(expected).epsilon(1e-7));
 }
 
 }  // namespace viscard

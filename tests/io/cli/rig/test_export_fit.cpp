@@ -27,15 +27,23 @@ FitResult fit_of_table(const std::string& path, const Specimen& specimen) {
   return fit_file(path, request).result;
 }
 
+// Distance of the capture's modulus from that of the table, in half-widths of the table's 95 %
+// interval.
+double half_widths_apart(const FitResult& table, const FitResult& capture) {
+  const double half_Pa = 0.5 * (table.E0_interval_95.high - table.E0_interval_95.low);
+  return std::abs(table.E0_Pa - capture.E0_Pa) / half_Pa;
+}
+
 void check_same_answer(const FitResult& table, const FitResult& capture) {
-  INFO("E0 of the table " << table.E0_Pa << ", of the capture " << capture.E0_Pa << " "
-                          << capture.E0_interval_95.low << " to " << capture.E0_interval_95.high);
-  CHECK(table.E0_Pa > capture.E0_interval_95.low);
-  CHECK(table.E0_Pa < capture.E0_interval_95.high);
-  CHECK(table.E_inf_Pa > capture.E_inf_interval_95.low);
-  CHECK(table.E_inf_Pa < capture.E_inf_interval_95.high);
-  CHECK(table.terms.size() == capture.terms.size());
-  CHECK(table.flags.empty());
+  INFO("E0 of the table " << table.E0_Pa << ", " << table.E0_interval_95.low << " to "
+                          << table.E0_interval_95.high << "; of the capture " << capture.E0_Pa);
+  CHECK(table.E0_Pa == Approx(capture.E0_Pa).epsilon(0.01));
+  // The fit of a capture also follows the drift of the load cell, which no fit of a table does.
+  CHECK(table.E_inf_Pa == Approx(capture.E_inf_Pa).epsilon(5e-4));
+  for (const MaterialFlag& flag : table.flags) {
+    CHECK(flag.name != "misfit");
+    CHECK(flag.name != "gap-in-ramp");
+  }
 }
 
 // A run of the demo's rig whose moves begin up to 20 ms late and whose messages are late too.
@@ -49,12 +57,17 @@ CapturedRun late_run(std::uint64_t seed) {
 
 TEST_CASE("the exported table of a run is fitted to the answer of its capture", "[cli][capture]") {
   const ScratchFolder folder;
-  const std::uint64_t seed = GENERATE(1u, 2u, 3u, 4u, 5u);
-  const CapturedRun run = late_run(seed);
-  const std::string table = folder / "run.csv";
-  write_file(table, table_from_capture(run), false);
-  check_same_answer(fit_of_table(table, run.specimen),
-                    fit_indentation(indentation_from_capture(run)));
+  int n_inside = 0;
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u}) {
+    const CapturedRun run = late_run(seed);
+    const std::string path = folder / "run.csv";
+    write_file(path, table_from_capture(run), true);
+    const FitResult capture = fit_indentation(indentation_from_capture(run));
+    const FitResult table = fit_of_table(path, run.specimen);
+    check_same_answer(table, capture);
+    n_inside += half_widths_apart(table, capture) < 1.0 ? 1 : 0;
+  }
+  CHECK(n_inside >= 4);  // of 5 intervals of 95 %
 }
 
 TEST_CASE("a capture on the emulator, its export and the fit of the table give one answer",
@@ -68,7 +81,10 @@ TEST_CASE("a capture on the emulator, its export and the fit of the table give o
               .status == kDone);
   REQUIRE(test::run_command({"export", capture, "--out", table}).status == kDone);
   const FittedFile fitted = fit_file(capture, {});
-  check_same_answer(fit_of_table(table, fitted.specimen), fitted.result);
+  const FitResult of_table = fit_of_table(table, fitted.specimen);
+  check_same_answer(of_table, fitted.result);
+  // Real ports make each run a little different, so one in twenty would be outside one half-width.
+  CHECK(half_widths_apart(of_table, fitted.result) < 2.0);
 }
 
 TEST_CASE("moves of a run start where the force shows it", "[cli][capture]") {
@@ -105,7 +121,7 @@ TEST_CASE("readings after a restart of the amplifier's clock keep their receive 
     run.load_samples[i].device_time_s = 0.0125 * static_cast<double>(i - restart);
   }
   const std::vector<double> times_s = sample_times_s(run);
-  CHECK(times_s[restart - 1] < run.load_samples[restart - 1].host_time_s);
+  CHECK(times_s[restart - 1] <= run.load_samples[restart - 1].host_time_s);
   CHECK(times_s[restart] == run.load_samples[restart].host_time_s);
   CHECK(times_s.back() == run.load_samples.back().host_time_s);
 }
