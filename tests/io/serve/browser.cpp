@@ -159,7 +159,8 @@ void Browser::open(const std::string& address) {
 }
 
 void Browser::click(const std::string& selector) {
-  if (!wait_until("const e = document.querySelector('" + selector + "'); return !!e && !e.disabled",
+  if (!wait_until("const e = document.querySelector('" + selector +
+                      "'); return !!e && !e.disabled && e.getClientRects().length > 0",
                   kLongest_s)) {
     throw std::runtime_error(selector + " cannot be pressed");
   }
