@@ -52,7 +52,7 @@ TEST_CASE("without a distance between the stops the guess decides", "[rig]") {
 
 TEST_CASE("the depth reached is the one asked for, although modulus_guess is wrong", "[rig][pty]") {
   // The frame takes half of the way: by the guess alone, the depth would be 0.10 to 0.16 mm.
-  EmulatedRigOptions options = RigFixture::options(20.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.truth.material.E0_Pa = 1.2e6;
   Specimen specimen = demo_specimen(10.0);
   specimen.modulus_guess_Pa = GENERATE(0.7e6, 1.2e6, 1.28e6, 1.8e6);

@@ -66,7 +66,7 @@ TEST_CASE("a punch that presses before the run is lifted, and the advice is not 
 TEST_CASE("a light press before the run is felt by a lift of 0.1 mm, and the punch is lifted",
           "[rig][pty]") {
   // 5.8 N/mm: 10 um press with 58 mN, 2.4 % of the capacity. That would be tared away.
-  EmulatedRigOptions options = RigFixture::options(20.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.truth.surface_position_m = -10e-6;
   RigFixture rig(options);
   const RunOutcome outcome = rig.run(short_plan());
@@ -84,7 +84,7 @@ TEST_CASE("a light press before the run is felt by a lift of 0.1 mm, and the pun
 
 TEST_CASE("with a lift at the start a run after a crash goes on from a free punch", "[rig][pty]") {
   // 0.3 mm press with 1.7 N: the force of a crashed hold, below the soft limit.
-  EmulatedRigOptions options = RigFixture::options(20.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.truth.surface_position_m = -0.3e-3;
   options.truth.overload_N = 100.0;
   RigFixture rig(options);
@@ -100,7 +100,7 @@ TEST_CASE("with a lift at the start a run after a crash goes on from a free punc
 
 TEST_CASE("what presses on the cell without the punch is named, and nothing is pressed",
           "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(20.0);
+  EmulatedRigOptions options = RigFixture::options();
   RigFixture rig(options);
   rig.emulated.hang_weight(0.3);  // above 10 % of 2.45 N
   const RunOutcome outcome = rig.run(short_plan());
@@ -112,7 +112,7 @@ TEST_CASE("what presses on the cell without the punch is named, and nothing is p
 }
 
 TEST_CASE("a stage that moves the wrong way is noticed by the lift before the tare", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(20.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.truth.surface_position_m = 30e-6;  // the wrong way: reached by the second jog
   RigFixture rig(options);
   RigConfig wrong = rig.config;

@@ -119,7 +119,7 @@ struct OutsideRig {
             "--test",
             folder / "test.toml",
             "--specimen",
-            VISCARD_SOURCE_DIR "/data/demo/03_pdms_1to10.toml",
+            std::string(VISCARD_SOURCE_DIR) + "/data/demo/03_pdms_1to10.toml",
             "--out",
             folder / out};
   }
