@@ -100,17 +100,25 @@ void advise(const RigConfig& rig, RigCheck& check) {
     check.is_usable = check.is_usable && !is_fatal;
   };
   const double capacity_N = rig.calibration.capacity_N;
-  const std::string lag = lag_trouble(rig, check);
+  const bool is_late = check.late_s > 0.0;
+  if (is_late) {
+    add(true, "this computer was late by " + text_from_number(check.late_s, 2) +
+                  " s, so neither the rate nor the delay of the readings is known. Close the "
+                  "programs that keep it busy, or start viscard with priority (chrt -f 50 viscard "
+                  "...), then check again");
+  }
+  const std::string lag = is_late ? "" : lag_trouble(rig, check);
   if (!lag.empty()) add(true, lag);
   if (check.rate_Hz < kLeastRate_Hz) {
     add(true, text_from_number(check.rate_Hz, 1) +
                   " readings/s are too few to stop an approach in time: " +
                   remedy_for_slow_readings(rig.load_cell));
-  } else if (lag.empty() && std::abs(check.rate_Hz / rig.load_cell.expected_rate_Hz - 1.0) > 0.1) {
+  } else if (!is_late && lag.empty() &&
+             std::abs(check.rate_Hz / rig.load_cell.expected_rate_Hz - 1.0) > 0.1) {
     add(false, "the readings come at " + text_from_number(check.rate_Hz, 1) +
                    "/s: set expected_rate of the load cell in the rig file to that");
   }
-  if (check.jitter_s > kSlowLink_s) {
+  if (check.jitter_s > kSlowLink_s && !is_late) {
     add(false, "readings are up to " + text_from_number(check.jitter_s * 1e3, 0) +
                    " ms late: with an FTDI adapter set its latency_timer to 1");
   }
@@ -141,7 +149,7 @@ void advise(const RigConfig& rig, RigCheck& check) {
 RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, const RigClock& clock,
                    double duration_s) {
   const Pump pump = [&] {
-    wait_readable({&stage.transport(), &load_cell.transport()}, 0.002);
+    wait_readable({&stage.transport(), &load_cell.transport()}, clock, 0.002);
     load_cell.service();
     stage.service();
   };
@@ -167,8 +175,15 @@ RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, cons
   });
   const std::size_t n_bytes_before = load_cell.n_bytes();
   const std::int64_t n_before = load_cell.counts().received;
+  const int n_late_before = clock.lateness().n_long();
+  double late_s = 0.0;
   const double end_s = clock.now_s() + duration_s;
-  while (clock.now_s() < end_s) pump();
+  while (clock.now_s() < end_s) {
+    pump();
+    if (clock.lateness().n_long() > n_late_before) {
+      late_s = std::max(late_s, clock.lateness().newest_long_s());
+    }
+  }
   load_cell.set_listener({});
 
   RigCheck check{.stage_identity = stage.identity(),
@@ -178,7 +193,8 @@ RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, cons
                  .stream = load_cell.counts(),
                  .reads_as = load_cell.reads_as(),
                  .advice = stage.advice(),
-                 .is_usable = true};
+                 .is_usable = true,
+                 .late_s = late_s};
   const auto n = static_cast<double>(readings.force_N.size());
   if (n < kFewestReadings) {
     throw RigError("only " + text_from_number(n, 0) + " usable readings came in " +

@@ -29,6 +29,7 @@ struct RigCheck {
   double noise_N = 0.0;             // standard deviation of one reading
   std::vector<std::string> advice;  // what to change and why
   bool is_usable = false;           // true if no piece of advice forbids a run
+  double late_s = 0.0;  // longest delay of this computer while it listened; then nothing is sure
 };
 
 // Connects both devices and listens for duration_s of rig time; moves nothing. Throws RigError if a

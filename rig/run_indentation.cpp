@@ -5,6 +5,7 @@
 #include "rig/run/approach_phase.h"
 #include "rig/run/force_phases.h"
 #include "rig/run/preflight.h"
+#include "rig/run/tare_phase.h"
 #include "rig/run/test_run.h"
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 namespace viscard {
 namespace {
 
+constexpr double kSamePlace_m = 10e-6;
 constexpr double kDepthAfter_s = 0.5;  // after a hold begins: the depth reached is noted then
 
 // Carries out the phases of one test, one after another.
@@ -39,6 +41,7 @@ class IndentationRun {
     is_begun_ = true;
     for (std::size_t i = 0; i < run_.phases.size(); ++i) {
       const TestPhase& phase = run_.phases[i];
+      name_ = phase.name;
       run_.session.begin_phase(phase.name, planned_from_s(i), phase.text);
       carry_out(phase);
     }
@@ -46,6 +49,8 @@ class IndentationRun {
 
   // Both devices are connected and the pre-flight check has found no problem.
   bool is_begun() const { return is_begun_; }
+  // The phase that is carried out.
+  const std::string& name() const { return name_; }
   // A stage position at which the punch is free, as far as is known.
   double safe_position_m() const {
     if (run_.outcome.contact_position_m) return run_.contact_m - run_.plan.retract_m;
@@ -56,7 +61,7 @@ class IndentationRun {
   bool presses_at_start() const {
     return run_.presses_at_start ||
            (is_begun_ && !run_.session.has_moved() &&
-            std::abs(run_.session.force_N()) > kPressesAtStart * limit_N(run_));
+            std::abs(run_.session.force_N()) > kPressesAtStart * run_.rig.calibration.capacity_N);
   }
 
  private:
@@ -99,7 +104,10 @@ class IndentationRun {
     run_.session.move(run_.contact_m + expected.stage_travel_of(phase.depth_m), speed_m_s,
                       phase.purpose);
     depth_asked_m_ = phase.depth_m;
-    if (phase.depth_m >= deepest_m(run_.phases)) note_depth(run_);
+    // The newest reading is older than the end of the move, so a hold notes its depth itself.
+    const TestPhase* next = &phase + 1;
+    const bool is_held = next->kind == TestPhase::Kind::kWait && next->duration_s > 0.0;
+    if (!is_held && phase.depth_m >= deepest_m(run_.phases)) note_depth(run_);
   }
 
   void retract() {
@@ -116,29 +124,57 @@ class IndentationRun {
   ForcePhases force_phases_;
   double depth_asked_m_ = 0.0;  // where the last phase that changed the depth has left it
   bool is_begun_ = false;
+  std::string name_ = "connect";
 };
 
 std::string mm_text(double length_m) {
   return text_from_number(length_m * 1e3, 3) + " mm";
 }
 
+// Where the punch is relative to the contact or, before that is known, to the start.
+std::string place_of_stage(TestRun& run) {
+  const double position_m = run.session.stage().position_m();
+  if (run.outcome.contact_position_m) {
+    const double clear_m = run.contact_m - position_m;
+    return clear_m > 0.0 ? "the punch is " + mm_text(clear_m) + " above the contact"
+                         : "the punch is still " + mm_text(-clear_m) + " below the contact";
+  }
+  const double above_m = run.start_m - position_m;
+  if (std::abs(above_m) < kSamePlace_m) return "it stands where it started";
+  return "it stands " + mm_text(std::abs(above_m)) + (above_m > 0.0 ? " above" : " below") +
+         " where it started";
+}
+
 // Where a run that ended early has left the punch: what a person at the rig must know first.
 // Empty if only the trouble of the lift is known.
 std::string place_of_punch(TestRun& run, const SafeEnd& end, bool had_moved, bool knows_position) {
   if (end.lifted_m > 0.0) {
-    std::string text = ". The stage was stopped and lifted by " + mm_text(end.lifted_m);
-    if (run.outcome.contact_position_m && knows_position) {
-      const double clear_m = run.contact_m - run.session.stage().position_m();
-      text += clear_m > 0.0 ? ": the punch is " + mm_text(clear_m) + " above the contact"
-                            : ": the punch is still " + mm_text(-clear_m) + " below the contact";
-    }
-    return text;
+    return ". The stage was stopped and lifted by " + mm_text(end.lifted_m) +
+           (knows_position ? ": " + place_of_stage(run)
+                           : " from where it stood; its position is not known any more");
   }
   if (!end.trouble.empty()) return "";
   if (!had_moved) return ". The stage was not moved: the punch is where it was before the run";
-  return knows_position
-             ? ". The stage was stopped; it was not lifted, because it stands where it started"
-             : ". The stage was stopped; it was not lifted: look at the punch";
+  return knows_position ? ". The stage was stopped: " + place_of_stage(run)
+                        : ". The stage was stopped; it was not lifted: look at the punch";
+}
+
+template <typename Type>
+bool is_a(const std::exception& error) {
+  return dynamic_cast<const Type*>(&error) != nullptr;
+}
+
+// For programs; the reason is for people.
+std::string code_of_end(const std::exception& error, bool presses_at_start) {
+  if (presses_at_start || is_a<PressesAtStart>(error)) return "pressing";
+  if (is_a<LimitReached>(error)) return "force-limit";
+  if (is_a<RunInterrupted>(error)) return "interrupted";
+  if (is_a<PortHungUp>(error)) return "device-lost";
+  if (is_a<DeviceRestarted>(error)) return "device-restarted";
+  if (is_a<StageAlarm>(error)) return "stage-alarm";
+  if (is_a<ReadingsTooOld>(error)) return "readings-old";
+  if (is_a<ComputerLate>(error)) return "computer-late";
+  return is_a<RigError>(error) ? "device" : "failed";
 }
 
 // Ends a run that did not finish: notes why, stops the stage and lifts the punch.
@@ -146,13 +182,21 @@ void end_early(TestRun& run, const IndentationRun& phases, const char* status,
                const std::exception& error) {
   RunOutcome& outcome = run.outcome;
   outcome.status = status;
-  outcome.reason = error.what();
-  outcome.has_begun = run.session.has_moved();
+  outcome.cause = error.what();
+  outcome.reason = outcome.cause;
+  // The rig may not be to blame for what follows a delay of this computer.
+  const std::string late = run.session.lateness_text();
+  if (!is_a<RunInterrupted>(error) && !late.empty() &&
+      outcome.reason.find(late) == std::string::npos) {
+    outcome.reason = late + ". What followed may come from that: " + outcome.reason;
+  }
+  outcome.code = code_of_end(error, phases.presses_at_start());
+  outcome.phase = phases.name();
+  outcome.has_begun = run.session.has_moved() && run.is_tared;
   if (run.is_in_contact) note_depth(run);
   const SafeEnd end = run.session.make_safe(phases.safe_position_m(), run.plan.retract_speed_m_s);
-  const bool knows_position = dynamic_cast<const DeviceRestarted*>(&error) == nullptr &&
-                              dynamic_cast<const StageAlarm*>(&error) == nullptr;
-  outcome.reason += place_of_punch(run, end, outcome.has_begun, knows_position);
+  const bool knows_position = !is_a<DeviceRestarted>(error) && !is_a<StageAlarm>(error);
+  outcome.reason += place_of_punch(run, end, run.session.has_moved(), knows_position);
   if (!end.trouble.empty()) outcome.reason += ". And: " + end.trouble;
 }
 
@@ -164,6 +208,7 @@ RunOutcome run_indentation(Stage& stage, LoadCell& load_cell, const RigConfig& r
   const RecordSink safe_sink = failing_once(sink);
   RunSession session(stage, load_cell, rig, safe_sink, control);
   TestRun run{session, rig, plan, specimen, phases_from_plan(plan), {}};
+  run.lifts_at_start = control.lifts_at_start;
   IndentationRun phases(run);
   try {
     phases.connect();

@@ -59,7 +59,7 @@ WeighedLoad load_from(const Collected& collected, double force_N, double full_re
 std::vector<WeighedLoad> weigh(LoadCell& load_cell, const RigConfig& rig, const RigClock& clock,
                                const std::vector<double>& forces_N, const WeighOptions& options) {
   const Pump pump = [&] {
-    wait_readable({&load_cell.transport()}, 0.005);
+    wait_readable({&load_cell.transport()}, clock, 0.005);
     load_cell.service();
     if (options.stop != nullptr && *options.stop) throw RigError("the weighing was interrupted");
   };
@@ -84,8 +84,8 @@ std::vector<WeighedLoad> weigh(LoadCell& load_cell, const RigConfig& rig, const 
       }
     });
     const double deadline_s =
-        monotonic_s() + (to_s - clock.now_s()) / clock.speed() + kPatience_wall_s;
-    while (!is_complete && monotonic_s() < deadline_s) pump();
+        clock.awake_s() + (to_s - clock.now_s()) / clock.speed() + kPatience_wall_s;
+    while (!is_complete && clock.awake_s() < deadline_s) pump();
     load_cell.set_listener({});
     loads.push_back(load_from(collected, force_N, full_reading));
   }

@@ -33,6 +33,7 @@ void close_file(CaptureWriter& writer, RunOutcome& outcome) {
   const std::size_t dropped = writer.counts().dropped;
   if (dropped == 0 || outcome.status != "finished") return;
   outcome.status = "interrupted";
+  outcome.code = "records-lost";
   outcome.reason = fmt::format(
       "{} records were lost because the disk did not keep up. Write to a faster disk", dropped);
 }
@@ -51,10 +52,9 @@ class ClosingCall {
   const CaptureWatch& watch_;
 };
 
-RunOutcome capture_with(const RigConfig& rig, const CaptureRequest& request,
+RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, const CaptureRequest& request,
                         const CaptureWatch& watch) {
   const CaptureSetup& setup = request.setup;
-  const RigClock clock(rig.clock_speed);
   RigDevices devices = open_ports(rig, clock);
   CaptureOptions options;
   options.overwrite = request.overwrite;
@@ -73,6 +73,7 @@ RunOutcome capture_with(const RigConfig& rig, const CaptureRequest& request,
   control.clock = &clock;
   control.stop = watch.stop;
   control.progress = watch.progress;
+  control.lifts_at_start = request.lifts_at_start;
   RunOutcome outcome = run_indentation(*devices.stage, *devices.load_cell, rig, setup.plan,
                                        setup.specimen, sink, control);
   if (outcome.has_begun) {
@@ -88,9 +89,10 @@ RunOutcome capture_with(const RigConfig& rig, const CaptureRequest& request,
 }  // namespace
 
 RunOutcome capture_to_file(const CaptureRequest& request, const CaptureWatch& watch) {
-  if (!request.setup.truth) return capture_with(request.setup.rig, request, watch);
-  const EmulatedRig emulated({.truth = *request.setup.truth, .config = request.setup.rig});
-  return capture_with(emulated.config(), request, watch);
+  const RigConfig& rig = request.setup.rig;
+  if (!request.setup.truth) return capture_with(rig, RigClock(rig.clock_speed), request, watch);
+  const EmulatedRig emulated({.truth = *request.setup.truth, .config = rig});
+  return capture_with(emulated.config(), emulated.clock(), request, watch);
 }
 
 }  // namespace viscard

@@ -30,6 +30,8 @@ struct CaptureRequest {
   std::filesystem::path path;
   bool overwrite = false;
   std::string command;  // recorded in the file as its origin
+  // A punch that presses before the test is lifted, and the test goes on instead of ending.
+  bool lifts_at_start = false;
 };
 
 // Who watches a capture while it runs. Any of these may be empty.

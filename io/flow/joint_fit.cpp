@@ -1,5 +1,6 @@
 #include "io/capture/capture_header.h"
 #include "io/flow/fit_file.h"
+#include "io/flow/input_files.h"
 #include "io/materials/material_file.h"
 #include "models/maths/text_of_number.h"
 
@@ -42,6 +43,7 @@ void refit_others(std::vector<FittedFile>& fitted, int order, const JointRequest
 }
 
 std::vector<Material> specimens_of(const JointRequest& request) {
+  refuse_repeated_files(request.files);
   std::vector<std::string> measured;
   std::vector<Material> given;
   for (const std::string& file : request.files) {

@@ -10,6 +10,7 @@
 #include "io/config/config_file.h"
 #include "io/flow/capture_to_file.h"
 #include "io/flow/fit_file.h"
+#include "io/flow/input_files.h"
 #include "io/materials/material_file.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/validate_material.h"
@@ -199,6 +200,7 @@ std::size_t measured_count(const std::vector<std::string>& files) {
 
 std::vector<SpecimenReport> read_specimens(const ReportRequest& request,
                                            const FlowProgress& progress) {
+  refuse_repeated_files(request.files);
   const InputFiles files = sorted_by_kind(request.files);
   if (!request.truth_files.empty() && request.truth_files.size() != files.measured.size()) {
     throw std::invalid_argument("there must be one truth file for each capture or table");

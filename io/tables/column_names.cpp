@@ -1,8 +1,10 @@
 #include "io/tables/column_names.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -19,18 +21,36 @@ std::string plain(const std::string& text) {
   return out;
 }
 
+// Primes as instruments write them: G", G\u2032, G\u2033, G\u2019.
+std::string with_plain_primes(std::string name) {
+  constexpr std::pair<const char*, const char*> kPrimes[] = {
+      {"\"", "''"}, {"\u2033", "''"}, {"\u2032", "'"}, {"\u2019", "'"}};
+  for (const auto& [written, primes] : kPrimes) {
+    const std::string from = written;
+    for (std::size_t at = name.find(from); at != std::string::npos; at = name.find(from, at)) {
+      name.replace(at, from.size(), primes);
+    }
+  }
+  return name;
+}
+
 bool has_alias(const Quantity& quantity, const std::string& name) {
+  const std::string primed = with_plain_primes(name);
   return std::any_of(quantity.aliases.begin(), quantity.aliases.end(), [&](const char* alias) {
     const std::string text = alias;
     const bool is_letter = text.size() == 1 || text.find('\'') == 1;  // t, T, E', G''
-    return (is_letter ? name : plain(name)) == text;
+    return (is_letter ? primed : plain(primed)) == text;
   });
 }
 
 // omega and w are angular frequencies, in rad/s even if the column has no unit.
 bool is_angular(const std::string& name) {
   const std::string text = plain(name);
-  return name == "w" || name == "ω" || text == "omega" || text == "angular frequency";
+  const char* kNames[] = {"omega",         "angular frequency", "ang frequency",
+                          "kreisfrequenz", "pulsation",         "角频率"};
+  return name == "w" || name == "ω" ||
+         std::any_of(std::begin(kNames), std::end(kNames),
+                     [&](auto known) { return text == known; });
 }
 
 std::optional<UnitScale> scale_if_fits(const CsvColumn& column, const std::string& unit,
@@ -49,26 +69,63 @@ std::optional<UnitScale> scale_if_fits(const CsvColumn& column, const std::strin
 
 const std::vector<Quantity>& quantities() {
   static const std::vector<Quantity> kQuantities{
-      {"time_s", "time", "s", {"t", "elapsed time", "test time", "run time", "zeit"}},
-      {"force_N", "force", "N", {"F", "load", "normal force", "kraft"}},
+      {"time_s",
+       "time",
+       "s",
+       {"t", "elapsed time", "test time", "run time", "zeit", "prüfzeit", "versuchszeit", "temps",
+        "时间"}},
+      {"force_N",
+       "force",
+       "N",
+       {"F", "load", "normal force", "kraft", "normalkraft", "standardkraft", "prüfkraft",
+        "force normale", "charge", "力", "载荷", "负荷", "法向力"}},
       {"depth_m",
        "depth",
        "m",
-       {"h", "indentation", "indentation depth", "displacement", "penetration"}},
+       {"h", "indentation", "indentation depth", "displacement", "penetration", "weg",
+        "standardweg", "traversenweg", "eindringtiefe", "déplacement", "deplacement", "enfoncement",
+        "profondeur", "位移", "压入深度", "深度"}},
       {"modulus_Pa",
        "modulus",
        "Pa",
-       {"E", "G", "e relax", "g relax", "e(t)", "g(t)", "relaxation modulus"}},
-      {"stress_Pa", "stress", "Pa", {"sigma", "σ"}},
-      {"strain", "strain", "1", {"epsilon", "eps", "ε", "gamma"}},
-      {"compliance_1_Pa", "compliance", "1/Pa", {"J", "D", "j(t)", "d(t)", "creep compliance"}},
-      {"frequency_Hz", "frequency", "Hz", {"f", "freq", "w", "ω", "omega", "angular frequency"}},
-      {"storage_modulus_Pa", "storage_modulus", "Pa", {"E'", "G'", "e stor", "g stor", "storage"}},
-      {"loss_modulus_Pa", "loss_modulus", "Pa", {"E''", "G''", "e loss", "g loss", "loss"}},
-      {"mass_kg", "mass", "kg", {"m", "weight"}},
-      {"volts_V", "volts", "V", {"U", "V", "voltage", "reading", "output", "amplifier"}},
-      {"position_m", "position", "m", {"z", "stage", "stage position"}},
-      {"temperature_C", "temperature", "degC", {"T", "temp"}},
+       {"E", "G", "e relax", "g relax", "e(t)", "g(t)", "relaxation modulus", "modul",
+        "relaxationsmodul", "module", "module de relaxation", "模量", "松弛模量"}},
+      {"stress_Pa",
+       "stress",
+       "Pa",
+       {"sigma", "σ", "tau", "τ", "shear stress", "spannung", "schubspannung", "contrainte", "应力",
+        "剪切应力"}},
+      {"strain",
+       "strain",
+       "1",
+       {"epsilon", "eps", "ε", "gamma", "γ", "shear strain", "dehnung", "scherung", "deformation",
+        "déformation", "应变", "剪切应变"}},
+      {"compliance_1_Pa",
+       "compliance",
+       "1/Pa",
+       {"J", "D", "j(t)", "d(t)", "creep compliance", "kriechnachgiebigkeit", "nachgiebigkeit",
+        "complaisance", "柔量"}},
+      {"frequency_Hz",
+       "frequency",
+       "Hz",
+       {"f", "freq", "frequenz", "fréquence", "频率", "w", "ω", "omega", "angular frequency",
+        "ang frequency", "kreisfrequenz", "pulsation", "角频率"}},
+      {"storage_modulus_Pa",
+       "storage_modulus",
+       "Pa",
+       {"E'", "G'", "e stor", "g stor", "storage", "speichermodul", "module de conservation",
+        "储能模量"}},
+      {"loss_modulus_Pa",
+       "loss_modulus",
+       "Pa",
+       {"E''", "G''", "e loss", "g loss", "loss", "verlustmodul", "module de perte", "损耗模量"}},
+      {"mass_kg", "mass", "kg", {"m", "weight", "masse", "质量"}},
+      {"volts_V",
+       "volts",
+       "V",
+       {"U", "V", "voltage", "reading", "output", "amplifier", "spannung", "tension", "电压"}},
+      {"position_m", "position", "m", {"z", "stage", "stage position", "位置"}},
+      {"temperature_C", "temperature", "degC", {"T", "temp", "temperatur", "température", "温度"}},
       {"segment", "segment", "1", {"set", "phase", "step", "step name"}, true}};
   return kQuantities;
 }

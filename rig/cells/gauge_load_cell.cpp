@@ -64,8 +64,8 @@ void GaugeLoadCell::send(const std::string& words) {
 }
 
 void GaugeLoadCell::wait_quiet(const Pump& pump, double wall_s) {
-  const double until_s = monotonic_s() + wall_s;
-  while (monotonic_s() < until_s) pump();
+  const double until_s = clock_.awake_s() + wall_s;
+  while (clock_.awake_s() < until_s) pump();
 }
 
 // One question whose answer is a line of text; nothing if none comes.
@@ -73,8 +73,8 @@ std::optional<std::string> GaugeLoadCell::ask_text(const std::string& query, con
   text_answer_.reset();
   awaits_text_ = true;
   send(query);
-  const double until_s = monotonic_s() + kText_wall_s;
-  while (!text_answer_ && monotonic_s() < until_s) pump();
+  const double until_s = clock_.awake_s() + kText_wall_s;
+  while (!text_answer_ && clock_.awake_s() < until_s) pump();
   awaits_text_ = false;
   return text_answer_;
 }
@@ -98,8 +98,8 @@ void GaugeLoadCell::connect(const Pump& pump) {
   }
   wait_quiet(pump, kQuiet_wall_s);
   is_connected_ = true;
-  const double until_s = monotonic_s() + kFirstTries * (kAnswer_wall_s + kQuiet_wall_s);
-  while (counts_.received == 0 && monotonic_s() < until_s) pump();
+  const double until_s = clock_.awake_s() + kFirstTries * (kAnswer_wall_s + kQuiet_wall_s);
+  while (counts_.received == 0 && clock_.awake_s() < until_s) pump();
   if (counts_.received > 0) return;
   is_connected_ = false;
   const bool is_noise = splitter_.n_bytes() > 5 && splitter_.unprintable_fraction() > 0.2;
@@ -115,7 +115,7 @@ void GaugeLoadCell::service() {
   const Chunk chunk = transport_.read_available();
   listened_at_s_ = chunk.time_s;
   if (!chunk.bytes.empty()) feed(chunk);
-  if (is_connected_) ask_if_due();
+  if (is_connected_) ask_if_due(chunk.time_s);
 }
 
 void GaugeLoadCell::feed(const Chunk& chunk) {
@@ -187,8 +187,8 @@ void GaugeLoadCell::take_reading(const GaugeAnswer& answer, double time_s) {
   hand_out(sample);
 }
 
-void GaugeLoadCell::ask_if_due() {
-  const double now_s = clock_.now_s();
+// now_s: when the line was read last.
+void GaugeLoadCell::ask_if_due(double now_s) {
   if (waits_for_quiet_) {
     if (now_s - quiet_since_s_ < clock_.from_wall_s(kQuiet_wall_s)) return;
     waits_for_quiet_ = false;
@@ -206,7 +206,7 @@ void GaugeLoadCell::ask_if_due() {
     }
     return;
   }
-  asked_s_ = now_s;
+  asked_s_ = clock_.now_s();
   send(protocol_.query);
 }
 

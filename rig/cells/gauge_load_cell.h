@@ -29,7 +29,7 @@ class GaugeLoadCell final : public LoadCell {
   void feed(const Chunk& chunk);
   void take_answer(const std::string& text, double time_s);
   void take_reading(const GaugeAnswer& answer, double time_s);
-  void ask_if_due();
+  void ask_if_due(double now_s);
   std::optional<std::string> ask_text(const std::string& query, const Pump& pump);
   void wait_quiet(const Pump& pump, double wall_s);
 

@@ -38,9 +38,9 @@ Hx711LoadCell::Hx711LoadCell(Transport& transport, const LoadCellConfig& config,
 
 void Hx711LoadCell::connect(const Pump& pump) {
   const double deadline_s =
-      monotonic_s() +
+      clock_.awake_s() +
       patience_ * (kFirstReading_wall_s + kPeriodsToLearn * period_s_ / clock_.speed());
-  while (!is_connected_ && monotonic_s() < deadline_s) pump();
+  while (!is_connected_ && clock_.awake_s() < deadline_s) pump();
   if (is_connected_) return;
   const std::string where = "'" + transport_.name() + "'";
   if (splitter_.n_bytes() == 0) {

@@ -3,6 +3,7 @@
 #include "rig/emulator/emulated_controller.h"
 #include "rig/emulator/emulated_specimen.h"
 #include "rig/emulator/pty_port.h"
+#include "rig/emulator/wall_pace.h"
 #include "rig/lines/rig_clock.h"
 
 #include <poll.h>
@@ -11,8 +12,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -20,6 +23,8 @@ namespace {
 constexpr double kLargestStep_s = 1e-3;    // of the hereditary integral, emulated time
 constexpr double kShortestNap_s = 0.2e-3;  // wall
 constexpr double kLongestNap_s = 2e-3;     // wall; bounds the delay until an incident is noticed
+// A rig that waits exchanges bytes once in so long, as USB does.
+constexpr double kFrame_s = 1e-3;
 
 // One branch per value of driver under [stage] (rig/open_devices.cpp); a GRBL for an unknown word,
 // which the driver refuses.
@@ -35,43 +40,39 @@ std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions
 
 }  // namespace
 
-class EmulatedRig::Impl {
+class EmulatedRig::Impl final : public WaitingRig {
  public:
   explicit Impl(const EmulatedRigOptions& options)
       : options_(options),
-        clock_(options.config.clock_speed),
+        clock_(options.is_on_wall_clock ? options.config.clock_speed : 1.0),
         specimen_(options.truth),
         stage_(emulated_controller(options)),
         gauge_(options.truth, options.config.calibration, options.config.load_cell.driver,
                options.gauge),
         amplifier_(options.truth, options.config.calibration,
                    options.config.load_cell.volts_per_count, options.amplifier),
-        thread_([this] { run(); }) {}
-
-  ~Impl() {
-    is_ending_ = true;
-    thread_.join();
+        pace_(options.config.clock_speed) {
+    if (options.is_on_wall_clock) thread_ = std::thread([this] { run(); });
   }
 
-  void run() {
-    while (!is_ending_) {
-      watch_port(stage_port_, stage_board_, clock_.now_s());
-      watch_port(cell_port_, cell_board_, clock_.now_s());
-      happen(clock_.now_s());
-      // Conversions up to now depend on the motion up to now; bytes from the host act from now on.
-      const double now_s = clock_.now_s();
-      stage_->tick(now_s);
-      serve_cell(now_s);
-      advance_bench(std::max(bench_s_, now_s));
-      {
-        // Set before a report of this moment can reach the host.
-        const std::lock_guard lock(outcome_mutex_);
-        outcome_.final_position_m = stage_->bench_position_m(now_s);
-        outcome_.is_moving = stage_->is_moving(now_s);
-      }
-      serve_stage(now_s);
-      nap(clock_.now_s());
+  ~Impl() override {
+    is_ending_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+
+  double now_s() const override { return now_s_; }
+
+  void pass(double longest_s) override {
+    const double until_s = now_s_ + std::max(longest_s, 0.5 * kFrame_s);
+    bool has_sent = false;
+    while (now_s_ < until_s && !has_sent) {
+      now_s_ = std::min(until_s, (std::floor(now_s_ / kFrame_s + 1e-6) + 1.0) * kFrame_s);
+      const std::size_t n_before = stage_port_.n_sent() + cell_port_.n_sent();
+      serve(now_s_);
+      has_sent = stage_port_.n_sent() + cell_port_.n_sent() > n_before;
+      for (const auto& serve_other : others_) has_sent = serve_other(now_s_) || has_sent;
     }
+    pace_.keep(now_s_);
   }
 
   EmulatedOutcome outcome() const {
@@ -80,9 +81,10 @@ class EmulatedRig::Impl {
   }
 
   EmulatedRigOptions options_;
-  RigClock clock_;
+  RigClock clock_;  // tells the time only to a rig on the wall clock
   PtyPort stage_port_;
   PtyPort cell_port_;
+  std::vector<std::function<bool(double)>> others_;
   std::atomic<bool> is_ending_{false};
   std::atomic<unsigned> incidents_{0};
   std::atomic<double> stall_wall_s_{0.0};
@@ -92,6 +94,30 @@ class EmulatedRig::Impl {
   std::vector<std::string> sent_lines_;
 
  private:
+  void run() {
+    while (!is_ending_) {
+      serve(clock_.now_s());
+      nap(clock_.now_s());
+    }
+  }
+
+  void serve(double now_s) {
+    watch_port(stage_port_, stage_board_, now_s);
+    watch_port(cell_port_, cell_board_, now_s);
+    happen(now_s);
+    // Conversions up to now depend on the motion up to now; bytes from the host act from now on.
+    stage_->tick(now_s);
+    serve_cell(now_s);
+    advance_bench(std::max(bench_s_, now_s));
+    {
+      // Set before a report of this moment can reach the host.
+      const std::lock_guard lock(outcome_mutex_);
+      outcome_.final_position_m = stage_->bench_position_m(now_s);
+      outcome_.is_moving = stage_->is_moving(now_s);
+    }
+    serve_stage(now_s);
+  }
+
   // A board that boots when its port is opened.
   struct Board {
     bool is_open = false;
@@ -214,6 +240,8 @@ class EmulatedRig::Impl {
   EmulatedAmplifier amplifier_;
   Board stage_board_, cell_board_;
   bool is_cell_silent_ = false;
+  double now_s_ = 0.0;  // of a rig that waits
+  WallPace pace_;
   std::thread thread_;
 };
 
@@ -234,13 +262,25 @@ RigConfig EmulatedRig::config() const {
   config.stage.port = stage_port();
   config.load_cell.port = load_cell_port();
   config.stage.microstep_m = 1.0 / impl_->options_.truth.steps_per_m;
+  if (!impl_->options_.is_on_wall_clock) config.clock_speed = 1.0;
   return config;
+}
+
+RigClock EmulatedRig::clock() const {
+  return impl_->options_.is_on_wall_clock ? RigClock(impl_->clock_.speed()) : RigClock(*impl_);
+}
+
+bool EmulatedRig::waits() const {
+  return !impl_->options_.is_on_wall_clock;
+}
+
+void EmulatedRig::serve_too(std::function<bool(double now_s)> serve) {
+  impl_->others_.push_back(std::move(serve));
 }
 
 EmulatedOutcome EmulatedRig::outcome() const {
   return impl_->outcome();
 }
-
 std::vector<std::string> EmulatedRig::sent_lines() const {
   const std::lock_guard lock(impl_->outcome_mutex_);
   return impl_->sent_lines_;
@@ -249,7 +289,6 @@ std::vector<std::string> EmulatedRig::sent_lines() const {
 void EmulatedRig::hang_weight(double force_N) {
   impl_->weight_N_ = force_N;
 }
-
 void EmulatedRig::cause(Incident incident) {
   impl_->incidents_ |= static_cast<unsigned>(incident);
 }

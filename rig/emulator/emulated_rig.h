@@ -6,7 +6,9 @@
 #include "rig/emulator/emulated_gauge.h"
 #include "rig/emulator/emulated_grbl.h"
 #include "rig/emulator/emulated_zaber.h"
+#include "rig/lines/rig_clock.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,13 +20,18 @@ struct EmulatedRigOptions {
   // The true properties of the instruments; drivers, calibration, volts_per_count, axis, direction
   // and clock_speed are used.
   RigConfig config;
+  // By default the rig waits for the program that uses it: its time passes only while that program
+  // waits for bytes, and clock_speed is the most by which it may be faster than the wall clock. Then
+  // the answer depends neither on the speed nor on what else the computer does. On the wall clock a
+  // busy computer is late, as it would be for a real rig.
+  bool is_on_wall_clock = false;
   GrblHabits grbl;
   ZaberHabits zaber;
   GaugeHabits gauge;
   AmplifierOptions amplifier;
   // Boards with a USB converter (UNO, Nano) reset when their port is opened, native USB does not.
   bool resets_on_open = true;
-  double boot_wall_s = 0.1;  // from that reset to the welcome
+  double boot_wall_s = 0.1;  // from that reset to the welcome; rig time for a rig that waits
   bool keeps_lines = false;  // keeps the lines of the amplifier for sent_lines()
 };
 
@@ -47,9 +54,9 @@ struct EmulatedOutcome {
 };
 
 // A stage (GRBL or Zaber) and a load cell (HX711 amplifier, multimeter or force gauge) behind two
-// pseudo-terminals, pressing on an emulated specimen. config names their drivers. The clock runs
-// config.clock_speed times as fast as wall time. One thread does all the work; the destructor ends
-// it and hangs up both ports.
+// pseudo-terminals, pressing on an emulated specimen. config names their drivers. On the wall clock
+// one thread does all the work, otherwise it is done in the waits of the program that uses clock().
+// The destructor hangs up both ports.
 class EmulatedRig {
  public:
   // Throws std::runtime_error without a free pseudo-terminal, std::invalid_argument on a bad truth.
@@ -58,8 +65,12 @@ class EmulatedRig {
 
   std::string stage_port() const;
   std::string load_cell_port() const;
-  // The config of the options with both ports filled in.
+  // The config of the options with both ports filled in. A rig that waits seems to its program to
+  // run at speed 1.
   RigConfig config() const;
+  // For the program that uses the rig; must not outlive it.
+  RigClock clock() const;
+  bool waits() const;
 
   EmulatedOutcome outcome() const;
   // Every line that the amplifier has sent, with its terminator; needs options.keeps_lines.
@@ -70,7 +81,11 @@ class EmulatedRig {
 
   // Both may be called from any thread.
   void cause(Incident incident);
-  void stall(double wall_s);  // the thread does nothing for that time
+  void stall(double wall_s);  // the thread does nothing for that time; for a rig on the wall clock
+
+  // Serves something else on the lines of a rig that waits, such as a FaultProxy, again and again: it
+  // gets the time and returns true if bytes have gone to the program.
+  void serve_too(std::function<bool(double now_s)> serve);
 
  private:
   class Impl;

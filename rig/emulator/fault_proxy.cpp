@@ -108,13 +108,27 @@ class FaultProxy::Impl {
       : to_host_B_s_(plan.to_host_B_s),
         device_path_(std::move(device_path)),
         to_host_(plan.to_host, plan.longest_delay_s, 2 * plan.seed),
-        to_device_(plan.to_device, plan.longest_delay_s, 2 * plan.seed + 1),
-        thread_([this] { run(); }) {}
+        to_device_(plan.to_device, plan.longest_delay_s, 2 * plan.seed + 1) {}
 
-  ~Impl() {
+  void start() {
+    thread_ = std::thread([this] { run(); });
+  }
+
+  void end() {
     is_ending_ = true;
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
+    host_.hang_up();
     close_device();
+  }
+
+  // True if bytes have gone to the host.
+  bool serve(double now_s) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (is_ending_) return false;
+    follow_host();
+    const std::size_t n_before = host_.n_sent();
+    if (device_ >= 0) pass(now_s);
+    return host_.n_sent() > n_before;
   }
 
   FaultCounts counts() const {
@@ -130,13 +144,10 @@ class FaultProxy::Impl {
  private:
   void run() {
     while (!is_ending_) {
-      follow_host();
+      serve(monotonic_s());
       pollfd entries[2] = {{device_ >= 0 ? host_.descriptor() : -1, POLLIN, 0},
                            {device_, POLLIN, 0}};
       poll(entries, 2, /*timeout ms*/ 1);
-      if (device_ < 0) continue;
-      const std::lock_guard<std::mutex> lock(mutex_);
-      pass();
     }
   }
 
@@ -152,21 +163,23 @@ class FaultProxy::Impl {
     }
   }
 
-  void pass() {
+  void pass(double now_s) {
     if (is_healed_) {
       to_host_.heal();
       to_device_.heal();
     }
     to_host_.slow_to(to_host_B_s_);
-    const double now_s = monotonic_s();
     if (std::string bytes = host_.read_available(); !bytes.empty()) {
       to_device_.take(std::move(bytes), now_s, counts_);
     }
-    std::array<char, 4096> buffer{};
-    const ssize_t n = read(device_, buffer.data(), buffer.size());
-    if (n > 0) {
-      to_host_.take(std::string(buffer.data(), static_cast<std::size_t>(n)), now_s, counts_);
-    }
+    std::array<char, 16384> buffer{};
+    std::size_t n_got = 0;
+    ssize_t n = 0;
+    do {
+      n = read(device_, buffer.data() + n_got, buffer.size() - n_got);
+      n_got += n > 0 ? static_cast<std::size_t>(n) : 0;
+    } while (n > 0 && n_got < buffer.size());
+    if (n_got > 0) to_host_.take(std::string(buffer.data(), n_got), now_s, counts_);
     const bool is_gone = n == 0 || (n < 0 && errno != EAGAIN && errno != EINTR);
     host_.write(to_host_.due(now_s));
     const std::string down = to_device_.due(now_s);
@@ -196,10 +209,18 @@ class FaultProxy::Impl {
   std::thread thread_;
 };
 
-FaultProxy::FaultProxy(const std::string& device_path, const FaultPlan& plan)
-    : impl_(std::make_unique<Impl>(device_path, plan)) {}
+FaultProxy::FaultProxy(EmulatedRig& rig, const std::string& device_path, const FaultPlan& plan)
+    : impl_(std::make_shared<Impl>(device_path, plan)) {
+  if (rig.waits()) {
+    rig.serve_too([impl = impl_](double now_s) { return impl->serve(now_s); });
+  } else {
+    impl_->start();
+  }
+}
 
-FaultProxy::~FaultProxy() = default;
+FaultProxy::~FaultProxy() {
+  impl_->end();
+}
 
 std::string FaultProxy::path() const {
   return impl_->host_.path();

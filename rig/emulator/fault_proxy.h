@@ -1,5 +1,7 @@
 #pragma once
 
+#include "rig/emulator/emulated_rig.h"
+
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -27,16 +29,18 @@ struct FaultCounts {
 struct FaultPlan {
   std::uint64_t seed = 1;
   FaultRates to_host, to_device;
-  double longest_delay_s = 0.15;  // wall
+  double longest_delay_s = 0.15;  // wall; rig time for a rig that waits, also below
   double to_host_B_s = 0.0;       // bytes that the line carries in a second of wall time; 0: all
 };
 
 // Connects a host to an emulated device and disturbs the line in both directions. Bytes never
 // overtake one another, as on a real line. The device's port is opened and closed when the host
-// opens and closes path(), so that boards reset as they would without the proxy.
+// opens and closes path(), so that boards reset as they would without the proxy. The line of a rig that waits
+// waits too: the faults of a plan always come at the same times.
 class FaultProxy {
  public:
-  FaultProxy(const std::string& device_path, const FaultPlan& plan);
+  // device_path: one of the two ports of the rig.
+  FaultProxy(EmulatedRig& rig, const std::string& device_path, const FaultPlan& plan);
   ~FaultProxy();
 
   std::string path() const;
@@ -50,7 +54,7 @@ class FaultProxy {
  private:
   class Lane;
   class Impl;
-  std::unique_ptr<Impl> impl_;
+  std::shared_ptr<Impl> impl_;  // also held by a rig that waits
 };
 
 }  // namespace viscard

@@ -47,10 +47,16 @@ bool PtyPort::is_open_by_host() const {
   return poll(&entry, 1, 0) >= 0 && (entry.revents & POLLHUP) == 0;
 }
 
+// Linux hands bytes over in a work queue; only a read that finds nothing waits for that.
 std::string PtyPort::read_available() {
+  std::string bytes;
   std::array<char, 4096> buffer{};
-  const ssize_t n = master_ < 0 ? -1 : read(master_, buffer.data(), buffer.size());
-  return n > 0 ? std::string(buffer.data(), static_cast<std::size_t>(n)) : std::string();
+  while (master_ >= 0) {
+    const ssize_t n = read(master_, buffer.data(), buffer.size());
+    if (n <= 0) break;
+    bytes.append(buffer.data(), static_cast<std::size_t>(n));
+  }
+  return bytes;
 }
 
 void PtyPort::write(std::string_view bytes) {
@@ -58,6 +64,7 @@ void PtyPort::write(std::string_view bytes) {
   while (master_ >= 0 && !unsent_.empty()) {
     const ssize_t n = ::write(master_, unsent_.data(), unsent_.size());
     if (n <= 0) return;
+    n_sent_ += static_cast<std::size_t>(n);
     unsent_.erase(0, static_cast<std::size_t>(n));
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,7 @@ class PtyPort {
   std::string read_available();
   // Queues the bytes and sends as many as the host's side has room for; later calls send the rest.
   void write(std::string_view bytes);
+  std::size_t n_sent() const { return n_sent_; }  // bytes, since the beginning
   bool has_unsent() const { return !unsent_.empty(); }
   // Drops unread bytes from the host and unsent bytes, as a reset does.
   void discard();
@@ -30,6 +32,7 @@ class PtyPort {
   int master_ = -1;
   std::string path_;
   std::string unsent_;
+  std::size_t n_sent_ = 0;
 };
 
 }  // namespace viscard

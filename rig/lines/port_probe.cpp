@@ -48,7 +48,7 @@ std::string trouble_text(const std::string& path, int error) {
 }
 
 [[noreturn]] void throw_for(const std::string& path, int error) {
-  throw RigError(trouble_text(path, error));
+  throw PortUnavailable(trouble_text(path, error));
 }
 
 bool holds(const fs::path& process, const fs::path& device) {
@@ -127,13 +127,14 @@ PortStatus port_status(const std::string& path) {
 
 int open_exclusively(const std::string& path) {
   if (path.empty()) {
-    throw RigError("no port is given: set port = \"/dev/serial/by-id/...\" in the rig file. " +
-                   present_ports_text());
+    throw PortUnavailable(
+        "no port is given: set port = \"/dev/serial/by-id/...\" in the rig file. " +
+        present_ports_text());
   }
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) throw_for(path, errno);
   const auto throw_no_port = [&] {
-    throw RigError(not_a_port_text(path, status.st_mode) + ". " + present_ports_text());
+    throw PortUnavailable(not_a_port_text(path, status.st_mode) + ". " + present_ports_text());
   };
   if (!S_ISCHR(status.st_mode)) throw_no_port();
   const int descriptor = open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);

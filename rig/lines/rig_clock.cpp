@@ -22,4 +22,15 @@ RigClock::RigClock(double speed) : speed_(speed), origin_s_(monotonic_s()) {
   }
 }
 
+double RigClock::look_s() const {
+  if (rig_ != nullptr) return rig_->now_s();
+  const double wall_s = monotonic_s();
+  lateness_.look(wall_s);
+  return wall_s;
+}
+
+double RigClock::awake_s() const {
+  return look_s() - lateness_.total_s();
+}
+
 }  // namespace viscard

@@ -10,6 +10,12 @@ class RigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// A port cannot be opened: it does not exist, is used by another program, or may not be read.
+class PortUnavailable : public RigError {
+ public:
+  using RigError::RigError;
+};
+
 // The other end of a port is gone: the cable was pulled, or the device or its adapter switched off.
 class PortHungUp : public RigError {
  public:

@@ -142,7 +142,19 @@ SerialLine::~SerialLine() {
   if (lock_descriptor_ >= 0) ::close(lock_descriptor_);
 }
 
+// The bytes of a rig that waits have all been sent at this moment, so all of them are read: how the
+// kernel hands them over must not show in the record.
 Chunk SerialLine::read_available() {
+  Chunk chunk = read_once();
+  while (clock_.waits() && !chunk.bytes.empty()) {
+    const std::string more = read_once().bytes;
+    if (more.empty()) break;
+    chunk.bytes += more;
+  }
+  return chunk;
+}
+
+Chunk SerialLine::read_once() {
   pollfd entry{descriptor_, POLLIN, 0};
   const int ready = poll(&entry, 1, 0);
   Chunk chunk{clock_.now_s(), {}};

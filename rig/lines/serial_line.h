@@ -36,6 +36,7 @@ class SerialLine final : public Transport {
   void write(std::string_view bytes, double timeout_s) override;
 
  private:
+  Chunk read_once();
   struct SafeClose {
     void operator()(LibSerial::SerialPort* port) const noexcept;
   };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "rig/lines/rig_clock.h"
+
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,7 +33,9 @@ class Transport {
 };
 
 // Sleeps until one of the transports has bytes to read or hangs up, a signal arrives, or timeout_s
-// of wall time is over.
-void wait_readable(const std::vector<const Transport*>& transports, double timeout_s);
+// of wall time is over. A rig that waits for this program goes on meanwhile, until it sends bytes on
+// any line.
+void wait_readable(const std::vector<const Transport*>& transports, const RigClock& clock,
+                   double timeout_s);
 
 }  // namespace viscard

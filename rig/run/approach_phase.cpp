@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace viscard {
 namespace {
@@ -13,58 +14,12 @@ constexpr double kSettle_s = 0.25;      // force after a stop, long against the 
 constexpr double kContactSigmas = 6.0;  // contact threshold over the noise of one reading
 constexpr double kStillThere = 0.25;    // of the threshold: below, it was a single bad reading
 constexpr int kMostBackOffs = 10;
-constexpr int kMostRestarts = 3;     // of the amplifier before its zero is known
-constexpr double kSlow = 0.8;        // of the expected rate: measured again, then checked
-constexpr double kFarTooSlow = 0.5;  // of the expected rate: refused in any case
-
-// How far an approach overshoots depends on the rate of readings, so the rate in the rig file must
-// be true. A rate that is too low is measured twice, because the machine may have stalled.
-void check_rate(TestRun& run, const ForceMean& zero, double duration_s) {
-  const double expected_Hz = run.rig.load_cell.expected_rate_Hz;
-  double rate_Hz = zero.rate_Hz;
-  if (rate_Hz < kSlow * expected_Hz) {
-    rate_Hz = std::max(rate_Hz, run.session.mean_force(duration_s).rate_Hz);
-  }
-  if (rate_Hz >= kSlow * expected_Hz) return;
-  RigConfig measured = run.rig;
-  measured.load_cell.expected_rate_Hz = rate_Hz;
-  const Preflight found =
-      preflight(measured, run.plan, run.specimen, run.session.stage().dynamics());
-  if (found.problems.empty() && rate_Hz >= kFarTooSlow * expected_Hz) return;
-  throw RigError("the load cell gives " + text_from_number(rate_Hz, 1) +
-                 " readings/s, but expected_rate in the rig file is " +
-                 text_from_number(expected_Hz, 1) +
-                 " Hz, so the approach would not stop in time: " +
-                 remedy_for_slow_readings(run.rig.load_cell) +
-                 ", or correct expected_rate under [load_cell] of the rig file");
-}
-
-// A board that restarts while its zero is measured gives another zero: it is measured again, from
-// the first readings that can be read. From then on a restart ends the run.
-ForceMean undisturbed_tare(TestRun& run, double duration_s) {
-  LoadCell& cell = run.session.load_cell();
-  for (int i = 0; i < kMostRestarts; ++i) {
-    if (cell.n_restarts() > 0) cell.connect([&] { run.session.pump(); });
-    const std::int64_t n_before = cell.n_restarts();
-    try {
-      const ForceMean zero = run.session.tare(duration_s);
-      if (cell.n_restarts() != n_before) continue;
-      cell.accept_restarts(false);
-      return zero;
-    } catch (const PortHungUp&) {
-      throw;
-    } catch (const LimitReached&) {
-      throw;
-    } catch (const RunInterrupted&) {
-      throw;
-    } catch (const RigError&) {
-      if (cell.n_restarts() == n_before) throw;  // otherwise too few readings because of it
-    }
-  }
-  throw RigError(
-      "the load cell's amplifier restarts again and again. Check its supply and its cable, then "
-      "start the run again");
-}
+constexpr double kFurther = 0.08;     // of the stage's way to full depth
+constexpr double kReported_m = 2e-6;  // twice the resolution of a report
+constexpr double kFewestSteps = 4.0;  // of the motor
+constexpr double kSureRise = 10.0;    // over the smallest rise that is felt
+constexpr double kMostFurther = 0.5;  // of the soft limit
+constexpr double kOfFrame = 0.95;     // a stiffer contact says nothing of the specimen
 
 struct Touch {
   JogEnd before;  // the last stop before the touch
@@ -111,6 +66,59 @@ Touch jog_until_touched(TestRun& run, double threshold_N) {
       return {before, {session.stage().position_m(), touched_N}};
     }
   }
+}
+
+JogEnd pressed_to(TestRun& run, double position_m, double most_N) {
+  run.session.move(position_m, run.plan.approach_speed_m_s, "approach", most_N);
+  const double force_N = run.session.mean_force(kSettle_s).force_N;
+  return {run.session.stage().position_m(), force_N};
+}
+
+// Presses a few percent of the depth further, so that two stops in contact show the stiffness:
+// contact and travel by a wrong modulus_guess would miss the depth by tens of um. The stop at the
+// touch is not one of the two, because a report has only three decimals of a mm; where a whole move
+// ends is known to a step. Returns the touch itself if the force leaves no room for that.
+Touch pressed_further(TestRun& run, const Touch& touch) {
+  const Preflight& expected = run.outcome.expected;
+  const double least_m = kFewestSteps / run.session.stage().dynamics().steps_per_m;
+  const double sure_m =
+      kSureRise * kContactSigmas * run.outcome.noise_N / expected.total_stiffness_N_m;
+  const double jog_m = std::max(
+      least_m, std::min(kLongestJog_m, std::max(kFurther * expected.stage_travel_m, sure_m)));
+  const double first_m = std::max(least_m, kReported_m);
+  const double most_N = kMostFurther * limit_N(run);
+  const double rise_N = 2.0 * (first_m + jog_m) * expected.total_stiffness_N_m;
+  if (touch.at.force_N + rise_N > most_N) return touch;
+  const JogEnd first = pressed_to(run, touch.at.position_m + first_m, most_N);
+  const JogEnd second = pressed_to(run, first.position_m + jog_m, most_N);
+  return second.force_N > first.force_N ? Touch{first, second} : touch;
+}
+
+// With the frame known, the stage's way to a depth follows from the stiffness measured. If the force
+// at full depth would pass the limit, the way stays the one by modulus_guess.
+void use_stiffness(TestRun& run, double total_N_m) {
+  const double frame_N_m = run.rig.frame.stiffness_N_m;
+  const double depth_m = deepest_m(run.phases);
+  if (!(frame_N_m > 0.0 && total_N_m > 0.0 && depth_m > 0.0)) return;
+  Preflight& expected = run.outcome.expected;
+  const double specimen_N_m = total_N_m < kOfFrame * frame_N_m
+                                  ? 1.0 / (1.0 / total_N_m - 1.0 / frame_N_m)
+                                  : std::numeric_limits<double>::infinity();
+  const double peak_N = specimen_N_m * depth_m;
+  if (peak_N > limit_N(run)) {
+    run.session.event(
+        "advice", "stiffness",
+        "The specimen is stiffer than modulus_guess says: the whole depth would need " +
+            (std::isfinite(peak_N) ? text_from_number(peak_N, 2) + " N, more than the "
+                                   : std::string("far more than the ")) +
+            text_from_number(limit_N(run), 2) +
+            " N allowed. The punch goes less deep; lower the depth, or correct modulus_guess");
+    return;
+  }
+  const double before = expected.travel_per_depth;
+  expected.travel_per_depth = 1.0 + specimen_N_m / frame_N_m;
+  expected.stage_travel_m *= expected.travel_per_depth / before;
+  expected.ramp_speed_m_s *= expected.travel_per_depth / before;
 }
 
 // A punch that presses must raise the force; otherwise the load cell is wired the other way round.
@@ -170,25 +178,15 @@ void back_off(TestRun& run, double contact_m) {
 
 }  // namespace
 
-void carry_out_tare(TestRun& run, const TestPhase& phase) {
-  const ForceMean zero = undisturbed_tare(run, phase.duration_s);
-  run.outcome.noise_N = zero.sd_N;
-  if (std::abs(zero.force_N) > kPressesAtStart * limit_N(run)) {
-    run.presses_at_start = true;
-    throw RigError("the load cell reads " + text_from_number(zero.force_N, 3) +
-                   " N before anything was touched. Take away what presses on it, or correct "
-                   "zero_volts of the calibration");
-  }
-  check_rate(run, zero, phase.duration_s);
-}
-
 void carry_out_approach(TestRun& run) {
-  const Touch touch = jog_until_touched(run, contact_threshold_N(run));
-  check_sign(run, touch.at.force_N);
+  const Touch first = jog_until_touched(run, contact_threshold_N(run));
+  check_sign(run, first.at.force_N);
+  const Touch touch = pressed_further(run, first);
   const ContactEstimate contact = contact_from_stops(
       touch.before, touch.at, run.outcome.noise_N, 1.0 / run.session.stage().dynamics().steps_per_m,
       run.outcome.expected.total_stiffness_N_m);
   run.session.expect_stiffness(contact.least_stiffness_N_m);
+  use_stiffness(run, contact.stiffness_N_m);
   check_stiffness(run, contact.least_stiffness_N_m);
   back_off(run, contact.position_m);
 }
@@ -207,7 +205,8 @@ ContactEstimate contact_from_stops(const JogEnd& before, const JogEnd& touched, 
   if (!was_felt) {
     estimate.position_m = std::max(estimate.position_m, before.position_m);
   } else if (rise_N > felt_N) {
-    estimate.position_m = touched.position_m - touched.force_N * way_m / rise_N;
+    estimate.stiffness_N_m = rise_N / way_m;
+    estimate.position_m = touched.position_m - touched.force_N / estimate.stiffness_N_m;
   }
   return estimate;
 }

@@ -7,17 +7,10 @@ namespace viscard {
 // Longest jog near or in contact: so far does a stage go whose host has died.
 inline constexpr double kLongestJog_m = 25e-6;
 
-// A force above this share of the soft limit before anything was moved means that something presses
-// on the load cell already.
-inline constexpr double kPressesAtStart = 0.5;
-
-// Measures zero and noise of the load cell, then checks the rate of its readings. Throws RigError
-// if something presses already, or if readings come too slowly for the approach to stop in time.
-void carry_out_tare(TestRun& run, const TestPhase& phase);
-
-// Jogs toward the specimen until the force passes the contact threshold, estimates the contact,
-// checks that the specimen is not too stiff for the ramp, and backs off until the force is back at
-// zero. Sets run.contact_m and outcome.contact_position_m. Throws RigError if nothing is touched,
+// Jogs toward the specimen until the force passes the contact threshold, presses a little further to
+// measure the stiffness, estimates the contact, checks that the specimen is not too stiff for the
+// ramp, and backs off until the force is back at zero. Sets run.contact_m,
+// outcome.contact_position_m and, by the stiffness measured, how far the stage goes for a depth. Throws RigError if nothing is touched,
 // if the load cell has the wrong sign, or if the force does not return to zero.
 void carry_out_approach(TestRun& run);
 
@@ -32,6 +25,7 @@ struct ContactEstimate {
   double position_m = 0.0;  // of the stage when the punch just touches
   // Lower bound of the stiffness of specimen and frame in series; independent of the guess.
   double least_stiffness_N_m = 0.0;
+  double stiffness_N_m = 0.0;  // between the two stops; 0 unless both were in contact
 };
 
 // Extrapolates the force at the touch to zero with the guessed stiffness. The result is never

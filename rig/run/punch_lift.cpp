@@ -41,8 +41,8 @@ void PunchLift::stop_gently() {
   const Stage& stage = devices.stage();
   if (!stage.is_moving() || devices.needs_recovery()) return;
   devices.begin_gentle_stop();
-  const double deadline_s = monotonic_s() + kStandstill_wall_s;
-  while (stage.is_moving() && !devices.needs_recovery() && monotonic_s() < deadline_s) pump();
+  const double deadline_s = clock.awake_s() + kStandstill_wall_s;
+  while (stage.is_moving() && !devices.needs_recovery() && clock.awake_s() < deadline_s) pump();
 }
 
 // Moves away from the specimen by a share of the distance. Returns what is wrong afterwards, or "";
@@ -60,8 +60,8 @@ std::string PunchLift::lift(double share) {
   if (to_m < from_m) {
     stage.begin_move(to_m, options.speed_m_s, "retract");
     const double deadline_s =
-        monotonic_s() + kStandstill_wall_s + (from_m - to_m) / options.speed_m_s;
-    while (stage.is_moving() && monotonic_s() < deadline_s) pump();
+        clock.awake_s() + kStandstill_wall_s + (from_m - to_m) / options.speed_m_s;
+    while (stage.is_moving() && clock.awake_s() < deadline_s) pump();
     lifted_m = from_m - stage.position_m();
   }
   const bool was_pressing = before_N > options.pressing_N;
@@ -85,9 +85,9 @@ std::string PunchLift::trouble_with_force(double before_N) {
       clock.now_s() + 10.0 * devices.load_cell().period_s() + clock.from_wall_s(0.1);
   while (clock.now_s() < wait_s) pump();
   const double lifted_at_s = wait_s - clock.from_wall_s(0.1);
-  const double deadline_s = monotonic_s() + kOldReadings_wall_s;
+  const double deadline_s = clock.awake_s() + kOldReadings_wall_s;
   while (readings.last_made_s() < lifted_at_s && readings.n_forces() > n_before &&
-         monotonic_s() < deadline_s) {
+         clock.awake_s() < deadline_s) {
     pump();
   }
   if (devices.is_cell_restarted()) return unseen("has restarted");

@@ -78,6 +78,8 @@ void record_hidden_error(RunSession& session, RunOutcome& outcome) {
 void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock) {
   outcome.peak_force_N = session.peak_force_N();
   outcome.stream = session.load_cell().counts();
+  outcome.n_late = session.n_late();
+  outcome.longest_late_s = session.longest_late_s();
   outcome.line_format = session.load_cell().line_format();
   try {
     session.finish_marking();

@@ -8,6 +8,7 @@ void ProgressReport::begin_phase(const std::string& name, double planned_rest_s)
   phase_ = name;
   phase_start_s_ = clock_.now_s();
   planned_rest_s_ = planned_rest_s;
+  last_report_wall_s_ = 0.0;  // every phase is reported at least once, however fast it passes
 }
 
 void ProgressReport::report(double force_N, double position_m) {

@@ -25,6 +25,9 @@ struct RunControl {
   const RigClock* clock = nullptr;                   // the one the devices were made with
   const std::atomic<bool>* stop = nullptr;           // set by a signal handler to end the run
   std::function<void(const RunProgress&)> progress;  // may be empty
+  // A punch that presses before the test is lifted in any case; then the test goes on instead of
+  // ending.
+  bool lifts_at_start = false;
 };
 
 // A person asked the run to end.
@@ -35,6 +38,18 @@ class RunInterrupted : public RigError {
 
 // The newest reading of the load cell is too old for the stage to go on pressing.
 class ReadingsTooOld : public RigError {
+ public:
+  using RigError::RigError;
+};
+
+// The computer was late while the stage was pressing, and nobody watched the force meanwhile.
+class ComputerLate : public RigError {
+ public:
+  using RigError::RigError;
+};
+
+// The punch, or something else, pressed on the load cell before the test.
+class PressesAtStart : public RigError {
  public:
   using RigError::RigError;
 };

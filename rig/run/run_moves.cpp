@@ -1,4 +1,5 @@
-// The moves of a session, and the age of the readings by which they are judged.
+// The moves of a session, and what they are watched by: the age of the readings, and how late this
+// computer is.
 #include "models/maths/text_of_number.h"
 #include "rig/run/run_session.h"
 
@@ -7,9 +8,10 @@
 namespace viscard {
 namespace {
 
-constexpr double kFresh_wall_s = 1.0;          // longest wait for a reading that is young enough
-constexpr double kLongestPass_wall_s = 0.010;  // a longer one is a pause of this program
+constexpr double kFresh_wall_s = 1.0;  // longest wait for a reading that is young enough
 constexpr double kLongestStep_m = 25e-6;
+// At usual speeds the force rises by less than its reserve between soft limit and capacity.
+constexpr double kUnwatched_wall_s = 0.4;
 
 }  // namespace
 
@@ -32,7 +34,33 @@ void RunSession::check_age() {
   throw_too_old("while the stage was pressing; it was stopped at once");
 }
 
+std::string RunSession::lateness_text(double within_wall_s) const {
+  const double late_s = clock_.lateness().recent_s(within_wall_s);
+  if (late_s <= 0.0) return "";
+  return "this computer was late by " + text_from_number(late_s, 2) +
+         " s, because other programs kept it busy or this one was frozen. Close these programs, or "
+         "start viscard with priority (chrt -f 50 viscard ...), then start the run again";
+}
+
+// Everything that came meanwhile has been read and judged before this.
+void RunSession::check_lateness() {
+  const HostLateness& host = clock_.lateness();
+  if (host.n_long() == n_late_) return;
+  n_late_ = host.n_long();
+  const double late_s = host.newest_long_s();
+  longest_late_s_ = std::max(longest_late_s_, late_s);
+  const bool was_pressing = is_pressing_ && stage().is_moving();
+  event("computer_late", text_from_number(late_s, 3),
+        "This computer was late by " + text_from_number(late_s, 2) + " s and watched nothing" +
+            (stage().is_moving() ? " while the stage moved" : ""));
+  if (!is_guarded_ || !was_pressing || late_s < kUnwatched_wall_s) return;
+  throw ComputerLate("nobody watched the force while the stage was pressing: " + lateness_text());
+}
+
 void RunSession::throw_too_old(const std::string& what) const {
+  if (const std::string late = lateness_text(); !late.empty()) {
+    throw ComputerLate("the readings of the load cell were too old " + what + ": " + late);
+  }
   const LoadCell& cell = devices_.load_cell();
   const double age = age_s();
   if (cell.listened_at_s() - cell.last_arrival_s() > 0.5 * age) {
@@ -52,14 +80,10 @@ void RunSession::expect_stiffness(double stiffness_N_m) {
 
 // False if it still waits after so much time spent listening.
 bool RunSession::pump_while(const std::function<bool()>& is_waiting, double listened_wall_s) {
-  double last_s = monotonic_s();
-  double listened_s = 0.0;
+  const double until_s = clock_.awake_s() + listened_wall_s;
   while (is_waiting()) {
-    if (listened_s > listened_wall_s) return false;
+    if (clock_.awake_s() > until_s) return false;
     pump();
-    const double now_s = monotonic_s();
-    listened_s += std::min(now_s - last_s, kLongestPass_wall_s);
-    last_s = now_s;
   }
   return true;
 }

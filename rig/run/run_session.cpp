@@ -14,7 +14,8 @@ constexpr double kLate_wall_s = 1.0;
 constexpr double kLateMean_wall_s = 3.0;
 // On an emulated clock that runs fast, every stall of the machine counts as seconds of rig time.
 constexpr double kOldEmulated_wall_s = 2.0;
-constexpr double kPressingShare = 0.1;  // of the soft limit
+constexpr double kWhileUnwatched_wall_s = 0.5;  // after a delay its readings are judged
+constexpr double kPressingShare = 0.1;          // of the soft limit
 
 std::string force_text(double force_N) {
   return text_from_number(force_N, 3) + " N";
@@ -34,7 +35,9 @@ RunSession::RunSession(Stage& stage, LoadCell& load_cell, const RigConfig& rig,
       guard_(rig.safety, rig.calibration.capacity_N),
       ages_(rig.calibration.capacity_N,
             clock_.speed() > 1.0 ? clock_.from_wall_s(kOldEmulated_wall_s) : 0.0),
-      progress_(control_, rig.frame.stiffness_N_m) {
+      progress_(control_, rig.frame.stiffness_N_m),
+      n_late_before_(clock_.lateness().n_long()),
+      n_late_(n_late_before_) {
   load_cell.set_listener([this](const LoadSample& sample) { take_sample(sample); });
 }
 
@@ -49,6 +52,7 @@ void RunSession::connect() {
 
 void RunSession::pump() {
   devices_.serve(is_guarded_);
+  check_lateness();
   if (is_guarded_) {
     if (control_.stop != nullptr && *control_.stop) {
       throw RunInterrupted("the run was interrupted; what was recorded is kept");
@@ -68,8 +72,9 @@ void RunSession::pump_until(double time_s) {
 
 void RunSession::pump_until_received(double time_s) {
   pump_until(time_s);
-  const double deadline_s = monotonic_s() + kLate_wall_s;
-  while (readings_.last_made_s() < time_s - load_cell().period_s() && monotonic_s() < deadline_s) {
+  const double deadline_s = clock_.awake_s() + kLate_wall_s;
+  while (readings_.last_made_s() < time_s - load_cell().period_s() &&
+         clock_.awake_s() < deadline_s) {
     pump();
   }
 }
@@ -136,13 +141,17 @@ void RunSession::throw_limit(GuardAction action, double force_N) const {
         "overload, or a broken wire), and what cannot be read may be too much. Check the load cell "
         "with: viscard rig check");
   }
+  const std::string late = lateness_text(kWhileUnwatched_wall_s);
   const std::string reached = "the force reached " + force_text(force_N) + ", above the " +
                               (is_hard ? "hard limit of " + force_text(guard_.hard_limit_N())
                                        : "limit of " + force_text(guard_.soft_limit_N()));
+  if (has_moved_ && !late.empty()) {
+    throw LimitReached(reached + ", when nobody watched it: " + late);
+  }
   if (!has_moved_) {
     throw LimitReached(reached +
-                       ", before anything was moved: the punch is already pressing. Lift it by "
-                       "hand or jog it away; if nothing presses, correct zero_volts of the "
+                       ", before anything was moved: the punch was already pressing, or something "
+                       "else presses on the cell. Take that away, or correct zero_volts of the "
                        "calibration");
   }
   if (!progress_.has_contact()) {
@@ -172,9 +181,10 @@ void RunSession::check_stream() {
 
 ForceMean RunSession::mean_force(double duration_s) {
   const double start_s = clock_.now_s();
-  const double deadline_s = monotonic_s() + duration_s / clock_.speed() + kLateMean_wall_s;
+  const double deadline_s = clock_.awake_s() + duration_s / clock_.speed() + kLateMean_wall_s;
   readings_.collect_from(start_s);
-  while (readings_.collected_until_s() < start_s + duration_s && monotonic_s() < deadline_s) pump();
+  while (readings_.collected_until_s() < start_s + duration_s && clock_.awake_s() < deadline_s)
+    pump();
   readings_.stop_collecting();
   const int n = readings_.n_collected();
   if (n < kFewestReadings) {

@@ -75,6 +75,12 @@ class RunSession {
   double peak_force_N() const { return readings_.peak_force_N(); }
   // Readings marked by an event "implausible".
   int n_implausible() const { return marks_.n_marked(); }
+  // Delays of this computer since the session began, in which nothing could be watched.
+  int n_late() const { return clock_.lateness().n_long() - n_late_before_; }
+  double longest_late_s() const { return longest_late_s_; }
+  // Why a run that ends now may not be to blame: this computer was late within the last seconds.
+  // Empty if it was not.
+  std::string lateness_text(double within_wall_s = 2.0) const;
   // Judges the last readings too; call when no more readings follow.
   void finish_marking() { marks_.finish(); }
 
@@ -85,6 +91,7 @@ class RunSession {
   [[noreturn]] void throw_limit(GuardAction action, double force_N) const;
   void check_stream();
   void check_age();
+  void check_lateness();
   double age_s() const;
   [[noreturn]] void throw_too_old(const std::string& what) const;
   void press(double to_m, double speed_m_s, const std::string& purpose,
@@ -105,6 +112,9 @@ class RunSession {
   ForceGuard guard_;
   AgeWatch ages_;
   ProgressReport progress_;
+  int n_late_before_;
+  int n_late_;  // delays of this computer that are in the record
+  double longest_late_s_ = 0.0;
   bool is_guarded_ = false;
   bool has_moved_ = false;
   bool is_pressing_ = false;  // a move toward the specimen that is judged by the readings' age

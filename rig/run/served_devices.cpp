@@ -37,7 +37,7 @@ void ServedDevices::serve(bool is_guarded) {
   serve_cell(is_guarded);
   serve_stage();
   const double arrival_s = load_cell_.last_arrival_s();
-  silence_.pass(monotonic_s(), arrival_s != last_arrival_s_, stage_.is_moving());
+  silence_.pass(clock_.awake_s(), arrival_s != last_arrival_s_, stage_.is_moving());
   last_arrival_s_ = arrival_s;
 }
 
@@ -45,7 +45,7 @@ void ServedDevices::wait() {
   std::vector<const Transport*> transports{&stage_.transport()};
   if (!is_cell_lost_) transports.push_back(&load_cell_.transport());
   // Rig time may run faster than the wall clock, so the wait is shorter then.
-  wait_readable(transports, kNap_wall_s / std::clamp(clock_.speed() / 10.0, 1.0, 10.0));
+  wait_readable(transports, clock_, kNap_wall_s / std::clamp(clock_.speed() / 10.0, 1.0, 10.0));
 }
 
 void ServedDevices::serve_cell(bool is_guarded) {

@@ -19,10 +19,13 @@ struct TestRun {
   const Specimen& specimen;
   std::vector<TestPhase> phases;
   RunOutcome outcome;
-  double start_m = 0.0;           // stage position before anything was moved
-  double contact_m = 0.0;         // stage position at which the punch touches
-  bool is_in_contact = false;     // the last move pressed the punch into the specimen
-  bool presses_at_start = false;  // the tare showed a force before anything was moved
+  double start_m = 0.0;        // stage position before anything was moved
+  double contact_m = 0.0;      // stage position at which the punch touches
+  bool is_in_contact = false;  // the last move pressed the punch into the specimen
+  bool lifts_at_start =
+      false;  // a punch that presses before the test is lifted and the test goes on
+  bool presses_at_start = false;  // it did press, and the run ends because of it
+  bool is_tared = false;          // the zero is known and nothing presses
 };
 
 // Soft limit of the force, N.

@@ -185,6 +185,7 @@ void GrblStage::nudge(double now_s) {
 
 void GrblStage::watch_deadlines(double now_s) {
   if (!active_) return;
+  now_s -= clock_.late_s() - active_->late_before_s;  // nobody listened meanwhile
   const double written_s = active_->tracker.move().start_time_s;
   if (!active_->has_ok) {
     if (now_s > written_s + clock_.from_wall_s(patience_ * kNudge_wall_s)) nudge(now_s);

@@ -165,6 +165,7 @@ void GrblStage::begin_move(double to_m, double speed_m_s, const std::string& pur
   validate(move);
   active_ = ActiveMove{MoveTracker(move, resolution_m()), purpose};
   active_->progress_s = written_s;
+  active_->late_before_s = clock_.late_s();
   expected_end_s_ = written_s + duration_s(move);
   next_poll_s_ = written_s + kFirstPoll_s;
   send_line(format_grbl_jog(config_.axis, toward_ * to_m * 1e3, feed_mm_min), false);

@@ -48,6 +48,7 @@ class GrblStage final : public PolledStage {
     int n_rests_elsewhere = 0;
     int n_astray = 0;               // reports in a row from outside of its path
     std::optional<double> stood_m;  // position at rest in the last report after a stop
+    double late_before_s = 0.0;     // delays of this program before the move
     double progress_s = 0.0;        // time of the last report with a changed position
     bool is_nudged = false;
   };

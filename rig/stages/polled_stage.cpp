@@ -32,9 +32,9 @@ void PolledStage::note(double time_s, const std::string& name, const std::string
 
 bool PolledStage::wait_for(const std::function<bool()>& is_there, const Pump& pump,
                            double wall_s) const {
-  const double deadline_s = monotonic_s() + wall_s * patience_;
+  const double deadline_s = clock_.awake_s() + wall_s * patience_;
   while (!is_there()) {
-    if (monotonic_s() > deadline_s) return false;
+    if (clock_.awake_s() > deadline_s) return false;
     pump();
   }
   return true;

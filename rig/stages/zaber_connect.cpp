@@ -37,10 +37,10 @@ double ZaberStage::number(const std::string& setting, const Pump& pump) {
 }
 
 void ZaberStage::wait_for_rest(const Pump& pump, double wall_s) {
-  const double deadline_s = monotonic_s() + wall_s;
+  const double deadline_s = clock_.awake_s() + wall_s;
   do {
     ask("", pump);
-    if (monotonic_s() > deadline_s) {
+    if (clock_.awake_s() > deadline_s) {
       throw RigError("the stage on '" + transport_.name() +
                      "' does not come to rest: IT MAY STILL PRESS. Lift the punch by hand");
     }

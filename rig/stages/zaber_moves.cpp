@@ -71,6 +71,7 @@ void ZaberStage::start_action() {
   actions_.pop_front();
   if (!active_ || action_->words.rfind("move abs", 0) != 0) return;
   active_->planned.start_time_s = action_->written_s;
+  active_->late_before_s = clock_.late_s();
   active_->tracker.emplace(active_->planned, config_.microstep_m);
   expected_end_s_ = action_->written_s + duration_s(active_->planned);
 }
@@ -78,6 +79,7 @@ void ZaberStage::start_action() {
 void ZaberStage::watch_deadline(double now_s) {
   constexpr double kNoEnd_wall_s = 5.0;
   if (!active_ || !active_->reply_s) return;
+  now_s -= clock_.late_s() - active_->late_before_s;  // nobody listened meanwhile
   const double late_s = 0.5 * duration_s(active_->planned) + clock_.from_wall_s(kNoEnd_wall_s);
   if (now_s < expected_end_s_ + late_s) return;
   throw RigError("the stage should have come to rest " +

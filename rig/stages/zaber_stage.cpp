@@ -50,9 +50,10 @@ ZaberStage::Sent ZaberStage::send(const std::string& words) {
 }
 
 void ZaberStage::service() {
+  const double now_s = clock_.now_s();  // what was answered before has been sent by then
   receive();
   while (const auto line = splitter_.next()) take_line(*line);
-  drive();
+  drive(now_s);
 }
 
 void ZaberStage::take_line(const ReceivedLine& line) {
@@ -111,7 +112,11 @@ void ZaberStage::take_flag(const ZaberMessage& reply, double time_s) {
 
 void ZaberStage::take_action_reply(const Sent& action, const ZaberMessage& reply, double time_s) {
   const bool is_asked_for = asked_words_ == action.words;
-  if (reply.is_rejected) {
+  const bool is_move = action.words.rfind("move abs", 0) == 0;
+  // A move that was sent again after its reply was lost: the stage is carrying it out.
+  const bool is_under_way =
+      is_move && reply.is_rejected && reply.data == "STATUSBUSY" && action.n_sent > 1;
+  if (reply.is_rejected && !is_under_way) {
     const std::string reason = zaber_rejection_text(reply.data);
     if (action.words == "estop" && reply.data == "BADCOMMAND") {
       action_ = send("stop");  // firmware without estop
@@ -126,7 +131,7 @@ void ZaberStage::take_action_reply(const Sent& action, const ZaberMessage& reply
     throw RigError("the stage refused '" + action.words + "': " + reason);
   }
   if (is_asked_for) action_data_ = reply.data;
-  if (active_ && !active_->reply_s && action.words.rfind("move abs", 0) == 0) {
+  if (active_ && !active_->reply_s && is_move) {
     active_->reply_s = time_s;
     active_->tracker->acknowledged(time_s);
     expected_end_s_ = active_->tracker->latest_end_s();
@@ -143,8 +148,7 @@ void ZaberStage::take_position(const Sent& question, const ZaberMessage& reply, 
   if (active_) follow_move(question.written_s, time_s, reply.is_busy);
 }
 
-void ZaberStage::drive() {
-  const double now_s = clock_.now_s();
+void ZaberStage::drive(double now_s) {
   const double answer_s = clock_.from_wall_s(kAnswer_wall_s);
   if (question_ && now_s - question_->written_s > answer_s) {
     question_.reset();  // a late answer is recognised by its id

@@ -45,6 +45,7 @@ class ZaberStage final : public PolledStage {
     std::string purpose;
     long long target = 0;  // microsteps
     std::optional<double> reply_s = {};
+    double late_before_s = 0.0;  // delays of this program before the move
     bool is_stopping = false;
     double stop_s = 0.0;
     int n_rests_elsewhere = 0;
@@ -58,7 +59,7 @@ class ZaberStage final : public PolledStage {
   void take_position(const Sent& question, const ZaberMessage& reply, double time_s);
   void follow_move(double asked_s, double received_s, bool is_busy);
   void end_move(double end_m);
-  void drive();
+  void drive(double now_s);
   void start_action();
   void watch_deadline(double now_s);
   void stop(const std::string& words);

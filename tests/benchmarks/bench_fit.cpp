@@ -47,11 +47,10 @@ int main(int argc, char** argv) try {
   const viscard::RelaxationData data = read_data(argv[1]);
   viscard::FitOptions options;
   if (argc > 3) options.n_terms = std::atoi(argv[3]);
-  constexpr std::size_t kFew = 500;
-  const viscard::RelaxationData few{
-      {data.time_s.begin(), data.time_s.begin() + std::min(kFew, data.time_s.size())},
-      {data.value.begin(), data.value.begin() + std::min(kFew, data.time_s.size())},
-      {}};
+  const auto few_rows = static_cast<std::ptrdiff_t>(std::min<std::size_t>(500, data.time_s.size()));
+  const viscard::RelaxationData few{{data.time_s.begin(), data.time_s.begin() + few_rows},
+                                    {data.value.begin(), data.value.begin() + few_rows},
+                                    {}};
   viscard::fit_relaxation(few, options);
   const double before_B = peak_B();
   std::vector<double> spent_s;

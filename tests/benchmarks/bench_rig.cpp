@@ -28,7 +28,7 @@ namespace {
 
 using namespace viscard;
 
-double resident_MB() {
+double resident_megabytes() {
   std::ifstream file("/proc/self/statm");
   long total = 0, resident = 0;
   file >> total >> resident;
@@ -85,10 +85,10 @@ void stream(const char* name, const StreamBench& bench) {
   const long expected = bench.n_lines - 7;  // the first may be cut, the format is learnt from six
   while (n_samples < expected && monotonic_s() - quiet_since_s < 5.0) {
     const long before = n_samples;
-    wait_readable({&line}, 0.01);
+    wait_readable({&line}, clock, 0.01);
     cell.service();
     if (n_samples > before) quiet_since_s = monotonic_s();
-    if (early_MB == 0.0 && n_samples > bench.n_lines / 10) early_MB = resident_MB();
+    if (early_MB == 0.0 && n_samples > bench.n_lines / 10) early_MB = resident_megabytes();
   }
   const double took_s = monotonic_s() - began_s;
   sender.join();
@@ -99,7 +99,7 @@ void stream(const char* name, const StreamBench& bench) {
       name, bench.n_lines, took_s, static_cast<double>(bench.n_lines) / took_s,
       100.0 * (thread_cpu_s() - cpu_s) / took_s, expected - n_samples,
       static_cast<long long>(counts.missing), static_cast<long long>(counts.unreadable), early_MB,
-      resident_MB());
+      resident_megabytes());
 }
 
 // A whole run with its capture file; the hold takes an hour of the emulated clock.
@@ -113,7 +113,7 @@ void hour_of_hold() {
   const RigConfig rig = emulated.config();
   TestPlan plan;
   plan.hold_s = 3600.0;
-  const RigClock clock(rig.clock_speed);
+  const RigClock clock = emulated.clock();
   const auto path = std::filesystem::temp_directory_path() /
                     ("viscard-bench-" + std::to_string(getpid()) + ".viscap");
   CapturedRun about;
@@ -132,14 +132,15 @@ void hour_of_hold() {
     RunControl control;
     control.clock = &clock;
     control.progress = [&](const RunProgress& now) {
-      if (early_MB == 0.0 && now.phase == "hold" && now.time_s > 400.0) early_MB = resident_MB();
+      if (early_MB == 0.0 && now.phase == "hold" && now.time_s > 400.0)
+        early_MB = resident_megabytes();
     };
     outcome = run_indentation(*devices.stage, *devices.load_cell, rig, plan, about.specimen, sink,
                               control);
     writer.finish(outcome.status == "finished" ? "finished" : "interrupted");
     dropped = writer.counts().dropped;
   }
-  const double late_MB = resident_MB();
+  const double late_MB = resident_megabytes();
   const std::size_t in_file = read_capture(path).load_samples.size();
   std::filesystem::remove(path);
   std::printf(
@@ -155,6 +156,7 @@ void share_at_80() {
   EmulatedRigOptions options;
   options.truth = demo_truth(10.0, 1);
   options.config = demo_rig();
+  options.is_on_wall_clock = true;
   const EmulatedRig emulated(options);
   const RigConfig rig = emulated.config();
   const RigClock clock;

@@ -50,8 +50,8 @@ TEST_CASE("a capture becomes a card, a validated pillar and a page", "[flow][pty
   must_run({"export", capture, "--out", table});
   const std::string fit_json = must_run({"fit", capture, "--out", material, "--json"});
   for (const char* target : {"abaqus", "ansys", "febio", "json"}) {
-    // A hold of 15 s is short, and the emulated noise depends on the machine's clock, so the fit
-    // sometimes flags its slowest term. The card is written in any case.
+    // A hold of 15 s is short, so the fit may flag its slowest term. The card is written in any
+    // case.
     must_run({"card", material, "--for", target, "--units", "mm-t-s", "--accept-flags", "--out",
               folder / (std::string("card.") + target)});
   }

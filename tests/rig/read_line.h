@@ -12,12 +12,13 @@ namespace viscard {
 // next call. Returns nothing when the time is over. Throws PortHungUp.
 inline std::optional<ReceivedLine> read_line(Transport& transport, LineSplitter& splitter,
                                              double timeout_s) {
+  const RigClock clock;
   const double deadline_s = monotonic_s() + timeout_s;
   while (true) {
     if (auto line = splitter.next()) return line;
     const double left_s = deadline_s - monotonic_s();
     if (left_s <= 0.0) return std::nullopt;
-    wait_readable({&transport}, left_s);
+    wait_readable({&transport}, clock, left_s);
     const Chunk chunk = transport.read_available();
     splitter.feed(chunk.bytes, chunk.time_s, 10.0 / transport.baud());
   }

@@ -25,29 +25,40 @@ struct LineFaults {
 
 // An emulated rig with real drivers on its ports, or behind disturbed lines. Keeps all records.
 struct RigFixture {
-  explicit RigFixture(EmulatedRigOptions options,
+  explicit RigFixture(const EmulatedRigOptions& options,
                       const std::optional<LineFaults>& faults = std::nullopt, double patience = 1.0)
       : emulated(options),
         config(config_behind(faults)),
-        clock(config.clock_speed),
+        clock(emulated.clock()),
         stage_line(config.stage.port, 115200, clock),
         cell_line(config.load_cell.port, 115200, clock),
-        sink([this](const RunRecord& record) { records.push_back(record); }),
+        sink([this](const RunRecord& record) {
+          records.push_back(record);
+          if (on_record) on_record(record);
+        }),
         stage(stage_line, config.stage, clock, sink, patience),
         load_cell(cell_line, config.load_cell, clock, sink) {}
 
-  static EmulatedRigOptions options(double speed, double ratio = 10.0) {
+  // A rig that waits for the test, as fast as the computer can.
+  static EmulatedRigOptions options() {
     EmulatedRigOptions result;
-    result.truth = demo_truth(ratio, 7);
+    result.truth = demo_truth(10.0, 7);
     result.config = demo_rig();
+    result.config.clock_speed = 500.0;
+    return result;
+  }
+  // For tests of delays of the computer or of the rig.
+  static EmulatedRigOptions on_wall_clock(double speed) {
+    EmulatedRigOptions result = options();
     result.config.clock_speed = speed;
+    result.is_on_wall_clock = true;
     return result;
   }
 
   // Serves the stage alone, or both devices.
   Pump pump() {
     return [this] {
-      wait_readable({&stage_line, &cell_line}, 0.002);
+      wait_readable({&stage_line, &cell_line}, clock, 0.002);
       load_cell.service();
       stage.service();
     };
@@ -62,6 +73,7 @@ struct RigFixture {
     control.clock = &clock;
     control.stop = &stop;
     control.progress = on_progress;
+    control.lifts_at_start = lifts_at_start;
     return run_indentation(stage, load_cell, config, plan, specimen, sink, control);
   }
 
@@ -80,8 +92,8 @@ struct RigFixture {
   RigConfig config_behind(const std::optional<LineFaults>& faults) {
     RigConfig result = emulated.config();
     if (!faults) return result;
-    stage_proxy = std::make_unique<FaultProxy>(result.stage.port, faults->stage);
-    cell_proxy = std::make_unique<FaultProxy>(result.load_cell.port, faults->cell);
+    stage_proxy = std::make_unique<FaultProxy>(emulated, result.stage.port, faults->stage);
+    cell_proxy = std::make_unique<FaultProxy>(emulated, result.load_cell.port, faults->cell);
     result.stage.port = stage_proxy->path();
     result.load_cell.port = cell_proxy->path();
     return result;
@@ -98,7 +110,9 @@ struct RigFixture {
   GrblStage stage;
   Hx711LoadCell load_cell;
   std::atomic<bool> stop{false};
+  bool lifts_at_start = false;
   std::function<void(const RunProgress&)> on_progress;
+  std::function<void(const RunRecord&)> on_record;  // of the drivers, also without a run
 };
 
 inline void move_and_wait(RigFixture& rig, double to_m, double speed_m_s) {
@@ -108,13 +122,14 @@ inline void move_and_wait(RigFixture& rig, double to_m, double speed_m_s) {
 }
 
 inline void pump_for(RigFixture& rig, double wall_s) {
-  const double until_s = monotonic_s() + wall_s;
+  const double until_s = rig.clock.awake_s() + wall_s;
   const Pump pump = rig.pump();
-  while (monotonic_s() < until_s) pump();
+  while (rig.clock.awake_s() < until_s) pump();
 }
 
 // Calls a function when a phase begins.
-inline void when_phase(RigFixture& rig, const std::string& phase, std::function<void()> action) {
+inline void when_phase(RigFixture& rig, const std::string& phase,
+                       const std::function<void()>& action) {
   rig.sink = [&rig, phase, action](const RunRecord& record) {
     rig.records.push_back(record);
     const auto* event = std::get_if<RunEvent>(&record);

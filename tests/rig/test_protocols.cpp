@@ -56,7 +56,7 @@ double mean(const std::vector<double>& values) {
 
 TEST_CASE("creep holds its force within the tolerance without overshoot, even with a wrong guess",
           "[rig][pty]") {
-  EmulatedRigOptions options = DeviceFixture::options(10.0);
+  EmulatedRigOptions options = DeviceFixture::options();
   options.truth.material.E0_Pa *= GENERATE(0.6, 1.0, 1.4);
   DeviceFixture rig(options);
   TestPlan plan = quick_plan("creep");
@@ -78,7 +78,7 @@ TEST_CASE("creep holds its force within the tolerance without overshoot, even wi
 }
 
 TEST_CASE("a creep beyond its depth limit ends the run and lifts the punch", "[rig][pty]") {
-  EmulatedRigOptions options = DeviceFixture::options(20.0);
+  EmulatedRigOptions options = DeviceFixture::options();
   options.truth.material.E0_Pa *= 0.5;
   DeviceFixture rig(options);
   TestPlan plan = quick_plan("creep");
@@ -90,7 +90,7 @@ TEST_CASE("a creep beyond its depth limit ends the run and lifts the punch", "[r
 }
 
 TEST_CASE("levels reach each depth in turn", "[rig][pty]") {
-  DeviceFixture rig(DeviceFixture::options(20.0));
+  DeviceFixture rig(DeviceFixture::options());
   TestPlan plan = quick_plan("levels");
   plan.levels = {{0.04e-3, 0.5, 2.0}, {0.1e-3, 0.5, 2.0}, {0.07e-3, 0.5, 2.0}};
   const RunOutcome outcome = rig.run(plan);
@@ -106,7 +106,7 @@ TEST_CASE("levels reach each depth in turn", "[rig][pty]") {
 }
 
 TEST_CASE("cycles come back to the same depths", "[rig][pty]") {
-  DeviceFixture rig(DeviceFixture::options(20.0));
+  DeviceFixture rig(DeviceFixture::options());
   TestPlan plan = quick_plan("cycles");
   plan.cycles = {.count = 3, .depth_m = 0.1e-3, .ramp_s = 1.0, .hold_s = 0.5, .rest_s = 0.5};
   const RunOutcome outcome = rig.run(plan);
@@ -127,7 +127,7 @@ TEST_CASE("cycles come back to the same depths", "[rig][pty]") {
 }
 
 TEST_CASE("a staircase holds on every step, up and down, after a preload", "[rig][pty]") {
-  DeviceFixture rig(DeviceFixture::options(20.0));
+  DeviceFixture rig(DeviceFixture::options());
   TestPlan plan = quick_plan("staircase");
   plan.staircase = {.steps = 3, .depth_m = 0.09e-3, .step_s = 0.5, .hold_s = 1.5};
   plan.preload_N = 0.05;

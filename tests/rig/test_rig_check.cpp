@@ -11,7 +11,7 @@
 namespace viscard {
 
 TEST_CASE("a rig check measures rate and noise, reads settings and moves nothing", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(20.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.truth.sample_rate_Hz = 90.0;  // an HX711's own oscillator is off by more than a clock
   RigFixture rig(options);
   const RigCheck check = check_rig(rig.stage, rig.load_cell, rig.config, rig.clock, 10.0);
@@ -32,7 +32,7 @@ TEST_CASE("a rig check measures rate and noise, reads settings and moves nothing
 }
 
 TEST_CASE("a converter at 10 readings/s makes a rig unusable", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(20.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.truth.sample_rate_Hz = 10.0;
   options.config.load_cell.expected_rate_Hz = 10.0;
   RigFixture rig(options);
@@ -41,7 +41,7 @@ TEST_CASE("a converter at 10 readings/s makes a rig unusable", "[rig][pty]") {
 
 TEST_CASE("numbers with a decimal point and no unit are read as volts, and the advice reports it",
           "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(20.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.config.load_cell.line_format = "auto";
   options.amplifier.format = AmplifierFormat::kVolts;
   const auto advised = [](const RigCheck& check) {

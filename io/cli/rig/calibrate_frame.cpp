@@ -72,7 +72,7 @@ CapturedRun press_block(const CalibrateWords& words, RigConfig rig) {
     rig = emulated->config();
   }
   const StopOnSignal on_signal;
-  const RigClock clock(rig.clock_speed);
+  const RigClock clock = emulated ? emulated->clock() : RigClock(rig.clock_speed);
   CapturedRun run;
   run.rig = rig;
   run.plan = block_plan(words, rig);

@@ -85,7 +85,7 @@ WeightReadings weigh_on(RigConfig rig, const CalibrateWords& words, EmulatedRig*
                         Streams& streams) {
   const StopOnSignal on_signal;
   if (emulated != nullptr) rig = emulated->config();
-  const RigClock clock(rig.clock_speed);
+  const RigClock clock = emulated != nullptr ? emulated->clock() : RigClock(rig.clock_speed);
   SerialLine line(rig.load_cell.port, rig.load_cell.baud, clock, rig.load_cell.framing);
   const auto load_cell = make_load_cell(line, rig.load_cell, clock, [](const RunRecord&) {});
   std::vector<double> masses_kg = words.masses_kg;

@@ -14,7 +14,7 @@ LiveViewOptions view_options(const CaptureWords& words, const CaptureSetup& setu
   LiveViewOptions options;
   options.capacity_N = rig.calibration.capacity_N;
   options.limit_N = rig.safety.soft_fraction * rig.calibration.capacity_N;
-  options.clock_speed = rig.clock_speed;
+  options.clock_speed = setup.rig.clock_speed;  // an emulated rig does not know its pace
   options.title = setup.specimen.id.empty() ? words.out_file : setup.specimen.id;
   if (words.shows_page) {
     options.page = std::filesystem::path(words.out_file).replace_extension(kPageEnding);
@@ -45,7 +45,8 @@ CaptureOutcome capture_once(const CaptureWords& words, const CaptureSetup& setup
     if (view) outcome.force_N = view->history().force_N();
     view.reset();
   };
-  outcome.run = capture_to_file({setup, words.out_file, words.overwrite, command}, watch);
+  outcome.run = capture_to_file(
+      {setup, words.out_file, words.overwrite, command, words.lifts_at_start}, watch);
   return outcome;
 }
 

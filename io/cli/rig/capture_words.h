@@ -25,6 +25,7 @@ struct CaptureWords {
   bool asks_nobody = false;      // no prompt between specimens
   bool shows_page = false;       // --live
   bool is_uncalibrated = false;  // accept an expired calibration
+  bool lifts_at_start = false;   // --lift: lift a punch that presses before the test, then go on
   bool acknowledges = false;     // report on stderr how many records are safe, and from what
 };
 

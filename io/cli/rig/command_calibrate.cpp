@@ -1,6 +1,7 @@
 #include "io/basics/timestamp.h"
 #include "io/basics/units.h"
 #include "io/cli/rig/calibrate_words.h"
+#include "io/cli/rig/json_errors.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/output_paths.h"
@@ -46,7 +47,8 @@ CommandSyntax calibrate_syntax(CalibrateWords& words) {
   add("out", po::value(&words.out_file), "record to write (*.toml)");
   add("emulate", po::bool_switch(&words.is_emulated), "calibrate an emulated rig");
   add("truth", into(words.truth_file), "truth.toml: what the emulated cell is like");
-  add("speed", po::value(&words.speed)->default_value(1.0), "emulated clock over wall clock");
+  add("speed", po::value(&words.speed)->default_value(1.0),
+      "largest speed of the emulated clock over the wall clock");
   add("yes", po::bool_switch(&words.asks_nobody),
       "do not wait for Enter before the block is pressed");
   add("force", po::bool_switch(&words.overwrite), "replace an existing record");
@@ -126,9 +128,7 @@ void check_words(const CalibrateWords& words) {
   refuse_existing(words.out_file, words.overwrite);
 }
 
-}  // namespace
-
-int run_calibrate(const Words& words, Streams& streams) {
+int calibrate(const Words& words, Streams& streams) {
   CalibrateWords asked;
   CommandSyntax syntax = calibrate_syntax(asked);
   const auto values = parse_words(syntax, words, streams);
@@ -137,6 +137,12 @@ int run_calibrate(const Words& words, Streams& streams) {
   check_words(asked);
   return asked.is_compliance ? calibrate_frame(asked, streams)
                              : calibrate_load_cell(asked, streams);
+}
+
+}  // namespace
+
+int run_calibrate(const Words& words, Streams& streams) {
+  return with_json_errors(words, streams, [&] { return calibrate(words, streams); });
 }
 
 }  // namespace viscard

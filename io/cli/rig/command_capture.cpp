@@ -1,10 +1,12 @@
 #include "io/basics/timestamp.h"
 #include "io/cli/rig/capture_words.h"
+#include "io/cli/rig/json_errors.h"
 #include "io/cli/rig/live_view.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/output_paths.h"
 #include "io/flow/capture_to_file.h"
+#include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -46,13 +48,15 @@ CommandSyntax capture_syntax(CaptureWords& words) {
       "keep a page with force against time beside the capture: *.live.html");
   add("acknowledge", po::bool_switch(&words.acknowledges),
       "report on stderr how many records are safe from a crash, and how many from a power cut");
+  add("lift", po::bool_switch(&words.lifts_at_start),
+      "if the punch presses at the start (after a crash), lift it and go on instead of ending");
   add("uncalibrated", po::bool_switch(&words.is_uncalibrated),
       "capture although the load cell's calibration has expired");
   add("emulate", po::bool_switch(&words.is_emulated), "use an emulated rig");
   add("truth", into(words.truth_file), "truth.toml: what the emulated specimen is made of");
   add("seed", into(words.seed), "seed of the emulated noise");
   add("speed", po::value(&words.speed)->default_value(1.0),
-      "emulated clock over wall clock, up to 500");
+      "largest speed of the emulated clock over the wall clock, up to 500; changes no result");
   add("force", po::bool_switch(&words.overwrite), "replace an existing capture file");
   return syntax;
 }
@@ -63,14 +67,14 @@ void check_calibration(const CaptureWords& words, const CaptureSetup& setup, Str
   const std::string trouble = calibration_trouble(setup.rig.calibration, today());
   if (trouble.empty()) return;
   if (!last_valid_day(setup.rig.calibration).empty()) {
-    throw std::runtime_error(trouble + "; or add --uncalibrated to capture without one");
+    throw CodedError("calibration", trouble + "; or add --uncalibrated to capture without one");
   }
   if (!words.is_emulated) streams.err << "viscard: " << trouble << "\n";
 }
 
 void check_before_start(const CaptureWords& words, const CaptureSetup& setup, Streams& streams) {
   const Preflight expected = preflight(setup.rig, setup.plan, setup.specimen);
-  if (!expected.problems.empty()) throw std::runtime_error(expected.problems.front());
+  if (!expected.problems.empty()) throw CodedError("preflight", expected.problems.front());
   for (const std::string& text : expected.warnings) streams.err << "viscard: " << text << "\n";
   const std::filesystem::path file = words.out_file;
   const auto beside = [&](const char* ending) {
@@ -105,10 +109,24 @@ void print_text(const CaptureOutcome& capture, std::ostream& out) {
         "  checked         against neighbours: errors above {:.3f} mN would show at rest\n",
         outcome.hidden_error_N * 1e3);
   }
+  if (outcome.n_late > 0) {
+    out << fmt::format("  computer        late by up to {:.2f} s, {} in all: not watched then\n",
+                       outcome.longest_late_s,
+                       counted(static_cast<std::size_t>(outcome.n_late), "time"));
+  }
   for (const std::string& doubt : outcome.doubts) out << "  doubt           " << doubt << "\n";
   if (!capture.force_N.empty()) {
     out << "  force           " << sparkline(capture.force_N, kPictureWidth) << "\n";
   }
+}
+
+// The message also states where the punch was left, which the reason says behind the cause.
+ordered_json error_of_run(const RunOutcome& outcome) {
+  const bool has_cause = !outcome.cause.empty() && outcome.reason.rfind(outcome.cause, 0) == 0;
+  CommandError error = command_error(outcome.code.empty() ? "failed" : outcome.code,
+                                     has_cause ? outcome.cause : outcome.reason, outcome.phase);
+  if (has_cause) error.message += outcome.reason.substr(outcome.cause.size());
+  return ordered_json::parse(json_from_error(error));
 }
 
 ordered_json json_from_outcome(const CaptureOutcome& capture) {
@@ -118,6 +136,7 @@ ordered_json json_from_outcome(const CaptureOutcome& capture) {
   json["file"] = capture.file;
   json["status"] = outcome.status;
   json["reason"] = outcome.reason;
+  if (outcome.status != "finished") json["error"] = error_of_run(outcome);
   json["peak_force_N"] = outcome.peak_force_N;
   json["expected_peak_force_N"] = outcome.expected.peak_force_N;
   json["limit_N"] = outcome.expected.limit_N;
@@ -129,6 +148,7 @@ ordered_json json_from_outcome(const CaptureOutcome& capture) {
   json["hidden_error_N"] = outcome.hidden_error_N;
   json["doubts"] = outcome.doubts;
   json["line_format"] = outcome.line_format;
+  json["computer_late"] = {{"times", outcome.n_late}, {"longest_s", outcome.longest_late_s}};
   json["readings"] = {{"expected", stream.expected()},
                       {"received", stream.received},
                       {"missing", stream.missing},
@@ -195,9 +215,7 @@ SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords
   return result;
 }
 
-}  // namespace
-
-int run_capture(const Words& words, Streams& streams) {
+int capture(const Words& words, Streams& streams) {
   CaptureWords asked;
   CommandSyntax syntax = capture_syntax(asked);
   const auto values = parse_words(syntax, words, streams);
@@ -211,7 +229,14 @@ int run_capture(const Words& words, Streams& streams) {
   const SeriesResult result =
       run_series(steps, asked, quoted_command_line("capture", words), streams);
   if (asked.as_json) {
-    const ordered_json series = {{"runs", result.runs}, {"reason", result.trouble}};
+    ordered_json series = {{"runs", result.runs}, {"reason", result.trouble}};
+    if (!result.trouble.empty()) {
+      const ordered_json& last = result.runs.empty() ? series : result.runs.back();
+      series["error"] =
+          last.contains("error")
+              ? last["error"]
+              : ordered_json::parse(json_from_error(command_error("interrupted", result.trouble)));
+    }
     streams.out << (steps.size() == 1 ? result.runs.at(0) : series).dump() << "\n";
   }
   if (result.trouble.empty()) return kDone;
@@ -220,6 +245,12 @@ int run_capture(const Words& words, Streams& streams) {
     streams.err << "viscard: the same command with --resume continues from here\n";
   }
   return kFailed;
+}
+
+}  // namespace
+
+int run_capture(const Words& words, Streams& streams) {
+  return with_json_errors(words, streams, [&] { return capture(words, streams); });
 }
 
 }  // namespace viscard

@@ -2,6 +2,7 @@
 #include "io/capture/capture_check.h"
 #include "io/capture/capture_export.h"
 #include "io/capture/capture_file.h"
+#include "io/cli/rig/json_errors.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/flow/table_from_capture.h"
@@ -57,11 +58,15 @@ nlohmann::ordered_json summary_of(const CapturedRun& run, const std::string& cap
 int verify(const std::string& capture, bool is_json, Streams& streams) {
   const CaptureCheck check = check_capture(capture);
   if (is_json) {
-    const nlohmann::ordered_json object{{"capture", capture},
-                                        {"is_checked", check.is_checked},
-                                        {"n_batches", check.n_batches},
-                                        {"n_records", check.n_records},
-                                        {"faults", check.faults}};
+    nlohmann::ordered_json object{{"capture", capture},
+                                  {"is_checked", check.is_checked},
+                                  {"n_batches", check.n_batches},
+                                  {"n_records", check.n_records},
+                                  {"faults", check.faults}};
+    if (!check.faults.empty()) {
+      object["error"] = nlohmann::ordered_json::parse(
+          json_from_error({"damaged", check.faults.front(), capture, "use another copy of it"}));
+    }
     streams.out << object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
                 << "\n";
   } else if (check.faults.empty()) {
@@ -80,9 +85,7 @@ int verify(const std::string& capture, bool is_json, Streams& streams) {
   return kFailed;
 }
 
-}  // namespace
-
-int run_export(const Words& words, Streams& streams) {
+int export_capture(const Words& words, Streams& streams) {
   CommandSyntax syntax = export_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
@@ -118,6 +121,12 @@ int run_export(const Words& words, Streams& streams) {
                 << "; all that was committed is exported\n";
   }
   return kDone;
+}
+
+}  // namespace
+
+int run_export(const Words& words, Streams& streams) {
+  return with_json_errors(words, streams, [&] { return export_capture(words, streams); });
 }
 
 }  // namespace viscard

@@ -1,4 +1,5 @@
 #include "io/basics/timestamp.h"
+#include "io/cli/rig/json_errors.h"
 #include "io/cli/rig/overshoot_study.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
@@ -49,7 +50,7 @@ RigCheck check(RigConfig rig, bool is_emulated, double seconds) {
         EmulatedRigOptions{.truth = demo_truth(10.0, 1), .config = rig});
     rig = emulated->config();
   }
-  const RigClock clock(rig.clock_speed);
+  const RigClock clock = emulated ? emulated->clock() : RigClock(rig.clock_speed);
   const RecordSink nowhere = [](const RunRecord&) {};
   rig.stage.home = false;  // a check moves nothing
   RigDevices devices = open_ports(rig, clock);
@@ -87,29 +88,34 @@ void print_text(const RigCheck& found, std::ostream& out) {
 }
 
 void print_json(const RigCheck& found, std::ostream& out) {
-  const ordered_json json = {{"is_usable", found.is_usable},
-                             {"stage",
-                              {{"identity", found.stage_identity},
-                               {"steps_per_m", found.dynamics.steps_per_m},
-                               {"acceleration_m_s2", found.dynamics.acceleration_m_s2},
-                               {"min_speed_m_s", found.dynamics.min_speed_m_s},
-                               {"max_speed_m_s", found.dynamics.max_speed_m_s},
-                               {"position_m", found.position_m},
-                               {"latency_mean_s", found.latency.mean_s},
-                               {"latency_longest_s", found.latency.longest_s},
-                               {"reports", found.latency.n},
-                               {"reports_lost", found.latency.n_lost}}},
-                             {"load_cell",
-                              {{"rate_Hz", found.rate_Hz},
-                               {"jitter_s", found.jitter_s},
-                               {"falls_behind", found.falls_behind},
-                               {"line_bytes", found.line_bytes},
-                               {"missing", found.stream.missing},
-                               {"unreadable", found.stream.unreadable},
-                               {"reads_as", found.reads_as},
-                               {"force_N", found.force_N},
-                               {"noise_N", found.noise_N}}},
-                             {"advice", found.advice}};
+  ordered_json json = {{"is_usable", found.is_usable},
+                       {"stage",
+                        {{"identity", found.stage_identity},
+                         {"steps_per_m", found.dynamics.steps_per_m},
+                         {"acceleration_m_s2", found.dynamics.acceleration_m_s2},
+                         {"min_speed_m_s", found.dynamics.min_speed_m_s},
+                         {"max_speed_m_s", found.dynamics.max_speed_m_s},
+                         {"position_m", found.position_m},
+                         {"latency_mean_s", found.latency.mean_s},
+                         {"latency_longest_s", found.latency.longest_s},
+                         {"reports", found.latency.n},
+                         {"reports_lost", found.latency.n_lost}}},
+                       {"load_cell",
+                        {{"rate_Hz", found.rate_Hz},
+                         {"jitter_s", found.jitter_s},
+                         {"falls_behind", found.falls_behind},
+                         {"line_bytes", found.line_bytes},
+                         {"missing", found.stream.missing},
+                         {"unreadable", found.stream.unreadable},
+                         {"reads_as", found.reads_as},
+                         {"force_N", found.force_N},
+                         {"noise_N", found.noise_N}}},
+                       {"advice", found.advice}};
+  if (!found.is_usable) {
+    const std::string why =
+        found.advice.empty() ? "the rig is not fit for a test" : found.advice.back();
+    json["error"] = ordered_json::parse(json_from_error(command_error("unfit", why)));
+  }
   out << json.dump() << "\n";
 }
 
@@ -178,9 +184,7 @@ int check_and_print(const po::variables_map& values, bool as_json, Streams& stre
   return found.is_usable ? kDone : kFailed;
 }
 
-}  // namespace
-
-int run_rig(const Words& words, Streams& streams) {
+int list_check_or_study(const Words& words, Streams& streams) {
   CommandSyntax syntax = rig_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
@@ -197,6 +201,12 @@ int run_rig(const Words& words, Streams& streams) {
                      std::string(syntax.usage));
   }
   return check_and_print(*values, as_json, streams);
+}
+
+}  // namespace
+
+int run_rig(const Words& words, Streams& streams) {
+  return with_json_errors(words, streams, [&] { return list_check_or_study(words, streams); });
 }
 
 }  // namespace viscard

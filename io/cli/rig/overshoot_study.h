@@ -5,8 +5,7 @@
 
 namespace viscard {
 
-// The force beyond a limit before the stage stands still, on the emulated rig in real time with 80
-// readings/s. The emulated GRBL queues as the real one does: after a jog cancel six segments of at
+// The force beyond a limit before the stage stands still, on the emulated rig with 80 readings/s. The emulated GRBL queues as the real one does: after a jog cancel six segments of at
 // least 1.25 steps or 10 ms are still carried out, a reset stops at once
 // (rig/emulator/emulated_motion.h). The specimen is an elastic half-space with E = 1.5 MPa and nu =
 // 0.5 under a punch of 4.4 mm diameter, 8.8 N/mm; the limit is 1 N.
@@ -26,7 +25,7 @@ struct OvershootSpeeds {
   std::vector<std::pair<double, double>> drives{{3200e3, 0.2}, {250e3, 0.01}};
 };
 
-// Takes some seconds per row; progress, a fraction of the whole, may be empty.
+// Takes a fraction of a second per row; progress, a fraction of the whole, may be empty.
 std::vector<OvershootRow> study_overshoot(const OvershootSpeeds& what,
                                           const std::function<void(double)>& progress = {});
 

@@ -23,7 +23,7 @@ using test::sample;
 using test::ScratchFolder;
 
 std::filesystem::path finished_capture(const ScratchFolder& folder) {
-  const auto path = folder / "run.viscap";
+  auto path = folder / "run.viscap";
   CaptureWriter writer(path, demo_run());
   for (int i = 0; i < 200; ++i) {
     writer.append(

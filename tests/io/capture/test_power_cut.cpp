@@ -127,7 +127,7 @@ pid_t ended_process() {
 TEST_CASE("temporary files that a power cut has left are removed by the next run", "[io]") {
   const ScratchFolder outputs;
   const auto leave = [&](const std::string& name, pid_t writer) {
-    const std::string file = "." + name + "." + std::to_string(writer) + ".tmp";
+    std::string file = "." + name + "." + std::to_string(writer) + ".tmp";
     std::ofstream(outputs / file) << "half";
     return file;
   };

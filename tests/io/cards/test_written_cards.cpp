@@ -51,7 +51,7 @@ TEST_CASE("E(t) recomputed from the text of an Abaqus card is the material's", "
   for (const double t : kTimes) {
     const double ms = 1e3 * t;
     double E = elastic[0];
-    for (int i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < 2; ++i) {
       CHECK(prony[3 * i] == prony[3 * i + 1]);
       E -= elastic[0] * prony[3 * i] * (1.0 - std::exp(-ms / prony[3 * i + 2]));
     }
@@ -105,7 +105,7 @@ TEST_CASE("E(t) recomputed from the shares of a CalculiX overlay is the material
   }
   for (const double t : kTimes) {
     double G = 0.0;
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       const double branch_G = share[i] / (2.0 * 1.495);
       G += branch_G * std::exp(-3.0 * branch_G * rate[i] * t);  // Norton: rate of shear 3 A s
     }

@@ -150,7 +150,8 @@ TEST_CASE("a .vtu file has as many points and cells as it says, and corners that
   const std::vector<double> corners = array_of(vtu, "connectivity");
   const std::size_t per_cell = is_strip ? 4 : 8;
   CHECK(corners.size() == per_cell * copies * grid.quads.size());
-  CHECK(*std::max_element(corners.begin(), corners.end()) < static_cast<double>(points.size() / 3));
+  CHECK(*std::max_element(corners.begin(), corners.end()) <
+        static_cast<double>(points.size()) / 3.0);
   const std::vector<double> offsets = array_of(vtu, "offsets");
   CHECK(offsets.back() == static_cast<double>(corners.size()));
   for (const double type : array_of(vtu, "types")) CHECK(type == (is_strip ? 9.0 : 12.0));

@@ -24,10 +24,15 @@ Plot small_plot() {
   return {.title = "Small", .description = "A parabola.", .panels = {panel}};
 }
 
+std::string path_before() {
+  const char* path = std::getenv("PATH");
+  return path == nullptr ? "" : path;
+}
+
 // Puts an environment variable back when the test ends.
 class WithPath {
  public:
-  explicit WithPath(const std::string& path) : before_(std::getenv("PATH")) {
+  explicit WithPath(const std::string& path) : before_(path_before()) {
     ::setenv("PATH", path.c_str(), 1);
   }
   ~WithPath() { ::setenv("PATH", before_.c_str(), 1); }

@@ -42,6 +42,27 @@ TEST_CASE("columns are found by name and unit", "[io][csv]") {
   CHECK(first("G',G''\n2,3\n", "loss_modulus_Pa") == 3.0);
 }
 
+TEST_CASE("columns are found by headers in German, French and Chinese", "[io][csv]") {
+  CHECK(first("Prüfzeit;Standardkraft;Standardweg\ns;mN;µm\n1;2;3\n", "force_N") == 2.0 * 1e-3);
+  CHECK(first("Prüfzeit;Standardkraft;Standardweg\ns;mN;µm\n1;2;3\n", "depth_m") == 3.0 * 1e-6);
+  CHECK(first("Zeit (min),Spannung (kPa),Dehnung (%)\n1,2,3\n", "time_s") == 60.0);
+  CHECK(first("Zeit (min),Spannung (kPa),Dehnung (%)\n1,2,3\n", "stress_Pa") == 2000.0);
+  CHECK(first("Kraft (N),Spannung (V)\n1,2\n", "volts_V") == 2.0);
+  CHECK(first("Kreisfrequenz (rad/s),Speichermodul (Pa)\n3,1\n", "frequency_Hz") ==
+        Approx(3.0 / (2.0 * std::numbers::pi)).epsilon(1e-15));
+  CHECK(first("Temps (s),Déplacement (mm),Contrainte (MPa)\n1,2,3\n", "depth_m") == 2.0 * 1e-3);
+  CHECK(first("Fréquence (Hz),Module de perte (kPa)\n1,2\n", "loss_modulus_Pa") == 2000.0);
+  CHECK(first("时间 (s),位移 (mm),载荷 (N)\n1,2,3\n", "force_N") == 3.0);
+  CHECK(first("角频率 (rad/s),储能模量 (MPa),损耗模量 (MPa)\n1,2,3\n", "loss_modulus_Pa") == 3e6);
+}
+
+TEST_CASE("primes of moduli are read as instruments write them", "[io][csv]") {
+  CHECK(first("w,G',G\"\n1,2,3\n", "loss_modulus_Pa") == 3.0);
+  CHECK(first("w\tG\u2032 (kPa)\tG\u2033 (kPa)\n1\t2\t3\n", "loss_modulus_Pa") == 3000.0);
+  CHECK(first("w\tE\u2019\tE\u2019\u2019\n1\t2\t3\n", "loss_modulus_Pa") == 3.0);
+  CHECK(first("w\tE\u2019\tE\u2019\u2019\n1\t2\t3\n", "storage_modulus_Pa") == 2.0);
+}
+
 TEST_CASE("angular frequency becomes frequency", "[io][csv]") {
   const double two_pi = 2.0 * std::numbers::pi;
   CHECK(first("omega,G'\n3,1\n", "frequency_Hz") == Approx(3.0 / two_pi).epsilon(1e-15));

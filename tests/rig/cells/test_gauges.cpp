@@ -20,8 +20,8 @@ TestPlan quick_plan() {
   return plan;
 }
 
-EmulatedRigOptions gauge_rig(const std::string& driver, double speed) {
-  EmulatedRigOptions options = DeviceFixture::options(speed, "grbl", driver);
+EmulatedRigOptions gauge_rig(const std::string& driver) {
+  EmulatedRigOptions options = DeviceFixture::options("grbl", driver);
   options.truth.sample_rate_Hz = 40.0;
   options.config.load_cell.expected_rate_Hz = 40.0;
   return options;
@@ -72,7 +72,7 @@ TEST_CASE("Mark-10 and Sauter readings are read in their units", "[rig]") {
 
 TEST_CASE("each kind of load cell is identified and measured by a rig check", "[rig][pty]") {
   const std::string driver = GENERATE("scpi", "mark10", "sauter");
-  EmulatedRigOptions options = gauge_rig(driver, 1.0);
+  EmulatedRigOptions options = gauge_rig(driver);
   options.gauge.echoes = driver == "scpi";
   DeviceFixture rig(options);
   const RigCheck check =
@@ -88,7 +88,7 @@ TEST_CASE("each kind of load cell is identified and measured by a rig check", "[
 
 TEST_CASE("a whole test runs on a multimeter and on force gauges", "[rig][pty]") {
   const std::string driver = GENERATE("scpi", "mark10", "sauter");
-  DeviceFixture rig(gauge_rig(driver, 4.0));  // each reading is a question: leave time for it
+  DeviceFixture rig(gauge_rig(driver));
   const RunOutcome outcome = rig.run(quick_plan());
   INFO(driver << ": " << outcome.reason);
   REQUIRE(outcome.status == "finished");
@@ -99,7 +99,7 @@ TEST_CASE("a whole test runs on a multimeter and on force gauges", "[rig][pty]")
 }
 
 TEST_CASE("lost and late answers are never taken for the answer to another query", "[rig][pty]") {
-  EmulatedRigOptions options = gauge_rig("mark10", 1.0);
+  EmulatedRigOptions options = gauge_rig("mark10");
   options.gauge.late_answer_every = 9;
   options.gauge.late_s = 0.58;  // after the driver has given up
   options.truth.force_noise_N = 0.0;
@@ -133,20 +133,20 @@ TEST_CASE("lost and late answers are never taken for the answer to another query
 TEST_CASE("a load cell that changes its unit, refuses its setup or goes silent is an error",
           "[rig][pty]") {
   SECTION("unit") {
-    EmulatedRigOptions options = gauge_rig("mark10", 1.0);
+    EmulatedRigOptions options = gauge_rig("mark10");
     options.gauge.changes_unit_after = 20;
     DeviceFixture rig(options);
     rig.devices.load_cell->connect(rig.pump());
     CHECK_THROWS_WITH(rig.pump_for(3.0), Contains("from 'N' to 'lbF'"));
   }
   SECTION("setup") {
-    EmulatedRigOptions options = gauge_rig("scpi", 1.0);
+    EmulatedRigOptions options = gauge_rig("scpi");
     options.gauge.refuses_setup = true;
     DeviceFixture rig(options);
     CHECK_THROWS_WITH(rig.devices.load_cell->connect(rig.pump()), Contains("Undefined header"));
   }
   SECTION("silent") {
-    EmulatedRigOptions options = gauge_rig("sauter", 1.0);
+    EmulatedRigOptions options = gauge_rig("sauter");
     options.gauge.lose_answer_every = 1;
     DeviceFixture rig(options);
     CHECK_THROWS_WITH(rig.devices.load_cell->connect(rig.pump()), Contains("no reading came"));
@@ -154,7 +154,7 @@ TEST_CASE("a load cell that changes its unit, refuses its setup or goes silent i
 }
 
 TEST_CASE("a unit that the gauge does not send is taken from the rig file", "[rig][pty]") {
-  EmulatedRigOptions options = gauge_rig("mark10", 1.0);
+  EmulatedRigOptions options = gauge_rig("mark10");
   options.gauge.unit = "gF";
   options.gauge.hides_unit = true;
   options.config.load_cell.unit = "gF";
@@ -166,7 +166,7 @@ TEST_CASE("a unit that the gauge does not send is taken from the rig file", "[ri
 }
 
 TEST_CASE("a number with a unit on an HX711 line is a force", "[rig][pty]") {
-  EmulatedRigOptions options = DeviceFixture::options(10.0);
+  EmulatedRigOptions options = DeviceFixture::options();
   options.amplifier.format = AmplifierFormat::kVolts;  // a plain number with decimals
   options.config.load_cell.unit = "g";
   options.config.load_cell.line_format = "auto";
@@ -175,7 +175,7 @@ TEST_CASE("a number with a unit on an HX711 line is a force", "[rig][pty]") {
   options.config.load_cell.volts_per_count = 1e-4;
   DeviceFixture rig(options);
   rig.devices.load_cell->connect(rig.pump());
-  rig.pump_for(0.2);
+  rig.pump_for(2.0);
   const LoadSample sample = rig.all<LoadSample>().back();
   REQUIRE(sample.force_N.has_value());
   CHECK(*sample.force_N ==

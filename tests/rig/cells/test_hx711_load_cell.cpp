@@ -39,7 +39,7 @@ struct ScriptedAmplifier {
   void send(const std::string& bytes) { device.write(bytes); }
   void serve() {
     device.write("");
-    wait_readable({&line}, 0.002);
+    wait_readable({&line}, clock, 0.002);
     cell.service();
   }
   // Lines "clock,reading" of a board that sends 80 a second.
@@ -106,7 +106,7 @@ TEST_CASE("readings that arrive in single bytes, or many in one read, are the sa
 
 TEST_CASE("garbage before and between readings loses no other reading", "[rig][pty]") {
   ScriptedAmplifier amplifier;
-  amplifier.send(std::string("\xff\x80\0\x01garbage\n\xc3\x28\n9", 17));
+  amplifier.send(std::string("\xff\x80\0\x01garbage\n\xc3\x28\n9\0", 17));
   amplifier.send("\nTare... put nothing on the scale\nReadings:\n");
   amplifier.connect();
   amplifier.serve_all();
@@ -202,7 +202,7 @@ TEST_CASE("a wrong baud rate is suspected from unprintable bytes", "[rig][pty]")
   const RecordSink nowhere = [](const RunRecord&) {};
   const Pump pump = [&] {
     device.write(noise);
-    wait_readable({&line}, 0.01);
+    wait_readable({&line}, clock, 0.01);
   };
   SECTION("stage") {
     GrblStage stage(line, StageConfig{}, clock, nowhere, 0.1);

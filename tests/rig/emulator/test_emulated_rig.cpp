@@ -9,16 +9,10 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-void serve_for(RigFixture& rig, double wall_s) {
-  const double until_s = monotonic_s() + wall_s;
-  const Pump pump = rig.pump();
-  while (monotonic_s() < until_s) pump();
-}
-
 }  // namespace
 
 TEST_CASE("the format of an amplifier's lines is learnt", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(10.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.config.load_cell.line_format = "auto";
   Hx711Format expected = Hx711Format::kCounts;
   SECTION("micros,counts") {
@@ -43,7 +37,7 @@ TEST_CASE("the format of an amplifier's lines is learnt", "[rig][pty]") {
   RigFixture rig(options);
   rig.load_cell.connect(rig.pump());
   CHECK(rig.load_cell.format() == expected);
-  serve_for(rig, 0.3);
+  pump_for(rig, 3.0);
   CHECK(rig.load_cell.counts().received > 100);
   CHECK(rig.load_cell.counts().unreadable == 0);
 }
@@ -74,11 +68,11 @@ TEST_CASE("noise depends only on the seed and the number of the reading", "[rig]
 }
 
 TEST_CASE("a counter that wraps during the run loses no reading", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(10.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.amplifier.micros_at_reset = 4294967295u - 1500000u;  // wraps after 1.5 s
   RigFixture rig(options);
   rig.load_cell.connect(rig.pump());
-  serve_for(rig, 0.5);
+  pump_for(rig, 5.0);
   CHECK(rig.load_cell.counts().received > 250);
   CHECK(rig.load_cell.counts().missing == 0);
   const auto samples = rig.all<LoadSample>();
@@ -89,11 +83,11 @@ TEST_CASE("a counter that wraps during the run loses no reading", "[rig][pty]") 
 }
 
 TEST_CASE("the estimated time of a reading recovers from the delay of a stall", "[rig][pty]") {
-  RigFixture rig(RigFixture::options(1.0));
+  RigFixture rig(RigFixture::on_wall_clock(1.0));
   rig.load_cell.connect(rig.pump());
-  serve_for(rig, 0.5);
+  pump_for(rig, 0.5);
   rig.emulated.stall(0.1);
-  serve_for(rig, 0.5);
+  pump_for(rig, 0.5);
   const auto samples = rig.all<LoadSample>();
   REQUIRE(samples.size() > 60);
   double latest_arrival_s = 0.0;
@@ -107,21 +101,21 @@ TEST_CASE("the estimated time of a reading recovers from the delay of a stall", 
 }
 
 TEST_CASE("incidents of the amplifier are distinguished", "[rig][pty]") {
-  RigFixture rig(RigFixture::options(5.0));
+  RigFixture rig(RigFixture::options());
   rig.load_cell.connect(rig.pump());
   SECTION("restart") {
     rig.emulated.cause(Incident::kRestartLoadCell);
-    CHECK_THROWS_AS(serve_for(rig, 2.0), DeviceRestarted);
+    CHECK_THROWS_AS(pump_for(rig, 10.0), DeviceRestarted);
   }
   SECTION("cable pulled") {
     rig.emulated.cause(Incident::kPullLoadCellCable);
-    CHECK_THROWS_AS(serve_for(rig, 2.0), PortHungUp);
+    CHECK_THROWS_AS(pump_for(rig, 10.0), PortHungUp);
   }
 }
 
 TEST_CASE("a port without readings is refused with the bytes that came instead", "[rig][pty]") {
-  EmulatedRig emulated(RigFixture::options(1.0));
-  const RigClock clock;
+  EmulatedRig emulated(RigFixture::options());
+  const RigClock clock = emulated.clock();
   SerialLine line(emulated.load_cell_port(), 115200, clock);
   LoadCellConfig config;
   config.line_format = "parrots";

@@ -84,7 +84,7 @@ TEST_CASE("bytes pass unchanged in both directions, 8 bits wide", "[rig][pty]") 
   device.write(all);
   std::string back;
   for (int i = 0; i < 100 && back.size() < 256; ++i) {
-    wait_readable({&line}, 0.01);
+    wait_readable({&line}, wall(), 0.01);
     back += line.read_available().bytes;
   }
   CHECK(back == all);

@@ -1,4 +1,5 @@
 #include "rig/run/approach_phase.h"
+#include "tests/rig/rig_fixture.h"
 
 #include <catch2/catch.hpp>
 
@@ -47,4 +48,20 @@ TEST_CASE("without a distance between the stops the guess decides", "[rig]") {
   const ContactEstimate contact = contact_from_stops(touched, touched, kNoise_N, kStep_m, 16e3);
   CHECK(contact.position_m == Approx(702.5e-6).margin(1e-9));
   CHECK(contact.least_stiffness_N_m == Approx(0.0).margin(1e-12));
+}
+
+TEST_CASE("the depth reached is the one asked for, although modulus_guess is wrong", "[rig][pty]") {
+  // The frame takes half of the way: by the guess alone, the depth would be 0.10 to 0.16 mm.
+  EmulatedRigOptions options = RigFixture::options();
+  options.truth.material.E0_Pa = 1.2e6;
+  Specimen specimen = demo_specimen(10.0);
+  specimen.modulus_guess_Pa = GENERATE(0.7e6, 1.2e6, 1.28e6, 1.8e6);
+  RigFixture rig(options);
+  const RunOutcome outcome = rig.run(short_plan(), specimen);
+  CAPTURE(specimen.modulus_guess_Pa, outcome.reason);
+  REQUIRE(outcome.status == "finished");
+  CHECK(outcome.achieved_depth_m == Approx(0.13e-3).margin(2e-6));
+  CHECK(rig.emulated.outcome().peak_depth_m == Approx(0.13e-3).margin(2e-6));
+  CHECK(*outcome.contact_position_m ==
+        Approx(demo_truth(10.0, 7).surface_position_m).margin(0.7e-6));
 }

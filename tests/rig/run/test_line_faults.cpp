@@ -17,7 +17,6 @@
 namespace viscard {
 namespace {
 
-constexpr double kSpeed = 20.0;
 constexpr double kSurface_m = 0.1e-3;
 constexpr double kNoticed = 12.0;        // times the noise
 constexpr double kNoticedSteps = 2.5;    // times the largest step between true readings nearby
@@ -52,7 +51,7 @@ LineFaults faults_of(std::uint64_t seed) {
 }
 
 EmulatedRigOptions rig_options(std::uint64_t seed) {
-  EmulatedRigOptions options = RigFixture::options(kSpeed);
+  EmulatedRigOptions options = RigFixture::options();
   options.truth.surface_position_m = kSurface_m;
   options.truth.seed = seed;
   options.config.load_cell.line_format = "micros,counts";
@@ -135,8 +134,10 @@ void check_readings(const RigFixture& rig, bool has_doubt, Tally& tally) {
 }
 
 void check_bench(const RigFixture& rig, const std::string& status, const std::string& reason) {
-  const double until_s = monotonic_s() + 2.0;
-  while (rig.emulated.outcome().is_moving && monotonic_s() < until_s) wait_readable({}, 0.005);
+  const double until_s = rig.clock.awake_s() + 40.0;
+  while (rig.emulated.outcome().is_moving && rig.clock.awake_s() < until_s) {
+    wait_readable({}, rig.clock, 0.005);
+  }
   const EmulatedOutcome bench = rig.emulated.outcome();
   INFO(status << ": " << reason);
   CHECK_FALSE(bench.is_moving);

@@ -18,7 +18,7 @@ TEST_CASE("a cable pulled in any phase ends the run and keeps all records before
   const std::string phase =
       GENERATE("tare", "approach", "baseline", "ramp", "hold", "unload", "recovery", "retract");
   const bool is_stage = GENERATE(false, true);
-  RigFixture rig(RigFixture::options(40.0));
+  RigFixture rig(RigFixture::options());
   when_phase(rig, phase, [&] {
     is_stage ? rig.emulated.cause(Incident::kPullStageCable)
              : rig.emulated.cause(Incident::kPullLoadCellCable);
@@ -40,7 +40,7 @@ TEST_CASE("a cable pulled in any phase ends the run and keeps all records before
 }
 
 TEST_CASE("a stall of this program changes no reading and stops nothing", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(2.0);
+  EmulatedRigOptions options = RigFixture::on_wall_clock(2.0);
   options.truth.surface_position_m = 0.1e-3;
   RigFixture rig(options);
   int n_progress = 0;
@@ -60,7 +60,7 @@ TEST_CASE("a stall of this program changes no reading and stops nothing", "[rig]
 }
 
 TEST_CASE("a load cell that dies in a hold is noticed within 2 s", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(1.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.truth.surface_position_m = 0.06e-3;
   RigFixture rig(options);
   when_phase(rig, "hold", [&rig] { rig.emulated.cause(Incident::kSilenceLoadCell); });

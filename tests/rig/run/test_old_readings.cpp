@@ -19,9 +19,8 @@ using Catch::Matchers::Contains;
 constexpr double kPeriod_s = 0.0125;
 constexpr double kTenth_N = 0.1 * 0.250 * 9.80665;  // of the cell
 
-// In real time: a rig's age of readings is judged by the wall clock.
 EmulatedRigOptions slow_rig(bool has_clock) {
-  EmulatedRigOptions options = RigFixture::options(1.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.truth.surface_position_m = 0.06e-3;
   if (!has_clock) {
     options.config.load_cell.line_format = "counts";
@@ -150,7 +149,7 @@ TEST_CASE("a link that slows down in the ramp never lets it press beyond its lim
 }
 
 TEST_CASE("readings too rare for a move are used in steps", "[rig][pty]") {
-  RigFixture rig(RigFixture::options(1.0));
+  RigFixture rig(RigFixture::options());
   RunControl control;
   control.clock = &rig.clock;
   RunSession session(rig.stage, rig.load_cell, rig.config, rig.sink, control);

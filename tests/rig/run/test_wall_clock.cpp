@@ -29,7 +29,7 @@ TEST_CASE("a step of the system clock during a run changes no time stamp and los
   step_s = 5000;
   REQUIRE(std::chrono::system_clock::now() - before >
           std::chrono::seconds(4000));  // the replaced clock
-  RigFixture rig(RigFixture::options(20.0));
+  RigFixture rig(RigFixture::on_wall_clock(20.0));
   rig.sink = [&rig](const RunRecord& record) {
     rig.records.push_back(record);
     const auto* event = std::get_if<RunEvent>(&record);

@@ -10,7 +10,7 @@ using Catch::Matchers::Contains;
 }  // namespace
 
 TEST_CASE("a stage is identified, its settings are read, and its moves end exactly", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(20.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.grbl.is_hal = GENERATE(false, true);
   RigFixture rig(options);
   rig.stage.connect(rig.pump());
@@ -29,7 +29,7 @@ TEST_CASE("a stage is identified, its settings are read, and its moves end exact
 }
 
 TEST_CASE("everything before the welcome is dropped, even errors", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(20.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.grbl.has_empty_eeprom = true;
   RigFixture rig(options);
   rig.stage.connect(rig.pump());
@@ -37,12 +37,12 @@ TEST_CASE("everything before the welcome is dropped, even errors", "[rig][pty]")
 }
 
 TEST_CASE("a controller that does not reset on opening is reset by the driver", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(20.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.resets_on_open = false;
   EmulatedRig emulated(options);
-  const RigClock clock(20.0);
+  const RigClock clock = emulated.clock();
   const RecordSink sink = [](const RunRecord&) {};
-  const Pump sleep = [] { wait_readable({}, 0.002); };
+  const Pump sleep = [&] { wait_readable({}, clock, 0.002); };
   for (int i = 0; i < 2; ++i) {  // at the second opening it runs already and sends no welcome
     SerialLine line(emulated.stage_port(), 115200, clock);
     GrblStage stage(line, options.config.stage, clock, sink, 0.2);
@@ -55,7 +55,7 @@ TEST_CASE("a controller that does not reset on opening is reset by the driver", 
 }
 
 TEST_CASE("lost reports, late answers and doubled answers do not disturb a move", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(10.0);
+  EmulatedRigOptions options = RigFixture::options();
   SECTION("every second '?' unanswered") {
     options.grbl.lose_status_every = 2;
   }
@@ -78,7 +78,7 @@ TEST_CASE("lost reports, late answers and doubled answers do not disturb a move"
 
 TEST_CASE("a stage that boots locked is homed if the rig file asks for it and unlocked otherwise",
           "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(50.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.grbl.is_homing_enabled = true;
   options.config.stage.home = GENERATE(false, true);
   RigFixture rig(options);
@@ -92,12 +92,11 @@ TEST_CASE("a stage that boots locked is homed if the rig file asks for it and un
 }
 
 TEST_CASE("a gentle stop ends short of the target, and the record has the position", "[rig][pty]") {
-  RigFixture rig(RigFixture::options(1.0));
+  RigFixture rig(RigFixture::options());
   rig.stage.connect(rig.pump());
   rig.stage.begin_move(1e-3, 0.5e-3, "test");
   const Pump pump = rig.pump();
-  const double until_s = monotonic_s() + 0.3;
-  while (monotonic_s() < until_s) pump();
+  pump_for(rig, 0.3);
   rig.stage.stop_soft();
   while (rig.stage.is_moving()) pump();
   const double here_m = rig.emulated.outcome().final_position_m;
@@ -110,12 +109,11 @@ TEST_CASE("a gentle stop ends short of the target, and the record has the positi
 
 TEST_CASE("a reset in motion stops at once, and the stage works again after recovery",
           "[rig][pty]") {
-  RigFixture rig(RigFixture::options(1.0));
+  RigFixture rig(RigFixture::options());
   rig.stage.connect(rig.pump());
   rig.stage.begin_move(1e-3, 0.5e-3, "test");
   const Pump pump = rig.pump();
-  const double until_s = monotonic_s() + 0.2;
-  while (monotonic_s() < until_s) pump();
+  pump_for(rig, 0.2);
   rig.stage.stop_hard();
   rig.stage.recover(pump);
   CHECK(rig.has_event("stage_alarm", "3"));
@@ -127,7 +125,7 @@ TEST_CASE("a reset in motion stops at once, and the stage works again after reco
 }
 
 TEST_CASE("after a limit switch the controller is silent until it is reset", "[rig][pty]") {
-  RigFixture rig(RigFixture::options(1.0));
+  RigFixture rig(RigFixture::options());
   rig.stage.connect(rig.pump());
   rig.stage.begin_move(1e-3, 0.2e-3, "test");
   const Pump pump = rig.pump();
@@ -142,7 +140,7 @@ TEST_CASE("after a limit switch the controller is silent until it is reset", "[r
 }
 
 TEST_CASE("a controller that restarts in a move, or is lost, ends it with an error", "[rig][pty]") {
-  RigFixture rig(RigFixture::options(1.0));
+  RigFixture rig(RigFixture::options());
   rig.stage.connect(rig.pump());
   rig.stage.begin_move(1e-3, 0.1e-3, "test");
   const Pump pump = rig.pump();
@@ -160,27 +158,27 @@ TEST_CASE("a controller that restarts in a move, or is lost, ends it with an err
 }
 
 TEST_CASE("moves beyond the travel of the rig file are refused", "[rig][pty]") {
-  RigFixture rig(RigFixture::options(20.0));
+  RigFixture rig(RigFixture::options());
   rig.stage.connect(rig.pump());
   CHECK_THROWS_WITH(rig.stage.begin_move(10.1e-3, 1e-3, "test"), Contains("travel"));
   CHECK_FALSE(rig.stage.is_moving());
 }
 
 TEST_CASE("a port where no controller answers is named in the error", "[rig][pty]") {
-  EmulatedRig emulated(RigFixture::options(1.0));
-  const RigClock clock;
+  EmulatedRig emulated(RigFixture::options());
+  const RigClock clock = emulated.clock();
   SerialLine line(emulated.load_cell_port(), 115200, clock);  // the wrong one
   GrblStage stage(
       line, StageConfig{}, clock, [](const RunRecord&) {}, 0.1);
   CHECK_THROWS_WITH(stage.connect([&] {
-    wait_readable({&line}, 0.01);
+    wait_readable({&line}, clock, 0.01);
     stage.service();
   }),
                     Contains("no GRBL controller answered"));
 }
 
 TEST_CASE("settings that would spoil a test are reported as advice", "[rig][pty]") {
-  EmulatedRigOptions options = RigFixture::options(20.0);
+  EmulatedRigOptions options = RigFixture::options();
   options.truth.steps_per_m = 250e3;
   options.truth.acceleration_m_s2 = 0.01;
   RigFixture rig(options);

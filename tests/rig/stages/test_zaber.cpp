@@ -8,8 +8,8 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-EmulatedRigOptions zaber_rig(double speed) {
-  return DeviceFixture::options(speed, "zaber");
+EmulatedRigOptions zaber_rig() {
+  return DeviceFixture::options("zaber");
 }
 
 TestPlan quick_plan() {
@@ -69,7 +69,7 @@ TEST_CASE("Zaber speeds and accelerations survive the conversion to data units",
 
 TEST_CASE("a Zaber stage reports its dynamics and reaches its target at the speed asked for",
           "[rig][pty]") {
-  EmulatedRigOptions options = zaber_rig(10.0);
+  EmulatedRigOptions options = zaber_rig();
   SECTION("as it comes") {}
   SECTION("with alerts, a talking neighbour and no checksums") {
     options.zaber = {.sends_checksums = false, .sends_alerts = true, .has_neighbour = true};
@@ -79,7 +79,7 @@ TEST_CASE("a Zaber stage reports its dynamics and reaches its target at the spee
   }
   SECTION("mounted the other way round, slow to answer") {
     options.config.stage.toward_specimen = 1;
-    options.zaber.reply_delay_s = 0.3;
+    options.zaber.reply_delay_s = 0.2;
   }
   DeviceFixture rig(options);
   rig.devices.stage->connect(rig.pump());
@@ -99,7 +99,7 @@ TEST_CASE("a Zaber stage reports its dynamics and reaches its target at the spee
 }
 
 TEST_CASE("a Zaber stage stops gently or at once and can be moved again", "[rig][pty]") {
-  EmulatedRigOptions options = zaber_rig(1.0);
+  EmulatedRigOptions options = zaber_rig();
   options.zaber.knows_estop = GENERATE(true, false);
   DeviceFixture rig(options);
   Stage& stage = *rig.devices.stage;
@@ -122,7 +122,7 @@ TEST_CASE("a Zaber stage stops gently or at once and can be moved again", "[rig]
 }
 
 TEST_CASE("a Zaber stage that stalls raises an alarm and recovers", "[rig][pty]") {
-  DeviceFixture rig(zaber_rig(1.0));
+  DeviceFixture rig(zaber_rig());
   Stage& stage = *rig.devices.stage;
   stage.connect(rig.pump());
   stage.begin_move(2e-3, 0.5e-3, "approach");
@@ -135,7 +135,7 @@ TEST_CASE("a Zaber stage that stalls raises an alarm and recovers", "[rig][pty]"
 
 TEST_CASE("a Zaber stage without a reference position is refused unless it may home",
           "[rig][pty]") {
-  EmulatedRigOptions options = zaber_rig(10.0);
+  EmulatedRigOptions options = zaber_rig();
   options.zaber.has_reference = false;
   SECTION("refused") {
     DeviceFixture rig(options);
@@ -171,7 +171,7 @@ TEST_CASE("a Zaber stage without microstep in the rig file is refused with the p
 
 TEST_CASE("a whole test runs on a Zaber stage, and a stalled one leaves the specimen",
           "[rig][pty]") {
-  DeviceFixture rig(zaber_rig(20.0));
+  DeviceFixture rig(zaber_rig());
   const RunOutcome outcome = rig.run(quick_plan());
   INFO(outcome.reason);
   REQUIRE(outcome.status == "finished");

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <random>
 
@@ -50,6 +51,33 @@ std::vector<std::string> joined(std::vector<std::string> words,
 }
 
 }  // namespace
+
+TEST_CASE("a record given twice to a joint fit or a report is refused", "[cli][joint]") {
+  const ScratchFolder folder;
+  Tables tables = write_tables(folder);
+  const std::string copy = (folder.path() / "copy.csv").string();
+  std::filesystem::copy_file(tables.files[3], copy);
+  const std::string again = GENERATE(std::string(), std::string("2.csv"), std::string("copy.csv"));
+  CAPTURE(again);
+  if (!again.empty()) {
+    tables.files.push_back((folder.path() / again).string());
+    tables.ratios.insert(tables.ratios.end(), {"--ratio", "13"});
+  }
+  const CommandOutcome fit = run_command(joined({"fit", "--joint"}, {tables.files, tables.ratios}));
+  const std::string page = (folder.path() / "page.html").string();
+  const CommandOutcome report = run_command(joined({"report"}, {tables.files, {"--out", page}}));
+  if (again.empty()) {
+    CHECK(fit.status == kDone);
+    CHECK(report.status != kFailed);
+    return;
+  }
+  const char* why = again == "2.csv" ? "2.csv is given twice" : "copy.csv has the same contents as";
+  for (const CommandOutcome& outcome : {fit, report}) {
+    CHECK(outcome.status == kFailed);
+    CHECK_THAT(outcome.err, Contains(why) && Contains("counts once. Remove one of the two"));
+  }
+  CHECK_FALSE(std::filesystem::exists(page));
+}
 
 TEST_CASE(
     "tables of six specimens become a joint file, which gives cards for any ratio between them",

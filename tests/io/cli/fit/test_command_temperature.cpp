@@ -18,7 +18,7 @@ namespace {
 // One term of 1 s at 20 C under WLF 8.86, 101.6 K; a millionth of ripple in place of noise.
 std::string write_table(const ScratchFolder& folder) {
   const TemperatureShift wlf{.T_ref_C = 20.0, .C1 = 8.86, .C2_K = 101.6};
-  const std::string file = (folder / "segments.csv").string();
+  std::string file = (folder / "segments.csv").string();
   std::ofstream table(file);
   table.precision(12);
   table << "temperature_C,time_s,modulus_Pa\n";

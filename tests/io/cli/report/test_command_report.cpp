@@ -55,7 +55,7 @@ std::string write_material(const test::ScratchFolder& folder) {
   material.E0_Pa = 1.8e6;
   material.nu = 0.33;
   material.terms = {{0.1, 0.1, 0.5}};
-  const std::string path = (folder / "pdms.json").string();
+  std::string path = (folder / "pdms.json").string();
   write_text(path, json_from_material(material));
   return path;
 }

@@ -211,6 +211,7 @@ TEST_CASE("a run refused because the punch presses leaves the capture that --for
   options.truth.surface_position_m = -0.3e-3;
   options.truth.overload_N = 100.0;
   options.config = demo_rig();
+  options.is_on_wall_clock = true;  // its ports are opened as those of a real rig
   const EmulatedRig emulated(options);
   const auto outcome = replace_over_ports(folder, capture, emulated.config().stage.port,
                                           emulated.config().load_cell.port);

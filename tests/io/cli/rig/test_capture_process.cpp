@@ -1,22 +1,15 @@
 // The viscard program itself, killed, interrupted and starved in the middle of a run.
-#include "io/basics/atomic_file.h"
 #include "io/capture/capture_file.h"
-#include "rig/emulator/demo_rig.h"
-#include "rig/emulator/emulated_rig.h"
+#include "tests/io/cli/rig/outside_rig.h"
 #include "tests/support/error_text.h"
-#include "tests/support/scratch_folder.h"
 
 #include <catch2/catch.hpp>
-#include <fcntl.h>
 #include <signal.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <functional>
 #include <iostream>
-#include <optional>
 #include <random>
 #include <string>
 #include <thread>
@@ -27,124 +20,6 @@ namespace {
 
 using test::contains;
 using test::ScratchFolder;
-
-// A viscard process; its stderr is kept.
-class Program {
- public:
-  explicit Program(std::vector<std::string> words, rlim_t most_bytes = RLIM_INFINITY) {
-    int ends[2];
-    REQUIRE(::pipe(ends) == 0);
-    child_ = ::fork();
-    REQUIRE(child_ >= 0);
-    if (child_ == 0) {
-      const rlimit limit{most_bytes, most_bytes};
-      if (most_bytes != RLIM_INFINITY) ::setrlimit(RLIMIT_FSIZE, &limit);
-      ::dup2(ends[1], STDERR_FILENO);
-      ::dup2(::open("/dev/null", O_WRONLY), STDOUT_FILENO);
-      std::vector<char*> arguments{const_cast<char*>(VISCARD_PROGRAM)};
-      for (std::string& word : words) arguments.push_back(word.data());
-      arguments.push_back(nullptr);
-      ::execv(VISCARD_PROGRAM, arguments.data());
-      _exit(99);
-    }
-    ::close(ends[1]);
-    stderr_ = ends[0];
-    ::fcntl(stderr_, F_SETFL, O_NONBLOCK);
-  }
-  ~Program() {
-    if (!status_) ::kill(child_, SIGKILL);
-    wait();
-    ::close(stderr_);
-  }
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
-
-  void send(int signal_number) { ::kill(child_, signal_number); }
-  int wait() {
-    if (!status_) {
-      while (!has_ended()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    said();
-    return *status_;
-  }
-  bool has_ended() {
-    said();
-    int status = 0;
-    if (!status_ && ::waitpid(child_, &status, WNOHANG) == child_) status_ = status;
-    return status_.has_value();
-  }
-  const std::string& said() {
-    char buffer[4096];
-    ssize_t n = 0;
-    while ((n = ::read(stderr_, buffer, sizeof buffer)) > 0) {
-      said_.append(buffer, static_cast<std::size_t>(n));
-    }
-    return said_;
-  }
-
- private:
-  pid_t child_ = -1;
-  int stderr_ = -1;
-  std::string said_;
-  std::optional<int> status_;
-};
-
-constexpr const char* kTest = R"(
-[approach]
-speed = "0.1 mm/s"
-baseline = "1 s"
-[ramp]
-depth = "0.13 mm"
-duration = "1 s"
-hold = "20 s"
-)";
-
-// An emulated rig in this process that outlives the program under test.
-struct OutsideRig {
-  explicit OutsideRig(double surface_m) : emulated(options(surface_m)) {
-    std::string text = read_file(VISCARD_SOURCE_DIR "/data/demo/01_rig.toml");
-    replace(text, "/dev/serial/by-id/stage", emulated.stage_port());
-    replace(text, "/dev/serial/by-id/load_cell", emulated.load_cell_port());
-    write_file(folder / "rig.toml", text, false);
-    write_file(folder / "test.toml", kTest, false);
-  }
-  static EmulatedRigOptions options(double surface_m) {
-    EmulatedRigOptions result;
-    result.truth = demo_truth(10.0, 3);
-    result.truth.surface_position_m = surface_m;
-    result.config = demo_rig();
-    return result;
-  }
-  static void replace(std::string& text, const std::string& what, const std::string& by) {
-    text.replace(text.find(what), what.size(), by);
-  }
-  std::vector<std::string> words(const std::string& out = "run.viscap") const {
-    return {"capture",
-            "--rig",
-            folder / "rig.toml",
-            "--test",
-            folder / "test.toml",
-            "--specimen",
-            VISCARD_SOURCE_DIR "/data/demo/03_pdms_1to10.toml",
-            "--out",
-            folder / out};
-  }
-  // True once it holds, false if the program ended first.
-  bool wait_for(Program& program, const std::function<bool()>& is_there) const {
-    while (!is_there()) {
-      if (program.has_ended()) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    return true;
-  }
-  bool is_moving_beyond(double position_m) const {
-    const EmulatedOutcome bench = emulated.outcome();
-    return bench.is_moving && bench.final_position_m > position_m;
-  }
-
-  ScratchFolder folder;
-  EmulatedRig emulated;
-};
 
 std::size_t records_in(const std::filesystem::path& path) {
   const CapturedRun run = read_capture(path);
@@ -276,6 +151,51 @@ TEST_CASE("two captures cannot share a port or a file", "[cli][capture][pty]") {
   first.send(SIGINT);
   CHECK(WEXITSTATUS(first.wait()) == 1);
   CHECK(read_capture(rig.folder / "run.viscap").load_samples.size() > 20);
+}
+
+TEST_CASE("a capture that is frozen while it presses names the computer", "[cli][capture][pty]") {
+  OutsideRig rig(0.05e-3);
+  Program program(rig.words());
+  REQUIRE(rig.wait_for(program, [&] { return rig.is_moving_beyond(0.1e-3); }));  // in the ramp
+  program.send(SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(800));
+  program.send(SIGCONT);
+  const int status = program.wait();
+  INFO(program.said());
+  REQUIRE(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 1);
+  CHECK(contains(program.said(), "this computer was late by 0."));
+  CHECK_FALSE(contains(program.said(), "modulus_guess"));
+  CHECK_FALSE(rig.emulated.outcome().is_moving);
+  CHECK(rig.emulated.outcome().final_position_m < 0.05e-3);
+}
+
+TEST_CASE("a frozen capture of the emulated rig is the capture that was not frozen",
+          "[cli][capture][pty]") {
+  const ScratchFolder folder;
+  write_file(folder / "test.toml", kTest, false);
+  const auto words = [&](const std::string& out, const std::string& speed) {
+    return std::vector<std::string>{"capture", "--emulate", "--test", folder / "test.toml",
+                                    "--speed", speed,       "--out",  folder / out};
+  };
+  Program frozen(words("frozen.viscap", "20"));
+  for (int i = 0; i < 6; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    frozen.send(SIGSTOP);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    frozen.send(SIGCONT);
+  }
+  Program plain(words("plain.viscap", "500"));
+  CHECK(WEXITSTATUS(frozen.wait()) == 0);
+  CHECK(WEXITSTATUS(plain.wait()) == 0);
+  const CapturedRun one = read_capture(folder / "frozen.viscap");
+  const CapturedRun other = read_capture(folder / "plain.viscap");
+  REQUIRE(one.load_samples.size() == other.load_samples.size());
+  CHECK(one.n_raw_bytes == other.n_raw_bytes);
+  for (std::size_t i = 0; i < one.load_samples.size(); ++i) {
+    REQUIRE(one.load_samples[i].host_time_s == other.load_samples[i].host_time_s);
+    REQUIRE(*one.load_samples[i].counts == *other.load_samples[i].counts);
+  }
 }
 
 }  // namespace viscard

@@ -17,7 +17,7 @@ using test::run_command;
 using test::ScratchFolder;
 
 std::string capture_of(const ScratchFolder& folder, const std::string& status) {
-  const std::string path = folder / (status + ".viscap");
+  std::string path = folder / (status + ".viscap");
   CaptureWriter writer(path, test::demo_run());
   writer.append(RunEvent{0.0, "phase", "hold", ""});
   for (int i = 0; i < 50; ++i) writer.append(test::sample(i));
