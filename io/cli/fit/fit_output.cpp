@@ -225,6 +225,7 @@ Json json_from_fit(const FittedFile& fitted) {
   if (fitted.fractional) json["fractional_zener"] = json_of(*fitted.fractional);
   json["n_spikes"] = fit.n_spikes;
   json["n_left_out"] = fit.n_left_out;
+  json["n_before_test"] = fitted.n_before_test;
   return json;
 }
 
@@ -234,6 +235,10 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   const char* letter = fit.is_stiffness ? "K" : "E";
   out << fmt::format("{}: {}, {}\n", fitted.path, kind_name(fit.kind),
                      counted(fit.n_samples, "sample"));
+  if (fitted.n_before_test > 0) {
+    out << "  not fitted: the " << counted(fitted.n_before_test, "row")
+        << " before the first baseline, in which the rig looks for the surface\n";
+  }
   if (fit.is_stiffness) {
     out << "  stiffnesses in N/m: no punch geometry was given (--specimen, or --punch-diameter)\n";
   }
