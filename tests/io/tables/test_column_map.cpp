@@ -1,4 +1,5 @@
 #include "io/tables/column_map.h"
+#include "io/tables/column_names.h"
 #include "tests/support/error_text.h"
 
 #include <catch2/catch.hpp>
