@@ -23,7 +23,7 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 // The length in bytes of the UTF-8 character that begins at `at`; 0 if none does.
 std::size_t utf8_length(std::string_view text, std::size_t at);
 
-// The text on one line and as UTF-8, whatever bytes it came with: control characters become blanks,
+// The text on one line and as UTF-8, for any bytes it came with: control characters become blanks,
 // bytes that are part of no character become \xHH.
 std::string utf8_on_one_line(std::string_view text);
 

@@ -131,8 +131,10 @@ std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
 }
 
 FittedFile fit_table(const std::string& path, const FitRequest& request) {
-  const CsvTable table = rows_of_segments(read_csv(path), request);
+  const CsvTable all = read_csv(path);
+  const CsvTable table = rows_of_segments(all, request);
   FittedFile fitted;
+  if (request.segments.empty()) fitted.n_before_test = all.lines.size() - table.lines.size();
   if (request.specimen) fitted.specimen = *request.specimen;
   const FitKind kind = kind_of_table(table, request);
   fitted.master = fit_temperatures(table, kind, request);

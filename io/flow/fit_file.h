@@ -36,6 +36,8 @@ struct FittedFile {
   FitResult result;
   Specimen specimen;        // empty for a table without --specimen
   std::string fitted_unit;  // unit of the fitted column: "N", "Pa", "1/Pa"
+  // Rows of an exported capture before its first baseline, which are not fitted.
+  std::size_t n_before_test = 0;
   // For a table of several temperatures; `result` is then the fit at the reference temperature.
   std::optional<MasterCurve> master;
   std::optional<FractionalDiagnosis> fractional;  // if FitRequest::diagnose is set

@@ -159,6 +159,7 @@ Json json_from_fit(const FittedFile& fitted) {
   if (fitted.fractional) json["fractional_zener"] = json_of(*fitted.fractional);
   json["n_spikes"] = fit.n_spikes;
   json["n_left_out"] = fit.n_left_out;
+  json["n_before_test"] = fitted.n_before_test;
   return json;
 }
 

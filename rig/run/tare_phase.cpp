@@ -181,7 +181,7 @@ void carry_out_tare(TestRun& run, const TestPhase& phase) {
   ForceMean zero = undisturbed_tare(run, phase.duration_s);
   run.outcome.noise_N = zero.sd_N;
   const double most_N = kPressesAtStart * run.rig.calibration.capacity_N;
-  // Away from whatever presses first: for that the rate of the readings does not matter.
+  // Away from what presses first: for that the rate of the readings does not matter.
   if (std::abs(zero.force_N) <= most_N) check_rate(run, zero, phase.duration_s);
   const ForceMean change = change_when_lifted(run);
   if (change.force_N > felt_N(run, change)) refuse_wrong_way(run, change.force_N);

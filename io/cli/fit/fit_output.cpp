@@ -81,6 +81,10 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   const char* letter = fit.is_stiffness ? "K" : "E";
   out << fmt::format("{}: {}, {}\n", fitted.path, name_of_kind(fit.kind),
                      counted(fit.n_samples, "sample"));
+  if (fitted.n_before_test > 0) {
+    out << "  not fitted: the " << counted(fitted.n_before_test, "row")
+        << " before the first baseline, in which the rig looks for the surface\n";
+  }
   if (fit.is_stiffness) {
     out << "  stiffnesses in N/m: no punch geometry was given (--specimen, or --punch-diameter)\n";
   }

@@ -1,4 +1,5 @@
 #include "io/tables/column_map.h"
+#include "io/tables/column_names.h"
 #include "tests/support/error_text.h"
 
 #include <catch2/catch.hpp>
@@ -54,6 +55,12 @@ TEST_CASE("columns are found by headers in German, French and Chinese", "[io][cs
   CHECK(first("Fréquence (Hz),Module de perte (kPa)\n1,2\n", "loss_modulus_Pa") == 2000.0);
   CHECK(first("时间 (s),位移 (mm),载荷 (N)\n1,2,3\n", "force_N") == 3.0);
   CHECK(first("角频率 (rad/s),储能模量 (MPa),损耗模量 (MPa)\n1,2,3\n", "loss_modulus_Pa") == 3e6);
+}
+
+TEST_CASE("words of two meanings name no column without a unit of one", "[io][csv]") {
+  // tau is a relaxation time or a shear stress, charge and tension are forces in one language only.
+  const CsvTable table = csv_from_text("tau,charge,tension\n1,2,3\n", "t.csv");
+  for (const std::string& name : column_names()) CHECK_FALSE(find_column(table, name).has_value());
 }
 
 TEST_CASE("primes of moduli are read as instruments write them", "[io][csv]") {

@@ -14,7 +14,7 @@ TEST_CASE("a look at the clock is late by what the wait before it does not expla
   host.look(100.061);
   CHECK(host.total_s() == Approx(0.050).epsilon(1e-6));
   CHECK(host.n_long() ==
-        0);  // a usual delay of a scheduler: no deadline ends by it, nobody is told
+        0);  // a usual delay of a scheduler: no deadline ends by it, nothing is reported
   host.expect_wait(0.005);
   host.look(100.866);
   CHECK(host.total_s() == Approx(0.850).epsilon(1e-6));

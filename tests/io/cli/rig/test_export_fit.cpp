@@ -81,6 +81,9 @@ TEST_CASE("a capture on the emulator, its export and the fit of the table give o
               .status == kDone);
   REQUIRE(test::run_command({"export", capture, "--out", table}).status == kDone);
   const FittedFile fitted = fit_file(capture, {});
+  CHECK(fitted.n_before_test == 0);  // the fit of a capture finds the test by its moves
+  const test::CommandOutcome printed = test::run_command({"fit", table, "--punch-diameter", "5mm"});
+  CHECK(contains(printed.out, "before the first baseline"));
   const FitResult of_table = fit_of_table(table, fitted.specimen);
   check_same_answer(of_table, fitted.result);
   // Real ports make each run a little different, so one in twenty would be outside one half-width.
