@@ -1,6 +1,8 @@
 #include "io/flow/capture_setup.h"
 
+#include "io/basics/timestamp.h"
 #include "io/config/config_file.h"
+#include "io/flow/command_error.h"
 #include "rig/emulator/demo_rig.h"
 
 namespace viscard {
@@ -39,6 +41,20 @@ CaptureSetup setup_from_files(const SetupRequest& request) {
   }
   setup.rig.clock_speed = request.speed;
   return setup;
+}
+
+Preflight safe_preflight(const CaptureSetup& setup) {
+  Preflight expected = preflight(setup.rig, setup.plan, setup.specimen);
+  if (!expected.problems.empty()) throw CodedError("preflight", expected.problems.front());
+  return expected;
+}
+
+std::string refuse_expired_calibration(const LoadCellCalibration& calibration) {
+  std::string trouble = calibration_trouble(calibration, today());
+  if (!trouble.empty() && !last_valid_day(calibration).empty()) {
+    throw CodedError("calibration", trouble + "; or add --uncalibrated to capture without one");
+  }
+  return trouble;
 }
 
 }  // namespace viscard

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/flow/capture_to_file.h"
+#include "rig/run/preflight.h"
 
 #include <cstdint>
 #include <optional>
@@ -24,5 +25,13 @@ inline constexpr double kFastestEmulation = 500.0;
 // of the demonstration, or its relaxation with the guessed modulus. Throws std::runtime_error on a
 // bad file.
 CaptureSetup setup_from_files(const SetupRequest& request);
+
+// What the test is expected to do. Throws CodedError "preflight" if it would overload the cell or
+// cannot be carried out by this rig.
+Preflight safe_preflight(const CaptureSetup& setup);
+
+// Throws CodedError "calibration" if the calibration has expired or is dated later than today.
+// Returns why it is doubtful (it has no date), or "".
+std::string refuse_expired_calibration(const LoadCellCalibration& calibration);
 
 }  // namespace viscard

@@ -12,9 +12,9 @@ namespace viscard {
 
 // The objects that commands print with --json and that the page at the rig receives.
 
-// `viscard rig check`.
+// `viscard rig check`; with "error" if the rig is not fit for a test.
 nlohmann::ordered_json json_from_rig_check(const RigCheck& found);
-// One run of `viscard capture`; file: of the capture.
+// One run of `viscard capture`, with "error" if it did not finish; file: of the capture.
 nlohmann::ordered_json json_from_outcome(const RunOutcome& outcome, const std::string& file);
 // "indentation", "relaxation" ...
 const char* name_of_kind(FitKind kind);

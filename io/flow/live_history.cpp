@@ -15,4 +15,18 @@ void LiveHistory::add(double time_s, double force_N, double depth_m) {
   keep_every_ *= 2;
 }
 
+LivePoints LiveHistory::since(std::size_t from, std::size_t keep_every) const {
+  LivePoints points;
+  points.keep_every = keep_every_;
+  points.from = keep_every == keep_every_ && from <= time_s_.size() ? from : 0;
+  const auto tail = [&](const std::vector<double>& values) {
+    return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(points.from),
+                               values.end());
+  };
+  points.time_s = tail(time_s_);
+  points.force_N = tail(force_N_);
+  points.depth_m = tail(depth_m_);
+  return points;
+}
+
 }  // namespace viscard

@@ -5,6 +5,13 @@
 
 namespace viscard {
 
+// Points of the live curves.
+struct LivePoints {
+  std::size_t keep_every = 1;
+  std::size_t from = 0;  // number of the first one in the history
+  std::vector<double> time_s, force_N, depth_m;
+};
+
 // Force and depth against time during a run, thinned out to a fixed number of points however long
 // the run is.
 class LiveHistory {
@@ -20,6 +27,9 @@ class LiveHistory {
   const std::vector<double>& depth_m() const { return depth_m_; }
   // Only every n-th value is kept. While n stays the same, points are only appended.
   std::size_t keep_every() const { return keep_every_; }
+  // The points from number `from` on for a reader who has the others with this keep_every; all of
+  // them if they were thinned out since.
+  LivePoints since(std::size_t from, std::size_t keep_every) const;
 
  private:
   std::size_t most_ = kMost;

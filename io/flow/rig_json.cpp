@@ -1,33 +1,52 @@
+#include "io/flow/command_error.h"
 #include "io/flow/flow_json.h"
 
 #include <nlohmann/json.hpp>
 
 namespace viscard {
+namespace {
+
+// The message also states where the punch was left, which the reason says behind the cause.
+CommandError error_of_run(const RunOutcome& outcome) {
+  const bool has_cause = !outcome.cause.empty() && outcome.reason.rfind(outcome.cause, 0) == 0;
+  CommandError error = command_error(outcome.code.empty() ? "failed" : outcome.code,
+                                     has_cause ? outcome.cause : outcome.reason, outcome.phase);
+  if (has_cause) error.message += outcome.reason.substr(outcome.cause.size());
+  return error;
+}
+
+}  // namespace
 
 nlohmann::ordered_json json_from_rig_check(const RigCheck& found) {
-  return {{"is_usable", found.is_usable},
-          {"stage",
-           {{"identity", found.stage_identity},
-            {"steps_per_m", found.dynamics.steps_per_m},
-            {"acceleration_m_s2", found.dynamics.acceleration_m_s2},
-            {"min_speed_m_s", found.dynamics.min_speed_m_s},
-            {"max_speed_m_s", found.dynamics.max_speed_m_s},
-            {"position_m", found.position_m},
-            {"latency_mean_s", found.latency.mean_s},
-            {"latency_longest_s", found.latency.longest_s},
-            {"reports", found.latency.n},
-            {"reports_lost", found.latency.n_lost}}},
-          {"load_cell",
-           {{"rate_Hz", found.rate_Hz},
-            {"jitter_s", found.jitter_s},
-            {"falls_behind", found.falls_behind},
-            {"line_bytes", found.line_bytes},
-            {"missing", found.stream.missing},
-            {"unreadable", found.stream.unreadable},
-            {"reads_as", found.reads_as},
-            {"force_N", found.force_N},
-            {"noise_N", found.noise_N}}},
-          {"advice", found.advice}};
+  nlohmann::ordered_json json = {{"is_usable", found.is_usable},
+                                 {"stage",
+                                  {{"identity", found.stage_identity},
+                                   {"steps_per_m", found.dynamics.steps_per_m},
+                                   {"acceleration_m_s2", found.dynamics.acceleration_m_s2},
+                                   {"min_speed_m_s", found.dynamics.min_speed_m_s},
+                                   {"max_speed_m_s", found.dynamics.max_speed_m_s},
+                                   {"position_m", found.position_m},
+                                   {"latency_mean_s", found.latency.mean_s},
+                                   {"latency_longest_s", found.latency.longest_s},
+                                   {"reports", found.latency.n},
+                                   {"reports_lost", found.latency.n_lost}}},
+                                 {"load_cell",
+                                  {{"rate_Hz", found.rate_Hz},
+                                   {"jitter_s", found.jitter_s},
+                                   {"falls_behind", found.falls_behind},
+                                   {"line_bytes", found.line_bytes},
+                                   {"missing", found.stream.missing},
+                                   {"unreadable", found.stream.unreadable},
+                                   {"reads_as", found.reads_as},
+                                   {"force_N", found.force_N},
+                                   {"noise_N", found.noise_N}}},
+                                 {"advice", found.advice}};
+  if (!found.is_usable) {
+    const std::string why =
+        found.advice.empty() ? "the rig is not fit for a test" : found.advice.back();
+    json["error"] = json_from_error(command_error("unfit", why));
+  }
+  return json;
 }
 
 nlohmann::ordered_json json_from_outcome(const RunOutcome& outcome, const std::string& file) {
@@ -36,6 +55,7 @@ nlohmann::ordered_json json_from_outcome(const RunOutcome& outcome, const std::s
   json["file"] = file;
   json["status"] = outcome.status;
   json["reason"] = outcome.reason;
+  if (outcome.status != "finished") json["error"] = json_from_error(error_of_run(outcome));
   json["peak_force_N"] = outcome.peak_force_N;
   json["expected_peak_force_N"] = outcome.expected.peak_force_N;
   json["limit_N"] = outcome.expected.limit_N;

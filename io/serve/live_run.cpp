@@ -1,6 +1,6 @@
 #include "io/serve/live_run.h"
 
-#include "models/experiment/test_phases.h"
+#include "io/flow/command_error.h"
 
 #include <algorithm>
 #include <utility>
@@ -24,16 +24,25 @@ void LiveRun::start(const std::string& specimen, CaptureRequest request,
   stop_at_once_ = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    const std::size_t number = state_.number + 1;
     state_ = LiveState{};
-    state_.is_known = state_.is_running = true;
+    state_.number = number;
+    state_.is_running = true;
     state_.specimen = specimen;
     state_.file = request.path.filename().string();
     state_.clock_speed = request.setup.rig.clock_speed;
-    state_.history = LiveHistory(kMostPoints);
-    plan_ = request.setup.plan;
+    history_ = LiveHistory(kMostPoints);
+    phases_ = phases_from_plan(request.setup.plan);
   }
-  thread_ = std::thread(
-      [this, request = std::move(request), on_end = std::move(on_end)] { work(request, on_end); });
+  try {
+    thread_ = std::thread([this, request = std::move(request), on_end = std::move(on_end)] {
+      work(request, on_end);
+    });
+  } catch (...) {  // no further thread
+    const std::lock_guard<std::mutex> lock(mutex_);
+    state_.is_running = false;
+    throw;
+  }
 }
 
 void LiveRun::stop(bool at_once) {
@@ -54,25 +63,38 @@ void LiveRun::wait() {
 
 LiveState LiveRun::state() const {
   const std::lock_guard<std::mutex> lock(mutex_);
+  return state_now();
+}
+
+std::pair<LiveState, LivePoints> LiveRun::state_since(std::size_t from,
+                                                      std::size_t keep_every) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return {state_now(), history_.since(from, keep_every)};
+}
+
+// Precondition: the mutex is held.
+LiveState LiveRun::state_now() const {
   LiveState state = state_;
-  state.phase_text = text_of_phase(state.now.phase);
+  state.phase_text = text_of_phase();
   if (writer_ != nullptr) state.counts = writer_->counts();
   return state;
 }
 
 void LiveRun::work(const CaptureRequest& request, const std::function<void()>& on_end) {
   std::optional<RunOutcome> outcome;
-  std::string trouble;
+  std::string trouble, code;
   try {
     outcome = capture_to_file(request, watch());
   } catch (const std::exception& error) {
     trouble = error.what();
+    code = command_error(error).code;
   }
   on_end();
   const std::lock_guard<std::mutex> lock(mutex_);
   state_.is_running = false;
   state_.outcome = std::move(outcome);
   state_.trouble = std::move(trouble);
+  state_.trouble_code = std::move(code);
 }
 
 // Called by the thread that watches the force: these only store.
@@ -90,7 +112,7 @@ CaptureWatch LiveRun::watch() {
   };
   watch.reading = [this](const RunReading& reading) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    state_.history.add(reading.time_s, reading.force_N, reading.depth_m);
+    history_.add(reading.time_s, reading.force_N, reading.depth_m);
     state_.peak_force_N = std::max(state_.peak_force_N, reading.force_N);
   };
   watch.closing = [this] {
@@ -101,11 +123,10 @@ CaptureWatch LiveRun::watch() {
   return watch;
 }
 
-std::string LiveRun::text_of_phase(const std::string& phase) const {
-  if (phase == "connect") return "Waiting for both devices";
-  if (!state_.is_known) return "";
-  for (const TestPhase& planned : phases_from_plan(plan_)) {
-    if (planned.name == phase) return planned.text;
+std::string LiveRun::text_of_phase() const {
+  if (state_.now.phase == "connect") return "Waiting for both devices";
+  for (const TestPhase& planned : phases_) {
+    if (planned.name == state_.now.phase) return planned.text;
   }
   return "";
 }

@@ -2,19 +2,23 @@
 
 #include "io/flow/capture_to_file.h"
 #include "io/flow/live_history.h"
+#include "models/experiment/test_phases.h"
 
 #include <atomic>
+#include <cstddef>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace viscard {
 
 // What is known of the running capture, or of the last one.
 struct LiveState {
-  bool is_known = false;  // there was a run since the program began
+  std::size_t number = 0;  // of the run since the program began; 0 without one
   bool is_running = false;
   bool is_stopping = false;  // a person asked for it
   std::string specimen;      // its name in the series
@@ -26,7 +30,7 @@ struct LiveState {
   CaptureCounts counts;
   std::optional<RunOutcome> outcome;  // once the run has ended
   std::string trouble;                // why it could not begin or be recorded
-  LiveHistory history;
+  std::string trouble_code;           // as in CommandError
 };
 
 // The one capture that can run at a time, on a thread of its own. Nobody needs to watch it: a page
@@ -47,17 +51,23 @@ class LiveRun {
   // Waits until the run has ended.
   void wait();
   LiveState state() const;
+  // The same, with the points that LiveHistory::since() returns.
+  std::pair<LiveState, LivePoints> state_since(std::size_t from, std::size_t keep_every) const;
 
  private:
+  LiveState state_now() const;
+
   void work(const CaptureRequest& request, const std::function<void()>& on_end);
   CaptureWatch watch();
-  std::string text_of_phase(const std::string& phase) const;
+  std::string text_of_phase() const;
 
   std::atomic<bool> stop_{false}, stop_at_once_{false};
   std::thread thread_;
-  mutable std::mutex mutex_;  // guards the rest
+  // Guards the rest. The thread that watches the force waits for it, so it is held for microseconds.
+  mutable std::mutex mutex_;
   LiveState state_;
-  TestPlan plan_;
+  LiveHistory history_;
+  std::vector<TestPhase> phases_;
   const CaptureWriter* writer_ = nullptr;
 };
 

@@ -4,9 +4,8 @@
 #include "io/basics/timestamp.h"
 #include "io/capture/capture_file.h"
 #include "io/config/config_file.h"
-#include "io/flow/capture_setup.h"
 #include "io/flow/check_rig_config.h"
-#include "io/flow/fit_file.h"
+#include "io/flow/command_error.h"
 #include "io/flow/flow_json.h"
 #include "io/flow/series_files.h"
 #include "io/materials/material_file.h"
@@ -79,8 +78,9 @@ RigConfig RigApi::rig() const {
 CaptureSetup RigApi::setup_of(const std::string& specimen) const {
   SetupRequest request;
   request.rig_file = options_.rig_file;
-  if (std::filesystem::exists(folder_.test_file())) request.test_file = folder_.test_file();
-  request.specimen_file = folder_.specimen_file(folder_.specimen_named(specimen).name);
+  const SeriesSpecimen found = folder_.specimen_named(specimen);
+  if (!found.trouble.empty()) throw std::runtime_error(found.trouble);
+  request.specimen_file = folder_.specimen_file(found.name);
   request.is_emulated = options_.is_emulated;
   request.seed = options_.seed;
   request.speed = options_.speed;
@@ -91,11 +91,9 @@ CaptureSetup RigApi::setup_of(const std::string& specimen) const {
 }
 
 Json RigApi::state() const {
-  Json json = {{"program", "viscard " VISCARD_VERSION},
-               {"folder", folder_.path().string()},
-               {"is_emulated", options_.is_emulated},
-               {"clock_speed", options_.speed},
-               {"job", job_.what()}};
+  Json json = {{"program", "viscard " VISCARD_VERSION}, {"folder", folder_.path().string()},
+               {"folder_trouble", folder_.trouble()},   {"is_emulated", options_.is_emulated},
+               {"clock_speed", options_.speed},         {"job", job_.what()}};
   json["rig"] = or_trouble([&] {
     const RigConfig found = rig();
     return json_of_rig(
@@ -106,9 +104,14 @@ Json RigApi::state() const {
   json["test"] = or_trouble([&] { return json_of_test(folder_.test()); });
   json["specimens"] = Json::array();
   json["next"] = nullptr;
+  const LiveState live = live_.state();
   for (const SeriesSpecimen& specimen : folder_.specimens()) {
-    json["specimens"].push_back(json_of_specimen(specimen, folder_));
-    const std::string how = specimen.state();
+    // The file of a run that has just begun may not exist, or not be readable yet.
+    const bool is_live = live.is_running && live.specimen == specimen.name;
+    const std::string how = is_live ? "running" : specimen.state();
+    Json row = json_of_specimen(specimen, folder_);
+    row["state"] = how;
+    json["specimens"].push_back(row);
     if (json["next"].is_null() && how != "finished" && how != "running") {
       json["next"] = specimen.name;
     }
@@ -145,7 +148,7 @@ Json RigApi::preflight_of(const Json& request) const {
   const TestPlan plan = test_with(folder_.test(), changes);
   folder_.check_test(plan);
   const SeriesSpecimen found = folder_.specimen_named(text_at(request, "specimen"));
-  if (!found.specimen) throw std::runtime_error(found.trouble);
+  if (!found.trouble.empty()) throw std::runtime_error(found.trouble);
   const Preflight expected = preflight(rig(), plan, *found.specimen);
   return json_of_preflight(expected, expected_course(plan, expected));
 }
@@ -171,13 +174,10 @@ Json RigApi::remove_specimen(const Json& request) {
 
 // As `viscard capture` does.
 void RigApi::check_before_run(const CaptureSetup& setup) const {
-  const Preflight expected = preflight(setup.rig, setup.plan, setup.specimen);
-  if (!expected.problems.empty()) throw ApiError(422, "refused", expected.problems.front());
-  if (!options_.rig_file || options_.is_uncalibrated) return;
-  const std::string trouble = calibration_trouble(setup.rig.calibration, today());
-  if (trouble.empty() || last_valid_day(setup.rig.calibration).empty()) return;
-  throw ApiError(422, "refused",
-                 trouble + "; or start viscard serve with --uncalibrated to capture without one");
+  safe_preflight(setup);
+  if (options_.rig_file && !options_.is_uncalibrated) {
+    refuse_expired_calibration(setup.rig.calibration);
+  }
 }
 
 Json RigApi::start_run(const Json& request) {
@@ -188,6 +188,7 @@ Json RigApi::start_run(const Json& request) {
   try {
     CaptureRequest capture;
     capture.setup = setup_of(name);
+    if (request.contains("test")) refuse_unseen_test(request.at("test"), capture.setup.plan);
     check_before_run(capture.setup);
     const std::filesystem::path first = folder_.first_capture(name);
     const NextCapture next = next_capture(first);
@@ -219,16 +220,9 @@ Json RigApi::stop_run(const Json& request) {
 }
 
 Json RigApi::run(std::size_t from, std::size_t keep_every) const {
-  const LiveState state = live_.state();
-  if (!state.is_known) return {{"is_known", false}, {"is_running", false}};
-  const LiveHistory& history = state.history;
-  const std::size_t n = history.time_s().size();
-  const std::size_t first = keep_every == history.keep_every() && from <= n ? from : 0;
-  const auto rest = [&](const std::vector<double>& values, double step) {
-    return rounded({values.begin() + static_cast<std::ptrdiff_t>(first), values.end()}, step);
-  };
+  const auto [state, points] = live_.state_since(from, keep_every);
   Json json = {
-      {"is_known", true},
+      {"number", state.number},
       {"is_running", state.is_running},
       {"is_stopping", state.is_stopping},
       {"specimen", state.specimen},
@@ -243,12 +237,16 @@ Json RigApi::run(std::size_t from, std::size_t keep_every) const {
       {"peak_force_N", state.peak_force_N},
       {"records", {{"committed", state.counts.committed}, {"synced", state.counts.synced}}},
       {"trouble", state.trouble}};
+  json["error"] = nullptr;
+  if (!state.trouble.empty()) {
+    json["error"] = json_from_error(command_error(state.trouble_code, state.trouble));
+  }
   json["outcome"] = state.outcome ? json_from_outcome(*state.outcome, state.file) : Json(nullptr);
-  json["points"] = {{"keep_every", history.keep_every()},
-                    {"from", first},
-                    {"time_s", rest(history.time_s(), 1e-4)},
-                    {"force_N", rest(history.force_N(), 1e-6)},
-                    {"depth_m", rest(history.depth_m(), 1e-8)}};
+  json["points"] = {{"keep_every", points.keep_every},
+                    {"from", points.from},
+                    {"time_s", rounded(points.time_s, 1e-4)},
+                    {"force_N", rounded(points.force_N, 1e-6)},
+                    {"depth_m", rounded(points.depth_m, 1e-8)}};
   return json;
 }
 
@@ -264,21 +262,32 @@ Json RigApi::fit(const Json& request) {
   json["status"] = read_capture_state(path).status;
   json["curves"] = curves_of(fitted.result.curves);
   json["material_file"] = nullptr;
+  json["material_trouble"] = "";
   if (json["status"] != "finished") return json;
-  const std::filesystem::path material = folder_.path() / (specimen + ".json");
-  if (!std::filesystem::exists(material)) {
-    MaterialRequest wanted;
-    wanted.command = options_.command;
-    wanted.created_at = now_iso8601();
-    write_file(material, json_from_material(material_from_fitted(fitted, wanted)), false);
+  try {  // a folder that cannot be written to does not hide the fit
+    json["material_file"] = save_material(fitted, specimen);
+  } catch (const std::exception& error) {
+    json["material_trouble"] = error.what();
   }
-  json["material_file"] = material.filename().string();
   return json;
 }
 
-void RigApi::close() {
+std::string RigApi::save_material(const FittedFile& fitted, const std::string& specimen) const {
+  const std::filesystem::path file = folder_.path() / (specimen + ".json");
+  if (!std::filesystem::exists(file)) {
+    MaterialRequest wanted;
+    wanted.command = options_.command;
+    wanted.created_at = now_iso8601();
+    write_file(file, json_from_material(material_from_fitted(fitted, wanted)), false);
+  }
+  return file.filename().string();
+}
+
+// A request that was admitted before may begin a run after the first call.
+bool RigApi::close() {
   is_closing_ = true;
   if (live_.is_running()) live_.stop(false);
+  return job_.what().empty() && !live_.is_running();
 }
 
 }  // namespace viscard

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "io/flow/capture_setup.h"
+#include "io/flow/fit_file.h"
 #include "io/serve/live_run.h"
 #include "io/serve/one_job.h"
 #include "io/serve/series_folder.h"
@@ -43,7 +45,7 @@ class RigApi {
   nlohmann::ordered_json save_test(const nlohmann::ordered_json& request);
   nlohmann::ordered_json add_specimen(const nlohmann::ordered_json& request);
   nlohmann::ordered_json remove_specimen(const nlohmann::ordered_json& request);
-  // {"specimen", "repeat", "lift"}; repeat: although there is a finished capture; lift: a punch that
+  // {"specimen", "test", "repeat", "lift"}; test: what the page has shown of it; repeat: although there is a finished capture; lift: a punch that
   // presses at the start is lifted, and the test goes on.
   nlohmann::ordered_json start_run(const nlohmann::ordered_json& request);
   // {"how": "gently" | "at once"}.
@@ -53,9 +55,9 @@ class RigApi {
   // {"capture"}: fits it; the material of a finished one is written beside it unless it is there.
   nlohmann::ordered_json fit(const nlohmann::ordered_json& request);
 
-  // No more work is begun; a run is stopped gently. Returns at once.
-  void close();
-  bool is_running() const { return live_.is_running(); }
+  // No more work is begun; a run is stopped gently. Returns at once, with true if no work is going
+  // on; call it again until then.
+  bool close();
   // How the last run ended.
   LiveState last_run() const { return live_.state(); }
 
@@ -64,6 +66,8 @@ class RigApi {
   CaptureSetup setup_of(const std::string& specimen) const;
   void begin_job(const std::string& what);
   void check_before_run(const CaptureSetup& setup) const;
+  // Returns the name of the file, which is written unless it is there.
+  std::string save_material(const FittedFile& fitted, const std::string& specimen) const;
 
   ServeOptions options_;
   SeriesFolder folder_;

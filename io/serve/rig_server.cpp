@@ -1,5 +1,6 @@
 #include "io/serve/rig_server.h"
 
+#include "io/flow/command_error.h"
 #include "io/serve/api_error.h"
 #include "io/serve/page_files.h"
 #include "io/serve/request_guard.h"
@@ -19,10 +20,12 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::size_t kLargestRequest = 64 * 1024;
-// A browser keeps up to six connections open, each of which holds a thread until it is idle for a
-// second; a request to stop must never wait for one.
+// A connection that a browser opens in advance holds a thread for a second; a request to stop must
+// never wait for one.
 constexpr std::size_t kThreads = 32;
-constexpr std::size_t kRequestsPerConnection = 1000;
+// An open connection would hold a thread, a request to stop could meet the moment at which it is
+// closed, and the body of a refused request would be read as the next request.
+constexpr std::size_t kRequestsPerConnection = 1;
 constexpr std::chrono::milliseconds kPoll{20};
 
 // Nothing but what this program serves: no foreign script, no frame around the page.
@@ -47,24 +50,24 @@ void answer(httplib::Response& response, int status, const ordered_json& json) {
                        "application/json");
 }
 
-void answer_error(httplib::Response& response, int status, const std::string& code,
-                  const std::string& message, const std::string& where) {
-  answer(response, status,
-         {{"error", {{"code", code}, {"message", message}, {"where", where}, {"hint", ""}}}});
+void answer_error(httplib::Response& response, int status, const CommandError& error) {
+  answer(response, status, {{"error", json_from_error(error)}});
 }
 
 // A request that no route has taken.
 void answer_unread(const httplib::Request& request, httplib::Response& response) {
   const int status = response.status;
   if (status == 404) {
-    answer_error(response, status, "not-found",
-                 fmt::format("viscard serve has nothing at {} {}", request.method, request.path),
-                 request.path);
+    answer_error(response, status,
+                 {"not-found",
+                  fmt::format("viscard serve has nothing at {} {}", request.method, request.path),
+                  request.path, ""});
   } else if (status == 413) {
-    answer_error(response, status, "too-large",
-                 fmt::format("the request is larger than {} bytes", kLargestRequest), request.path);
+    answer_error(response, status,
+                 {"too-large", fmt::format("the request is larger than {} bytes", kLargestRequest),
+                  request.path, ""});
   } else {
-    answer_error(response, status, "bad-request", "the request cannot be read", request.path);
+    answer_error(response, status, {"bad-request", "the request cannot be read", request.path, ""});
   }
 }
 
@@ -105,8 +108,7 @@ class RigServer::Impl {
   const RigApi& api() const { return api_; }
 
   void close() {
-    api_.close();
-    while (api_.is_running()) std::this_thread::sleep_for(kPoll);
+    while (!api_.close()) std::this_thread::sleep_for(kPoll);
   }
 
  private:
@@ -142,15 +144,14 @@ class RigServer::Impl {
     const std::string site = is_api ? header("Sec-Fetch-Site") : std::string();
     const std::string refusal = refusal_of({header("Host"), header("Origin"), site}, port_);
     if (!refusal.empty()) {
-      answer_error(response, 403, "forbidden", refusal, "");
+      answer_error(response, 403, command_error("forbidden", refusal));
       return false;
     }
     if (!is_api) return true;
     if (!is_same_token(header("X-Viscard-Token"), token_)) {
-      answer_error(response, 403, "wrong-token",
-                   "this page belongs to an earlier start of viscard serve. Open the address that "
-                   "it has printed now",
-                   "");
+      answer_error(response, 403,
+                   {"wrong-token", "this page belongs to an earlier start of viscard serve", "",
+                    "Open the address that it has printed now"});
       return false;
     }
     return true;
@@ -166,13 +167,13 @@ class RigServer::Impl {
 
   void add_question(const char* path, Question question) {
     server_.Get(path, [question](const httplib::Request& request, httplib::Response& response) {
-      carry_out(request, response, [&] { return question(request); });
+      carry_out(response, [&] { return question(request); });
     });
   }
 
   void add_order(const char* path, Order order) {
     server_.Post(path, [order](const httplib::Request& request, httplib::Response& response) {
-      carry_out(request, response, [&] {
+      carry_out(response, [&] {
         if (request.get_header_value("Content-Type").rfind("application/json", 0) != 0) {
           throw ApiError(415, "bad-request", "the request must be application/json");
         }
@@ -181,14 +182,13 @@ class RigServer::Impl {
     });
   }
 
-  static void carry_out(const httplib::Request& request, httplib::Response& response,
-                        const std::function<ordered_json()>& work) {
+  static void carry_out(httplib::Response& response, const std::function<ordered_json()>& work) {
     try {
       answer(response, 200, work());
     } catch (const ApiError& error) {
-      answer_error(response, error.status(), error.code(), error.what(), request.path);
+      answer_error(response, error.status(), command_error(error.code(), error.what()));
     } catch (const std::exception& error) {
-      answer_error(response, 422, "failed", error.what(), request.path);
+      answer_error(response, 422, command_error(error));
     }
   }
 

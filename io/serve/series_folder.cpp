@@ -8,10 +8,16 @@
 #include "io/serve/api_error.h"
 #include "models/experiment/test_phases.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -26,6 +32,17 @@ constexpr std::size_t kLongestName = 40;
 bool ends_with(const std::string& text, const std::string& ending) {
   return text.size() >= ending.size() &&
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+// The number that a name begins with, or 0.
+long long number_of_name(const std::string& name) {
+  constexpr std::size_t kMostDigits = 15;
+  const std::size_t n_digits = std::min(name.find_first_not_of("0123456789"), name.size());
+  return n_digits == 0 || n_digits > kMostDigits ? 0 : std::stoll(name.substr(0, n_digits));
+}
+
+bool comes_before(const SeriesSpecimen& a, const SeriesSpecimen& b) {
+  return std::pair(number_of_name(a.name), a.name) < std::pair(number_of_name(b.name), b.name);
 }
 
 bool is_specimen_file(const std::string& file) {
@@ -66,6 +83,24 @@ std::vector<SeriesSpecimen::Capture> captures_of(const fs::path& first) {
   return captures;
 }
 
+// The captures of a specimen "a.2" would have the names of further captures of a specimen "a".
+void refuse_shared_names(std::vector<SeriesSpecimen>& specimens) {
+  for (SeriesSpecimen& specimen : specimens) {
+    const std::size_t dot = specimen.name.rfind('.');
+    if (dot == std::string::npos || dot + 1 == specimen.name.size() ||
+        specimen.name.find_first_not_of("0123456789", dot + 1) != std::string::npos) {
+      continue;
+    }
+    const std::string other = specimen.name.substr(0, dot);
+    if (std::any_of(specimens.begin(), specimens.end(),
+                    [&](const SeriesSpecimen& one) { return one.name == other; })) {
+      specimen.captures.clear();
+      specimen.trouble = specimen.name + ".toml: its captures would have the names of those of '" +
+                         other + "'. Rename the file";
+    }
+  }
+}
+
 }  // namespace
 
 std::string SeriesSpecimen::state() const {
@@ -83,7 +118,22 @@ SeriesFolder::SeriesFolder(fs::path folder) : folder_(fs::absolute(folder)) {
     throw std::runtime_error(folder_.string() +
                              " is a file; name the folder that holds the series");
   }
-  fs::create_directories(folder_);
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) {
+    throw std::runtime_error(folder_.string() + ": cannot create this folder: " + error.message() +
+                             ". Name one that you may write to");
+  }
+}
+
+std::string SeriesFolder::trouble() const {
+  std::error_code error;
+  if (!fs::is_directory(folder_, error)) {
+    return folder_.string() + " is gone. Bring it back, or start viscard serve with another folder";
+  }
+  if (::faccessat(AT_FDCWD, folder_.c_str(), W_OK | X_OK, AT_EACCESS) == 0) return "";
+  return folder_.string() + " cannot be written to: " + std::strerror(errno) +
+         ". What is in it is shown; for a test, start viscard serve with a folder of your own";
 }
 
 fs::path SeriesFolder::specimen_file(const std::string& name) const {
@@ -119,7 +169,8 @@ void SeriesFolder::save_test(const TestPlan& plan) const {
 
 std::vector<SeriesSpecimen> SeriesFolder::specimens() const {
   std::vector<SeriesSpecimen> specimens;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
+  std::error_code is_gone;  // trouble() reports it
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, is_gone)) {
     const std::string file = entry.path().filename().string();
     if (!is_specimen_file(file) || !entry.is_regular_file()) continue;
     SeriesSpecimen specimen;
@@ -134,8 +185,8 @@ std::vector<SeriesSpecimen> SeriesFolder::specimens() const {
     if (fs::exists(material)) specimen.material_file = material.filename().string();
     specimens.push_back(std::move(specimen));
   }
-  std::sort(specimens.begin(), specimens.end(),
-            [](const SeriesSpecimen& a, const SeriesSpecimen& b) { return a.name < b.name; });
+  refuse_shared_names(specimens);
+  std::sort(specimens.begin(), specimens.end(), comes_before);
   return specimens;
 }
 
@@ -151,9 +202,9 @@ SeriesSpecimen SeriesFolder::specimen_named(const std::string& name) const {
 std::string SeriesFolder::add_specimen(const Specimen& specimen) const {
   const std::string toml = toml_from_specimen(specimen);
   refuse_senseless(specimen_from_toml(toml, "specimen"), toml, "specimen");
-  int number = 1;
+  long long number = 1;
   for (const SeriesSpecimen& other : specimens()) {
-    number = std::max(number, 1 + std::atoi(other.name.c_str()));
+    number = std::max(number, 1 + number_of_name(other.name));
   }
   const std::string name = fmt::format("{:02}_{}", number, file_name_from(specimen.id));
   write_file(specimen_file(name), toml, false);

@@ -20,7 +20,7 @@ struct SeriesSpecimen {
   };
   std::string name;  // of the specimen file without .toml; also that of its captures
   std::optional<Specimen> specimen;
-  std::string trouble;            // why the specimen file cannot be read
+  std::string trouble;            // why the specimen cannot be tested
   std::vector<Capture> captures;  // in the order of the attempts
   std::string material_file;      // name in the folder, or empty
 
@@ -35,13 +35,15 @@ struct SeriesSpecimen {
 //   NAME.viscap, NAME.2.viscap ...    captures (io/flow/series_files.h)
 //   NAME.json                         the material of the fit
 //   NAME.truth.toml                   what an emulated specimen is made of
-// rig.toml in it is not a specimen.
+// rig.toml in it is not a specimen. The numbers that names begin with ("02_a", "10_b") order them.
 class SeriesFolder {
  public:
   // Creates the folder. Throws std::runtime_error if it is a file or cannot be created.
   explicit SeriesFolder(std::filesystem::path folder);
 
   const std::filesystem::path& path() const { return folder_; }
+  // Why nothing can be recorded in the folder, or "".
+  std::string trouble() const;
   std::filesystem::path test_file() const { return folder_ / "test.toml"; }
   std::filesystem::path specimen_file(const std::string& name) const;
   std::filesystem::path first_capture(const std::string& name) const;

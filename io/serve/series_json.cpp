@@ -12,6 +12,9 @@
 namespace viscard {
 namespace {
 
+// Deeper objects could exhaust the stack of the thread that copies or prints them.
+constexpr int kDeepestJson = 8;
+
 // Keys of the test that the page can change, all of the protocol "ramp-hold".
 struct TestKey {
   const char* key;
@@ -95,10 +98,14 @@ Json json_of_material(const std::filesystem::path& file) {
 }  // namespace
 
 Json object_from_text(const std::string& text) {
+  const auto is_flat = [](int depth, Json::parse_event_t, Json&) {
+    if (depth <= kDeepestJson) return true;
+    throw ApiError(400, "bad-json", "the request is nested too deeply");
+  };
   Json object;
   try {
-    object = Json::parse(text);
-  } catch (const Json::parse_error& error) {
+    object = Json::parse(text, is_flat);
+  } catch (const Json::exception& error) {
     throw ApiError(400, "bad-json", std::string("the request is not JSON: ") + error.what());
   }
   if (!object.is_object()) throw ApiError(400, "bad-json", "the request is not a JSON object");
@@ -151,6 +158,16 @@ TestPlan test_with(TestPlan plan, const Json& object) {
     return false;
   });
   return plan;
+}
+
+void refuse_unseen_test(const Json& shown, const TestPlan& plan) {
+  const Json saved = json_of_test(plan);
+  for (const auto& [key, value] : shown.items()) {
+    if (saved.contains(key) && saved.at(key) == value) continue;
+    throw ApiError(409, "changed",
+                   "test.toml has changed since this page showed it. Look at the expected course "
+                   "again, then start");
+  }
 }
 
 Specimen specimen_from(const Json& object) {

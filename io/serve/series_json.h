@@ -27,6 +27,9 @@ nlohmann::ordered_json json_of_preflight(const Preflight& expected, const Expect
 // The plan with the numbers that the object holds. Throws ApiError 400 naming the key for a value
 // that is not a number, or a key that is unknown.
 TestPlan test_with(TestPlan plan, const nlohmann::ordered_json& object);
+// Throws ApiError 409 if a value of the test that a page has shown differs from the plan: another
+// page, or an editor, has changed the file since.
+void refuse_unseen_test(const nlohmann::ordered_json& shown, const TestPlan& plan);
 Specimen specimen_from(const nlohmann::ordered_json& object);
 
 // Readable on the wire: rounded to what a load cell and a stage resolve.

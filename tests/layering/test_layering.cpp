@@ -145,6 +145,17 @@ TEST_CASE("only the command line knows Boost.Program_options", "[layering]") {
   }
 }
 
+TEST_CASE("one file includes the header of the HTTP library, which is expensive to compile",
+          "[layering]") {
+  std::vector<std::string> places;
+  for (const auto& [path, file] : tree().files) {
+    for (const std::string& include : file.outside_includes) {
+      if (include == "httplib.h") places.push_back(path);
+    }
+  }
+  CHECK(places == std::vector<std::string>{"io/serve/rig_server.cpp"});
+}
+
 TEST_CASE("what x.h declares is defined in x.cpp or in a file of that room without a header",
           "[layering]") {
   std::map<std::string, std::set<std::string>> declared_in, class_in;  // headers by name

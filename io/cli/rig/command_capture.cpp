@@ -1,11 +1,11 @@
-#include "io/basics/timestamp.h"
 #include "io/cli/rig/capture_words.h"
 #include "io/cli/rig/json_errors.h"
 #include "io/cli/rig/live_view.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/output_paths.h"
-#include "io/flow/capture_to_file.h"
+#include "io/flow/capture_setup.h"
+#include "io/flow/command_error.h"
 #include "io/flow/flow_json.h"
 #include "models/maths/text_of_number.h"
 
@@ -62,20 +62,15 @@ CommandSyntax capture_syntax(CaptureWords& words) {
   return syntax;
 }
 
-// An expired calibration is refused. One without a date is a warning on a real rig.
+// A calibration without a date is a warning on a real rig.
 void check_calibration(const CaptureWords& words, const CaptureSetup& setup, Streams& streams) {
   if (!words.rig_file || words.is_uncalibrated) return;
-  const std::string trouble = calibration_trouble(setup.rig.calibration, today());
-  if (trouble.empty()) return;
-  if (!last_valid_day(setup.rig.calibration).empty()) {
-    throw CodedError("calibration", trouble + "; or add --uncalibrated to capture without one");
-  }
-  if (!words.is_emulated) streams.err << "viscard: " << trouble << "\n";
+  const std::string doubt = refuse_expired_calibration(setup.rig.calibration);
+  if (!doubt.empty() && !words.is_emulated) streams.err << "viscard: " << doubt << "\n";
 }
 
 void check_before_start(const CaptureWords& words, const CaptureSetup& setup, Streams& streams) {
-  const Preflight expected = preflight(setup.rig, setup.plan, setup.specimen);
-  if (!expected.problems.empty()) throw CodedError("preflight", expected.problems.front());
+  const Preflight expected = safe_preflight(setup);
   for (const std::string& text : expected.warnings) streams.err << "viscard: " << text << "\n";
   const std::filesystem::path file = words.out_file;
   const auto beside = [&](const char* ending) {
@@ -119,21 +114,6 @@ void print_text(const CaptureOutcome& capture, std::ostream& out) {
   if (!capture.force_N.empty()) {
     out << "  force           " << sparkline(capture.force_N, kPictureWidth) << "\n";
   }
-}
-
-// The message also states where the punch was left, which the reason says behind the cause.
-ordered_json error_of_run(const RunOutcome& outcome) {
-  const bool has_cause = !outcome.cause.empty() && outcome.reason.rfind(outcome.cause, 0) == 0;
-  CommandError error = command_error(outcome.code.empty() ? "failed" : outcome.code,
-                                     has_cause ? outcome.cause : outcome.reason, outcome.phase);
-  if (has_cause) error.message += outcome.reason.substr(outcome.cause.size());
-  return ordered_json::parse(json_from_error(error));
-}
-
-ordered_json json_of_capture(const CaptureOutcome& capture) {
-  ordered_json json = json_from_outcome(capture.run, capture.file);
-  if (capture.run.status != "finished") json["error"] = error_of_run(capture.run);
-  return json;
 }
 
 // Waits until the person has changed the specimen; false if the person ended the series.
@@ -180,7 +160,7 @@ SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords
     }
     is_first = false;
     const CaptureOutcome outcome = capture_once(one, setup, command, streams);
-    result.runs.push_back(json_of_capture(outcome));
+    result.runs.push_back(json_from_outcome(outcome.run, outcome.file));
     if (!words.as_json) print_text(outcome, streams.out);
     if (outcome.run.status == "finished") continue;
     result.trouble = outcome.run.reason;
@@ -206,10 +186,9 @@ int capture(const Words& words, Streams& streams) {
     ordered_json series = {{"runs", result.runs}, {"reason", result.trouble}};
     if (!result.trouble.empty()) {
       const ordered_json& last = result.runs.empty() ? series : result.runs.back();
-      series["error"] =
-          last.contains("error")
-              ? last["error"]
-              : ordered_json::parse(json_from_error(command_error("interrupted", result.trouble)));
+      series["error"] = last.contains("error")
+                            ? last["error"]
+                            : json_from_error(command_error("interrupted", result.trouble));
     }
     streams.out << (steps.size() == 1 ? result.runs.at(0) : series).dump() << "\n";
   }

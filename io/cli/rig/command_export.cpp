@@ -5,6 +5,7 @@
 #include "io/cli/rig/json_errors.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/flow/command_error.h"
 #include "io/flow/table_from_capture.h"
 #include "models/maths/text_of_number.h"
 
@@ -64,8 +65,8 @@ int verify(const std::string& capture, bool is_json, Streams& streams) {
                                   {"n_records", check.n_records},
                                   {"faults", check.faults}};
     if (!check.faults.empty()) {
-      object["error"] = nlohmann::ordered_json::parse(
-          json_from_error({"damaged", check.faults.front(), capture, "use another copy of it"}));
+      object["error"] =
+          json_from_error({"damaged", check.faults.front(), capture, "use another copy of it"});
     }
     streams.out << object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
                 << "\n";

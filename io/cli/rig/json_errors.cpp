@@ -1,132 +1,31 @@
 #include "io/cli/rig/json_errors.h"
 
-#include "rig/lines/rig_error.h"
-#include "rig/run/run_control.h"
+#include "io/flow/command_error.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <ostream>
-#include <sstream>
-#include <vector>
 
 namespace viscard {
 namespace {
 
-// Place of the hint: after the first sentence, or after the last semicolon.
-std::size_t begin_of_hint(const std::string& text) {
-  for (std::size_t i = text.find(". "); i != std::string::npos; i = text.find(". ", i + 1)) {
-    if (i + 2 < text.size() && std::isupper(static_cast<unsigned char>(text[i + 2])) != 0) return i;
-  }
-  return text.rfind("; ");
-}
-
-std::vector<std::string> words_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) {
-    const std::size_t first = word.find_first_not_of("'\"(");
-    const std::size_t last = word.find_last_not_of("'\",;:.)");
-    if (first != std::string::npos && last != std::string::npos && last >= first) {
-      words.push_back(word.substr(first, last - first + 1));
-    }
-  }
-  return words;
-}
-
-// "rig.toml:10": a file with its line.
-bool is_line_of_file(const std::string& word) {
-  const std::size_t colon = word.rfind(':');
-  return colon != std::string::npos && colon > 0 && colon + 1 < word.size() &&
-         word.find_first_not_of("0123456789", colon + 1) == std::string::npos;
-}
-bool is_option(const std::string& word) {
-  return word.size() > 2 && word.rfind("--", 0) == 0;
-}
-bool is_port(const std::string& word) {
-  return word.rfind("/dev/", 0) == 0;
-}
-bool is_section(const std::string& word) {
-  return word.front() == '[' && word.back() == ']';
-}
-bool is_file(const std::string& word) {
-  const std::size_t dot = word.rfind('.');
-  return word.find('/') != std::string::npos ||
-         (dot != std::string::npos && dot > 0 && dot + 1 < word.size() &&
-          std::isalpha(static_cast<unsigned char>(word[dot + 1])) != 0);
-}
-
-// The place that the text names: the first of the most telling kind.
-std::string place_in(const std::string& text) {
-  const std::vector<std::string> words = words_of(text);
-  if (!words.empty() && is_line_of_file(words.front())) return words.front();
-  for (const auto is_place : {is_port, is_option, is_section}) {
-    const auto found = std::find_if(words.begin(), words.end(), is_place);
-    if (found != words.end()) return *found;
-  }
-  return !words.empty() && is_file(words.front()) ? words.front() : "";
-}
-
-std::string code_of_text(const std::string& text) {
-  const std::vector<std::string> words = words_of(text);
-  if (!words.empty() && is_line_of_file(words.front())) return "input";
-  return text.find("exists already") != std::string::npos ? "exists" : "failed";
-}
-
-template <typename Type>
-bool is_of(const std::exception& error) {
-  return dynamic_cast<const Type*>(&error) != nullptr;
-}
-
-std::string code_of(const std::exception& error) {
-  if (const auto* coded = dynamic_cast<const CodedError*>(&error)) return coded->code();
-  if (is_of<UsageError>(error)) return "usage";
-  if (is_of<PortHungUp>(error)) return "device-lost";
-  if (is_of<DeviceRestarted>(error)) return "device-restarted";
-  if (is_of<PortUnavailable>(error)) return "port";
-  if (is_of<RunInterrupted>(error)) return "interrupted";
-  if (is_of<RigError>(error)) return "device";
-  if (is_of<std::filesystem::filesystem_error>(error)) return "file";
-  if (is_of<std::invalid_argument>(error)) return "input";
-  return code_of_text(error.what());
+CommandError error_of(const std::exception& error) {
+  const bool is_usage = dynamic_cast<const UsageError*>(&error) != nullptr;
+  return is_usage ? command_error("usage", error.what()) : command_error(error);
 }
 
 }  // namespace
-
-CommandError command_error(const std::string& code, const std::string& text,
-                           const std::string& where) {
-  CommandError error{code, text, where.empty() ? place_in(text) : where, ""};
-  const std::size_t cut = begin_of_hint(text);
-  if (cut == std::string::npos) return error;
-  error.message = text.substr(0, cut);
-  error.hint = text.substr(cut + 2);
-  return error;
-}
-
-CommandError command_error(const std::exception& error) {
-  const auto* of_file = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
-  if (of_file != nullptr) {
-    return {"file", of_file->code().message(), of_file->path1().string(), "choose another place"};
-  }
-  return command_error(code_of(error), error.what());
-}
-
-std::string json_from_error(const CommandError& error) {
-  const nlohmann::ordered_json json = {{"code", error.code},
-                                       {"message", error.message},
-                                       {"where", error.where},
-                                       {"hint", error.hint}};
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
 
 int with_json_errors(const Words& words, Streams& streams, const std::function<int()>& command) {
   try {
     return command();
   } catch (const std::exception& error) {
     if (std::find(words.begin(), words.end(), "--json") != words.end()) {
-      streams.out << R"({"error":)" << json_from_error(command_error(error)) << "}\n";
+      const nlohmann::ordered_json json = {{"error", json_from_error(error_of(error))}};
+      // Messages may quote bytes of a file that are not UTF-8.
+      streams.out << json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+                  << "\n";
     }
     throw;
   }

@@ -82,10 +82,10 @@ int run_serve(const Words& words, Streams& streams) {
   }
   streams.out << std::flush;
   while (!StopOnSignal::is_asked()) std::this_thread::sleep_for(kPoll);
-  const bool was_running = server.last_run().is_running;
+  const LiveState before = server.last_run();
   server.close();
-  if (!was_running) return kDone;
   const LiveState run = server.last_run();
+  if (!before.is_running && run.number == before.number) return kDone;
   if (run.outcome && run.outcome->status == "finished") return kDone;
   streams.err << "viscard: " << (run.outcome ? run.outcome->reason : run.trouble) << "\n";
   return kFailed;

@@ -1,11 +1,15 @@
 // Requests to viscard serve. The token stands behind "#" in the printed address; it is kept for this
 // tab only and removed from the address line.
 
-const kTokenKey = "viscard-token";
+import { sentence } from "./format.js";
 
+const kTokenKey = "viscard-token";
+const kLongest_ms = 10000;  // for a question, or to stop; a fit or a check takes as long as it takes
+
+// A link within the page has a hash too.
 function token() {
   const given = location.hash.slice(1);
-  if (given) {
+  if (/^[0-9a-f]{32}$/.test(given)) {
     sessionStorage.setItem(kTokenKey, given);
     history.replaceState(null, "", location.pathname);
   }
@@ -15,7 +19,7 @@ function token() {
 // What viscard serve answers when it cannot do what was asked; `code` is one short word.
 export class Refused extends Error {
   constructor(error) {
-    super(error.hint ? `${error.message}. ${error.hint}` : error.message);
+    super([error.message, error.hint].map(sentence).join(" ").trim());
     this.code = error.code;
   }
 }
@@ -23,12 +27,13 @@ export class Refused extends Error {
 // No answer at all: the program has ended, or this computer slept.
 export class Unreachable extends Error {}
 
-async function request(method, path, body) {
+async function request(method, path, body, longest_ms) {
   const headers = { "X-Viscard-Token": token() };
   if (body !== undefined) headers["Content-Type"] = "application/json";
   let response, json;
   try {
-    response = await fetch(path, { method, headers, body: body === undefined ? undefined : JSON.stringify(body) });
+    response = await fetch(path, { method, headers, body: body === undefined ? undefined : JSON.stringify(body),
+                                   signal: longest_ms ? AbortSignal.timeout(longest_ms) : undefined });
     json = await response.json();
   } catch {
     throw new Unreachable("viscard serve does not answer");
@@ -37,5 +42,6 @@ async function request(method, path, body) {
   return json;
 }
 
-export const ask = (path) => request("GET", path);
+export const ask = (path) => request("GET", path, undefined, kLongest_ms);
 export const order = (path, body = {}) => request("POST", path, body);
+export const orderSoon = (path, body = {}) => request("POST", path, body, kLongest_ms);

@@ -1,6 +1,6 @@
 // Puts the parts of the page together and asks viscard serve what is new. The page holds nothing that
 // the folder of the series and the running test do not: reloading or closing it changes nothing.
-import { ask, Refused } from "./api.js";
+import { ask, Unreachable } from "./api.js";
 import { element, sentence, showText } from "./format.js";
 import { refreshPlan, showPlan, showStart, startPlan } from "./plan.js";
 import { fitCapture, startResult } from "./result.js";
@@ -22,10 +22,10 @@ async function refresh() {
 }
 
 function showLink(error) {
-  const isLost = Boolean(error);
+  const isLost = error instanceof Unreachable || (error && error.code === "wrong-token");
   showText(element("link"), isLost ? "not connected" : "connected");
-  if (!isLost) return showText(element("lost"), "");
-  const text = error instanceof Refused ? sentence(error.message)
+  if (!error) return showText(element("lost"), "");
+  const text = !(error instanceof Unreachable) ? sentence(error.message)
     : `${sentence(error.message)} If it has ended, start it again and open the address that it prints. `
       + (isRunning() ? "A run was going on: look at the rig." : "");
   showText(element("lost"), text);

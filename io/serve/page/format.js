@@ -40,6 +40,9 @@ export function clock(seconds) {
   return h > 0 ? `${h}:${two(m)}:${two(s)}` : `${m}:${two(s)}`;
 }
 
+// "7:30 min", "2:07:30 h"
+export const duration = (seconds) => `${clock(seconds)} ${seconds > 3599 ? "h" : "min"}`;
+
 // The unit in which moduli of this size are shown.
 export function modulusUnit(Pa) {
   const size = Math.abs(Pa);

@@ -1,7 +1,7 @@
 // The test: its numbers, its expected course as a picture, and the start of a run.
 import { order } from "./api.js";
 import { Chart, limitsOf } from "./charts.js";
-import { clock, element, list, make, numberField, numberFrom, show, showText, sentence, significant } from "./format.js";
+import { duration, element, list, make, numberField, numberFrom, show, showText, sentence, significant } from "./format.js";
 import { chosenSpecimen } from "./series.js";
 
 const kFields = [{ key: "depth_m", label: "Depth", unit: "mm", factor: 1e-3 },
@@ -15,7 +15,7 @@ const kFields = [{ key: "depth_m", label: "Depth", unit: "mm", factor: 1e-3 },
                  { key: "baseline_s", label: "Rest before and after", unit: "s", factor: 1 }];
 const kWait_ms = 400;  // after the last key
 
-let state = null, expected = null, isGood = false, timer = 0, asked = 0, onStart = () => {};
+let state = null, expected = null, isGood = false, isStarting = false, timer = 0, asked = 0, onStart = () => {};
 const chart = new Chart(element("plan-chart"), {
   labels: ["time", "force", "depth"], colors: ["force", "depth"], right: "depth",
   limits: () => limitsOf(state && state.rig), phases: () => (expected ? expected.phases : []),
@@ -40,8 +40,9 @@ function changes() {
   const test = {};
   for (const field of kFields) {
     const input = element(`plan-${field.key}`);
-    if (input.value === input.dataset.saved) continue;
+    input.removeAttribute("aria-invalid");
     const value = numberFrom(input.value);
+    if (value === numberFrom(input.dataset.saved)) continue;  // "0,13" is "0.13"
     input.setAttribute("aria-invalid", Number.isNaN(value));
     if (Number.isNaN(value)) throw new Error(`${field.label}: "${input.value}" is not a number.`);
     test[field.key] = value * field.factor;
@@ -53,7 +54,9 @@ function fillForm() {
   for (const field of kFields) {
     const input = element(`plan-${field.key}`);
     const text = String(Number((state.test[field.key] / field.factor).toPrecision(10)));
-    if (input.value === (input.dataset.saved ?? "")) input.value = text;
+    const saved = input.dataset.saved ?? "";
+    const isTouched = numberFrom(input.value) !== numberFrom(saved) && input.value !== saved;
+    if (!isTouched && numberFrom(input.value) !== Number(text)) input.value = text;
     input.dataset.saved = text;
   }
 }
@@ -73,16 +76,17 @@ function showExpected() {
   const course = expected.course;
   chart.show(course.time_s.map((t, i) => [t, course.force_N[i], course.depth_m[i] * 1e6]));
   chart.rebuild();
-  const minutes = clock((expected.duration_s + expected.approach_at_most_s) / state.clock_speed);
+  const longest = duration((expected.duration_s + expected.approach_at_most_s) / state.clock_speed);
   element("plan-summary").textContent =
     `At most ${significant(expected.peak_force_N, 3)} N are expected; the stage stops at ${significant(expected.limit_N, 3)} N. `
     + `For this specimen a depth of ${significant(Math.floor(expected.deepest_safe_depth_m * 1e6) * 1e-3, 4)} mm is still safe. `
-    + `With the approach the test takes at most ${minutes} (min:s).`;
+    + `With the approach the test takes at most ${longest}.`;
   element("plan-chart").setAttribute("aria-label",
     `Expected course: up to ${significant(expected.peak_force_N, 3)} N at ${significant(Math.max(...course.depth_m) * 1e6, 4)} µm; limit ${significant(expected.limit_N, 3)} N`);
 }
 
 export async function refreshPlan() {
+  const number = ++asked;
   isGood = false;
   showStart();
   const specimen = chosenSpecimen();
@@ -91,19 +95,20 @@ export async function refreshPlan() {
     showPicture(false);
     return;
   }
-  const number = ++asked;
   try {
     const test = isEditable() ? changes() : {};
     const answer = await order("/api/preflight", { specimen, test });
     if (number !== asked) return;  // a later question is under way
     expected = answer;
     showExpected();
-    isGood = expected.problems.length === 0;
-    if (isGood && Object.keys(test).length > 0) {
+    const isSafe = expected.problems.length === 0;
+    if (isSafe && Object.keys(test).length > 0) {  // a run takes its numbers from the file
       const saved = await order("/api/test", { test });
+      if (number !== asked) return;
       Object.assign(state.test, saved);
       fillForm();
     }
+    isGood = isSafe;
   } catch (error) {
     if (number !== asked) return;
     problem(error.message);
@@ -114,10 +119,11 @@ export async function refreshPlan() {
 function reasonNotToStart() {
   if (!state) return "";
   if (state.rig.trouble) return "The rig file cannot be used; see Rig.";
+  if (state.folder_trouble) return "Nothing can be recorded; see Specimens.";
   if (!chosenSpecimen()) return "First add a specimen.";
   if (state.job) return `Busy with ${state.job}.`;
   const entry = state.specimens.find((other) => other.name === chosenSpecimen());
-  if (entry && entry.trouble) return "The file of this specimen cannot be read.";
+  if (entry && entry.trouble) return "This specimen cannot be tested; see Specimens.";
   if (entry && entry.state === "running") return "Another program captures this specimen.";
   if (!isGood) return "";
   return state.is_emulated ? "" : `Put ${chosenSpecimen()} under the punch, clear of it.`;
@@ -132,7 +138,7 @@ export function showStart() {
   const name = chosenSpecimen();
   const button = element("start");
   button.textContent = !name ? "Start" : isRepeat() ? `Repeat ${name}` : `Start ${name}`;
-  button.disabled = !isGood || !state || state.job !== "";
+  button.disabled = !isGood || isStarting || !state || state.job !== "" || state.folder_trouble !== "";
   element("start-reason").textContent = reasonNotToStart();
 }
 
@@ -149,15 +155,20 @@ export function showPlan(newState) {
 }
 
 async function start() {
-  element("start").disabled = true;
+  isStarting = true;
+  showStart();
+  showText(element("start-error"), "");
   try {
-    await order("/api/run", { specimen: chosenSpecimen(), repeat: isRepeat(),
-                             lift: element("lift").checked });
-    problem("");
+    // The test as it was shown: it is refused if test.toml has changed since.
+    await order("/api/run", { specimen: chosenSpecimen(), test: state.test,
+                             repeat: isRepeat(), lift: element("lift").checked });
+    element("lift").checked = false;  // decided anew for each run
   } catch (error) {
-    problem(error.message);
+    showText(element("start-error"), sentence(error.message));
   }
+  isStarting = false;
   await onStart();
+  showStart();
 }
 
 export function startPlan(handlers) {
@@ -167,7 +178,9 @@ export function startPlan(handlers) {
   form.addEventListener("submit", (event) => event.preventDefault());
   form.addEventListener("input", () => {
     isGood = false;
+    ++asked;  // answers to earlier questions no longer count
     showStart();
+    showText(element("start-error"), "");
     clearTimeout(timer);
     timer = setTimeout(refreshPlan, kWait_ms);
   });

@@ -2,8 +2,11 @@
 import { order } from "./api.js";
 import { Chart } from "./charts.js";
 import { element, list, make, modulusUnit, range, sentence, show, showText, significant } from "./format.js";
+import { isRunning } from "./run.js";
 
-let onFitted = () => {}, starts = [];
+const kRetry_ms = 1000, kMostTries = 120;
+
+let onFitted = () => {}, starts = [], asked = 0;
 
 // The first hold, in which the force changes by some per cent only: its rows, or none.
 function firstHold(data) {
@@ -62,7 +65,8 @@ function showFit(fit) {
   element("result-table").tBodies[0].replaceChildren(...rowsOf(fit).map(([name, value, interval]) =>
     make("tr", {}, make("th", { scope: "row" }, ...name), make("td", { class: "number" }, value),
          make("td", { class: "number" }, interval))));
-  const saved = fit.material_file ? ` The material is in ${fit.material_file}.` : "";
+  const saved = fit.material_file ? ` The material is in ${fit.material_file}.`
+    : fit.material_trouble ? ` The material was not saved: ${sentence(fit.material_trouble)}` : "";
   element("result-note").textContent =
     `Intervals cover the scatter alone; geometry, calibration and frame add ${significant(100 * fit.systematic_relative, 2)} % to all moduli together.${saved}`;
   list(element("result-flags"), fit.flags.map((flag) => sentence(flag.text)));
@@ -75,7 +79,21 @@ function showFit(fit) {
   residualChart.rebuild();
 }
 
+// Another page may fit just now, for example the same run.
+async function fitWhenFree(capture, onWait) {
+  for (let n = 0; ; ++n) {
+    try {
+      return await order("/api/fit", { capture });
+    } catch (error) {
+      if (error.code !== "busy" || isRunning() || n >= kMostTries) throw error;
+      onWait(error);
+    }
+    await new Promise((done) => setTimeout(done, kRetry_ms));
+  }
+}
+
 export async function fitCapture(capture) {
+  const number = ++asked;
   show(element("result"), true);
   show(element("result-body"), false);
   showText(element("result-name"), capture);
@@ -83,12 +101,16 @@ export async function fitCapture(capture) {
   status.className = "";
   showText(status, "Fitting …");
   try {
-    const fit = await order("/api/fit", { capture });
+    const fit = await fitWhenFree(capture, (error) => {
+      if (number === asked) showText(status, `Waiting: ${sentence(error.message)}`);
+    });
+    if (number !== asked) return;  // the person asked for another fit meanwhile
     showFit(fit);
     status.className = fit.trustworthy && fit.status === "finished" ? "good" : "note";
     showText(status, fit.status !== "finished" ? "The run was not finished; this is a fit of what was recorded."
       : fit.trustworthy ? "The fit describes the data." : "Do not trust this fit before you have read the notes below.");
   } catch (error) {
+    if (number !== asked) return;
     status.className = "alert";
     showText(status, sentence(error.message));
   }

@@ -1,5 +1,5 @@
 // The running test: force and depth as they arrive, time left, and the two ways to stop it.
-import { ask, order } from "./api.js";
+import { ask, orderSoon } from "./api.js";
 import { Chart, limitsOf, thinned } from "./charts.js";
 import { clock, element, fixed, list, make, show, showText, sentence, significant } from "./format.js";
 
@@ -20,7 +20,7 @@ const chart = new Chart(element("run-chart"), {
 
 function take(answer) {
   const rows = answer.points.time_s.map((t, i) => [t, answer.points.force_N[i], answer.points.depth_m[i] * 1e6]);
-  const isNew = !run || run.file !== answer.file || answer.points.from !== points.length;
+  const isNew = !run || run.number !== answer.number || answer.points.from !== points.length;
   points = isNew && answer.points.from === 0 ? rows : points.slice(0, answer.points.from).concat(rows);
   keepEvery = answer.points.keep_every;
   run = answer;
@@ -48,7 +48,7 @@ function showOutcome() {
   if (run.is_running) return place.replaceChildren();
   const outcome = run.outcome;
   if (!outcome) {
-    return place.replaceChildren(make("p", { class: "alert" }, `The test did not begin: ${sentence(run.trouble)}`));
+    return place.replaceChildren(make("p", { class: "alert", id: "outcome-text" }, `${run.phase ? "The run failed" : "The test did not begin"}: ${sentence(run.trouble)}`));
   }
   const doubts = make("ul", { class: "note" });
   list(doubts, outcome.doubts);
@@ -72,8 +72,8 @@ export const isRunning = () => Boolean(run && run.is_running);
 export async function pollRun() {
   const before = run;
   const answer = await ask(`/api/run?from=${points.length}&keep_every=${keepEvery}`);
-  if (!answer.is_known) return false;
-  const isOther = !before || before.file !== answer.file;
+  if (answer.number === 0) return false;
+  const isOther = !before || before.number !== answer.number;
   if (isOther && answer.points.from !== 0) {  // the points of an earlier run were counted
     points = [];
     keepEvery = 0;
@@ -101,7 +101,7 @@ export async function pollRun() {
 async function stop(how) {
   element("stop-gently").disabled = true;
   try {
-    await order("/api/run/stop", { how });
+    await orderSoon("/api/run/stop", { how });
   } catch (error) {
     element("stop-gently").disabled = false;
     showText(element("stop-text"), `${sentence(error.message)} Use the emergency stop of the stage if it still moves.`);

@@ -125,6 +125,7 @@ function resumeText(specimens) {
 let drawn = "";
 export function showSeries(state) {
   showText(element("folder"), state.folder);
+  showText(element("folder-trouble"), sentence(state.folder_trouble));
   const names = state.specimens.map((entry) => entry.name);
   const had = chosen;
   if (!names.includes(chosen)) chosen = state.next || names[names.length - 1] || null;

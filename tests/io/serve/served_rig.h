@@ -20,11 +20,14 @@ struct ApiAnswer {
   Json json;
 };
 
-// viscard serve on an emulated rig whose clock runs fast, and a client that has its token.
+// viscard serve, by default on an emulated rig whose clock runs fast, and a client that has its token.
 class ServedRig {
  public:
   explicit ServedRig(double speed = 60.0)
-      : server_({.folder = scratch_ / "series", .is_emulated = true, .seed = 3, .speed = speed}),
+      : ServedRig(ServeOptions{.is_emulated = true, .seed = 3, .speed = speed}) {}
+  // The folder is one of its own.
+  explicit ServedRig(ServeOptions options)
+      : server_(with_folder(std::move(options), scratch_ / "series")),
         client_("127.0.0.1", server_.port()) {
     client_.set_read_timeout(60);
     client_.set_default_headers({{"X-Viscard-Token", server_.token()}});
@@ -71,6 +74,10 @@ class ServedRig {
   }
 
  private:
+  static ServeOptions with_folder(ServeOptions options, const std::filesystem::path& folder) {
+    options.folder = folder;
+    return options;
+  }
   static ApiAnswer answer_of(const httplib::Result& result) {
     if (!result) return {};
     return {result->status, Json::parse(result->body, nullptr, false)};

@@ -1,4 +1,5 @@
 // The page itself, in Chromium.
+#include "io/basics/atomic_file.h"
 #include "io/capture/capture_file.h"
 #include "tests/io/serve/browser.h"
 #include "tests/io/serve/served_rig.h"
@@ -57,6 +58,8 @@ TEST_CASE("a person starts a run on the page, sees the force rise, and stops it"
   REQUIRE(
       browser.wait_until("return document.getElementById('link').textContent === 'connected'", 20));
   CHECK(browser.run("return location.hash") == "");  // the token does not stay in the address line
+  browser.run("document.querySelector('a.skip').click()");  // a hash that is no token
+  CHECK(browser.run("return location.hash") == "#content");
   picture(browser, "1_empty");
 
   browser.click("#add-submit");
@@ -87,6 +90,24 @@ TEST_CASE("a person starts a run on the page, sees the force rise, and stops it"
   }
   CHECK(run.stage_reports.back().position_m < deepest_m - 0.4e-3);
   CHECK(browser.errors() == nlohmann::json::array());
+}
+
+TEST_CASE("names and messages are shown as text, whatever they contain", "[serve][slow]") {
+  if (is_without_browser()) return;
+  ScratchFolder scratch;
+  RigServer server({.folder = scratch / "series", .is_emulated = true, .speed = 40.0});
+  const std::string mark = "<img src=x onerror=document.title='taken'>";
+  write_file(scratch / ("series/01_" + mark + ".toml"), "id = '" + mark + "'\n[" + mark + "\n",
+             false);
+  write_file(scratch / "series/test.toml", "name = \"" + mark + "\"\n", false);
+  Browser browser(scratch / "profile");
+  browser.open(server.address());
+  REQUIRE(browser.wait_until(
+      "return document.getElementById('specimens').textContent.includes('onerror')", 20));
+  REQUIRE(browser.wait_until(
+      "return document.getElementById('plan-name').textContent.includes('onerror')", 20));
+  CHECK(browser.run("return document.querySelectorAll('img').length") == 0);
+  CHECK(browser.run("return document.title") == "viscard");
 }
 
 TEST_CASE("three specimens go through the page one after another, with the fit of each",

@@ -1,11 +1,14 @@
 // Who is answered, and what a bad request gets.
+#include "io/basics/atomic_file.h"
 #include "io/config/config_file.h"
 #include "io/serve/page_files.h"
 #include "io/serve/request_guard.h"
+#include "tests/io/serve/raw_request.h"
 #include "tests/io/serve/served_rig.h"
 #include "tests/support/error_text.h"
 
 #include <catch2/catch.hpp>
+#include <unistd.h>
 
 #include <set>
 
@@ -47,6 +50,21 @@ TEST_CASE("only the own page with the token is answered", "[serve]") {
   CHECK(status_with(rig, {right, {"Host", "127.0.0.1:1"}}) == 403);
 }
 
+TEST_CASE("what follows a refused request on its connection is not read", "[serve]") {
+  ServedRig rig;
+  const std::string port = std::to_string(rig.server().port());
+  const std::string second = "GET /api/state HTTP/1.1\r\nHost: 127.0.0.1:" + port +
+                             "\r\nX-Viscard-Token: " + rig.server().token() + "\r\n\r\n";
+  const std::string answer =
+      test::answer_to_bytes(rig.server().port(),
+                            "POST /api/run HTTP/1.1\r\nHost: example.org\r\nContent-Type: "
+                            "text/plain\r\nContent-Length: " +
+                                std::to_string(second.size()) + "\r\n\r\n" + second);
+  CHECK(contains(answer, "HTTP/1.1 403"));
+  CHECK_FALSE(contains(answer, "HTTP/1.1 200"));
+  CHECK(contains(answer, "Connection: close"));
+}
+
 TEST_CASE("each start of the program has another token", "[serve]") {
   std::set<std::string> tokens;
   for (int i = 0; i < 100; ++i) tokens.insert(random_token());
@@ -85,6 +103,10 @@ TEST_CASE("a bad request is refused in words", "[serve]") {
   CHECK(post("/api/run", "{", "application/json")->status == 400);
   CHECK(contains(post("/api/run", "{", "application/json")->body, "the request is not JSON"));
   CHECK(post("/api/run", "[]", "application/json")->status == 400);
+  CHECK(post("/api/test", R"({"test": {"hold_s": 1e999}})", "application/json")->status == 400);
+  const std::string deep =
+      R"({"test": {"hold_s": )" + std::string(20'000, '[') + std::string(20'000, ']') + "}}";
+  CHECK(post("/api/test", deep, "application/json")->status == 400);
   CHECK(post("/api/run", "{}", "text/plain")->status == 415);
   CHECK(post("/api/run", std::string(100'000, 'x'), "application/json")->status == 413);
   CHECK(code_of(rig.order("/api/run", Json::object())) == "bad-value");
@@ -96,6 +118,10 @@ TEST_CASE("a bad request is refused in words", "[serve]") {
   CHECK(code_of(rig.order("/api/run/stop", {{"how", "gently"}})) == "no-run");
   CHECK(rig.ask("/api/run?from=-1").status == 400);
   CHECK(rig.ask("/api/nothing").status == 404);
+  const Json error = rig.order("/api/run", {{"specimen", "none"}}).json.at("error");
+  CHECK(error.size() == 4);
+  CHECK(error.at("message") == "there is no specimen 'none' in " + rig.folder().string());
+  CHECK(error.at("hint") == "Choose one of the list, or add it");
 }
 
 TEST_CASE("no name leads out of the folder of the series", "[serve]") {
@@ -141,7 +167,7 @@ TEST_CASE("the pre-flight check reaches the page in numbers and words", "[serve]
   CHECK(read_test(rig.folder() / "test.toml").depth_m == Approx(0.25e-3));
   const auto refused = rig.order("/api/run", {{"specimen", name}});
   CHECK(refused.status == 422);
-  CHECK(code_of(refused) == "refused");
+  CHECK(code_of(refused) == "preflight");
   const auto senseless = rig.order("/api/test", {{"test", {{"hold_s", 1e30}}}});
   CHECK(senseless.status == 422);
   CHECK(contains(senseless.json.at("error").at("message"), "hold"));
@@ -161,6 +187,71 @@ TEST_CASE("a specimen without a capture can be removed, a mistake in a file is s
   CHECK(contains(shown.at("trouble"), "07_by_hand.toml:"));
   CHECK(rig.order("/api/specimens", {{"specimen", ServedRig::specimen()}}).json.at("name") ==
         "08_pdms-1-10");
+}
+
+TEST_CASE("specimens are ordered by the numbers of their names, and never share captures",
+          "[serve]") {
+  ServedRig rig;
+  const std::string file = read_file(rig.folder() / (rig.prepare() + ".toml"));
+  for (const char* name : {"100_c", "9_b", "9_b.2", "20251122204500123_x"}) {
+    write_file(rig.folder() / (std::string(name) + ".toml"), file, false);
+  }
+  const Json specimens = rig.ask("/api/state").json.at("specimens");
+  std::string names;
+  for (const Json& one : specimens) names += one.at("name").get<std::string>() + " ";
+  CHECK(names == "20251122204500123_x 01_pdms-1-10 9_b 9_b.2 100_c ");
+  CHECK(contains(specimens.at(3).at("trouble"), "would have the names of those of '9_b'"));
+  CHECK(rig.order("/api/run", {{"specimen", "9_b.2"}}).status == 422);
+  CHECK(rig.order("/api/preflight", {{"specimen", "9_b.2"}}).status == 422);
+  CHECK(rig.order("/api/specimens", {{"specimen", ServedRig::specimen()}}).json.at("name") ==
+        "101_pdms-1-10");
+}
+
+TEST_CASE("a test that has changed since the page showed it is not started", "[serve]") {
+  ServedRig rig;
+  const std::string name = rig.prepare();
+  const Json shown = rig.ask("/api/state").json.at("test");
+  REQUIRE(rig.order("/api/test", {{"test", {{"hold_s", 5.0}}}}).status == 200);
+  const auto refused = rig.order("/api/run", {{"specimen", name}, {"test", shown}});
+  CHECK(refused.status == 409);
+  CHECK(code_of(refused) == "changed");
+  CHECK(rig.ask("/api/state").json.at("job") == "");
+}
+
+TEST_CASE("a folder that is gone or cannot be written to is reported, and nothing is lost",
+          "[serve]") {
+  ServedRig rig;
+  const std::string name = rig.prepare();
+  const Json wanted = {{"specimen", ServedRig::specimen()}};
+  CHECK(rig.ask("/api/state").json.at("folder_trouble") == "");
+  namespace fs = std::filesystem;
+  fs::permissions(rig.folder().parent_path(), fs::perms(0755));
+  fs::permissions(rig.folder(), fs::perms(0555));
+  const bool is_root = ::geteuid() == 0;
+  if (is_root) REQUIRE(::seteuid(65534) == 0);
+  const Json state = rig.ask("/api/state").json;
+  const auto refused = rig.order("/api/specimens", wanted);
+  const auto test = rig.order("/api/test", {{"test", {{"hold_s", 5.0}}}});
+  if (is_root) REQUIRE(::seteuid(0) == 0);
+  fs::permissions(rig.folder(), fs::perms(0755));
+  CHECK(contains(state.at("folder_trouble"), "cannot be written to: Permission denied"));
+  CHECK(state.at("specimens").size() == 1);
+  CHECK(refused.status == 422);
+  CHECK(contains(refused.json.at("error").at("where"), rig.folder().string()));
+  CHECK(test.status == 422);
+  CHECK(read_test(rig.folder() / "test.toml").hold_s == 4.0);
+
+  fs::remove_all(rig.folder());
+  CHECK(contains(rig.ask("/api/state").json.at("folder_trouble"), "is gone"));
+  CHECK(rig.order("/api/specimens", wanted).status == 422);
+  CHECK(rig.order("/api/run", {{"specimen", name}}).status == 404);
+}
+
+TEST_CASE("a folder that cannot be made is refused in words", "[serve]") {
+  const std::string text =
+      test::error_text([] { RigServer({.folder = "/proc/viscard/series", .is_emulated = true}); });
+  CHECK(contains(text, "/proc/viscard/series: cannot create this folder"));
+  CHECK(contains(text, "Name one that you may write to"));
 }
 
 TEST_CASE("a port that another program has is refused", "[serve]") {

@@ -7,6 +7,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <thread>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -44,8 +46,10 @@ TEST_CASE("a run that the page starts is captured, fitted, and found again in th
   CHECK(second.json.at("error").at("code") == "busy");
   CHECK(contains(second.json.at("error").at("message"), "the run of " + name + " must end"));
 
+  CHECK(rig.ask("/api/state").json.at("specimens").at(0).at("state") == "running");
   const Json run = rig.wait_for_end();
   INFO(run.dump());
+  CHECK(run.at("number") == 1);
   REQUIRE(run.at("outcome").at("status") == "finished");
   const Json& points = run.at("points");
   CHECK(largest(points.at("force_N")) > 1.0);
@@ -85,6 +89,7 @@ TEST_CASE("stop ends the run, lifts the punch and keeps the record", "[serve][pt
   const Json run = rig.wait_for_end();
   INFO(run.dump());
   CHECK(run.at("outcome").at("status") == "interrupted");
+  CHECK(run.at("outcome").at("error").at("code") == "interrupted");
   CHECK(contains(run.at("outcome").at("reason"), "above the contact"));
   CHECK(read_capture(rig.folder() / (name + ".viscap")).status == "interrupted");
   CHECK(is_punch_lifted(rig.folder() / (name + ".viscap")));
@@ -135,6 +140,40 @@ TEST_CASE("after a crash the folder shows what to run again, in a new file", "[s
   REQUIRE(rig.order("/api/run", {{"specimen", name}}).json.at("file") == name + ".2.viscap");
   CHECK(rig.wait_for_end().at("outcome").at("status") == "finished");
   CHECK(rig.ask("/api/state").json.at("specimens").at(0).at("state") == "finished");
+}
+
+TEST_CASE("of two pages that start at the same moment one is refused", "[serve][pty]") {
+  ServedRig rig;
+  const std::string name = rig.prepare();
+  std::vector<int> statuses(4, 0);
+  std::vector<std::thread> pages;
+  for (int& status : statuses) {
+    pages.emplace_back([&] {
+      httplib::Client client("127.0.0.1", rig.server().port());
+      client.set_default_headers({{"X-Viscard-Token", rig.server().token()}});
+      const Json wanted = {{"specimen", name}};
+      status = client.Post("/api/run", wanted.dump(), "application/json")->status;
+    });
+  }
+  for (std::thread& page : pages) page.join();
+  std::sort(statuses.begin(), statuses.end());
+  CHECK(statuses == std::vector<int>{200, 409, 409, 409});
+  CHECK(rig.wait_for_end().at("outcome").at("status") == "finished");
+  CHECK_FALSE(std::filesystem::exists(rig.folder() / (name + ".2.viscap")));
+}
+
+TEST_CASE("a material that cannot be saved does not hide the fit", "[serve][pty]") {
+  ServedRig rig;
+  const std::string name = rig.prepare();
+  REQUIRE(rig.order("/api/run", {{"specimen", name}}).status == 200);
+  REQUIRE(rig.wait_for_end().at("outcome").at("status") == "finished");
+  std::filesystem::create_symlink("nowhere/else", rig.folder() / (name + ".json"));
+  const auto fit = rig.order("/api/fit", {{"capture", name + ".viscap"}});
+  INFO(fit.json.dump());
+  CHECK(fit.status == 200);
+  CHECK(fit.json.at("E0_Pa").get<double>() == Approx(1.88e6).epsilon(0.05));
+  CHECK(fit.json.at("material_file").is_null());
+  CHECK(contains(fit.json.at("material_trouble"), name + ".json"));
 }
 
 TEST_CASE("the page checks the rig without moving anything", "[serve][pty]") {

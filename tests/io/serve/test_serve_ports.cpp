@@ -1,0 +1,86 @@
+// A rig whose ports are missing, or go away during a run.
+#include "io/basics/atomic_file.h"
+#include "io/capture/capture_file.h"
+#include "rig/emulator/demo_rig.h"
+#include "rig/emulator/emulated_rig.h"
+#include "tests/io/serve/served_rig.h"
+#include "tests/support/error_text.h"
+
+#include <catch2/catch.hpp>
+
+namespace viscard {
+namespace {
+
+using test::contains;
+using test::Json;
+using test::ServedRig;
+
+// The rig file of the demonstration with other ports.
+std::string rig_file(const test::ScratchFolder& scratch, const std::string& stage,
+                     const std::string& load_cell) {
+  std::string text = read_file(VISCARD_SOURCE_DIR "/data/demo/01_rig.toml");
+  const auto put = [&](const std::string& old, const std::string& port) {
+    text.replace(text.find(old), old.size(), port);
+  };
+  put("/dev/serial/by-id/stage", stage);
+  put("/dev/serial/by-id/load_cell", load_cell);
+  write_file(scratch / "rig.toml", text, true);
+  return (scratch / "rig.toml").string();
+}
+
+TEST_CASE("ports that do not exist are named before, in a check and in a run", "[serve]") {
+  test::ScratchFolder scratch;
+  ServedRig rig(
+      ServeOptions{.rig_file = rig_file(scratch, "/dev/viscard-none", "/dev/viscard-none-2")});
+  const std::string name = rig.prepare();
+  const Json shown = rig.ask("/api/state").json.at("rig");
+  CHECK_FALSE(shown.at("stage").at("trouble").get<std::string>().empty());
+  CHECK_FALSE(shown.at("load_cell").at("trouble").get<std::string>().empty());
+  const auto check = rig.order("/api/check", Json::object());
+  CHECK(check.status == 422);
+  CHECK(check.json.at("error").at("code") == "port");
+  CHECK(check.json.at("error").at("where") == "/dev/viscard-none");
+  for (const int number : {1, 2}) {
+    REQUIRE(rig.order("/api/run", {{"specimen", name}}).status == 200);
+    const Json run = rig.wait_for_end();
+    INFO(run.dump());
+    CHECK(run.at("number") == number);  // the page sees that this is another run
+    CHECK(run.at("outcome").is_null());
+    CHECK(run.at("error").at("code") == "port");
+    CHECK(contains(run.at("trouble"), "/dev/viscard-none"));
+  }
+  CHECK_FALSE(std::filesystem::exists(rig.folder() / (name + ".viscap")));
+  CHECK(rig.ask("/api/state").json.at("job") == "");
+}
+
+TEST_CASE("a port that goes away ends the run; the record is kept and the next start names it",
+          "[serve][pty]") {
+  test::ScratchFolder scratch;
+  auto bench = std::make_unique<EmulatedRig>(EmulatedRigOptions{
+      .truth = demo_truth(10.0, 7), .config = demo_rig(), .is_on_wall_clock = true});
+  ServedRig rig(
+      ServeOptions{.rig_file = rig_file(scratch, bench->stage_port(), bench->load_cell_port())});
+  const std::string name = rig.prepare();
+  REQUIRE(rig.order("/api/run", {{"specimen", name}}).status == 200);
+  const Json before = rig.wait_for_run([](const Json& run) {
+    return !run.at("is_running").get<bool>() || run.at("phase") == "approach";
+  });
+  INFO(before.dump());
+  REQUIRE(before.at("phase") == "approach");
+  bench.reset();
+  const Json run = rig.wait_for_end();
+  INFO(run.dump());
+  REQUIRE(run.at("is_running") == false);
+  CHECK(run.at("outcome").at("status") == "interrupted");
+  CHECK(run.at("outcome").at("error").at("code") == "device-lost");
+  CHECK(read_capture(rig.folder() / (name + ".viscap")).status == "interrupted");
+  const Json state = rig.ask("/api/state").json;
+  CHECK(state.at("job") == "");
+  CHECK(state.at("specimens").at(0).at("state") == "interrupted");
+  CHECK_FALSE(state.at("rig").at("stage").at("trouble").get<std::string>().empty());
+  REQUIRE(rig.order("/api/run", {{"specimen", name}}).status == 200);
+  CHECK(rig.wait_for_end().at("error").at("code") == "port");
+}
+
+}  // namespace
+}  // namespace viscard
