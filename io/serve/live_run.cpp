@@ -19,6 +19,8 @@ LiveRun::~LiveRun() {
 
 void LiveRun::start(const std::string& specimen, CaptureRequest request,
                     std::function<void()> on_end) {
+  // A run may end, and the next start() come, before the thread has its name here.
+  const std::lock_guard<std::mutex> one_start(starting_);
   wait();  // joins the thread of the last run
   stop_ = false;
   stop_at_once_ = false;

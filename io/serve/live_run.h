@@ -61,6 +61,7 @@ class LiveRun {
   CaptureWatch watch();
   std::string text_of_phase() const;
 
+  std::mutex starting_;
   std::atomic<bool> stop_{false}, stop_at_once_{false};
   std::thread thread_;
   // Guards the rest. The thread that watches the force waits for it, so it is held for microseconds.

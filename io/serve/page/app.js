@@ -32,10 +32,13 @@ function showLink(error) {
 }
 
 async function pollForever() {
+  let wasRunning = false;
   for (let n = 0; ; ++n) {
     try {
       const isNow = await pollRun();
-      if (state === null || (!isNow && n % kStateEvery === 0)) await refresh();
+      const isOld = isNow !== wasRunning || (!isNow && n % kStateEvery === 0);  // or another page began a run
+      if (state === null || isOld) await refresh();
+      wasRunning = isNow;
       showLink(null);
     } catch (error) {
       showLink(error);

@@ -93,8 +93,8 @@ export class Chart {
       context.moveTo(area.x, y);
       context.lineTo(area.x + area.w, y);
       context.stroke();
-      context.textAlign = limit.atRight ? "right" : "left";
-      context.fillText(limit.text, limit.atRight ? area.x + area.w - 6 : area.x + 6, y - 4);
+      context.textAlign = "left";  // where the approach is: the force is highest further right
+      context.fillText(limit.text, area.x + 6, y - 4);
     }
     context.restore();
   }
@@ -150,5 +150,5 @@ export function limitsOf(rig) {
   if (!rig || rig.trouble) return [];
   return [{ value: rig.hard_N, text: `reset at ${rig.hard_N.toFixed(2)} N`, color: "limit" },
           { value: rig.soft_N, text: `stop at ${rig.soft_N.toFixed(2)} N`, color: "limit", dash: [8, 4] },
-          { value: rig.warn_N, text: `warning at ${rig.warn_N.toFixed(2)} N`, color: "warn", dash: [2, 4], atRight: true }];
+          { value: rig.warn_N, text: `warning at ${rig.warn_N.toFixed(2)} N`, color: "warn", dash: [2, 4] }];
 }

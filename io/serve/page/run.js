@@ -92,7 +92,10 @@ export async function pollRun() {
   }
   if (!answer.is_running && (isOther || before.is_running)) {
     showOutcome();
-    if (isWatched) onEnd(answer);
+    if (isWatched) {
+      element("run").scrollIntoView({ block: "start" });  // it has moved back to its place
+      onEnd(answer);
+    }
     isWatched = false;
   }
   return answer.is_running;
