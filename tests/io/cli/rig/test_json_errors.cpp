@@ -1,6 +1,6 @@
 // What the commands at the rig print with --json when they fail.
 #include "io/basics/atomic_file.h"
-#include "io/cli/rig/json_errors.h"
+#include "io/flow/command_error.h"
 #include "tests/support/run_command.h"
 #include "tests/support/scratch_folder.h"
 
