@@ -99,7 +99,10 @@ TEST_CASE("names and messages are shown as text, whatever they contain", "[serve
   const std::string mark = "<img src=x onerror=document.title='taken'>";
   write_file(scratch / ("series/01_" + mark + ".toml"), "id = '" + mark + "'\n[" + mark + "\n",
              false);
-  write_file(scratch / "series/test.toml", "name = \"" + mark + "\"\n", false);
+  write_file(
+      scratch / "series/test.toml",
+      "name = \"" + mark + "\"\n[ramp]\ndepth = \"0.13 mm\"\nduration = \"1 s\"\nhold = \"60 s\"\n",
+      false);
   Browser browser(scratch / "profile");
   browser.open(server.address());
   REQUIRE(browser.wait_until(
@@ -141,6 +144,7 @@ TEST_CASE("three specimens go through the page one after another, with the fit o
   }
   picture(browser, "5_result");
   // Escape stops a run.
+  browser.type("#plan-hold_s", "600");
   browser.click("#start");
   REQUIRE(browser.wait_until("return document.body.classList.contains('running')", 20));
   browser.press_key("\uE00C");
