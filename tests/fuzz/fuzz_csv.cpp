@@ -1,5 +1,6 @@
 // Any bytes are read as a table or refused by one exception with a text.
 #include "io/tables/column_map.h"
+#include "io/tables/column_names.h"
 
 #include <cstdint>
 #include <stdexcept>
