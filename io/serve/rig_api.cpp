@@ -94,13 +94,14 @@ Json RigApi::state() const {
   Json json = {{"program", "viscard " VISCARD_VERSION}, {"folder", folder_.path().string()},
                {"folder_trouble", folder_.trouble()},   {"is_emulated", options_.is_emulated},
                {"clock_speed", options_.speed},         {"job", job_.what()}};
+  const bool is_idle = json["job"].get_ref<const std::string&>().empty();
   json["rig"] = or_trouble([&] {
     const RigConfig found = rig();
     return json_of_rig(
         found, options_.rig_file ? calibration_trouble(found.calibration, today()) : std::string());
   });
   // During a job this program itself holds the ports.
-  if (!options_.is_emulated && json["job"] == "") add_port_troubles(json["rig"]);
+  if (!options_.is_emulated && is_idle) add_port_troubles(json["rig"]);
   json["test"] = or_trouble([&] { return json_of_test(folder_.test()); });
   json["specimens"] = Json::array();
   json["next"] = nullptr;
