@@ -21,10 +21,19 @@ namespace {
 
 using Index = Eigen::Index;
 
+// Places of the contact position and of the speed among the nuisances of StageModel.
+Index contact_nuisance(const IndentationData& data) {
+  return static_cast<Index>(data.moves.size());
+}
+Index speed_nuisance(const IndentationData& data) {
+  return contact_nuisance(data) + 1;
+}
+
 // Averages of measured and fitted force in contact for plots, in log time from each motion's start.
 void fill_curves(const StageModel& model, const IndentationData& data, const SpectralState& state,
                  const Eigen::VectorXd& residual_N, FitResult& result) {
   FitCurves& curves = result.curves;
+  curves.motion_speed = std::exp(state.nuisance[speed_nuisance(data)]);
   for (std::size_t m = 0; m < data.moves.size(); ++m) {
     curves.motion_start_s.push_back(data.moves[m].start_time_s +
                                     state.nuisance[static_cast<Index>(m)]);
@@ -65,9 +74,9 @@ void fill_curves(const StageModel& model, const IndentationData& data, const Spe
 std::optional<TwoPointModulus> two_points(const IndentationData& data, const SpectralState& state,
                                           double offset_N, double sigma_N) {
   if (!data.contact) return std::nullopt;
-  StageMove ramp = data.moves.front();
-  ramp.start_time_s += state.nuisance[0];
-  const double contact_m = state.nuisance[state.nuisance.size() - 1];
+  const StageMove ramp =
+      timed(data.moves.front(), state.nuisance[0], state.nuisance[speed_nuisance(data)]);
+  const double contact_m = state.nuisance[contact_nuisance(data)];
   const double direction = ramp.to_m > ramp.from_m ? 1.0 : -1.0;
   std::vector<double> time_s, force_N, depth_m;
   for (std::size_t i = 0; i < data.time_s.size(); ++i) {
@@ -213,7 +222,7 @@ ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options
   result.gain_drift_relative = (1.0 + share) * gain_drift_relative_u(model, fit, data);
   add_common_uncertainty(result.gain_drift_relative, result);
   result.noise.sigma = prepared_for.noise.resting_N;
-  result.contact_position_m = fit.state.nuisance[model.n_nuisances() - 1];
+  result.contact_position_m = fit.state.nuisance[contact_nuisance(data)];
   const Eigen::VectorXd residual_N = model.residual_series(fit.state).cwiseProduct(model.sigma_N());
   report_stage_fit(model, data, fit, residual_N, out);
   if (options.with_curves) fill_curves(model, data, fit.state, residual_N, result);

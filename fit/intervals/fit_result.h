@@ -50,6 +50,7 @@ struct FitCurves {
   // Times at which a new motion begins (contact, unloading ...); a logarithmic time axis restarts
   // there. Empty: at 0 only. All time_s lie after the first of them.
   std::vector<double> motion_start_s;
+  double motion_speed = 1.0;  // true speed of the moves over the commanded one
 
   void add(double at, double value, double of_fit, double deviation) {
     time_s.push_back(at);
