@@ -33,7 +33,6 @@ Index speed_nuisance(const IndentationData& data) {
 void fill_curves(const StageModel& model, const IndentationData& data, const SpectralState& state,
                  const Eigen::VectorXd& residual_N, FitResult& result) {
   FitCurves& curves = result.curves;
-  curves.motion_speed = std::exp(state.nuisance[speed_nuisance(data)]);
   for (std::size_t m = 0; m < data.moves.size(); ++m) {
     curves.motion_start_s.push_back(data.moves[m].start_time_s +
                                     state.nuisance[static_cast<Index>(m)]);
@@ -142,6 +141,22 @@ void flag_stage_misfit(const IndentationData& data, FitResult& result) {
   flag_misfit(result.noise.sigma, quiet.sigma_N, quiet.n, peak_N, result);
 }
 
+// The speed is the last parameter.
+void report_stage_speed(const SpectralFit& fit, FitResult& result) {
+  constexpr double kUnusual = 4e-3;  // two standard deviations of the prior of StageModel
+  const double ln_speed = fit.state.nuisance[fit.state.nuisance.size() - 1];
+  const Index last = fit.covariance.rows() - 1;
+  result.stage_speed = std::exp(ln_speed);
+  result.stage_speed_se = std::sqrt(std::max(0.0, fit.covariance(last, last)));
+  if (std::abs(ln_speed) < kUnusual) return;
+  result.flags.push_back(
+      {"stage-speed", 0,
+       "the stage moved " + text_of(100.0 * std::abs(*result.stage_speed - 1.0), 2) + " % " +
+           (ln_speed > 0.0 ? "faster" : "slower") +
+           " than commanded; the fit takes it into account. Check the clock of its controller and "
+           "that of the amplifier"});
+}
+
 // Fills window, flags and the two-point modulus.
 void report_stage_fit(const StageModel& model, const IndentationData& data, const SpectralFit& fit,
                       const Eigen::VectorXd& residual_N, ContactFit& out) {
@@ -223,6 +238,7 @@ ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options
   add_common_uncertainty(result.gain_drift_relative, result);
   result.noise.sigma = prepared_for.noise.resting_N;
   result.contact_position_m = fit.state.nuisance[contact_nuisance(data)];
+  report_stage_speed(fit, result);
   const Eigen::VectorXd residual_N = model.residual_series(fit.state).cwiseProduct(model.sigma_N());
   report_stage_fit(model, data, fit, residual_N, out);
   if (options.with_curves) fill_curves(model, data, fit.state, residual_N, result);

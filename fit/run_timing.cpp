@@ -54,7 +54,7 @@ void fit_starts(const CapturedRun& run, RunTiming& timing) {
   const IndentationData data = indentation_from_capture(run);
   const FitResult fit = fit_indentation(data);
   const std::vector<double>& fitted_s = fit.curves.motion_start_s;
-  timing.move_speed = fit.curves.motion_speed;
+  timing.move_speed = fit.stage_speed.value_or(1.0);
   std::size_t next = 0;
   double still_since_s = 0.0;
   for (std::size_t m = 0; m < run.moves.size(); ++m) {

@@ -15,9 +15,11 @@ namespace {
 
 using Index = Eigen::Index;
 
-// No stage is faster or slower by more: a ceramic resonator is within 0.5 %, and GRBL's timer rounds
-// a period of a thousand cycles or more up by at most one.
-constexpr double kLargestSpeedError = 6e-3;
+// A stage with a crystal keeps its speed within 0.01 %, GRBL's timer within 0.1 % (it rounds a
+// period of a thousand cycles or more up by at most one), and a ceramic resonator within 0.5 %
+// (Murata CSTCE, tolerance and temperature together).
+constexpr double kSpeedSd = 2e-3;
+constexpr double kLargestSpeedError = 1e-2;
 
 double median_force_N(const IndentationData& data, double from_s, double to_s, double otherwise) {
   std::vector<double> values;
@@ -125,8 +127,8 @@ StageModel::StageModel(const IndentationData& data, const Eigen::VectorXd& start
   const double last_m = ramp.to_m - 1e-3 * way_m;
   nuisances_.push_back({"contact_m", start[n_moves], std::min(ramp.from_m, last_m),
                         std::max(ramp.from_m, last_m), step_m});
-  nuisances_.push_back(
-      {"ln_speed", start[n_moves + 1], -kLargestSpeedError, kLargestSpeedError, 1e-3});
+  nuisances_.push_back({"ln_speed", start[n_moves + 1], -kLargestSpeedError, kLargestSpeedError,
+                        1e-3, /*prior=*/0.0, kSpeedSd});
 
   ln_tau_min_ = std::log(dt_s / 3.0);
   ln_tau_max_ = std::log(3.0 * (data.contact_to_s - data.contact_from_s));

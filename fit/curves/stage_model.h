@@ -21,8 +21,8 @@ namespace viscard {
 //
 // Nuisances: one start time per move (only roughly known on the amplifier's clock), the contact
 // position, and the logarithm of the true speed of all moves over the commanded one, because the
-// stage's clock is its own. Its prior is uniform within 0.6 %. The kinks of the force determine all
-// of them sharply. Out of contact the force is zero.
+// stage's clock is its own; its prior is normal, 0 +- 0.2 %. The kinks of the force determine all of
+// them sharply. Out of contact the force is zero.
 class StageModel final : public SpectralModel {
  public:
   // nuisance_start: shifts of the starts first (s), then the contact position (m), then the
