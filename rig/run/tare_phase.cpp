@@ -69,7 +69,7 @@ ForceMean undisturbed_tare(TestRun& run, double duration_s) {
       "start the run again");
 }
 
-std::string in_mN(double force_N) {
+std::string millinewtons(double force_N) {
   return text_from_number(force_N * 1e3, 1) + " mN";
 }
 
@@ -116,7 +116,7 @@ ForceMean change_when_lifted(TestRun& run) {
   const int sign = run.rig.stage.toward_specimen;
   const bool is_positive = run.rig.load_cell.compression_is_positive;
   throw RigError(
-      "the force rose by " + in_mN(change_N) + " when the stage was to lift the punch by " +
+      "the force rose by " + millinewtons(change_N) + " when the stage was to lift the punch by " +
       in_mm_lifted(way_m) + ", before the approach. It went back to where it stood. If it " +
       "moved toward the specimen, set toward_specimen = " + std::to_string(-sign) +
       " under [stage] of the rig file (it is " + std::to_string(sign) +
@@ -156,13 +156,13 @@ void free_punch(TestRun& run, double fell_N) {
   const double felt_after_m = lifted_m(run);
   run.presses_at_start = true;
   run.session.event("pressing", text_from_number(fell_N, 6),
-                    "The punch was already pressing: the force fell by " + in_mN(fell_N) +
+                    "The punch was already pressing: the force fell by " + millinewtons(fell_N) +
                         " when the stage lifted by " + in_mm_lifted(felt_after_m));
   lift_until_free(run);
   const std::string what =
       "the punch was already pressing before anything was touched: the force "
       "fell by " +
-      in_mN(fell_N) + " when the stage lifted by " + in_mm_lifted(felt_after_m) +
+      millinewtons(fell_N) + " when the stage lifted by " + in_mm_lifted(felt_after_m) +
       ". It was lifted by " + in_mm_lifted(lifted_m(run));
   if (!run.lifts_at_start) {
     throw PressesAtStart(what +

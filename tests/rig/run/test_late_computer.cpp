@@ -37,8 +37,7 @@ void be_late(double wall_s) {
 
 // Sleeps once, at the first reading above a force after a phase has begun.
 void late_in_phase(RigFixture& rig, const std::string& phase, double least_N, double wall_s) {
-  rig.on_progress = [&rig, phase, least_N, wall_s,
-                     is_done = false](const RunProgress& now) mutable {
+  rig.on_progress = [phase, least_N, wall_s, is_done = false](const RunProgress& now) mutable {
     if (is_done || now.phase != phase || now.force_N < least_N) return;
     is_done = true;
     be_late(wall_s);
