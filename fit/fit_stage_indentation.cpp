@@ -21,6 +21,14 @@ namespace {
 
 using Index = Eigen::Index;
 
+// Places of the contact position and of the speed among the nuisances of StageModel.
+Index contact_nuisance(const IndentationData& data) {
+  return static_cast<Index>(data.moves.size());
+}
+Index speed_nuisance(const IndentationData& data) {
+  return contact_nuisance(data) + 1;
+}
+
 // Averages of measured and fitted force in contact for plots, in log time from each motion's start.
 void fill_curves(const StageModel& model, const IndentationData& data, const SpectralState& state,
                  const Eigen::VectorXd& residual_N, FitResult& result) {
@@ -65,9 +73,9 @@ void fill_curves(const StageModel& model, const IndentationData& data, const Spe
 std::optional<TwoPointModulus> two_points(const IndentationData& data, const SpectralState& state,
                                           double offset_N, double sigma_N) {
   if (!data.contact) return std::nullopt;
-  StageMove ramp = data.moves.front();
-  ramp.start_time_s += state.nuisance[0];
-  const double contact_m = state.nuisance[state.nuisance.size() - 1];
+  const StageMove ramp =
+      timed(data.moves.front(), state.nuisance[0], state.nuisance[speed_nuisance(data)]);
+  const double contact_m = state.nuisance[contact_nuisance(data)];
   const double direction = ramp.to_m > ramp.from_m ? 1.0 : -1.0;
   std::vector<double> time_s, force_N, depth_m;
   for (std::size_t i = 0; i < data.time_s.size(); ++i) {
@@ -131,6 +139,22 @@ void flag_stage_misfit(const IndentationData& data, FitResult& result) {
   const double peak_N =
       *std::max_element(data.force_N.begin(), data.force_N.end()) - quiet.before_N;
   flag_misfit(result.noise.sigma, quiet.sigma_N, quiet.n, peak_N, result);
+}
+
+// The speed is the last parameter.
+void report_stage_speed(const SpectralFit& fit, FitResult& result) {
+  constexpr double kUnusual = 4e-3;  // two standard deviations of the prior of StageModel
+  const double ln_speed = fit.state.nuisance[fit.state.nuisance.size() - 1];
+  const Index last = fit.covariance.rows() - 1;
+  result.stage_speed = std::exp(ln_speed);
+  result.stage_speed_se = std::sqrt(std::max(0.0, fit.covariance(last, last)));
+  if (std::abs(ln_speed) < kUnusual) return;
+  result.flags.push_back(
+      {"stage-speed", 0,
+       "the stage moved " + text_of(100.0 * std::abs(*result.stage_speed - 1.0), 2) + " % " +
+           (ln_speed > 0.0 ? "faster" : "slower") +
+           " than commanded; the fit takes it into account. Check the clock of its controller and "
+           "that of the amplifier"});
 }
 
 // Fills window, flags and the two-point modulus.
@@ -213,7 +237,8 @@ ContactFit fit_in_contact(const IndentationData& data, const FitOptions& options
   result.gain_drift_relative = (1.0 + share) * gain_drift_relative_u(model, fit, data);
   add_common_uncertainty(result.gain_drift_relative, result);
   result.noise.sigma = prepared_for.noise.resting_N;
-  result.contact_position_m = fit.state.nuisance[model.n_nuisances() - 1];
+  result.contact_position_m = fit.state.nuisance[contact_nuisance(data)];
+  report_stage_speed(fit, result);
   const Eigen::VectorXd residual_N = model.residual_series(fit.state).cwiseProduct(model.sigma_N());
   report_stage_fit(model, data, fit, residual_N, out);
   if (options.with_curves) fill_curves(model, data, fit.state, residual_N, result);

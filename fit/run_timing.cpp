@@ -54,13 +54,14 @@ void fit_starts(const CapturedRun& run, RunTiming& timing) {
   const IndentationData data = indentation_from_capture(run);
   const FitResult fit = fit_indentation(data);
   const std::vector<double>& fitted_s = fit.curves.motion_start_s;
+  timing.move_speed = fit.stage_speed.value_or(1.0);
   std::size_t next = 0;
   double still_since_s = 0.0;
   for (std::size_t m = 0; m < run.moves.size(); ++m) {
     const CommandedMove& move = run.moves[m];
     if (next < fitted_s.size() && move.move.start_time_s == data.moves[next].start_time_s) {
       timing.move_start_s[m] = fitted_s[next++];
-      still_since_s = timing.move_start_s[m] + duration_s(move.move);
+      still_since_s = timing.move_start_s[m] + duration_s(move.move) / timing.move_speed;
     } else if (next == data.moves.size() && move.purpose == "retract") {
       timing.move_start_s[m] =
           retraction_start_s(all_readings(run, timing, data), move, still_since_s)

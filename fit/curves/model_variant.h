@@ -27,6 +27,13 @@ class ModelVariant : public SpectralModel {
 
   double sample_variance() const override { return base_.sample_variance(); }
 
+  // Moves the means of the priors to these values.
+  void move_priors(const Eigen::VectorXd& means) {
+    for (std::size_t k = 0; k < nuisances_.size(); ++k) {
+      nuisances_[k].prior = means[static_cast<Eigen::Index>(k)];
+    }
+  }
+
  protected:
   const SpectralModel& base_;
 };

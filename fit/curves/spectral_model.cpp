@@ -23,6 +23,16 @@ Eigen::VectorXd SpectralModel::of_nuisances(double Nuisance::*member) const {
   return values;
 }
 
+Eigen::VectorXd SpectralModel::prior_weight() const {
+  return of_nuisances(&Nuisance::prior_sd).unaryExpr([](double sd) {
+    return sd > 0.0 ? 1.0 / sd : 0.0;
+  });
+}
+
+Eigen::VectorXd SpectralModel::prior_residual(const Eigen::VectorXd& nuisance) const {
+  return (nuisance - of_nuisances(&Nuisance::prior)).cwiseProduct(prior_weight());
+}
+
 std::vector<std::size_t> SpectralModel::row_begins() const {
   std::vector<std::size_t> begins(static_cast<std::size_t>(n_rows()) + 1);
   std::iota(begins.begin(), begins.end(), std::size_t{0});

@@ -34,6 +34,8 @@ struct Nuisance {
   double start = 0.0;
   double low = 0.0, high = 0.0;  // bounds
   double scale = 1.0;            // typical size of a change; the search divides the parameter by it
+  // Mean and standard deviation of a normal prior, which counts as one more reading; 0: none.
+  double prior = 0.0, prior_sd = 0.0;
 };
 
 // Values of all parameters of a SpectralModel.
@@ -81,6 +83,10 @@ class SpectralModel {
   // One member of every nuisance, for instance &Nuisance::scale.
   Eigen::VectorXd of_nuisances(double Nuisance::*member) const;
   Eigen::VectorXd nuisance_start() const { return of_nuisances(&Nuisance::start); }
+  // Distance of each nuisance from the mean of its prior, in standard deviations; 0 without one.
+  Eigen::VectorXd prior_residual(const Eigen::VectorXd& nuisance) const;
+  // Derivative of prior_residual() by the nuisance itself: 1/prior_sd, or 0.
+  Eigen::VectorXd prior_weight() const;
 
   // For rows that are averages of samples: the samples of each row, their number, and the weighted
   // sum of squares about the model within the averages. By default each row is one sample.

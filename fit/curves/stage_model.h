@@ -19,12 +19,14 @@ namespace viscard {
 // of contact determine the drift of the zero; the long hold determines the creep of the load cell
 // under load (a share of the force).
 //
-// Nuisances: one start time per move (only roughly known on the amplifier's clock) and the contact
-// position. The kinks of the force determine all of them sharply. Out of contact the force is zero.
+// Nuisances: one start time per move (only roughly known on the amplifier's clock), the contact
+// position, and the logarithm of the true speed of all moves over the commanded one, because the
+// stage's clock is its own; its prior is normal, 0 +- 0.2 %. The kinks of the force determine all of
+// them sharply. Out of contact the force is zero.
 class StageModel final : public SpectralModel {
  public:
-  // nuisance_start: shifts of the starts first (s), then the contact position (m). The half-widths
-  // of their bounds come from the data.
+  // nuisance_start: shifts of the starts first (s), then the contact position (m), then the
+  // logarithm of the speed. The half-widths of the bounds of the first two come from the data.
   StageModel(const IndentationData& data, const Eigen::VectorXd& nuisance_start,
              const StageNoise& noise, const FitOptions& options);
 
@@ -55,8 +57,12 @@ class StageModel final : public SpectralModel {
   bool with_equilibrium_ = true;
 };
 
+// A move that starts later and goes exp(ln_speed) times as fast.
+StageMove timed(StageMove move, double shift_s, double ln_speed);
+
 // Start values of StageModel's nuisances from the force curve alone: ramp start and contact from
-// contact_onset(); each later move starts where the force passes half of its change.
+// contact_onset(); each later move starts where the force passes half of its change; the speed is
+// the commanded one.
 Eigen::VectorXd nuisance_start(const IndentationData& data);
 
 }  // namespace viscard

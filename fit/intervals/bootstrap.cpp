@@ -65,6 +65,8 @@ void bootstrap_intervals(const SpectralModel& model, const SpectralState& state,
   const Eigen::VectorXd residual = grow * (model.data() - fitted);
   const Index length = block_length(rows, options.inflation);
   std::mt19937_64 random(options.seed);
+  std::normal_distribution<double> normal;
+  const Eigen::VectorXd prior_sd = model.of_nuisances(&Nuisance::prior_sd);
   Drawn drawn;
   for (int draw = 0; draw < options.n_resamples; ++draw) {
     Eigen::VectorXd data = fitted;
@@ -74,8 +76,13 @@ void bootstrap_intervals(const SpectralModel& model, const SpectralState& state,
         data[begin + k] += residual[(from + k) % rows];
       }
     }
-    const SpectralState refitted = quick_search(ModelVariant(model, std::move(data)), state,
-                                                {.max_iterations = 60, .tolerance = 1e-8});
+    ModelVariant resampled(model, std::move(data));
+    // A prior is a reading of its nuisance, so it scatters from resample to resample too.
+    Eigen::VectorXd priors = state.nuisance;
+    for (Index k = 0; k < priors.size(); ++k) priors[k] += prior_sd[k] * normal(random);
+    resampled.move_priors(priors);
+    const SpectralState refitted =
+        quick_search(resampled, state, {.max_iterations = 60, .tolerance = 1e-8});
     const PronySeries series = series_from_state(refitted);
     if (series.terms.size() == result.terms.size()) drawn.add(series);
   }

@@ -93,6 +93,9 @@ struct FitResult {
   double fastest_s = 0.0;
   std::optional<TwoPointModulus> two_point;
   std::optional<double> contact_position_m;
+  // True speed of the stage over the commanded one, for captures. The errors above include its own.
+  std::optional<double> stage_speed;
+  double stage_speed_se = 0.0;
   std::size_t n_spikes = 0;    // samples left out as spikes
   std::size_t n_left_out = 0;  // rows left out because a value is not a finite number
   bool is_converged = true;    // of the chosen order

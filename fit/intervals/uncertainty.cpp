@@ -99,8 +99,12 @@ Interval symmetric(double value, double error) {
 
 Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralState& state,
                                      double variance, const Autoregression& noise) {
-  const Eigen::MatrixXd jacobian = full_jacobian(model, state);
-  const Index count = jacobian.cols();
+  Eigen::MatrixXd jacobian = full_jacobian(model, state);
+  const Index count = jacobian.cols(), priors = model.n_nuisances();
+  jacobian.conservativeResize(model.n_rows() + priors, Eigen::NoChange);
+  jacobian.bottomRows(priors).setZero();
+  jacobian.bottomRightCorner(priors, priors).diagonal() =
+      std::sqrt(variance) * model.prior_weight();
   std::vector<Index> seen;
   Eigen::MatrixXd scaled(jacobian.rows(), count);
   Eigen::VectorXd norm(count);
@@ -117,7 +121,10 @@ Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralS
   if (!noise.phi.empty()) {
     // (J^T J)^-1 J^T = R^-1 Q^T; the middle is Q^T C Q.
     const Eigen::MatrixXd q = qr.basis();
-    const Eigen::MatrixXd middle = q.transpose() * correlated(q, model.row_begins(), noise);
+    const Eigen::MatrixXd of_rows = q.topRows(model.n_rows()), of_priors = q.bottomRows(priors);
+    const Eigen::MatrixXd middle =
+        of_rows.transpose() * correlated(of_rows, model.row_begins(), noise) +
+        of_priors.transpose() * of_priors;
     part = variance * inverse * middle * inverse.transpose();
   }
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);

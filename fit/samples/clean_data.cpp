@@ -88,13 +88,27 @@ void check_sign(std::span<const double> values, const std::string& what,
                            column + "=-NAME");
 }
 
+namespace {
+
+// A step between two that are five times as long is a wrong time stamp: sampling in log time only
+// grows, and a change of the rate has long steps on one side.
+bool is_odd_step(std::span<const double> time_s, std::size_t i) {
+  constexpr double kOdd = 0.2;
+  if (i < 2 || i + 1 >= time_s.size()) return false;
+  const double step = time_s[i] - time_s[i - 1];
+  return step < kOdd * std::min(time_s[i - 1] - time_s[i - 2], time_s[i + 1] - time_s[i]);
+}
+
+}  // namespace
+
 double shortest_step_s(std::span<const double> time_s) {
   const StepRange range = step_range(time_s);
-  if (range.shortest > 0.0 || !(range.longest > 0.0)) return range.shortest;
-  double shortest = range.longest;  // some times are repeated
+  if (!(range.longest > 0.0)) return 0.0;
+  if (range.shortest > 0.2 * range.longest) return range.shortest;  // nothing odd or repeated
+  double shortest = range.longest;
   for (std::size_t i = 1; i < time_s.size(); ++i) {
     const double step = time_s[i] - time_s[i - 1];
-    shortest = step > 0.0 && step < shortest ? step : shortest;
+    if (step > 0.0 && step < shortest && !is_odd_step(time_s, i)) shortest = step;
   }
   return shortest;
 }

@@ -34,8 +34,9 @@ class CleanViews {
 // modulus"), `column` is its name in a table.
 void check_sign(std::span<const double> values, const std::string& what, const std::string& column);
 
-// Shortest positive difference of sorted times, and their median difference, which a gap does not
-// change. Both return 0 if there is none.
+// Shortest positive difference of sorted times, apart from single wrong stamps (a step less than a
+// fifth of both its neighbours), and their median difference, which a gap does not change. Both
+// return 0 if there is none.
 double shortest_step_s(std::span<const double> time_s);
 double usual_step_s(std::span<const double> time_s);
 

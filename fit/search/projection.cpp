@@ -4,6 +4,7 @@
 #include "fit/search/nnls.h"
 #include "models/maths/dense.h"
 
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -140,7 +141,9 @@ Coefficients best_coefficients(const SpectralModel& model, const Eigen::MatrixXd
   return best;
 }
 
-Projection project(const SpectralModel& model, const Eigen::VectorXd& p) {
+namespace {
+
+Projection project_data(const SpectralModel& model, const Eigen::VectorXd& p) {
   const Index n_terms = p.size() - model.n_nuisances();
   const ModelColumns columns =
       model.columns(p.head(n_terms), nuisance_from(model, p), /*with_slopes=*/true);
@@ -157,6 +160,22 @@ Projection project(const SpectralModel& model, const Eigen::VectorXd& p) {
   const Eigen::MatrixXd slopes = nonlinear_slopes(model, columns, at.coefficients);
   at.normal = gram_of(slopes) - solution->shared(transposed_product(values, slopes));
   at.gradient = transposed_product(slopes, residual);
+  return at;
+}
+
+}  // namespace
+
+Projection project(const SpectralModel& model, const Eigen::VectorXd& p) {
+  Projection at = project_data(model, p);
+  const Index n = model.n_nuisances();
+  if (n == 0 || !std::isfinite(at.rss)) return at;
+  // Priors are further residuals, which depend on their nuisance alone.
+  const Eigen::VectorXd distance = model.prior_residual(nuisance_from(model, p));
+  const Eigen::VectorXd slope =
+      model.prior_weight().cwiseProduct(model.of_nuisances(&Nuisance::scale));
+  at.rss += distance.squaredNorm();
+  at.gradient.tail(n) += slope.cwiseProduct(distance);
+  at.normal.diagonal().tail(n) += slope.cwiseAbs2();
   return at;
 }
 

@@ -81,7 +81,7 @@ SpectralState solve_coefficients(const SpectralModel& model, const Eigen::Vector
   const Coefficients best =
       best_coefficients(model, columns.values, free_columns(model, ln_tau.size()));
   state.coefficients = best.x;
-  state.rss = best.rss;
+  state.rss = best.rss + model.prior_residual(nuisance).squaredNorm();
   return state;
 }
 
@@ -138,10 +138,21 @@ struct FullSystem {
   Eigen::VectorXd residual;
 };
 
+// One row for each nuisance, zero without a prior.
+void add_priors(const SpectralModel& model, const SpectralState& state, FullSystem& all) {
+  const Index n = model.n_nuisances(), rows = all.residual.size();
+  all.jacobian.conservativeResize(rows + n, Eigen::NoChange);
+  all.jacobian.bottomRows(n).setZero();
+  all.jacobian.bottomRightCorner(n, n).diagonal() = model.prior_weight();
+  all.residual.conservativeResize(rows + n);
+  all.residual.tail(n) = -model.prior_residual(state.nuisance);
+}
+
 FullSystem full_system(const SpectralModel& model, const SpectralState& state) {
   const Index linear = state.coefficients.size();
   FullSystem all{full_jacobian(model, state), {}};
   all.residual = model.data() - all.jacobian.leftCols(linear) * state.coefficients;
+  add_priors(model, state, all);
   const SpectralModel::HiddenRows hidden = model.hidden_rows(state.ln_tau);
   const Index visible = all.residual.size(), more = hidden.data.size();
   if (more == 0) return all;
@@ -206,7 +217,7 @@ SpectralState polish(const SpectralModel& model, const SpectralState& start) {
     if (!(then.residual.squaredNorm() <= now.residual.squaredNorm() * (1.0 + 1e-9) + 1e-300)) {
       return state;
     }
-    next.rss = then.residual.head(model.n_rows()).squaredNorm();
+    next.rss = then.residual.head(model.n_rows() + model.n_nuisances()).squaredNorm();
     state = std::move(next);
     now = std::move(then);
     const double moved = n_terms == 0 ? 0.0 : change.segment(linear, n_terms).cwiseAbs().maxCoeff();

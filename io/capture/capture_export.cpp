@@ -81,6 +81,8 @@ class SampleRows {
     if (timing.move_start_s.empty()) return;
     for (std::size_t i = 0; i < moves_.size(); ++i) {
       moves_[i].start_time_s = timing.move_start_s.at(i);
+      moves_[i].speed_m_s *= timing.move_speed;
+      moves_[i].acceleration_m_s2 *= timing.move_speed * timing.move_speed;
     }
   }
 

@@ -147,6 +147,8 @@ Json json_from_fit(const FittedFile& fitted) {
   json["fit_from_s"] = number(fit.fit_from_s);
   json["fit_to_s"] = number(fit.fit_to_s);
   if (fit.contact_position_m) json["contact_position_m"] = number(*fit.contact_position_m);
+  if (fit.stage_speed) json["stage_speed"] = number(*fit.stage_speed);
+  if (fit.stage_speed) json["stage_speed_se"] = number(fit.stage_speed_se);
   if (fit.two_point) {
     json["two_point"] = {{"modulus_Pa", number(fit.two_point->modulus_Pa)},
                          {"se_Pa", number(fit.two_point->se_Pa)},

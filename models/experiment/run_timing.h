@@ -10,6 +10,7 @@ namespace viscard {
 struct RunTiming {
   std::vector<double> sample_s;      // of each load sample, in the order of the capture
   std::vector<double> move_start_s;  // of each move, in the order of the capture
+  double move_speed = 1.0;           // true speed of all moves over the commanded one
   std::string description;           // one sentence: where these times come from
 };
 

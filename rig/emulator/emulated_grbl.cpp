@@ -3,7 +3,9 @@
 #include "models/maths/text_of_number.h"
 #include "rig/protocols/grbl_protocol.h"
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <utility>
 
 namespace viscard {
@@ -15,6 +17,19 @@ constexpr double kAlarmDelay_s = 0.5;
 constexpr std::string_view kDefaults =
     "$0=10 $1=255 $2=0 $3=0 $4=0 $5=0 $6=0 $11=0.01 $12=0.002 $21=0 $23=0 $24=25 $25=500 $26=250 "
     "$27=1 $30=1000 $31=0 $32=0";
+
+// The speed that the timer makes of the one asked for (gnea/grbl stepper.c at 16 MHz): the cycles of
+// one step are rounded up and, below 8000 steps/s, divided by 2, 4 or 8 without the rest (AMASS). The
+// timer clears itself after the compared number of cycles (CTC), so each of its periods has one more
+// cycle. At a thousand cycles and more a period, moves are up to 0.1 % slower.
+double timer_speed_m_s(double speed_m_s, double steps_per_m) {
+  constexpr double kClock_Hz = 16e6;
+  constexpr double kLongest = 65535.0;
+  const double cycles = std::ceil(kClock_Hz / (speed_m_s * steps_per_m));
+  const double parts = cycles < 2000.0 ? 1.0 : cycles < 4000.0 ? 2.0 : cycles < 8000.0 ? 4.0 : 8.0;
+  const double period = std::min(kLongest, std::floor(cycles / parts)) + 1.0;
+  return kClock_Hz / (parts * period * steps_per_m);
+}
 
 }  // namespace
 
@@ -55,6 +70,11 @@ double EmulatedGrbl::machine_mm(double bench_m) const {
 
 double EmulatedGrbl::bench_m(double machine_mm) const {
   return machine_origin_m_ + toward_ * machine_mm * 1e-3;
+}
+
+double EmulatedGrbl::true_speed_m_s(double asked_m_s) const {
+  const bool is_rounded = habits_.has_avr_timer && !habits_.is_hal;
+  return habits_.true_speed * (is_rounded ? timer_speed_m_s(asked_m_s, steps_per_m_) : asked_m_s);
 }
 
 void EmulatedGrbl::reset(double time_s) {
@@ -238,7 +258,7 @@ void EmulatedGrbl::tick(double time_s) {
     const QueuedMove move = queue_.front();
     queue_.pop_front();
     // Starts now, not at the end of the previous move: no position was asked for in between.
-    motion_.start(time_s, move.to_m, move.speed_m_s * habits_.true_speed, acceleration_m_s2_);
+    motion_.start(time_s, move.to_m, true_speed_m_s(move.speed_m_s), acceleration_m_s2_);
     // The stage leaves the switch at once, and the change of its pin raises another alarm.
     if (is_on_switch_ && habits_.alarms_again) return hit_limit(time_s);
   }

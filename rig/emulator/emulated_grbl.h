@@ -33,7 +33,8 @@ struct GrblHabits {
   bool holds_after_cancel = false;     // after a jog cancel it takes no line at Idle until '~'
   bool never_rests = false;            // reports Jog long after a move has ended
   bool refuses_unlock = false;         // $X is answered by error:13 (the safety door is open)
-  double true_speed = 1.0;             // true speed of a move over the speed asked for
+  double true_speed = 1.0;             // the board's clock over the one it should have
+  bool has_avr_timer = true;           // periods of its timer are whole cycles; not with is_hal
 };
 
 // A GRBL controller as a host sees it on the wire, with the states, answers, alarms and silences of
@@ -74,6 +75,7 @@ class EmulatedGrbl final : public EmulatedController {
   void load_axis_settings();
 
   double least_speed_m_s() const;
+  double true_speed_m_s(double asked_m_s) const;
   double machine_mm(double bench_m) const;
   double bench_m(double machine_mm) const;
 

@@ -80,6 +80,64 @@ TEST_CASE("120 captured runs: E0 within 1 %, 90 to 99 % of 600 intervals hold", 
   CHECK(share <= 0.99);
 }
 
+TEST_CASE("a stage that is slower than commanded does not spoil the intervals", "[fit]") {
+  // GRBL's timer makes a ramp 0.05 to 0.1 % slower, a ceramic resonator up to 0.5 %.
+  RunConditions conditions;
+  conditions.stage_speed = GENERATE(0.999, 0.995);
+  const Recovery recovery = recover(3, conditions);
+  CAPTURE(conditions.stage_speed, recovery.holding);
+  CHECK(recovery.always_two_terms);
+  CHECK(recovery.worst_E0 < 0.01);
+  CHECK(recovery.worst_half_width < 0.12);
+  CHECK(recovery.holding >= 36);  // of 45, as above
+}
+
+TEST_CASE("the speed of the stage is fitted, and one that is far from the commanded is flagged",
+          "[fit]") {
+  for (const double speed : {1.0, 0.999, 0.995, 1.006}) {
+    RunConditions conditions;
+    conditions.stage_speed = speed;
+    const CapturedRun run = in_memory_run(demo_truth(10, 5), {}, conditions);
+    const FitResult fit = fit_indentation(indentation_from_capture(run));
+    CAPTURE(speed, *fit.stage_speed, fit.stage_speed_se);
+    CHECK(std::abs(*fit.stage_speed - speed) < 3.0 * fit.stage_speed_se);
+    CHECK(fit.stage_speed_se < 6e-4);
+    CHECK(has_flag(fit, "stage-speed") == (std::abs(speed - 1.0) > 4.5e-3));
+    CHECK(fit.is_trustworthy);
+  }
+}
+
+TEST_CASE("where the data do not show the speed of the stage, E0 is as uncertain as the prior",
+          "[fit]") {
+  // The guess of the modulus is so low that the unloading lifts the punch off and is not fitted.
+  EmulatedTruth truth = demo_truth(10, 11);
+  truth.material.terms = {{0.1, 0.1, 1.0}};
+  TestPlan plan;
+  plan.hold_s = 15.0;
+  plan.recovery_s = 5.0;
+  FitOptions options;
+  options.n_bootstrap = GENERATE(0, 200);
+  RunConditions conditions;
+  conditions.guess_over_truth = 0.2;
+  conditions.stage_speed = GENERATE(1.0, 0.998, 1.003);
+  const FitResult fit =
+      fit_indentation(indentation_from_capture(in_memory_run(truth, plan, conditions)), options);
+  CAPTURE(conditions.stage_speed, options.n_bootstrap, fit.E0_Pa);
+  CHECK(fit.stage_speed_se == Approx(2e-3).epsilon(0.05));
+  CHECK(holds(fit.E0_interval_95, truth.material.E0_Pa));
+  CHECK(fit.E0_interval_95.high - fit.E0_interval_95.low > 0.01 * fit.E0_Pa);
+}
+
+TEST_CASE("60 runs of a slow stage: 90 to 99 % of 300 intervals hold", "[fit][slow]") {
+  RunConditions conditions;
+  conditions.stage_speed = 0.999;
+  const Recovery recovery = recover(20, conditions);
+  CHECK(recovery.always_two_terms);
+  const double share = static_cast<double>(recovery.holding) / recovery.intervals;
+  CHECK(share >= 0.90);
+  CHECK(share <= 0.99);
+}
+
 TEST_CASE("late messages and a wrong amplifier clock do not change the fit", "[fit]") {
   RunConditions conditions;
   conditions.clock_rate = 1.003;  // a ceramic resonator

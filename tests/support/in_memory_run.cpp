@@ -43,8 +43,15 @@ class Bench {
   HereditaryStress specimen_;
 };
 
+// A move as the stage carries it out on a clock of its own.
+StageMove at_true_speed(StageMove move, double speed) {
+  move.speed_m_s *= speed;
+  move.acceleration_m_s2 *= speed * speed;
+  return move;
+}
+
 struct Plan {
-  std::vector<CommandedMove> moves;  // true starts
+  std::vector<CommandedMove> moves;  // true starts, speeds as commanded
   double end_s = 0.0;
 };
 
@@ -70,7 +77,7 @@ Plan true_moves(const EmulatedTruth& truth, const TestPlan& plan, const RunCondi
     move.move = {t, a_m, b_m, speed, truth.acceleration_m_s2};
     move.purpose = purpose;
     result.moves.push_back(move);
-    t += duration_s(move.move) + then_s;
+    t += duration_s(at_true_speed(move.move, conditions.stage_speed)) + then_s;
   };
   const double speed = plan.depth_m * share / plan.ramp_s;
   add("ramp", from_m, full_m, speed, plan.hold_s);
@@ -83,10 +90,12 @@ Plan true_moves(const EmulatedTruth& truth, const TestPlan& plan, const RunCondi
 }
 
 // True force at every reading: fine steps while the stage moves, one step a reading while it rests.
-std::vector<double> true_forces_N(const EmulatedTruth& truth, const Plan& plan,
+std::vector<double> true_forces_N(const EmulatedTruth& truth, const Plan& plan, double stage_speed,
                                   const std::vector<double>& times_s) {
   std::vector<StageMove> moves;
-  for (const CommandedMove& move : plan.moves) moves.push_back(move.move);
+  for (const CommandedMove& move : plan.moves) {
+    moves.push_back(at_true_speed(move.move, stage_speed));
+  }
   const auto is_moving = [&](double t) {
     for (const StageMove& move : moves) {
       if (t > move.start_time_s - 0.02 && t < move.start_time_s + duration_s(move) + 0.02)
@@ -126,7 +135,7 @@ CapturedRun in_memory_run(const EmulatedTruth& truth, const TestPlan& plan,
   for (double k = phase; k / truth.sample_rate_Hz < moves.end_s; k += 1.0) {
     times_s.push_back(k / truth.sample_rate_Hz);
   }
-  const std::vector<double> forces_N = true_forces_N(truth, moves, times_s);
+  const std::vector<double> forces_N = true_forces_N(truth, moves, conditions.stage_speed, times_s);
 
   CapturedRun run;
   run.plan = plan;

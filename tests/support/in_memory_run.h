@@ -13,6 +13,7 @@ struct RunConditions {
   double clock_rate = 1.0;  // amplifier's clock over the host's
   double clock_offset_s = 3.7;
   double message_delay_s = 2e-3;              // mean of an exponential delay, every message
+  double stage_speed = 1.0;                   // true speed of the moves over the commanded one
   double start_latency_s = 20e-3;             // moves begin up to this after they were commanded
   double lost_from_s = 0.0, lost_to_s = 0.0;  // readings lost, counted from the ramp's start
   // The rig's guess of the modulus divided by the true modulus. The contact position is where a

@@ -1,3 +1,4 @@
+#include "rig/protocols/grbl_protocol.h"
 #include "tests/rig/rig_fixture.h"
 
 #include <catch2/catch.hpp>
@@ -121,6 +122,25 @@ TEST_CASE("a port without readings is refused with the bytes that came instead",
   config.line_format = "parrots";
   CHECK_THROWS_WITH(Hx711LoadCell(line, config, clock, [](const RunRecord&) {}),
                     Contains("'parrots' is unknown"));
+}
+
+TEST_CASE("moves of the emulated GRBL are as slow as the firmware's timer makes them", "[rig]") {
+  // At 3200 steps/mm and 16 MHz, cycles of a step: ceil(16666.7) in 8 periods of 2083 + 1, 5000 in 4
+  // of 1250 + 1, 2500 in 2 of 1250 + 1, 1250 in 1 of 1250 + 1.
+  struct Row {
+    double speed_mm_s, cycles, with_timer;
+  };
+  const Row row = GENERATE(Row{0.3, 16e6 / 960.0, 8 * 2084.0}, Row{1.0, 5000.0, 4 * 1251.0},
+                           Row{2.0, 2500.0, 2 * 1251.0}, Row{4.0, 1250.0, 1251.0});
+  const bool is_hal = GENERATE(false, true);
+  EmulatedGrbl grbl(demo_truth(10.0, 1), 'Z', -1, {.is_hal = is_hal});
+  grbl.reset(0.0);
+  grbl.receive(format_grbl_jog('Z', -5.0, row.speed_mm_s * 60.0) + "\n", 1.0);
+  const double from_s = 1.1, to_s = 1.9;
+  const double speed_mm_s =
+      (grbl.bench_position_m(to_s) - grbl.bench_position_m(from_s)) * 1e3 / (to_s - from_s);
+  const double expected = is_hal ? 1.0 : row.cycles / row.with_timer;
+  CHECK(speed_mm_s / row.speed_mm_s == Approx(expected).epsilon(1e-7));
 }
 
 }  // namespace viscard

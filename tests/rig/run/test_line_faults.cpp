@@ -4,6 +4,7 @@
 #include "models/maths/text_of_number.h"
 #include "rig/protocols/hx711_protocol.h"
 #include "tests/rig/rig_fixture.h"
+#include "tests/rig/run/disturbances.h"
 
 #include <catch2/catch.hpp>
 
@@ -11,7 +12,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <map>
-#include <random>
 #include <set>
 
 namespace viscard {
@@ -22,39 +22,15 @@ constexpr double kNoticed = 12.0;        // times the noise
 constexpr double kNoticedSteps = 2.5;    // times the largest step between true readings nearby
 constexpr double kNoise_counts = 300.0;  // 0.49 mN at 0.7255 V/N and 20 V/2^24
 
-FaultRates rates_from(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> exponent(-3.3, -1.5);
-  const double rate = std::pow(10.0, exponent(random));
-  const auto maybe = [&](double chance) {
-    return std::bernoulli_distribution(chance)(random) ? rate : 0.0;
-  };
-  FaultRates rates;
-  rates.drop = maybe(0.4);
-  rates.duplicate = maybe(0.4);
-  rates.split = maybe(0.4);
-  rates.delay = maybe(0.4);
-  rates.garble = maybe(0.4);
-  rates.insert = maybe(0.3);
-  rates.hang_up = 0.1 * maybe(0.15);
-  return rates;
-}
-
-LineFaults faults_of(std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  LineFaults faults;
-  for (FaultPlan* plan : {&faults.stage, &faults.cell}) {
-    plan->seed = random();
-    if (std::bernoulli_distribution(0.7)(random)) plan->to_host = rates_from(random);
-    if (std::bernoulli_distribution(0.5)(random)) plan->to_device = rates_from(random);
-  }
-  return faults;
-}
-
-EmulatedRigOptions rig_options(std::uint64_t seed) {
+EmulatedRigOptions rig_options(std::uint64_t seed, const Hardship& hardship = {}) {
   EmulatedRigOptions options = RigFixture::options();
   options.truth.surface_position_m = kSurface_m;
   options.truth.seed = seed;
-  options.config.load_cell.line_format = "micros,counts";
+  options.truth.material.E0_Pa *= hardship.stiffer;
+  options.config.safety.soft_fraction =
+      0.5;  // less than a specimen much stiffer than its guess takes
+  options.config.safety.warn_fraction = 0.4;
+  if (!hardship.is_format_learnt) options.config.load_cell.line_format = "micros,counts";
   options.keeps_lines = true;
   return options;
 }
@@ -95,6 +71,8 @@ struct Tally {
   int finished = 0, ended = 0, refused = 0, hung_up = 0;
   long long readings = 0, marked = 0, below_notice = 0, faults = 0, unsaid = 0;
   double worst = 0.0;  // largest error of unmarked readings over the detection threshold
+  int slowed = 0, learnt = 0;
+  double farthest_beyond = -1.0;  // peak force beyond the limit of its phase, over the capacity
 };
 
 // Every reading handed out is true, is marked, or differs by less than the detection threshold. If
@@ -154,8 +132,31 @@ bool is_checked(const RigFixture& rig) {
                      [](const RunEvent& event) { return event.name == "checked"; });
 }
 
+// The limit in force in the phase that the run reached, plus a tenth of the cell, holds.
+void check_force(const RigFixture& rig, Tally& tally) {
+  const double capacity_N = rig.config.calibration.capacity_N;
+  const double limit_N = rig.has_event("phase", "ramp")
+                             ? rig.config.safety.soft_fraction * capacity_N
+                             : shortest_plan().contact_force_N;
+  const double beyond = (rig.emulated.outcome().peak_force_N - limit_N) / capacity_N;
+  tally.farthest_beyond = std::max(tally.farthest_beyond, beyond);
+  CHECK(beyond < 0.1);
+}
+
+// A learnt format is the one of the amplifier.
+void check_format(const RigFixture& rig, Tally& tally) {
+  for (const RunEvent& event : rig.all<RunEvent>()) {
+    if (event.name != "line_format") continue;
+    ++tally.learnt;
+    CHECK(event.value == "micros,counts");
+  }
+}
+
 void run_one(std::uint64_t seed, Tally& tally) {
-  RigFixture rig(rig_options(seed), faults_of(seed));
+  const Hardship hardship = hardship_of(seed);
+  RigFixture rig(rig_options(seed, hardship), faults_of(seed));
+  when_phase(rig, hardship.slows_in, [&] { rig.cell_proxy->slow_to(hardship.line_B_s); });
+  tally.slowed += hardship.slows_in.empty() ? 0 : 1;
   const double began_s = monotonic_s();
   std::string status, reason;
   bool has_doubt = false;
@@ -177,6 +178,8 @@ void run_one(std::uint64_t seed, Tally& tally) {
   CHECK(monotonic_s() - began_s < 120.0);  // detects a hang; no speed is asserted
   check_bench(rig, status, reason);
   check_readings(rig, has_doubt, tally);
+  check_force(rig, tally);
+  check_format(rig, tally);
   const FaultCounts stage = rig.stage_proxy->counts(), cell = rig.cell_proxy->counts();
   tally.faults += stage.faults + cell.faults;
   tally.hung_up += stage.has_hung_up || cell.has_hung_up ? 1 : 0;
@@ -194,7 +197,10 @@ void run_seeds(std::uint64_t first, std::uint64_t last) {
             << " lines hung up); of " << tally.readings << " readings " << tally.marked
             << " wrong ones were marked, " << tally.below_notice
             << " wrong ones below notice (the worst " << tally.worst << " of it); " << tally.unsaid
-            << " runs have such a one and no doubt reports it\n";
+            << " runs have such a one and no doubt reports it; " << tally.slowed
+            << " lines slowed down, " << tally.learnt
+            << " formats were learnt; the force went beyond the limit of its phase by "
+            << tally.farthest_beyond << " of the cell at most\n";
   CHECK(tally.faults > static_cast<long long>(last - first));
   const auto n_runs = static_cast<long long>(last - first + 1);
   CHECK(tally.unsaid <= 1 + n_runs / 20);
