@@ -123,7 +123,8 @@ TEST_CASE("a touch that fails ends the series, and --resume repeats it beside th
   const auto surface_mm = [&](int touch) {
     return 1e3 * truth_of_touch(drawn, "a", touch).surface_position_m;
   };
-  for (drawn.seed = 1; surface_mm(1) > 1.2 || surface_mm(1) < 0.5 || surface_mm(2) < 1.5;) {
+  for (drawn.seed = 1;
+       surface_mm(1) > 1.2 || surface_mm(1) < 0.5 || surface_mm(2) < 1.5 || surface_mm(3) < 0.5;) {
     ++drawn.seed;
   }
   Strings words =
@@ -202,7 +203,7 @@ TEST_CASE("options of repeats that make no sense are refused", "[cli][capture]")
   CHECK(contains(err_of({"--repeat", "0"}), "--repeat is 0; it must be from 1 to 99"));
   CHECK(contains(err_of({"--repeat", "2", "--force"}), "replaces none: omit --force"));
   CHECK(contains(err_of({"--lift-wait", "60"}), "add --repeat N"));
-  CHECK(contains(err_of({"--repeat", "2", "--lift-wait", "-1"}), "--lift-wait is -1 s"));
+  CHECK(contains(err_of({"--repeat", "2", "--lift-wait=-1"}), "--lift-wait is -1 s"));
   CHECK(contains(err_of({"--truth", "a", "--truth", "b"}), "one for all, or one for each"));
 }
 
