@@ -1,15 +1,18 @@
 #include "fit/laws/fit_mixing_ratio.h"
 
 #include "fit/laws/ratio_estimates.h"
+#include "fit/laws/ratio_forms.h"
+#include "fit/laws/scatter_levels.h"
+#include "fit/laws/touch_pool.h"
 #include "models/maths/dense.h"
 #include "models/maths/text_of_number.h"
 
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 
@@ -17,8 +20,6 @@ namespace viscard {
 namespace {
 
 using Index = Eigen::Index;
-
-using Spreads = std::array<double, 3>;  // of ln E0, ln g, ln tau
 
 // Generalised least squares at given spreads, and the log likelihood there.
 struct Solution {
@@ -30,7 +31,7 @@ struct Solution {
 class Likelihood {
  public:
   Likelihood(const RatioModel& shape, const std::vector<RatioEstimate>& estimates, bool restricted)
-      : estimates_(estimates), n_terms_(shape.n_terms), restricted_(restricted) {
+      : estimates_(estimates), restricted_(restricted) {
     for (const RatioEstimate& one : estimates) designs_.push_back(design_at(shape, one.ratio));
   }
 
@@ -41,10 +42,7 @@ class Likelihood {
     double twice = 0.0;  // -2 log likelihood
     for (std::size_t s = 0; s < estimates_.size(); ++s) {
       Eigen::MatrixXd variance = estimates_[s].covariance;
-      for (Index k = 0; k < variance.rows(); ++k) {
-        const std::size_t kind = k == 0 ? 0 : (k <= n_terms_ ? 1 : 2);
-        variance(k, k) += spreads[kind] * spreads[kind];
-      }
+      add_spreads(spreads, variance);
       const Cholesky factor(variance);
       if (!factor.is_definite()) return {};
       const Eigen::MatrixXd design = factor.solve_lower(designs_[s]);
@@ -70,56 +68,14 @@ class Likelihood {
   static constexpr double kTwoPi = 2.0 * std::numbers::pi;
   const std::vector<RatioEstimate>& estimates_;
   std::vector<Eigen::MatrixXd> designs_;
-  Index n_terms_;
   bool restricted_;
 };
 
-// Best spread of one kind with the others held: a scan of its logarithm and of zero, refined by
-// golden section. The likelihood may have its maximum at zero.
-double best_spread(const Likelihood& likelihood, Spreads spreads, std::size_t kind) {
-  const auto at = [&](double spread) {
-    spreads[kind] = spread;
-    return likelihood.at(spreads).log_likelihood;
-  };
-  constexpr double kLow = -9.5, kHigh = 1.5, kStep = 1.0;  // ln of the spread
-  double best = at(0.0), best_ln = -std::numeric_limits<double>::infinity();
-  for (double ln = kLow; ln <= kHigh; ln += kStep) {
-    const double value = at(std::exp(ln));
-    if (value > best + 1e-12) {
-      best = value;
-      best_ln = ln;
-    }
-  }
-  if (!std::isfinite(best_ln)) return 0.0;
-  double low = best_ln - kStep, high = best_ln + kStep;
-  constexpr double kGolden = 1.0 / std::numbers::phi;
-  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-  double at_a = at(std::exp(a)), at_b = at(std::exp(b));
-  while (high - low > 1e-4) {
-    if (at_a > at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      a = high - kGolden * (high - low);
-      at_a = at(std::exp(a));
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      b = low + kGolden * (high - low);
-      at_b = at(std::exp(b));
-    }
-  }
-  return std::exp(0.5 * (low + high));
-}
-
-RatioModel fitted_form(const std::vector<RatioEstimate>& estimates, const RatioForm& form,
-                       bool restricted) {
-  RatioModel model;
+// shape: numbers of terms, ratios and specimens.
+RatioModel fitted_form(const std::vector<RatioEstimate>& estimates, const RatioModel& shape,
+                       const RatioForm& form, bool restricted) {
+  RatioModel model = shape;
   model.form = form;
-  model.n_terms = static_cast<int>(estimates.front().theta.size() / 2);
-  model.ratios = distinct_ratios(estimates);
-  model.n_specimens = static_cast<int>(estimates.size());
   const Likelihood likelihood(model, estimates, restricted);
   Spreads spreads{0.05, 0.05, 0.05};
   constexpr int kSweeps = 4;
@@ -127,7 +83,11 @@ RatioModel fitted_form(const std::vector<RatioEstimate>& estimates, const RatioF
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     const Spreads before = spreads;
     for (std::size_t kind = 0; kind < kinds; ++kind) {
-      spreads[kind] = best_spread(likelihood, spreads, kind);
+      spreads[kind] = best_spread([&](double spread) {
+        Spreads at = spreads;
+        at[kind] = spread;
+        return likelihood.at(at).log_likelihood;
+      });
     }
     double change = 0.0;
     for (std::size_t k = 0; k < kinds; ++k) {
@@ -149,53 +109,10 @@ RatioModel fitted_form(const std::vector<RatioEstimate>& estimates, const RatioF
   model.spread_ln_tau = spreads[2];
   model.log_likelihood = solution.log_likelihood;
   model.n_parameters = static_cast<int>(solution.beta.size()) + static_cast<int>(kinds);
-  const auto n_values =
-      static_cast<double>(estimates.size()) * static_cast<double>(estimates.front().theta.size());
+  double n_values = 0.0;
+  for (const RatioEstimate& one : estimates) n_values += static_cast<double>(one.theta.size());
   model.bic = -2.0 * model.log_likelihood + model.n_parameters * std::log(n_values);
   return model;
-}
-
-void check_shared(const std::vector<std::string>& names, int n_terms) {
-  for (const std::string& name : names) {
-    bool is_known = false;
-    for (int i = 1; i <= n_terms; ++i) {
-      is_known |= name == "g_" + std::to_string(i) || name == "tau_" + std::to_string(i);
-    }
-    if (is_known) continue;
-    throw std::invalid_argument("'" + name + "' cannot be shared: there are E0, g, tau, and g_i " +
-                                "and tau_i of " +
-                                counted(static_cast<std::size_t>(n_terms), "term"));
-  }
-}
-
-// All forms that these data can distinguish. The named ones come first, so that they win ties.
-std::vector<RatioForm> forms_to_try(std::size_t n_ratios, int n_terms,
-                                    const MixingOptions& options) {
-  constexpr auto kAny = RatioVariable::kLogRatio;
-  std::vector<RatioForm> forms{{kAny, kPerRatio, 0, 0},
-                               {kAny, kPerRatio, kPerRatio, 0},
-                               {kAny, kPerRatio, kPerRatio, kPerRatio}};
-  const int highest = n_ratios >= 4 ? options.max_degree : std::min(options.max_degree, 1);
-  for (const RatioVariable variable : options.variables) {
-    for (int E0 = 0; E0 <= highest; ++E0) {
-      for (int g = 0; g <= (n_terms > 0 ? 1 : 0); ++g) {
-        for (int tau = 0; tau <= (n_terms > 0 ? 1 : 0); ++tau) {
-          forms.push_back({variable, E0, g, tau});
-        }
-      }
-    }
-  }
-  std::erase_if(forms, [&](const RatioForm& form) {
-    return (options.share_E0 && form.E0_degree != 0) || (options.share_g && form.g_degree != 0) ||
-           (options.share_times && form.tau_degree != 0);
-  });
-  std::vector<RatioForm> once;
-  for (RatioForm& form : forms) {
-    form.same = options.shared;
-    if (n_terms == 0 && form.g_degree == kPerRatio) continue;
-    if (std::find(once.begin(), once.end(), form) == once.end()) once.push_back(form);
-  }
-  return once;
 }
 
 Material common_of(const std::vector<Material>& specimens) {
@@ -230,14 +147,26 @@ Material common_of(const std::vector<Material>& specimens) {
   return common;
 }
 
-void add_flags(const std::vector<RatioEstimate>& estimates, RatioFit& fit) {
-  if (estimates.size() == fit.law.ratios.size()) {
+void add_flags(RatioFit& fit) {
+  const auto n_ratios = static_cast<int>(fit.law.ratios.size());
+  if (fit.law.n_specimens == n_ratios) {
     fit.flags.push_back({"one-specimen-per-ratio", 0,
                          "every ratio was measured once: scatter between specimens cannot be "
                          "separated from a misfit of the law, and the interval includes both"});
   }
+  for (const Scatter& scatter : fit.scatter) {
+    if (scatter.quantity != "ln_E0" || !(scatter.ratio.interval_95.low > 0.0)) continue;
+    // With one specimen at each ratio this level contains the specimens, which the law allows for.
+    if (!is_identified(scatter.specimen)) continue;
+    fit.flags.push_back({"ratio-scatter", 0,
+                         "E0 of the ratios scatters about the law by " +
+                             text_of(100.0 * scatter.ratio.deviation, 2) + " % (at least " +
+                             text_of(100.0 * scatter.ratio.interval_95.low, 2) +
+                             " %), which the specimens do not explain: intervals between the "
+                             "measured ratios are too narrow"});
+  }
   constexpr double kStrong = 10.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
-  if (!is_law(fit.best.form) && fit.law.bic - fit.best.bic > kStrong) {
+  if (!reaches_all_ratios(fit.best, fit.best.form) && fit.law.bic - fit.best.bic > kStrong) {
     fit.flags.push_back({"law-misfits", 0,
                          "the law describes the measured ratios much worse than separate values "
                          "for each ratio do (BIC " +
@@ -246,46 +175,85 @@ void add_flags(const std::vector<RatioEstimate>& estimates, RatioFit& fit) {
   }
 }
 
-}  // namespace
-
-RatioFit fit_mixing_ratio(const std::vector<Material>& specimens, const MixingOptions& options) {
-  if (specimens.size() < 3) {
-    throw std::invalid_argument("a joint fit needs at least three specimens; there " +
-                                std::string(specimens.size() == 1 ? "is " : "are ") +
-                                std::to_string(specimens.size()));
+// Numbers of terms, ratios and specimens.
+RatioModel shape_of(const std::vector<RatioEstimate>& specimens, bool own_terms) {
+  RatioModel shape;
+  shape.ratios = distinct_ratios(specimens);
+  shape.n_specimens = static_cast<int>(specimens.size());
+  if (own_terms) shape.own_terms.resize(shape.ratios.size());
+  for (const RatioEstimate& one : specimens) {
+    const int n = static_cast<int>(one.theta.size() / 2);
+    shape.n_terms = std::max(shape.n_terms, n);
+    if (!own_terms) continue;
+    const auto at = std::find(shape.ratios.begin(), shape.ratios.end(), one.ratio);
+    shape.own_terms[static_cast<std::size_t>(at - shape.ratios.begin())] = n;
   }
-  const std::vector<RatioEstimate> estimates = ratio_estimates_of(specimens);
-  const std::size_t n_ratios = distinct_ratios(estimates).size();
+  return shape;
+}
+
+void check_records(const std::vector<Material>& records, int n_specimens, std::size_t n_ratios) {
+  constexpr int kFewest = 3;
+  if (n_specimens < kFewest) {
+    std::string text = "a joint fit needs at least three specimens; there " +
+                       std::string(n_specimens == 1 ? "is " : "are ") + std::to_string(n_specimens);
+    if (records.size() > static_cast<std::size_t>(n_specimens)) {
+      text += " (" + std::to_string(records.size()) +
+              " records, but repeats on one specimen count as one specimen)";
+    }
+    throw std::invalid_argument(text);
+  }
   if (n_ratios < 2) {
     throw std::invalid_argument(
         "all specimens have the same mixing ratio; a law in the ratio needs at least two");
   }
-  RatioFit fit;
-  for (std::size_t s = 0; s < specimens.size(); ++s) {
-    fit.specimens.push_back({specimens[s].name, specimens[s].mixing_ratio, specimens[s].E0_Pa,
-                             std::sqrt(estimates[s].covariance(0, 0))});
+}
+
+void list_specimens(const std::vector<Material>& records,
+                    const std::vector<RatioEstimate>& estimates, RatioFit& fit) {
+  std::map<int, int> n_touches;
+  for (std::size_t s = 0; s < records.size(); ++s) {
+    fit.specimens.push_back({records[s].name, records[s].mixing_ratio, records[s].E0_Pa,
+                             std::sqrt(estimates[s].covariance(0, 0)), estimates[s].specimen + 1,
+                             ++n_touches[estimates[s].specimen]});
   }
-  const int n_terms = static_cast<int>(specimens.front().terms.size());
-  check_shared(options.shared, n_terms);
-  for (const RatioForm& form : forms_to_try(n_ratios, n_terms, options)) {
-    const RatioModel model = fitted_form(estimates, form, /*restricted=*/false);
+}
+
+}  // namespace
+
+RatioFit fit_mixing_ratio(const std::vector<Material>& records, const MixingOptions& options) {
+  const std::vector<RatioEstimate> estimates = ratio_estimates_of(
+      records, options.own_terms ? EqualTerms::kAtEachRatio : EqualTerms::kEverywhere);
+  check_records(records, count_specimens(estimates), distinct_ratios(estimates).size());
+  RatioFit fit;
+  list_specimens(records, estimates, fit);
+  const Spreads touch = touch_spreads_of(estimates);
+  const std::vector<RatioEstimate> specimens = pooled_touches(estimates, touch);
+  RatioModel shape = shape_of(specimens, options.own_terms);
+  shape.touch_ln_E0 = touch[0];
+  shape.touch_ln_g = touch[1];
+  shape.touch_ln_tau = touch[2];
+  check_forms(options, shape.n_terms);
+  for (const RatioForm& form : forms_to_try(shape, options)) {
+    const RatioModel model = fitted_form(specimens, shape, form, /*restricted=*/false);
     fit.forms.push_back({form, model.n_parameters, model.log_likelihood, model.bic});
   }
   std::stable_sort(
       fit.forms.begin(), fit.forms.end(),
       [](const RatioComparison& a, const RatioComparison& b) { return a.bic < b.bic - 1e-9; });
   const auto refitted = [&](const RatioComparison& from) {
-    RatioModel model = fitted_form(estimates, from.form, /*restricted=*/true);
+    RatioModel model = fitted_form(specimens, shape, from.form, /*restricted=*/true);
     model.log_likelihood = from.log_likelihood;
     model.bic = from.bic;
     return model;
   };
-  const auto law = std::find_if(fit.forms.begin(), fit.forms.end(),
-                                [](const RatioComparison& row) { return is_law(row.form); });
+  const auto law =
+      std::find_if(fit.forms.begin(), fit.forms.end(),
+                   [&](const RatioComparison& row) { return reaches_all_ratios(shape, row.form); });
   fit.best = refitted(fit.forms.front());
   fit.law = refitted(*law);
-  fit.common = common_of(specimens);
-  add_flags(estimates, fit);
+  fit.scatter = scatter_levels(estimates, fit.law);
+  fit.common = common_of(records);
+  add_flags(fit);
   return fit;
 }
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -18,7 +20,7 @@ std::string name_of(const Material& material, std::size_t number) {
              : "'" + material.name + "' (specimen " + std::to_string(number) + ")";
 }
 
-void check_specimen(const Material& material, std::size_t number) {
+void check_record(const Material& material, std::size_t number) {
   const std::string name = name_of(material, number);
   if (!(material.mixing_ratio > 0.0)) {
     throw std::invalid_argument(name +
@@ -40,7 +42,7 @@ void check_specimen(const Material& material, std::size_t number) {
 RatioEstimate estimate_of(const Material& material) {
   const auto n = static_cast<Index>(material.terms.size());
   const Index size = 1 + 2 * n;
-  RatioEstimate out{material.mixing_ratio, Eigen::VectorXd(size), {}};
+  RatioEstimate out{material.mixing_ratio, Eigen::VectorXd(size), {}, 0};
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(size, size);
   out.theta[0] = std::log(material.E0_Pa);
   slopes.row(0).head(1 + n).setConstant(1.0 / material.E0_Pa);
@@ -58,25 +60,44 @@ RatioEstimate estimate_of(const Material& material) {
   return out;
 }
 
+// All records (of a ratio) have the number of terms of the first one.
+void check_terms(const std::vector<Material>& records, std::size_t s, std::size_t first) {
+  const std::size_t n = records[s].terms.size();
+  if (n != records[first].terms.size()) {
+    throw std::invalid_argument(
+        name_of(records[s], s + 1) + " has " + counted(n, "term") + " and " +
+        name_of(records[first], first + 1) + " " + std::to_string(records[first].terms.size()) +
+        ": all specimens need the same number of terms. Fit them with the same --terms N");
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (records[s].terms[i].g > 0.0) continue;
+    throw std::invalid_argument(name_of(records[s], s + 1) + ": g of term " +
+                                std::to_string(i + 1) + " is zero; fit with fewer terms");
+  }
+}
+
 }  // namespace
 
-std::vector<RatioEstimate> ratio_estimates_of(const std::vector<Material>& specimens) {
+std::vector<RatioEstimate> ratio_estimates_of(const std::vector<Material>& records,
+                                              EqualTerms equal) {
   std::vector<RatioEstimate> out;
-  for (std::size_t s = 0; s < specimens.size(); ++s) {
-    check_specimen(specimens[s], s + 1);
-    const std::size_t n = specimens[s].terms.size();
-    if (n != specimens.front().terms.size()) {
-      throw std::invalid_argument(
-          name_of(specimens[s], s + 1) + " has " + counted(n, "term") + " and " +
-          name_of(specimens.front(), 1) + " " + std::to_string(specimens.front().terms.size()) +
-          ": all specimens need the same number of terms. Fit them with the same --terms N");
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      if (specimens[s].terms[i].g > 0.0) continue;
-      throw std::invalid_argument(name_of(specimens[s], s + 1) + ": g of term " +
-                                  std::to_string(i + 1) + " is zero; fit with fewer terms");
-    }
-    out.push_back(estimate_of(specimens[s]));
+  std::map<double, std::size_t> first_at;  // of each ratio
+  std::map<std::pair<double, std::string>, int> numbers;
+  int n_specimens = 0;
+  for (std::size_t s = 0; s < records.size(); ++s) {
+    const Material& record = records[s];
+    check_record(record, s + 1);
+    const std::size_t first_here = first_at.emplace(record.mixing_ratio, s).first->second;
+    check_terms(records, s,
+                equal == EqualTerms::kEverywhere    ? 0
+                : equal == EqualTerms::kAtEachRatio ? first_here
+                                                    : s);
+    out.push_back(estimate_of(record));
+    const std::string& id = record.specimen_id;
+    const auto [number, is_new] = numbers.emplace(
+        std::pair(record.mixing_ratio, id.empty() ? "\n" + std::to_string(s) : id), n_specimens);
+    if (is_new) ++n_specimens;
+    out.back().specimen = number->second;
   }
   return out;
 }
@@ -87,6 +108,12 @@ std::vector<double> distinct_ratios(const std::vector<RatioEstimate>& estimates)
   std::sort(ratios.begin(), ratios.end());
   ratios.erase(std::unique(ratios.begin(), ratios.end()), ratios.end());
   return ratios;
+}
+
+int count_specimens(const std::vector<RatioEstimate>& records) {
+  int count = 0;
+  for (const RatioEstimate& one : records) count = std::max(count, one.specimen + 1);
+  return count;
 }
 
 }  // namespace viscard

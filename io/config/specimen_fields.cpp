@@ -92,6 +92,11 @@ void show_truth(FieldVisitor& fields, EmulatedTruth& truth) {
   fields.section("contact", [&](FieldVisitor& inner) { show_contact(inner, truth.contact); });
   fields.section("material",
                  [&](FieldVisitor& inner) { show_truth_material(inner, truth.material); });
+  fields.section("scatter", [&](FieldVisitor& inner) {
+    inner.quantity({"specimen", "1", kNotNegative}, truth.specimen_scatter);
+    inner.quantity({"alignment", "1", kNotNegative}, truth.alignment_scatter);
+    inner.quantity({"surface", "m", kNotNegative}, truth.surface_scatter_m);
+  });
   fields.section("rig", [&](FieldVisitor& inner) {
     inner.quantity({.key = "frame_stiffness",
                     .unit = "N/m",

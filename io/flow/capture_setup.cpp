@@ -4,6 +4,7 @@
 #include "io/config/config_file.h"
 #include "io/flow/command_error.h"
 #include "rig/emulator/demo_rig.h"
+#include "rig/emulator/emulated_touch.h"
 
 namespace viscard {
 namespace {
@@ -35,6 +36,7 @@ CaptureSetup setup_from_files(const SetupRequest& request) {
   setup.truth = request.truth_file ? read_truth(*request.truth_file)
                                    : truth_like(setup.specimen, request.seed.value_or(1));
   if (request.seed) setup.truth->seed = *request.seed;
+  setup.truth = truth_of_touch(*setup.truth, setup.specimen.id, request.touch);
   setup.rig.load_cell.expected_rate_Hz = setup.truth->sample_rate_Hz;
   if (setup.rig.load_cell.volts_per_count == 0.0) {
     setup.rig.load_cell.volts_per_count = demo_rig().load_cell.volts_per_count;

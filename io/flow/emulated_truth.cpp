@@ -33,6 +33,13 @@ std::string json_from_truth(const EmulatedTruth& truth) {
   json["sample_rate_Hz"] = truth.sample_rate_Hz;
   json["steps_per_m"] = truth.steps_per_m;
   json["acceleration_m_s2"] = truth.acceleration_m_s2;
+  if (truth.specimen_scatter > 0.0 || truth.alignment_scatter > 0.0 ||
+      truth.surface_scatter_m > 0.0) {
+    json["specimen_scatter"] = truth.specimen_scatter;
+    json["alignment_scatter"] = truth.alignment_scatter;
+    json["surface_scatter_m"] = truth.surface_scatter_m;
+    json["contact_factor"] = truth.contact_factor;
+  }
   json["seed"] = truth.seed;
   return json.dump(2) + "\n";
 }

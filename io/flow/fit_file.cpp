@@ -72,6 +72,20 @@ CsvTable rows_of_segments(const CsvTable& table, const FitRequest& request) {
   return all;
 }
 
+// The specimen that the table states in a column; empty without one.
+std::string specimen_id_of(const CsvTable& table, const FitRequest& request) {
+  if (!find_column(table, "specimen", request.columns)) return "";
+  const std::vector<std::string> ids = column_text(table, "specimen", request.columns);
+  for (const std::string& id : ids) {
+    if (id == ids.front()) continue;
+    if (!request.needs_specimen) return "";
+    throw std::runtime_error(table.file + ": the column specimen names '" + ids.front() +
+                             "' and '" + id +
+                             "', but a table holds one record of one specimen; divide the table");
+  }
+  return ids.empty() ? "" : ids.front();
+}
+
 Column time_of(const CsvTable& table, const FitRequest& request) {
   Column time_s = column_SI(table, "time_s", request.columns);
   for (double& time : time_s) time -= request.time_zero_s;
@@ -136,6 +150,7 @@ FittedFile fit_table(const std::string& path, const FitRequest& request) {
   FittedFile fitted;
   if (request.segments.empty()) fitted.n_before_test = all.lines.size() - table.lines.size();
   if (request.specimen) fitted.specimen = *request.specimen;
+  fitted.specimen_id = specimen_id_of(table, request);
   const FitKind kind = kind_of_table(table, request);
   fitted.master = fit_temperatures(table, kind, request);
   if (fitted.master) {
@@ -179,10 +194,12 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
         ": --column, --segment and --time-zero apply only to tables; omit them for a capture");
   }
   CapturedRun run = read_capture(path);
+  const std::string specimen_id = run.specimen.id;  // the geometry may be replaced, not this
   if (request.specimen) run.specimen = *request.specimen;
   if (request.frame_stiffness_N_m > 0.0) run.rig.frame.stiffness_N_m = request.frame_stiffness_N_m;
   FittedFile fitted;
   fitted.specimen = run.specimen;
+  fitted.specimen_id = specimen_id;
   fitted.fitted_unit = "N";
   fitted.result = fit_indentation(indentation_from_capture(run), request.options);
   if (run.status != "finished") {

@@ -25,6 +25,7 @@ struct FitRequest {
   double time_zero_s = 0.0;           // time in the table where t = 0
   std::optional<Specimen> specimen;   // replaces the specimen of a capture
   bool diagnose = false;              // compare with a fractional model
+  bool needs_specimen = false;        // a table of several specimens is refused
   bool needs_modulus = false;         // a stiffness is refused, because a material will be written
   double frame_stiffness_N_m = 0.0;   // for tables whose depth_m is the position of the stage
   std::optional<double> T_ref_C;      // reference temperature of a master curve
@@ -35,6 +36,7 @@ struct FittedFile {
   std::string path;
   FitResult result;
   Specimen specimen;        // empty for a table without --specimen
+  std::string specimen_id;  // of the capture, or of the table's column "specimen"; empty: not known
   std::string fitted_unit;  // unit of the fitted column: "N", "Pa", "1/Pa"
   // Rows of an exported capture before its first baseline, which are not fitted.
   std::size_t n_before_test = 0;
@@ -70,6 +72,8 @@ Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& r
 struct JointRequest {
   std::vector<std::string> files;  // captures, tables, material files
   std::vector<double> ratios;      // one for each file; empty: the files state them
+  // One for each file, of the specimen that it is a record of; empty: the files state them.
+  std::vector<std::string> specimen_ids;
   FitRequest fit;
   MaterialRequest material;
   MixingOptions options;
@@ -77,8 +81,11 @@ struct JointRequest {
   std::function<void(const std::string&)> note;  // called for each specimen that is fitted again
 };
 
-// Fits the measured specimens with one common number of terms, then the law in the mixing ratio.
-// Throws what fit_file(), read_material() and fit_mixing_ratio() throw.
+// Fits the measured records with one common number of terms (with options.own_terms: one for each
+// ratio), then the law in the mixing ratio. Records of one specimen are repeated touches. Throws what
+// fit_file(), read_material() and fit_mixing_ratio() throw; std::runtime_error for a record that is
+// given twice, a specimen with two ratios, and files with repeats and others that do not state their
+// specimen.
 RatioFit fit_jointly(const JointRequest& request);
 
 }  // namespace viscard

@@ -9,72 +9,148 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <stdexcept>
 
 namespace viscard {
 namespace {
+
+// One file of the joint fit: a fitted capture or table, or a material file.
+struct JointRecord {
+  std::string file;
+  std::optional<FittedFile> fitted;
+  Material material;  // of a fitted file only at the end
+  double ratio = 0.0;
+  std::string specimen_id;
+};
 
 bool is_material_file(const std::string& file) {
   return std::filesystem::path(file).extension() == ".json" && !looks_like_capture(file);
 }
 
-// The law compares terms one by one, so all specimens need the same number: that of the material
-// files, or the most frequent choice among the measured specimens (the smallest of equals).
-int common_order(const std::vector<FittedFile>& fitted, const std::vector<Material>& given) {
-  if (!given.empty()) return static_cast<int>(given.front().terms.size());
+std::vector<JointRecord> read_records(const JointRequest& request) {
+  std::vector<JointRecord> records;
+  std::vector<std::string> measured;
+  for (const std::string& file : request.files) {
+    records.push_back({file, std::nullopt, {}, 0.0, ""});
+    if (!is_material_file(file)) {
+      measured.push_back(file);
+      continue;
+    }
+    Material& material = records.back().material = read_material(file).material;
+    if (material.name.empty()) material.name = std::filesystem::path(file).stem().string();
+  }
+  FitRequest fit = request.fit;
+  fit.needs_specimen = request.specimen_ids.empty();
+  std::vector<FittedFile> fitted = fit_files(measured, fit, request.progress);
+  auto next = fitted.begin();
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    JointRecord& one = records[i];
+    if (!is_material_file(one.file)) one.fitted = std::move(*next++);
+    one.ratio = one.fitted ? one.fitted->specimen.mixing_ratio : one.material.mixing_ratio;
+    one.specimen_id = one.fitted ? one.fitted->specimen_id : one.material.specimen_id;
+    if (!request.ratios.empty()) one.ratio = request.ratios[i];
+    if (!request.specimen_ids.empty()) one.specimen_id = request.specimen_ids[i];
+  }
+  return records;
+}
+
+// Repeats of one specimen must be known as such: taken for specimens, they would make the intervals
+// too narrow.
+void check_specimens(const std::vector<JointRecord>& records) {
+  std::map<std::string, const JointRecord*> first_of;
+  const JointRecord* repeat = nullptr;
+  for (const JointRecord& one : records) {
+    if (one.specimen_id.empty()) continue;
+    const auto [first, is_new] = first_of.emplace(one.specimen_id, &one);
+    if (is_new) continue;
+    repeat = &one;
+    if (first->second->ratio == one.ratio) continue;
+    throw std::runtime_error(fmt::format(
+        "specimen '{}' has mixing ratio {} in {} and {} in {}, but a specimen has one ratio. Give "
+        "each specimen an id of its own: id in specimen.toml, or --specimen-id once for each file",
+        one.specimen_id, text_of(first->second->ratio), first->second->file, text_of(one.ratio),
+        one.file));
+  }
+  if (repeat == nullptr) return;
+  for (const JointRecord& one : records) {
+    if (!one.specimen_id.empty()) continue;
+    throw std::runtime_error(fmt::format(
+        "{} does not state its specimen, but {} and {} are repeats on specimen '{}'. Give "
+        "--specimen-id once for each file, in their order, or a column 'specimen' in the table",
+        one.file, first_of[repeat->specimen_id]->file, repeat->file, repeat->specimen_id));
+  }
+}
+
+// The law compares terms one by one, so all records (of a ratio, with terms of their own) need the
+// same number: that of the material files, or the most frequent choice among the measured ones (the
+// smallest of equals).
+int common_order(const std::vector<JointRecord*>& records) {
   std::map<int, int> votes;
-  for (const FittedFile& one : fitted) ++votes[static_cast<int>(one.result.terms.size())];
+  for (const JointRecord* one : records) {
+    if (!one->fitted) return static_cast<int>(one->material.terms.size());
+    ++votes[static_cast<int>(one->fitted->result.terms.size())];
+  }
   return std::max_element(votes.begin(), votes.end(),
                           [](const auto& a, const auto& b) { return a.second < b.second; })
       ->first;
 }
 
-void refit_others(std::vector<FittedFile>& fitted, int order, const JointRequest& request) {
+void refit_others(const std::vector<JointRecord*>& records, const JointRequest& request) {
+  const int order = common_order(records);
   FitRequest forced = request.fit;
   forced.options.n_terms = order;
-  for (FittedFile& one : fitted) {
-    if (static_cast<int>(one.result.terms.size()) == order) continue;
+  for (JointRecord* one : records) {
+    if (!one->fitted || static_cast<int>(one->fitted->result.terms.size()) == order) continue;
     if (request.note) {
-      request.note(fmt::format("{}: fitted again with {}, as the other specimens, instead of {}",
-                               one.path, counted(static_cast<std::size_t>(order), "term"),
-                               one.result.terms.size()));
+      request.note(fmt::format("{}: fitted again with {}, as the other specimens{}, instead of {}",
+                               one->file, counted(static_cast<std::size_t>(order), "term"),
+                               request.options.own_terms ? " of its ratio" : "",
+                               one->fitted->result.terms.size()));
     }
-    one = fit_file(one.path, forced);
+    one->fitted = fit_file(one->file, forced);
   }
 }
 
-std::vector<Material> specimens_of(const JointRequest& request) {
-  refuse_repeated_files(request.files);
-  std::vector<std::string> measured;
-  std::vector<Material> given;
-  for (const std::string& file : request.files) {
-    if (is_material_file(file)) {
-      given.push_back(read_material(file).material);
-      if (given.back().name.empty()) {
-        given.back().name = std::filesystem::path(file).stem().string();
-      }
-    } else {
-      measured.push_back(file);
+// A record counts once, also if a file and a material made of it are given.
+void refuse_repeated_records(const std::vector<JointRecord>& records) {
+  std::map<std::string, const JointRecord*> first_with;
+  for (const JointRecord& one : records) {
+    for (const RawFile& raw : one.material.provenance.raw_files) {
+      if (raw.sha256.empty()) continue;
+      const auto [first, is_new] = first_with.emplace(raw.sha256, &one);
+      if (is_new || first->second == &one) continue;
+      throw std::runtime_error(
+          fmt::format("{} and {} come from the same record ({}); each record counts once. Remove "
+                      "one of the two",
+                      first->second->file, one.file, raw.path));
     }
   }
-  std::vector<FittedFile> fitted = fit_files(measured, request.fit, request.progress);
-  if (!fitted.empty()) refit_others(fitted, common_order(fitted, given), request);
-  // In the order of the files.
-  std::vector<Material> specimens;
-  auto next_given = given.begin();
-  auto next_fitted = fitted.begin();
-  for (std::size_t i = 0; i < request.files.size(); ++i) {
-    specimens.push_back(is_material_file(request.files[i])
-                            ? *next_given++
-                            : material_from_fitted(*next_fitted++, request.material));
-    if (!request.ratios.empty()) specimens.back().mixing_ratio = request.ratios[i];
-  }
-  return specimens;
 }
 
 }  // namespace
 
 RatioFit fit_jointly(const JointRequest& request) {
-  return fit_mixing_ratio(specimens_of(request), request.options);
+  refuse_repeated_files(request.files);
+  std::vector<JointRecord> records = read_records(request);
+  check_specimens(records);
+  std::map<double, std::vector<JointRecord*>> with_one_order;
+  for (JointRecord& one : records) {
+    with_one_order[request.options.own_terms ? one.ratio : 0.0].push_back(&one);
+  }
+  for (const auto& [ratio, members] : with_one_order) refit_others(members, request);
+  std::vector<Material> materials;
+  for (JointRecord& one : records) {
+    if (one.fitted) one.material = material_from_fitted(*one.fitted, request.material);
+    one.material.mixing_ratio = one.ratio;
+    one.material.specimen_id = one.specimen_id;
+    if (!request.specimen_ids.empty() && !one.specimen_id.empty()) {
+      one.material.name = one.specimen_id;
+    }
+    materials.push_back(one.material);
+  }
+  refuse_repeated_records(records);
+  return fit_mixing_ratio(materials, request.options);
 }
 
 }  // namespace viscard

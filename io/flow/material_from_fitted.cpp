@@ -33,6 +33,7 @@ Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& r
       specimen.id.empty() ? std::filesystem::path(fitted.path).stem().string() : specimen.id;
   if (!specimen.id.empty()) material.T_ref_C = specimen.temperature_C;
   material.mixing_ratio = specimen.mixing_ratio;
+  material.specimen_id = fitted.specimen_id;
   if (fitted.master) {
     material.T_ref_C = fitted.master->T_ref_C;
     if (const TemperatureShift* shift = fitted.master->laws.better()) material.shift = *shift;

@@ -1,9 +1,12 @@
 #include "fit/laws/fit_mixing_ratio.h"
+#include "fit/laws/ratio_estimates.h"
+#include "fit/laws/scatter_levels.h"
 #include "io/flow/specimen_reports.h"
 #include "io/materials/material_file.h"
 
 #include <cmath>
 #include <set>
+#include <string>
 #include <utility>
 
 namespace viscard {
@@ -23,7 +26,25 @@ MixingLaw law_from(const RatioFit& fit) {
   const RatioBand band = ratio_band(fit);
   return {"Joint fit over specimens: " + typeset(law_in_words(fit)) +
               ". The band contains 95 % of new specimens.",
-          band.ratio, band.E0_Pa, band.E0_low_Pa, band.E0_high_Pa};
+          band.ratio,
+          band.E0_Pa,
+          band.E0_low_Pa,
+          band.E0_high_Pa,
+          fit.scatter};
+}
+
+// The records' scatter also of what relaxes; only of E0 if that is unknown for one of them.
+std::vector<Scatter> scatter_of_all(const std::vector<Material>& records, const RatioFit& fit) {
+  for (const Material& one : records) {
+    const auto size = static_cast<Eigen::Index>(1 + 2 * one.terms.size());
+    if (one.uncertainty->covariance.rows() != size || !one.uncertainty->covariance.allFinite()) {
+      return fit.scatter;
+    }
+    for (const MaterialTerm& term : one.terms) {
+      if (!(term.g > 0.0)) return fit.scatter;
+    }
+  }
+  return scatter_levels(ratio_estimates_of(records, EqualTerms::kNowhere), fit.law);
 }
 
 // The material reduced to its modulus, because specimens may differ in their number of terms.
@@ -49,16 +70,23 @@ std::optional<MixingLaw> mixing_law_of(const std::vector<std::string>& files,
   for (const std::string& file : files) {
     if (looks_like_ratio_file(file)) return law_from(read_ratio_fit(file));
   }
-  std::vector<Material> moduli;
+  std::vector<Material> moduli, records;
   std::set<double> ratios;
+  std::set<std::pair<double, std::string>> distinct;
   for (const SpecimenReport& specimen : specimens) {
     if (const auto modulus = modulus_of(specimen)) {
       moduli.push_back(*modulus);
+      records.push_back(*specimen.material);
+      const std::string& id = modulus->specimen_id;
+      distinct.emplace(modulus->mixing_ratio,
+                       id.empty() ? "\n" + std::to_string(moduli.size()) : id);
       ratios.insert(modulus->mixing_ratio);
     }
   }
-  if (moduli.size() < 4 || ratios.size() < 2) return std::nullopt;
-  return law_from(fit_mixing_ratio(moduli));
+  if (distinct.size() < 4 || ratios.size() < 2) return std::nullopt;
+  RatioFit fit = fit_mixing_ratio(moduli);
+  fit.scatter = scatter_of_all(records, fit);
+  return law_from(fit);
 }
 
 }  // namespace viscard

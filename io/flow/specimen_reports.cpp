@@ -139,7 +139,9 @@ void join_or_append(std::vector<SpecimenReport>& specimens, SpecimenReport mater
           material.files.front().path, counted(material.material->terms.size(), "term"), filed_Pa,
           counted(specimen.fit->terms.size(), "term"), fitted_Pa));
     }
+    const std::string id = specimen.material->specimen_id;  // files of earlier versions have none
     specimen.material = material.material;
+    if (specimen.material->specimen_id.empty()) specimen.material->specimen_id = id;
     specimen.files.push_back(material.files.front());
     return;
   }

@@ -11,7 +11,7 @@ const std::set<std::string>& known_keys(const std::string& section) {
   static const std::map<std::string, std::set<std::string>> kKnown{
       {"",
        {"schema", "name", "E0_Pa", "nu", "rho_kg_m3", "terms", "T_ref_C", "valid", "uncertainty",
-        "flags", "provenance", "mixing_ratio", "shift"}},
+        "flags", "provenance", "mixing_ratio", "specimen_id", "shift"}},
       {"shift",
        {"law", "C1", "C2_K", "activation_J_mol", "T_ref_C", "T_min_C", "T_max_C", "C1_interval_95",
         "C2_K_interval_95", "activation_J_mol_interval_95"}},

@@ -242,6 +242,7 @@ void show_material(const Fields& file, Material& material) {
   file.number("rho_kg_m3", material.rho_kg_m3, material.rho_kg_m3 > 0.0);
   show_terms(file, material, uncertainty);
   file.number("mixing_ratio", material.mixing_ratio, material.mixing_ratio > 0.0);
+  file.text("specimen_id", material.specimen_id, !material.specimen_id.empty());
   double T_ref_C = material.T_ref_C.value_or(0.0);
   file.number("T_ref_C", T_ref_C, material.T_ref_C.has_value());
   if (file.has("T_ref_C")) material.T_ref_C = T_ref_C;

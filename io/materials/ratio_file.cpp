@@ -1,6 +1,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/materials/material_file.h"
 #include "io/materials/material_json.h"
+#include "io/materials/scatter_json.h"
 
 #include <fstream>
 #include <stdexcept>
@@ -46,7 +47,7 @@ Json json_from(const RatioModel& model) {
     const bool is_known = parameter > 2 * model.n_terms || has_known_spread(model, parameter);
     return is_known ? Json(value) : Json(nullptr);
   };
-  return {
+  Json out{
       {"form", json_from(model.form)},
       {"n_terms", model.n_terms},
       {"ratios", model.ratios},
@@ -60,6 +61,12 @@ Json json_from(const RatioModel& model) {
       {"n_parameters", model.n_parameters},
       {"log_likelihood", model.log_likelihood},
       {"bic", model.bic}};
+  if (!model.own_terms.empty()) out["own_terms"] = model.own_terms;
+  if (model.touch_ln_E0 > 0.0 || model.touch_ln_g > 0.0 || model.touch_ln_tau > 0.0) {
+    out["between_touches"] = {
+        {"ln_E0", model.touch_ln_E0}, {"ln_g", model.touch_ln_g}, {"ln_tau", model.touch_ln_tau}};
+  }
+  return out;
 }
 
 Json forms_json(const RatioFit& fit) {
@@ -95,12 +102,16 @@ RatioModel model_from(const Json& json) {
   model.form = form_from(json.at("form"));
   model.n_terms = json.at("n_terms").get<int>();
   model.ratios = json.at("ratios").get<std::vector<double>>();
+  if (json.contains("own_terms")) model.own_terms = json.at("own_terms").get<std::vector<int>>();
   const auto beta = json.at("coefficients").get<std::vector<double>>();
   const auto rows = json.at("covariance").get<std::vector<std::vector<double>>>();
   const auto size = static_cast<Eigen::Index>(beta.size());
   model.coefficients = Eigen::Map<const Eigen::VectorXd>(beta.data(), size);
   model.covariance.resize(size, size);
-  if (model.ratios.empty() || model.n_terms < 0 || rows.size() != beta.size()) {
+  const bool has_right_terms =
+      model.n_terms >= 0 &&
+      (model.own_terms.empty() || model.own_terms.size() == model.ratios.size());
+  if (model.ratios.empty() || !has_right_terms || rows.size() != beta.size()) {
     throw std::runtime_error("the numbers of coefficients and of covariance rows differ");
   }
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -115,6 +126,12 @@ RatioModel model_from(const Json& json) {
   model.spread_ln_E0 = spread("ln_E0");
   model.spread_ln_g = spread("ln_g");
   model.spread_ln_tau = spread("ln_tau");
+  if (json.contains("between_touches")) {
+    const Json& touch = json.at("between_touches");
+    model.touch_ln_E0 = touch.at("ln_E0").get<double>();
+    model.touch_ln_g = touch.at("ln_g").get<double>();
+    model.touch_ln_tau = touch.at("ln_tau").get<double>();
+  }
   model.n_specimens = json.at("n_specimens").get<int>();
   model.n_parameters = json.at("n_parameters").get<int>();
   model.log_likelihood = json.at("log_likelihood").get<double>();
@@ -133,8 +150,10 @@ void read_lists(const Json& json, RatioFit& fit) {
   for (const Json& row : json.at("specimens")) {
     fit.specimens.push_back({row.at("name").get<std::string>(),
                              row.at("mixing_ratio").get<double>(), row.at("E0_Pa").get<double>(),
-                             row.at("ln_E0_se").get<double>()});
+                             row.at("ln_E0_se").get<double>(), row.value("specimen", 0),
+                             row.value("touch", 1)});
   }
+  if (json.contains("scatter")) read_scatter(json.at("scatter"), fit.scatter);
   for (const Json& row : json.at("flags")) {
     fit.flags.push_back({row.at("name").get<std::string>(), 0, row.at("text").get<std::string>()});
   }
@@ -152,8 +171,11 @@ std::string json_from_ratio_fit(const RatioFit& fit) {
     out["specimens"].push_back({{"name", one.name},
                                 {"mixing_ratio", one.mixing_ratio},
                                 {"E0_Pa", one.E0_Pa},
-                                {"ln_E0_se", one.ln_E0_se}});
+                                {"ln_E0_se", one.ln_E0_se},
+                                {"specimen", one.specimen},
+                                {"touch", one.touch}});
   }
+  out["scatter"] = json_from(fit.scatter);
   out["flags"] = Json::array();
   for (const MaterialFlag& flag : fit.flags) {
     out["flags"].push_back({{"name", flag.name}, {"text", flag.text}});

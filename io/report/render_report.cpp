@@ -4,10 +4,22 @@
 #include "io/report/report_sections.h"
 #include "models/maths/text_of_number.h"
 
+#include <map>
 #include <stdexcept>
+#include <string>
 
 namespace viscard {
 namespace {
+
+// Repeats on one specimen are told apart by their touch.
+void number_touches(std::vector<SpecimenEstimates>& estimates) {
+  std::map<std::string, int> n_touches, number;
+  for (const SpecimenEstimates& one : estimates) ++n_touches[one.specimen_id];
+  for (SpecimenEstimates& one : estimates) {
+    if (one.specimen_id.empty() || n_touches[one.specimen_id] < 2) continue;
+    one.label += ", touch " + std::to_string(++number[one.specimen_id]);
+  }
+}
 
 std::vector<SpecimenEstimates> all_estimates(const ReportInput& input) {
   if (input.specimens.empty())
@@ -23,6 +35,7 @@ std::vector<SpecimenEstimates> all_estimates(const ReportInput& input) {
           "was given; make two pages, or fit again with the geometry");
     }
   }
+  number_touches(estimates);
   return estimates;
 }
 

@@ -6,6 +6,7 @@
 #include "models/experiment/emulated_specimen.h"
 #include "models/experiment/specimen.h"
 #include "models/material/material.h"
+#include "models/material/scatter.h"
 
 #include <optional>
 #include <string>
@@ -53,6 +54,7 @@ struct SpecimenReport {
 struct MixingLaw {
   std::string text;  // one sentence with the formula
   std::vector<double> ratio, E0_Pa, E0_low_Pa, E0_high_Pa;
+  std::vector<Scatter> scatter;  // between touches, specimens and ratios
 };
 
 struct ReportInput {

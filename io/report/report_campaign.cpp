@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -22,20 +24,42 @@ std::map<double, std::vector<std::size_t>> specimens_by_ratio(
   return by_ratio;
 }
 
+// The members of a ratio, those of one specimen together.
+std::vector<std::vector<std::size_t>> touches_by_specimen(
+    const std::vector<SpecimenEstimates>& estimates, const std::vector<std::size_t>& members) {
+  std::vector<std::vector<std::size_t>> specimens;
+  std::map<std::string, std::size_t> number_of;
+  for (const std::size_t i : members) {
+    const std::string& id = estimates[i].specimen_id;
+    const auto [number, is_new] = number_of.emplace(id, specimens.size());
+    if (id.empty() || is_new) {
+      number->second = specimens.size();
+      specimens.emplace_back();
+    }
+    specimens[number->second].push_back(i);
+  }
+  return specimens;
+}
+
 struct Spread {
   double mean = 0.0, deviation = 0.0, own_error = 0.0;
 };
 
-Spread spread_of(const std::vector<Estimate>& values) {
-  const auto count = static_cast<double>(values.size());
+// specimens: the touches on each.
+Spread spread_of(const std::vector<std::vector<Estimate>>& specimens) {
+  const auto count = static_cast<double>(specimens.size());
   Spread spread;
-  std::vector<double> errors;
-  for (const Estimate& one : values) {
-    spread.mean += one.value / count;
-    errors.push_back((one.interval_95.high - one.interval_95.low) / (2.0 * kNormal95));
+  std::vector<double> errors, means;
+  for (const std::vector<Estimate>& touches : specimens) {
+    means.push_back(0.0);
+    for (const Estimate& one : touches) {
+      means.back() += one.value / static_cast<double>(touches.size());
+      errors.push_back((one.interval_95.high - one.interval_95.low) / (2.0 * kNormal95));
+    }
+    spread.mean += means.back() / count;
   }
-  for (const Estimate& one : values) {
-    spread.deviation += std::pow(one.value - spread.mean, 2) / (count - 1.0);
+  for (const double mean : means) {
+    spread.deviation += std::pow(mean - spread.mean, 2) / (count - 1.0);
   }
   spread.deviation = std::sqrt(spread.deviation);
   std::sort(errors.begin(), errors.end());
@@ -70,7 +94,8 @@ std::vector<SpecimenStyle> styles_of(const std::vector<SpecimenEstimates>& estim
   for (const auto& [ratio, members] : by_ratio) {
     for (const std::size_t i : members) styles[i].ink = ink_of_series(number);
     styles[members.front()].label =
-        fmt::format("{:g} : 1 ({})", ratio, counted(members.size(), "specimen"));
+        fmt::format("{:g} : 1 ({})", ratio,
+                    counted(touches_by_specimen(estimates, members).size(), "specimen"));
     ++number;
   }
   return styles;
@@ -89,18 +114,51 @@ HtmlTable spread_table(const std::vector<SpecimenEstimates>& estimates) {
                    {"between specimens"},
                    {"error of one fit"}});
   for (const auto& [ratio, members] : specimens_by_ratio(estimates)) {
-    if (members.size() < 2 || !(ratio > 0.0)) continue;
-    std::vector<Estimate> E0, relaxed;
-    for (const std::size_t i : members) {
-      E0.push_back(estimates[i].E0_Pa);
-      relaxed.push_back(estimates[i].sum_g);
+    const auto specimens = touches_by_specimen(estimates, members);
+    if (specimens.size() < 2 || !(ratio > 0.0)) continue;
+    std::vector<std::vector<Estimate>> E0(specimens.size()), relaxed(specimens.size());
+    for (std::size_t s = 0; s < specimens.size(); ++s) {
+      for (const std::size_t i : specimens[s]) {
+        E0[s].push_back(estimates[i].E0_Pa);
+        relaxed[s].push_back(estimates[i].sum_g);
+      }
     }
     const Spread stiff = spread_of(E0), soft = spread_of(relaxed);
     table.add_row({fmt::format("<span class=\"nw\">{:g} : 1</span>", ratio),
-                   std::to_string(members.size()), mean_html(stiff, unit.per_si),
+                   std::to_string(specimens.size()), mean_html(stiff, unit.per_si),
                    percent(stiff.deviation / stiff.mean), percent(stiff.own_error / stiff.mean),
                    mean_html(soft, 100.0), percent(soft.deviation / soft.mean),
                    percent(soft.own_error / soft.mean)});
+  }
+  return table;
+}
+
+HtmlTable levels_table(const std::vector<Scatter>& scatter) {
+  std::vector<HtmlTable::Column> columns{{"Level", false}};
+  for (const Scatter& one : scatter) {
+    const char* name = one.quantity == "ln_E0" ? "<i>E</i><sub>0</sub>" : "Σ<i>g</i>";
+    columns.insert(columns.end(), {{std::string(name) + " <span class=\"unit\">(%)</span>"},
+                                   {"95 %"},
+                                   {"degrees of freedom"}});
+  }
+  HtmlTable table(columns);
+  if (scatter.empty()) return table;
+  for (const auto& [name, level] : {std::pair{"touches on one specimen", &Scatter::touch},
+                                    std::pair{"specimens of one ratio", &Scatter::specimen},
+                                    std::pair{"ratios about the law", &Scatter::ratio}}) {
+    std::vector<std::string> row{name};
+    for (const Scatter& one : scatter) {
+      const ScatterLevel& at = one.*level;
+      if (!is_identified(at)) {
+        row.insert(row.end(), {"not identified: " + at.note, "–", "0"});
+        continue;
+      }
+      row.insert(row.end(),
+                 {number_html(at.deviation, 100.0, &at.interval_95) +
+                      (at.note.empty() ? "" : "<br><span class=\"ci\">" + at.note + "</span>"),
+                  interval_html(at.interval_95, 100.0), std::to_string(at.degrees_of_freedom)});
+    }
+    table.add_row(row);
   }
   return table;
 }

@@ -146,6 +146,7 @@ SpecimenEstimates estimates_from_specimen(const SpecimenReport& specimen, std::s
   if (estimates.label.empty()) estimates.label = "specimen " + std::to_string(index + 1);
   estimates.anchor = "specimen-" + std::to_string(index + 1);
   estimates.mixing_ratio = specimen.specimen.mixing_ratio;
+  if (specimen.material) estimates.specimen_id = specimen.material->specimen_id;
   if (specimen.fit) {
     take_fit(*specimen.fit, estimates);
   } else if (specimen.material) {

@@ -22,8 +22,9 @@ struct TermEstimate {
 };
 
 struct SpecimenEstimates {
-  std::string label;   // specimen's id, or the material's name, or "specimen 2"
-  std::string anchor;  // id of its section, unique on the page
+  std::string label;        // specimen's id, or the material's name, or "specimen 2"
+  std::string anchor;       // id of its section, unique on the page
+  std::string specimen_id;  // those of repeated touches are equal; empty: not known
   double mixing_ratio = 0.0;
   bool is_stiffness = false;  // moduli are stiffnesses in N/m
   Estimate E0_Pa, E_inf_Pa;

@@ -134,6 +134,14 @@ void add_summary(Page& page, const ReportInput& input,
         "to the mean, and the median standard error of a single fit. If the first is larger, the "
         "specimens differ by more than the error of the fit.");
   }
+  const HtmlTable levels = levels_table(input.law ? input.law->scatter : std::vector<Scatter>{});
+  if (!levels.is_empty()) {
+    page.add_table(
+        levels,
+        "Scatter at three levels, as standard deviations: of <i>E</i><sub>0</sub> in per "
+        "cent of itself, of the share that relaxes in per cent of <i>E</i><sub>0</sub>. "
+        "The errors of the single fits are not in it.");
+  }
   const HtmlTable terms = terms_table(estimates);
   if (!terms.is_empty()) {
     const char* form = estimates.front().is_stiffness ? "R" : "E";

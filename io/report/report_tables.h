@@ -14,8 +14,12 @@ namespace viscard {
 HtmlTable summary_table(const std::vector<SpecimenEstimates>& estimates);
 
 // One row per ratio with at least two specimens: the mean of E0 and of 1 - E_inf/E0, their standard
-// deviation between specimens, and the median standard error of a fit. Empty if none is repeated.
+// deviation between specimens (each the mean of its touches), and the median standard error of a fit.
+// Empty if there is no such ratio.
 HtmlTable spread_table(const std::vector<SpecimenEstimates>& estimates);
+
+// The scatter between touches, specimens and ratios, one row per level. Empty without scatter.
+HtmlTable levels_table(const std::vector<Scatter>& scatter);
 
 // One row per term.
 HtmlTable terms_table(const std::vector<SpecimenEstimates>& estimates);

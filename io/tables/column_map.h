@@ -13,7 +13,7 @@ namespace viscard {
 // Finds the columns of a table by quantity. Each quantity has one name in viscard, which ends in
 // its SI unit: time_s, force_N, depth_m, modulus_Pa, stress_Pa, strain, compliance_1_Pa,
 // frequency_Hz, storage_modulus_Pa, loss_modulus_Pa, mass_kg, volts_V, position_m, temperature_C,
-// segment. The table's own headers are matched by name and unit ("t (s)", "Force [mN]", "E_relax"
+// segment, specimen. The table's own headers are matched by name and unit ("t (s)", "Force [mN]", "E_relax"
 // over "MPa"); a ColumnMap overrides the match.
 
 // Quantity name to the right-hand side of --column NAME=EXPRESSION, which is [factor*][-]column.
@@ -45,7 +45,7 @@ std::optional<ColumnUse> find_column(const CsvTable& table, const std::string& n
 std::vector<double> column_SI(const CsvTable& table, const std::string& name,
                               const ColumnMap& map = {});
 
-// Returns the cells as text, for "segment". Throws std::runtime_error if the column does not exist.
+// Returns the cells as text, for "segment" and "specimen". Throws std::runtime_error if the column does not exist.
 std::vector<std::string> column_text(const CsvTable& table, const std::string& name,
                                      const ColumnMap& map = {});
 

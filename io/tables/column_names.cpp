@@ -126,7 +126,8 @@ const std::vector<Quantity>& quantities() {
        {"U", "V", "voltage", "reading", "output", "amplifier", "spannung", "电压"}},
       {"position_m", "position", "m", {"z", "stage", "stage position", "位置"}},
       {"temperature_C", "temperature", "degC", {"T", "temp", "temperatur", "température", "温度"}},
-      {"segment", "segment", "1", {"set", "phase", "step", "step name"}, true}};
+      {"segment", "segment", "1", {"set", "phase", "step", "step name"}, true},
+      {"specimen", "specimen", "1", {"specimen id", "specimen name"}, true}};
   return kQuantities;
 }
 

@@ -28,6 +28,11 @@ struct EmulatedTruth {
   double steps_per_m = 3200e3;      // GRBL $102
   double acceleration_m_s2 = 0.2;   // GRBL $122
   double max_rate_m_s = 10e-3;      // GRBL $112
+  // How specimens and touches of a campaign differ (rig/emulator/emulated_touch.h); 0: not at all.
+  double specimen_scatter = 0.0;   // standard deviation of ln E0 between specimens
+  double alignment_scatter = 0.0;  // of ln contact_factor between touches
+  double surface_scatter_m = 0.0;  // of the surface position between touches
+  double contact_factor = 1.0;     // of this touch: force over that of the ideal contact
   std::uint64_t seed = 1;
 };
 

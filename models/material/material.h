@@ -77,6 +77,7 @@ struct Material {
   double rho_kg_m3 = 0.0;  // 0: not given
   std::vector<MaterialTerm> terms;
   double mixing_ratio = 0.0;  // parts of base to one of curing agent; 0: not given
+  std::string specimen_id;    // of the specimen it was measured on; empty: not known
   std::optional<double> T_ref_C;
   std::optional<TemperatureShift> shift;  // of all times together, relative to T_ref_C
   ValidityWindow valid;

@@ -15,6 +15,7 @@ using Index = Eigen::Index;
 
 int degree_of(const RatioModel& model, int parameter) {
   if (parameter == 0) return model.form.E0_degree;
+  if (!model.own_terms.empty()) return kPerRatio;
   const std::string name = parameter <= model.n_terms
                                ? "g_" + std::to_string(parameter)
                                : "tau_" + std::to_string(parameter - model.n_terms);
@@ -23,9 +24,10 @@ int degree_of(const RatioModel& model, int parameter) {
   return parameter <= model.n_terms ? model.form.g_degree : model.form.tau_degree;
 }
 
-double spread_of(const RatioModel& model, int parameter) {
+// n_terms: at the ratio of the parameter.
+double spread_of(const RatioModel& model, int parameter, int n_terms) {
   if (parameter == 0) return model.spread_ln_E0;
-  return parameter <= model.n_terms ? model.spread_ln_g : model.spread_ln_tau;
+  return parameter <= n_terms ? model.spread_ln_g : model.spread_ln_tau;
 }
 
 Index position_of(const RatioModel& model, double ratio) {
@@ -33,6 +35,39 @@ Index position_of(const RatioModel& model, double ratio) {
     return std::abs(measured - ratio) <= 1e-9 * std::abs(ratio);
   });
   return found == model.ratios.end() ? -1 : found - model.ratios.begin();
+}
+
+// The entries of X(ratio) that belong to one parameter.
+Eigen::RowVectorXd row_at(const RatioModel& model, double ratio, int parameter) {
+  const int degree = degree_of(model, parameter);
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n_columns(model, parameter));
+  if (degree == kPerRatio) {
+    const Index position = position_of(model, ratio);
+    require(position >= 0, "ratio " + text_of(ratio) +
+                               " was not measured, and this form holds for measured ratios only");
+    row[position] = 1.0;
+    return row;
+  }
+  const ScaledVariable scaled = scale_of(model);
+  const double x = (variable_of(model.form.variable, ratio) - scaled.middle) / scaled.half;
+  for (int power = 0; power <= degree; ++power) row[power] = std::pow(x, power);
+  return row;
+}
+
+// beta holds the coefficients of ln E0, then ln g_i and ln tau_i of each ratio.
+Eigen::MatrixXd design_with_own_terms(const RatioModel& model, double ratio, Index position) {
+  Index columns = n_columns(model, 0), first = 0, size = 0;
+  for (std::size_t r = 0; r < model.own_terms.size(); ++r) {
+    if (static_cast<Index>(r) == position) {
+      first = columns;
+      size = 2 * model.own_terms[r];
+    }
+    columns += 2 * model.own_terms[r];
+  }
+  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(1 + size, columns);
+  design.row(0).head(n_columns(model, 0)) = row_at(model, ratio, 0);
+  design.block(1, first, size, size).setIdentity();
+  return design;
 }
 
 // theta and its covariance for a new specimen.
@@ -46,13 +81,14 @@ Prediction predict(const RatioModel& model, double ratio) {
   const Eigen::MatrixXd design = design_at(model, ratio);
   Prediction out{design * model.coefficients, design * model.covariance * design.transpose(),
                  Eigen::VectorXd(design.rows())};
+  const int n_terms = static_cast<int>(design.rows() / 2);
   for (Index k = 0; k < design.rows(); ++k) {
     const int parameter = static_cast<int>(k);
     if (!has_known_spread(model, parameter)) {
       out.quantile[k] = kNormal95;
       continue;
     }
-    out.covariance(k, k) += std::pow(spread_of(model, parameter), 2);
+    out.covariance(k, k) += std::pow(spread_of(model, parameter, n_terms), 2);
     out.quantile[k] = student_t_975(model.n_specimens - n_columns(model, parameter));
   }
   return out;
@@ -176,24 +212,15 @@ int n_columns(const RatioModel& model, int parameter) {
 }
 
 Eigen::MatrixXd design_at(const RatioModel& model, double ratio) {
+  const Index position = position_of(model, ratio);
+  if (!model.own_terms.empty()) return design_with_own_terms(model, ratio, position);
   const int size = 1 + 2 * model.n_terms;
-  int columns = 0;
+  Index columns = 0;
   for (int k = 0; k < size; ++k) columns += n_columns(model, k);
   Eigen::MatrixXd design = Eigen::MatrixXd::Zero(size, columns);
-  const ScaledVariable scaled = scale_of(model);
-  const double x = (variable_of(model.form.variable, ratio) - scaled.middle) / scaled.half;
   Index column = 0;
   for (int k = 0; k < size; ++k) {
-    if (degree_of(model, k) == kPerRatio) {
-      const Index position = position_of(model, ratio);
-      require(position >= 0, "ratio " + text_of(ratio) +
-                                 " was not measured, and this form holds for measured ratios only");
-      design(k, column + position) = 1.0;
-    } else {
-      for (int power = 0; power <= degree_of(model, k); ++power) {
-        design(k, column + power) = std::pow(x, power);
-      }
-    }
+    design.row(k).segment(column, n_columns(model, k)) = row_at(model, ratio, k);
     column += n_columns(model, k);
   }
   return design;
@@ -207,26 +234,31 @@ Material material_at_ratio(const RatioFit& fit, double ratio, bool may_extrapola
   check_range(fit, ratio, may_extrapolate);
   const bool is_measured = position_of(fit.best, ratio) >= 0;
   const RatioModel& model = is_measured ? fit.best : fit.law;
+  require(is_measured || model.own_terms.empty(),
+          "ratio " + text_of(ratio) +
+              " was not measured, and with --own-terms the terms are known at measured ratios "
+              "only; fit again without it");
   const Prediction from = predict(model, ratio);
+  const int n_terms = static_cast<int>(from.theta.size() / 2);
   Material material = fit.common;
   material.mixing_ratio = ratio;
   material.E0_Pa = std::exp(from.theta[0]);
   double rest = 1.0;
-  for (Index i = 1; i <= model.n_terms; ++i) {
+  for (Index i = 1; i <= n_terms; ++i) {
     const double g = std::exp(from.theta[i]);
-    material.terms.push_back({g, g, std::exp(from.theta[model.n_terms + i])});
+    material.terms.push_back({g, g, std::exp(from.theta[n_terms + i])});
     rest -= g;
   }
   require(rest > 0.0, "at ratio " + text_of(ratio) +
                           " the law lets the whole modulus relax; it is not valid there");
   const double systematic =
       fit.common.uncertainty ? fit.common.uncertainty->systematic_relative : 0.0;
-  material.uncertainty = uncertainty_of(from, model.n_terms, material.E0_Pa * rest);
+  material.uncertainty = uncertainty_of(from, n_terms, material.E0_Pa * rest);
   material.uncertainty->systematic_relative = systematic;
   material.name += (material.name.empty() ? "ratio " : " ") + text_of(ratio) + ":1";
   material.flags = fit.flags;
   std::string unknown;
-  for (const auto& [name, parameter] : first_of_each_kind(model.n_terms)) {
+  for (const auto& [name, parameter] : first_of_each_kind(n_terms)) {
     if (!has_known_spread(model, parameter)) unknown += (unknown.empty() ? "" : ", ") + name;
   }
   if (!unknown.empty()) {

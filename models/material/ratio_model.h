@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/material/material.h"
+#include "models/material/scatter.h"
 
 #include <Eigen/Core>
 
@@ -43,12 +44,15 @@ std::string form_in_words(const RatioForm& form);
 // One form fitted to all specimens (fit/fit_mixing_ratio.h).
 struct RatioModel {
   RatioForm form;
-  int n_terms = 0;
+  int n_terms = 0;               // the largest number, if there are own_terms
+  std::vector<int> own_terms;    // at each ratio; empty: n_terms at all ratios
   std::vector<double> ratios;    // measured, ascending, each once
   Eigen::VectorXd coefficients;  // beta: the columns of theta's first row, then of the next ...
   Eigen::MatrixXd covariance;    // of beta
   // Between-specimen standard deviations of ln E0, of each ln g_i and of each ln tau_i.
   double spread_ln_E0 = 0.0, spread_ln_g = 0.0, spread_ln_tau = 0.0;
+  // The same between touches on one specimen; 0 without repeats.
+  double touch_ln_E0 = 0.0, touch_ln_g = 0.0, touch_ln_tau = 0.0;
   int n_specimens = 0;
   double log_likelihood = 0.0;  // maximum likelihood
   double bic = 0.0;
@@ -67,8 +71,9 @@ int n_columns(const RatioModel& model, int parameter);
 // True if there are more specimens than coefficients of this parameter; otherwise the scatter
 // between specimens is unknown.
 bool has_known_spread(const RatioModel& model, int parameter);
-// X(ratio), 1 + 2N rows. Throws std::invalid_argument if the form holds for measured ratios only
-// and this ratio was not measured.
+// X(ratio), 1 + 2N rows with the number N of terms at the ratio. With own_terms, a ratio that was
+// not measured has only the row of ln E0. Throws std::invalid_argument if the form holds for
+// measured ratios only and this ratio was not measured.
 Eigen::MatrixXd design_at(const RatioModel& model, double ratio);
 
 // E0 over a range of ratios, for plots: mean and 95 % band of a new specimen.
@@ -82,16 +87,19 @@ struct RatioComparison {
   int n_parameters = 0;
   double log_likelihood = 0.0, bic = 0.0;
 };
-struct RatioSpecimen {
+struct RatioSpecimen {  // one record
   std::string name;
   double mixing_ratio = 0.0;
   double E0_Pa = 0.0;
   double ln_E0_se = 0.0;  // of its own fit
+  int specimen = 0;       // from 1; records with the same number are touches on one specimen
+  int touch = 1;
 };
 struct RatioFit {
   RatioModel best, law;                // of all forms by BIC, and of those that are laws
   std::vector<RatioComparison> forms;  // ascending BIC
   std::vector<RatioSpecimen> specimens;
+  std::vector<Scatter> scatter;  // of ln E0 and sum g between touches, specimens and ratios
   std::vector<MaterialFlag> flags;
   // Common to all materials: nu, density, temperature, window, systematic part, raw files.
   Material common;

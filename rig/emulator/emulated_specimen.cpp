@@ -7,7 +7,7 @@ namespace viscard {
 
 EmulatedSpecimen::EmulatedSpecimen(const EmulatedTruth& truth)
     : hereditary_(young_series(truth.material)),
-      force_per_stress_m_(force_per_modulus_and_depth_m(truth.contact)),
+      force_per_stress_m_(truth.contact_factor * force_per_modulus_and_depth_m(truth.contact)),
       frame_stiffness_N_m_(truth.frame_stiffness_N_m),
       surface_position_m_(truth.surface_position_m) {}
 

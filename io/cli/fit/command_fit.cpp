@@ -79,6 +79,10 @@ CommandSyntax fit_syntax() {
   add("joint",
       "fit all files together: the law of the material in its mixing ratio, from captures, tables "
       "or material files; --out writes the joint file that viscard card reads");
+  add("specimen-id", po::value<Words>()->composing(),
+      "with --joint, once for each file: the specimen it was measured on; files with the same id "
+      "are repeated touches. Default: id of the capture, column specimen of the table");
+  add("own-terms", "with --joint: each mixing ratio keeps its own number of terms");
   add("share", po::value<Words>()->composing(),
       "with --joint: E0, g, tau or one of them (tau_1) is the same at all ratios (repeatable)");
   add("out", po::value<std::string>(), "material file to write (one input file)");
@@ -92,7 +96,9 @@ int run_joint(const po::variables_map& values, const Words& files, const std::st
               Streams& streams) {
   const JointWords joint{.files = files,
                          .ratios = given<Numbers>(values, "ratio").value_or(Numbers{}),
+                         .specimen_ids = given<Words>(values, "specimen-id").value_or(Words{}),
                          .shared = given<Words>(values, "share").value_or(Words{}),
+                         .own_terms = values.count("own-terms") > 0,
                          .fit = words_from(values),
                          .material = material_words(values, command),
                          .out = given(values, "out").value_or(""),
@@ -143,7 +149,11 @@ int run_fit(const Words& words, Streams& streams) {
   const auto files = required<Words>(*values, "file", syntax);
   const auto out = given(*values, "out");
   const bool is_joint = values->count("joint") > 0;
-  if (!is_joint && values->count("share") > 0) throw UsageError("--share needs --joint");
+  for (const char* option : {"share", "specimen-id", "own-terms"}) {
+    if (!is_joint && values->count(option) > 0) {
+      throw UsageError(std::string("--") + option + " needs --joint");
+    }
+  }
   if (!is_joint && values->count("ratio") > 0 && files.size() > 1) {
     throw UsageError(
         "--ratio is for one input file; for several, give it once for each with --joint");

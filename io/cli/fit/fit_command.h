@@ -24,7 +24,9 @@ void print_fit(const FittedFile& fitted, std::ostream& out);
 struct JointWords {
   Words files;                 // captures, tables, material files
   std::vector<double> ratios;  // --ratio, one for each file; empty: from the files
+  Words specimen_ids;          // --specimen-id, one for each file; empty: from the files
   Words shared;                // --share: E0, g, tau
+  bool own_terms = false;
   FitRequest fit;
   MaterialRequest material;
   std::string out;

@@ -10,18 +10,54 @@
 
 #include <algorithm>
 #include <ostream>
+#include <utility>
 
 namespace viscard {
 namespace {
 
-void print(const RatioFit& fit, std::ostream& out) {
-  out << fmt::format("{} at {}\n\n", counted(fit.specimens.size(), "specimen"),
+// The table of records; repeats show their touch.
+void print_records(const RatioFit& fit, std::ostream& out) {
+  const auto n_specimens = static_cast<std::size_t>(fit.law.n_specimens);
+  const bool has_repeats = fit.specimens.size() > n_specimens;
+  if (has_repeats) out << counted(fit.specimens.size(), "record") << " of ";
+  out << fmt::format("{} at {}\n\n", counted(n_specimens, "specimen"),
                      counted(fit.law.ratios.size(), "mixing ratio"));
-  out << fmt::format("{:<24} {:>7} {:>12} {:>10}\n", "specimen", "ratio", "E0 (Pa)", "own error");
+  out << fmt::format("{:<24} {:>7} {}{:>12} {:>10}\n", "specimen", "ratio",
+                     has_repeats ? "touch " : "", "E0 (Pa)", "own error");
   for (const RatioSpecimen& one : fit.specimens) {
-    out << fmt::format("{:<24} {:>7.4g} {:>12.6g} {:>8.2g} %\n", one.name, one.mixing_ratio,
-                       one.E0_Pa, 100.0 * one.ln_E0_se);
+    out << fmt::format("{:<24} {:>7.4g} {}{:>12.6g} {:>8.2g} %\n", one.name, one.mixing_ratio,
+                       has_repeats ? fmt::format("{:>5} ", one.touch) : "", one.E0_Pa,
+                       100.0 * one.ln_E0_se);
   }
+}
+
+// Standard deviations at three levels: E0 in per cent of itself, the share that relaxes in per cent
+// of E0.
+void print_scatter(const RatioFit& fit, std::ostream& out) {
+  for (const Scatter& scatter : fit.scatter) {
+    const bool is_modulus = scatter.quantity == "ln_E0";
+    out << fmt::format(
+        "\nscatter of {}; error of one fit {:.2g} %\n",
+        is_modulus ? "E0" : fmt::format("sum g, of {:.3g} % on average", 100.0 * scatter.mean),
+        100.0 * scatter.own_error);
+    for (const auto& [name, level] : {std::pair{"touch, on one specimen", &scatter.touch},
+                                      std::pair{"specimen, of one ratio", &scatter.specimen},
+                                      std::pair{"ratio, about the law", &scatter.ratio}}) {
+      out << fmt::format("  {:<24}", name);
+      if (!is_identified(*level)) {
+        out << fmt::format("not identified: {}\n", level->note);
+        continue;
+      }
+      out << fmt::format("{:>8.2g} %  95 % {:.2g} to {:.2g} %  ({}){}\n", 100.0 * level->deviation,
+                         100.0 * level->interval_95.low, 100.0 * level->interval_95.high,
+                         fmt::format("{} d.f.", level->degrees_of_freedom),
+                         level->note.empty() ? "" : "; " + level->note);
+    }
+  }
+}
+
+void print(const RatioFit& fit, std::ostream& out) {
+  print_records(fit, out);
   out << fmt::format("\n{:>9} {:>5}  form\n", "BIC", "par.");
   constexpr std::size_t kShown = 8;
   for (std::size_t i = 0; i < std::min(kShown, fit.forms.size()); ++i) {
@@ -39,7 +75,9 @@ void print(const RatioFit& fit, std::ostream& out) {
     out << ", g " << scatter(fit.law.spread_ln_g, 1) << ", tau "
         << scatter(fit.law.spread_ln_tau, fit.law.n_terms + 1);
   }
-  out << " (standard deviations)\n\n";
+  out << " (standard deviations about the law)\n";
+  print_scatter(fit, out);
+  out << "\n";
   for (const double ratio : fit.best.ratios) {
     const Material at = material_at_ratio(fit, ratio);
     out << fmt::format(
@@ -60,7 +98,15 @@ int run_joint_fit(const JointWords& words, Streams& streams) {
         fmt::format("there are {} and {} --ratio; give one for each file, in their order",
                     counted(words.files.size(), "file"), words.ratios.size()));
   }
-  MixingOptions options;
+  if (!words.specimen_ids.empty() && words.specimen_ids.size() != words.files.size()) {
+    throw UsageError(
+        fmt::format("there are {} and {} --specimen-id; give one for each file, in their order",
+                    counted(words.files.size(), "file"), words.specimen_ids.size()));
+  }
+  if (words.own_terms && words.fit.options.n_terms) {
+    throw UsageError("--terms gives all ratios the same number of terms; omit it or --own-terms");
+  }
+  MixingOptions options{.own_terms = words.own_terms};
   for (const std::string& name : words.shared) {
     if (name == "E0") {
       options.share_E0 = true;
@@ -79,6 +125,7 @@ int run_joint_fit(const JointWords& words, Streams& streams) {
   const RatioFit fit = fit_jointly(
       {.files = words.files,
        .ratios = words.ratios,
+       .specimen_ids = words.specimen_ids,
        .fit = words.fit,
        .material = words.material,
        .options = options,

@@ -2,10 +2,34 @@
 
 #include "io/cli/rig/capture_words.h"
 #include "io/cli/words/streams.h"
+#include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace viscard {
+namespace {
+
+void check_repeats(const CaptureWords& words) {
+  constexpr int kMost = 99;
+  constexpr double kLongest_s = 86400.0;
+  if (words.repeats < 1 || words.repeats > kMost) {
+    throw UsageError(fmt::format("--repeat is {}; it must be from 1 to {}", words.repeats, kMost));
+  }
+  if (words.repeats > 1 && words.overwrite) {
+    throw UsageError("--repeat numbers its captures and replaces none: omit --force");
+  }
+  if (!words.lift_wait_s) return;
+  if (words.repeats == 1) throw UsageError("--lift-wait is between repeats: add --repeat N");
+  if (!(*words.lift_wait_s >= 0.0) || *words.lift_wait_s > kLongest_s) {
+    throw UsageError(fmt::format("--lift-wait is {} s; it must be from 0 to {} s (a day)",
+                                 *words.lift_wait_s, kLongest_s));
+  }
+}
+
+}  // namespace
+
 void check_words(const CaptureWords& words) {
   if (words.out_file.empty()) {
     throw UsageError("capture needs --out FILE, the capture file to write");
@@ -17,8 +41,14 @@ void check_words(const CaptureWords& words) {
     throw UsageError(fmt::format("--speed is {}; it must be above 0 and at most {}", words.speed,
                                  kFastestEmulation));
   }
+  check_repeats(words);
+  const std::size_t n_truths = words.truth_files.size();
+  if (n_truths > 1 && n_truths != words.specimen_files.size()) {
+    throw UsageError(fmt::format("there are {} and {} --truth; give one for all, or one for each",
+                                 counted(words.specimen_files.size(), "specimen"), n_truths));
+  }
   if (words.is_emulated) return;
-  if (words.truth_file || words.seed || words.speed != 1.0) {
+  if (n_truths > 0 || words.seed || words.speed != 1.0) {
     throw UsageError("--truth, --seed and --speed are for an emulated rig: add --emulate");
   }
   if (!words.rig_file || !words.test_file || words.specimen_files.empty()) {
@@ -27,9 +57,14 @@ void check_words(const CaptureWords& words) {
   }
 }
 
-CaptureSetup capture_setup(const CaptureWords& words, const std::string& specimen_file) {
-  return setup_from_files({words.rig_file, words.test_file, words.truth_file, specimen_file,
-                           words.is_emulated, words.seed, words.speed});
+CaptureSetup capture_setup(const CaptureWords& words, const SeriesStep& step) {
+  SetupRequest request{words.rig_file,    words.test_file, {},          step.specimen_file,
+                       words.is_emulated, words.seed,      words.speed, std::max(1, step.touch)};
+  const bool is_shared = words.truth_files.size() == 1;
+  if (!words.truth_files.empty()) {
+    request.truth_file = words.truth_files[is_shared ? 0 : step.specimen];
+  }
+  return setup_from_files(request);
 }
 
 }  // namespace viscard

@@ -1,6 +1,6 @@
+#include "io/cli/rig/capture_summary.h"
 #include "io/cli/rig/capture_words.h"
 #include "io/cli/rig/json_errors.h"
-#include "io/cli/rig/live_view.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/output_paths.h"
@@ -13,9 +13,11 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <ostream>
+#include <set>
 
 namespace po = boost::program_options;
 
@@ -23,8 +25,6 @@ namespace viscard {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr std::size_t kPictureWidth = 60;
 
 CommandSyntax capture_syntax(CaptureWords& words) {
   CommandSyntax syntax;
@@ -34,7 +34,11 @@ CommandSyntax capture_syntax(CaptureWords& words) {
       "and no file is needed: a GRBL stage and an HX711 amplifier are emulated behind real ports.\n"
       "Ctrl-C stops the stage, lifts the punch and keeps the record. Several --specimen options "
       "make\n"
-      "a series: --out is then a folder, and --resume captures what is not finished in it.";
+      "a series: --out is then a folder, and --resume captures what is not finished in it. "
+      "--repeat "
+      "touches each specimen several times; viscard fit --joint then separates the scatter of "
+      "touches "
+      "from that of specimens.";
   syntax.example = "viscard capture --emulate --speed 50 --out run.viscap";
   auto add = syntax.options.add_options();
   add("rig", into(words.rig_file), "rig.toml: ports, calibration");
@@ -44,6 +48,12 @@ CommandSyntax capture_syntax(CaptureWords& words) {
   add("out", po::value(&words.out_file), "capture file to write (*.viscap), or a folder");
   add("resume", po::bool_switch(&words.resumes),
       "skip finished captures, repeat interrupted ones in files beside them");
+  add("repeat", po::value(&words.repeats)->default_value(1),
+      "touch each specimen so many times, with a new contact each time; --out is then a folder, "
+      "and "
+      "the touches in it are numbered on");
+  add("lift-wait", po::value<std::string>(),
+      "how long the punch stays lifted between two touches, such as \"60 s\" (default)");
   add("yes", po::bool_switch(&words.asks_nobody), "do not wait for Enter between specimens");
   add("live", po::bool_switch(&words.shows_page),
       "keep a page with force against time beside the capture: *.live.html");
@@ -54,7 +64,8 @@ CommandSyntax capture_syntax(CaptureWords& words) {
   add("uncalibrated", po::bool_switch(&words.is_uncalibrated),
       "capture although the load cell's calibration has expired");
   add("emulate", po::bool_switch(&words.is_emulated), "use an emulated rig");
-  add("truth", into(words.truth_file), "truth.toml: what the emulated specimen is made of");
+  add("truth", po::value(&words.truth_files),
+      "truth.toml: what the emulated specimen is made of; once, or once for each --specimen");
   add("seed", into(words.seed), "seed of the emulated noise");
   add("speed", po::value(&words.speed)->default_value(1.0),
       "largest speed of the emulated clock over the wall clock, up to 500; changes no result");
@@ -81,41 +92,6 @@ void check_before_start(const CaptureWords& words, const CaptureSetup& setup, St
   if (words.shows_page) refuse_existing(beside(kPageEnding), words.overwrite);
 }
 
-void print_text(const CaptureOutcome& capture, std::ostream& out) {
-  const RunOutcome& outcome = capture.run;
-  const StreamCounts& stream = outcome.stream;
-  out << fmt::format("{}: {}\n", capture.file, outcome.status)
-      << (outcome.line_format.empty() ? std::string()
-                                      : fmt::format("  lines read as   {}\n", outcome.line_format))
-      << fmt::format("  peak force      {:.4f} N (expected at most {:.4f}, limit {:.4f})\n",
-                     outcome.peak_force_N, outcome.expected.peak_force_N, outcome.expected.limit_N)
-      << (outcome.contact_position_m
-              ? fmt::format("  depth reached   {:.4f} mm\n", outcome.achieved_depth_m * 1e3)
-              : std::string("  depth reached   none: no contact was found\n"))
-      << fmt::format("  noise           {:.3f} mN per reading\n", outcome.noise_N * 1e3)
-      << fmt::format(
-             "  readings        expected {}, received {}, missing {}, duplicate {}, glitch {}, "
-             "unreadable {}, implausible {}\n",
-             stream.expected(), stream.received, stream.missing, stream.duplicate, stream.glitch,
-             stream.unreadable, stream.implausible)
-      << fmt::format("  longest gap     {:.4f} s, at {:.1f} s\n", stream.longest_gap_s,
-                     stream.longest_gap_at_s);
-  if (outcome.hidden_error_N > 0.0) {
-    out << fmt::format(
-        "  checked         against neighbours: errors above {:.3f} mN would show at rest\n",
-        outcome.hidden_error_N * 1e3);
-  }
-  if (outcome.n_late > 0) {
-    out << fmt::format("  computer        late by up to {:.2f} s, {} in all: not watched then\n",
-                       outcome.longest_late_s,
-                       counted(static_cast<std::size_t>(outcome.n_late), "time"));
-  }
-  for (const std::string& doubt : outcome.doubts) out << "  doubt           " << doubt << "\n";
-  if (!capture.force_N.empty()) {
-    out << "  force           " << sparkline(capture.force_N, kPictureWidth) << "\n";
-  }
-}
-
 // Waits until the person has changed the specimen; false if the person ended the series.
 bool is_next_ready(const SeriesStep& step, const CaptureWords& words, Streams& streams) {
   if (words.is_emulated || words.asks_nobody) return true;
@@ -126,47 +102,108 @@ bool is_next_ready(const SeriesStep& step, const CaptureWords& words, Streams& s
 }
 
 // Several specimens need a person at a terminal to change them, unless --yes was given.
-void check_somebody_is_there(const CaptureWords& words, std::size_t n_left) {
-  if (n_left < 2 || words.is_emulated || words.asks_nobody || isatty(STDIN_FILENO) == 1) return;
+void check_somebody_is_there(const CaptureWords& words, const std::vector<SeriesStep>& steps) {
+  std::set<std::size_t> left;
+  for (const SeriesStep& step : steps) {
+    if (step.finished_file.empty()) left.insert(step.specimen);
+  }
+  if (left.size() < 2 || words.is_emulated || words.asks_nobody || isatty(STDIN_FILENO) == 1)
+    return;
   throw UsageError(
       "between several specimens capture waits for Enter, but there is no terminal: add --yes if "
-      "the "
-      "specimens are changed automatically");
+      "the specimens are changed automatically");
 }
 
 struct SeriesResult {
   ordered_json runs = ordered_json::array();
   std::string trouble;  // why the series ended early; empty if it did not
+  std::string code = "interrupted";
 };
+
+// "touch 2 of 3: " of a repeated specimen.
+std::string touch_text(const SeriesStep& step) {
+  if (step.touch == 0) return "";
+  return fmt::format("touch {} of {}: ", step.touch, step.last_touch);
+}
+
+// Changes the specimen, or waits until it has recovered from the last touch. Returns why the series
+// ends here, or nothing.
+std::string wait_for(const SeriesStep& step, const SeriesStep* previous, const CaptureWords& words,
+                     Streams& streams) {
+  if (previous == nullptr) return "";
+  if (previous->specimen != step.specimen) {
+    return is_next_ready(step, words, streams)
+               ? ""
+               : "the series was ended before " + touch_text(step) + step.specimen_file;
+  }
+  if (wait_lifted(step, words, streams)) return "";
+  return fmt::format("the series was stopped while the punch was lifted, before touch {} of {}",
+                     step.touch, step.last_touch);
+}
+
+// Runs one step after the wait before it; false ends the series.
+bool run_step(const SeriesStep& step, const SeriesStep* previous, const CaptureWords& words,
+              const std::string& command, SeriesResult& result, Streams& streams) {
+  CaptureWords one = words;
+  one.out_file = step.out_file;
+  const CaptureSetup setup = capture_setup(one, step);
+  check_before_start(one, setup, streams);
+  check_calibration(one, setup, streams);
+  result.trouble = wait_for(step, previous, words, streams);
+  if (!result.trouble.empty()) return false;
+  if (step.touch > 0) streams.err << "viscard: " << touch_text(step) << step.out_file << "\n";
+  const CaptureOutcome outcome = capture_once(one, setup, command, streams);
+  result.runs.push_back(json_from_outcome(outcome.run, outcome.file));
+  if (step.touch > 0) {
+    result.runs.back()["specimen"] = setup.specimen.id;
+    result.runs.back()["touch"] = step.touch;
+  }
+  if (!words.as_json) print_text(outcome, streams.out);
+  if (outcome.run.status == "finished") return true;
+  result.trouble = touch_text(step) + outcome.run.reason;
+  return false;
+}
 
 SeriesResult run_series(const std::vector<SeriesStep>& steps, const CaptureWords& words,
                         const std::string& command, Streams& streams) {
   SeriesResult result;
-  bool is_first = true;
+  const SeriesStep* previous = nullptr;  // captured by this command
   for (const SeriesStep& step : steps) {
     if (!step.finished_file.empty()) {
       result.runs.push_back({{"file", step.finished_file}, {"status", "finished before"}});
       if (!words.as_json) streams.out << step.finished_file << ": finished before\n";
       continue;
     }
-    CaptureWords one = words;
-    one.out_file = step.out_file;
-    const CaptureSetup setup = capture_setup(one, step.specimen_file);
-    check_before_start(one, setup, streams);
-    check_calibration(one, setup, streams);
-    if (!is_first && !is_next_ready(step, words, streams)) {
-      result.trouble = "the series was ended before " + step.specimen_file;
+    try {
+      if (!run_step(step, previous, words, command, result, streams)) return result;
+    } catch (const std::exception& error) {
+      if (previous == nullptr) throw;  // nothing was captured that the result has to report
+      const CommandError why = command_error(error);
+      result.trouble = touch_text(step) + error.what();
+      result.code = why.code;
+      result.runs.push_back(
+          {{"file", step.out_file}, {"status", "not begun"}, {"error", json_from_error(why)}});
       return result;
     }
-    is_first = false;
-    const CaptureOutcome outcome = capture_once(one, setup, command, streams);
-    result.runs.push_back(json_from_outcome(outcome.run, outcome.file));
-    if (!words.as_json) print_text(outcome, streams.out);
-    if (outcome.run.status == "finished") continue;
-    result.trouble = outcome.run.reason;
-    return result;
+    previous = &step;
   }
   return result;
+}
+
+// What is recorded, and how to go on.
+void print_rest(const std::vector<SeriesStep>& steps, const SeriesResult& result,
+                const CaptureWords& words, std::ostream& err) {
+  const auto n_done =
+      std::count_if(result.runs.begin(), result.runs.end(), [](const ordered_json& run) {
+        return run["status"] == "finished" || run["status"] == "finished before";
+      });
+  err << fmt::format("viscard: {} of {} are recorded and kept; ", n_done,
+                     counted(steps.size(), "capture"));
+  const int last_touch = steps.back().last_touch;
+  err << (last_touch > words.repeats
+              ? fmt::format("the same command with --repeat {} --resume continues", last_touch)
+              : std::string("the same command with --resume continues from here"))
+      << "\n";
 }
 
 int capture(const Words& words, Streams& streams) {
@@ -175,11 +212,10 @@ int capture(const Words& words, Streams& streams) {
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   asked.as_json = values->count("json") > 0;
+  asked.lift_wait_s = given_quantity(*values, "lift-wait", "s");
   check_words(asked);
   const std::vector<SeriesStep> steps = series_from_words(asked);
-  std::size_t n_left = 0;
-  for (const SeriesStep& step : steps) n_left += step.finished_file.empty() ? 1 : 0;
-  check_somebody_is_there(asked, n_left);
+  check_somebody_is_there(asked, steps);
   const SeriesResult result =
       run_series(steps, asked, quoted_command_line("capture", words), streams);
   if (asked.as_json) {
@@ -188,14 +224,14 @@ int capture(const Words& words, Streams& streams) {
       const ordered_json& last = result.runs.empty() ? series : result.runs.back();
       series["error"] = last.contains("error")
                             ? last["error"]
-                            : json_from_error(command_error("interrupted", result.trouble));
+                            : json_from_error(command_error(result.code, result.trouble));
     }
     streams.out << (steps.size() == 1 ? result.runs.at(0) : series).dump() << "\n";
   }
   if (result.trouble.empty()) return kDone;
   streams.err << "viscard: " << result.trouble << "\n";
   if (steps.size() > 1 || asked.resumes) {
-    streams.err << "viscard: the same command with --resume continues from here\n";
+    print_rest(steps, result, asked, streams.err);
   }
   return kFailed;
 }

@@ -233,6 +233,34 @@ TEST_CASE("the spread between specimens is their standard deviation", "[io][repo
   CHECK(spread_table(estimates).is_empty());
 }
 
+TEST_CASE("touches on one specimen count once in the spread between specimens", "[io][report]") {
+  std::vector<SpecimenEstimates> estimates(4);
+  const char* ids[] = {"a", "a", "b", ""};
+  const double E0_Pa[] = {0.9e6, 1.1e6, 1.1e6, 0.9e6};  // the mean of a is 1.0e6
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    estimates[i].specimen_id = ids[i];
+    estimates[i].mixing_ratio = 10.0;
+    estimates[i].E0_Pa = {E0_Pa[i], {0.99 * E0_Pa[i], 1.01 * E0_Pa[i]}};
+    estimates[i].sum_g = {0.02, {0.019, 0.021}};
+  }
+  const std::string html = spread_table(estimates).html("");
+  CHECK(html.find(">3<") != std::string::npos);
+  CHECK(html.find(">10 %<") != std::string::npos);  // of 1.0, 1.1 and 0.9
+}
+
+TEST_CASE("the three levels of scatter are in one table, and what is not known says why",
+          "[io][report]") {
+  Scatter scatter{.quantity = "ln_E0"};
+  scatter.touch.note = "every specimen was touched once";
+  scatter.specimen = {0.05, {0.03, 0.11}, 6, "includes the scatter between touches"};
+  scatter.ratio = {0.0, {0.0, 0.2}, 1, ""};
+  const std::string html = levels_table({scatter}).html("");
+  CHECK(html.find("not identified: every specimen was touched once") != std::string::npos);
+  CHECK(html.find("<data value=\"0.05\">") != std::string::npos);
+  CHECK(html.find("includes the scatter between touches") != std::string::npos);
+  CHECK(levels_table({}).is_empty());
+}
+
 TEST_CASE("every profile of a fit becomes a panel, in the parameter's own unit", "[io][report]") {
   FitResult fit;
   CHECK_FALSE(profile_plot(fit));

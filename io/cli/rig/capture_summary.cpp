@@ -1,0 +1,52 @@
+#include "io/cli/rig/capture_summary.h"
+
+#include "io/cli/rig/live_view.h"
+#include "models/maths/text_of_number.h"
+
+#include <fmt/format.h>
+
+#include <ostream>
+
+namespace viscard {
+namespace {
+
+constexpr std::size_t kPictureWidth = 60;
+
+}  // namespace
+
+void print_text(const CaptureOutcome& capture, std::ostream& out) {
+  const RunOutcome& outcome = capture.run;
+  const StreamCounts& stream = outcome.stream;
+  out << fmt::format("{}: {}\n", capture.file, outcome.status)
+      << (outcome.line_format.empty() ? std::string()
+                                      : fmt::format("  lines read as   {}\n", outcome.line_format))
+      << fmt::format("  peak force      {:.4f} N (expected at most {:.4f}, limit {:.4f})\n",
+                     outcome.peak_force_N, outcome.expected.peak_force_N, outcome.expected.limit_N)
+      << (outcome.contact_position_m
+              ? fmt::format("  depth reached   {:.4f} mm\n", outcome.achieved_depth_m * 1e3)
+              : std::string("  depth reached   none: no contact was found\n"))
+      << fmt::format("  noise           {:.3f} mN per reading\n", outcome.noise_N * 1e3)
+      << fmt::format(
+             "  readings        expected {}, received {}, missing {}, duplicate {}, glitch {}, "
+             "unreadable {}, implausible {}\n",
+             stream.expected(), stream.received, stream.missing, stream.duplicate, stream.glitch,
+             stream.unreadable, stream.implausible)
+      << fmt::format("  longest gap     {:.4f} s, at {:.1f} s\n", stream.longest_gap_s,
+                     stream.longest_gap_at_s);
+  if (outcome.hidden_error_N > 0.0) {
+    out << fmt::format(
+        "  checked         against neighbours: errors above {:.3f} mN would show at rest\n",
+        outcome.hidden_error_N * 1e3);
+  }
+  if (outcome.n_late > 0) {
+    out << fmt::format("  computer        late by up to {:.2f} s, {} in all: not watched then\n",
+                       outcome.longest_late_s,
+                       counted(static_cast<std::size_t>(outcome.n_late), "time"));
+  }
+  for (const std::string& doubt : outcome.doubts) out << "  doubt           " << doubt << "\n";
+  if (!capture.force_N.empty()) {
+    out << "  force           " << sparkline(capture.force_N, kPictureWidth) << "\n";
+  }
+}
+
+}  // namespace viscard
