@@ -64,7 +64,7 @@ int baud_for(double bytes_per_s) {
 // and older.
 std::string lag_trouble(const RigConfig& rig, const RigCheck& check) {
   const LoadCellConfig& cell = rig.load_cell;
-  if (cell.driver != "hx711") return "";
+  if (!check.is_stream) return "";
   const bool is_slow = check.rate_Hz < kSlowestShare * cell.expected_rate_Hz && !check.has_clock;
   const double rate_Hz = check.has_clock ? check.rate_Hz : cell.expected_rate_Hz;
   const double needed_B_s = check.line_bytes * std::max(rate_Hz, check.rate_Hz);
@@ -208,7 +208,8 @@ RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, cons
   check.noise_N = std::sqrt(check.noise_N);
   check.rate_Hz = (n - 1.0) / (readings.last_made_s - readings.first_made_s);
   check.jitter_s = (readings.longest_delay_s - readings.shortest_delay_s) / clock.speed();
-  check.has_clock = !readings.delays.empty();
+  check.is_stream = load_cell.sends_by_itself();
+  check.has_clock = check.is_stream && !readings.delays.empty();
   check.falls_behind = falls_behind(readings.delays, clock);
   check.line_bytes = static_cast<double>(load_cell.n_bytes() - n_bytes_before) /
                      static_cast<double>(load_cell.counts().received - n_before);

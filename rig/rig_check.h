@@ -23,6 +23,7 @@ struct RigCheck {
   // Time by which a reading is later than the one a second before it, by the device's clock: above 0
   // if the line carries less than is sent.
   double falls_behind = 0.0;
+  bool is_stream = false;           // the instrument sends readings by itself
   bool has_clock = false;           // the lines carry the device's own time
   double line_bytes = 0.0;          // of one reading, with its terminator
   double force_N = 0.0;             // mean by the calibration, without a tare

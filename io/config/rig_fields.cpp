@@ -46,10 +46,8 @@ void show_rig(FieldVisitor& fields, RigConfig& rig) {
   fields.quantity({"clock_speed", "1", kPositive}, rig.clock_speed);
   fields.section("stage", [&](FieldVisitor& inner) { show_stage(inner, rig.stage); });
   fields.section("load_cell", [&](FieldVisitor& inner) { show_load_cell(inner, rig.load_cell); });
-  const LoadCellConfig& cell = rig.load_cell;
-  const bool knows_gain = cell.driver == "mark10" || cell.driver == "sauter" || !cell.unit.empty();
   fields.section("calibration", [&](FieldVisitor& inner) {
-    show_calibration(inner, rig.calibration, knows_gain);
+    show_calibration(inner, rig.calibration, measures_force(rig.load_cell));
   });
   fields.section("frame", [&](FieldVisitor& inner) {
     inner.text({"file", "bench.frame.toml"}, rig.frame.file);

@@ -24,7 +24,8 @@ struct StageConfig {
 };
 
 struct LoadCellConfig {
-  std::string driver = "hx711";  // "hx711" | "scpi" | "mark10" | "sauter"
+  // "hx711" | "scpi" | "mark10" | "mark10-continuous" | "sauter"
+  std::string driver = "hx711";
   std::string port;
   int baud = 115200;
   // "counts" | "micros,counts" | "millis,counts" | "volts" | "auto"
@@ -38,6 +39,12 @@ struct LoadCellConfig {
   std::string unit;
   std::string framing = "8N1";  // data bits, parity (N E O), stop bits
 };
+
+// True for an instrument that sends forces; its gain is then 1 unless dead weights give another.
+inline bool measures_force(const LoadCellConfig& cell) {
+  return cell.driver == "mark10" || cell.driver == "mark10-continuous" || cell.driver == "sauter" ||
+         !cell.unit.empty();
+}
 
 // Compliance of everything between the stage and the punch tip, including the load cell:
 //   depth = stage position - contact position - force/stiffness.

@@ -38,6 +38,8 @@ class LoadCell {
   Transport& transport() { return transport_; }
   // Waits until readings arrive and the format of the lines is known.
   virtual void connect(const Pump& pump) = 0;
+  // True for an instrument that is not polled: its readings can fall behind on a slow line.
+  virtual bool sends_by_itself() const { return false; }
   // While restarts are accepted, a device that restarts is learnt anew instead of DeviceRestarted;
   // connect() waits until that is done. Boards reset when their port is opened, and may do so late.
   void accept_restarts(bool is_accepted) { accepts_restarts_ = is_accepted; }
@@ -72,6 +74,10 @@ class LoadCell {
   LoadCell(Transport& transport, const LoadCellConfig& config, const RigClock& clock,
            RecordSink sink);
 
+  // Writes words to the instrument and records them.
+  void send(const std::string& words);
+  // Serves the devices for that wall time.
+  void wait(const Pump& pump, double wall_s) const;
   // For a line that is no reading.
   void note_unreadable(const std::string& text, double time_s);
   // True if the unit is that of the readings before. A reading with another unit is left out, because

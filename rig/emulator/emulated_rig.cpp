@@ -180,9 +180,7 @@ class EmulatedRig::Impl final : public WaitingRig {
           amplifier_.convert(specimen_.force_N() + weight_N_, outcome().is_cell_broken);
       if (is_cell_silent_) continue;
       lines += line;
-      if (!options_.keeps_lines) continue;
-      const std::lock_guard lock(outcome_mutex_);
-      sent_lines_.push_back(line);
+      keep_lines(line);
     }
     if (cell_board_.is_open) {
       cell_port_.write(lines);
@@ -191,7 +189,13 @@ class EmulatedRig::Impl final : public WaitingRig {
     }
   }
 
-  // For an instrument that is polled.
+  void keep_lines(const std::string& lines) {
+    if (!options_.keeps_lines) return;
+    const std::lock_guard lock(outcome_mutex_);
+    sent_lines_.push_back(lines);
+  }
+
+  // For an instrument that takes commands.
   void serve_gauge(double now_s) {
     gauge_.receive(cell_port_.read_available(), now_s);
     while (gauge_.next_sample_s() <= now_s) {
@@ -199,7 +203,9 @@ class EmulatedRig::Impl final : public WaitingRig {
       gauge_.convert(specimen_.force_N() + weight_N_, outcome().is_cell_broken);
     }
     const std::string answers = gauge_.take_output(now_s);
-    if (!is_cell_silent_) cell_port_.write(answers);
+    if (is_cell_silent_ || answers.empty()) return;
+    cell_port_.write(answers);
+    keep_lines(answers);
   }
 
   double next_sample_s() const {

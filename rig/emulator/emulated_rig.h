@@ -32,7 +32,7 @@ struct EmulatedRigOptions {
   // Boards with a USB converter (UNO, Nano) reset when their port is opened, native USB does not.
   bool resets_on_open = true;
   double boot_wall_s = 0.1;  // from that reset to the welcome; rig time for a rig that waits
-  bool keeps_lines = false;  // keeps the lines of the amplifier for sent_lines()
+  bool keeps_lines = false;  // keeps what the load cell's instrument sends, for sent_lines()
 };
 
 enum class Incident : unsigned {
@@ -73,7 +73,8 @@ class EmulatedRig {
   bool waits() const;
 
   EmulatedOutcome outcome() const;
-  // Every line that the amplifier has sent, with its terminator; needs options.keeps_lines.
+  // What the load cell's instrument has sent, as its lines with their terminators; needs
+  // options.keeps_lines.
   std::vector<std::string> sent_lines() const;
 
   // Hangs a weight on the load cell, in addition to the force of the punch; replaces the last one.

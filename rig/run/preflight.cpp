@@ -222,6 +222,7 @@ std::string remedy_for_slow_readings(const LoadCellConfig& cell) {
   if (cell.driver == "scpi") {
     return "set the multimeter's interface to its highest baud rate and 1 power line cycle or less";
   }
+  if (cell.driver == "mark10-continuous") return "set expected_rate to 125 or 250 Hz";
   return "set the gauge's interface to its highest baud rate";
 }
 

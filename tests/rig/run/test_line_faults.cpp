@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <map>
-#include <random>
 #include <set>
 
 namespace viscard {
@@ -21,34 +20,6 @@ constexpr double kSurface_m = 0.1e-3;
 constexpr double kNoticed = 12.0;        // times the noise
 constexpr double kNoticedSteps = 2.5;    // times the largest step between true readings nearby
 constexpr double kNoise_counts = 300.0;  // 0.49 mN at 0.7255 V/N and 20 V/2^24
-
-FaultRates rates_from(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> exponent(-3.3, -1.5);
-  const double rate = std::pow(10.0, exponent(random));
-  const auto maybe = [&](double chance) {
-    return std::bernoulli_distribution(chance)(random) ? rate : 0.0;
-  };
-  FaultRates rates;
-  rates.drop = maybe(0.4);
-  rates.duplicate = maybe(0.4);
-  rates.split = maybe(0.4);
-  rates.delay = maybe(0.4);
-  rates.garble = maybe(0.4);
-  rates.insert = maybe(0.3);
-  rates.hang_up = 0.1 * maybe(0.15);
-  return rates;
-}
-
-LineFaults faults_of(std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  LineFaults faults;
-  for (FaultPlan* plan : {&faults.stage, &faults.cell}) {
-    plan->seed = random();
-    if (std::bernoulli_distribution(0.7)(random)) plan->to_host = rates_from(random);
-    if (std::bernoulli_distribution(0.5)(random)) plan->to_device = rates_from(random);
-  }
-  return faults;
-}
 
 EmulatedRigOptions rig_options(std::uint64_t seed) {
   EmulatedRigOptions options = RigFixture::options();
