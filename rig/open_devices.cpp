@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -30,6 +31,7 @@ struct DriverRow {
   const char* name;
   Make<Device, Config> make;
   void (*check)(const Config&);
+  bool sends_lines = false;  // of text by itself, so that a thermometer can share its port
 };
 
 constexpr DriverRow<Stage, StageConfig> kStages[] = {
@@ -38,10 +40,10 @@ constexpr DriverRow<Stage, StageConfig> kStages[] = {
 
 constexpr DriverRow<LoadCell, LoadCellConfig> kCells[] = {
     {"hx711", made<LoadCell, Hx711LoadCell, LoadCellConfig>,
-     [](const LoadCellConfig& cell) { declared_hx711_format(cell); }},
+     [](const LoadCellConfig& cell) { declared_hx711_format(cell); }, true},
     {"scpi", made<LoadCell, GaugeLoadCell, LoadCellConfig>, check_gauge_words},
     {"mark10", made<LoadCell, GaugeLoadCell, LoadCellConfig>, check_gauge_words},
-    {"mark10-continuous", made<LoadCell, Mark10Stream, LoadCellConfig>, check_mark10_words},
+    {"mark10-continuous", made<LoadCell, Mark10Stream, LoadCellConfig>, check_mark10_words, true},
     {"sauter", made<LoadCell, GaugeLoadCell, LoadCellConfig>, check_gauge_words}};
 
 template <class Row, std::size_t n>
@@ -58,7 +60,14 @@ const Row& row_of(const Row (&rows)[n], const std::string& name, const std::stri
 // A wrong word of the rig file is reported before a port that is missing: it is in any case wrong.
 void check_words(const RigConfig& rig) {
   row_of(kStages, rig.stage.driver, "stage").check(rig.stage);
-  row_of(kCells, rig.load_cell.driver, "load_cell").check(rig.load_cell);
+  const auto& cell = row_of(kCells, rig.load_cell.driver, "load_cell");
+  cell.check(rig.load_cell);
+  check_thermometer_words(rig.thermometer);
+  if (rig.thermometer.driver != "load-cell" || cell.sends_lines) return;
+  throw RigError(
+      "driver = \"load-cell\" under [thermometer] of the rig file needs a load cell that "
+      "sends lines by itself; '" +
+      rig.load_cell.driver + "' is polled. Give the thermometer a port of its own");
 }
 
 }  // namespace
@@ -71,6 +80,23 @@ std::unique_ptr<Stage> make_stage(Transport& transport, const StageConfig& confi
 std::unique_ptr<LoadCell> make_load_cell(Transport& transport, const LoadCellConfig& config,
                                          const RigClock& clock, const RecordSink& sink) {
   return row_of(kCells, config.driver, "load_cell").make(transport, config, clock, sink);
+}
+
+std::unique_ptr<Thermometer> make_thermometer(const RigConfig& rig, const RigClock& clock,
+                                              const RecordSink& sink) {
+  const ThermometerConfig& config = rig.thermometer;
+  check_thermometer_words(config);
+  if (!has_thermometer(config)) return nullptr;
+  std::unique_ptr<SerialLine> line;
+  std::string trouble;
+  try {
+    if (has_own_port(config)) {
+      line = std::make_unique<SerialLine>(config.port, config.baud, clock, config.framing);
+    }
+  } catch (const RigError& error) {
+    trouble = std::string("the thermometer is missing: ") + error.what();
+  }
+  return std::make_unique<Thermometer>(std::move(line), trouble, config, clock, sink);
 }
 
 RigDevices open_ports(const RigConfig& rig, const RigClock& clock) {
@@ -86,6 +112,11 @@ void add_drivers(RigDevices& devices, const RigConfig& rig, const RigClock& cloc
                  const RecordSink& sink) {
   devices.stage = make_stage(*devices.stage_line, rig.stage, clock, sink);
   devices.load_cell = make_load_cell(*devices.cell_line, rig.load_cell, clock, sink);
+  devices.thermometer = make_thermometer(rig, clock, sink);
+  Thermometer* shared = devices.thermometer.get();
+  if (shared == nullptr || !shared->is_shared()) return;
+  devices.load_cell->set_other_lines(
+      [shared](const ReceivedLine& line) { return shared->take_shared_line(line); });
 }
 
 }  // namespace viscard

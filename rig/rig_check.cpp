@@ -144,14 +144,28 @@ void advise(const RigConfig& rig, RigCheck& check) {
   }
 }
 
+void take_thermometer(const Thermometer& thermometer, RigCheck& check) {
+  check.has_thermometer = true;
+  check.temperature_C = thermometer.newest_C();
+  check.n_temperatures = thermometer.readings_C().size();
+  check.thermometer_trouble = thermometer.trouble();
+  if (!check.thermometer_trouble.empty()) {
+    check.advice.push_back(
+        check.thermometer_trouble +
+        ". A run goes on without it, and its temperature is then the note of the "
+        "specimen file");
+  }
+}
+
 }  // namespace
 
 RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, const RigClock& clock,
-                   double duration_s) {
+                   double duration_s, Thermometer* thermometer) {
   const Pump pump = [&] {
     wait_readable({&stage.transport(), &load_cell.transport()}, clock, 0.002);
     load_cell.service();
     stage.service();
+    if (thermometer != nullptr) thermometer->service();
   };
   load_cell.accept_restarts(true);  // opening its port may reset a board, late
   load_cell.connect(pump);
@@ -185,6 +199,9 @@ RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, cons
     }
   }
   load_cell.set_listener({});
+  if (thermometer != nullptr) {
+    while (thermometer->readings_C().empty() && thermometer->trouble().empty()) pump();
+  }
 
   RigCheck check{.stage_identity = stage.identity(),
                  .dynamics = stage.dynamics(),
@@ -213,6 +230,7 @@ RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, cons
   check.falls_behind = falls_behind(readings.delays, clock);
   check.line_bytes = static_cast<double>(load_cell.n_bytes() - n_bytes_before) /
                      static_cast<double>(load_cell.counts().received - n_before);
+  if (thermometer != nullptr) take_thermometer(*thermometer, check);
   advise(rig, check);
   return check;
 }

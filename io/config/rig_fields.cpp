@@ -39,6 +39,17 @@ void show_load_cell(FieldVisitor& fields, LoadCellConfig& cell) {
   fields.text({"framing", "8N1"}, cell.framing);
 }
 
+void show_thermometer(FieldVisitor& fields, ThermometerConfig& thermometer) {
+  fields.text({"driver", "text"}, thermometer.driver);
+  fields.text({"port", "/dev/serial/by-id/usb-..."}, thermometer.port);
+  show_integer(fields, "baud", 300, 4'000'000, thermometer.baud);
+  fields.text({"framing", "8N1"}, thermometer.framing);
+  fields.text({"query", "MEAS:TEMP?"}, thermometer.query);
+  fields.quantity({"period", "s", kPositive}, thermometer.period_s);
+  fields.text({"unit", "degC"}, thermometer.unit);
+  fields.quantity({"drift_limit", "K", kPositive}, thermometer.drift_limit_K);
+}
+
 }  // namespace
 
 void show_rig(FieldVisitor& fields, RigConfig& rig) {
@@ -46,6 +57,8 @@ void show_rig(FieldVisitor& fields, RigConfig& rig) {
   fields.quantity({"clock_speed", "1", kPositive}, rig.clock_speed);
   fields.section("stage", [&](FieldVisitor& inner) { show_stage(inner, rig.stage); });
   fields.section("load_cell", [&](FieldVisitor& inner) { show_load_cell(inner, rig.load_cell); });
+  fields.section("thermometer",
+                 [&](FieldVisitor& inner) { show_thermometer(inner, rig.thermometer); });
   fields.section("calibration", [&](FieldVisitor& inner) {
     show_calibration(inner, rig.calibration, measures_force(rig.load_cell));
   });

@@ -46,6 +46,32 @@ inline bool measures_force(const LoadCellConfig& cell) {
          !cell.unit.empty();
 }
 
+// What measures the temperature beside the specimen (rig/sensors/thermometer.h).
+struct ThermometerConfig {
+  // "none"; "text": sends lines on its own port; "scpi": is asked on its own port; "load-cell": its
+  // lines, such as "T=23.4", come between those of the load cell.
+  std::string driver = "none";
+  std::string port;
+  int baud = 9600;
+  std::string framing = "8N1";
+  std::string query = "MEAS:TEMP?";  // of "scpi"; "READ?" for one that is set up by hand
+  double period_s = 1.0;             // between its lines, or between questions
+  std::string unit = "degC";         // of numbers without one; or "degF", "K"
+  double drift_limit_K = 1.0;        // a run that spans more is flagged
+};
+
+inline bool has_thermometer(const ThermometerConfig& config) {
+  return config.driver != "none" && !config.driver.empty();
+}
+inline bool has_own_port(const ThermometerConfig& config) {
+  return has_thermometer(config) && config.driver != "load-cell";
+}
+
+// Without a reading for so long it counts as silent, rig time.
+inline double silent_after_s(const ThermometerConfig& config) {
+  return config.period_s > 1.0 ? 5.0 * config.period_s : 5.0;
+}
+
 // Compliance of everything between the stage and the punch tip, including the load cell:
 //   depth = stage position - contact position - force/stiffness.
 struct FrameConfig {
@@ -66,6 +92,7 @@ struct RigConfig {
   std::string name;
   StageConfig stage;
   LoadCellConfig load_cell;
+  ThermometerConfig thermometer;
   LoadCellCalibration calibration;
   FrameConfig frame;
   SafetyConfig safety;

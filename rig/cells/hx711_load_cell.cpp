@@ -54,6 +54,7 @@ void Hx711LoadCell::service() {
 void Hx711LoadCell::take_line(const ReceivedLine& line) {
   // The first line may be the second half of one.
   if (!std::exchange(is_past_first_line_, true) || trimmed(line.text).empty()) return;
+  if (is_other_line(line)) return;
   if (is_hx711_fault(line.text)) {
     throw RigError("the amplifier on '" + transport_.name() + "' reports '" +
                    shown_bytes(line.text) + "'. Check the wires between it and its HX711");

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 
 namespace viscard {
 
@@ -50,6 +51,12 @@ class LoadCell {
     listener_ = std::move(listener);
   }
 
+  // A thermometer on the same port: the function returns true for a line that is one of its own,
+  // which is then no line of the load cell. Only instruments that send lines by themselves call it.
+  void set_other_lines(std::function<bool(const ReceivedLine&)> take) {
+    takes_other_ = std::move(take);
+  }
+
   const StreamCounts& counts() const { return counts_; }
   // The assumed unit of its numbers, "counts", "volts", "N", "g" ...; empty if the instrument's
   // protocol fixes it.
@@ -74,6 +81,7 @@ class LoadCell {
   LoadCell(Transport& transport, const LoadCellConfig& config, const RigClock& clock,
            RecordSink sink);
 
+  bool is_other_line(const ReceivedLine& line) const { return takes_other_ && takes_other_(line); }
   // Writes words to the instrument and records them.
   void send(const std::string& words);
   // Serves the devices for that wall time.
@@ -93,6 +101,7 @@ class LoadCell {
   const RigClock& clock_;
   RecordSink sink_;
   std::function<void(const LoadSample&)> listener_;
+  std::function<bool(const ReceivedLine&)> takes_other_;
   LineSplitter splitter_;
   bool is_connected_ = false;
   bool accepts_restarts_ = false;

@@ -74,7 +74,7 @@ void Mark10Stream::service() {
 }
 
 void Mark10Stream::take_line(const ReceivedLine& line) {
-  if (trimmed(line.text).empty()) return;
+  if (trimmed(line.text).empty() || is_other_line(line)) return;
   const auto reading = parse_mark10_reading(line.text, declared_unit_);
   if (reading && !reading->error.empty() && !is_connected_) {
     refusal_ = shown_bytes(reading->error);

@@ -42,6 +42,7 @@ struct DeviceFixture {
       wait_readable({devices.stage_line.get(), devices.cell_line.get()}, clock, 0.002);
       devices.load_cell->service();
       devices.stage->service();
+      if (devices.thermometer) devices.thermometer->service();
     };
   }
   void pump_for(double wall_s) {
@@ -60,6 +61,7 @@ struct DeviceFixture {
     RunControl control;
     control.clock = &clock;
     control.stop = &stop;
+    control.thermometer = devices.thermometer.get();
     return run_indentation(*devices.stage, *devices.load_cell, config, plan, demo_specimen(10.0),
                            sink, control);
   }

@@ -210,6 +210,13 @@ Json json_from_fit(const FittedFile& fitted) {
       json_from(combined_95(fit.E0_interval_95, fit.E0_Pa, fit.systematic_relative));
   json[letter + "_inf_combined_interval_95"] =
       json_from(combined_95(fit.E_inf_interval_95, fit.E_inf_Pa, fit.systematic_relative));
+  if (fitted.temperature) {
+    const RunTemperature& measured = *fitted.temperature;
+    json["temperature"] = {{"mean_C", number(measured.mean_C)},
+                           {"min_C", number(measured.min_C)},
+                           {"max_C", number(measured.max_C)},
+                           {"n_readings", measured.n_readings}};
+  }
   json["fit_from_s"] = number(fit.fit_from_s);
   json["fit_to_s"] = number(fit.fit_to_s);
   if (fit.contact_position_m) json["contact_position_m"] = number(*fit.contact_position_m);
@@ -267,6 +274,12 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   const std::string sigma_unit = fit.kind == FitKind::kDma ? "(relative)" : fitted.fitted_unit;
   out << fmt::format("  noise {:.3g} {}, variance x {:.3g} for autocorrelation\n", fit.noise.sigma,
                      sigma_unit, fit.noise.inflation);
+  if (fitted.temperature) {
+    const RunTemperature& measured = *fitted.temperature;
+    out << fmt::format("  temperature {:.2f} C, measured: {:.2f} to {:.2f} C in {}\n",
+                       measured.mean_C, measured.min_C, measured.max_C,
+                       counted(measured.n_readings, "reading"));
+  }
   if (fitted.master) print_master(*fitted.master, out);
   if (fitted.fractional) print_fractional(*fitted.fractional, out);
   print_orders(fit, fitted.fitted_unit, out);

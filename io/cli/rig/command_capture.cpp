@@ -109,6 +109,11 @@ void print_text(const CaptureOutcome& capture, std::ostream& out) {
         "  checked         against neighbours: errors above {:.3f} mN would show at rest\n",
         outcome.hidden_error_N * 1e3);
   }
+  if (outcome.temperature) {
+    out << fmt::format("  temperature     {:.2f} C, from {:.2f} to {:.2f} C\n",
+                       outcome.temperature->mean_C, outcome.temperature->min_C,
+                       outcome.temperature->max_C);
+  }
   if (outcome.n_late > 0) {
     out << fmt::format("  computer        late by up to {:.2f} s, {} in all: not watched then\n",
                        outcome.longest_late_s,
@@ -148,6 +153,15 @@ ordered_json json_from_outcome(const CaptureOutcome& capture) {
   json["hidden_error_N"] = outcome.hidden_error_N;
   json["doubts"] = outcome.doubts;
   json["line_format"] = outcome.line_format;
+  if (outcome.temperature) {
+    json["temperature"] = {{"mean_C", outcome.temperature->mean_C},
+                           {"min_C", outcome.temperature->min_C},
+                           {"max_C", outcome.temperature->max_C},
+                           {"n_readings", outcome.temperature->n_readings}};
+  }
+  if (!outcome.thermometer_trouble.empty()) {
+    json["thermometer_trouble"] = outcome.thermometer_trouble;
+  }
   json["computer_late"] = {{"times", outcome.n_late}, {"longest_s", outcome.longest_late_s}};
   json["readings"] = {{"expected", stream.expected()},
                       {"received", stream.received},

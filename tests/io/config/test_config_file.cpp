@@ -45,6 +45,19 @@ TEST_CASE("the demo's rig reads as its comments say", "[io][config]") {
   CHECK(rig.safety.soft_fraction == 0.8);
 }
 
+TEST_CASE("a thermometer is read and stored", "[io][config]") {
+  const std::string thermometer =
+      "[thermometer]\ndriver = \"scpi\"\nquery = \"READ?\"\nperiod = \"2 s\"\n"
+      "drift_limit = \"0.5 K\"\n";
+  const RigConfig rig = rig_from_toml(std::string(kMinimalRig) + thermometer, "rig.toml");
+  CHECK(rig.thermometer.driver == "scpi");
+  CHECK(rig.thermometer.query == "READ?");
+  CHECK(rig.thermometer.period_s == 2.0);
+  CHECK(rig.thermometer.drift_limit_K == 0.5);
+  CHECK(rig_from_toml(toml_from_rig(rig), "rig.toml").thermometer.query == "READ?");
+  CHECK(rig_from_toml(kMinimalRig, "rig.toml").thermometer.driver == "none");
+}
+
 TEST_CASE("the demo's test and specimens read as their comments say", "[io][config]") {
   const TestPlan plan = read_test(kDemo / "02_test.toml");
   CHECK(plan.depth_m == 0.13e-3);
