@@ -1,5 +1,6 @@
 #include "rig/open_devices.h"
 
+#include "rig/cells/frame_load_cell.h"
 #include "rig/cells/gauge_load_cell.h"
 #include "rig/cells/hx711_load_cell.h"
 #include "rig/cells/mark10_stream.h"
@@ -41,6 +42,9 @@ constexpr DriverRow<Stage, StageConfig> kStages[] = {
 constexpr DriverRow<LoadCell, LoadCellConfig> kCells[] = {
     {"hx711", made<LoadCell, Hx711LoadCell, LoadCellConfig>,
      [](const LoadCellConfig& cell) { declared_hx711_format(cell); }, true},
+    {"adc", made<LoadCell, Hx711LoadCell, LoadCellConfig>,
+     [](const LoadCellConfig& cell) { declared_hx711_format(cell); }, true},
+    {"adc-frames", made<LoadCell, FrameLoadCell, LoadCellConfig>, check_frame_words},
     {"scpi", made<LoadCell, GaugeLoadCell, LoadCellConfig>, check_gauge_words},
     {"mark10", made<LoadCell, GaugeLoadCell, LoadCellConfig>, check_gauge_words},
     {"mark10-continuous", made<LoadCell, Mark10Stream, LoadCellConfig>, check_mark10_words, true},

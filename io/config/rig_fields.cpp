@@ -33,6 +33,10 @@ void show_load_cell(FieldVisitor& fields, LoadCellConfig& cell) {
   fields.text({"line_format", "auto"}, cell.line_format);
   fields.quantity({"expected_rate", "Hz", kPositive}, cell.expected_rate_Hz);
   fields.quantity({"volts_per_count", "V"}, cell.volts_per_count);
+  fields.text({"converter", "ads1232"}, cell.converter);
+  fields.quantity({"gain", "1", kNotNegative}, cell.gain);
+  fields.quantity({"reference", "V", kNotNegative}, cell.reference_V);
+  fields.text({"frame", "a5 5a counts:i24 check:crc16"}, cell.frame);
   fields.boolean("compression_is_positive", cell.compression_is_positive);
   fields.text({"dialect", "34401a"}, cell.dialect);
   fields.text({"unit", "N"}, cell.unit);

@@ -24,7 +24,7 @@ struct StageConfig {
 };
 
 struct LoadCellConfig {
-  // "hx711" | "scpi" | "mark10" | "mark10-continuous" | "sauter"
+  // "hx711" | "adc" | "adc-frames" | "scpi" | "mark10" | "mark10-continuous" | "sauter"
   std::string driver = "hx711";
   std::string port;
   int baud = 115200;
@@ -32,6 +32,12 @@ struct LoadCellConfig {
   std::string line_format = "auto";
   double expected_rate_Hz = 80.0;
   double volts_per_count = 0.0;  // of the converter
+  // Instead of volts_per_count: the converter's name (models/experiment/converter.h), its gain and
+  // its reference.
+  std::string converter;
+  double gain = 0.0;
+  double reference_V = 0.0;
+  std::string frame;  // of "adc-frames": the fields of a frame (rig/protocols/binary_frame.h)
   bool compression_is_positive = true;
   std::string dialect = "34401a";  // of a SCPI multimeter (rig/protocols/gauge_protocols.h)
   // Unit of forces that are sent without one: "N", "mN", "gf" ... Empty: numbers of an hx711 are
@@ -39,6 +45,11 @@ struct LoadCellConfig {
   std::string unit;
   std::string framing = "8N1";  // data bits, parity (N E O), stop bits
 };
+
+// True for a converter behind a board that sends counts, or volts made of them.
+inline bool has_converter(const LoadCellConfig& cell) {
+  return cell.driver == "hx711" || cell.driver == "adc" || cell.driver == "adc-frames";
+}
 
 // True for an instrument that sends forces; its gain is then 1 unless dead weights give another.
 inline bool measures_force(const LoadCellConfig& cell) {

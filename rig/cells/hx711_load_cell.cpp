@@ -23,6 +23,7 @@ Hx711LoadCell::Hx711LoadCell(Transport& transport, const LoadCellConfig& config,
       patience_(patience),
       format_(declared_hx711_format(config)),
       declared_unit_(config.unit),
+      columns_(declared_columns(config)),
       learner_(config) {
   if (!config.unit.empty() && !newtons_per_unit(config.unit)) {
     throw RigError("unit '" + config.unit +
@@ -38,7 +39,7 @@ void Hx711LoadCell::connect(const Pump& pump) {
                  "' could be read as a reading; the last one was '" +
                  shown_bytes(learner_.newest_text()) +
                  "'. Set line_format in the rig file to counts, micros,counts, millis,counts or "
-                 "volts");
+                 "volts, or name the columns, such as -,counts");
 }
 
 void Hx711LoadCell::service() {
@@ -51,13 +52,16 @@ void Hx711LoadCell::service() {
   while (const auto line = splitter_.next()) take_line(*line);
 }
 
-void Hx711LoadCell::take_line(const ReceivedLine& line) {
+// Of a line with several columns only those of interest are read.
+void Hx711LoadCell::take_line(const ReceivedLine& whole) {
+  ReceivedLine line = whole;
+  if (columns_) line.text = picked_columns(line.text, *columns_).value_or(line.text);
   // The first line may be the second half of one.
   if (!std::exchange(is_past_first_line_, true) || trimmed(line.text).empty()) return;
   if (is_other_line(line)) return;
   if (is_hx711_fault(line.text)) {
     throw RigError("the amplifier on '" + transport_.name() + "' reports '" +
-                   shown_bytes(line.text) + "'. Check the wires between it and its HX711");
+                   shown_bytes(line.text) + "'. Check the wires between it and its converter");
   }
   if (!is_connected_) return learn(line);
   const auto reading = parse_hx711_line(line.text, has_clock(format_));
@@ -112,7 +116,9 @@ LoadSample Hx711LoadCell::sample_of(const Hx711Line& reading) {
   }
   if (sample.counts) {
     sample.is_saturated = is_hx711_saturated(*sample.counts);
-    sample.is_glitch = is_hx711_glitch(*sample.counts, previous_counts_);
+    // Only an HX711 is read by a clock that an interrupt can stretch.
+    sample.is_glitch =
+        config_.driver == "hx711" && is_hx711_glitch(*sample.counts, previous_counts_);
     if (!sample.is_glitch) previous_counts_ = sample.counts;
   } else if (!sample.volts && !sample.force_N) {
     sample.is_saturated = true;  // "ovf", "inf": the device itself reports no reading

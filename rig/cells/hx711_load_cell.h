@@ -9,7 +9,7 @@
 
 namespace viscard {
 
-// An HX711 (or any other) amplifier that sends text lines. Their format is declared in the rig file
+// An HX711, or another converter behind a board that sends text lines. Their format is declared in the rig file
 // (line_format) or learnt from the first readings; banners and messages before them are skipped.
 // The format is reported by an event "line_format".
 class Hx711LoadCell final : public StreamLoadCell {
@@ -28,7 +28,7 @@ class Hx711LoadCell final : public StreamLoadCell {
   Hx711Format format() const { return format_; }
 
  private:
-  void take_line(const ReceivedLine& line);
+  void take_line(const ReceivedLine& whole);
   void learn(const ReceivedLine& line);
   void take_reading(const Hx711Line& reading, const std::string& text, double time_s);
   void forget() override;
@@ -39,6 +39,7 @@ class Hx711LoadCell final : public StreamLoadCell {
   Hx711Format format_;
   std::string declared_unit_;  // of numbers without a unit; empty: they are counts or volts
   bool is_past_first_line_ = false;
+  std::optional<LineColumns> columns_;  // of lines with several
   Hx711Learner learner_;
   std::optional<double> previous_counts_;
   LineShape shape_;

@@ -63,6 +63,8 @@ class LoadCell {
   virtual std::string reads_as() const { return {}; }
   // The format of its lines as a rig file names it; empty if the instrument's protocol fixes it.
   virtual std::string line_format() const { return {}; }
+  // True if each reading carries a checksum.
+  virtual bool has_check() const { return false; }
   // Measured time between readings, rig seconds.
   double period_s() const { return period_s_; }
   // Rig time at which the newest reading arrived.
@@ -71,7 +73,7 @@ class LoadCell {
   // been read by then, so the age of the newest reading counts up to this time.
   double listened_at_s() const { return listened_at_s_; }
   // Of everything received.
-  std::size_t n_bytes() const { return splitter_.n_bytes(); }
+  virtual std::size_t n_bytes() const { return splitter_.n_bytes(); }
   // Best estimate of the rig time at which a reading was made: its device time plus the smallest
   // offset seen lately (a delay is never negative), or without a clock the time of its arrival, less
   // what the stream has fallen behind.

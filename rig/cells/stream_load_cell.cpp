@@ -90,6 +90,8 @@ bool StreamLoadCell::accept(const Sent& sent, double time_s) {
   if (!has_known_unit(sent.unit, sent.text, time_s)) return false;
   if (sent.ticks && device_clock_) {
     if (!take_clock(*sent.ticks, time_s)) return false;
+  } else if (sent.n_lost) {
+    take_loss(*sent.n_lost, time_s);
   } else if (counts_.received > 0) {
     take_arrival(time_s);
   }
@@ -105,6 +107,16 @@ void StreamLoadCell::hand_out_at(LoadSample& sample, double time_s) {
   sample.host_time_s = time_s;
   if (device_clock_) sample.device_time_s = device_clock_->time_s();
   hand_out(sample);
+}
+
+// For a stream of numbered readings: what is missing is known, however late the others are.
+void StreamLoadCell::take_loss(std::int64_t n_lost, double time_s) {
+  note_gap(time_s - last_arrival_s_, 1e300, time_s);
+  if (n_lost == 0) return;
+  counts_.missing += n_lost;
+  sink_(RunEvent{time_s, "gap", std::to_string(n_lost),
+                 counted(static_cast<std::size_t>(n_lost), "reading") +
+                     " of the load cell missing, by their numbers"});
 }
 
 // For a stream without a clock. Readings that arrive in a burst after a gap were not missing but

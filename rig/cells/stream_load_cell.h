@@ -34,6 +34,8 @@ class StreamLoadCell : public LoadCell {
     std::optional<double> ticks;  // the device's own time, if it sends one
     std::string unit;             // empty if it sends none
     std::string text;             // for the record of a reading that is left out
+    // Readings that were lost before this one, if their numbers tell.
+    std::optional<std::int64_t> n_lost = {};
   };
   // Judges unit and time of a reading; false if it must be left out.
   bool accept(const Sent& sent, double time_s);
@@ -51,6 +53,7 @@ class StreamLoadCell : public LoadCell {
   bool has_restarted(double time_s) const;
   bool take_clock(double ticks, double time_s);
   void take_arrival(double time_s);
+  void take_loss(std::int64_t n_lost, double time_s);
   void doubt_last(double time_s);
   void take_step(double step_s, double time_s);
 

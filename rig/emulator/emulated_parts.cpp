@@ -14,4 +14,13 @@ std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions
                                         options.grbl);
 }
 
+AmplifierOptions amplifier_options(const EmulatedRigOptions& options) {
+  AmplifierOptions amplifier = options.amplifier;
+  if (options.config.load_cell.driver == "adc-frames") {
+    amplifier.format = AmplifierFormat::kFrames;
+    amplifier.frame = options.config.load_cell.frame;
+  }
+  return amplifier;
+}
+
 }  // namespace viscard

@@ -11,4 +11,7 @@ namespace viscard {
 
 std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions& options);
 
+// Those of the options, with frames if the driver is "adc-frames".
+AmplifierOptions amplifier_options(const EmulatedRigOptions& options);
+
 }  // namespace viscard

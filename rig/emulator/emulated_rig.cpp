@@ -37,7 +37,7 @@ class EmulatedRig::Impl final : public WaitingRig {
         gauge_(options.truth, options.config.calibration, options.config.load_cell.driver,
                options.gauge),
         amplifier_(options.truth, options.config.calibration,
-                   options.config.load_cell.volts_per_count, options.amplifier),
+                   options.config.load_cell.volts_per_count, amplifier_options(options)),
         thermometer_(options.config.thermometer, options.thermometer),
         pace_(options.config.clock_speed) {
     if (options.is_on_wall_clock) thread_ = std::thread([this] { run(); });
@@ -202,7 +202,7 @@ class EmulatedRig::Impl final : public WaitingRig {
     if (!is_shared || cell_board_.is_running || is_gauge()) port.write(sent);
   }
 
-  bool is_gauge() const { return options_.config.load_cell.driver != "hx711"; }
+  bool is_gauge() const { return !has_converter(options_.config.load_cell); }
   void happen(double now_s) {
     const unsigned incidents = incidents_.exchange(0);
     const auto has = [&](Incident one) { return (incidents & static_cast<unsigned>(one)) != 0; };

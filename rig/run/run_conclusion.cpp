@@ -47,7 +47,8 @@ void doubt_gap(RunSession& session, RunOutcome& outcome, double most_s) {
 void doubt_line(RunSession& session, RunOutcome& outcome) {
   constexpr double kReadableToNot = 30.0 / 50.0;
   const StreamCounts& stream = outcome.stream;
-  if (stream.unreadable + stream.implausible == 0) return;
+  const bool has_check = session.load_cell().has_check();  // then only what stands out is doubtful
+  if ((has_check ? 0 : stream.unreadable) + stream.implausible == 0) return;
   const double n_hidden = std::ceil(kReadableToNot * static_cast<double>(stream.unreadable) +
                                     static_cast<double>(stream.implausible));
   outcome.doubts.push_back(counted(static_cast<std::size_t>(stream.unreadable), "line") +
@@ -91,8 +92,10 @@ void record_hidden_error(RunSession& session, RunOutcome& outcome) {
   outcome.hidden_error_N = SpikeWatch::kSurelyFound * outcome.noise_N;
   session.event(
       "checked", text_from_number(outcome.hidden_error_N, 6),
-      "The line carries no checksum: readings were compared with their neighbours, "
-      "which shows errors above " +
+      std::string(session.load_cell().has_check() ? "Each reading carries a checksum, and they"
+                                                  : "The line carries no checksum: readings") +
+          " were compared with their neighbours, "
+          "which shows errors above " +
           text_from_number(outcome.hidden_error_N * 1e3, 3) +
           " mN at rest, and above twice the step between readings on a ramp; of the first "
           "five and the last two readings above twice that");
