@@ -1,67 +1,106 @@
 #include "rig/open_devices.h"
 
+#include "rig/cells/frame_load_cell.h"
 #include "rig/cells/gauge_load_cell.h"
 #include "rig/cells/hx711_load_cell.h"
+#include "rig/cells/mark10_stream.h"
 #include "rig/lines/rig_error.h"
 #include "rig/stages/grbl_stage.h"
 #include "rig/stages/zaber_stage.h"
 
+#include <cstddef>
 #include <string>
+#include <utility>
 
 namespace viscard {
-
 namespace {
 
-using MakeStage = std::unique_ptr<Stage> (*)(Transport&, const StageConfig&, const RigClock&,
-                                             const RecordSink&);
+template <class Device, class Config>
+using Make = std::unique_ptr<Device> (*)(Transport&, const Config&, const RigClock&,
+                                         const RecordSink&);
 
-template <class Driver>
-std::unique_ptr<Stage> made(Transport& transport, const StageConfig& config, const RigClock& clock,
-                            const RecordSink& sink) {
+template <class Device, class Driver, class Config>
+std::unique_ptr<Device> made(Transport& transport, const Config& config, const RigClock& clock,
+                             const RecordSink& sink) {
   return std::make_unique<Driver>(transport, config, clock, sink);
 }
 
-struct StageDriver {
+// One row per value of driver. check throws RigError on words that the driver does not know, before
+// a port is opened.
+template <class Device, class Config>
+struct DriverRow {
   const char* name;
-  MakeStage make;
+  Make<Device, Config> make;
+  void (*check)(const Config&);
+  bool sends_lines = false;  // of text by itself, so that a thermometer can share its port
 };
 
-// One row per value of driver under [stage].
-constexpr StageDriver kStages[] = {{"grbl", made<GrblStage>}, {"zaber", made<ZaberStage>}};
+constexpr DriverRow<Stage, StageConfig> kStages[] = {
+    {"grbl", made<Stage, GrblStage, StageConfig>, [](const StageConfig&) {}},
+    {"zaber", made<Stage, ZaberStage, StageConfig>, [](const StageConfig&) {}}};
 
-const StageDriver& stage_driver(const std::string& name) {
+constexpr DriverRow<LoadCell, LoadCellConfig> kCells[] = {
+    {"hx711", made<LoadCell, Hx711LoadCell, LoadCellConfig>,
+     [](const LoadCellConfig& cell) { declared_hx711_format(cell); }, true},
+    {"adc", made<LoadCell, Hx711LoadCell, LoadCellConfig>,
+     [](const LoadCellConfig& cell) { declared_hx711_format(cell); }, true},
+    {"adc-frames", made<LoadCell, FrameLoadCell, LoadCellConfig>, check_frame_words},
+    {"scpi", made<LoadCell, GaugeLoadCell, LoadCellConfig>, check_gauge_words},
+    {"mark10", made<LoadCell, GaugeLoadCell, LoadCellConfig>, check_gauge_words},
+    {"mark10-continuous", made<LoadCell, Mark10Stream, LoadCellConfig>, check_mark10_words, true},
+    {"sauter", made<LoadCell, GaugeLoadCell, LoadCellConfig>, check_gauge_words}};
+
+template <class Row, std::size_t n>
+const Row& row_of(const Row (&rows)[n], const std::string& name, const std::string& section) {
   std::string known;
-  for (const StageDriver& driver : kStages) {
-    if (name == driver.name) return driver;
-    known += (known.empty() ? "" : ", ") + std::string(driver.name);
+  for (const Row& row : rows) {
+    if (name == row.name) return row;
+    known += (known.empty() ? "" : ", ") + std::string(row.name);
   }
-  throw RigError("driver '" + name + "' under [stage] of the rig file is unknown; known are " +
-                 known);
+  throw RigError("driver '" + name + "' under [" + section +
+                 "] of the rig file is unknown; known are " + known);
 }
 
 // A wrong word of the rig file is reported before a port that is missing: it is in any case wrong.
 void check_words(const RigConfig& rig) {
-  stage_driver(rig.stage.driver);
-  if (rig.load_cell.driver == "hx711") {
-    declared_hx711_format(rig.load_cell);
-  } else {
-    check_gauge_words(rig.load_cell);
-  }
+  row_of(kStages, rig.stage.driver, "stage").check(rig.stage);
+  const auto& cell = row_of(kCells, rig.load_cell.driver, "load_cell");
+  cell.check(rig.load_cell);
+  check_thermometer_words(rig.thermometer);
+  if (rig.thermometer.driver != "load-cell" || cell.sends_lines) return;
+  throw RigError(
+      "driver = \"load-cell\" under [thermometer] of the rig file needs a load cell that "
+      "sends lines by itself; '" +
+      rig.load_cell.driver + "' is polled. Give the thermometer a port of its own");
 }
 
 }  // namespace
 
 std::unique_ptr<Stage> make_stage(Transport& transport, const StageConfig& config,
                                   const RigClock& clock, const RecordSink& sink) {
-  return stage_driver(config.driver).make(transport, config, clock, sink);
+  return row_of(kStages, config.driver, "stage").make(transport, config, clock, sink);
 }
 
 std::unique_ptr<LoadCell> make_load_cell(Transport& transport, const LoadCellConfig& config,
                                          const RigClock& clock, const RecordSink& sink) {
-  if (config.driver == "hx711") {
-    return std::make_unique<Hx711LoadCell>(transport, config, clock, sink);
+  return row_of(kCells, config.driver, "load_cell").make(transport, config, clock, sink);
+}
+
+std::unique_ptr<Thermometer> make_thermometer(const RigConfig& rig, const RigClock& clock,
+                                              const RecordSink& sink) {
+  const ThermometerConfig& config = rig.thermometer;
+  check_thermometer_words(config);
+  if (!has_thermometer(config)) return nullptr;
+  std::unique_ptr<SerialLine> line;
+  std::string trouble;
+  try {
+    if (has_own_port(config)) {
+      line = std::make_unique<SerialLine>(config.port, config.baud, clock, config.framing);
+    }
+  } catch (const RigError& error) {
+    trouble = std::string("the thermometer is missing: ") + error.what();
   }
-  return std::make_unique<GaugeLoadCell>(transport, config, clock, sink);
+  return std::make_unique<Thermometer>(std::move(line), trouble, config, clock, sink);
 }
 
 RigDevices open_ports(const RigConfig& rig, const RigClock& clock) {
@@ -77,6 +116,11 @@ void add_drivers(RigDevices& devices, const RigConfig& rig, const RigClock& cloc
                  const RecordSink& sink) {
   devices.stage = make_stage(*devices.stage_line, rig.stage, clock, sink);
   devices.load_cell = make_load_cell(*devices.cell_line, rig.load_cell, clock, sink);
+  devices.thermometer = make_thermometer(rig, clock, sink);
+  Thermometer* shared = devices.thermometer.get();
+  if (shared == nullptr || !shared->is_shared()) return;
+  devices.load_cell->set_other_lines(
+      [shared](const ReceivedLine& line) { return shared->take_shared_line(line); });
 }
 
 }  // namespace viscard

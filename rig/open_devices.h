@@ -5,6 +5,7 @@
 #include "rig/lines/record_sink.h"
 #include "rig/lines/rig_clock.h"
 #include "rig/lines/serial_line.h"
+#include "rig/sensors/thermometer.h"
 #include "rig/stages/stage.h"
 
 #include <memory>
@@ -18,17 +19,23 @@ std::unique_ptr<Stage> make_stage(Transport& transport, const StageConfig& confi
 std::unique_ptr<LoadCell> make_load_cell(Transport& transport, const LoadCellConfig& config,
                                          const RigClock& clock, const RecordSink& sink);
 
-// Both devices of a rig and their ports, destroyed in the right order.
+// The devices of a rig and their ports, destroyed in the right order.
 struct RigDevices {
   std::unique_ptr<SerialLine> stage_line, cell_line;
+  std::unique_ptr<Thermometer> thermometer;  // nullptr if the rig file names none
   std::unique_ptr<Stage> stage;
   std::unique_ptr<LoadCell> load_cell;
 };
 
-// Opens both ports. Throws RigError on an unknown driver or format, and with the reason why a port
+// The thermometer of a rig, with its own port if it has one; nullptr if the rig file names none. A
+// port that cannot be opened is a trouble of the thermometer and no error.
+std::unique_ptr<Thermometer> make_thermometer(const RigConfig& rig, const RigClock& clock,
+                                              const RecordSink& sink);
+
+// Opens the ports of stage and load cell. Throws RigError on an unknown driver or format, and with the reason why a port
 // cannot be opened.
 RigDevices open_ports(const RigConfig& rig, const RigClock& clock);
-// Adds the drivers to the open ports.
+// Adds the drivers to the open ports, and the thermometer.
 void add_drivers(RigDevices& devices, const RigConfig& rig, const RigClock& clock,
                  const RecordSink& sink);
 

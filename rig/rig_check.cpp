@@ -64,7 +64,7 @@ int baud_for(double bytes_per_s) {
 // and older.
 std::string lag_trouble(const RigConfig& rig, const RigCheck& check) {
   const LoadCellConfig& cell = rig.load_cell;
-  if (cell.driver != "hx711") return "";
+  if (!check.is_stream) return "";
   const bool is_slow = check.rate_Hz < kSlowestShare * cell.expected_rate_Hz && !check.has_clock;
   const double rate_Hz = check.has_clock ? check.rate_Hz : cell.expected_rate_Hz;
   const double needed_B_s = check.line_bytes * std::max(rate_Hz, check.rate_Hz);
@@ -144,14 +144,28 @@ void advise(const RigConfig& rig, RigCheck& check) {
   }
 }
 
+void take_thermometer(const Thermometer& thermometer, RigCheck& check) {
+  check.has_thermometer = true;
+  check.temperature_C = thermometer.newest_C();
+  check.n_temperatures = thermometer.readings_C().size();
+  check.thermometer_trouble = thermometer.trouble();
+  if (!check.thermometer_trouble.empty()) {
+    check.advice.push_back(
+        check.thermometer_trouble +
+        ". A run goes on without it, and its temperature is then the note of the "
+        "specimen file");
+  }
+}
+
 }  // namespace
 
 RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, const RigClock& clock,
-                   double duration_s) {
+                   double duration_s, Thermometer* thermometer) {
   const Pump pump = [&] {
     wait_readable({&stage.transport(), &load_cell.transport()}, clock, 0.002);
     load_cell.service();
     stage.service();
+    if (thermometer != nullptr) thermometer->service();
   };
   load_cell.accept_restarts(true);  // opening its port may reset a board, late
   load_cell.connect(pump);
@@ -185,6 +199,9 @@ RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, cons
     }
   }
   load_cell.set_listener({});
+  if (thermometer != nullptr) {
+    while (thermometer->readings_C().empty() && thermometer->trouble().empty()) pump();
+  }
 
   RigCheck check{.stage_identity = stage.identity(),
                  .dynamics = stage.dynamics(),
@@ -208,10 +225,12 @@ RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, cons
   check.noise_N = std::sqrt(check.noise_N);
   check.rate_Hz = (n - 1.0) / (readings.last_made_s - readings.first_made_s);
   check.jitter_s = (readings.longest_delay_s - readings.shortest_delay_s) / clock.speed();
-  check.has_clock = !readings.delays.empty();
+  check.is_stream = load_cell.sends_by_itself();
+  check.has_clock = check.is_stream && !readings.delays.empty();
   check.falls_behind = falls_behind(readings.delays, clock);
   check.line_bytes = static_cast<double>(load_cell.n_bytes() - n_bytes_before) /
                      static_cast<double>(load_cell.counts().received - n_before);
+  if (thermometer != nullptr) take_thermometer(*thermometer, check);
   advise(rig, check);
   return check;
 }

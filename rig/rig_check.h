@@ -3,8 +3,11 @@
 #include "models/experiment/rig_config.h"
 #include "rig/cells/load_cell.h"
 #include "rig/lines/rig_clock.h"
+#include "rig/sensors/thermometer.h"
 #include "rig/stages/stage.h"
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,18 +26,27 @@ struct RigCheck {
   // Time by which a reading is later than the one a second before it, by the device's clock: above 0
   // if the line carries less than is sent.
   double falls_behind = 0.0;
+  bool is_stream = false;           // the instrument sends readings by itself
   bool has_clock = false;           // the lines carry the device's own time
   double line_bytes = 0.0;          // of one reading, with its terminator
   double force_N = 0.0;             // mean by the calibration, without a tare
   double noise_N = 0.0;             // standard deviation of one reading
   std::vector<std::string> advice;  // what to change and why
   bool is_usable = false;           // true if no piece of advice forbids a run
+  // Of a rig with a thermometer: its newest temperature, and what is wrong with it.
+  bool has_thermometer = false;
+  std::optional<double> temperature_C;
+  std::size_t n_temperatures = 0;
+  std::string thermometer_trouble;
   double late_s = 0.0;  // longest delay of this computer while it listened; then nothing is sure
 };
 
 // Connects both devices and listens for duration_s of rig time; moves nothing. Throws RigError if a
 // device does not answer or fewer than ten usable readings arrive.
+//
+// thermometer: may be nullptr. If it has sent nothing by then, it is waited for until it counts as
+// silent.
 RigCheck check_rig(Stage& stage, LoadCell& load_cell, const RigConfig& rig, const RigClock& clock,
-                   double duration_s);
+                   double duration_s, Thermometer* thermometer = nullptr);
 
 }  // namespace viscard

@@ -222,7 +222,7 @@ RunOutcome run_indentation(Stage& stage, LoadCell& load_cell, const RigConfig& r
     if (!phases.is_begun()) throw;
     end_early(run, phases, "interrupted", error);
   }
-  conclude(session, run.outcome, *control.clock);
+  conclude(session, rig, run.outcome, *control.clock);
   return run.outcome;
 }
 

@@ -37,6 +37,7 @@ CaptureDatabase::CaptureDatabase(const std::filesystem::path& path, const Captur
   report_.emplace(database_.prepare("INSERT INTO stage_reports VALUES(?,?,?,?)"));
   move_.emplace(database_.prepare("INSERT INTO moves VALUES(?,?,?,?,?,?,?,?)"));
   event_.emplace(database_.prepare("INSERT INTO events VALUES(?,?,?,?,?)"));
+  temperature_.emplace(database_.prepare("INSERT INTO temperatures VALUES(?,?,?)"));
   run_.emplace(database_.prepare("INSERT OR REPLACE INTO run VALUES(?,?)"));
   checksum_.emplace(database_.prepare("INSERT INTO checksums VALUES(?,?,?,?,?)"));
 }
@@ -128,8 +129,8 @@ void CaptureDatabase::set(const char* key, const std::string& value) {
 }
 
 void CaptureDatabase::insert(const RawBytes& raw) {
-  const std::string_view device = raw.device == Device::kStage ? "stage" : "load_cell";
-  raw_->run_with(seq_, raw.host_time_s, device, raw.is_sent, Statement::Blob{raw.bytes});
+  raw_->run_with(seq_, raw.host_time_s, std::string_view(word_of(raw.device)), raw.is_sent,
+                 Statement::Blob{raw.bytes});
 }
 
 void CaptureDatabase::insert(const LoadSample& sample) {
@@ -151,6 +152,10 @@ void CaptureDatabase::insert(const CommandedMove& commanded) {
 void CaptureDatabase::insert(const RunEvent& event) {
   event_->run_with(seq_, event.host_time_s, std::string_view(event.name),
                    std::string_view(event.value), std::string_view(event.text));
+}
+
+void CaptureDatabase::insert(const TemperatureSample& sample) {
+  temperature_->run_with(seq_, sample.host_time_s, sample.temperature_C);
 }
 
 }  // namespace viscard

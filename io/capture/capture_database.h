@@ -16,8 +16,10 @@ namespace viscard {
 // Tables of a capture file; io/capture/README.md explains the columns. seq counts the records of
 // all tables in the order of append().
 inline constexpr std::uint32_t kCaptureApplicationId = 0x56434150;  // "VCAP"
-inline constexpr std::uint32_t kCaptureSchemaVersion = 3;  // 2: load_samples.force_N, 3: checksums
+inline constexpr std::uint32_t kCaptureSchemaVersion = 4;
+// 2: load_samples.force_N, 3: checksums, 4: temperatures
 inline constexpr std::uint32_t kFirstSchemaWithChecksums = 3;
+inline constexpr std::uint32_t kFirstSchemaWithTemperatures = 4;
 
 inline constexpr const char* kCaptureTables = R"sql(
 CREATE TABLE run(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
@@ -30,6 +32,7 @@ CREATE TABLE stage_reports(seq INTEGER PRIMARY KEY, host_time_s REAL, position_m
 CREATE TABLE moves(seq INTEGER PRIMARY KEY, start_time_s REAL, from_m REAL, to_m REAL,
                    speed_m_s REAL, acceleration_m_s2 REAL, start_uncertainty_s REAL, purpose TEXT);
 CREATE TABLE events(seq INTEGER PRIMARY KEY, host_time_s REAL, name TEXT, value TEXT, text TEXT);
+CREATE TABLE temperatures(seq INTEGER PRIMARY KEY, host_time_s REAL, temperature_C REAL);
 CREATE TABLE checksums(table_name TEXT, first_seq INTEGER, last_seq INTEGER, n_rows INTEGER,
                        crc32 INTEGER);
 )sql";
@@ -58,9 +61,10 @@ class CaptureDatabase {
   void insert(const StageReport& report);
   void insert(const CommandedMove& commanded);
   void insert(const RunEvent& event);
+  void insert(const TemperatureSample& sample);
 
   Database database_;  // declared first, so that the statements are destroyed before it
-  std::optional<Statement> raw_, sample_, report_, move_, event_, run_, checksum_;
+  std::optional<Statement> raw_, sample_, report_, move_, event_, temperature_, run_, checksum_;
   std::int64_t seq_ = 0;
 };
 

@@ -88,6 +88,7 @@ class SampleRows {
 
   double tare_N() const { return tare_N_; }
   bool has_depth() const { return contact_m_.has_value() && !moves_.empty(); }
+  bool has_temperature() const { return !run_.temperatures.empty(); }
 
   void append(Buffer& out, std::size_t row) {
     const LoadSample& sample = run_.load_samples[row];
@@ -104,6 +105,7 @@ class SampleRows {
     if (!moves_.empty()) stage_m = position_m(moves_, time_s);
     append_cell(out, stage_m);
     if (has_depth()) append_cell(out, depth_of(*stage_m, force_N));
+    if (has_temperature()) append_cell(out, temperature_at(sample.host_time_s));
     fmt::format_to(std::back_inserter(out), "{},{},{}\n", phase_at(time_s),
                    sample.is_saturated ? 1 : 0, sample.is_glitch ? 1 : 0);
   }
@@ -121,6 +123,18 @@ class SampleRows {
     const double frame_N_m = run_.rig.frame.stiffness_N_m;
     return stage_m - *contact_m_ - (frame_N_m > 0.0 ? *force_N / frame_N_m : 0.0);
   }
+  // The newest temperature; nothing before the first one, or while the thermometer was silent.
+  std::optional<double> temperature_at(double host_time_s) {
+    while (next_temperature_ < run_.temperatures.size() &&
+           run_.temperatures[next_temperature_].host_time_s <= host_time_s) {
+      ++next_temperature_;
+    }
+    if (next_temperature_ == 0) return std::nullopt;
+    const TemperatureSample& newest = run_.temperatures[next_temperature_ - 1];
+    const double age_s = host_time_s - newest.host_time_s;
+    if (age_s > silent_after_s(run_.rig.thermometer)) return std::nullopt;
+    return newest.temperature_C;
+  }
   // The times rise but for swapped neighbours, so the events are read only once.
   const std::string& phase_at(double time_s) {
     while (next_event_ < run_.events.size() && run_.events[next_event_].host_time_s <= time_s) {
@@ -136,6 +150,7 @@ class SampleRows {
   std::optional<double> contact_m_;
   std::vector<StageMove> moves_;
   std::size_t next_event_ = 0;
+  std::size_t next_temperature_ = 0;
   std::string phase_;
 };
 
@@ -162,9 +177,10 @@ std::string csv_from_capture(const CapturedRun& run, const RunTiming& timing) {
   Buffer out;
   append_head(out, run, timing, rows.tare_N());
   fmt::format_to(std::back_inserter(out),
-                 "time_s,host_time_s,device_time_s,counts,volts,force_N,stage_position_m,{}phase,"
+                 "time_s,host_time_s,device_time_s,counts,volts,force_N,stage_position_m,{}{}phase,"
                  "is_saturated,is_glitch\n",
-                 rows.has_depth() ? "depth_m," : "");
+                 rows.has_depth() ? "depth_m," : "",
+                 rows.has_temperature() ? "temperature_C," : "");
   for (std::size_t row = 0; row < run.load_samples.size(); ++row) rows.append(out, row);
   return fmt::to_string(out);
 }
@@ -173,8 +189,7 @@ std::string csv_from_raw_bytes(const std::filesystem::path& capture) {
   Buffer out;
   fmt::format_to(std::back_inserter(out), "host_time_s,device,direction,bytes\n");
   read_raw_bytes(capture, [&out](const RawBytes& raw) {
-    fmt::format_to(std::back_inserter(out), "{},{},{},{}\n", raw.host_time_s,
-                   raw.device == Device::kStage ? "stage" : "load_cell",
+    fmt::format_to(std::back_inserter(out), "{},{},{},{}\n", raw.host_time_s, word_of(raw.device),
                    raw.is_sent ? "sent" : "received", quoted_cell(escaped(raw.bytes)));
   });
   return fmt::to_string(out);

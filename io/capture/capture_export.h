@@ -9,12 +9,13 @@
 namespace viscard {
 
 // Every load sample as a row: time_s, host_time_s, device_time_s, counts, volts, force_N,
-// stage_position_m, depth_m, phase, is_saturated, is_glitch. Comment lines (#) above them describe
+// stage_position_m, depth_m, temperature_C, phase, is_saturated, is_glitch. Comment lines (#) above them describe
 // the run, its status and its events. time_s is the time of the reading by `timing`, host_time_s
 // when it was received. force_N is the force by the rig's calibration minus the tare of the run;
 // stage_position_m is the position at time_s of moves that start by `timing`; depth_m is counted
 // from the contact and corrected for the frame's stiffness (the column is left out if no contact was
-// found). Without a timing, receive times and recorded starts are used: positions in a ramp are then
+// found); temperature_C (only with a thermometer) is its newest reading at host_time_s. Without a
+// timing, receive times and recorded starts are used: positions in a ramp are then
 // wrong by the delays. read_csv() reads the table back.
 std::string csv_from_capture(const CapturedRun& run, const RunTiming& timing = {});
 

@@ -1,3 +1,4 @@
+#include "io/capture/capture_database.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "io/capture/open_capture.h"
@@ -20,8 +21,12 @@ std::string run_value(Database& database, const char* key) {
   return statement.step() ? statement.text(0) : std::string();
 }
 
+unsigned long schema_of(Database& database) {
+  return std::stoul("0" + database.text_of("PRAGMA user_version"));
+}
+
 void read_samples(Database& database, CapturedRun& run) {
-  const bool has_force = database.text_of("PRAGMA user_version") != "1";
+  const bool has_force = schema_of(database) > 1;
   const std::string columns =
       "SELECT sample_index, host_time_s, device_time_s, counts, volts, is_saturated, is_glitch, ";
   const std::string from = " FROM load_samples ORDER BY seq";
@@ -56,6 +61,20 @@ void read_events(Database& database, CapturedRun& run) {
   while (event.step()) {
     run.events.push_back({event.number(0), event.text(1), event.text(2), event.text(3)});
   }
+}
+
+void read_temperatures(Database& database, CapturedRun& run) {
+  if (schema_of(database) < kFirstSchemaWithTemperatures) return;
+  Statement row =
+      database.prepare("SELECT host_time_s, temperature_C FROM temperatures ORDER BY seq");
+  while (row.step()) run.temperatures.push_back({row.number(0), row.number(1)});
+}
+
+Device device_of(const std::string& word) {
+  for (const Device device : {Device::kStage, Device::kThermometer}) {
+    if (word == word_of(device)) return device;
+  }
+  return Device::kLoadCell;
 }
 
 void read_metadata(Database& database, const fs::path& path, CapturedRun& run) {
@@ -107,6 +126,7 @@ CapturedRun read_capture(const std::filesystem::path& path) {
     read_samples(database, run);
     read_stage(database, run);
     read_events(database, run);
+    read_temperatures(database, run);
     mark_implausible(run);
     run.n_raw_bytes = static_cast<std::size_t>(
         std::stoull("0" + database.text_of("SELECT sum(length(bytes)) FROM raw_bytes")));
@@ -138,8 +158,7 @@ void read_raw_bytes(const std::filesystem::path& path,
     Statement row = capture.database().prepare(
         "SELECT host_time_s, device, is_sent, bytes FROM raw_bytes ORDER BY seq");
     while (row.step()) {
-      take({row.text(1) == "stage" ? Device::kStage : Device::kLoadCell, row.integer(2) != 0,
-            row.number(0), row.text(3)});
+      take({device_of(row.text(1)), row.integer(2) != 0, row.number(0), row.text(3)});
     }
   } catch (const SqliteError& error) {
     capture.explain(error);

@@ -38,6 +38,6 @@ inline constexpr const char* kRunStart = "run at its start";
 inline constexpr const char* kRunEnd = "run at its end";
 // The tables of records.
 inline constexpr const char* kRecordTables[] = {"raw_bytes", "load_samples", "stage_reports",
-                                                "moves", "events"};
+                                                "moves",     "events",       "temperatures"};
 
 }  // namespace viscard

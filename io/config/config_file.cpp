@@ -4,7 +4,9 @@
 #include "io/config/config_fields.h"
 #include "io/config/config_show.h"
 #include "io/config/sensible_bounds.h"
+#include "models/experiment/converter.h"
 #include "models/experiment/test_phases.h"
+#include "models/maths/text_of_number.h"
 
 #include <cmath>
 #include <limits>
@@ -43,7 +45,21 @@ std::string toml_from_config(Config config, void (*show)(FieldVisitor&, Config&)
   return toml_from_fields([&](FieldVisitor& fields) { show(fields, config); });
 }
 
+// The counts of a named converter have one meaning. A capture stores both keys.
+void convert_counts(LoadCellConfig& cell) {
+  if (cell.converter.empty()) return;
+  const double volts = volts_per_count_of(cell);
+  const bool is_given = cell.volts_per_count != kVoltsPerCount;
+  if (is_given && std::abs(cell.volts_per_count / volts - 1.0) > 1e-9) {
+    throw std::invalid_argument("load_cell.volts_per_count is " + text_of(cell.volts_per_count) +
+                                " V, but converter, gain and reference make " + text_of(volts) +
+                                " V. Omit volts_per_count");
+  }
+  cell.volts_per_count = volts;
+}
+
 void check_rig(RigConfig& rig) {
+  convert_counts(rig.load_cell);
   if (rig.stage.toward_specimen == 0) {
     throw std::invalid_argument(
         "stage.toward_specimen is 0; expected 1 or -1, the sign of machine motion that presses "
@@ -104,7 +120,7 @@ namespace {
 // Checks that apply only to a rig about to be used; the rig in an old capture is read without them.
 void check_before_use(const RigConfig& rig, const std::string& name) {
   const LoadCellConfig& cell = rig.load_cell;
-  const bool may_count = cell.driver == "hx711" && cell.unit.empty() && cell.line_format != "volts";
+  const bool may_count = has_converter(cell) && cell.unit.empty() && cell.line_format != "volts";
   if (may_count && cell.volts_per_count == 0.0) {
     throw std::runtime_error(name +
                              ": load_cell.volts_per_count is 0, so counts cannot be converted to a "

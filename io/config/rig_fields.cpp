@@ -33,10 +33,25 @@ void show_load_cell(FieldVisitor& fields, LoadCellConfig& cell) {
   fields.text({"line_format", "auto"}, cell.line_format);
   fields.quantity({"expected_rate", "Hz", kPositive}, cell.expected_rate_Hz);
   fields.quantity({"volts_per_count", "V"}, cell.volts_per_count);
+  fields.text({"converter", "ads1232"}, cell.converter);
+  fields.quantity({"gain", "1", kNotNegative}, cell.gain);
+  fields.quantity({"reference", "V", kNotNegative}, cell.reference_V);
+  fields.text({"frame", "a5 5a counts:i24 check:crc16"}, cell.frame);
   fields.boolean("compression_is_positive", cell.compression_is_positive);
   fields.text({"dialect", "34401a"}, cell.dialect);
   fields.text({"unit", "N"}, cell.unit);
   fields.text({"framing", "8N1"}, cell.framing);
+}
+
+void show_thermometer(FieldVisitor& fields, ThermometerConfig& thermometer) {
+  fields.text({"driver", "text"}, thermometer.driver);
+  fields.text({"port", "/dev/serial/by-id/usb-..."}, thermometer.port);
+  show_integer(fields, "baud", 300, 4'000'000, thermometer.baud);
+  fields.text({"framing", "8N1"}, thermometer.framing);
+  fields.text({"query", "MEAS:TEMP?"}, thermometer.query);
+  fields.quantity({"period", "s", kPositive}, thermometer.period_s);
+  fields.text({"unit", "degC"}, thermometer.unit);
+  fields.quantity({"drift_limit", "K", kPositive}, thermometer.drift_limit_K);
 }
 
 }  // namespace
@@ -46,10 +61,10 @@ void show_rig(FieldVisitor& fields, RigConfig& rig) {
   fields.quantity({"clock_speed", "1", kPositive}, rig.clock_speed);
   fields.section("stage", [&](FieldVisitor& inner) { show_stage(inner, rig.stage); });
   fields.section("load_cell", [&](FieldVisitor& inner) { show_load_cell(inner, rig.load_cell); });
-  const LoadCellConfig& cell = rig.load_cell;
-  const bool knows_gain = cell.driver == "mark10" || cell.driver == "sauter" || !cell.unit.empty();
+  fields.section("thermometer",
+                 [&](FieldVisitor& inner) { show_thermometer(inner, rig.thermometer); });
   fields.section("calibration", [&](FieldVisitor& inner) {
-    show_calibration(inner, rig.calibration, knows_gain);
+    show_calibration(inner, rig.calibration, measures_force(rig.load_cell));
   });
   fields.section("frame", [&](FieldVisitor& inner) {
     inner.text({"file", "bench.frame.toml"}, rig.frame.file);

@@ -31,6 +31,9 @@ constexpr Bounds kForce{0.0, 1e4, "N", "0", "10 kN"};
 constexpr Bounds kDuration{1e-3, kMonth_s, "s", "1 ms", "30 days (2592000 s)"};
 constexpr Bounds kHold{0.0, kMonth_s, "s", "0", "30 days (2592000 s)"};
 constexpr Bounds kTravel{1e-6, 2.0, "m", "1 um", "2 m"};
+constexpr Bounds kPeriod{0.01, 3600.0, "s", "10 ms", "1 h"};
+// "1 degC" is a temperature, 274.15 K, and no difference.
+constexpr Bounds kDrift{0.01, 50.0, "K", "0.01 K", "50 K"};
 constexpr Bounds kRate{0.01, 1e5, "Hz", "0.01 Hz", "100 kHz"};
 
 struct CheckedValue {
@@ -60,7 +63,9 @@ void refuse_outside(const std::vector<CheckedValue>& values, const std::string& 
 
 void refuse_senseless(const RigConfig& rig, const std::string& toml, const std::string& name) {
   refuse_outside({{"stage.travel", rig.stage.travel_m, kTravel, "\"10 mm\""},
-                  {"load_cell.expected_rate", rig.load_cell.expected_rate_Hz, kRate, "\"80 Hz\""}},
+                  {"load_cell.expected_rate", rig.load_cell.expected_rate_Hz, kRate, "\"80 Hz\""},
+                  {"thermometer.period", rig.thermometer.period_s, kPeriod, "\"1 s\""},
+                  {"thermometer.drift_limit", rig.thermometer.drift_limit_K, kDrift, "\"1 K\""}},
                  toml, name);
 }
 

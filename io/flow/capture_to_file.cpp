@@ -76,6 +76,7 @@ RunOutcome capture_with(const RigConfig& rig, const RigClock& clock, const Captu
   control.progress = watch.progress;
   control.reading = watch.reading;
   control.lifts_at_start = request.lifts_at_start;
+  control.thermometer = devices.thermometer.get();
   RunOutcome outcome = run_indentation(*devices.stage, *devices.load_cell, rig, setup.plan,
                                        setup.specimen, sink, control);
   if (outcome.has_begun) {

@@ -21,7 +21,8 @@ RigCheck check_rig_config(RigConfig rig, bool is_emulated, double seconds) {
   rig.stage.home = false;  // a check moves nothing
   RigDevices devices = open_ports(rig, clock);
   add_drivers(devices, rig, clock, nowhere);
-  return check_rig(*devices.stage, *devices.load_cell, rig, clock, seconds);
+  return check_rig(*devices.stage, *devices.load_cell, rig, clock, seconds,
+                   devices.thermometer.get());
 }
 
 void add_calibration(const RigConfig& rig, RigCheck& found) {

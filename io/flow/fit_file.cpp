@@ -153,6 +153,10 @@ FittedFile fit_table(const std::string& path, const FitRequest& request) {
   fitted.specimen_id = specimen_id_of(table, request);
   const FitKind kind = kind_of_table(table, request);
   fitted.master = fit_temperatures(table, kind, request);
+  // Of an exported capture; tables of several temperatures make a master curve instead.
+  if (kind == FitKind::kIndentation && find_column(table, "temperature_C", request.columns)) {
+    fitted.temperature = run_temperature(column_SI(table, "temperature_C", request.columns));
+  }
   if (fitted.master) {
     fitted.result = fitted.master->fit;
     fitted.fitted_unit = "Pa";
@@ -182,6 +186,19 @@ FittedFile fit_table(const std::string& path, const FitRequest& request) {
       break;
   }
   return fitted;
+}
+
+// The run has reported a drift already, unless it was killed.
+void add_temperature(const CapturedRun& run, FittedFile& fitted) {
+  fitted.temperature = run_temperature(run.temperatures);
+  if (!fitted.temperature) return;
+  const std::string drift =
+      temperature_drift_text(*fitted.temperature, run.rig.thermometer.drift_limit_K);
+  std::vector<MaterialFlag>& flags = fitted.result.flags;
+  const bool is_said = std::any_of(flags.begin(), flags.end(), [](const MaterialFlag& flag) {
+    return flag.name == "temperature-drift";
+  });
+  if (!drift.empty() && !is_said) flags.push_back({"temperature-drift", 0, drift});
 }
 
 FittedFile fit_capture(const std::string& path, const FitRequest& request) {
@@ -214,6 +231,7 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
     std::replace(name.begin(), name.end(), '_', '-');
     fitted.result.flags.push_back({name, 0, event.text});
   }
+  add_temperature(run, fitted);
   return fitted;
 }
 

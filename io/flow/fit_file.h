@@ -6,6 +6,7 @@
 #include "fit/laws/fractional_diagnosis.h"
 #include "fit/samples/fit_data.h"
 #include "io/tables/column_map.h"
+#include "models/experiment/run_temperature.h"
 #include "models/experiment/specimen.h"
 #include "models/material/material.h"
 
@@ -40,6 +41,8 @@ struct FittedFile {
   std::string fitted_unit;  // unit of the fitted column: "N", "Pa", "1/Pa"
   // Rows of an exported capture before its first baseline, which are not fitted.
   std::size_t n_before_test = 0;
+  // By the thermometer of the run; nothing if there was none.
+  std::optional<RunTemperature> temperature;
   // For a table of several temperatures; `result` is then the fit at the reference temperature.
   std::optional<MasterCurve> master;
   std::optional<FractionalDiagnosis> fractional;  // if FitRequest::diagnose is set

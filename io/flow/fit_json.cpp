@@ -144,6 +144,13 @@ Json json_from_fit(const FittedFile& fitted) {
       json_from(combined_95(fit.E0_interval_95, fit.E0_Pa, fit.systematic_relative));
   json[letter + "_inf_combined_interval_95"] =
       json_from(combined_95(fit.E_inf_interval_95, fit.E_inf_Pa, fit.systematic_relative));
+  if (fitted.temperature) {
+    const RunTemperature& measured = *fitted.temperature;
+    json["temperature"] = {{"mean_C", number(measured.mean_C)},
+                           {"min_C", number(measured.min_C)},
+                           {"max_C", number(measured.max_C)},
+                           {"n_readings", measured.n_readings}};
+  }
   json["fit_from_s"] = number(fit.fit_from_s);
   json["fit_to_s"] = number(fit.fit_to_s);
   if (fit.contact_position_m) json["contact_position_m"] = number(*fit.contact_position_m);

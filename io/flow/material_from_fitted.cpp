@@ -21,6 +21,15 @@ ValidityWindow window_of(const FitResult& fit) {
   return window;
 }
 
+// What a thermometer has measured counts more than what somebody has noted.
+void set_temperature(const FittedFile& fitted, Material& material) {
+  if (fitted.temperature) {
+    material.T_ref_C = fitted.temperature->mean_C;
+  } else if (!fitted.specimen.id.empty()) {
+    material.T_ref_C = fitted.specimen.temperature_C;
+  }
+}
+
 }  // namespace
 
 Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& request) {
@@ -31,7 +40,7 @@ Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& r
       material_from_fit(fitted.result, nu, request.rho_kg_m3.value_or(specimen.rho_kg_m3));
   material.name =
       specimen.id.empty() ? std::filesystem::path(fitted.path).stem().string() : specimen.id;
-  if (!specimen.id.empty()) material.T_ref_C = specimen.temperature_C;
+  set_temperature(fitted, material);
   material.mixing_ratio = specimen.mixing_ratio;
   material.specimen_id = fitted.specimen_id;
   if (fitted.master) {

@@ -41,6 +41,13 @@ nlohmann::ordered_json json_from_rig_check(const RigCheck& found) {
                                    {"force_N", found.force_N},
                                    {"noise_N", found.noise_N}}},
                                  {"advice", found.advice}};
+  if (found.has_thermometer) {
+    json["thermometer"] = {
+        {"temperature_C", found.temperature_C ? nlohmann::ordered_json(*found.temperature_C)
+                                              : nlohmann::ordered_json(nullptr)},
+        {"readings", found.n_temperatures},
+        {"trouble", found.thermometer_trouble}};
+  }
   if (!found.is_usable) {
     const std::string why =
         found.advice.empty() ? "the rig is not fit for a test" : found.advice.back();
@@ -67,6 +74,15 @@ nlohmann::ordered_json json_from_outcome(const RunOutcome& outcome, const std::s
   json["hidden_error_N"] = outcome.hidden_error_N;
   json["doubts"] = outcome.doubts;
   json["line_format"] = outcome.line_format;
+  if (outcome.temperature) {
+    json["temperature"] = {{"mean_C", outcome.temperature->mean_C},
+                           {"min_C", outcome.temperature->min_C},
+                           {"max_C", outcome.temperature->max_C},
+                           {"n_readings", outcome.temperature->n_readings}};
+  }
+  if (!outcome.thermometer_trouble.empty()) {
+    json["thermometer_trouble"] = outcome.thermometer_trouble;
+  }
   json["computer_late"] = {{"times", outcome.n_late}, {"longest_s", outcome.longest_late_s}};
   json["readings"] = {{"expected", stream.expected()},
                       {"received", stream.received},

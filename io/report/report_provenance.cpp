@@ -1,6 +1,7 @@
 #include "io/plots/plot_svg.h"
 #include "io/report/report_numbers.h"
 #include "io/report/report_sections.h"
+#include "models/experiment/run_temperature.h"
 
 #include <fmt/format.h>
 
@@ -73,10 +74,17 @@ void add_specimen_facts(Facts& facts, const Specimen& specimen) {
   }
 }
 
+std::string temperature_words(const CapturedRun& run) {
+  const auto measured = run_temperature(run.temperatures);
+  if (!measured) return readable_number(run.specimen.temperature_C, 4) + " °C (noted)";
+  return fmt::format("{} °C, measured: {} to {} °C", readable_number(measured->mean_C, 4),
+                     readable_number(measured->min_C, 4), readable_number(measured->max_C, 4));
+}
+
 void add_run_facts(Facts& facts, const CapturedRun& run) {
   const RigConfig& rig = run.rig;
   facts.add("Run", run.status + (run.started_at.empty() ? "" : ", begun " + run.started_at));
-  facts.add("Temperature", readable_number(run.specimen.temperature_C, 4) + " °C");
+  facts.add("Temperature", temperature_words(run));
   facts.add("Rig", rig.name);
   facts.add("Devices",
             rig.stage.driver + " stage, " + rig.load_cell.driver + " load cell" +

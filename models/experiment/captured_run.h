@@ -21,10 +21,11 @@ struct CapturedRun {
   std::vector<StageReport> stage_reports;
   std::vector<CommandedMove> moves;
   std::vector<RunEvent> events;
-  std::string status;      // "finished" | "interrupted" | "running"
-  std::string started_at;  // ISO 8601, wall clock
-  std::string program;     // "viscard 0.1.0"
-  std::string command;     // command line
+  std::vector<TemperatureSample> temperatures;  // empty without a thermometer
+  std::string status;                           // "finished" | "interrupted" | "running"
+  std::string started_at;                       // ISO 8601, wall clock
+  std::string program;                          // "viscard 0.1.0"
+  std::string command;                          // command line
   std::size_t n_raw_bytes = 0;
 };
 

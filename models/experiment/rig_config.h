@@ -24,13 +24,20 @@ struct StageConfig {
 };
 
 struct LoadCellConfig {
-  std::string driver = "hx711";  // "hx711" | "scpi" | "mark10" | "sauter"
+  // "hx711" | "adc" | "adc-frames" | "scpi" | "mark10" | "mark10-continuous" | "sauter"
+  std::string driver = "hx711";
   std::string port;
   int baud = 115200;
   // "counts" | "micros,counts" | "millis,counts" | "volts" | "auto"
   std::string line_format = "auto";
   double expected_rate_Hz = 80.0;
   double volts_per_count = 0.0;  // of the converter
+  // Instead of volts_per_count: the converter's name (models/experiment/converter.h), its gain and
+  // its reference.
+  std::string converter;
+  double gain = 0.0;
+  double reference_V = 0.0;
+  std::string frame;  // of "adc-frames": the fields of a frame (rig/protocols/binary_frame.h)
   bool compression_is_positive = true;
   std::string dialect = "34401a";  // of a SCPI multimeter (rig/protocols/gauge_protocols.h)
   // Unit of forces that are sent without one: "N", "mN", "gf" ... Empty: numbers of an hx711 are
@@ -38,6 +45,43 @@ struct LoadCellConfig {
   std::string unit;
   std::string framing = "8N1";  // data bits, parity (N E O), stop bits
 };
+
+// True for a converter behind a board that sends counts, or volts made of them.
+inline bool has_converter(const LoadCellConfig& cell) {
+  return cell.driver == "hx711" || cell.driver == "adc" || cell.driver == "adc-frames";
+}
+
+// True for an instrument that sends forces; its gain is then 1 unless dead weights give another.
+inline bool measures_force(const LoadCellConfig& cell) {
+  return cell.driver == "mark10" || cell.driver == "mark10-continuous" || cell.driver == "sauter" ||
+         !cell.unit.empty();
+}
+
+// What measures the temperature beside the specimen (rig/sensors/thermometer.h).
+struct ThermometerConfig {
+  // "none"; "text": sends lines on its own port; "scpi": is asked on its own port; "load-cell": its
+  // lines, such as "T=23.4", come between those of the load cell.
+  std::string driver = "none";
+  std::string port;
+  int baud = 9600;
+  std::string framing = "8N1";
+  std::string query = "MEAS:TEMP?";  // of "scpi"; "READ?" for one that is set up by hand
+  double period_s = 1.0;             // between its lines, or between questions
+  std::string unit = "degC";         // of numbers without one; or "degF", "K"
+  double drift_limit_K = 1.0;        // a run that spans more is flagged
+};
+
+inline bool has_thermometer(const ThermometerConfig& config) {
+  return config.driver != "none" && !config.driver.empty();
+}
+inline bool has_own_port(const ThermometerConfig& config) {
+  return has_thermometer(config) && config.driver != "load-cell";
+}
+
+// Without a reading for so long it counts as silent, rig time.
+inline double silent_after_s(const ThermometerConfig& config) {
+  return config.period_s > 1.0 ? 5.0 * config.period_s : 5.0;
+}
 
 // Compliance of everything between the stage and the punch tip, including the load cell:
 //   depth = stage position - contact position - force/stiffness.
@@ -59,6 +103,7 @@ struct RigConfig {
   std::string name;
   StageConfig stage;
   LoadCellConfig load_cell;
+  ThermometerConfig thermometer;
   LoadCellCalibration calibration;
   FrameConfig frame;
   SafetyConfig safety;

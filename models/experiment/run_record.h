@@ -2,6 +2,7 @@
 
 #include "models/experiment/motion_profile.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,7 +14,13 @@ namespace viscard {
 // host_time_s is CLOCK_MONOTONIC at the receive call, in s since the run began, times the declared
 // speed of an emulated clock (1 on a real rig).
 
-enum class Device { kStage = 0, kLoadCell = 1 };
+enum class Device { kStage = 0, kLoadCell = 1, kThermometer = 2 };
+
+// The word for a device in captures and tables.
+inline const char* word_of(Device device) {
+  constexpr const char* kWords[] = {"stage", "load_cell", "thermometer"};
+  return kWords[static_cast<std::size_t>(device)];
+}
 
 // Bytes exactly as received, before any parsing, or as sent (is_sent).
 struct RawBytes {
@@ -34,6 +41,12 @@ struct LoadSample {
   bool is_saturated = false;           // the converter is at an end of its range
   bool is_glitch = false;              // a code that an interrupted conversion makes
   std::optional<double> force_N = {};  // ... or a force, from an instrument that knows its own gain
+};
+
+// One reading of the thermometer beside the specimen.
+struct TemperatureSample {
+  double host_time_s = 0.0;
+  double temperature_C = 0.0;
 };
 
 // One status report of the stage. Positions grow toward the specimen.
@@ -63,6 +76,7 @@ struct RunEvent {
   std::string text;  // a sentence for a person
 };
 
-using RunRecord = std::variant<RawBytes, LoadSample, StageReport, CommandedMove, RunEvent>;
+using RunRecord =
+    std::variant<RawBytes, LoadSample, StageReport, CommandedMove, RunEvent, TemperatureSample>;
 
 }  // namespace viscard

@@ -23,20 +23,18 @@ struct GaugeDriver {
   GaugeProtocol (*protocol)(const LoadCellConfig&);
 };
 
-// One row per value of driver under [load_cell], apart from "hx711".
+// One row per value of driver under [load_cell] that is polled.
 constexpr GaugeDriver kDrivers[] = {
     {"scpi", [](const LoadCellConfig& config) { return scpi_protocol(config.dialect); }},
     {"mark10", [](const LoadCellConfig& config) { return mark10_protocol(config.unit); }},
     {"sauter", [](const LoadCellConfig& config) { return sauter_protocol(config.unit); }}};
 
 GaugeProtocol gauge_protocol(const LoadCellConfig& config) {
-  std::string known = "hx711";
   for (const GaugeDriver& driver : kDrivers) {
     if (config.driver == driver.name) return driver.protocol(config);
-    known += std::string(", ") + driver.name;
   }
   throw RigError("driver '" + config.driver +
-                 "' under [load_cell] of the rig file is unknown; known are " + known);
+                 "' under [load_cell] of the rig file names no instrument that is polled");
 }
 
 }  // namespace
@@ -58,16 +56,6 @@ GaugeLoadCell::~GaugeLoadCell() {
   }
 }
 
-void GaugeLoadCell::send(const std::string& words) {
-  sink_(RawBytes{Device::kLoadCell, true, clock_.now_s(), words});
-  transport_.write(words);
-}
-
-void GaugeLoadCell::wait_quiet(const Pump& pump, double wall_s) {
-  const double until_s = clock_.awake_s() + wall_s;
-  while (clock_.awake_s() < until_s) pump();
-}
-
 // One question whose answer is a line of text; nothing if none comes.
 std::optional<std::string> GaugeLoadCell::ask_text(const std::string& query, const Pump& pump) {
   text_answer_.reset();
@@ -82,7 +70,7 @@ std::optional<std::string> GaugeLoadCell::ask_text(const std::string& query, con
 void GaugeLoadCell::connect(const Pump& pump) {
   for (const std::string& words : protocol_.opening) {
     send(words);
-    wait_quiet(pump, kPause_wall_s);
+    wait(pump, kPause_wall_s);
   }
   if (!protocol_.identity_query.empty()) {
     identity_ = ask_text(protocol_.identity_query, pump).value_or("");
@@ -96,7 +84,7 @@ void GaugeLoadCell::connect(const Pump& pump) {
                      "). Set another dialect under [load_cell] of the rig file");
     }
   }
-  wait_quiet(pump, kQuiet_wall_s);
+  wait(pump, kQuiet_wall_s);
   is_connected_ = true;
   const double until_s = clock_.awake_s() + kFirstTries * (kAnswer_wall_s + kQuiet_wall_s);
   while (counts_.received == 0 && clock_.awake_s() < until_s) pump();

@@ -25,13 +25,11 @@ class GaugeLoadCell final : public LoadCell {
   double made_at_s(const LoadSample& sample) const override;
 
  private:
-  void send(const std::string& words);
   void feed(const Chunk& chunk);
   void take_answer(const std::string& text, double time_s);
   void take_reading(const GaugeAnswer& answer, double time_s);
   void ask_if_due(double now_s);
   std::optional<std::string> ask_text(const std::string& query, const Pump& pump);
-  void wait_quiet(const Pump& pump, double wall_s);
 
   GaugeProtocol protocol_;
   std::string begun_;  // the first bytes of an answer without terminator

@@ -124,11 +124,19 @@ std::optional<Hx711Format> format_of(const Window& window, double rate_Hz) {
 
 }  // namespace
 
+std::optional<LineColumns> declared_columns(const LoadCellConfig& config) {
+  if (hx711_format_from_word(config.line_format)) return std::nullopt;
+  return line_columns_from_word(config.line_format);
+}
+
 Hx711Format declared_hx711_format(const LoadCellConfig& config) {
   const auto format = hx711_format_from_word(config.line_format);
+  if (const auto columns = declared_columns(config)) return columns->format;
   if (!format) {
-    throw RigError("load cell line_format '" + config.line_format +
-                   "' is unknown; choose auto, counts, micros,counts, millis,counts or volts");
+    throw RigError(
+        "load cell line_format '" + config.line_format +
+        "' is unknown; choose auto, counts, micros,counts, millis,counts or volts, or name "
+        "the columns, such as -,counts");
   }
   return *format;
 }

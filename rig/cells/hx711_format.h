@@ -3,6 +3,7 @@
 #include "models/experiment/rig_config.h"
 #include "rig/lines/line_splitter.h"
 #include "rig/protocols/hx711_protocol.h"
+#include "rig/protocols/line_columns.h"
 
 #include <deque>
 #include <optional>
@@ -10,7 +11,10 @@
 
 namespace viscard {
 
-// The line_format of a rig file. Throws RigError on an unknown word.
+// The columns that the line_format of a rig file names; nothing for a word of one format.
+std::optional<LineColumns> declared_columns(const LoadCellConfig& config);
+
+// The line_format of a rig file, or that of its columns. Throws RigError on an unknown word.
 Hx711Format declared_hx711_format(const LoadCellConfig& config);
 
 // The format that these lines have, or nothing while that is uncertain. "12,34" is a decimal comma

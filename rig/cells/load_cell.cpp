@@ -15,6 +15,16 @@ LoadCell::LoadCell(Transport& transport, const LoadCellConfig& config, const Rig
       sink_(std::move(sink)),
       period_s_(1.0 / config.expected_rate_Hz) {}
 
+void LoadCell::send(const std::string& words) {
+  sink_(RawBytes{Device::kLoadCell, true, clock_.now_s(), words});
+  transport_.write(words);
+}
+
+void LoadCell::wait(const Pump& pump, double wall_s) const {
+  const double until_s = clock_.awake_s() + wall_s;
+  while (clock_.awake_s() < until_s) pump();
+}
+
 void LoadCell::note_unreadable(const std::string& text, double time_s) {
   ++counts_.unreadable;
   sink_(RunEvent{time_s, "load_cell_unreadable", shown_bytes(text, 80),

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 
 namespace viscard {
 
@@ -38,6 +39,8 @@ class LoadCell {
   Transport& transport() { return transport_; }
   // Waits until readings arrive and the format of the lines is known.
   virtual void connect(const Pump& pump) = 0;
+  // True for an instrument that is not polled: its readings can fall behind on a slow line.
+  virtual bool sends_by_itself() const { return false; }
   // While restarts are accepted, a device that restarts is learnt anew instead of DeviceRestarted;
   // connect() waits until that is done. Boards reset when their port is opened, and may do so late.
   void accept_restarts(bool is_accepted) { accepts_restarts_ = is_accepted; }
@@ -48,12 +51,20 @@ class LoadCell {
     listener_ = std::move(listener);
   }
 
+  // A thermometer on the same port: the function returns true for a line that is one of its own,
+  // which is then no line of the load cell. Only instruments that send lines by themselves call it.
+  void set_other_lines(std::function<bool(const ReceivedLine&)> take) {
+    takes_other_ = std::move(take);
+  }
+
   const StreamCounts& counts() const { return counts_; }
   // The assumed unit of its numbers, "counts", "volts", "N", "g" ...; empty if the instrument's
   // protocol fixes it.
   virtual std::string reads_as() const { return {}; }
   // The format of its lines as a rig file names it; empty if the instrument's protocol fixes it.
   virtual std::string line_format() const { return {}; }
+  // True if each reading carries a checksum.
+  virtual bool has_check() const { return false; }
   // Measured time between readings, rig seconds.
   double period_s() const { return period_s_; }
   // Rig time at which the newest reading arrived.
@@ -62,7 +73,7 @@ class LoadCell {
   // been read by then, so the age of the newest reading counts up to this time.
   double listened_at_s() const { return listened_at_s_; }
   // Of everything received.
-  std::size_t n_bytes() const { return splitter_.n_bytes(); }
+  virtual std::size_t n_bytes() const { return splitter_.n_bytes(); }
   // Best estimate of the rig time at which a reading was made: its device time plus the smallest
   // offset seen lately (a delay is never negative), or without a clock the time of its arrival, less
   // what the stream has fallen behind.
@@ -72,6 +83,11 @@ class LoadCell {
   LoadCell(Transport& transport, const LoadCellConfig& config, const RigClock& clock,
            RecordSink sink);
 
+  bool is_other_line(const ReceivedLine& line) const { return takes_other_ && takes_other_(line); }
+  // Writes words to the instrument and records them.
+  void send(const std::string& words);
+  // Serves the devices for that wall time.
+  void wait(const Pump& pump, double wall_s) const;
   // For a line that is no reading.
   void note_unreadable(const std::string& text, double time_s);
   // True if the unit is that of the readings before. A reading with another unit is left out, because
@@ -87,6 +103,7 @@ class LoadCell {
   const RigClock& clock_;
   RecordSink sink_;
   std::function<void(const LoadSample&)> listener_;
+  std::function<bool(const ReceivedLine&)> takes_other_;
   LineSplitter splitter_;
   bool is_connected_ = false;
   bool accepts_restarts_ = false;

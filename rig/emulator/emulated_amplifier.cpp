@@ -1,6 +1,7 @@
 #include "rig/emulator/emulated_amplifier.h"
 
 #include "models/maths/text_of_number.h"
+#include "rig/protocols/binary_frame.h"
 #include "rig/protocols/hx711_protocol.h"
 
 #include <algorithm>
@@ -34,13 +35,26 @@ std::string EmulatedAmplifier::convert(double force_N, bool is_cell_broken) {
   if (is_cell_broken) counts = kHx711Highest;
   ++index_;
   const bool is_glitch = options_.glitch_every > 0 && index_ % options_.glitch_every == 0;
-  return line(is_glitch ? 1048575.0 : counts, time_s) + options_.line_end;
+  if (options_.format == AmplifierFormat::kFrames) return frame(counts, time_s);
+  return options_.before + line(is_glitch ? 1048575.0 : counts, time_s) + options_.behind +
+         options_.line_end;
+}
+
+std::string EmulatedAmplifier::frame(double counts, double time_s) const {
+  const FrameFormat format(options_.frame);
+  FrameFormat::Frame sent{.counts = counts, .seq = static_cast<std::uint32_t>(index_)};
+  if (format.tick_s() > 0.0) sent.ticks = std::floor(1e-6 * micros_at(time_s) / format.tick_s());
+  return format.bytes_of(sent);
+}
+
+std::uint32_t EmulatedAmplifier::micros_at(double time_s) const {
+  const double since_s = (time_s - reset_s_) * (1.0 + 1e-6 * options_.clock_ppm);
+  return static_cast<std::uint32_t>(options_.micros_at_reset +
+                                    static_cast<std::uint64_t>(std::llround(since_s * 1e6)));
 }
 
 std::string EmulatedAmplifier::line(double counts, double time_s) const {
-  const double since_s = (time_s - reset_s_) * (1.0 + 1e-6 * options_.clock_ppm);
-  const auto micros = static_cast<std::uint32_t>(
-      options_.micros_at_reset + static_cast<std::uint64_t>(std::llround(since_s * 1e6)));
+  const std::uint32_t micros = micros_at(time_s);
   std::string number = text_from_number(counts, 0);
   switch (options_.format) {
     case AmplifierFormat::kMicrosCounts:
@@ -54,6 +68,7 @@ std::string EmulatedAmplifier::line(double counts, double time_s) const {
     case AmplifierFormat::kMeanText:
       return "one reading:\t" + number + ".0\t| average:\t" + number + ".0";
     case AmplifierFormat::kCounts:
+    case AmplifierFormat::kFrames:
       break;
   }
   return number;

@@ -15,19 +15,23 @@ enum class AmplifierFormat {
   kCounts,
   kReadingText,
   kVolts,
-  kMeanText
+  kMeanText,
+  kFrames  // binary, as `frame` describes
 };
 
 struct AmplifierOptions {
   AmplifierFormat format = AmplifierFormat::kMicrosCounts;
   std::string line_end = "\r\n";
+  std::string before, behind;         // of the text line: a name, other columns
+  std::string frame;                  // of kFrames; that of the rig file
   double clock_ppm = 0.0;             // by this much its clock runs fast
   double boot_s = 0.0;                // from reset to the first conversion
   std::uint32_t micros_at_reset = 0;  // a large value makes the counter wrap soon
   int glitch_every = 0;               // every n-th reading is an interrupted conversion; 0: none
 };
 
-// An HX711 behind a small processor: 24-bit counts of the cell's voltage, one line per conversion.
+// An HX711, or another converter, behind a small processor: 24-bit counts of the cell's voltage, one
+// line or frame per conversion.
 // The noise depends only on the seed and the number of the reading.
 class EmulatedAmplifier {
  public:
@@ -42,6 +46,8 @@ class EmulatedAmplifier {
   std::string convert(double force_N, bool is_cell_broken);
 
  private:
+  std::uint32_t micros_at(double time_s) const;
+  std::string frame(double counts, double time_s) const;
   std::string line(double counts, double time_s) const;  // without its end
 
   double rate_Hz_;

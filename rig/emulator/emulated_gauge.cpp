@@ -17,6 +17,7 @@ struct EmulatedGauge::Instrument {
   const char* driver;
   std::vector<std::string_view> queries;  // each asks for one reading
   bool has_line_ends;                     // false: every byte is a command
+  bool streams;                           // it can send readings by itself
   const char* refusal;                    // answer to an unknown command; empty: none
   std::string (*reading)(const Shown& shown);
 };
@@ -31,25 +32,20 @@ std::string formatted(const char* format, double value) {
 
 }  // namespace
 
-// One row per polled instrument (rig/cells/gauge_load_cell.cpp).
+// One row per instrument that takes commands (rig/cells/gauge_load_cell.cpp, mark10_stream.cpp).
 const EmulatedGauge::Instrument& EmulatedGauge::instrument_of(const std::string& driver) {
   static const std::vector<Instrument> kInstruments{
       {"scpi",
        {"READ?", "VAL1?", "MEAS1?"},
        true,
+       false,
        "",
        [](const Shown& shown) {
          return formatted("%+.8E\r\n", shown.is_overload ? 9.9e37 : shown.volts);
        }},
-      {"mark10",
-       {"?"},
-       true,
-       "*10\r\n",
-       [](const Shown& shown) {
-         return text_from_number(shown.force, 4) + (shown.unit.empty() ? "" : " " + shown.unit) +
-                "\r\n";
-       }},
-      {"sauter", {"9"}, false, "", [](const Shown& shown) {
+      {"mark10", {"?"}, true, false, "*10\r\n", mark10_text},
+      {"mark10-continuous", {"?"}, true, true, "*10\r\n", mark10_text},
+      {"sauter", {"9"}, false, false, "", [](const Shown& shown) {
          return (shown.force >= 0.0 ? "0" : "1") +
                 formatted("%06.3f", std::min(std::abs(shown.force), 99.999));
        }}};
@@ -64,7 +60,13 @@ EmulatedGauge::EmulatedGauge(const EmulatedTruth& truth, const LoadCellCalibrati
     : rate_Hz_(truth.sample_rate_Hz),
       cell_(truth, calibration),
       instrument_(instrument_of(driver)),
-      habits_(habits) {}
+      habits_(habits) {
+  if (habits.is_left_streaming) begin_stream(10.0, 0.0);
+}
+
+std::string EmulatedGauge::mark10_text(const Shown& shown) {
+  return text_from_number(shown.force, 4) + (shown.unit.empty() ? "" : " " + shown.unit) + "\r\n";
+}
 
 void EmulatedGauge::receive(std::string_view bytes, double time_s) {
   if (habits_.echoes) answers_.add(time_s, std::string(bytes));
@@ -88,23 +90,62 @@ void EmulatedGauge::take_command(const std::string& command, double time_s) {
   } else if (command == "SYST:ERR?") {
     answers_.add(time_s,
                  habits_.refuses_setup ? "-113,\"Undefined header\"\r\n" : "+0,\"No error\"\r\n");
+  } else if (instrument_.streams && take_stream_command(command, time_s)) {
+    return;
   } else if (!command.empty() && *instrument_.refusal != '\0') {
     answers_.add(time_s, instrument_.refusal);
   }
 }
 
+// False for a command that it does not know. A command that it accepts is not answered.
+bool EmulatedGauge::take_stream_command(const std::string& command, double time_s) {
+  if (command.rfind("AOUT", 0) == 0 && !habits_.has_no_stream) {
+    const auto n = integer_from_text(command.substr(4));
+    constexpr std::array<long long, 9> kKnown{0, 1, 2, 5, 10, 25, 50, 125, 250};
+    if (!n || std::find(kKnown.begin(), kKnown.end(), *n) == kKnown.end()) {
+      answers_.add(time_s, "*12\r\n");
+    } else {
+      begin_stream(*n == 1 ? 50.0 : static_cast<double>(*n), time_s);
+    }
+    return true;
+  }
+  if (command == "CUR") habits_.shows_peak = false;
+  if (command == "FULL" || command == "NUM") habits_.hides_unit = command == "NUM";
+  return command == "CUR" || command == "FULL" || command == "NUM" || command == "OPOL0";
+}
+
+void EmulatedGauge::begin_stream(double rate_Hz, double time_s) {
+  stream_Hz_ = rate_Hz;
+  stream_begun_s_ = time_s;
+  n_streamed_ = 0;
+}
+
+double EmulatedGauge::next_of_stream_s() const {
+  const double since_s = static_cast<double>(n_streamed_ + 1) / stream_Hz_;
+  const bool is_over = habits_.stops_after_s > 0.0 && since_s > habits_.stops_after_s;
+  if (stream_Hz_ == 0.0 || is_over) return std::numeric_limits<double>::infinity();
+  return stream_begun_s_ + since_s;
+}
+
 double EmulatedGauge::next_sample_s() const {
-  return due_s_.empty() ? std::numeric_limits<double>::infinity() : due_s_.front();
+  return std::min(next_of_stream_s(),
+                  due_s_.empty() ? std::numeric_limits<double>::infinity() : due_s_.front());
 }
 
 void EmulatedGauge::convert(double force_N, bool is_cell_broken) {
-  const double time_s = due_s_.front();
-  due_s_.pop_front();
+  const double time_s = next_sample_s();
+  if (time_s == next_of_stream_s()) {
+    ++n_streamed_;
+  } else {
+    due_s_.pop_front();
+  }
   const std::int64_t index = n_readings_++;
   const auto is_nth = [&](int every) { return every > 0 && n_readings_ % every == 0; };
   if (is_nth(habits_.lose_answer_every)) return;
   const double late_s = is_nth(habits_.late_answer_every) ? habits_.late_s : 0.0;
-  answers_.add(time_s + late_s, text_of(cell_.signal(force_N, time_s, index), is_cell_broken));
+  const double shown = cell_.signal(force_N, time_s, index);
+  peak_ = std::max(peak_, shown);
+  answers_.add(time_s + late_s, text_of(habits_.shows_peak ? peak_ : shown, is_cell_broken));
 }
 
 // The gain of a multimeter's rig is V/N, that of a force gauge newtons shown per newton.

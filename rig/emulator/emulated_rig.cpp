@@ -1,6 +1,6 @@
 #include "rig/emulator/emulated_rig.h"
 
-#include "rig/emulator/emulated_controller.h"
+#include "rig/emulator/emulated_parts.h"
 #include "rig/emulator/emulated_specimen.h"
 #include "rig/emulator/pty_port.h"
 #include "rig/emulator/wall_pace.h"
@@ -23,20 +23,7 @@ namespace {
 constexpr double kLargestStep_s = 1e-3;    // of the hereditary integral, emulated time
 constexpr double kShortestNap_s = 0.2e-3;  // wall
 constexpr double kLongestNap_s = 2e-3;     // wall; bounds the delay until an incident is noticed
-// A rig that waits exchanges bytes once in so long, as USB does.
-constexpr double kFrame_s = 1e-3;
-
-// One branch per value of driver under [stage] (rig/open_devices.cpp); a GRBL for an unknown word,
-// which the driver refuses.
-std::unique_ptr<EmulatedController> emulated_controller(const EmulatedRigOptions& options) {
-  const StageConfig& stage = options.config.stage;
-  if (stage.driver == "zaber") {
-    return std::make_unique<EmulatedZaber>(options.truth, stage.toward_specimen, stage.device,
-                                           options.zaber);
-  }
-  return std::make_unique<EmulatedGrbl>(options.truth, stage.axis, stage.toward_specimen,
-                                        options.grbl);
-}
+constexpr double kFrame_s = 1e-3;          // a rig that waits exchanges bytes so often, as USB does
 
 }  // namespace
 
@@ -50,7 +37,8 @@ class EmulatedRig::Impl final : public WaitingRig {
         gauge_(options.truth, options.config.calibration, options.config.load_cell.driver,
                options.gauge),
         amplifier_(options.truth, options.config.calibration,
-                   options.config.load_cell.volts_per_count, options.amplifier),
+                   options.config.load_cell.volts_per_count, amplifier_options(options)),
+        thermometer_(options.config.thermometer, options.thermometer),
         pace_(options.config.clock_speed) {
     if (options.is_on_wall_clock) thread_ = std::thread([this] { run(); });
   }
@@ -84,6 +72,7 @@ class EmulatedRig::Impl final : public WaitingRig {
   RigClock clock_;  // tells the time only to a rig on the wall clock
   PtyPort stage_port_;
   PtyPort cell_port_;
+  PtyPort thermometer_port_;
   std::vector<std::function<bool(double)>> others_;
   std::atomic<bool> is_ending_{false};
   std::atomic<unsigned> incidents_{0};
@@ -108,6 +97,7 @@ class EmulatedRig::Impl final : public WaitingRig {
     // Conversions up to now depend on the motion up to now; bytes from the host act from now on.
     stage_->tick(now_s);
     serve_cell(now_s);
+    serve_thermometer(now_s);
     advance_bench(std::max(bench_s_, now_s));
     {
       // Set before a report of this moment can reach the host.
@@ -180,18 +170,18 @@ class EmulatedRig::Impl final : public WaitingRig {
           amplifier_.convert(specimen_.force_N() + weight_N_, outcome().is_cell_broken);
       if (is_cell_silent_) continue;
       lines += line;
-      if (!options_.keeps_lines) continue;
-      const std::lock_guard lock(outcome_mutex_);
-      sent_lines_.push_back(line);
+      keep_lines(line);
     }
-    if (cell_board_.is_open) {
-      cell_port_.write(lines);
-    } else {
-      cell_port_.discard();
-    }
+    cell_board_.is_open ? cell_port_.write(lines) : cell_port_.discard();
   }
 
-  // For an instrument that is polled.
+  void keep_lines(const std::string& lines) {
+    if (!options_.keeps_lines || lines.empty()) return;
+    const std::lock_guard lock(outcome_mutex_);
+    sent_lines_.push_back(lines);
+  }
+
+  // For an instrument that takes commands.
   void serve_gauge(double now_s) {
     gauge_.receive(cell_port_.read_available(), now_s);
     while (gauge_.next_sample_s() <= now_s) {
@@ -199,18 +189,26 @@ class EmulatedRig::Impl final : public WaitingRig {
       gauge_.convert(specimen_.force_N() + weight_N_, outcome().is_cell_broken);
     }
     const std::string answers = gauge_.take_output(now_s);
-    if (!is_cell_silent_) cell_port_.write(answers);
+    if (is_cell_silent_) return;
+    cell_port_.write(answers);
+    keep_lines(answers);
   }
 
-  double next_sample_s() const {
-    return is_gauge() ? gauge_.next_sample_s() : amplifier_.next_sample_s();
+  void serve_thermometer(double now_s) {
+    const bool is_shared = !has_own_port(options_.config.thermometer);
+    PtyPort& port = is_shared ? cell_port_ : thermometer_port_;
+    if (!has_thermometer(options_.config.thermometer) || !port.is_open_by_host()) return;
+    const std::string sent = thermometer_.serve(is_shared ? "" : port.read_available(), now_s);
+    if (!is_shared || cell_board_.is_running || is_gauge()) port.write(sent);
   }
-  bool is_gauge() const { return options_.config.load_cell.driver != "hx711"; }
+
+  bool is_gauge() const { return !has_converter(options_.config.load_cell); }
   void happen(double now_s) {
     const unsigned incidents = incidents_.exchange(0);
     const auto has = [&](Incident one) { return (incidents & static_cast<unsigned>(one)) != 0; };
     if (has(Incident::kPullStageCable)) stage_port_.hang_up();
     if (has(Incident::kPullLoadCellCable)) cell_port_.hang_up();
+    if (has(Incident::kPullThermometerCable)) thermometer_port_.hang_up();
     if (has(Incident::kSilenceLoadCell)) is_cell_silent_ = true;
     if (has(Incident::kRestartLoadCell)) cell_port_.write(amplifier_.reset(now_s));
     if (has(Incident::kRestartStage)) stage_->reset(now_s);
@@ -224,8 +222,8 @@ class EmulatedRig::Impl final : public WaitingRig {
   void nap(double now_s) {
     double wall_s = kLongestNap_s;
     if (cell_board_.is_running || is_gauge()) {
-      wall_s =
-          std::clamp((next_sample_s() - now_s) / clock_.speed(), kShortestNap_s, kLongestNap_s);
+      const double next_s = is_gauge() ? gauge_.next_sample_s() : amplifier_.next_sample_s();
+      wall_s = std::clamp((next_s - now_s) / clock_.speed(), kShortestNap_s, kLongestNap_s);
     }
     // A port that no host has open reports a hang-up at once, so poll would return immediately.
     pollfd entry{stage_board_.is_open ? stage_port_.descriptor() : -1, POLLIN, 0};
@@ -238,6 +236,7 @@ class EmulatedRig::Impl final : public WaitingRig {
   std::unique_ptr<EmulatedController> stage_;
   EmulatedGauge gauge_;
   EmulatedAmplifier amplifier_;
+  EmulatedThermometer thermometer_;
   Board stage_board_, cell_board_;
   bool is_cell_silent_ = false;
   double now_s_ = 0.0;  // of a rig that waits
@@ -261,6 +260,7 @@ RigConfig EmulatedRig::config() const {
   RigConfig config = impl_->options_.config;
   config.stage.port = stage_port();
   config.load_cell.port = load_cell_port();
+  if (has_own_port(config.thermometer)) config.thermometer.port = impl_->thermometer_port_.path();
   config.stage.microstep_m = 1.0 / impl_->options_.truth.steps_per_m;
   if (!impl_->options_.is_on_wall_clock) config.clock_speed = 1.0;
   return config;

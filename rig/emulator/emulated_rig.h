@@ -5,6 +5,7 @@
 #include "rig/emulator/emulated_amplifier.h"
 #include "rig/emulator/emulated_gauge.h"
 #include "rig/emulator/emulated_grbl.h"
+#include "rig/emulator/emulated_thermometer.h"
 #include "rig/emulator/emulated_zaber.h"
 #include "rig/lines/rig_clock.h"
 
@@ -29,10 +30,11 @@ struct EmulatedRigOptions {
   ZaberHabits zaber;
   GaugeHabits gauge;
   AmplifierOptions amplifier;
+  ThermometerHabits thermometer;  // of the one that config names
   // Boards with a USB converter (UNO, Nano) reset when their port is opened, native USB does not.
   bool resets_on_open = true;
   double boot_wall_s = 0.1;  // from that reset to the welcome; rig time for a rig that waits
-  bool keeps_lines = false;  // keeps the lines of the amplifier for sent_lines()
+  bool keeps_lines = false;  // keeps what the load cell's instrument sends, for sent_lines()
 };
 
 enum class Incident : unsigned {
@@ -42,6 +44,7 @@ enum class Incident : unsigned {
   kRestartLoadCell = 8,  // a brown-out: banner, then the clock starts from 0
   kRestartStage = 16,
   kHitLimitSwitch = 32,
+  kPullThermometerCable = 64,
 };
 
 // What really happened on the bench, independent of the bytes on the wires.
@@ -54,9 +57,9 @@ struct EmulatedOutcome {
 };
 
 // A stage (GRBL or Zaber) and a load cell (HX711 amplifier, multimeter or force gauge) behind two
-// pseudo-terminals, pressing on an emulated specimen. config names their drivers. On the wall clock
+// pseudo-terminals, with a thermometer behind a third one, pressing on an emulated specimen. config names their drivers. On the wall clock
 // one thread does all the work, otherwise it is done in the waits of the program that uses clock().
-// The destructor hangs up both ports.
+// The destructor hangs up the ports.
 class EmulatedRig {
  public:
   // Throws std::runtime_error without a free pseudo-terminal, std::invalid_argument on a bad truth.
@@ -65,7 +68,7 @@ class EmulatedRig {
 
   std::string stage_port() const;
   std::string load_cell_port() const;
-  // The config of the options with both ports filled in. A rig that waits seems to its program to
+  // The config of the options with the ports filled in. A rig that waits seems to its program to
   // run at speed 1.
   RigConfig config() const;
   // For the program that uses the rig; must not outlive it.
@@ -73,7 +76,8 @@ class EmulatedRig {
   bool waits() const;
 
   EmulatedOutcome outcome() const;
-  // Every line that the amplifier has sent, with its terminator; needs options.keeps_lines.
+  // What the load cell's instrument has sent, as its lines with their terminators; needs
+  // options.keeps_lines.
   std::vector<std::string> sent_lines() const;
 
   // Hangs a weight on the load cell, in addition to the force of the punch; replaces the last one.

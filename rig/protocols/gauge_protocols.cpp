@@ -46,15 +46,6 @@ const std::array<GaugeProtocol, 3>& dialects() {
 
 constexpr std::size_t kSauterLength = 7;
 
-// The unit of a gauge that does not send one; N unless the rig file has another.
-std::string checked_unit(const std::string& unit) {
-  std::string word = unit.empty() ? "N" : unit;
-  if (newtons_per_unit(word)) return word;
-  throw RigError(
-      "unit '" + unit +
-      "' under [load_cell] of the rig file is unknown; choose N, mN, kN, gf, kgf, ozf or lbf");
-}
-
 }  // namespace
 
 GaugeProtocol scpi_protocol(const std::string& dialect) {
@@ -112,12 +103,24 @@ std::optional<GaugeAnswer> parse_mark10_reading(std::string_view line, const std
 }
 
 GaugeProtocol mark10_protocol(const std::string& unit) {
-  const std::string word = checked_unit(unit);
+  const std::string word = checked_gauge_unit(unit);
   GaugeProtocol protocol;
   protocol.name = "mark10";
   protocol.query = "?\r";
   protocol.parse = [word](std::string_view line) { return parse_mark10_reading(line, word); };
   return protocol;
+}
+
+int mark10_stream_rate_Hz(double expected_Hz) {
+  constexpr std::array<int, 7> kRates_Hz{2, 5, 10, 25, 50, 125, 250};
+  for (const int rate_Hz : kRates_Hz) {
+    if (rate_Hz >= expected_Hz) return rate_Hz;
+  }
+  return kRates_Hz.back();
+}
+
+std::string mark10_stream_command(int rate_Hz) {
+  return "AOUT" + std::to_string(rate_Hz) + "\r";
 }
 
 std::optional<GaugeAnswer> parse_sauter_reading(std::string_view bytes, const std::string& unit) {
@@ -133,13 +136,21 @@ std::optional<GaugeAnswer> parse_sauter_reading(std::string_view bytes, const st
 }
 
 GaugeProtocol sauter_protocol(const std::string& unit) {
-  const std::string word = checked_unit(unit);
+  const std::string word = checked_gauge_unit(unit);
   GaugeProtocol protocol;
   protocol.name = "sauter";
   protocol.query = "9";
   protocol.fixed_length = kSauterLength;
   protocol.parse = [word](std::string_view bytes) { return parse_sauter_reading(bytes, word); };
   return protocol;
+}
+
+std::string checked_gauge_unit(const std::string& unit) {
+  std::string word = unit.empty() ? "N" : unit;
+  if (newtons_per_unit(word)) return word;
+  throw RigError(
+      "unit '" + unit +
+      "' under [load_cell] of the rig file is unknown; choose N, mN, kN, gf, kgf, ozf or lbf");
 }
 
 std::optional<double> newtons_per_unit(std::string_view unit) {

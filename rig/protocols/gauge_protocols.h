@@ -55,6 +55,11 @@ std::optional<ScpiError> parse_scpi_error(std::string_view line);
 // are errors. Source: Mark-10 Series 4/5/7 user's guides, "Communications". Compression is positive
 // unless the gauge's polarity was inverted. Throws RigError on an unknown unit.
 GaugeProtocol mark10_protocol(const std::string& unit);
+// The continuous mode of series 5 and 7 and of model 7i (rig/cells/mark10_stream.h). The smallest of
+// the gauge's rates that is at least expected_Hz, or its largest; and the command that sets it (0:
+// stops).
+int mark10_stream_rate_Hz(double expected_Hz);
+std::string mark10_stream_command(int rate_Hz);
 std::optional<GaugeAnswer> parse_mark10_reading(std::string_view line, const std::string& unit);
 
 // Sauter FH and FL. The query is the byte "9". The answer is 7 ASCII bytes without terminator, such
@@ -63,6 +68,10 @@ std::optional<GaugeAnswer> parse_mark10_reading(std::string_view line, const std
 // description. Throws RigError on an unknown unit.
 GaugeProtocol sauter_protocol(const std::string& unit);
 std::optional<GaugeAnswer> parse_sauter_reading(std::string_view bytes, const std::string& unit);
+
+// The unit of a gauge that does not send one; N unless the rig file names another. Throws RigError if
+// that is unknown.
+std::string checked_gauge_unit(const std::string& unit);
 
 // Newtons in one unit of force as balances and force gauges write it: N mN kN gf kgf ozf lbf, p
 // (pond), and g kg oz lb lbs for the weight of that mass. Case does not matter, except that MN is

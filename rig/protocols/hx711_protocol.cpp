@@ -3,6 +3,7 @@
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <initializer_list>
@@ -94,14 +95,17 @@ std::optional<Hx711Line> parse_hx711_line(std::string_view text, bool has_clock)
   std::string_view rest = text.substr(0, text.find('|'));
   const std::size_t colon = rest.rfind(':');
   if (colon != std::string_view::npos) rest = rest.substr(colon + 1);
+  if (lower(rest.substr(0, 5)) == "read ") rest.remove_prefix(5);  // of Adafruit_NAU7802
   if (!read_value(rest, true, line)) return std::nullopt;
   return line;
 }
 
 bool is_hx711_fault(std::string_view text) {
   const std::string line = lower(text);
-  return line.find("hx711 not found") != std::string::npos ||
-         line.find("not ready") != std::string::npos;
+  constexpr std::array kFaults{"hx711 not found", "not ready", "scale not detected",
+                               "failed to find nau7802"};
+  return std::any_of(kFaults.begin(), kFaults.end(),
+                     [&](const char* fault) { return line.find(fault) != std::string::npos; });
 }
 
 bool is_hx711_glitch(double counts, std::optional<double> previous_counts) {

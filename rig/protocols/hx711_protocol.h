@@ -6,9 +6,11 @@
 
 namespace viscard {
 
-// Reads text lines of an HX711 amplifier behind a small processor; knows no port. Sources: HX711
-// data sheet (Avia Semiconductor); bogde/HX711 examples and issues 83, 216, 242; OpenScale guide
-// (SparkFun).
+// Reads text lines of an HX711 amplifier, or another 24-bit converter, behind a small processor;
+// knows no port. Sources: HX711 data sheet (Avia Semiconductor); bogde/HX711 examples and issues 83,
+// 216, 242; OpenScale guide (SparkFun); examples of SparkFun_Qwiic_Scale_NAU7802 ("Reading: 12345"),
+// Adafruit_NAU7802 ("Read 12345"), of an ADS1232 library in the words of bogde/HX711, and of
+// adienakhmad/ADS1256 (volts with ten decimals).
 
 // 24-bit two's complement; the ends of the range mean that the converter is saturated.
 inline constexpr double kHx711Highest = 8388607.0;
@@ -34,10 +36,11 @@ struct Hx711Line {
 
 // A line with a reading, or nothing for banners, prompts and garbage. With has_clock the line is
 // "time,number" or "time,number,unit,...". Otherwise it is a number, "name: number" or "name:
-// number | average: number" (the first one is taken), and a decimal comma is accepted.
+// number | average: number" (the first one is taken) or "Read number", and a decimal comma is accepted.
 std::optional<Hx711Line> parse_hx711_line(std::string_view line, bool has_clock);
 
-// True for "HX711 not found." and the like.
+// True for "HX711 not found.", "Scale not detected." (SparkFun, NAU7802), "Failed to find NAU7802"
+// (Adafruit) and the like.
 bool is_hx711_fault(std::string_view line);
 
 // True for codes of a conversion that was read too slowly: its low bits are 1, so the code is

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -46,7 +47,8 @@ void doubt_gap(RunSession& session, RunOutcome& outcome, double most_s) {
 void doubt_line(RunSession& session, RunOutcome& outcome) {
   constexpr double kReadableToNot = 30.0 / 50.0;
   const StreamCounts& stream = outcome.stream;
-  if (stream.unreadable + stream.implausible == 0) return;
+  const bool has_check = session.load_cell().has_check();  // then only what stands out is doubtful
+  if ((has_check ? 0 : stream.unreadable) + stream.implausible == 0) return;
   const double n_hidden = std::ceil(kReadableToNot * static_cast<double>(stream.unreadable) +
                                     static_cast<double>(stream.implausible));
   outcome.doubts.push_back(counted(static_cast<std::size_t>(stream.unreadable), "line") +
@@ -60,14 +62,40 @@ void doubt_line(RunSession& session, RunOutcome& outcome) {
   session.event("doubt", "line_noise", outcome.doubts.back());
 }
 
+// A run without a temperature, or with one that drifted, is as good as before, but its temperature is
+// not what the material should carry.
+void doubt_temperature(RunSession& session, const RigConfig& rig, RunOutcome& outcome) {
+  const Thermometer* thermometer = session.thermometer();
+  if (thermometer == nullptr) return;
+  outcome.temperature = run_temperature(thermometer->readings_C());
+  outcome.thermometer_trouble = thermometer->trouble();
+  std::string silent = thermometer->trouble();
+  if (silent.empty() && thermometer->longest_silence_s() > silent_after_s(rig.thermometer)) {
+    silent = "the thermometer on " + thermometer->name() + " was silent for " +
+             text_from_number(thermometer->longest_silence_s(), 1) + " s";
+  }
+  const std::string drift =
+      outcome.temperature
+          ? temperature_drift_text(*outcome.temperature, rig.thermometer.drift_limit_K)
+          : "";
+  for (const auto& [name, text] :
+       {std::pair{kThermometerSilent, silent}, std::pair{kTemperatureDrift, drift}}) {
+    if (text.empty()) continue;
+    outcome.doubts.push_back(text);
+    session.event("doubt", name, text);
+  }
+}
+
 // Every record states which errors would have been detected, even if none was found.
 void record_hidden_error(RunSession& session, RunOutcome& outcome) {
   if (outcome.noise_N <= 0.0) return;  // ended before the noise was measured
   outcome.hidden_error_N = SpikeWatch::kSurelyFound * outcome.noise_N;
   session.event(
       "checked", text_from_number(outcome.hidden_error_N, 6),
-      "The line carries no checksum: readings were compared with their neighbours, "
-      "which shows errors above " +
+      std::string(session.load_cell().has_check() ? "Each reading carries a checksum, and they"
+                                                  : "The line carries no checksum: readings") +
+          " were compared with their neighbours, "
+          "which shows errors above " +
           text_from_number(outcome.hidden_error_N * 1e3, 3) +
           " mN at rest, and above twice the step between readings on a ramp; of the first "
           "five and the last two readings above twice that");
@@ -75,7 +103,8 @@ void record_hidden_error(RunSession& session, RunOutcome& outcome) {
 
 }  // namespace
 
-void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock) {
+void conclude(RunSession& session, const RigConfig& rig, RunOutcome& outcome,
+              const RigClock& clock) {
   outcome.peak_force_N = session.peak_force_N();
   outcome.stream = session.load_cell().counts();
   outcome.n_late = session.n_late();
@@ -87,6 +116,7 @@ void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock) {
     record_hidden_error(session, outcome);
     doubt_line(session, outcome);
     doubt_flat_force(session, outcome);
+    doubt_temperature(session, rig, outcome);
     doubt_gap(
         session, outcome,
         std::max(kLongGapPeriods * session.load_cell().period_s(), clock.from_wall_s(kLongGap_s)));

@@ -27,6 +27,8 @@ struct RunReading {
   double depth_m = 0.0;  // as in RunProgress
 };
 
+class Thermometer;
+
 // How a run is observed and ended from outside.
 struct RunControl {
   const RigClock* clock = nullptr;          // the one the devices were made with
@@ -38,6 +40,7 @@ struct RunControl {
   // A punch that presses before the test is lifted in any case; then the test goes on instead of
   // ending.
   bool lifts_at_start = false;
+  Thermometer* thermometer = nullptr;  // read beside the run; may be nullptr
 };
 
 // A person asked the run to end.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/experiment/run_temperature.h"
 #include "rig/cells/load_cell.h"
 #include "rig/run/preflight.h"
 
@@ -35,7 +36,9 @@ struct RunOutcome {
   int n_late = 0;
   double longest_late_s = 0.0;
   std::string line_format;  // of the load cell's lines as read; empty if its protocol fixes it
-  std::vector<std::string> doubts;  // reasons to distrust the record of a finished run
+  std::optional<RunTemperature> temperature;  // by the thermometer, if it gave any
+  std::string thermometer_trouble;            // why it gave none, or none at the end
+  std::vector<std::string> doubts;            // reasons to distrust the record of a finished run
 };
 
 }  // namespace viscard

@@ -31,6 +31,7 @@ class RunSession {
 
   Stage& stage() { return devices_.stage(); }
   LoadCell& load_cell() { return devices_.load_cell(); }
+  const Thermometer* thermometer() const { return devices_.thermometer(); }
   double now_s() const { return clock_.now_s(); }
 
   void connect();

@@ -19,9 +19,11 @@ constexpr double kDeadPeriods = 20.0;  // of a slow instrument
 
 }  // namespace
 
-ServedDevices::ServedDevices(Stage& stage, LoadCell& load_cell, const RigClock& clock)
+ServedDevices::ServedDevices(Stage& stage, LoadCell& load_cell, Thermometer* thermometer,
+                             const RigClock& clock)
     : stage_(stage),
       load_cell_(load_cell),
+      thermometer_(thermometer),
       clock_(clock),
       silence_(clock.speed() > 1.0 ? kSilenceEmulated_wall_s : kSilence_wall_s) {}
 
@@ -36,6 +38,7 @@ void ServedDevices::serve(bool is_guarded) {
   wait();
   serve_cell(is_guarded);
   serve_stage();
+  if (thermometer_ != nullptr) thermometer_->service();
   const double arrival_s = load_cell_.last_arrival_s();
   silence_.pass(clock_.awake_s(), arrival_s != last_arrival_s_, stage_.is_moving());
   last_arrival_s_ = arrival_s;
@@ -44,6 +47,9 @@ void ServedDevices::serve(bool is_guarded) {
 void ServedDevices::wait() {
   std::vector<const Transport*> transports{&stage_.transport()};
   if (!is_cell_lost_) transports.push_back(&load_cell_.transport());
+  if (thermometer_ != nullptr && thermometer_->transport() != nullptr) {
+    transports.push_back(thermometer_->transport());
+  }
   // Rig time may run faster than the wall clock, so the wait is shorter then.
   wait_readable(transports, clock_, kNap_wall_s / std::clamp(clock_.speed() / 10.0, 1.0, 10.0));
 }

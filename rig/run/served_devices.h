@@ -3,6 +3,7 @@
 #include "rig/cells/load_cell.h"
 #include "rig/lines/record_sink.h"
 #include "rig/lines/rig_clock.h"
+#include "rig/sensors/thermometer.h"
 #include "rig/stages/stage.h"
 
 #include <optional>
@@ -35,16 +36,18 @@ class SilenceWatch {
   double longest_at_rest_s_ = 0.0;
 };
 
-// Stage and load cell served by one thread, and what is known of their health: which is connected,
+// Stage, load cell and thermometer served by one thread, and what is known of their health: which is connected,
 // which was lost or has restarted, whether the stage must be recovered, whether readings have
 // stopped.
 class ServedDevices {
  public:
-  ServedDevices(Stage& stage, LoadCell& load_cell, const RigClock& clock);
+  // thermometer: may be nullptr.
+  ServedDevices(Stage& stage, LoadCell& load_cell, Thermometer* thermometer, const RigClock& clock);
 
   Stage& stage() { return stage_; }
   LoadCell& load_cell() { return load_cell_; }
   const LoadCell& load_cell() const { return load_cell_; }
+  const Thermometer* thermometer() const { return thermometer_; }
 
   // The load cell first, so that the force is known before the stage may home.
   void connect(const Pump& pump);
@@ -82,6 +85,7 @@ class ServedDevices {
 
   Stage& stage_;
   LoadCell& load_cell_;
+  Thermometer* thermometer_;
   const RigClock& clock_;
   SilenceWatch silence_;
   double last_arrival_s_ = 0.0;  // of the newest reading passed to silence_

@@ -39,6 +39,7 @@ void note_depth(TestRun& run);
 
 // Fills in the totals of a run, adds the doubts about a finished one, and records how it ended. If
 // that cannot be recorded any more, the outcome still carries the reason for the early end.
-void conclude(RunSession& session, RunOutcome& outcome, const RigClock& clock);
+void conclude(RunSession& session, const RigConfig& rig, RunOutcome& outcome,
+              const RigClock& clock);
 
 }  // namespace viscard

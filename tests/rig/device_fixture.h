@@ -4,6 +4,7 @@
 #include "rig/emulator/emulated_rig.h"
 #include "rig/open_devices.h"
 #include "rig/run_indentation.h"
+#include "tests/rig/line_faults.h"
 #include "tests/rig/records_of.h"
 
 #include <atomic>
@@ -12,11 +13,12 @@
 
 namespace viscard {
 
-// An emulated rig with the drivers that its rig file names.
+// An emulated rig with the drivers that its rig file names, perhaps behind disturbed lines.
 struct DeviceFixture {
-  explicit DeviceFixture(const EmulatedRigOptions& options)
+  explicit DeviceFixture(const EmulatedRigOptions& options,
+                         const std::optional<LineFaults>& faults = std::nullopt)
       : emulated(options),
-        config(emulated.config()),
+        config(config_behind(emulated, faults, stage_proxy, cell_proxy)),
         clock(emulated.clock()),
         devices(open_ports(config, clock)),
         sink([this](const RunRecord& record) { records.push_back(record); }) {
@@ -40,6 +42,7 @@ struct DeviceFixture {
       wait_readable({devices.stage_line.get(), devices.cell_line.get()}, clock, 0.002);
       devices.load_cell->service();
       devices.stage->service();
+      if (devices.thermometer) devices.thermometer->service();
     };
   }
   void pump_for(double wall_s) {
@@ -58,6 +61,7 @@ struct DeviceFixture {
     RunControl control;
     control.clock = &clock;
     control.stop = &stop;
+    control.thermometer = devices.thermometer.get();
     return run_indentation(*devices.stage, *devices.load_cell, config, plan, demo_specimen(10.0),
                            sink, control);
   }
@@ -68,6 +72,7 @@ struct DeviceFixture {
   }
 
   EmulatedRig emulated;
+  std::unique_ptr<FaultProxy> stage_proxy, cell_proxy;
   RigConfig config;
   RigClock clock;
   std::vector<RunRecord> records;

@@ -4,10 +4,10 @@
 #include "rig/cells/hx711_load_cell.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/emulator/emulated_rig.h"
-#include "rig/emulator/fault_proxy.h"
 #include "rig/lines/serial_line.h"
 #include "rig/run_indentation.h"
 #include "rig/stages/grbl_stage.h"
+#include "tests/rig/line_faults.h"
 #include "tests/rig/records_of.h"
 
 #include <functional>
@@ -18,17 +18,12 @@
 
 namespace viscard {
 
-// Disturbances of the two lines of a rig.
-struct LineFaults {
-  FaultPlan stage, cell;
-};
-
 // An emulated rig with real drivers on its ports, or behind disturbed lines. Keeps all records.
 struct RigFixture {
   explicit RigFixture(const EmulatedRigOptions& options,
                       const std::optional<LineFaults>& faults = std::nullopt, double patience = 1.0)
       : emulated(options),
-        config(config_behind(faults)),
+        config(config_behind(emulated, faults, stage_proxy, cell_proxy)),
         clock(emulated.clock()),
         stage_line(config.stage.port, 115200, clock),
         cell_line(config.load_cell.port, 115200, clock),
@@ -87,16 +82,6 @@ struct RigFixture {
       if (event.name == name && event.value == value) return true;
     }
     return false;
-  }
-
-  RigConfig config_behind(const std::optional<LineFaults>& faults) {
-    RigConfig result = emulated.config();
-    if (!faults) return result;
-    stage_proxy = std::make_unique<FaultProxy>(emulated, result.stage.port, faults->stage);
-    cell_proxy = std::make_unique<FaultProxy>(emulated, result.load_cell.port, faults->cell);
-    result.stage.port = stage_proxy->path();
-    result.load_cell.port = cell_proxy->path();
-    return result;
   }
 
   EmulatedRig emulated;

@@ -113,6 +113,12 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   const std::string sigma_unit = fit.kind == FitKind::kDma ? "(relative)" : fitted.fitted_unit;
   out << fmt::format("  noise {:.3g} {}, variance x {:.3g} for autocorrelation\n", fit.noise.sigma,
                      sigma_unit, fit.noise.inflation);
+  if (fitted.temperature) {
+    const RunTemperature& measured = *fitted.temperature;
+    out << fmt::format("  temperature {:.2f} C, measured: {:.2f} to {:.2f} C in {}\n",
+                       measured.mean_C, measured.min_C, measured.max_C,
+                       counted(measured.n_readings, "reading"));
+  }
   if (fitted.master) print_master(*fitted.master, out);
   if (fitted.fractional) print_fractional(*fitted.fractional, out);
   print_orders(fit, fitted.fitted_unit, out);

@@ -57,6 +57,7 @@ struct KeepRecords {
   void operator()(const StageReport& report) const { run.stage_reports.push_back(report); }
   void operator()(const CommandedMove& move) const { run.moves.push_back(move); }
   void operator()(const RunEvent& event) const { run.events.push_back(event); }
+  void operator()(const TemperatureSample& sample) const { run.temperatures.push_back(sample); }
 };
 
 CapturedRun press_block(const CalibrateWords& words, RigConfig rig) {
@@ -83,6 +84,7 @@ CapturedRun press_block(const CalibrateWords& words, RigConfig rig) {
   RunControl control;
   control.clock = &clock;
   control.stop = &StopOnSignal::is_asked();
+  control.thermometer = devices.thermometer.get();
   const RunOutcome outcome =
       run_indentation(*devices.stage, *devices.load_cell, rig, run.plan, block, sink, control);
   if (outcome.status != "finished") throw std::runtime_error(outcome.reason);

@@ -109,7 +109,7 @@ WeightReadings weigh_on(RigConfig rig, const CalibrateWords& words, EmulatedRig*
   WeightReadings readings;
   readings.force_relative_u = weights_relative_u(words);
   readings.resolution =
-      rig.load_cell.driver == "hx711" ? std::abs(rig.load_cell.volts_per_count) : 0.0;
+      has_converter(rig.load_cell) ? std::abs(rig.load_cell.volts_per_count) : 0.0;
   for (const WeighedLoad& load : weigh(*load_cell, rig, clock, forces_N, options)) {
     readings.force_N.push_back(load.force_N);
     readings.reading.push_back(load.reading);

@@ -38,6 +38,11 @@ void print_text(const CaptureOutcome& capture, std::ostream& out) {
         "  checked         against neighbours: errors above {:.3f} mN would show at rest\n",
         outcome.hidden_error_N * 1e3);
   }
+  if (outcome.temperature) {
+    out << fmt::format("  temperature     {:.2f} C, from {:.2f} to {:.2f} C\n",
+                       outcome.temperature->mean_C, outcome.temperature->min_C,
+                       outcome.temperature->max_C);
+  }
   if (outcome.n_late > 0) {
     out << fmt::format("  computer        late by up to {:.2f} s, {} in all: not watched then\n",
                        outcome.longest_late_s,

@@ -9,10 +9,13 @@
 #include "models/maths/text_of_number.h"
 #include "rig/emulator/demo_rig.h"
 #include "rig/lines/port_probe.h"
+#include "rig/lines/transport.h"
+#include "rig/open_devices.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <ostream>
 
 namespace po = boost::program_options;
@@ -22,7 +25,32 @@ namespace {
 
 using nlohmann::ordered_json;
 
-int list_ports(bool as_json, Streams& streams) {
+ordered_json number_or_null(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+// The thermometer of a rig file is the one device that can be read without disturbing anything.
+void list_thermometer(const RigConfig& rig, bool as_json, ordered_json& json, Streams& streams) {
+  if (!has_own_port(rig.thermometer)) return;
+  const RigClock clock;
+  const auto thermometer = make_thermometer(rig, clock, [](const RunRecord&) {});
+  while (thermometer->readings_C().empty() && thermometer->trouble().empty()) {
+    if (thermometer->transport() != nullptr) {
+      wait_readable({thermometer->transport()}, clock, 0.02);
+    }
+    thermometer->service();
+  }
+  json["thermometer"] = {{"port", rig.thermometer.port},
+                         {"temperature_C", number_or_null(thermometer->newest_C())},
+                         {"trouble", thermometer->trouble()}};
+  if (as_json) return;
+  streams.out << "thermometer " << rig.thermometer.port << "  "
+              << (thermometer->newest_C() ? fmt::format("{:.2f} C", *thermometer->newest_C())
+                                          : thermometer->trouble())
+              << "\n";
+}
+
+int list_ports(const std::optional<RigConfig>& rig, bool as_json, Streams& streams) {
   ordered_json rows = ordered_json::array();
   for (const std::string& path : present_ports()) {
     const PortStatus status = port_status(path);
@@ -31,8 +59,10 @@ int list_ports(bool as_json, Streams& streams) {
     streams.out << status.path << (status.device == status.path ? "" : " (" + status.device + ")")
                 << "  " << (status.trouble.empty() ? "free" : status.trouble) << "\n";
   }
+  ordered_json json{{"ports", rows}};
+  if (rig) list_thermometer(*rig, as_json, json, streams);
   if (as_json) {
-    streams.out << ordered_json{{"ports", rows}}.dump() << "\n";
+    streams.out << json.dump() << "\n";
   } else if (rows.empty()) {
     streams.out << "No serial port is present. Plug the stage and the load cell in and switch them "
                    "on; 'dmesg | tail' shows whether the system has recognised them.\n";
@@ -56,6 +86,12 @@ void print_text(const RigCheck& found, std::ostream& out) {
                      text_from_number(found.force_N, 4),
                      found.reads_as.empty() ? std::string() : " from " + found.reads_as,
                      found.noise_N * 1e3);
+  if (found.temperature_C) {
+    out << fmt::format("thermometer {:.2f} C, {} in this time\n", *found.temperature_C,
+                       counted(found.n_temperatures, "reading"));
+  } else if (found.has_thermometer) {
+    out << "thermometer sends no temperature\n";
+  }
   for (const std::string& text : found.advice) out << "advice     " << text << "\n";
   out << (found.is_usable ? "ready\n" : "not fit for a test yet\n");
 }
@@ -94,11 +130,13 @@ int show_overshoot(bool as_json, Streams& streams) {
 
 CommandSyntax rig_syntax() {
   CommandSyntax syntax;
-  syntax.usage = "viscard rig list | check --rig FILE | overshoot [OPTIONS]";
+  syntax.usage = "viscard rig list [--rig FILE] | check --rig FILE | overshoot [OPTIONS]";
   syntax.description =
-      "list shows the serial ports and why one cannot be used, without opening any.\n"
-      "check opens both devices of a rig file, identifies and measures them, and reports what to "
-      "change;\n"
+      "list shows the serial ports and why one cannot be used, without opening any but the "
+      "thermometer's of\n"
+      "a rig file. check opens all devices of a rig file, identifies and measures them, and "
+      "reports "
+      "what to change;\n"
       "nothing moves. overshoot shows how far the force goes beyond a limit, on the emulated rig.";
   syntax.example = "viscard rig check --emulate";
   syntax.options.add_options()("rig", po::value<std::string>(), "rig.toml: ports, calibration")(
@@ -135,11 +173,17 @@ int list_check_or_study(const Words& words, Streams& streams) {
   if (!values) return kDone;
   const std::string what = values->count("what") > 0 ? (*values)["what"].as<std::string>() : "";
   const bool as_json = values->count("json") > 0;
-  for (const char* option : {"rig", "seconds", "emulate"}) {
-    if (what == "check" || values->count(option) == 0 || (*values)[option].defaulted()) continue;
-    throw UsageError("--" + std::string(option) + " belongs to 'viscard rig check'");
+  for (const std::string option : {"rig", "seconds", "emulate"}) {
+    if (what == "check" || (what == "list" && option == "rig") || values->count(option) == 0 ||
+        (*values)[option].defaulted())
+      continue;
+    throw UsageError("--" + option + " belongs to 'viscard rig check'");
   }
-  if (what == "list") return list_ports(as_json, streams);
+  if (what == "list") {
+    std::optional<RigConfig> rig;
+    if (values->count("rig") > 0) rig = read_rig((*values)["rig"].as<std::string>());
+    return list_ports(rig, as_json, streams);
+  }
   if (what == "overshoot") return show_overshoot(as_json, streams);
   if (what != "check") {
     throw UsageError("rig needs one of list, check or overshoot. usage: " +

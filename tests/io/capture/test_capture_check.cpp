@@ -129,5 +129,35 @@ TEST_CASE("a capture of an earlier schema opens and is unchecked", "[io][capture
   CHECK(contents_of(path) == contents);
 }
 
+TEST_CASE("a capture from before thermometers opens, and its checksums are compared",
+          "[io][capture]") {
+  const ScratchFolder folder;
+  const auto path = finished_capture(folder);
+  Database(path, Database::Access::kReadWrite)
+      .execute("DROP TABLE temperatures; PRAGMA user_version=3");
+  const CapturedRun run = read_capture(path);
+  CHECK(run.load_samples.size() > 10);
+  CHECK(run.temperatures.empty());
+  const CaptureCheck check = check_capture(path);
+  CHECK(check.is_checked);
+  CHECK(check.faults.empty());
+}
+
+TEST_CASE("a changed temperature is reported", "[io][capture]") {
+  const ScratchFolder folder;
+  const auto path = folder / "warm.viscap";
+  {
+    CaptureWriter writer(path, test::demo_run());
+    writer.append(TemperatureSample{0.4, 23.5});
+    writer.finish("finished");
+  }
+  CHECK(check_capture(path).faults.empty());
+  Database(path, Database::Access::kReadWrite)
+      .execute("UPDATE temperatures SET temperature_C = 24.5");
+  const CaptureCheck check = check_capture(path);
+  REQUIRE(check.faults.size() == 1);
+  CHECK(contains(check.faults[0], "table temperatures"));
+}
+
 }  // namespace
 }  // namespace viscard

@@ -7,6 +7,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 namespace viscard {
 namespace {
 
@@ -57,6 +59,25 @@ TEST_CASE("without a contact there is no depth", "[io][capture]") {
   CapturedRun run = short_run();
   run.events.pop_back();
   CHECK(csv_from_capture(run).find("depth_m") == std::string::npos);
+}
+
+TEST_CASE("the newest temperature stands beside each reading, and none while there is none",
+          "[io][capture]") {
+  CapturedRun run = short_run();
+  CHECK(csv_from_capture(run).find("temperature_C") == std::string::npos);
+  run.rig.thermometer.driver = "text";
+  run.temperatures = {{run.load_samples[1].host_time_s, 23.5},
+                      {run.load_samples[3].host_time_s + 1e-6, 23.75}};
+  run.load_samples.push_back(test::sample(6));
+  run.load_samples.back().host_time_s = 10.0;  // the thermometer has been silent for 5 s
+  const CsvTable table = csv_from_text(csv_from_capture(run), "run.csv");
+  const std::vector<double> found = column_SI(table, "temperature_C");
+  REQUIRE(found.size() == 7);
+  CHECK(std::isnan(found[0]));
+  CHECK(found[1] == 23.5);
+  CHECK(found[3] == 23.5);
+  CHECK(found[4] == 23.75);
+  CHECK(std::isnan(found[6]));
 }
 
 TEST_CASE("bytes that are not text are escaped in the export", "[io][capture]") {

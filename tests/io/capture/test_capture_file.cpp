@@ -37,6 +37,8 @@ void write_one_of_each(CaptureWriter& writer) {
   writer.append(gauge);
   writer.append(StageReport{0.3, 1e-3 / 7.0, "Jog"});
   writer.append(CommandedMove{{0.25, 0.0, 1.5e-4, 1.3e-4, 0.2}, 0.02, "ramp"});
+  writer.append(TemperatureSample{0.4, 23.0 + 1.0 / 3.0});
+  writer.append(RawBytes{Device::kThermometer, false, 0.4, "T=23.33\r\n"});
 }
 
 TEST_CASE("a finished capture reads back as it was written, bit for bit", "[io][capture]") {
@@ -70,6 +72,9 @@ TEST_CASE("a finished capture reads back as it was written, bit for bit", "[io][
   CHECK(run.load_samples[1].is_glitch);
   CHECK(run.load_samples[2].force_N == 1.0 / 7.0);
   CHECK_FALSE(run.load_samples[1].force_N.has_value());
+  REQUIRE(run.temperatures.size() == 1);
+  CHECK(run.temperatures[0].host_time_s == 0.4);
+  CHECK(run.temperatures[0].temperature_C == 23.0 + 1.0 / 3.0);
   REQUIRE(run.stage_reports.size() == 1);
   CHECK(run.stage_reports[0].position_m == 1e-3 / 7.0);
   CHECK(run.stage_reports[0].state == "Jog");

@@ -45,6 +45,32 @@ TEST_CASE("the demo's rig reads as its comments say", "[io][config]") {
   CHECK(rig.safety.soft_fraction == 0.8);
 }
 
+TEST_CASE("a thermometer and a converter are read, stored and checked", "[io][config]") {
+  const std::string thermometer =
+      "[thermometer]\ndriver = \"scpi\"\nquery = \"READ?\"\nperiod = \"2 s\"\n"
+      "drift_limit = \"0.5 K\"\n";
+  const RigConfig rig = rig_from_toml(std::string(kMinimalRig) + thermometer, "rig.toml");
+  CHECK(rig.thermometer.driver == "scpi");
+  CHECK(rig.thermometer.query == "READ?");
+  CHECK(rig.thermometer.period_s == 2.0);
+  CHECK(rig.thermometer.drift_limit_K == 0.5);
+  CHECK(rig_from_toml(toml_from_rig(rig), "rig.toml").thermometer.query == "READ?");
+  CHECK(rig_from_toml(kMinimalRig, "rig.toml").thermometer.driver == "none");
+  const std::string converter =
+      "[load_cell]\ndriver = \"adc\"\nconverter = \"ads1232\"\ngain = 128\n"
+      "reference = \"5 V\"\n";
+  const RigConfig board = rig_from_toml(std::string(kMinimalRig) + converter, "rig.toml");
+  CHECK(board.load_cell.volts_per_count == Approx(2.5 / 128.0 / 8388607.0).epsilon(1e-14));
+  CHECK(rig_from_toml(toml_from_rig(board), "rig.toml").load_cell.volts_per_count ==
+        board.load_cell.volts_per_count);
+  CHECK_THAT(rig_error(std::string(kMinimalRig) + converter + "volts_per_count = \"1 uV\"\n"),
+             Contains("Omit volts_per_count"));
+  CHECK_THAT(rig_error(std::string(kMinimalRig) +
+                       ("[load_cell]\ndriver = \"adc\"\n"
+                        "converter = \"ads1232\"\ngain = 3\nreference = \"5 V\"\n")),
+             Contains("load_cell.gain is 3"));
+}
+
 TEST_CASE("the demo's test and specimens read as their comments say", "[io][config]") {
   const TestPlan plan = read_test(kDemo / "02_test.toml");
   CHECK(plan.depth_m == 0.13e-3);

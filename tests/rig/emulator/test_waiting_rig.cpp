@@ -26,6 +26,10 @@ struct RecordText {
     return "move " + move.purpose + " " + std::to_string(move.move.start_time_s) + " " +
            std::to_string(move.start_uncertainty_s) + " " + std::to_string(move.move.to_m * 1e6);
   }
+  std::string operator()(const TemperatureSample& sample) const {
+    return "temperature " + std::to_string(sample.host_time_s) + " " +
+           std::to_string(sample.temperature_C);
+  }
   std::string operator()(const RunEvent& event) const {
     return "event " + std::to_string(event.host_time_s) + " " + event.name + " " + event.value +
            " " + event.text;

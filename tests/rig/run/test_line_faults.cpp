@@ -4,7 +4,7 @@
 #include "models/maths/text_of_number.h"
 #include "rig/protocols/hx711_protocol.h"
 #include "tests/rig/rig_fixture.h"
-#include "tests/rig/run/disturbances.h"
+#include "tests/rig/run/hardship.h"
 
 #include <catch2/catch.hpp>
 

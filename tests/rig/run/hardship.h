@@ -1,44 +1,11 @@
 #pragma once
 
-#include "tests/rig/rig_fixture.h"
-
-#include <cmath>
 #include <cstdint>
 #include <random>
 #include <string>
 #include <vector>
 
 namespace viscard {
-
-// What happens to the lines and the specimen of one run, drawn from its seed.
-
-inline FaultRates rates_from(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> exponent(-3.3, -1.5);
-  const double rate = std::pow(10.0, exponent(random));
-  const auto maybe = [&](double chance) {
-    return std::bernoulli_distribution(chance)(random) ? rate : 0.0;
-  };
-  FaultRates rates;
-  rates.drop = maybe(0.4);
-  rates.duplicate = maybe(0.4);
-  rates.split = maybe(0.4);
-  rates.delay = maybe(0.4);
-  rates.garble = maybe(0.4);
-  rates.insert = maybe(0.3);
-  rates.hang_up = 0.1 * maybe(0.15);
-  return rates;
-}
-
-inline LineFaults faults_of(std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  LineFaults faults;
-  for (FaultPlan* plan : {&faults.stage, &faults.cell}) {
-    plan->seed = random();
-    if (std::bernoulli_distribution(0.7)(random)) plan->to_host = rates_from(random);
-    if (std::bernoulli_distribution(0.5)(random)) plan->to_device = rates_from(random);
-  }
-  return faults;
-}
 
 // What a run meets beside disturbed lines.
 struct Hardship {
