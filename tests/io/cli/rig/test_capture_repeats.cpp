@@ -225,7 +225,8 @@ TEST_CASE("repeated captures of scattering specimens give the three levels in th
   REQUIRE(captured.status == kDone);
   Strings words{"fit", "--joint", "--json", "--terms", "1"};
   std::vector<double> true_E0_Pa;
-  for (const auto& run : last_line(captured)["runs"]) {
+  const auto campaign = last_line(captured);  // outlives the loop
+  for (const auto& run : campaign["runs"]) {
     const std::string file = run["file"];
     words.push_back(file);
     const auto truth = nlohmann::json::parse(
