@@ -113,7 +113,7 @@ std::string SeriesSpecimen::state() const {
   return captures.empty() ? "none" : "interrupted";
 }
 
-SeriesFolder::SeriesFolder(fs::path folder) : folder_(fs::absolute(folder)) {
+SeriesFolder::SeriesFolder(const fs::path& folder) : folder_(fs::absolute(folder)) {
   if (fs::exists(folder_) && !fs::is_directory(folder_)) {
     throw std::runtime_error(folder_.string() +
                              " is a file; name the folder that holds the series");
