@@ -206,7 +206,7 @@ std::string SeriesFolder::add_specimen(const Specimen& specimen) const {
   for (const SeriesSpecimen& other : specimens()) {
     number = std::max(number, 1 + number_of_name(other.name));
   }
-  const std::string name = fmt::format("{:02}_{}", number, file_name_from(specimen.id));
+  std::string name = fmt::format("{:02}_{}", number, file_name_from(specimen.id));
   write_file(specimen_file(name), toml, false);
   return name;
 }
