@@ -113,7 +113,7 @@ std::string SeriesSpecimen::state() const {
   return captures.empty() ? "none" : "interrupted";
 }
 
-SeriesFolder::SeriesFolder(fs::path folder) : folder_(fs::absolute(folder)) {
+SeriesFolder::SeriesFolder(const fs::path& folder) : folder_(fs::absolute(folder)) {
   if (fs::exists(folder_) && !fs::is_directory(folder_)) {
     throw std::runtime_error(folder_.string() +
                              " is a file; name the folder that holds the series");
@@ -206,7 +206,7 @@ std::string SeriesFolder::add_specimen(const Specimen& specimen) const {
   for (const SeriesSpecimen& other : specimens()) {
     number = std::max(number, 1 + number_of_name(other.name));
   }
-  const std::string name = fmt::format("{:02}_{}", number, file_name_from(specimen.id));
+  std::string name = fmt::format("{:02}_{}", number, file_name_from(specimen.id));
   write_file(specimen_file(name), toml, false);
   return name;
 }

@@ -39,7 +39,7 @@ struct SeriesSpecimen {
 class SeriesFolder {
  public:
   // Creates the folder. Throws std::runtime_error if it is a file or cannot be created.
-  explicit SeriesFolder(std::filesystem::path folder);
+  explicit SeriesFolder(const std::filesystem::path& folder);
 
   const std::filesystem::path& path() const { return folder_; }
   // Why nothing can be recorded in the folder, or "".
