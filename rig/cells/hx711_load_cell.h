@@ -9,9 +9,9 @@
 
 namespace viscard {
 
-// An HX711, or another converter behind a board that sends text lines. Their format is declared in the rig file
-// (line_format) or learnt from the first readings; banners and messages before them are skipped.
-// The format is reported by an event "line_format".
+// An HX711, or another converter behind a board that sends text lines. Their format is declared in
+// the rig file (line_format) or learnt from the first readings; banners and messages before them
+// are skipped. The format is reported by an event "line_format".
 class Hx711LoadCell final : public StreamLoadCell {
  public:
   // patience: factor on the time that connect() waits for readings. Throws RigError on an unknown

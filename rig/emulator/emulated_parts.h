@@ -1,7 +1,7 @@
 #pragma once
 
 #include "rig/emulator/emulated_controller.h"
-#include "rig/emulator/emulated_rig.h"
+#include "rig/emulator/emulated_rig_options.h"
 
 #include <memory>
 

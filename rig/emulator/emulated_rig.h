@@ -1,12 +1,6 @@
 #pragma once
 
-#include "models/experiment/emulated_specimen.h"
-#include "models/experiment/rig_config.h"
-#include "rig/emulator/emulated_amplifier.h"
-#include "rig/emulator/emulated_gauge.h"
-#include "rig/emulator/emulated_grbl.h"
-#include "rig/emulator/emulated_thermometer.h"
-#include "rig/emulator/emulated_zaber.h"
+#include "rig/emulator/emulated_rig_options.h"
 #include "rig/lines/rig_clock.h"
 
 #include <functional>
@@ -15,27 +9,6 @@
 #include <vector>
 
 namespace viscard {
-
-struct EmulatedRigOptions {
-  EmulatedTruth truth;
-  // The true properties of the instruments; drivers, calibration, volts_per_count, axis, direction
-  // and clock_speed are used.
-  RigConfig config;
-  // By default the rig waits for the program that uses it: its time passes only while that program
-  // waits for bytes, and clock_speed is the most by which it may be faster than the wall clock. Then
-  // the answer depends neither on the speed nor on what else the computer does. On the wall clock a
-  // busy computer is late, as it would be for a real rig.
-  bool is_on_wall_clock = false;
-  GrblHabits grbl;
-  ZaberHabits zaber;
-  GaugeHabits gauge;
-  AmplifierOptions amplifier;
-  ThermometerHabits thermometer;  // of the one that config names
-  // Boards with a USB converter (UNO, Nano) reset when their port is opened, native USB does not.
-  bool resets_on_open = true;
-  double boot_wall_s = 0.1;  // from that reset to the welcome; rig time for a rig that waits
-  bool keeps_lines = false;  // keeps what the load cell's instrument sends, for sent_lines()
-};
 
 enum class Incident : unsigned {
   kPullStageCable = 1,
@@ -57,9 +30,9 @@ struct EmulatedOutcome {
 };
 
 // A stage (GRBL or Zaber) and a load cell (HX711 amplifier, multimeter or force gauge) behind two
-// pseudo-terminals, with a thermometer behind a third one, pressing on an emulated specimen. config names their drivers. On the wall clock
-// one thread does all the work, otherwise it is done in the waits of the program that uses clock().
-// The destructor hangs up the ports.
+// pseudo-terminals, with a thermometer behind a third one, pressing on an emulated specimen. config
+// names their drivers. On the wall clock one thread does all the work, otherwise it is done in the
+// waits of the program that uses clock(). The destructor hangs up the ports.
 class EmulatedRig {
  public:
   // Throws std::runtime_error without a free pseudo-terminal, std::invalid_argument on a bad truth.

@@ -8,9 +8,10 @@ namespace viscard {
 // A viscoelastic layer under a flat punch that a stage presses through a frame spring (the load
 // cell is part of the frame):
 //   F(t) = c int E(t - s) d(depth)/ds ds,   depth = stage - surface - F/k_frame,   F >= 0
-// with c = 2 a kappa/(1 - nu^2) (models/contact/punch_contact.h) times the truth's contact_factor. Each step solves both equations
-// exactly for a depth that is linear in time, with the split of models/material/hereditary.h. Out
-// of contact the surface recovers without force, and the punch touches it where it is then.
+// with c = 2 a kappa/(1 - nu^2) (models/contact/punch_contact.h) times the truth's contact_factor.
+// Each step solves both equations exactly for a depth that is linear in time, with the split of
+// models/material/hereditary.h. Out of contact the surface recovers without force, and the punch
+// touches it where it is then.
 class EmulatedSpecimen {
  public:
   explicit EmulatedSpecimen(const EmulatedTruth& truth);

@@ -35,8 +35,8 @@ struct FaultPlan {
 
 // Connects a host to an emulated device and disturbs the line in both directions. Bytes never
 // overtake one another, as on a real line. The device's port is opened and closed when the host
-// opens and closes path(), so that boards reset as they would without the proxy. The line of a rig that waits
-// waits too: the faults of a plan always come at the same times.
+// opens and closes path(), so that boards reset as they would without the proxy. The line of a rig
+// that waits waits too: the faults of a plan always come at the same times.
 class FaultProxy {
  public:
   // device_path: one of the two ports of the rig.

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "models/experiment/emulated_specimen.h"
+#include "models/experiment/rig_config.h"
+#include "rig/emulator/emulated_amplifier.h"
+#include "rig/emulator/emulated_gauge.h"
+#include "rig/emulator/emulated_grbl.h"
+#include "rig/emulator/emulated_thermometer.h"
+#include "rig/emulator/emulated_zaber.h"
+
+namespace viscard {
+
+// What an emulated rig consists of, and how its devices behave.
+struct EmulatedRigOptions {
+  EmulatedTruth truth;
+  // The true properties of the instruments; drivers, calibration, volts_per_count, axis, direction
+  // and clock_speed are used.
+  RigConfig config;
+  // By default the rig waits for the program that uses it: its time passes only while that program
+  // waits for bytes, and clock_speed is the most by which it may be faster than the wall clock. Then
+  // the answer depends neither on the speed nor on what else the computer does. On the wall clock a
+  // busy computer is late, as it would be for a real rig.
+  bool is_on_wall_clock = false;
+  GrblHabits grbl;
+  ZaberHabits zaber;
+  GaugeHabits gauge;
+  AmplifierOptions amplifier;
+  ThermometerHabits thermometer;  // of the one that config names
+  // Boards with a USB converter (UNO, Nano) reset when their port is opened, native USB does not.
+  bool resets_on_open = true;
+  double boot_wall_s = 0.1;  // from that reset to the welcome; rig time for a rig that waits
+  bool keeps_lines = false;  // keeps what the load cell's instrument sends, for sent_lines()
+};
+
+}  // namespace viscard
