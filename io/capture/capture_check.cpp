@@ -2,6 +2,7 @@
 
 #include "io/basics/number_text.h"
 #include "io/capture/capture_database.h"
+#include "io/capture/capture_file.h"
 #include "io/capture/open_capture.h"
 #include "io/capture/row_checksum.h"
 
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 #include <string_view>
 
 namespace viscard {
@@ -116,6 +118,12 @@ CaptureCheck check_capture(const std::filesystem::path& path) {
     database.execute("COMMIT");
   } catch (const SqliteError& error) {
     capture.explain(error);
+  }
+  // The checksums cover the records and not the names of tables and columns.
+  try {
+    read_capture(path);
+  } catch (const std::runtime_error& error) {
+    check.faults.emplace_back(error.what());
   }
   return check;
 }

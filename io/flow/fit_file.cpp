@@ -124,9 +124,12 @@ std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
   const bool is_step =
       kind == FitKind::kRelaxation && find_column(table, "modulus_Pa", request.columns);
   const bool has_temperature = find_column(table, "temperature_C", request.columns).has_value();
+  const bool may_have_several = is_step || kind == FitKind::kDma;
   MasterData data;
-  if (has_temperature) data.temperature_C = column_SI(table, "temperature_C", request.columns);
-  if ((!is_step && kind != FitKind::kDma) || !has_several_temperatures(data.temperature_C)) {
+  if (has_temperature && may_have_several) {
+    data.temperature_C = column_SI(table, "temperature_C", request.columns);
+  }
+  if (!may_have_several || !has_several_temperatures(data.temperature_C)) {
     if (!request.T_ref_C) return std::nullopt;
     throw std::runtime_error(
         "--reference-temperature applies only to tables of modulus_Pa, or of storage and loss "
@@ -155,7 +158,8 @@ FittedFile fit_table(const std::string& path, const FitRequest& request) {
   fitted.master = fit_temperatures(table, kind, request);
   // Of an exported capture; tables of several temperatures make a master curve instead.
   if (kind == FitKind::kIndentation && find_column(table, "temperature_C", request.columns)) {
-    fitted.temperature = run_temperature(column_SI(table, "temperature_C", request.columns));
+    fitted.temperature =
+        run_temperature(column_with_gaps_SI(table, "temperature_C", request.columns));
   }
   if (fitted.master) {
     fitted.result = fitted.master->fit;

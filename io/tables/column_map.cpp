@@ -195,6 +195,18 @@ std::optional<ColumnUse> find_column(const CsvTable& table, const std::string& n
   return found_column(table, quantity);
 }
 
+namespace {
+
+std::vector<double> values_SI(const CsvColumn& column, const ColumnUse& use) {
+  std::vector<double> out = column.values;
+  if (use.factor != 1.0 || use.offset != 0.0) {
+    for (double& value : out) value = value * use.factor + use.offset;
+  }
+  return out;
+}
+
+}  // namespace
+
 std::vector<double> column_SI(const CsvTable& table, const std::string& name,
                               const ColumnMap& map) {
   const ColumnUse use = required_column(table, name, map);
@@ -208,11 +220,13 @@ std::vector<double> column_SI(const CsvTable& table, const std::string& name,
                              name + ": " + cell + "; expected a number" +
                              (table.has_decimal_comma ? " with a decimal comma" : ""));
   }
-  std::vector<double> out = column.values;
-  if (use.factor != 1.0 || use.offset != 0.0) {
-    for (double& value : out) value = value * use.factor + use.offset;
-  }
-  return out;
+  return values_SI(column, use);
+}
+
+std::vector<double> column_with_gaps_SI(const CsvTable& table, const std::string& name,
+                                        const ColumnMap& map) {
+  const ColumnUse use = required_column(table, name, map);
+  return values_SI(table.columns[use.index], use);
 }
 
 std::vector<std::string> column_text(const CsvTable& table, const std::string& name,

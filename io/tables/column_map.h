@@ -45,6 +45,10 @@ std::optional<ColumnUse> find_column(const CsvTable& table, const std::string& n
 std::vector<double> column_SI(const CsvTable& table, const std::string& name,
                               const ColumnMap& map = {});
 
+// As column_SI(), but a cell that is not a finite number gives nan.
+std::vector<double> column_with_gaps_SI(const CsvTable& table, const std::string& name,
+                                        const ColumnMap& map = {});
+
 // Returns the cells as text, for "segment" and "specimen". Throws std::runtime_error if the column does not exist.
 std::vector<std::string> column_text(const CsvTable& table, const std::string& name,
                                      const ColumnMap& map = {});

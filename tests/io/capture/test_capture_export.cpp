@@ -71,7 +71,7 @@ TEST_CASE("the newest temperature stands beside each reading, and none while the
   run.load_samples.push_back(test::sample(6));
   run.load_samples.back().host_time_s = 10.0;  // the thermometer has been silent for 5 s
   const CsvTable table = csv_from_text(csv_from_capture(run), "run.csv");
-  const std::vector<double> found = column_SI(table, "temperature_C");
+  const std::vector<double> found = column_with_gaps_SI(table, "temperature_C");
   REQUIRE(found.size() == 7);
   CHECK(std::isnan(found[0]));
   CHECK(found[1] == 23.5);

@@ -84,10 +84,11 @@ TEST_CASE("a finished capture reads back as it was written, bit for bit", "[io][
   CHECK(run.moves[0].start_uncertainty_s == 0.02);
   REQUIRE(run.events.size() == 1);
   CHECK(run.events[0].text == "the punch goes down");
-  CHECK(run.n_raw_bytes == 16);
+  CHECK(run.n_raw_bytes == 16 + 9);
   std::vector<RawBytes> raw;
   read_raw_bytes(path, [&](const RawBytes& bytes) { raw.push_back(bytes); });
-  REQUIRE(raw.size() == 2);
+  REQUIRE(raw.size() == 3);
+  CHECK(raw[2].device == Device::kThermometer);
   CHECK(raw[0].bytes == std::string("?\0\xff\n", 4));
   CHECK(raw[0].is_sent);
   CHECK(raw[1].device == Device::kLoadCell);

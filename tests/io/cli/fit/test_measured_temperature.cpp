@@ -25,6 +25,9 @@ void write_warm_capture(const std::string& path, double drift_K) {
   CaptureWriter writer(path, captured);
   for (const LoadSample& sample : captured.load_samples) writer.append(sample);
   for (const CommandedMove& move : captured.moves) writer.append(move);
+  writer.append(RunEvent{0.0, "tare", "0.013", ""});
+  const double surface_m = demo_truth(13, 4).surface_position_m;
+  writer.append(RunEvent{0.0, "contact", std::to_string(surface_m), ""});
   const double end_s = captured.load_samples.back().host_time_s;
   for (int i = 0; i <= 40; ++i) {
     writer.append(TemperatureSample{end_s * i / 40.0, 24.0 + drift_K * i / 40.0});
@@ -70,8 +73,9 @@ TEST_CASE("a temperature that drifts is flagged, and the exported table has it t
       run_command({"export", folder.file("run.viscap"), "--out", folder.file("run.csv")}).status ==
       kDone);
   CHECK_THAT(read_file(folder.file("run.csv")), Contains(",temperature_C,phase"));
-  const auto table =
-      nlohmann::json::parse(run_command({"fit", folder.file("run.csv"), "--json"}).out);
+  const CommandOutcome of_table = run_command({"fit", folder.file("run.csv"), "--json"});
+  INFO(of_table.err);
+  const auto table = nlohmann::json::parse(of_table.out);
   CHECK(table["temperature"]["min_C"] == 24.0);
   CHECK(table["temperature"]["max_C"].get<double>() == Approx(25.5).margin(0.05));
 }
@@ -87,9 +91,10 @@ TEST_CASE("a rig check and a capture on an emulated rig show the thermometer", "
   CHECK(nlohmann::json::parse(check.out)["thermometer"]["temperature_C"] == 23.4);
   CHECK_THAT(run_command({"rig", "check", "--emulate", "--rig", rig}).out,
              Contains("thermometer 23.40 C"));
-  const std::string test = folder.write("test.toml",
-                                        "[approach]\nspeed = \"0.2 mm/s\"\nbaseline = \"1 s\"\n"
-                                        "[ramp]\nhold = \"3 s\"\n[recovery]\nhold = \"2 s\"\n");
+  const std::string test =
+      folder.write("test.toml",
+                   "[approach]\nspeed = \"0.2 mm/s\"\nbaseline = \"1 s\"\n"
+                   "[ramp]\ndepth = \"0.13 mm\"\nhold = \"3 s\"\n[recovery]\nhold = \"2 s\"\n");
   const CommandOutcome capture =
       run_command({"capture", "--emulate", "--speed", "500", "--rig", rig, "--test", test, "--out",
                    folder.file("run.viscap"), "--json"});

@@ -215,15 +215,18 @@ TEST_CASE("repeated captures of scattering specimens give the three levels in th
                     truth_20 = truth_file(folder, "05_pdms_1to20.truth.toml", scatter);
   const char* kDemo_10 = "03_pdms_1to10.toml";
   const char* kDemo_20 = "05_pdms_1to20.toml";
-  const auto captured = run_command(repeat_words(
+  const Strings capture_words = repeat_words(
       folder, {"--repeat", "3", "--specimen", specimen_file(folder, kDemo_10, "stiff-1"),
                "--specimen", specimen_file(folder, kDemo_10, "stiff-2"), "--specimen",
                specimen_file(folder, kDemo_20, "soft-1"), "--specimen",
                specimen_file(folder, kDemo_20, "soft-2"), "--truth", truth_10, "--truth", truth_10,
-               "--truth", truth_20, "--truth", truth_20}));
+               "--truth", truth_20, "--truth", truth_20});
+  // In 3 s neither the creep of the cell nor the speed of the stage is known well enough.
+  write_file(folder / "test.toml", replaced(kShortTest, "hold = \"3 s\"", "hold = \"20 s\""), true);
+  const auto captured = run_command(capture_words);
   INFO(captured.err);
   REQUIRE(captured.status == kDone);
-  Strings words{"fit", "--joint", "--json", "--terms", "1"};
+  Strings words{"fit", "--joint", "--json", "--terms", "2"};
   std::vector<double> true_E0_Pa;
   const auto campaign = last_line(captured);  // outlives the loop
   for (const auto& run : campaign["runs"]) {
@@ -241,7 +244,7 @@ TEST_CASE("repeated captures of scattering specimens give the three levels in th
   const auto json = nlohmann::json::parse(fitted.out);
   CHECK(json["law"]["n_specimens"] == 4);
   for (std::size_t i = 0; i < true_E0_Pa.size(); ++i) {
-    // One term instead of two in a hold of 3 s: E0 within 1 %, half of what a touch scatters.
+    // E0 within 1 %, half of what a touch scatters.
     CHECK(json["specimens"][i]["E0_Pa"].get<double>() == Approx(true_E0_Pa[i]).epsilon(0.01));
   }
   const auto& E0 = json["scatter"]["ln_E0"];
