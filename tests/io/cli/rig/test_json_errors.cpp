@@ -24,7 +24,7 @@ json error_of(const std::vector<std::string>& words, int status = kFailed) {
   INFO(outcome.out << outcome.err);
   CHECK(outcome.status == status);
   CHECK(outcome.err.rfind("viscard: ", 0) == 0);  // people still read the message
-  const json error = json::parse(outcome.out).at("error");
+  json error = json::parse(outcome.out).at("error");
   for (const char* key : {"code", "message", "where", "hint"}) CHECK(error.at(key).is_string());
   CHECK(error.size() == 4);
   CHECK_FALSE(error.at("message").get<std::string>().empty());
