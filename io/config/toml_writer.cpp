@@ -35,6 +35,8 @@ class TomlWriter final : public FieldVisitor {
   explicit TomlWriter(std::string prefix) : prefix_(std::move(prefix)) {}
 
   void quantity(const QuantityField& field, double& value) override {
+    // A positive number that was not given; no reader would take it.
+    if (field.range == Range::kPositive && !field.is_required && value == 0.0) return;
     if (field.word != nullptr && value == field.word_value) {
       line(field.key, in_quotes(field.word));
     } else {

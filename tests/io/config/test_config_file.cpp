@@ -121,6 +121,14 @@ TEST_CASE("configurations written as TOML read back the same", "[io][config]") {
   CHECK(test_from_toml(toml_from_test(plan), "again").depth_m == plan.depth_m);
 }
 
+TEST_CASE("a rig whose calibration stands in another file is written so that it can be read",
+          "[io][config]") {
+  const std::string text = "[calibration]\nfile = \"cell.toml\"\n[frame]\nfile = \"frame.toml\"\n";
+  const std::string written = toml_from_rig(rig_from_toml(text, "rig.toml"));
+  CHECK_THAT(written, !Contains("capacity"));
+  CHECK(toml_from_rig(rig_from_toml(written, "written")) == written);
+}
+
 TEST_CASE("keys missing from a rig file keep their defaults", "[io][config]") {
   const RigConfig rig = rig_from_toml(kMinimalRig, "rig.toml");
   CHECK(rig.stage.baud == 115200);
