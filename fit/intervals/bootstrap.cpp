@@ -79,7 +79,9 @@ void bootstrap_intervals(const SpectralModel& model, const SpectralState& state,
     ModelVariant resampled(model, std::move(data));
     // A prior is a reading of its nuisance, so it scatters from resample to resample too.
     Eigen::VectorXd priors = state.nuisance;
-    for (Index k = 0; k < priors.size(); ++k) priors[k] += prior_sd[k] * normal(random);
+    for (Index k = 0; k < priors.size(); ++k) {
+      if (prior_sd[k] > 0.0) priors[k] += prior_sd[k] * normal(random);
+    }
     resampled.move_priors(priors);
     const SpectralState refitted =
         quick_search(resampled, state, {.max_iterations = 60, .tolerance = 1e-8});

@@ -11,7 +11,7 @@
 namespace viscard {
 namespace {
 
-// Repeats on one specimen are told apart by their touch.
+// Repeats on one specimen differ by the number of their touch.
 void number_touches(std::vector<SpecimenEstimates>& estimates) {
   std::map<std::string, int> n_touches, number;
   for (const SpecimenEstimates& one : estimates) ++n_touches[one.specimen_id];

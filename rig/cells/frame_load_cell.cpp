@@ -51,10 +51,8 @@ void FrameLoadCell::connect(const Pump& pump) {
 }
 
 void FrameLoadCell::service() {
-  const Chunk chunk = transport_.read_available();
-  listened_at_s_ = chunk.time_s;
+  const Chunk chunk = receive();
   if (!chunk.bytes.empty()) {
-    sink_(RawBytes{Device::kLoadCell, false, chunk.time_s, chunk.bytes});
     frames_.feed(chunk.bytes, chunk.time_s, 10.0 / transport_.baud());
   }
   while (const auto received = frames_.next()) take_frame(*received);

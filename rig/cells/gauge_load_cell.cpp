@@ -100,14 +100,12 @@ void GaugeLoadCell::connect(const Pump& pump) {
 }
 
 void GaugeLoadCell::service() {
-  const Chunk chunk = transport_.read_available();
-  listened_at_s_ = chunk.time_s;
+  const Chunk chunk = receive();
   if (!chunk.bytes.empty()) feed(chunk);
   if (is_connected_) ask_if_due(chunk.time_s);
 }
 
 void GaugeLoadCell::feed(const Chunk& chunk) {
-  sink_(RawBytes{Device::kLoadCell, false, chunk.time_s, chunk.bytes});
   quiet_since_s_ = chunk.time_s;
   if (protocol_.fixed_length == 0) {
     splitter_.feed(chunk.bytes, chunk.time_s, 10.0 / transport_.baud());

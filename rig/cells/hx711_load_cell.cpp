@@ -43,10 +43,8 @@ void Hx711LoadCell::connect(const Pump& pump) {
 }
 
 void Hx711LoadCell::service() {
-  const Chunk chunk = transport_.read_available();
-  listened_at_s_ = chunk.time_s;
+  const Chunk chunk = receive();
   if (!chunk.bytes.empty()) {
-    sink_(RawBytes{Device::kLoadCell, false, chunk.time_s, chunk.bytes});
     splitter_.feed(chunk.bytes, chunk.time_s, 10.0 / transport_.baud());
   }
   while (const auto line = splitter_.next()) take_line(*line);

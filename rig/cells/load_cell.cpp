@@ -62,6 +62,15 @@ std::int64_t LoadCell::note_gap(double step_s, double least_s, double time_s) {
   return n_missing;
 }
 
+Chunk LoadCell::receive() {
+  Chunk chunk = transport_.read_available();
+  listened_at_s_ = chunk.time_s;
+  if (!chunk.bytes.empty()) {
+    sink_(RawBytes{Device::kLoadCell, false, chunk.time_s, chunk.bytes});
+  }
+  return chunk;
+}
+
 void LoadCell::hand_out(LoadSample& sample) {
   sample.index = n_skipped_ + counts_.received++;
   last_arrival_s_ = sample.host_time_s;

@@ -96,6 +96,8 @@ class LoadCell {
   // Keeps the longest gap. A step above least_s between readings is reported as missing readings;
   // returns their number.
   std::int64_t note_gap(double step_s, double least_s, double time_s);
+  // What has arrived since the last call, recorded as raw bytes.
+  Chunk receive();
   // Numbers and counts the sample and passes it to the sink, then to the listener.
   void hand_out(LoadSample& sample);
 

@@ -64,10 +64,8 @@ void Mark10Stream::ask(const std::string& command, bool is_required, const Pump&
 }
 
 void Mark10Stream::service() {
-  const Chunk chunk = transport_.read_available();
-  listened_at_s_ = chunk.time_s;
+  const Chunk chunk = receive();
   if (!chunk.bytes.empty()) {
-    sink_(RawBytes{Device::kLoadCell, false, chunk.time_s, chunk.bytes});
     splitter_.feed(chunk.bytes, chunk.time_s, 10.0 / transport_.baud());
   }
   while (const auto line = splitter_.next()) take_line(*line);

@@ -30,7 +30,7 @@ struct GaugeHabits {
 
 // A multimeter behind the amplifier, or a force gauge, that answers queries
 // (rig/protocols/gauge_protocols.h), where one reading takes 1/sample_rate of the truth; or that sends
-// readings by itself once it is told to.
+// readings by itself after a command.
 class EmulatedGauge {
  public:
   // driver: of [load_cell] in the rig file.

@@ -35,7 +35,7 @@ std::optional<LineColumns> line_columns_from_word(std::string_view word) {
   const auto n_known = n_of("counts") + n_of("volts") + n_of("micros") + n_of("millis") + n_of("-");
   const bool is_list = n_known == static_cast<std::ptrdiff_t>(columns.words.size()) &&
                        n_of("counts") + n_of("volts") == 1 && n_of("micros") + n_of("millis") <= 1;
-  // Volts with a clock would have to be told from counts.
+  // Nothing distinguishes volts with a clock from counts with one.
   if (!is_list || (n_of("volts") == 1 && n_of("micros") + n_of("millis") == 1)) return std::nullopt;
   if (n_of("volts") == 1) columns.format = Hx711Format::kVolts;
   if (n_of("micros") == 1) columns.format = Hx711Format::kMicrosCounts;

@@ -38,7 +38,7 @@ fs::path made_folder(const CaptureWords& words) {
   return folder;
 }
 
-// The largest number of a touch among the files of this specimen, whatever became of the touch.
+// The largest number of a touch among the files of this specimen, finished or not.
 int last_touch_in(const fs::path& folder, const std::string& stem) {
   int last = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {

@@ -92,7 +92,7 @@ TEST_CASE("a person starts a run on the page, sees the force rise, and stops it"
   CHECK(browser.errors() == nlohmann::json::array());
 }
 
-TEST_CASE("names and messages are shown as text, whatever they contain", "[serve][slow]") {
+TEST_CASE("names and messages that contain markup are shown as text", "[serve][slow]") {
   if (is_without_browser()) return;
   ScratchFolder scratch;
   RigServer server({.folder = scratch / "series", .is_emulated = true, .speed = 40.0});

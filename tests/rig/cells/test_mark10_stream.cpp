@@ -47,7 +47,7 @@ TEST_CASE("the continuous rate of a Mark-10 gauge is the smallest that is fast e
   CHECK(mark10_stream_command(0) == "AOUT0\r");
 }
 
-TEST_CASE("a gauge in continuous mode is set up whatever its menu and the last program left",
+TEST_CASE("a gauge is set up for continuous mode from any state of its menu and of its stream",
           "[rig][pty]") {
   EmulatedRigOptions options = streaming_gauge();
   options.gauge.is_left_streaming = GENERATE(false, true);
