@@ -244,4 +244,9 @@ SafeEnd RunSession::make_safe(double retract_to_m, double speed_m_s) {
   return lift.carry_out();
 }
 
+void RunSession::guard_again() {
+  guard_ = ForceGuard(rig_.safety, rig_.calibration.capacity_N);
+  is_guarded_ = true;
+}
+
 }  // namespace viscard

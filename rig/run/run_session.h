@@ -67,6 +67,8 @@ class RunSession {
   // Ends the guarding, stops the stage and lifts the punch as far as the devices still answer.
   // Never throws for a device's sake.
   SafeEnd make_safe(double retract_to_m, double speed_m_s);
+  // Guards again after make_safe(), as if nothing had happened.
+  void guard_again();
 
   // True once the stage's settings and position are known, so that it can be moved.
   bool is_stage_connected() const { return devices_.is_stage_connected(); }

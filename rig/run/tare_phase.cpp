@@ -151,6 +151,14 @@ void lift_until_free(TestRun& run) {
       in_mm_lifted(lifted_m(run)) + ". Lift it further by hand, then start the run again");
 }
 
+// The punch was lifted away from what it pressed on, and the run goes on.
+void go_on_from_here(TestRun& run, const std::string& what) {
+  run.outcome.doubts.push_back(what + "; what is left of that in the specimen is not known");
+  run.session.event("doubt", "pressed_before", run.outcome.doubts.back());
+  run.start_m = run.session.stage().position_m();
+  run.presses_at_start = false;
+}
+
 // A punch that a crashed run has left in the specimen: the force falls when the stage lifts.
 void free_punch(TestRun& run, double fell_N) {
   const double felt_after_m = lifted_m(run);
@@ -169,16 +177,32 @@ void free_punch(TestRun& run, double fell_N) {
                          " and is free now. Let the specimen recover, then start the run again "
                          "(capture --lift lifts and goes on by itself)");
   }
-  run.outcome.doubts.push_back(what + "; what is left of that in the specimen is not known");
-  run.session.event("doubt", "pressed_before", run.outcome.doubts.back());
-  run.start_m = run.session.stage().position_m();
-  run.presses_at_start = false;
+  go_on_from_here(run, what);
+}
+
+// The first tare of a run. A force above the limit ends a run, also one that stands still; with
+// --lift the punch is lifted first, and if the force falls, the tare begins again.
+ForceMean first_tare(TestRun& run, double duration_s) {
+  RunSession& session = run.session;
+  std::string limit;
+  try {
+    return undisturbed_tare(run, duration_s);
+  } catch (const LimitReached& error) {
+    if (!run.lifts_at_start || session.has_moved()) throw;
+    const double way_m = std::max(run.plan.retract_m, kProbe_m);
+    const SafeEnd end = session.make_safe(run.start_m - way_m, run.plan.retract_speed_m_s);
+    if (!end.trouble.empty() || !(end.lifted_m > 0.0)) throw;
+    limit = std::string(error.what()) + ". It was lifted by " + in_mm_lifted(end.lifted_m);
+  }
+  session.guard_again();
+  go_on_from_here(run, limit);
+  return undisturbed_tare(run, duration_s);
 }
 
 }  // namespace
 
 void carry_out_tare(TestRun& run, const TestPhase& phase) {
-  ForceMean zero = undisturbed_tare(run, phase.duration_s);
+  ForceMean zero = first_tare(run, phase.duration_s);
   run.outcome.noise_N = zero.sd_N;
   const double most_N = kPressesAtStart * run.rig.calibration.capacity_N;
   // Away from what presses first: for that the rate of the readings does not matter.

@@ -1,6 +1,6 @@
 #include "io/cli/rig/capture_summary.h"
 #include "io/cli/rig/capture_words.h"
-#include "io/cli/rig/json_errors.h"
+#include "io/cli/words/json_errors.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/output_paths.h"

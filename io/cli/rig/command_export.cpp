@@ -2,7 +2,7 @@
 #include "io/capture/capture_check.h"
 #include "io/capture/capture_export.h"
 #include "io/capture/capture_file.h"
-#include "io/cli/rig/json_errors.h"
+#include "io/cli/words/json_errors.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/flow/command_error.h"

@@ -1,4 +1,4 @@
-#include "io/cli/rig/json_errors.h"
+#include "io/cli/words/json_errors.h"
 #include "io/cli/rig/overshoot_study.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"

@@ -1,5 +1,6 @@
 #include "io/cli/serve/serve_command.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/json_errors.h"
 #include "io/cli/words/stop_on_signal.h"
 #include "io/flow/capture_setup.h"
 #include "io/serve/rig_server.h"
@@ -61,9 +62,7 @@ void check_options(const ServeOptions& options) {
   }
 }
 
-}  // namespace
-
-int run_serve(const Words& words, Streams& streams) {
+int serve(const Words& words, Streams& streams) {
   ServeOptions options;
   CommandSyntax syntax = serve_syntax(options);
   const auto values = parse_words(syntax, words, streams);
@@ -89,6 +88,12 @@ int run_serve(const Words& words, Streams& streams) {
   if (run.outcome && run.outcome->status == "finished") return kDone;
   streams.err << "viscard: " << (run.outcome ? run.outcome->reason : run.trouble) << "\n";
   return kFailed;
+}
+
+}  // namespace
+
+int run_serve(const Words& words, Streams& streams) {
+  return with_json_errors(words, streams, [&] { return serve(words, streams); });
 }
 
 }  // namespace viscard

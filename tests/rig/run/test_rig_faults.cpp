@@ -83,9 +83,12 @@ TEST_CASE("a light press before the run is felt by a lift of 0.1 mm, and the pun
 }
 
 TEST_CASE("with a lift at the start a run after a crash goes on from a free punch", "[rig][pty]") {
-  // 0.3 mm press with 1.7 N: the force of a crashed hold, below the soft limit.
+  // 0.3 mm press with 1.7 N: the force of a crashed hold, below the soft limit. 0.48 mm press with
+  // more than the hard limit.
+  const bool is_beyond_limit = GENERATE(true, false);
+  const double surface_m = is_beyond_limit ? -0.48e-3 : -0.3e-3;
   EmulatedRigOptions options = RigFixture::options();
-  options.truth.surface_position_m = -0.3e-3;
+  options.truth.surface_position_m = surface_m;
   options.truth.overload_N = 100.0;
   RigFixture rig(options);
   rig.lifts_at_start = true;
@@ -94,7 +97,7 @@ TEST_CASE("with a lift at the start a run after a crash goes on from a free punc
   CHECK(outcome.status == "finished");
   CHECK(rig.has_event("doubt", "pressed_before"));
   REQUIRE(outcome.contact_position_m);
-  CHECK(*outcome.contact_position_m == Approx(-0.3e-3).margin(20e-6));
+  CHECK(*outcome.contact_position_m == Approx(surface_m).margin(20e-6));
   CHECK(outcome.peak_force_N > 1.4);
 }
 

@@ -1,4 +1,4 @@
-#include "io/cli/rig/json_errors.h"
+#include "io/cli/words/json_errors.h"
 
 #include "io/flow/command_error.h"
 

@@ -34,7 +34,7 @@ json error_of(const std::vector<std::string>& words, int status = kFailed) {
 }  // namespace
 
 TEST_CASE("a wrong command line has the code usage and names the option", "[cli]") {
-  for (const char* command : {"capture", "rig", "calibrate", "export"}) {
+  for (const char* command : {"capture", "rig", "calibrate", "export", "serve"}) {
     const json error = error_of({command, "--oust", "x", "--json"}, kBadWords);
     CHECK(error["code"] == "usage");
     CHECK(error["where"] == "--oust");
