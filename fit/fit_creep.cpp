@@ -1,6 +1,7 @@
 #include "fit/fit_creep.h"
 
 #include "fit/assembly/assemble_result.h"
+#include "fit/assembly/solid_or_liquid.h"
 #include "fit/curves/step_model.h"
 #include "fit/intervals/flags.h"
 #include "fit/samples/clean_data.h"
@@ -9,6 +10,7 @@
 #include "models/maths/text_of_number.h"
 
 #include <cmath>
+#include <span>
 #include <stdexcept>
 
 namespace viscard {
@@ -25,6 +27,31 @@ PronySeries series_from_creep(const SpectralModel& model, const SpectralState& s
     spectrum.terms.push_back({state.coefficients[model.n_common() + i], std::exp(state.ln_tau[i])});
   }
   return relaxation_from_retardation(spectrum);
+}
+
+FitResult fit_creep_as(std::span<const double> time_s, std::span<const double> compliance_1_Pa,
+                       const FitOptions& options) {
+  const StepModel model(time_s, compliance_1_Pa, StepShape::kCreep, options);
+  const SpectralFit fit = fit_spectrum(model, log_time_blocks(model.row_time_s(), 0.0, 1), options);
+  if (!(fit.state.coefficients[0] > 0.0)) {
+    throw std::runtime_error(
+        "the record shows no instantaneous compliance (it begins at zero), so E0 would be "
+        "infinite. Start the record earlier after the step, or give fewer terms with --terms");
+  }
+  FitResult result;
+  result.kind = FitKind::kCreep;
+  fill_result(
+      model, fit,
+      [&](const SpectralState& state) {
+        return series_from_creep(model, state, options.is_liquid);
+      },
+      result);
+  result.fit_from_s = time_s.front();
+  result.fit_to_s = time_s.back();
+  add_identifiability_flags(model, fit.state, fit.covariance,
+                            {shortest_step_s(time_s), 0.0, time_s.front(), time_s.back()}, result);
+  if (options.with_curves) fill_step_curves(model, fit, "1/Pa", result);
+  return result;
 }
 
 }  // namespace
@@ -51,28 +78,10 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
     throw std::invalid_argument(
         "creep terms cannot be negative: the compliance of a solid only increases");
   }
-  const StepModel model(time_s, clean.column(1), StepShape::kCreep, options);
-  const SpectralFit fit = fit_spectrum(model, log_time_blocks(model.row_time_s(), 0.0, 1), options);
-  if (!(fit.state.coefficients[0] > 0.0)) {
-    throw std::runtime_error(
-        "the record shows no instantaneous compliance (it begins at zero), so E0 would be "
-        "infinite. Start the record earlier after the step, or give fewer terms with --terms");
-  }
-  FitResult result;
-  result.kind = FitKind::kCreep;
-  fill_result(
-      model, fit,
-      [&](const SpectralState& state) {
-        return series_from_creep(model, state, options.is_liquid);
-      },
-      result);
+  FitResult result = fit_solid_or_liquid(
+      options, [&](const FitOptions& as) { return fit_creep_as(time_s, clean.column(1), as); });
   result.n_left_out = clean.n_left_out();
   add_spikes(result, spikes.size());
-  result.fit_from_s = time_s.front();
-  result.fit_to_s = time_s.back();
-  add_identifiability_flags(model, fit.state, fit.covariance,
-                            {shortest_step_s(time_s), 0.0, time_s.front(), time_s.back()}, result);
-  if (options.with_curves) fill_step_curves(model, fit, "1/Pa", result);
   return result;
 }
 

@@ -1,6 +1,7 @@
 #include "fit/fit_indentation.h"
 
 #include "fit/assembly/assemble_result.h"
+#include "fit/assembly/solid_or_liquid.h"
 #include "fit/assembly/two_point_modulus.h"
 #include "fit/curves/history_model.h"
 #include "fit/intervals/flags.h"
@@ -269,7 +270,10 @@ FitResult fit_indentation(const IndentationData& data, const FitOptions& options
         "its table of force and depth for a sphere or cone");
   }
   FitResult result =
-      data.moves.empty() ? fit_measured_depth(data, options) : fit_stage_indentation(data, options);
+      data.moves.empty()
+          ? fit_solid_or_liquid(options,
+                                [&](const FitOptions& as) { return fit_measured_depth(data, as); })
+          : fit_stage_indentation(data, options);
   result.kind = FitKind::kIndentation;
   result.systematic_relative = systematic_share(data, result);
   if (data.n_saturated > 0) {

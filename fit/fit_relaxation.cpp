@@ -1,6 +1,7 @@
 #include "fit/fit_relaxation.h"
 
 #include "fit/assembly/assemble_result.h"
+#include "fit/assembly/solid_or_liquid.h"
 #include "fit/curves/history_model.h"
 #include "fit/curves/step_model.h"
 #include "fit/intervals/flags.h"
@@ -25,18 +26,7 @@ std::vector<double> copy_of(std::span<const double> column) {
   return {column.begin(), column.end()};
 }
 
-FitResult fit_strain_history(const CleanViews& clean, const FitOptions& options) {
-  HistoryInput input;
-  input.time_s = copy_of(clean.column(0));
-  input.output = copy_of(clean.column(1));
-  input.input = copy_of(clean.column(2));
-  while (input.contact + 1 < input.input.size() && input.input[input.contact + 1] == 0.0) {
-    ++input.contact;  // the strain begins to differ from zero after this sample
-  }
-  if (input.contact + 1 == input.input.size() && input.input.front() == 0.0) {
-    throw std::runtime_error(
-        "the strain is zero in every row: no strain was applied, or the column is not the strain");
-  }
+FitResult fit_history_as(const HistoryInput& input, const FitOptions& options) {
   const HistoryModel model(input, options);
   const SpectralFit fit = fit_spectrum(
       model, log_time_blocks(model.row_time_s(), input.time_s[input.contact], 1), options);
@@ -53,8 +43,24 @@ FitResult fit_strain_history(const CleanViews& clean, const FitOptions& options)
   return result;
 }
 
-FitResult fit_step(std::span<const double> time_s, std::span<const double> value,
-                   const FitOptions& options) {
+FitResult fit_strain_history(const CleanViews& clean, const FitOptions& options) {
+  HistoryInput input;
+  input.time_s = copy_of(clean.column(0));
+  input.output = copy_of(clean.column(1));
+  input.input = copy_of(clean.column(2));
+  while (input.contact + 1 < input.input.size() && input.input[input.contact + 1] == 0.0) {
+    ++input.contact;  // the strain begins to differ from zero after this sample
+  }
+  if (input.contact + 1 == input.input.size() && input.input.front() == 0.0) {
+    throw std::runtime_error(
+        "the strain is zero in every row: no strain was applied, or the column is not the strain");
+  }
+  return fit_solid_or_liquid(options,
+                             [&](const FitOptions& as) { return fit_history_as(input, as); });
+}
+
+FitResult fit_step_as(std::span<const double> time_s, std::span<const double> value,
+                      const FitOptions& options) {
   const StepModel model(time_s, value, StepShape::kRelaxation, options);
   const SpectralFit fit = fit_spectrum(model, log_time_blocks(model.row_time_s(), 0.0, 1), options);
   FitResult result;
@@ -66,6 +72,12 @@ FitResult fit_step(std::span<const double> time_s, std::span<const double> value
   result.fit_from_s = time_s.front();
   result.fit_to_s = time_s.back();
   return result;
+}
+
+FitResult fit_step(std::span<const double> time_s, std::span<const double> value,
+                   const FitOptions& options) {
+  return fit_solid_or_liquid(options,
+                             [&](const FitOptions& as) { return fit_step_as(time_s, value, as); });
 }
 
 // Residual of a step fit at each sample.

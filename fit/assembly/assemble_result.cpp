@@ -70,14 +70,30 @@ double full_rss(const SpectralModel& model, const SpectralState& state) {
   return state.rss + model.hidden_rss(state);
 }
 
+int n_parameters(const SpectralModel& model, const SpectralState& state) {
+  return static_cast<int>(model.n_common() + 2 * state.n_terms() + model.n_nuisances());
+}
+
 double variance_of(const SpectralModel& model, const SpectralState& state) {
-  const auto n_parameters =
-      static_cast<double>(model.n_common() + 2 * state.n_terms() + model.n_nuisances());
-  return full_rss(model, state) / std::max(1.0, model.n_samples() - n_parameters);
+  return full_rss(model, state) /
+         std::max(1.0, model.n_samples() - static_cast<double>(n_parameters(model, state)));
 }
 
 Autoregression noise_of(const SpectralModel& model, const SpectralState& state) {
   return autoregression(model.residual_series(state));
+}
+
+bool is_creep(const SpectralModel& model) {
+  return model.n_common() > 0 && model.common()[0].name == "J_g";
+}
+
+// The interval of E_inf extends as far down as the likelihood allows with one more slow term
+// (carry_order_doubt). In creep it does not: there, a retardation slower than a tenth of the record
+// may be flow.
+bool may_flow(const SpectralModel& model, const SpectralFit& fit, const FitResult& result) {
+  if (fit.scores.wants_slower || result.E_inf_interval_95.low <= 0.0) return true;
+  const double late = model.ln_tau_max() - std::log(30.0);  // ln_tau_max() is three records
+  return is_creep(model) && fit.state.n_terms() > 0 && fit.state.ln_tau.maxCoeff() > late;
 }
 
 // Profiles replace the intervals of the times if the times of the state are the material's own.
@@ -86,8 +102,8 @@ Autoregression noise_of(const SpectralModel& model, const SpectralState& state) 
 void add_profiles(const SpectralModel& model, const SpectralFit& fit,
                   const SeriesFromState& series_from_state, FitResult& result) {
   const PronySeries series = series_from_state(fit.state);
-  const bool is_creep = model.n_common() > 0 && model.common()[0].name == "J_g";
-  if (is_creep || static_cast<Eigen::Index>(series.terms.size()) != fit.state.n_terms()) return;
+  if (is_creep(model) || static_cast<Eigen::Index>(series.terms.size()) != fit.state.n_terms())
+    return;
   const Eigen::MatrixXd white = parameter_covariance(model, fit.state, fit.variance);
   result.profiles =
       profile_likelihoods(model, fit.state, fit.variance, fit.covariance, white, series_from_state);
@@ -158,9 +174,14 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
   if (fit.scores.wants_slower) {
     result.flags.push_back(
         {"slower-relaxation", 0,
-         "the material still relaxes at the end of the record: E_inf is an upper bound"});
+         fit.options.is_liquid
+             ? "the record does not show the slowest relaxation: the viscosity is a lower bound"
+             : "the material still relaxes at the end of the record: E_inf is an upper bound"});
   }
   result.rss = fit.rss;
+  result.evidence = {fit.rss, model.n_samples(), fit.noise.inflation(),
+                     n_parameters(model, fit.state)};
+  result.may_flow = may_flow(model, fit, result);
   const Eigen::VectorXd sigma = model.row_sigma();
   if (sigma.size() > 0) {  // convert every rss to the unit of the data
     const auto in_unit = [&](const SpectralState& state) {

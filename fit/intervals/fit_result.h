@@ -40,6 +40,14 @@ struct TwoPointModulus {
   std::string bias;                    // one sentence
 };
 
+// What a comparison with another model of the same data needs.
+struct FitEvidence {
+  double rss = 0.0;        // weighted
+  double n_samples = 0.0;  // rows of the fit; storage and loss count as two
+  double inflation = 1.0;
+  int n_parameters = 0;
+};
+
 // Data and fit for plots, at the same (possibly averaged) times.
 struct FitCurves {
   std::vector<double> time_s;    // frequency_Hz for kDma
@@ -79,6 +87,10 @@ struct FitResult {
   std::vector<FittedTerm> terms;
   double rss = 0.0;
   std::size_t n_samples = 0;
+  FitEvidence evidence;
+  bool may_flow = false;  // the data do not exclude E_inf = 0, so a liquid should be tried
+  // If both were tried: below zero the liquid is shown.
+  std::optional<double> bic_liquid_minus_solid;
   std::vector<OrderRow> orders;
   std::vector<MaterialFlag> flags;
   NoiseEstimate noise;

@@ -72,6 +72,7 @@ struct FitOptions {
   std::vector<ParameterConstraint> constraints;
   int max_terms = 40;
   bool is_liquid = false;       // E_inf = 0
+  bool is_solid = false;        // do not try whether a liquid describes the data better
   bool allow_negative = false;  // of single terms: moduli may be negative
   bool white_noise = false;     // no inflation for autocorrelation; sigma^2 = rss/(n - p)
   bool full_data = false;       // fit every sample instead of averages in log time

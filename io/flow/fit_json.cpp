@@ -135,6 +135,9 @@ Json json_from_fit(const FittedFile& fitted) {
   json["n_samples"] = fit.n_samples;
   json["n_terms"] = fit.terms.size();
   json["orders"] = orders_of(fit);
+  if (fit.bic_liquid_minus_solid) {
+    json["bic_liquid_minus_solid"] = number(*fit.bic_liquid_minus_solid);
+  }
   json["flags"] = flags_of(fit);
   json["noise"] = {{"sigma", number(fit.noise.sigma)}, {"inflation", number(fit.noise.inflation)}};
   json["systematic_relative"] = number(fit.systematic_relative);

@@ -26,7 +26,8 @@ void add_fit_options(po::options_description& options) {
       "indentation, relaxation, creep or dma; by default the columns decide");
   add("terms", po::value<int>(), "use this number of terms instead of choosing one");
   add("max-terms", po::value<int>()->default_value(40), "largest number of terms to try");
-  add("liquid", "no equilibrium modulus");
+  add("liquid", "no equilibrium modulus (by itself if the data show none)");
+  add("solid", "keep the equilibrium modulus also where the data do not show it");
   add("allow-negative", "terms may have negative moduli");
   add("noise", po::value<std::string>()->default_value("auto"),
       "white: no inflation for autocorrelation, sigma^2 = rss/(n - p)");

@@ -70,6 +70,7 @@ FitOptions options_from(const po::variables_map& values) {
                      std::to_string(wanted) + " is outside 0 to " + std::to_string(kMost));
   }
   options.is_liquid = values.count("liquid") > 0;
+  options.is_solid = values.count("solid") > 0;
   options.allow_negative = values.count("allow-negative") > 0;
   options.full_data = values.count("full-data") > 0;
   options.with_profiles = values.count("profiles") > 0;
@@ -90,6 +91,9 @@ FitOptions options_from(const po::variables_map& values) {
   options.constraints = constraints_from(values);
   if (!options.constraints.empty() && !options.n_terms) {
     throw UsageError("--fix and --bound name terms by number, so they need --terms N");
+  }
+  if (options.is_liquid && options.is_solid) {
+    throw UsageError("--liquid and --solid exclude each other; without both, the data decide");
   }
   if (options.is_liquid && options.n_terms == 0) {
     throw UsageError("--liquid needs at least one term, but --terms is 0; give at least 1");
