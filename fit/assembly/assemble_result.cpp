@@ -3,6 +3,7 @@
 #include "fit/assembly/spectral_fit.h"
 #include "fit/intervals/flags.h"
 #include "fit/intervals/uncertainty.h"
+#include "fit/search/polish.h"
 #include "fit/search/separable.h"
 #include "models/maths/text_of_number.h"
 
@@ -74,9 +75,8 @@ int n_parameters(const SpectralModel& model, const SpectralState& state) {
   return static_cast<int>(model.n_common() + 2 * state.n_terms() + model.n_nuisances());
 }
 
-double variance_of(const SpectralModel& model, const SpectralState& state) {
-  return full_rss(model, state) /
-         std::max(1.0, model.n_samples() - static_cast<double>(n_parameters(model, state)));
+double variance_of(const SpectralModel& model, const SpectralState& state, double rss) {
+  return rss / std::max(1.0, model.n_samples() - static_cast<double>(n_parameters(model, state)));
 }
 
 Autoregression noise_of(const SpectralModel& model, const SpectralState& state) {
@@ -141,9 +141,10 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
   }
   // The quick search comes near the optimum and leaves little work for the slower ones.
   const SpectralState near = quick_search(model, fit.path[fit.scores.chosen], {.tolerance = 1e-10});
-  fit.state = polish(model, refine(model, near));
-  fit.rss = full_rss(model, fit.state);
-  fit.variance = variance_of(model, fit.state);
+  const PolishedState polished = polish_samples(model, polish(model, refine(model, near)));
+  fit.state = polished.state;
+  fit.rss = polished.rss;
+  fit.variance = variance_of(model, fit.state, fit.rss);
   if (!options.white_noise) fit.noise = noise_of(model, fit.state);
   fit.covariance = parameter_covariance(model, fit.state, fit.variance, fit.noise);
   if (!options.constraints.empty()) constrain(model, options, fit);

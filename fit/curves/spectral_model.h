@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -101,6 +102,15 @@ class SpectralModel {
     ModelColumns columns;
   };
   virtual HiddenRows hidden_rows(const Eigen::VectorXd& /*ln_tau*/) const { return {}; }
+  // For a last polish: the sum of squares over all samples and its descent, J^T (data - model), by
+  // the coefficients and ln tau. Nothing if rows are samples, or if averaging neglects nothing.
+  struct SampleSums {
+    double rss = 0.0;
+    Eigen::VectorXd descent;
+  };
+  virtual std::optional<SampleSums> sample_sums(const SpectralState& /*state*/) const {
+    return std::nullopt;
+  }
   // Variance of a weighted sample, estimated within averages; 0: unknown before a fit. The search
   // ignores changes of the sum of squares that are much smaller.
   virtual double sample_variance() const { return 0.0; }

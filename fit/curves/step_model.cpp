@@ -132,6 +132,42 @@ SpectralModel::HiddenRows StepModel::hidden_rows(const Eigen::VectorXd& ln_tau) 
   return out;
 }
 
+// The share of the samples from begin to end. They are so few that they stay in the cache.
+void StepModel::add_samples(std::size_t begin, std::size_t end, const SpectralState& state,
+                            SampleSums& sums) const {
+  const Index count = static_cast<Index>(end - begin), n_terms = state.n_terms();
+  const double* time_s = time_s_.data() + begin;
+  const Eigen::Map<const Eigen::VectorXd> time(time_s, count);
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(count);
+  const bool is_creep = shape_ == StepShape::kCreep;
+  Eigen::MatrixXd columns(count, state.coefficients.size()), slopes(count, n_terms);
+  if (with_constant_) columns.col(0) = ones;
+  if (is_creep && is_liquid_) columns.col(1) = time;
+  for (Index i = 0; i < n_terms; ++i) {
+    auto column = columns.col(n_common() + i);
+    decay_column({.time_s = time_s, .weight = ones.data(), .count = end - begin},
+                 std::exp(-state.ln_tau[i]), column.data(), slopes.col(i).data());
+    if (is_creep) column = ones - column;
+  }
+  const Eigen::VectorXd residual = Eigen::Map<const Eigen::VectorXd>(value_.data() + begin, count) -
+                                   columns * state.coefficients;
+  sums.rss += residual.squaredNorm();
+  sums.descent.head(columns.cols()) += columns.transpose() * residual;
+  sums.descent.tail(n_terms) +=
+      (is_creep ? -1.0 : 1.0) *
+      state.coefficients.tail(n_terms).cwiseProduct(Eigen::VectorXd(slopes.transpose() * residual));
+}
+
+std::optional<SpectralModel::SampleSums> StepModel::sample_sums(const SpectralState& state) const {
+  if (!has_averages_) return std::nullopt;
+  constexpr std::size_t kChunk = 1024;
+  SampleSums sums{0.0, Eigen::VectorXd::Zero(state.coefficients.size() + state.n_terms())};
+  for (std::size_t begin = 0; begin < time_s_.size(); begin += kChunk) {
+    add_samples(begin, std::min(begin + kChunk, time_s_.size()), state, sums);
+  }
+  return sums;
+}
+
 std::unique_ptr<SpectralModel> StepModel::coarse() const {
   constexpr double kCoarsePerDecade = 20.0;
   constexpr std::size_t kFew = 120;

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,7 @@ class StepModel final : public SpectralModel {
   double hidden_rss(const SpectralState& state) const override;
   double sample_variance() const override { return sample_variance_; }
   HiddenRows hidden_rows(const Eigen::VectorXd& ln_tau) const override;
+  std::optional<SampleSums> sample_sums(const SpectralState& state) const override;
   std::unique_ptr<SpectralModel> coarse() const override;
   Eigen::VectorXd residual_series(const SpectralState& state) const override;
 
@@ -41,6 +43,8 @@ class StepModel final : public SpectralModel {
  private:
   StepModel(const StepModel& fine, double bins_per_decade);
   void set_rows();
+  void add_samples(std::size_t begin, std::size_t end, const SpectralState& state,
+                   SampleSums& sums) const;
 
   std::span<const double> time_s_, value_;
   double sampling_s_ = 0.0;

@@ -34,10 +34,6 @@ SpectralState refine(const SpectralModel& model, const SpectralState& start,
 SpectralState quick_search(const SpectralModel& model, const SpectralState& start,
                            const RefineOptions& options);
 
-// A few Gauss-Newton steps in all parameters together, for the last digits. Stops before a step
-// that would leave the bounds or increase the residual.
-SpectralState polish(const SpectralModel& model, const SpectralState& start);
-
 // Derivative of the (weighted) model by all parameters, ordered common, moduli, ln tau, nuisance.
 Eigen::MatrixXd full_jacobian(const SpectralModel& model, const SpectralState& state);
 
