@@ -18,13 +18,24 @@ double bic_of(const FitEvidence& fit, double n_effective) {
          fit.n_parameters * std::log(n_effective);
 }
 
+struct Comparison {
+  double liquid_minus_solid_bic = 0.0;
+  // True if the preferred fit has fewer parameters and the other ones gain nothing significant: the
+  // creep of a solid, to which a flow of zero can always be added.
+  bool is_other_needless = false;
+};
+
 // The residual of the better fit is nearer to the noise, so its memory counts for both.
-double bic_difference(const FitEvidence& liquid, const FitEvidence& solid) {
+Comparison compared(const FitEvidence& liquid, const FitEvidence& solid) {
+  constexpr double kSignificant = 3.84;  // 95 % of chi-square with one degree of freedom
   const FitEvidence& better = liquid.rss < solid.rss ? liquid : solid;
   const int most = std::max(liquid.n_parameters, solid.n_parameters);
   const double n_effective =
       std::max(std::min(better.n_samples, 5.0 * most), better.n_samples / better.inflation);
-  return bic_of(liquid, n_effective) - bic_of(solid, n_effective);
+  const double bic = bic_of(liquid, n_effective) - bic_of(solid, n_effective);
+  const double penalty = (liquid.n_parameters - solid.n_parameters) * std::log(n_effective);
+  const double gain = penalty - bic;  // of the log-likelihood, twice
+  return {bic, bic > 0.0 && penalty > 0.0 && gain < kSignificant};
 }
 
 Interval hull(const Interval& a, const Interval& b) {
@@ -56,11 +67,13 @@ FitResult fit_solid_or_liquid(const FitOptions& options, const FitAs& fit_as) {
   if (is_given || !solid.may_flow) return solid;
   std::optional<FitResult> liquid = liquid_fit(options, fit_as);
   if (!liquid) return solid;
-  const double difference = bic_difference(liquid->evidence, solid.evidence);
+  const Comparison comparison = compared(liquid->evidence, solid.evidence);
+  const double difference = comparison.liquid_minus_solid_bic;
   FitResult chosen = difference < 0.0 ? *liquid : solid;
   const FitResult& other = difference < 0.0 ? solid : *liquid;
   chosen.bic_liquid_minus_solid = difference;
   constexpr double kStrong = 6.0;
+  if (comparison.is_other_needless) return chosen;
   if (std::abs(difference) < kStrong) {
     include_other(other,
                   "a solid and a liquid (E_inf = 0) describe the data about as well (BIC " +
