@@ -20,8 +20,8 @@ double bic_of(const FitEvidence& fit, double n_effective) {
 
 struct Comparison {
   double liquid_minus_solid_bic = 0.0;
-  // True if the preferred fit has fewer parameters and the other ones gain nothing significant: the
-  // creep of a solid, to which a flow of zero can always be added.
+  // True if the preferred fit has fewer parameters and the others gain nothing significant: a flow
+  // of almost zero can be added to the creep of any solid, and E_inf to the relaxation of a liquid.
   bool is_other_needless = false;
 };
 
@@ -34,8 +34,8 @@ Comparison compared(const FitEvidence& liquid, const FitEvidence& solid) {
       std::max(std::min(better.n_samples, 5.0 * most), better.n_samples / better.inflation);
   const double bic = bic_of(liquid, n_effective) - bic_of(solid, n_effective);
   const double penalty = (liquid.n_parameters - solid.n_parameters) * std::log(n_effective);
-  const double gain = penalty - bic;  // of the log-likelihood, twice
-  return {bic, bic > 0.0 && penalty > 0.0 && gain < kSignificant};
+  const double gain = std::abs(penalty - bic);  // of the log-likelihood, twice
+  return {bic, bic * penalty > 0.0 && gain < kSignificant};
 }
 
 Interval hull(const Interval& a, const Interval& b) {
@@ -73,8 +73,11 @@ FitResult fit_solid_or_liquid(const FitOptions& options, const FitAs& fit_as) {
   const FitResult& other = difference < 0.0 ? solid : *liquid;
   chosen.bic_liquid_minus_solid = difference;
   constexpr double kStrong = 6.0;
-  if (comparison.is_other_needless) return chosen;
-  if (std::abs(difference) < kStrong) {
+  if (comparison.is_other_needless && difference > 0.0) return chosen;
+  if (comparison.is_other_needless) {  // what the record leaves open is in the solid's interval
+    chosen.E_inf_interval_95 = hull(chosen.E_inf_interval_95, solid.E_inf_interval_95);
+  }
+  if (std::abs(difference) < kStrong && !comparison.is_other_needless) {
     include_other(other,
                   "a solid and a liquid (E_inf = 0) describe the data about as well (BIC " +
                       text_of(std::abs(difference), 2) +
