@@ -22,6 +22,45 @@ std::vector<LogBin> bins_for(std::span<const double> time_s, std::span<const dou
 
 }  // namespace
 
+// Some samples with the exponentials of all terms, few enough to stay in the cache.
+class StepModel::SampleChunk {
+ public:
+  static constexpr std::size_t kMost = 1024;
+  using Part = Eigen::Map<Eigen::VectorXd>;
+
+  explicit SampleChunk(Index n_terms)
+      : residual_(kMost),
+        weighted_(kMost),
+        ones_(Eigen::VectorXd::Ones(kMost)),
+        decays_(kMost, n_terms) {}
+
+  void take(std::span<const double> time_s, std::span<const double> value) {
+    count_ = static_cast<Index>(std::min(kMost, time_s.size()));
+    time_s_ = time_s.data();
+    residual_.head(count_) = Eigen::Map<const Eigen::VectorXd>(value.data(), count_);
+  }
+  Eigen::Map<const Eigen::VectorXd> time() const { return {time_s_, count_}; }
+  Part residual() { return {residual_.data(), count_}; }
+  Part residual_times_time() {
+    weighted_.head(count_) = residual().cwiseProduct(time());
+    return {weighted_.data(), count_};
+  }
+  Part decay_of(Index i) { return {decays_.col(i).data(), count_}; }
+  // Computes exp(-rate t).
+  Part decay(Index i, double rate_1_s) {
+    decay_column(
+        {.time_s = time_s_, .weight = ones_.data(), .count = static_cast<std::size_t>(count_)},
+        rate_1_s, decays_.col(i).data(), nullptr);
+    return decay_of(i);
+  }
+
+ private:
+  const double* time_s_ = nullptr;
+  Index count_ = 0;
+  Eigen::VectorXd residual_, weighted_, ones_;
+  Eigen::MatrixXd decays_;
+};
+
 StepModel::StepModel(std::span<const double> time_s, std::span<const double> value, StepShape shape,
                      const FitOptions& options)
     : time_s_(time_s),
@@ -132,40 +171,42 @@ SpectralModel::HiddenRows StepModel::hidden_rows(const Eigen::VectorXd& ln_tau) 
   return out;
 }
 
-// The share of the samples from begin to end. They are so few that they stay in the cache.
-void StepModel::add_samples(std::size_t begin, std::size_t end, const SpectralState& state,
-                            SampleSums& sums) const {
-  const Index count = static_cast<Index>(end - begin), n_terms = state.n_terms();
-  const double* time_s = time_s_.data() + begin;
-  const Eigen::Map<const Eigen::VectorXd> time(time_s, count);
-  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(count);
-  const bool is_creep = shape_ == StepShape::kCreep;
-  Eigen::MatrixXd columns(count, state.coefficients.size()), slopes(count, n_terms);
-  if (with_constant_) columns.col(0) = ones;
-  if (is_creep && is_liquid_) columns.col(1) = time;
-  for (Index i = 0; i < n_terms; ++i) {
-    auto column = columns.col(n_common() + i);
-    decay_column({.time_s = time_s, .weight = ones.data(), .count = end - begin},
-                 std::exp(-state.ln_tau[i]), column.data(), slopes.col(i).data());
-    if (is_creep) column = ones - column;
-  }
-  const Eigen::VectorXd residual = Eigen::Map<const Eigen::VectorXd>(value_.data() + begin, count) -
-                                   columns * state.coefficients;
-  sums.rss += residual.squaredNorm();
-  sums.descent.head(columns.cols()) += columns.transpose() * residual;
-  sums.descent.tail(n_terms) +=
-      (is_creep ? -1.0 : 1.0) *
-      state.coefficients.tail(n_terms).cwiseProduct(Eigen::VectorXd(slopes.transpose() * residual));
-}
-
 std::optional<SpectralModel::SampleSums> StepModel::sample_sums(const SpectralState& state) const {
   if (!has_averages_) return std::nullopt;
-  constexpr std::size_t kChunk = 1024;
   SampleSums sums{0.0, Eigen::VectorXd::Zero(state.coefficients.size() + state.n_terms())};
-  for (std::size_t begin = 0; begin < time_s_.size(); begin += kChunk) {
-    add_samples(begin, std::min(begin + kChunk, time_s_.size()), state, sums);
+  SampleChunk chunk(state.n_terms());
+  for (std::size_t begin = 0; begin < time_s_.size(); begin += SampleChunk::kMost) {
+    chunk.take(time_s_.subspan(begin), value_.subspan(begin));
+    add_samples(state, chunk, sums);
   }
   return sums;
+}
+
+void StepModel::add_samples(const SpectralState& state, SampleChunk& chunk,
+                            SampleSums& sums) const {
+  const Index linear = n_common(), n_terms = state.n_terms();
+  const bool is_creep = shape_ == StepShape::kCreep;
+  const double sign = is_creep ? -1.0 : 1.0;  // of an exponential
+  const auto moduli = state.coefficients.tail(n_terms);
+  const auto time = chunk.time();
+  auto residual = chunk.residual();
+  residual.array() -=
+      (with_constant_ ? state.coefficients[0] : 0.0) + (is_creep ? moduli.sum() : 0.0);
+  if (is_creep && is_liquid_) residual -= state.coefficients[1] * time;
+  for (Index i = 0; i < n_terms; ++i) {
+    residual -= sign * moduli[i] * chunk.decay(i, std::exp(-state.ln_tau[i]));
+  }
+  sums.rss += residual.squaredNorm();
+  const double sum = residual.sum();
+  if (with_constant_) sums.descent[0] += sum;
+  if (is_creep && is_liquid_) sums.descent[1] += residual.dot(time);
+  const auto weighted = chunk.residual_times_time();
+  for (Index i = 0; i < n_terms; ++i) {
+    const auto decay = chunk.decay_of(i);
+    sums.descent[linear + i] += (is_creep ? sum : 0.0) + sign * residual.dot(decay);
+    sums.descent[linear + n_terms + i] +=
+        sign * moduli[i] * std::exp(-state.ln_tau[i]) * weighted.dot(decay);
+  }
 }
 
 std::unique_ptr<SpectralModel> StepModel::coarse() const {

@@ -43,8 +43,8 @@ class StepModel final : public SpectralModel {
  private:
   StepModel(const StepModel& fine, double bins_per_decade);
   void set_rows();
-  void add_samples(std::size_t begin, std::size_t end, const SpectralState& state,
-                   SampleSums& sums) const;
+  class SampleChunk;
+  void add_samples(const SpectralState& state, SampleChunk& chunk, SampleSums& sums) const;
 
   std::span<const double> time_s_, value_;
   double sampling_s_ = 0.0;
