@@ -2,6 +2,7 @@
 
 #include "fit/samples/clean_data.h"
 #include "fit/samples/decay.h"
+#include "fit/samples/sample_passes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,43 +23,15 @@ std::vector<LogBin> bins_for(std::span<const double> time_s, std::span<const dou
 
 }  // namespace
 
-// Some samples with the exponentials of all terms, few enough to stay in the cache.
-class StepModel::SampleChunk {
- public:
+// Buffers for some samples, few enough to stay in the cache.
+struct StepModel::SampleChunk {
   static constexpr std::size_t kMost = 1024;
-  using Part = Eigen::Map<Eigen::VectorXd>;
-
   explicit SampleChunk(Index n_terms)
-      : residual_(kMost),
-        weighted_(kMost),
-        ones_(Eigen::VectorXd::Ones(kMost)),
-        decays_(kMost, n_terms) {}
+      : residual(kMost), decays(kMost, n_terms), n_decays(static_cast<std::size_t>(n_terms)) {}
 
-  void take(std::span<const double> time_s, std::span<const double> value) {
-    count_ = static_cast<Index>(std::min(kMost, time_s.size()));
-    time_s_ = time_s.data();
-    residual_.head(count_) = Eigen::Map<const Eigen::VectorXd>(value.data(), count_);
-  }
-  Eigen::Map<const Eigen::VectorXd> time() const { return {time_s_, count_}; }
-  Part residual() { return {residual_.data(), count_}; }
-  Part residual_times_time() {
-    weighted_.head(count_) = residual().cwiseProduct(time());
-    return {weighted_.data(), count_};
-  }
-  Part decay_of(Index i) { return {decays_.col(i).data(), count_}; }
-  // Computes exp(-rate t).
-  Part decay(Index i, double rate_1_s) {
-    decay_column(
-        {.time_s = time_s_, .weight = ones_.data(), .count = static_cast<std::size_t>(count_)},
-        rate_1_s, decays_.col(i).data(), nullptr);
-    return decay_of(i);
-  }
-
- private:
-  const double* time_s_ = nullptr;
-  Index count_ = 0;
-  Eigen::VectorXd residual_, weighted_, ones_;
-  Eigen::MatrixXd decays_;
+  Eigen::VectorXd residual;
+  Eigen::MatrixXd decays;             // exponentials of each term ...
+  std::vector<std::size_t> n_decays;  // ... and how many of them are above zero
 };
 
 StepModel::StepModel(std::span<const double> time_s, std::span<const double> value, StepShape shape,
@@ -176,36 +149,42 @@ std::optional<SpectralModel::SampleSums> StepModel::sample_sums(const SpectralSt
   SampleSums sums{0.0, Eigen::VectorXd::Zero(state.coefficients.size() + state.n_terms())};
   SampleChunk chunk(state.n_terms());
   for (std::size_t begin = 0; begin < time_s_.size(); begin += SampleChunk::kMost) {
-    chunk.take(time_s_.subspan(begin), value_.subspan(begin));
-    add_samples(state, chunk, sums);
+    const std::size_t count = std::min(SampleChunk::kMost, time_s_.size() - begin);
+    add_samples(begin, count, state, chunk, sums);
   }
   return sums;
 }
 
-void StepModel::add_samples(const SpectralState& state, SampleChunk& chunk,
-                            SampleSums& sums) const {
-  const Index linear = n_common(), n_terms = state.n_terms();
+void StepModel::add_samples(std::size_t begin, std::size_t count, const SpectralState& state,
+                            SampleChunk& chunk, SampleSums& sums) const {
+  const double* time_s = time_s_.data() + begin;
+  const Eigen::Map<const Eigen::VectorXd> time(time_s, static_cast<Index>(count));
   const bool is_creep = shape_ == StepShape::kCreep;
   const double sign = is_creep ? -1.0 : 1.0;  // of an exponential
-  const auto moduli = state.coefficients.tail(n_terms);
-  const auto time = chunk.time();
-  auto residual = chunk.residual();
-  residual.array() -=
-      (with_constant_ ? state.coefficients[0] : 0.0) + (is_creep ? moduli.sum() : 0.0);
+  const auto moduli = state.coefficients.tail(state.n_terms());
+  double constant = with_constant_ ? state.coefficients[0] : 0.0;
+  if (is_creep) constant += moduli.sum();
+  auto residual = chunk.residual.head(static_cast<Index>(count));
+  residual =
+      Eigen::Map<const Eigen::VectorXd>(value_.data() + begin, residual.size()).array() - constant;
   if (is_creep && is_liquid_) residual -= state.coefficients[1] * time;
-  for (Index i = 0; i < n_terms; ++i) {
-    residual -= sign * moduli[i] * chunk.decay(i, std::exp(-state.ln_tau[i]));
+  for (Index i = 0; i < state.n_terms(); ++i) {
+    chunk.n_decays[static_cast<std::size_t>(i)] =
+        subtract_and_keep_decay(time_s, count, std::exp(-state.ln_tau[i]), sign * moduli[i],
+                                residual.data(), chunk.decays.col(i).data());
   }
-  sums.rss += residual.squaredNorm();
-  const double sum = residual.sum();
+  const std::span<const double> left(residual.data(), count);
+  const double sum = sum_of(left);
+  sums.rss += dot_of(left, left);
   if (with_constant_) sums.descent[0] += sum;
   if (is_creep && is_liquid_) sums.descent[1] += residual.dot(time);
-  const auto weighted = chunk.residual_times_time();
-  for (Index i = 0; i < n_terms; ++i) {
-    const auto decay = chunk.decay_of(i);
-    sums.descent[linear + i] += (is_creep ? sum : 0.0) + sign * residual.dot(decay);
-    sums.descent[linear + n_terms + i] +=
-        sign * moduli[i] * std::exp(-state.ln_tau[i]) * weighted.dot(decay);
+  for (Index i = 0; i < state.n_terms(); ++i) {
+    const DecayProducts products =
+        decay_products(residual.data(), chunk.decays.col(i).data(), time_s,
+                       chunk.n_decays[static_cast<std::size_t>(i)]);
+    sums.descent[n_common() + i] += (is_creep ? sum : 0.0) + sign * products.plain;
+    sums.descent[n_common() + state.n_terms() + i] +=
+        sign * moduli[i] * std::exp(-state.ln_tau[i]) * products.with_time;
   }
 }
 

@@ -43,8 +43,9 @@ class StepModel final : public SpectralModel {
  private:
   StepModel(const StepModel& fine, double bins_per_decade);
   void set_rows();
-  class SampleChunk;
-  void add_samples(const SpectralState& state, SampleChunk& chunk, SampleSums& sums) const;
+  struct SampleChunk;
+  void add_samples(std::size_t begin, std::size_t count, const SpectralState& state,
+                   SampleChunk& chunk, SampleSums& sums) const;
 
   std::span<const double> time_s_, value_;
   double sampling_s_ = 0.0;

@@ -85,6 +85,39 @@ VISCARD_WIDE_LOOP void subtract_samples(const double* __restrict time_s, std::si
   for (std::size_t i = 0; i < count; ++i) series[i] -= modulus * decay(rate_1_s * time_s[i]);
 }
 
+VISCARD_WIDE_LOOP void subtract_and_keep(const double* __restrict time_s, std::size_t count,
+                                         double rate_1_s, double modulus, double* __restrict series,
+                                         double* __restrict kept) {
+  for (std::size_t i = 0; i < count; ++i) {
+    kept[i] = decay(rate_1_s * time_s[i]);
+    series[i] -= modulus * kept[i];
+  }
+}
+
+// Eight sums of each kind side by side, so that one addition does not wait for the other.
+VISCARD_WIDE_LOOP void products_of_samples(const double* __restrict series,
+                                           const double* __restrict kept,
+                                           const double* __restrict time_s, std::size_t count,
+                                           double* __restrict sums) {
+  double plain[8] = {}, with_time[8] = {};
+  std::size_t i = 0;
+  for (; i + 8 <= count; i += 8) {
+    for (std::size_t k = 0; k < 8; ++k) {
+      const double product = series[i + k] * kept[i + k];
+      plain[k] += product;
+      with_time[k] += product * time_s[i + k];
+    }
+  }
+  for (; i < count; ++i) {
+    plain[0] += series[i] * kept[i];
+    with_time[0] += series[i] * kept[i] * time_s[i];
+  }
+  for (std::size_t k = 0; k < 8; ++k) {
+    sums[0] += plain[k];
+    sums[1] += with_time[k];
+  }
+}
+
 void decay_column(const DecayPlaces& at, double rate_1_s, double* value, double* slope) {
   const double* end = at.time_s + at.count;
   DecayPlaces left = at;
@@ -110,6 +143,22 @@ void subtract_decay(const double* time_s, std::size_t count, double rate_1_s, do
   const double* end = std::partition_point(time_s, time_s + count,
                                            [&](double t) { return rate_1_s * t < kDecayGone; });
   subtract_samples(time_s, static_cast<std::size_t>(end - time_s), rate_1_s, modulus, series);
+}
+
+std::size_t subtract_and_keep_decay(const double* time_s, std::size_t count, double rate_1_s,
+                                    double modulus, double* series, double* decay) {
+  const double* end = std::partition_point(time_s, time_s + count,
+                                           [&](double t) { return rate_1_s * t < kDecayGone; });
+  const auto above_zero = static_cast<std::size_t>(end - time_s);
+  subtract_and_keep(time_s, above_zero, rate_1_s, modulus, series, decay);
+  return above_zero;
+}
+
+DecayProducts decay_products(const double* series, const double* decay, const double* time_s,
+                             std::size_t count) {
+  double sums[2] = {};
+  products_of_samples(series, decay, time_s, count, sums);
+  return {sums[0], sums[1]};
 }
 
 }  // namespace viscard

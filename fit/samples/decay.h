@@ -27,4 +27,15 @@ void decay_column(const DecayPlaces& at, double rate_1_s, double* value, double*
 void subtract_decay(const double* time_s, std::size_t count, double rate_1_s, double modulus,
                     double* series);
 
+// The same, and keeps the exponentials up to where they are above zero. Returns their number.
+std::size_t subtract_and_keep_decay(const double* time_s, std::size_t count, double rate_1_s,
+                                    double modulus, double* series, double* decay);
+
+// sum a b and sum a b t over the first samples.
+struct DecayProducts {
+  double plain = 0.0, with_time = 0.0;
+};
+DecayProducts decay_products(const double* series, const double* decay, const double* time_s,
+                             std::size_t count);
+
 }  // namespace viscard
