@@ -70,11 +70,12 @@ class SamplePolish {
     const Eigen::MatrixXd jacobian = full_system(model, start).jacobian;
     unit_ = unit_of(jacobian);
     gauss_newton_ = unit_.asDiagonal() * gram_of(jacobian) * unit_.asDiagonal();
-    curvature_ = curvature_of(model, start, unit_);
   }
 
   PolishedState run() {
     constexpr int kMostSteps = 150;
+    if (is_there()) return {state_, now_.rss};
+    curvature_ = curvature_of(model_, state_, unit_);
     for (int step = 0; step < kMostSteps; ++step) {
       if (!advance()) break;
     }
@@ -83,10 +84,22 @@ class SamplePolish {
   }
 
  private:
+  // A smaller gain of the sum of squares ends the search: for one more parameter worth its place it
+  // would be 1 over the number of samples.
+  static constexpr double kGain = 1e-10;
+
   Eigen::VectorXd parameters() const {
     Eigen::VectorXd all(bounds_.low.size());
     all << state_.coefficients, state_.ln_tau;
     return all;
+  }
+
+  // The usual case: what a Gauss-Newton step promises is not worth it.
+  bool is_there() const {
+    const Cholesky factor(gauss_newton_);
+    if (!factor.is_definite()) return false;
+    const Eigen::VectorXd descent = now_.descent.cwiseProduct(unit_);
+    return factor.solve_lower(descent).squaredNorm() < kGain * now_.rss;
   }
 
   bool leads_out(Index i, const Eigen::VectorXd& at, const Eigen::VectorXd& direction) const {
@@ -151,7 +164,6 @@ class SamplePolish {
 
   // False if no step gains anything.
   bool advance() {
-    constexpr double kGain = 1e-11;  // of the sum of squares
     constexpr int kMostHalvings = 12;
     const Eigen::VectorXd change = full_step();
     if (!change.allFinite()) return false;
