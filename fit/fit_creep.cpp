@@ -1,8 +1,10 @@
 #include "fit/fit_creep.h"
 
 #include "fit/assembly/assemble_result.h"
+#include "fit/assembly/table_drift.h"
 #include "fit/curves/step_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/lack_of_fit.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/spikes.h"
 #include "models/material/retardation_spectrum.h"
@@ -72,6 +74,9 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
   result.fit_to_s = time_s.back();
   add_identifiability_flags(model, fit.state, fit.covariance,
                             {shortest_step_s(time_s), 0.0, time_s.front(), time_s.back()}, result);
+  report_first_modulus(time_s.front(), result);
+  examine_table(model, fit, 0.0, result);
+  flag_lack_of_fit("1/Pa", result);
   if (options.with_curves) fill_step_curves(model, fit, "1/Pa", result);
   return result;
 }
