@@ -2,8 +2,10 @@
 
 #include "fit/assembly/assemble_result.h"
 #include "fit/assembly/solid_or_liquid.h"
+#include "fit/assembly/table_drift.h"
 #include "fit/curves/step_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/lack_of_fit.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/spikes.h"
 #include "models/material/retardation_spectrum.h"
@@ -50,6 +52,8 @@ FitResult fit_creep_as(std::span<const double> time_s, std::span<const double> c
   result.fit_to_s = time_s.back();
   add_identifiability_flags(model, fit.state, fit.covariance,
                             {shortest_step_s(time_s), 0.0, time_s.front(), time_s.back()}, result);
+  report_first_modulus(time_s.front(), result);
+  examine_table(model, fit, 0.0, result);
   if (options.with_curves) fill_step_curves(model, fit, "1/Pa", result);
   return result;
 }
@@ -81,6 +85,7 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
   FitResult result = fit_solid_or_liquid(
       options, [&](const FitOptions& as) { return fit_creep_as(time_s, clean.column(1), as); });
   result.n_left_out = clean.n_left_out();
+  flag_lack_of_fit("1/Pa", result);
   add_spikes(result, spikes.size());
   return result;
 }

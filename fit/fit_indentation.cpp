@@ -2,6 +2,7 @@
 
 #include "fit/assembly/assemble_result.h"
 #include "fit/assembly/solid_or_liquid.h"
+#include "fit/assembly/table_drift.h"
 #include "fit/assembly/two_point_modulus.h"
 #include "fit/curves/history_model.h"
 #include "fit/intervals/flags.h"
@@ -219,14 +220,9 @@ void report_table(const IndentationData& data, const ContactTable& table, const 
   }
 }
 
-FitResult fit_measured_depth(const IndentationData& data, const FitOptions& options) {
-  const ContactTable table = contact_table(data);
-  const HistoryInput input = history_input(table.columns, table.contact, table.law);
-  if (input.time_s.size() < kLeastContactRows) {
-    throw std::runtime_error("only " + counted(input.time_s.size(), "sample") +
-                             " between contact and its loss; a fit needs at least " +
-                             std::to_string(kLeastContactRows));
-  }
+// The fit of a table after preparation, with or without a drift of the force.
+FitResult fit_contact_table(const IndentationData& data, const ContactTable& table,
+                            const HistoryInput& input, const FitOptions& options) {
   const HistoryModel model(input, options);
   const double zero_s = input.time_s[std::min(table.contact.first, input.time_s.size() - 1)];
   const SpectralFit fit =
@@ -237,8 +233,29 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
   result.n_left_out = table.n_left_out;
   add_spikes(result, table.n_spikes);
   report_table(data, table, input, model, fit, result);
+  examine_table(model, fit, zero_s, result);
+  report_first_modulus(shortest_step_s(input.time_s), result);
   if (options.with_curves) fill_curves(model, input, fit.state, result.noise.sigma, result);
   return result;
+}
+
+FitResult fit_measured_depth(const IndentationData& data, const FitOptions& options) {
+  const ContactTable table = contact_table(data);
+  const HistoryInput input = history_input(table.columns, table.contact, table.law);
+  if (input.time_s.size() < kLeastContactRows) {
+    throw std::runtime_error("only " + counted(input.time_s.size(), "sample") +
+                             " between contact and its loss; a fit needs at least " +
+                             std::to_string(kLeastContactRows));
+  }
+  const auto [low, high] = std::minmax_element(input.output.begin(), input.output.end());
+  return fit_with_or_without_drift(
+      options, {input.time_s.back() - input.time_s.front(), *high - *low, "N"},
+      [&](TableDrift drift) {
+        HistoryInput one = input;
+        one.with_drift = drift == TableDrift::kFitted;
+        return fit_solid_or_liquid(
+            options, [&](const FitOptions& as) { return fit_contact_table(data, table, one, as); });
+      });
 }
 
 // Relative systematic uncertainty of E0 from frame stiffness, force gain and geometry. The frame's
@@ -270,10 +287,7 @@ FitResult fit_indentation(const IndentationData& data, const FitOptions& options
         "its table of force and depth for a sphere or cone");
   }
   FitResult result =
-      data.moves.empty()
-          ? fit_solid_or_liquid(options,
-                                [&](const FitOptions& as) { return fit_measured_depth(data, as); })
-          : fit_stage_indentation(data, options);
+      data.moves.empty() ? fit_measured_depth(data, options) : fit_stage_indentation(data, options);
   result.kind = FitKind::kIndentation;
   result.systematic_relative = systematic_share(data, result);
   if (data.n_saturated > 0) {

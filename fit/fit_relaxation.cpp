@@ -2,9 +2,11 @@
 
 #include "fit/assembly/assemble_result.h"
 #include "fit/assembly/solid_or_liquid.h"
+#include "fit/assembly/table_drift.h"
 #include "fit/curves/history_model.h"
 #include "fit/curves/step_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/lack_of_fit.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/decay.h"
 #include "fit/samples/spikes.h"
@@ -26,25 +28,38 @@ std::vector<double> copy_of(std::span<const double> column) {
   return {column.begin(), column.end()};
 }
 
-FitResult fit_history_as(const HistoryInput& input, const FitOptions& options) {
+double largest_of(std::span<const double> column) {
+  double largest = 0.0;
+  for (const double one : column) largest = std::max(largest, std::abs(one));
+  return largest;
+}
+
+TableExtent extent_of(const CleanViews& clean) {
+  return {clean.column(0).back() - clean.column(0).front(), largest_of(clean.column(1)), "Pa"};
+}
+
+FitResult fit_history_once(const HistoryInput& input, const FitOptions& options) {
+  const double zero_s = input.time_s[input.contact];
   const HistoryModel model(input, options);
-  const SpectralFit fit = fit_spectrum(
-      model, log_time_blocks(model.row_time_s(), input.time_s[input.contact], 1), options);
+  const SpectralFit fit =
+      fit_spectrum(model, log_time_blocks(model.row_time_s(), zero_s, 1), options);
   FitResult result;
   result.kind = FitKind::kRelaxation;
   fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
-  const double zero_s = input.time_s[input.contact];
+  examine_table(model, fit, zero_s, result);
   const TestWindow window{shortest_step_s(input.time_s),
                           input.time_s[end_of_loading(input.input)] - zero_s, 0.0,
                           input.time_s.back() - zero_s};
   add_identifiability_flags(model, fit.state, fit.covariance, window, result);
+  report_first_modulus(window.sampling_s, result);
   result.fit_from_s = input.time_s.front();
   result.fit_to_s = input.time_s.back();
   return result;
 }
 
-FitResult fit_strain_history(const CleanViews& clean, const FitOptions& options) {
+FitResult fit_strain_history(const CleanViews& clean, TableDrift drift, const FitOptions& options) {
   HistoryInput input;
+  input.with_drift = drift == TableDrift::kFitted;
   input.time_s = copy_of(clean.column(0));
   input.output = copy_of(clean.column(1));
   input.input = copy_of(clean.column(2));
@@ -56,11 +71,11 @@ FitResult fit_strain_history(const CleanViews& clean, const FitOptions& options)
         "the strain is zero in every row: no strain was applied, or the column is not the strain");
   }
   return fit_solid_or_liquid(options,
-                             [&](const FitOptions& as) { return fit_history_as(input, as); });
+                             [&](const FitOptions& as) { return fit_history_once(input, as); });
 }
 
-FitResult fit_step_as(std::span<const double> time_s, std::span<const double> value,
-                      const FitOptions& options) {
+FitResult fit_step_once(std::span<const double> time_s, std::span<const double> value,
+                        const FitOptions& options) {
   const StepModel model(time_s, value, StepShape::kRelaxation, options);
   const SpectralFit fit = fit_spectrum(model, log_time_blocks(model.row_time_s(), 0.0, 1), options);
   FitResult result;
@@ -68,23 +83,35 @@ FitResult fit_step_as(std::span<const double> time_s, std::span<const double> va
   fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
   const TestWindow window{model.sampling_s(), 0.0, time_s.front(), time_s.back()};
   add_identifiability_flags(model, fit.state, fit.covariance, window, result);
+  examine_table(model, fit, 0.0, result);
+  report_first_modulus(window.from_s, result);
   if (options.with_curves) fill_step_curves(model, fit, "Pa", result);
   result.fit_from_s = time_s.front();
   result.fit_to_s = time_s.back();
   return result;
 }
 
-FitResult fit_step(std::span<const double> time_s, std::span<const double> value,
-                   const FitOptions& options) {
-  return fit_solid_or_liquid(options,
-                             [&](const FitOptions& as) { return fit_step_as(time_s, value, as); });
+FitResult fit_step(const CleanViews& clean, const FitOptions& options) {
+  const TableExtent table = extent_of(clean);
+  FitResult result = fit_with_or_without_drift(options, table, [&](TableDrift drift) {
+    FitOptions one = options;
+    one.drift = drift;
+    return fit_solid_or_liquid(one, [&](const FitOptions& as) {
+      return fit_step_once(clean.column(0), clean.column(1), as);
+    });
+  });
+  flag_rise(table.largest, result);
+  return result;
 }
 
 // Residual of a step fit at each sample.
 std::vector<double> residual_of(const FitResult& fit, std::span<const double> time_s,
                                 std::span<const double> value) {
   std::vector<double> residual = copy_of(value);
-  for (double& left : residual) left -= fit.E_inf_Pa;
+  const double drift_per_s = fit.drift ? fit.drift->per_s : 0.0;
+  for (std::size_t i = 0; i < residual.size(); ++i) {
+    residual[i] -= fit.E_inf_Pa + drift_per_s * time_s[i];
+  }
   for (const FittedTerm& term : fit.terms) {
     subtract_decay(time_s.data(), time_s.size(), 1.0 / term.tau_s, term.modulus_Pa,
                    residual.data());
@@ -97,18 +124,16 @@ std::vector<double> residual_of(const FitResult& fit, std::span<const double> ti
 FitResult fit_robustly(CleanViews& clean, const FitOptions& options) {
   const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
   clean.drop(spikes);
-  FitResult result = fit_step(clean.column(0), clean.column(1), options);
+  FitResult result = fit_step(clean, options);
   std::size_t n_spikes = spikes.size();
   if (n_spikes > 0 || !is_evenly_sampled(clean.column(0))) {
     const auto value = clean.column(1);
-    double largest = 0.0;
-    for (const double one : value) largest = std::max(largest, std::abs(one));
     const std::vector<std::size_t> outliers =
-        outlying_samples(residual_of(result, clean.column(0), value), largest);
+        outlying_samples(residual_of(result, clean.column(0), value), largest_of(value));
     if (!outliers.empty()) {
       clean.drop(outliers);
       n_spikes += outliers.size();
-      result = fit_step(clean.column(0), clean.column(1), options);
+      result = fit_step(clean, options);
     }
   }
   add_spikes(result, n_spikes);
@@ -149,7 +174,9 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
   } else {
     const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
     clean.drop(spikes);
-    result = fit_strain_history(clean, options);
+    result = fit_with_or_without_drift(options, extent_of(clean), [&](TableDrift drift) {
+      return fit_strain_history(clean, drift, options);
+    });
     add_spikes(result, spikes.size());
   }
   result.n_left_out = clean.n_left_out();

@@ -2,6 +2,7 @@
 
 #include "fit/assembly/spectral_fit.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/slow_noise.h"
 #include "fit/intervals/uncertainty.h"
 #include "fit/search/polish.h"
 #include "fit/search/separable.h"
@@ -120,6 +121,15 @@ void add_profiles(const SpectralModel& model, const SpectralFit& fit,
   }
 }
 
+void widen_for_slow_noise(const SpectralModel& model, SpectralFit& fit) {
+  const SlowNoise slow = slow_noise(model, fit.state, fit.variance, fit.noise);
+  const bool is_doubtful = !slow.doubt.empty();
+  fit.covariance = widened(
+      fit.covariance,
+      is_doubtful ? parameter_covariance(model, fit.state, fit.variance) : fit.covariance, slow);
+  if (!slow.doubt.empty()) fit.notes.push_back({"slow-noise", 0, slow.doubt});
+}
+
 }  // namespace
 
 SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blocks,
@@ -147,6 +157,7 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
   fit.variance = variance_of(model, fit.state, fit.rss);
   if (!options.white_noise) fit.noise = noise_of(model, fit.state);
   fit.covariance = parameter_covariance(model, fit.state, fit.variance, fit.noise);
+  if (!options.white_noise) widen_for_slow_noise(model, fit);
   if (!options.constraints.empty()) constrain(model, options, fit);
   return fit;
 }

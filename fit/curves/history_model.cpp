@@ -85,7 +85,7 @@ HistoryModel::HistoryModel(HistoryInput input, const FitOptions& options) : in_(
   }
   if (with_equilibrium_) common_.push_back({"E_inf", false});
   if (in_.with_offset) common_.push_back({"offset", true});
-  if (in_.with_drift) common_.push_back({"drift", true});
+  if (in_.with_drift) common_.push_back({kDriftName, true});
   if (in_.contact_input) {
     const double width = in_.contact_half_width;
     nuisances_.push_back({"contact_m", *in_.contact_input, *in_.contact_input - width,

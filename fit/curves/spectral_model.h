@@ -28,6 +28,9 @@ struct CommonColumn {
   bool is_free = true;
 };
 
+// Name of the common column of a drift in a table, in the unit of the data per second.
+inline constexpr const char* kDriftName = "drift";
+
 // A nuisance parameter: it enters non-linearly and is uncertain, but its value is not a result.
 // Examples: the start of a stage move, the contact position.
 struct Nuisance {

@@ -47,7 +47,11 @@ StepModel::StepModel(std::span<const double> time_s, std::span<const double> val
   set_rows();
   with_constant_ = shape == StepShape::kCreep || !is_liquid_;
   if (with_constant_) common_.push_back({shape == StepShape::kCreep ? "J_g" : "E_inf", false});
-  if (shape == StepShape::kCreep && is_liquid_) common_.push_back({"fluidity", false});
+  const bool has_fluidity = shape == StepShape::kCreep && is_liquid_;
+  const bool has_drift = shape == StepShape::kRelaxation && options.drift == TableDrift::kFitted;
+  if (has_fluidity) common_.push_back({"fluidity", false});
+  if (has_drift) common_.push_back({kDriftName, true});
+  if (has_fluidity || has_drift) line_ = n_common() - 1;
   may_be_negative_ = options.allow_negative;
 
   // Times may lie outside sampling and record by a factor of three. The lower end keeps exp(-3) of
@@ -69,7 +73,8 @@ StepModel::StepModel(const StepModel& fine, double bins_per_decade)
       shapes_({}),
       sample_variance_(fine.sample_variance_),
       is_liquid_(fine.is_liquid_),
-      with_constant_(fine.with_constant_) {
+      with_constant_(fine.with_constant_),
+      line_(fine.line_) {
   set_rows();
 }
 
@@ -89,7 +94,7 @@ ModelColumns StepModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::Vect
   out.values.resize(n_rows(), n_common() + n_terms);
   if (with_slopes) out.term_slopes.resize(n_rows(), n_terms);
   if (with_constant_) out.values.col(0) = arrays_.weight.matrix();
-  if (is_creep && is_liquid_) out.values.col(1) = (arrays_.weight * arrays_.time_s).matrix();
+  if (line_ >= 0) out.values.col(line_) = (arrays_.weight * arrays_.time_s).matrix();
   const DecayPlaces places = arrays_.places(has_averages_);
   for (Index i = 0; i < n_terms; ++i) {
     auto value = out.values.col(n_common() + i);
@@ -116,7 +121,7 @@ double StepModel::hidden_rss(const SpectralState& state) const {
   // The known shapes contribute their residual; the rest of the variation within bins is unchanged.
   Eigen::VectorXd residual = shapes_.data(), column(n);
   const bool is_creep = shape_ == StepShape::kCreep;
-  if (is_creep && is_liquid_) residual -= state.coefficients[1] * shapes_.line();
+  if (line_ >= 0) residual -= state.coefficients[line_] * shapes_.line();
   for (Index i = 0; i < state.n_terms(); ++i) {
     shapes_.decay(std::exp(-state.ln_tau[i]), column, nullptr);
     residual -= (is_creep ? -1.0 : 1.0) * state.coefficients[n_common() + i] * column;
@@ -131,7 +136,7 @@ SpectralModel::HiddenRows StepModel::hidden_rows(const Eigen::VectorXd& ln_tau) 
   out.columns.values = Eigen::MatrixXd::Zero(n, n_common() + ln_tau.size());
   out.columns.term_slopes.resize(n, ln_tau.size());
   const bool is_creep = shape_ == StepShape::kCreep;
-  if (is_creep && is_liquid_) out.columns.values.col(1) = shapes_.line();
+  if (line_ >= 0) out.columns.values.col(line_) = shapes_.line();
   Eigen::VectorXd slope;
   for (Index i = 0; i < ln_tau.size(); ++i) {
     shapes_.decay(std::exp(-ln_tau[i]), out.columns.values.col(n_common() + i), &slope);
@@ -167,7 +172,7 @@ void StepModel::add_samples(std::size_t begin, std::size_t count, const Spectral
   auto residual = chunk.residual.head(static_cast<Index>(count));
   residual =
       Eigen::Map<const Eigen::VectorXd>(value_.data() + begin, residual.size()).array() - constant;
-  if (is_creep && is_liquid_) residual -= state.coefficients[1] * time;
+  if (line_ >= 0) residual -= state.coefficients[line_] * time;
   for (Index i = 0; i < state.n_terms(); ++i) {
     chunk.n_decays[static_cast<std::size_t>(i)] =
         subtract_and_keep_decay(time_s, count, std::exp(-state.ln_tau[i]), sign * moduli[i],
@@ -177,7 +182,7 @@ void StepModel::add_samples(std::size_t begin, std::size_t count, const Spectral
   const double sum = sum_of(left);
   sums.rss += dot_of(left, left);
   if (with_constant_) sums.descent[0] += sum;
-  if (is_creep && is_liquid_) sums.descent[1] += residual.dot(time);
+  if (line_ >= 0) sums.descent[line_] += residual.dot(time);
   for (Index i = 0; i < state.n_terms(); ++i) {
     const DecayProducts products =
         decay_products(residual.data(), chunk.decays.col(i).data(), time_s,
@@ -206,8 +211,8 @@ Eigen::VectorXd StepModel::residual_series(const SpectralState& state) const {
   double constant = with_constant_ ? state.coefficients[0] : 0.0;
   if (is_creep) constant += state.coefficients.tail(state.n_terms()).sum();
   series.array() -= constant;
-  if (is_creep && is_liquid_) {
-    series -= state.coefficients[1] * Eigen::Map<const Eigen::VectorXd>(time_s, series.size());
+  if (line_ >= 0) {
+    series -= state.coefficients[line_] * Eigen::Map<const Eigen::VectorXd>(time_s, series.size());
   }
   for (Index i = 0; i < state.n_terms(); ++i) {
     const double modulus = state.coefficients[n_common() + i];

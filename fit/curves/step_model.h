@@ -17,8 +17,9 @@ namespace viscard {
 enum class StepShape { kRelaxation, kCreep };
 
 // Response to a step at t = 0: relaxation, value = E_inf + sum E_i exp(-t/tau_i), or creep, value =
-// J_g + sum J_j (1 - exp(-t/lambda_j)) [+ t/eta for a liquid] (fit/README.md, eq. 5). Long records
-// are averaged in log time, the data and the model alike.
+// J_g + sum J_j (1 - exp(-t/lambda_j)) [+ t/eta for a liquid] (fit/README.md, eq. 5). Relaxation may
+// have a drift of the instrument, + d t. Long records are averaged in log time, the data and the
+// model alike.
 class StepModel final : public SpectralModel {
  public:
   // Times must be sorted and all values finite. The model does not copy them; both must outlive it.
@@ -57,6 +58,7 @@ class StepModel final : public SpectralModel {
   bool has_averages_ = false;
   bool is_liquid_ = false;
   bool with_constant_ = true;
+  Eigen::Index line_ = -1;  // common column that is proportional to time; -1: none
 };
 
 }  // namespace viscard

@@ -30,6 +30,30 @@ struct NoiseEstimate {
   double inflation = 1.0;  // variance factor for autocorrelation and misfit
 };
 
+// A smooth curve that the model leaves in the residual (fit/intervals/lack_of_fit.h).
+struct LackOfFit {
+  double structure = 0.0;  // root mean square of the curve, in the unit of the fitted column
+  double noise = 0.0;      // standard deviation of one sample about the curve
+  double relative = 0.0;   // structure over the data
+  // The same where it is largest; 0: nowhere above chance.
+  double worst = 0.0, worst_relative = 0.0;
+  double worst_from_s = 0.0, worst_to_s = 0.0;
+  double rise = 0.0;  // of the smooth curve through the data, over its largest value
+  bool is_significant = false;
+};
+
+// A drift of the instrument that was fitted to a table: value = ... + per_s t.
+struct FittedDrift {
+  double per_s = 0.0, se_per_s = 0.0;  // unit of the fitted column per second
+};
+
+// The fitted modulus at the first sample, the earliest that was measured. E0 is extrapolated from it.
+struct FirstModulus {
+  double time_s = 0.0;
+  double modulus_Pa = 0.0, se_Pa = 0.0;
+  Interval interval_95;
+};
+
 // Modulus from two points of the loading curve, P = E d h/(1 - nu^2). It ignores relaxation during
 // the ramp, and the layer's thickness unless the contact includes it. A cross-check with a known
 // bias, reported beside the fit.
@@ -103,14 +127,17 @@ struct FitResult {
   double fit_from_s = 0.0, fit_to_s = 0.0;
   // Duration of the fastest loading; the modulus before that time is extrapolated.
   double fastest_s = 0.0;
+  std::optional<FirstModulus> first;  // nothing: not a record in time, or a captured run
   std::optional<TwoPointModulus> two_point;
   std::optional<double> contact_position_m;
   // True speed of the stage over the commanded one, for captures. The errors above include its own.
   std::optional<double> stage_speed;
   double stage_speed_se = 0.0;
-  std::size_t n_spikes = 0;    // samples left out as spikes
-  std::size_t n_left_out = 0;  // rows left out because a value is not a finite number
-  bool is_converged = true;    // of the chosen order
+  std::size_t n_spikes = 0;              // samples left out as spikes
+  std::size_t n_left_out = 0;            // rows left out because a value is not a finite number
+  std::optional<LackOfFit> lack_of_fit;  // nothing: not tested
+  std::optional<FittedDrift> drift;      // of a table, if it was fitted
+  bool is_converged = true;              // of the chosen order
   // False: not converged, saturated, gap in the ramp ... (the flags name the cause).
   bool is_trustworthy = true;
   std::vector<ProfileCurve> profiles;  // if FitOptions::with_profiles

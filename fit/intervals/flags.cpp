@@ -2,6 +2,7 @@
 
 #include "models/maths/text_of_number.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace viscard {
@@ -71,6 +72,31 @@ void flag_misfit(double sigma, double quiet_sigma, std::size_t n_quiet, double p
                  " N per sample, but the noise out of contact is " + number(quiet_sigma) +
                  " N: the record contains something that the model does not describe (lost steps, "
                  "slip, a wrong depth). Look at the curve, then repeat the run");
+}
+
+void report_first_modulus(double time_s, FitResult& result) {
+  const auto n_terms = static_cast<Index>(result.terms.size());
+  if (result.covariance.rows() != 1 + 2 * n_terms || !(time_s >= 0.0)) return;
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(1 + 2 * n_terms);  // by E_inf, E_i, ln tau_i
+  gradient[0] = 1.0;
+  FirstModulus first{time_s, result.E_inf_Pa, 0.0, {}};
+  for (Index i = 0; i < n_terms; ++i) {
+    const FittedTerm& term = result.terms[static_cast<std::size_t>(i)];
+    const double x = time_s / term.tau_s;
+    gradient[1 + i] = std::exp(-x);
+    gradient[1 + n_terms + i] = term.modulus_Pa * x * std::exp(-x);
+    first.modulus_Pa += term.modulus_Pa * std::exp(-x);
+  }
+  first.se_Pa = std::sqrt(std::max(0.0, gradient.dot(result.covariance * gradient)));
+  first.interval_95 = {first.modulus_Pa - kNormal95 * first.se_Pa,
+                       first.modulus_Pa + kNormal95 * first.se_Pa};
+  result.first = first;
+  if (first.modulus_Pa >= result.E0_interval_95.low || !(time_s > 0.0)) return;
+  result.flags.push_back(
+      {"E0-extrapolated", 0,
+       "the modulus at the first sample (t = " + number(time_s) + " s) is " +
+           number(100.0 * (1.0 - first.modulus_Pa / result.E0_Pa)) +
+           " % below E0, more than the interval of E0: E0 is an extrapolation to t = 0"});
 }
 
 void add_spikes(FitResult& result, std::size_t count) {

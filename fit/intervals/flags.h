@@ -26,6 +26,10 @@ void add_identifiability_flags(const SpectralModel& model, const SpectralState& 
 // untrustworthy (E0-unknown), and so do notes that are defects.
 void judge(FitResult& result);
 
+// Fills the modulus at the first sample, and adds the flag E0-extrapolated if it is below the interval
+// of E0.
+void report_first_modulus(double time_s, FitResult& result);
+
 // Adds the flag with the number of samples left out as spikes, if there are any.
 void add_spikes(FitResult& result, std::size_t count);
 

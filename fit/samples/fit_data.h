@@ -66,6 +66,13 @@ struct ParameterConstraint {
   double low = 0.0, high = 0.0;
 };
 
+// A drift of the instrument in a table, linear in time.
+enum class TableDrift {
+  kIfCalledFor,  // tried if the residuals of a fit without it have structure
+  kFitted,
+  kNone
+};
+
 struct FitOptions {
   std::optional<int> n_terms;  // this order instead of a chosen one
   // They need n_terms. Available for relaxation, storage and loss, and tables of indentation.
@@ -76,8 +83,9 @@ struct FitOptions {
   bool allow_negative = false;  // of single terms: moduli may be negative
   bool white_noise = false;     // no inflation for autocorrelation; sigma^2 = rss/(n - p)
   bool full_data = false;       // fit every sample instead of averages in log time
-  bool with_drift = true;       // indentation: fit a linear force drift, if the data allow
-  bool with_curves = true;      // fill FitResult::curves
+  bool with_drift = true;       // captures: fit a linear force drift, if the data allow
+  TableDrift drift = TableDrift::kIfCalledFor;  // tables of relaxation and indentation
+  bool with_curves = true;                      // fill FitResult::curves
   // Profile likelihoods replace the intervals of E_inf and of the times.
   bool with_profiles = false;
   int n_bootstrap = 0;  // resamples for all intervals (0: intervals from the covariance)

@@ -23,9 +23,16 @@ std::vector<double> autocovariances(const Eigen::VectorXd& series, std::size_t m
   return covariances;
 }
 
-}  // namespace
+// phi of order p + 1 from those of order p and the next reflection coefficient.
+void add_order(std::vector<double>& phi, double reflection) {
+  const std::vector<double> old = phi;
+  for (std::size_t k = 0; k < phi.size(); ++k) phi[k] -= reflection * old[old.size() - 1 - k];
+  phi.push_back(reflection);
+}
 
-Autoregression autoregression(const Eigen::VectorXd& series) {
+// Orders up to 12 from the autocovariances by Levinson's recursion, selected by BIC: quick, and
+// white noise gets order 0.
+Autoregression short_memory(const Eigen::VectorXd& series) {
   constexpr std::size_t kMaxOrder = 12;
   const auto count = static_cast<double>(series.size());
   const auto max_order = std::min(kMaxOrder, static_cast<std::size_t>(count / 10.0));
@@ -40,9 +47,7 @@ Autoregression autoregression(const Eigen::VectorXd& series) {
     double reflection = gamma[order];
     for (std::size_t k = 1; k < order; ++k) reflection -= phi[k - 1] * gamma[order - k];
     reflection /= error;
-    const std::vector<double> old = phi;
-    for (std::size_t k = 1; k < order; ++k) phi[k - 1] -= reflection * old[order - k - 1];
-    phi.push_back(reflection);
+    add_order(phi, reflection);
     error *= 1.0 - reflection * reflection;
     if (!(error > 0.0)) break;
     const double score =
@@ -53,6 +58,69 @@ Autoregression autoregression(const Eigen::VectorXd& series) {
     }
   }
   return best;
+}
+
+// Orders up to 80 by Burg's recursion, selected by AICc. BIC prefers few orders and thereby loses
+// the many small coefficients of a long memory, which add up.
+Autoregression long_memory(const Eigen::VectorXd& series) {
+  constexpr Eigen::Index kMaxOrder = 80;
+  const auto count = static_cast<double>(series.size());
+  const Eigen::Index max_order = std::min(kMaxOrder, series.size() / 10);
+  Eigen::VectorXd forward = series.array() - series.mean();
+  Eigen::VectorXd backward = forward;
+  Autoregression best;
+  std::vector<double> phi;
+  double log_error = 0.0, best_score = 0.0;
+  for (Eigen::Index order = 1; order <= max_order; ++order) {
+    const Eigen::Index left = series.size() - order;
+    // forward[i] and backward[i] belong to samples that are `order` apart.
+    const auto ahead = forward.tail(left);
+    const auto behind = backward.head(left);
+    const double square = ahead.squaredNorm() + behind.squaredNorm();
+    if (!(square > 0.0)) break;
+    const double reflection = 2.0 * ahead.dot(behind) / square;
+    if (!(std::abs(reflection) < 1.0)) break;
+    add_order(phi, reflection);
+    log_error += std::log1p(-reflection * reflection);
+    const Eigen::VectorXd next = ahead - reflection * behind;
+    backward = Eigen::VectorXd(behind - reflection * ahead);
+    forward = next;
+    const auto p = static_cast<double>(order);
+    const double score = count * log_error + 2.0 * p * count / (count - p - 2.0);
+    if (score < best_score) {
+      best_score = score;
+      best.phi = phi;
+    }
+  }
+  return best;
+}
+
+// True if means of many samples scatter more than those of white noise.
+bool has_slow_part(const Eigen::VectorXd& series) {
+  constexpr Eigen::Index kFewest = 16, kMeans = 64;
+  const Eigen::Index length = std::max(kFewest, series.size() / kMeans);
+  const Eigen::Index n_means = series.size() / length;
+  if (n_means < 8) return false;
+  const double mean = series.mean();
+  const double variance = (series.array() - mean).square().mean();
+  double square = 0.0;
+  for (Eigen::Index i = 0; i < n_means; ++i) {
+    square +=
+        std::pow(series.segment(i * length, length).sum() - static_cast<double>(length) * mean, 2);
+  }
+  const auto freedom = static_cast<double>(n_means - 1);
+  constexpr double kDeviations = 3.0;
+  return square > static_cast<double>(length) * variance *
+                      (freedom + kDeviations * std::sqrt(2.0 * freedom));
+}
+
+}  // namespace
+
+Autoregression autoregression(const Eigen::VectorXd& series) {
+  Autoregression quick = short_memory(series);
+  if (quick.phi.empty() && !has_slow_part(series)) return quick;
+  Autoregression slow = long_memory(series);
+  return slow.phi.empty() ? quick : slow;
 }
 
 std::vector<double> Autoregression::autocorrelation() const {
@@ -94,6 +162,14 @@ double Autoregression::inflation() const {
     sum += phi[k];
   }
   return std::max(1.0, (1.0 - explained) / ((1.0 - sum) * (1.0 - sum)));
+}
+
+double Autoregression::memory() const {
+  constexpr double kForgotten = 0.05;
+  const std::vector<double> rho = autocorrelation();
+  std::size_t lag = rho.size();
+  while (lag > 1 && std::abs(rho[lag - 1]) < kForgotten) --lag;
+  return static_cast<double>(lag);
 }
 
 PairSums::PairSums(const Autoregression& noise) : twice_summed_{0.0, 0.5} {

@@ -7,14 +7,17 @@
 namespace viscard {
 
 // Autocorrelated noise, e_t = sum phi_k e_{t-k} + white: an autoregression fitted to the residuals
-// of a fit. BIC selects the order, so white noise gets order 0. The coefficients come from the
-// autocovariances by Levinson's recursion (Brockwell & Davis, Time Series (1991), sect. 8.2).
+// of a fit. White noise gets order 0 (BIC of orders up to 12, Levinson's recursion). Other noise gets
+// up to 80 coefficients by Burg's recursion, their number by AICc (Brockwell & Davis, Introduction
+// to Time Series and Forecasting (2016), sect. 5.1.2 and 5.5.2).
 struct Autoregression {
   std::vector<double> phi;  // empty: white noise
 
   // Factor by which autocorrelation increases the variance of a mean over many samples: spectral
   // density at frequency 0 over the variance. At least 1.
   double inflation() const;
+  // First lag from which on the autocorrelation stays below 0.05.
+  double memory() const;
   // Autocorrelation at lags 0, 1, ... until it has decayed.
   std::vector<double> autocorrelation() const;
 };

@@ -154,6 +154,21 @@ Json json_from_fit(const FittedFile& fitted) {
                            {"max_C", number(measured.max_C)},
                            {"n_readings", measured.n_readings}};
   }
+  if (fit.first) {
+    json[letter + "_first_sample" + unit] = number(fit.first->modulus_Pa);
+    json[letter + "_first_sample_interval_95"] = json_from(fit.first->interval_95);
+    json["first_sample_s"] = number(fit.first->time_s);
+  }
+  if (fit.drift) {
+    json["drift"] = {{"per_s", number(fit.drift->per_s)},
+                     {"se_per_s", number(fit.drift->se_per_s)},
+                     {"unit", fitted.fitted_unit + "/s"}};
+  }
+  if (fit.lack_of_fit) {
+    json["lack_of_fit"] = {{"structure", number(fit.lack_of_fit->structure)},
+                           {"noise", number(fit.lack_of_fit->noise)},
+                           {"significant", fit.lack_of_fit->is_significant}};
+  }
   json["fit_from_s"] = number(fit.fit_from_s);
   json["fit_to_s"] = number(fit.fit_to_s);
   if (fit.contact_position_m) json["contact_position_m"] = number(*fit.contact_position_m);

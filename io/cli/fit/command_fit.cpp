@@ -31,6 +31,10 @@ void add_fit_options(po::options_description& options) {
   add("allow-negative", "terms may have negative moduli");
   add("noise", po::value<std::string>()->default_value("auto"),
       "white: no inflation for autocorrelation, sigma^2 = rss/(n - p)");
+  add("drift",
+      "tables of relaxation or indentation: fit a drift linear in time; by default it is tried if "
+      "the residual calls for it");
+  add("no-drift", "never fit a drift to a table");
   add("full-data", "fit every sample instead of averages in log time");
   add("profiles", "asymmetric intervals of E_inf and times from profile likelihoods");
   add("diagnose", "compare by BIC with a power law between two plateaus (fractional Zener)");

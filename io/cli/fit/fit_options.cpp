@@ -73,6 +73,11 @@ FitOptions options_from(const po::variables_map& values) {
   options.is_solid = values.count("solid") > 0;
   options.allow_negative = values.count("allow-negative") > 0;
   options.full_data = values.count("full-data") > 0;
+  if (values.count("drift") > 0 && values.count("no-drift") > 0) {
+    throw UsageError("--drift and --no-drift exclude each other; give one of them");
+  }
+  if (values.count("drift") > 0) options.drift = TableDrift::kFitted;
+  if (values.count("no-drift") > 0) options.drift = TableDrift::kNone;
   options.with_profiles = values.count("profiles") > 0;
   if (const auto n_bootstrap = given<int>(values, "bootstrap")) {
     options.n_bootstrap = *n_bootstrap;

@@ -90,6 +90,11 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   }
   out << fmt::format("  {}0     {:>10.6g} {}   95 % {}\n", letter, fit.E0_Pa * shown.factor,
                      shown.unit, range(fit.E0_interval_95, shown.factor, 6));
+  if (fit.first && fit.first->time_s > 0.0) {
+    out << fmt::format("  {}({:.3g} s) {:.6g} {}   95 % {}   at the first sample\n", letter,
+                       fit.first->time_s, fit.first->modulus_Pa * shown.factor, shown.unit,
+                       range(fit.first->interval_95, shown.factor, 6));
+  }
   out << fmt::format("  {}_inf  {:>10.6g} {}   95 % {}\n", letter, fit.E_inf_Pa * shown.factor,
                      shown.unit, range(fit.E_inf_interval_95, shown.factor, 6));
   for (std::size_t i = 0; i < fit.terms.size(); ++i) {
@@ -113,6 +118,10 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   const std::string sigma_unit = fit.kind == FitKind::kDma ? "(relative)" : fitted.fitted_unit;
   out << fmt::format("  noise {:.3g} {}, variance x {:.3g} for autocorrelation\n", fit.noise.sigma,
                      sigma_unit, fit.noise.inflation);
+  if (fit.drift) {
+    out << fmt::format("  drift {:.4g} {}/s, standard error {:.2g}\n", fit.drift->per_s,
+                       fitted.fitted_unit, fit.drift->se_per_s);
+  }
   if (fitted.temperature) {
     const RunTemperature& measured = *fitted.temperature;
     out << fmt::format("  temperature {:.2f} C, measured: {:.2f} to {:.2f} C in {}\n",

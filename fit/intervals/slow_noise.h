@@ -1,0 +1,33 @@
+#pragma once
+
+#include "fit/curves/spectral_model.h"
+#include "fit/samples/noise_model.h"
+
+#include <string>
+
+namespace viscard {
+
+// What intervals have to include because the noise is slow compared with the record.
+struct SlowNoise {
+  double widening = 1.0;  // of the covariance
+  // With a doubt: every variance is at least this times that for white noise (batch means).
+  double batch_inflation = 1.0;
+  // Nothing, or a sentence for the flag slow-noise: the memory of the noise reaches a tenth of the
+  // record, fewer than 40 independent values remain, or means of samples scatter more than the
+  // autoregression implies.
+  std::string doubt;
+};
+
+// The n/inflation independent values of a record lose one for each parameter, and so few of them
+// determine their own variance only with the error of Student's t: the covariance is widened by both.
+// With a doubt, intervals are at least as wide as the means of a fortieth, a twentieth and a tenth of
+// the record imply (batch means).
+//   variance: of one sample.
+SlowNoise slow_noise(const SpectralModel& model, const SpectralState& state, double variance,
+                     const Autoregression& noise);
+
+// The covariance after both steps. white: the covariance for white noise of the same variance.
+Eigen::MatrixXd widened(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& white,
+                        const SlowNoise& slow);
+
+}  // namespace viscard
