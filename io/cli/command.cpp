@@ -54,6 +54,8 @@ const std::vector<Command>& commands() {
        run_calibrate},
       {"export", "write a capture as CSV", run_export},
       {"fit", "find modulus and Prony series in captures or tables", run_fit},
+      {"predict", "predict creep, relaxation, cycles, oscillation or any history, with its band",
+       run_predict},
       {"card", "write, check or prove a material card for a solver", run_card},
       {"validate", "check a material in a pillar against exact creep and relaxation", run_validate},
       {"scene", "check a scene file and draw its geometry", run_scene},

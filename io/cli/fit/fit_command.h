@@ -11,6 +11,9 @@ namespace viscard {
 // JSON, and writes a material file.
 int run_fit(const Words& words, Streams& streams);
 
+// viscard predict: what a material does in a test, with its band, beside measured values.
+int run_predict(const Words& words, Streams& streams);
+
 // Convert the options of viscard fit. Both throw UsageError for values that are not allowed.
 FitRequest words_from(const boost::program_options::variables_map& values);
 // command: the whole command line, for the provenance of the material.

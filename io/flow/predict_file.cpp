@@ -1,0 +1,228 @@
+#include "io/flow/predict_file.h"
+
+#include "fit/samples/noise_model.h"
+#include "io/basics/words.h"
+#include "io/materials/material_file.h"
+#include "io/tables/csv_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+using Values = std::vector<double>;
+
+// A table with the column of its argument.
+struct ReadTable {
+  CsvTable table;
+  const PredictFileRequest* request;
+
+  bool has(const std::string& name) const {
+    return find_column(table, name, request->columns).has_value();
+  }
+  Values column(const std::string& name) const { return column_SI(table, name, request->columns); }
+  Values argument(const std::string& name) const {
+    Values values = column(name);
+    if (name != "time_s") return values;
+    for (double& time_s : values) time_s -= request->time_zero_s;
+    return values;
+  }
+};
+
+PredictedTest test_of_columns(const ReadTable& measured) {
+  if (measured.has("storage_modulus_Pa") && measured.has("loss_modulus_Pa")) {
+    return PredictedTest::kOscillation;
+  }
+  if (measured.has("modulus_Pa")) return PredictedTest::kRelaxation;
+  if (measured.has("compliance_1_Pa")) return PredictedTest::kCreep;
+  if (measured.has("strain") && measured.has("stress_Pa")) return PredictedTest::kHistory;
+  throw std::runtime_error(
+      measured.table.file +
+      ": the columns do not say which test this is; expected modulus_Pa, compliance_1_Pa, "
+      "storage_modulus_Pa with loss_modulus_Pa, or strain with stress_Pa. Name the test with "
+      "--test, or a column with --column modulus_Pa=\"HEADER\"");
+}
+
+LoadHistory history_from(const ReadTable& read) {
+  const bool has_strain = read.has("strain"), has_stress = read.has("stress_Pa");
+  if (!has_strain && !has_stress) {
+    throw std::runtime_error(read.table.file +
+                             ": a history needs a column strain or stress_Pa beside time_s; name "
+                             "it with --column strain=\"HEADER\"");
+  }
+  LoadHistory history;
+  history.is_stress = has_stress && (!has_strain || read.request->is_driven_by_stress);
+  history.time_s = read.argument("time_s");
+  history.value = read.column(history.is_stress ? "stress_Pa" : "strain");
+  return history;
+}
+
+double root_mean_square(const Values& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+// The rows of the table that the prediction covers, in order of their argument.
+void take_rows(const TestPrediction& prediction, const Values& at, const Values& measured,
+               Agreement& found) {
+  std::vector<std::size_t> order(at.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return at[a] < at[b]; });
+  for (const std::size_t row : order) {
+    // After a jump, if several rows of the prediction have this time.
+    const auto after = std::upper_bound(prediction.at.begin(), prediction.at.end(), at[row]);
+    if (after == prediction.at.begin() || *(after - 1) != at[row]) {
+      ++found.n_left_out;
+      continue;
+    }
+    found.at.push_back(at[row]);
+    found.measured.push_back(measured[row]);
+    found.index.push_back(static_cast<std::size_t>(after - prediction.at.begin()) - 1);
+  }
+}
+
+void compare(const TestPrediction& prediction, const BandedCurve& curve, Agreement& found) {
+  constexpr std::size_t kLeastForNoise = 20;
+  Values off, off_inside, relative;
+  for (std::size_t i = 0; i < found.at.size(); ++i) {
+    const double predicted = curve.value[found.index[i]];
+    off.push_back(predicted - found.measured[i]);
+    relative.push_back(off.back() / predicted);
+    if (prediction.is_inside[found.index[i]]) off_inside.push_back(off.back());
+    if (std::abs(off.back()) > std::abs(found.worst)) {
+      found.worst = off.back();
+      found.worst_at = found.at[i];
+    }
+  }
+  found.rms = root_mean_square(off);
+  found.rms_relative = found.rms / root_mean_square(found.measured);
+  found.n_inside_window = off_inside.size();
+  found.rms_inside_window = off_inside.empty() ? kUnknown : root_mean_square(off_inside);
+  found.noise_sigma = off.size() < kLeastForNoise
+                          ? kUnknown
+                          : sigma_from_differences(found.is_noise_relative ? relative : off);
+  found.share_inside_band = found.share_inside_band_and_noise = kUnknown;
+  if (curve.low_95.empty()) return;
+  std::size_t n_inside = 0, n_with_noise = 0;
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    const double predicted = curve.value[found.index[i]];
+    const double half = 0.5 * (curve.high_95[found.index[i]] - curve.low_95[found.index[i]]);
+    const double sigma = found.noise_sigma * (found.is_noise_relative ? predicted : 1.0);
+    n_inside += std::abs(off[i]) <= half ? 1 : 0;
+    n_with_noise += std::abs(off[i]) <= std::hypot(half, kNormal95 * sigma) ? 1 : 0;
+  }
+  const auto count = static_cast<double>(off.size());
+  found.share_inside_band = static_cast<double>(n_inside) / count;
+  if (std::isfinite(found.noise_sigma)) {
+    found.share_inside_band_and_noise = static_cast<double>(n_with_noise) / count;
+  }
+}
+
+std::vector<Agreement> agreement_with(const TestPrediction& prediction, const ReadTable& measured) {
+  std::vector<Agreement> all;
+  std::vector<std::string> expected;
+  for (const PredictedCurve& predicted : prediction.curves) {
+    if (predicted.name == "tan_delta") continue;  // follows from the other two
+    expected.push_back(predicted.name);
+    if (!measured.has(predicted.name)) continue;
+    Agreement found;
+    found.name = predicted.name;
+    found.is_noise_relative = prediction.test == PredictedTest::kOscillation;
+    take_rows(prediction, measured.argument(prediction.argument), measured.column(predicted.name),
+              found);
+    if (found.at.empty()) {
+      throw std::runtime_error(measured.table.file +
+                               ": no row lies within the test; set its beginning with --time-zero");
+    }
+    compare(prediction, predicted.curve, found);
+    all.push_back(found);
+  }
+  if (!all.empty()) return all;
+  throw std::runtime_error(measured.table.file + ": nothing to compare with; this test predicts " +
+                           listed(expected) + ", and the table has no such column");
+}
+
+// Arguments of the measured rows at which the prediction is needed.
+Values wanted_arguments(PredictedTest test, const ReadTable& measured) {
+  const bool is_sweep = test == PredictedTest::kOscillation;
+  Values at = measured.argument(is_sweep ? "frequency_Hz" : "time_s");
+  if (is_sweep || test == PredictedTest::kHistory) return at;
+  std::erase_if(at, [](double t_s) { return t_s < 0.0; });
+  return at;
+}
+
+std::vector<std::string> notes_about(const Material& material, const PredictedFile& predicted) {
+  std::vector<std::string> notes;
+  for (const MaterialFlag& flag : material.flags) {
+    if (flag.term == 0) notes.push_back(flag.name + ": " + flag.text);
+  }
+  if (!predicted.has_band) {
+    notes.push_back(!material.uncertainty ? "no band: the material states no covariance"
+                                          : "no band: the covariance of the material does not "
+                                            "apply to E(t), or the Poisson ratio is not constant");
+  }
+  if (!predicted.prediction.is_window_known) {
+    notes.push_back("the material states no window of times, so nothing is marked as outside");
+  }
+  return notes;
+}
+
+}  // namespace
+
+PredictedFile predict_file(const PredictFileRequest& request) {
+  PredictedFile out;
+  out.path = request.material;
+  Material material = read_material(request.material).material;
+  out.name = material.name.empty() ? std::filesystem::path(request.material).stem().string()
+                                   : material.name;
+  if (request.temperature_C) material = material_at_temperature(material, *request.temperature_C);
+  out.has_band = has_band(material);
+  if (material.uncertainty) out.systematic_relative = material.uncertainty->systematic_relative;
+
+  PredictionRequest wanted = request.prediction;
+  std::optional<ReadTable> history, measured;
+  if (!request.history.empty()) history.emplace(ReadTable{read_csv(request.history), &request});
+  if (!request.against.empty()) measured.emplace(ReadTable{read_csv(request.against), &request});
+  wanted.test = request.test ? *request.test
+                : history    ? PredictedTest::kHistory
+                : measured   ? test_of_columns(*measured)
+                             : PredictedTest::kRelaxation;
+  if (wanted.test == PredictedTest::kHistory) {
+    if (!history && !measured) {
+      throw std::invalid_argument(
+          "a history has to be given: a table with time_s and strain or stress_Pa");
+    }
+    const ReadTable& course = history ? *history : *measured;
+    wanted.history = history_from(course);
+    // A table with both columns holds the answer too.
+    if (!measured && course.has("strain") && course.has("stress_Pa")) measured = history;
+  }
+  if (measured) wanted.also_at = wanted_arguments(wanted.test, *measured);
+  out.prediction = predict_test(material, wanted);
+  if (measured) {
+    out.against = measured->table.file;
+    out.agreement = agreement_with(out.prediction, *measured);
+  }
+  out.notes = notes_about(material, out);
+  if (request.temperature_C) {
+    out.notes.push_back("the band leaves out the error of the temperature shift");
+  }
+  return out;
+}
+
+const std::vector<std::string>& names_of_predicted_tests() {
+  static const std::vector<std::string> kNames{"relaxation", "creep",       "recovery",
+                                               "cycles",     "oscillation", "history"};
+  return kNames;
+}
+
+}  // namespace viscard

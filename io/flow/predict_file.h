@@ -1,0 +1,67 @@
+#pragma once
+
+#include "io/tables/column_map.h"
+#include "models/material/prediction.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// What a material file predicts for a test, beside a measured curve if there is one.
+struct PredictFileRequest {
+  std::string material;                 // path of a material file
+  std::optional<PredictedTest> test;    // none: the columns of the measured table decide
+  PredictionRequest prediction;         // its `test`, `history` and `also_at` are filled in
+  std::string history;                  // table with time_s and strain or stress_Pa; may be empty
+  std::string against;                  // table of measured values; may be empty
+  bool is_driven_by_stress = false;     // of a table with strain and stress, which one is the input
+  ColumnMap columns;                    // of both tables
+  double time_zero_s = 0.0;             // time in the tables where t = 0
+  std::optional<double> temperature_C;  // by the material's temperature shift
+};
+
+// Measured values of one predicted curve, and how far the prediction is from them.
+struct Agreement {
+  std::string name;                  // "modulus_Pa"
+  std::vector<double> at, measured;  // the rows that can be compared
+  std::vector<std::size_t> index;    // of each row in the prediction
+  std::size_t n_left_out = 0;        // rows before the test begins
+  std::size_t n_inside_window = 0;
+  double rms = 0.0, rms_relative = 0.0;  // of predicted - measured; relative to the rms measured
+  double rms_inside_window = 0.0;        // NaN if no row is inside
+  double worst = 0.0, worst_at = 0.0;    // predicted - measured, largest magnitude
+  // Share of the rows inside the 95 % band of the curve; NaN without a band.
+  double share_inside_band = 0.0;
+  // The same with the noise of the measurement added in quadrature, where at least 20 rows show it.
+  double share_inside_band_and_noise = 0.0;
+  double noise_sigma = 0.0;        // from differences between neighbours; NaN: not known
+  bool is_noise_relative = false;  // of frequency sweeps, whose values span decades
+};
+
+struct PredictedFile {
+  std::string path, name;  // of the material
+  double systematic_relative = 0.0;
+  bool has_band = false;
+  TestPrediction prediction;
+  std::string against;               // table that was compared; empty: none
+  std::vector<Agreement> agreement;  // one for each predicted quantity that was measured
+  std::vector<std::string> notes;    // doubts about the material and its band, sentences
+};
+
+// Throws std::runtime_error naming the file, std::invalid_argument as predict_test() does.
+PredictedFile predict_file(const PredictFileRequest& request);
+
+// "relaxation", "creep", "recovery", "cycles", "oscillation", "history", in this order.
+const std::vector<std::string>& names_of_predicted_tests();
+
+// The object of `viscard predict --json`. Numbers that are not finite become null.
+nlohmann::ordered_json json_from_prediction(const PredictedFile& predicted);
+// A table that viscard fit reads again: argument, input, value, band, and whether the row is inside
+// the window of the fit. command: recorded in the first line.
+std::string csv_from_prediction(const PredictedFile& predicted, const std::string& command);
+
+}  // namespace viscard

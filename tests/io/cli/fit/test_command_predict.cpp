@@ -1,0 +1,234 @@
+#include "fit/fit_relaxation.h"
+#include "io/basics/atomic_file.h"
+#include "io/flow/predict_file.h"
+#include "io/materials/material_file.h"
+#include "io/tables/csv_table.h"
+#include "models/material/retardation_spectrum.h"
+#include "tests/io/cli/fit/table_folder.h"
+#include "tests/support/run_command.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <random>
+#include <sstream>
+
+using namespace viscard;
+using namespace viscard::test;
+using Catch::Contains;
+
+namespace {
+
+const std::string kData = VISCARD_SOURCE_DIR "/data/";
+
+// The material fitted to the example of viscard fit.
+std::string fitted_example(const TableFolder& folder) {
+  const std::string out = folder.file("material.json");
+  const auto ran = run_command({"fit", kData + "demo/example_relaxation.csv", "--out", out});
+  REQUIRE(ran.status == kDone);
+  return out;
+}
+
+nlohmann::json predicted(std::vector<std::string> words) {
+  words.insert(words.begin(), "predict");
+  words.emplace_back("--json");
+  const CommandOutcome ran = run_command(words);
+  CAPTURE(ran.err);
+  REQUIRE(ran.status == kDone);
+  return nlohmann::json::parse(ran.out);
+}
+
+}  // namespace
+
+TEST_CASE("the example of predict works as printed and finds the noise of the example", "[cli]") {
+  const auto json = predicted({kData + "materials/pdms_1to10_seed.json", "--against",
+                               kData + "demo/example_relaxation.csv"});
+  CHECK(json["test"] == "relaxation");
+  CHECK(json["has_band"] == false);
+  const auto& found = json["against"]["quantities"][0];
+  CHECK(found["quantity"] == "modulus_Pa");
+  CHECK(found["n"] == 241);
+  // The seed is the truth of that file, whose noise is 0.02 % of 1.88 MPa.
+  CHECK(found["rms"].get<double>() == Approx(376.0).epsilon(0.1));
+  CHECK(found["noise_sigma"].get<double>() == Approx(376.0).epsilon(0.25));
+  CHECK(found["share_inside_band"].is_null());
+  CHECK(json["notes"].dump().find("no band") != std::string::npos);
+  const auto help = run_command({"predict", "--help"});
+  CHECK_THAT(help.out, Contains("viscard predict data/materials/pdms_1to10_seed.json --against "
+                                "data/demo/example_relaxation.csv"));
+}
+
+TEST_CASE("a fitted material predicts its own data to the noise, with a band", "[cli]") {
+  const TableFolder folder;
+  const std::string material = fitted_example(folder);
+  const auto json = predicted({material, "--against", kData + "demo/example_relaxation.csv",
+                               "--svg", folder.file("E.svg")});
+  const auto& found = json["against"]["quantities"][0];
+  CHECK(found["share_inside_band_and_noise"].get<double>() == Approx(0.95).margin(0.04));
+  CHECK(found["share_inside_band"].get<double>() < 0.6);
+  CHECK(found["rms_relative"].get<double>() < 3e-4);
+  CHECK(std::abs(found["worst"].get<double>()) >= found["rms"].get<double>());
+  CHECK(json["curve"]["modulus_Pa_low_95"].size() == json["curve"]["time_s"].size());
+  CHECK_THAT(read_file(folder.file("E.svg")), Contains("95 % band") && Contains("measured"));
+}
+
+TEST_CASE("a predicted creep test is read by fit again and gives the same material", "[cli]") {
+  const TableFolder folder;
+  const std::string material = fitted_example(folder);
+  const auto ran = run_command({"predict", material, "--test", "creep", "--csv",
+                                folder.file("creep.csv"), "--from", "0.01 s"});
+  REQUIRE(ran.status == kDone);
+  CHECK_THAT(ran.out, Contains("window of the fit") && Contains("creep"));
+  const auto fit = run_command({"fit", folder.file("creep.csv"), "--json"});
+  CAPTURE(fit.err);
+  const auto json = nlohmann::json::parse(fit.out);
+  const Material truth = read_material(material).material;
+  CHECK(json["kind"] == "creep");
+  CHECK(json["E0_Pa"].get<double>() == Approx(truth.E0_Pa).epsilon(1e-4));
+}
+
+TEST_CASE("points beyond the window of the fit are marked", "[cli]") {
+  const TableFolder folder;
+  const std::string material = kData + "materials/pdms_1to10_seed.json";  // 0.1 s to 10 s
+  const auto json = predicted({material, "--from", "0.01 s", "--to", "100 s", "--csv",
+                               folder.file("E.csv"), "--svg", folder.file("E.svg")});
+  const auto& curve = json["curve"];
+  std::size_t n_outside = 0;
+  for (std::size_t i = 0; i < curve["time_s"].size(); ++i) {
+    const double t_s = curve["time_s"][i].get<double>();
+    CHECK(curve["inside_window"][i].get<bool>() == (t_s >= 0.0999999 && t_s <= 10.00001));
+    n_outside += curve["inside_window"][i].get<bool>() ? 0 : 1;
+  }
+  CHECK(json["n_outside_window"] == n_outside);
+  CHECK(n_outside > 80);
+  const CsvTable table = read_csv(folder.file("E.csv"));
+  CHECK(table.columns.back().header == "inside_window");
+  CHECK(table.columns.back().values.front() == 0.0);
+  CHECK_THAT(read_file(folder.file("E.svg")), Contains("outside the window of the fit"));
+  const auto dma = predicted({material, "--test", "oscillation", "--from", "1 mHz", "--to", "1"});
+  CHECK(dma["curve"]["inside_window"].front() == false);  // 159 s
+  CHECK(dma["curve"]["inside_window"].back() == true);    // 0.16 s
+}
+
+TEST_CASE("a history from a table is driven by strain or by stress, and compared", "[cli]") {
+  const TableFolder folder;
+  const std::string material = kData + "materials/pdms_1to10_seed.json";
+  const PronySeries series = young_series(read_material(material).material);
+  LoadHistory course{false, {}, {}};
+  for (int i = 0; i <= 300; ++i) {
+    course.time_s.push_back(0.05 * i);
+    course.value.push_back(0.01 * std::sin(0.05 * i));
+  }
+  const std::vector<double> stress_Pa = response(series, course);
+  std::ostringstream text;
+  text.precision(17);
+  text << "t (s),strain (%),stress (kPa)\n";
+  for (std::size_t i = 0; i < course.time_s.size(); ++i) {
+    text << course.time_s[i] << "," << 100.0 * course.value[i] << ","
+         << 1e-3 * (stress_Pa[i] + (i == 200 ? 50.0 : 0.0)) << "\n";
+  }
+  const std::string table = folder.write("history.csv", text.str());
+  const auto by_strain = predicted({material, "--history", table});
+  CHECK(by_strain["test"] == "history");
+  const auto& found = by_strain["against"]["quantities"][0];
+  CHECK(found["quantity"] == "stress_Pa");
+  CHECK(found["n"] == 301);
+  CHECK(found["worst"].get<double>() == Approx(-50.0).epsilon(1e-6));
+  CHECK(found["worst_at"].get<double>() == Approx(10.0));
+  CHECK(found["rms"].get<double>() == Approx(50.0 / std::sqrt(301.0)).epsilon(1e-6));
+  CHECK(predicted({material, "--against", table})["against"]["quantities"][0]["n"] == 301);
+  // Driven by the stress, the strain comes back; stress between rows is not exactly linear.
+  const auto by_stress = predicted({material, "--history", table, "--driven-by", "stress"});
+  const auto& strain = by_stress["against"]["quantities"][0];
+  CHECK(strain["quantity"] == "strain");
+  CHECK(strain["rms_inside_window"].get<double>() < 1e-5);
+  CHECK(by_stress["curve"]["strain"][60].get<double>() == Approx(course.value[60]).epsilon(1e-3));
+}
+
+TEST_CASE("measured times between the corners of a test are predicted exactly", "[cli]") {
+  const TableFolder folder;
+  const std::string material = kData + "materials/pdms_1to10_seed.json";
+  const PronySeries series = young_series(read_material(material).material);
+  std::ostringstream text;
+  text.precision(17);
+  text << "time_s,stress_Pa\n-1,0\n";
+  const RetardationSpectrum spectrum = retardation_from_relaxation(series);
+  for (const double t_s : {0.37, 1.91, 7.3}) {
+    text << t_s << "," << 0.02 * relaxation_modulus_Pa(series, t_s) << "\n";
+  }
+  const std::string table = folder.write("hold.csv", text.str());
+  const auto json =
+      predicted({material, "--test", "relaxation", "--strain", "0.02", "--against", table});
+  const auto& found = json["against"]["quantities"][0];
+  CHECK(found["n"] == 3);
+  CHECK(found["rms_relative"].get<double>() < 1e-12);
+}
+
+TEST_CASE("contradictory words of predict are refused with status 2", "[cli]") {
+  const std::string material = kData + "materials/pdms_1to10_seed.json";
+  const auto refused = [&](std::vector<std::string> words, const std::string& reason) {
+    words.insert(words.begin(), {"predict", material});
+    const CommandOutcome ran = run_command(words);
+    CAPTURE(ran.err);
+    CHECK(ran.status == kBadWords);
+    CHECK_THAT(ran.err, Contains(reason));
+  };
+  refused({"--test", "creeep"}, "did you mean 'creep'?");
+  refused({"--test", "creep", "--strain", "0.1"}, "give --stress");
+  refused({"--test", "relaxation", "--stress", "1 kPa"}, "--strain");
+  refused({"--strain", "0.1", "--stress", "1 kPa"}, "exclude each other");
+  refused({"--hold", "-1 s"}, "--hold must be positive");
+  refused({"--test", "history"}, "--history TABLE");
+  refused({"--test", "cycles", "--cycles", "0"}, "between 1 and 10000");
+  refused({"--driven-by", "force"}, "strain or stress");
+}
+
+TEST_CASE("a table that does not fit the test is refused with the reason", "[cli]") {
+  const TableFolder folder;
+  const std::string material = kData + "materials/pdms_1to10_seed.json";
+  const std::string table = folder.write("x.csv", "time_s,temperature_C\n1,2\n2,3\n");
+  const auto refused = [&](std::vector<std::string> words, const std::string& reason) {
+    words.insert(words.begin(), {"predict", material});
+    const CommandOutcome ran = run_command(words);
+    CAPTURE(ran.err);
+    CHECK(ran.status == kFailed);
+    CHECK(ran.out.empty());
+    CHECK_THAT(ran.err, Contains(reason));
+  };
+  refused({"--against", table}, "do not say which test");
+  refused({"--test", "creep", "--against", table}, "compliance_1_Pa");
+  refused({"--history", table}, "strain or stress_Pa");
+  refused({"--temperature", "40 degC"}, "no temperature shift");
+  const std::string back = folder.write("y.csv", "time_s,strain\n1,0.1\n0.5,0.2\n");
+  refused({"--history", back}, "backwards");
+}
+
+TEST_CASE("bands of predicted creep cover the truth", "[cli]") {
+  // Two terms, noise 0.1 % of E0, 30 records of 400 samples; creep between 0.1 s and 100 s.
+  const PronySeries truth{1.0e6, {{0.3e6, 0.5}, {0.2e6, 8.0}}};
+  const RetardationSpectrum spectrum = retardation_from_relaxation(truth);
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal(0.0, 1500.0);
+  int n_inside = 0, n_all = 0;
+  for (int record = 0; record < 30; ++record) {
+    RelaxationData data;
+    for (int i = 0; i < 400; ++i) {
+      data.time_s.push_back(0.05 * std::pow(100.0 / 0.05, i / 399.0));
+      data.value.push_back(relaxation_modulus_Pa(truth, data.time_s.back()) + normal(random));
+    }
+    Material material = material_from_fit(fit_relaxation(data, {}), 0.495, 0.0);
+    material.valid = {0.05, 100.0, 0.0};
+    PredictionRequest request{.test = PredictedTest::kCreep, .from = 0.1, .to = 100.0, .points = 7};
+    const TestPrediction found = predict_test(material, request);
+    for (std::size_t i = 0; i < found.at.size(); ++i) {
+      const double exact = creep_compliance_1_Pa(spectrum, found.at[i]);
+      const BandedCurve& curve = found.curves[0].curve;
+      n_inside += curve.low_95[i] <= exact && exact <= curve.high_95[i] ? 1 : 0;
+      ++n_all;
+    }
+  }
+  CAPTURE(n_inside, n_all);
+  // 95 % of 210 correlated values; 88 % is three standard errors of about 60 independent ones less.
+  CHECK(n_inside >= 0.88 * n_all);
+}
