@@ -1,16 +1,24 @@
 #include "fit/fit_dma.h"
 
 #include "fit/assembly/assemble_result.h"
+#include "fit/assembly/kramers_kronig.h"
+#include "fit/assembly/solid_or_liquid.h"
 #include "fit/curves/dma_model.h"
 #include "fit/intervals/flags.h"
 #include "fit/samples/clean_data.h"
-#include "fit/search/nnls.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <span>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace viscard {
 
@@ -18,36 +26,108 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Root mean square relative misfit of one half of the rows (E' or E'') for the best non-negative
-// spectrum on a dense grid of times. No Prony series can have a smaller one.
-double misfit_alone(const DmaModel& model, Index begin, Index count) {
-  const double decades = (model.ln_tau_max() - model.ln_tau_min()) / std::log(10.0);
-  const Index n = std::max<Index>(4, static_cast<Index>(6.0 * decades));
-  const Eigen::VectorXd grid =
-      Eigen::VectorXd::LinSpaced(n, model.ln_tau_min(), model.ln_tau_max());
-  const Eigen::MatrixXd columns =
-      model.columns(grid, Eigen::VectorXd(0), false).values.middleRows(begin, count);
-  const Eigen::VectorXd data = model.data().segment(begin, count);
-  const Eigen::VectorXd x = nonnegative_from_normal_equations(
-      columns.transpose() * columns, columns.transpose() * data, free_columns(model, n));
-  return (columns * x - data).norm() / std::sqrt(static_cast<double>(count));
-}
-
-// Storage and loss modulus of a linear material determine each other (Kramers-Kronig). Adds a flag
-// if the data contradict that.
+// Adds a flag if storage and loss modulus cannot belong to one linear material.
 void flag_contradiction(const DmaModel& model, FitResult& result) {
-  const Index count = model.n_rows() / 2;
-  const double storage = misfit_alone(model, 0, count);
-  const double loss = misfit_alone(model, count, count);
-  constexpr double kMuch = 3.0, kVisible = 0.01;
-  if (result.noise.sigma < kVisible || result.noise.sigma < kMuch * std::max(storage, loss)) return;
-  const auto percent = [](double share) { return text_of(100.0 * share, 2) + " %"; };
+  const std::optional<KramersKronigBreak> found = kramers_kronig_break(model);
+  if (!found) return;
+  const auto percent = [](double share) { return text_of(100.0 * std::abs(share), 2); };
+  const bool is_above = found->excess > 0.0;
+  const Interval& range = found->excess_95;
+  const double low = is_above ? range.low : range.high, high = is_above ? range.high : range.low;
   result.flags.push_back(
       {"storage-loss-contradict", 0,
-       "storage alone can be fitted to " + percent(storage) + ", loss alone to " + percent(loss) +
-           ", but both together only to " + percent(result.noise.sigma) +
-           ": they do not belong to one linear material (Kramers-Kronig). Check the shift factors "
+       std::string("the ") + (found->is_loss ? "loss" : "storage") + " modulus from " +
+           text_of(found->from_Hz, 3) + " to " + text_of(found->to_Hz, 3) + " Hz is " +
+           percent(found->excess) + " % (" + percent(low) + " to " + percent(high) + ") " +
+           (is_above ? "above" : "below") + " what the " + (found->is_loss ? "storage" : "loss") +
+           " modulus allows with any spectrum, also one that reaches beyond these frequencies "
+           "(Kramers-Kronig): they do not belong to one linear material. Check the shift factors "
            "and the instrument's own loss"});
+}
+
+struct FittedModel {
+  std::unique_ptr<DmaModel> model;
+  SpectralFit fit;
+
+  double bic() const {
+    const auto rows = static_cast<double>(model->n_rows());
+    const auto parameters = static_cast<double>(model->n_common() + 2 * fit.state.n_terms());
+    return rows * std::log(std::max(fit.rss, 1e-300) / rows) + parameters * std::log(rows);
+  }
+};
+
+// The fit with a dashpot for what relaxes far faster than the measured frequencies, if terms within
+// their range leave more than twice the sum of squares and BIC prefers the dashpot clearly.
+void try_dashpot(const FitOptions& options, const std::vector<int>& blocks,
+                 const std::function<std::unique_ptr<DmaModel>()>& model_with,
+                 FittedModel& fitted) {
+  // The profile of E_inf needs it as the first common column; constraints know no dashpot.
+  if (!options.constraints.empty() || options.allow_negative) return;
+  if (options.is_liquid && options.with_profiles) return;
+  FittedModel other{model_with(), {}};
+  other.fit = fit_spectrum(*other.model, blocks, options);
+  constexpr double kVeryStrong = 10.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
+  constexpr double kMuch = 2.0, kRounding = 1e-6;  // relative, of a value
+  const double least = std::pow(kRounding, 2) * static_cast<double>(fitted.model->n_rows());
+  const bool is_used = other.fit.state.coefficients[other.model->dashpot()] > 0.0;
+  if (is_used && fitted.fit.rss > std::max(kMuch * other.fit.rss, least) &&
+      other.bic() < fitted.bic() - kVeryStrong) {
+    fitted = std::move(other);
+  }
+}
+
+void report_dashpot(const FittedModel& fitted, FitResult& result) {
+  const Index at = fitted.model->dashpot();
+  if (at < 0) return;
+  result.dashpot_Pa_s = fitted.fit.state.coefficients[at];
+  result.dashpot_se_Pa_s = std::sqrt(std::max(0.0, fitted.fit.covariance(at, at)));
+  result.flags.push_back(
+      {"fast-dashpot", 0,
+       "part of the loss modulus rises in proportion to the frequency, as that of a dashpot of " +
+           text_of(*result.dashpot_Pa_s, 4) +
+           " Pa s (a solvent, or relaxation far faster than the measured frequencies). The dashpot "
+           "was fitted beside the terms; E0, the terms and the material do not contain it"});
+}
+
+void add_curves(const DmaModel& model, const SpectralState& state, FitResult& result) {
+  const Eigen::VectorXd fitted = model.fitted(state).cwiseProduct(model.row_sigma());
+  const Eigen::VectorXd measured = model.data().cwiseProduct(model.row_sigma());
+  const Eigen::VectorXd sigma = result.noise.sigma * model.row_sigma();
+  const Index count = model.n_frequencies();
+  for (Index i = 0; i < count; ++i) {
+    const Index k = count + i;
+    result.curves.add(model.frequency_Hz(i), measured[i], fitted[i], sigma[i]);
+    result.curves.add_loss(measured[k], fitted[k], sigma[k]);
+  }
+  result.curves.unit = "Pa";
+}
+
+FitResult fit_moduli(std::span<const double> frequency_Hz, std::span<const double> storage_Pa,
+                     std::span<const double> loss_Pa, const FitOptions& options) {
+  // A block is a run of neighbouring frequencies; E' and E'' of one frequency share a block.
+  std::vector<int> blocks = log_time_blocks(frequency_Hz, 0.0, 1);
+  blocks.insert(blocks.end(), blocks.begin(), blocks.end());
+  const auto model_of = [&](bool with_dashpot) {
+    return std::make_unique<DmaModel>(frequency_Hz, storage_Pa, loss_Pa, options, with_dashpot);
+  };
+  FittedModel fitted{model_of(/*with_dashpot=*/false), {}};
+  fitted.fit = fit_spectrum(*fitted.model, blocks, options);
+  try_dashpot(
+      options, blocks, [&] { return model_of(/*with_dashpot=*/true); }, fitted);
+  const DmaModel& model = *fitted.model;
+  const SpectralFit& fit = fitted.fit;
+  FitResult result;
+  result.kind = FitKind::kDma;
+  fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
+  result.n_samples = frequency_Hz.size();
+  result.fit_from_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.back());
+  result.fit_to_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.front());
+  add_identifiability_flags(model, fit.state, fit.covariance,
+                            {0.0, 0.0, result.fit_from_s, 3.0 * result.fit_to_s}, result);
+  report_dashpot(fitted, result);
+  flag_contradiction(model, result);
+  if (options.with_curves) add_curves(model, fit.state, result);
+  return result;
 }
 
 }  // namespace
@@ -68,30 +148,10 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
                              " Hz: this is not a measurement. Remove the row");
   }
   check_sign(storage_Pa, "a storage modulus", "storage_modulus_Pa");
-  const DmaModel model(frequency_Hz, storage_Pa, loss_Pa, options);
-  // A block is a run of neighbouring frequencies; E' and E'' of one frequency share a block.
-  std::vector<int> blocks = log_time_blocks(frequency_Hz, 0.0, 1);
-  blocks.insert(blocks.end(), blocks.begin(), blocks.end());
-  const SpectralFit fit = fit_spectrum(model, blocks, options);
-  FitResult result;
-  result.kind = FitKind::kDma;
-  fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
-  result.n_samples = frequency_Hz.size();
+  FitResult result = fit_solid_or_liquid(options, [&](const FitOptions& as) {
+    return fit_moduli(frequency_Hz, storage_Pa, loss_Pa, as);
+  });
   result.n_left_out = clean.n_left_out();
-  result.fit_from_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.back());
-  result.fit_to_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.front());
-  add_identifiability_flags(model, fit.state, fit.covariance,
-                            {0.0, 0.0, result.fit_from_s, 3.0 * result.fit_to_s}, result);
-  flag_contradiction(model, result);
-  if (options.with_curves) {
-    const Eigen::VectorXd fitted = model.fitted(fit.state);
-    for (std::size_t i = 0; i < frequency_Hz.size(); ++i) {
-      const double scale_Pa = model.row_sigma()[static_cast<Index>(i)];
-      result.curves.add(frequency_Hz[i], storage_Pa[i], fitted[static_cast<Index>(i)] * scale_Pa,
-                        result.noise.sigma * scale_Pa);
-    }
-    result.curves.unit = "Pa";
-  }
   return result;
 }
 

@@ -3,156 +3,20 @@
 #include "fit/assembly/assemble_result.h"
 #include "fit/curves/master_model.h"
 #include "fit/intervals/flags.h"
-#include "fit/samples/clean_data.h"
+#include "fit/master_segments.h"
+#include "fit/master_shifts.h"
+#include "fit/master_start.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
 namespace viscard {
 namespace {
 
 using Index = Eigen::Index;
-constexpr double kSameTemperature_K = 1.0;
-
-std::string celsius(double temperature_C) {
-  return text_of(temperature_C, 4) + " C";
-}
-
-// Rows sorted by temperature and split where it rises by more than the width of a segment.
-std::vector<std::vector<std::size_t>> rows_by_temperature(
-    const std::vector<double>& temperature_C) {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < temperature_C.size(); ++i) {
-    if (std::isfinite(temperature_C[i])) order.push_back(i);
-  }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return temperature_C[a] < temperature_C[b];
-  });
-  std::vector<std::vector<std::size_t>> groups;
-  for (const std::size_t row : order) {
-    const bool is_new = groups.empty() || temperature_C[row] - temperature_C[groups.back().back()] >
-                                              kSameTemperature_K;
-    if (is_new) groups.emplace_back();
-    groups.back().push_back(row);
-  }
-  return groups;
-}
-
-std::vector<MasterSegment> segments_of(const MasterData& data, std::size_t& n_left_out) {
-  const std::size_t size = data.argument.size();
-  const bool is_dma = !data.loss_Pa.empty();
-  if (data.temperature_C.size() != size || data.modulus_Pa.size() != size ||
-      (is_dma && data.loss_Pa.size() != size)) {
-    throw std::invalid_argument("the columns of a master curve differ in length");
-  }
-  std::vector<MasterSegment> segments;
-  n_left_out = size;
-  for (std::vector<std::size_t>& rows : rows_by_temperature(data.temperature_C)) {
-    std::erase_if(rows, [&](std::size_t i) {
-      return !(data.argument[i] > 0.0) || !std::isfinite(data.modulus_Pa[i]) ||
-             (is_dma && !std::isfinite(data.loss_Pa[i]));
-    });
-    if (rows.empty()) continue;
-    std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
-      return data.argument[a] < data.argument[b];
-    });
-    MasterSegment segment;
-    for (const std::size_t i : rows) {
-      segment.temperature_C += data.temperature_C[i] / static_cast<double>(rows.size());
-      segment.argument.push_back(data.argument[i]);
-      segment.value.push_back(data.modulus_Pa[i]);
-      if (is_dma) segment.loss.push_back(data.loss_Pa[i]);
-    }
-    n_left_out -= rows.size();
-    constexpr std::size_t kLeastRows = 3;
-    if (rows.size() < kLeastRows) {
-      throw std::runtime_error("only " + counted(rows.size(), "row") + " at " +
-                               celsius(segment.temperature_C) + "; a segment needs at least three");
-    }
-    segments.push_back(std::move(segment));
-  }
-  if (segments.size() < 2) {
-    throw std::runtime_error(
-        "a master curve needs segments at two or more temperatures (1 K apart)");
-  }
-  return segments;
-}
-
-// The weights of rows are relative to their values, so a zero would outweigh all other rows.
-void check_moduli(const MasterSegment& segment) {
-  const bool is_dma = !segment.loss.empty();
-  for (std::size_t i = 0; i < segment.value.size(); ++i) {
-    if (segment.value[i] != 0.0 || (is_dma && segment.loss[i] != 0.0)) continue;
-    throw std::runtime_error("the modulus at " + celsius(segment.temperature_C) + " and " +
-                             text_of(segment.argument[i]) + (is_dma ? " Hz" : " s") +
-                             " is zero: this is not a measurement. Remove the row");
-  }
-  check_sign(segment.value, is_dma ? "a storage modulus" : "a relaxation modulus",
-             is_dma ? "storage_modulus_Pa" : "modulus_Pa");
-}
-
-// Difference of ln(argument) between `to` and `from` at equal values: the average over crossings,
-// with more weight for steep ones. Weight 0: the values do not overlap.
-struct Offset {
-  double sum = 0.0, weight = 0.0;
-};
-void add_crossings(const MasterSegment& from, const MasterSegment& to, double sign,
-                   Offset& offset) {
-  for (std::size_t j = 0; j < to.value.size(); ++j) {
-    for (std::size_t i = 1; i < from.value.size(); ++i) {
-      const double before = from.value[i - 1] - to.value[j];
-      const double after = from.value[i] - to.value[j];
-      if (before * after > 0.0 || before == after) continue;
-      // Noise around zero has no logarithm to compare.
-      if (!(from.value[i - 1] > 0.0 && from.value[i] > 0.0)) continue;
-      const double ln_before = std::log(from.argument[i - 1]);
-      const double step = std::log(from.argument[i]) - ln_before;
-      if (!(step > 0.0)) continue;
-      const double at = ln_before + step * before / (before - after);
-      const double steepness = std::log(from.value[i] / from.value[i - 1]) / step;
-      offset.sum += sign * (std::log(to.argument[j]) - at) * steepness * steepness;
-      offset.weight += steepness * steepness;
-    }
-  }
-}
-
-// ln a of every segment from its neighbours; the reference has 0.
-std::vector<double> start_shifts(const std::vector<MasterSegment>& segments,
-                                 std::size_t reference) {
-  std::vector<double> ln_a(segments.size(), 0.0);
-  for (std::size_t k = 1; k < segments.size(); ++k) {
-    Offset offset;
-    add_crossings(segments[k - 1], segments[k], 1.0, offset);
-    add_crossings(segments[k], segments[k - 1], -1.0, offset);
-    if (!(offset.weight > 0.0)) {
-      throw std::runtime_error("the moduli at " + celsius(segments[k - 1].temperature_C) + " and " +
-                               celsius(segments[k].temperature_C) +
-                               " have no value in common, so they cannot be shifted onto each "
-                               "other; measure a temperature in between, or longer records");
-    }
-    const double later = offset.sum / offset.weight;  // of segment k, at the same modulus
-    ln_a[k] = ln_a[k - 1] + (segments[k].loss.empty() ? later : -later);
-  }
-  const double zero = ln_a[reference];
-  for (double& one : ln_a) one -= zero;
-  return ln_a;
-}
-
-std::size_t reference_of(const std::vector<MasterSegment>& segments,
-                         const std::optional<double>& T_ref_C) {
-  if (!T_ref_C) return segments.size() / 2;
-  std::string there;
-  for (std::size_t k = 0; k < segments.size(); ++k) {
-    if (std::abs(segments[k].temperature_C - *T_ref_C) <= kSameTemperature_K) return k;
-    there += (k > 0 ? ", " : "") + celsius(segments[k].temperature_C);
-  }
-  throw std::runtime_error("no segment was measured at " + celsius(*T_ref_C) + "; there are " +
-                           there);
-}
 
 // Rows of neighbouring arguments at one temperature form a block and are left out together.
 std::vector<int> blocks_of(const std::vector<MasterSegment>& segments) {
@@ -184,74 +48,151 @@ void fill_window(const std::vector<MasterSegment>& segments,
   }
 }
 
-void fill_curves(const MasterModel& model, const std::vector<MasterSegment>& segments,
-                 const std::vector<ShiftFactor>& factors, const SpectralFit& fit,
-                 FitResult& result) {
-  const Eigen::VectorXd fitted = model.fitted(fit.state);
-  const Eigen::VectorXd sigma = model.row_sigma();
-  struct Point {
-    double argument, measured, fitted, sigma;
-  };
-  std::vector<Point> points;
-  Index row = 0;
+// One row of all segments as it lies on the master curve.
+struct ShiftedRow {
+  double argument = 0.0, measured = 0.0, fitted = 0.0, sigma = 0.0;
+  double loss_measured = 0.0, loss_fitted = 0.0, loss_sigma = 0.0;
+};
+
+void fill_curves(const std::vector<MasterSegment>& segments, const ShiftFits& shifts,
+                 const std::vector<ShiftFactor>& factors, FitResult& result) {
+  const Eigen::VectorXd sigma = shifts.model->row_sigma();
+  const Eigen::VectorXd fitted = shifts.model->fitted(shifts.fit.state).cwiseProduct(sigma);
+  std::vector<ShiftedRow> rows;
+  Index at = 0;
   for (std::size_t k = 0; k < segments.size(); ++k) {
-    const bool is_dma = !segments[k].loss.empty();
+    const MasterSegment& segment = segments[k];
+    const bool is_dma = !segment.loss.empty();
     const double sign = is_dma ? 1.0 : -1.0;  // reduced frequency f a_T, reduced time t/a_T
-    for (std::size_t i = 0; i < segments[k].value.size(); ++i, row += is_dma ? 2 : 1) {
-      points.push_back({segments[k].argument[i] * std::exp(sign * factors[k].ln_a),
-                        segments[k].value[i], fitted[row] * sigma[row],
-                        result.noise.sigma * sigma[row]});
+    const double down = std::exp(-factors[k].ln_b);
+    const double error = down * result.noise.sigma;
+    for (std::size_t i = 0; i < segment.value.size(); ++i, at += is_dma ? 2 : 1) {
+      ShiftedRow row{segment.argument[i] * std::exp(sign * factors[k].ln_a),
+                     down * segment.value[i], down * fitted[at], error * sigma[at]};
+      if (is_dma) {
+        row.loss_measured = down * segment.loss[i];
+        row.loss_fitted = down * fitted[at + 1];
+        row.loss_sigma = error * sigma[at + 1];
+      }
+      rows.push_back(row);
     }
   }
-  std::sort(points.begin(), points.end(),
-            [](const Point& a, const Point& b) { return a.argument < b.argument; });
-  for (const Point& point : points) {
-    result.curves.add(point.argument, point.measured, point.fitted, point.sigma);
+  std::sort(rows.begin(), rows.end(),
+            [](const ShiftedRow& a, const ShiftedRow& b) { return a.argument < b.argument; });
+  for (const ShiftedRow& row : rows) {
+    result.curves.add(row.argument, row.measured, row.fitted, row.sigma);
+    if (result.kind == FitKind::kDma) {
+      result.curves.add_loss(row.loss_measured, row.loss_fitted, row.loss_sigma);
+    }
   }
   result.curves.unit = "Pa";
 }
 
-}  // namespace
-
-bool has_several_temperatures(const std::vector<double>& temperature_C) {
-  return rows_by_temperature(temperature_C).size() > 1;
+const char* name_of_form(ShiftFormKind form) {
+  constexpr const char* kNames[] = {"fixed", "free", "arrhenius", "wlf", "smooth"};
+  return kNames[static_cast<std::size_t>(form)];
 }
 
+void flag_left_out(const MasterSegments& all, FitResult& result) {
+  if (all.left_out.empty()) return;
+  std::string names;
+  for (const std::string& one : all.left_out) names += (names.empty() ? "" : ", ") + one;
+  result.flags.push_back({"isotherms-left-out", 0,
+                          counted(all.left_out.size(), "isotherm") +
+                              (all.left_out.size() == 1 ? " was" : " were") +
+                              " left out of the master curve: " + names});
+}
+
+// Flags free shifts that no smooth curve describes, or that differ visibly from the smooth ones.
+void flag_shifts(const ShiftFits& shifts, MasterCurve& curve) {
+  const auto percent = [](double share) { return text_of(100.0 * share, 2) + " %"; };
+  const auto log10_a = [](double ln_a) { return text_of(ln_a / std::log(10.0), 4); };
+  if (shifts.form == ShiftFormKind::kFree && curve.factors.size() > 2) {
+    curve.fit.flags.push_back(
+        {"shifts-not-smooth", 0,
+         "no smooth curve of the shift factors over temperature describes the data as well as "
+         "free factors do (residual " +
+             percent(shifts.smooth_rms) + " instead of " + percent(shifts.free_rms) +
+             "), so the free ones were taken. Check the temperatures and the moduli of single "
+             "isotherms"});
+    return;
+  }
+  constexpr double kVisible = 0.1 * std::numbers::ln10, kStandardErrors = 3.0;
+  std::string where;
+  std::size_t worst = 0;
+  double most = 0.0;
+  for (std::size_t k = 0; k < curve.factors.size(); ++k) {
+    const ShiftFactor &taken = curve.factors[k], &free = curve.free_factors[k];
+    const double apart = std::abs(taken.ln_a - free.ln_a);
+    if (apart < kVisible || apart < kStandardErrors * free.ln_a_se) continue;
+    where += (where.empty() ? "" : ", ") + celsius(taken.temperature_C);
+    if (apart <= most) continue;
+    most = apart;
+    worst = k;
+  }
+  if (where.empty()) return;
+  curve.fit.flags.push_back({"shifts-differ", 0,
+                             "free shift factors differ from the smooth ones at " + where +
+                                 ", most at " + celsius(curve.factors[worst].temperature_C) +
+                                 " (log10 a_T " + log10_a(curve.free_factors[worst].ln_a) +
+                                 " free, " + log10_a(curve.factors[worst].ln_a) +
+                                 " smooth); the smooth ones describe the data as "
+                                 "well (residual " +
+                                 percent(shifts.taken_rms) + ", free " + percent(shifts.free_rms) +
+                                 ") and were taken"});
+}
+
+void flag_vertical(MasterCurve& curve) {
+  if (!curve.has_vertical_shift) return;
+  const auto by_size = [](const ShiftFactor& a, const ShiftFactor& b) {
+    return std::abs(a.ln_b) < std::abs(b.ln_b);
+  };
+  const ShiftFactor& most = *std::max_element(curve.factors.begin(), curve.factors.end(), by_size);
+  curve.fit.flags.push_back(
+      {"vertical-shift", 0,
+       "the moduli of the isotherms needed vertical shifts too, most at " +
+           celsius(most.temperature_C) + " (a factor of " + text_of(std::exp(most.ln_b), 4) +
+           "). The material holds at the reference temperature; at others its moduli change by "
+           "these factors, which cards do not contain"});
+}
+
+}  // namespace
+
 MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) {
-  std::size_t n_left_out = 0;
-  const std::vector<MasterSegment> segments = segments_of(data, n_left_out);
-  for (const MasterSegment& segment : segments) check_moduli(segment);
-  const std::size_t reference = reference_of(segments, data.T_ref_C);
-  const MasterModel model(segments, reference, start_shifts(segments, reference), options);
-  const SpectralFit fit = fit_spectrum(model, blocks_of(segments), options);
+  MasterSegments all = segments_of(data);
+  const MasterStart start = master_start(all, data.T_ref_C, options);
+  const ShiftFits shifts = fit_shifts(all.segments, start, blocks_of(all.segments), options);
+  const SpectralFit& fit = shifts.fit;
 
   MasterCurve curve;
-  curve.T_ref_C = segments[reference].temperature_C;
-  const Index first = model.n_common() + 2 * fit.state.n_terms();
-  const Index n_shifts = model.n_nuisances();
-  const Eigen::MatrixXd covariance = fit.covariance.block(first, first, n_shifts, n_shifts);
-  std::vector<ShiftFactor> others;
-  for (std::size_t k = 0; k < segments.size(); ++k) {
-    ShiftFactor factor{segments[k].temperature_C, 0.0, 0.0};
-    if (k != reference) {
-      const auto n = static_cast<Index>(others.size());
-      factor.ln_a = fit.state.nuisance[n];
-      factor.ln_a_se = std::sqrt(std::max(0.0, covariance(n, n)));
-      others.push_back(factor);
-    }
-    curve.factors.push_back(factor);
+  curve.T_ref_C = all.segments[start.reference].temperature_C;
+  curve.factors = shift_factors(*shifts.model, all.segments, fit.state, fit.covariance);
+  curve.free_factors = shifts.free_factors;
+  curve.laws = shifts.laws;
+  curve.form = name_of_form(shifts.form);
+  // A law that describes the rows themselves as well as free factors do is the law of the material.
+  if (shifts.form == ShiftFormKind::kWlf && curve.laws.wlf) curve.laws.wlf_is_better = true;
+  if (shifts.form == ShiftFormKind::kArrhenius && curve.laws.arrhenius) {
+    curve.laws.wlf_is_better = false;
   }
-  curve.laws = fit_shift_laws(others, covariance, curve.T_ref_C);
+  curve.has_vertical_shift = shifts.has_vertical;
+  curve.residual = shifts.taken_rms;
+  curve.free_residual = shifts.free_rms;
+  curve.left_out = all.left_out;
 
   FitResult& result = curve.fit;
   result.kind = data.loss_Pa.empty() ? FitKind::kRelaxation : FitKind::kDma;
-  fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
-  result.n_samples = data.argument.size() - n_left_out;
-  result.n_left_out = n_left_out;
-  fill_window(segments, curve.factors, result);
-  add_identifiability_flags(model, fit.state, fit.covariance,
+  fill_result(*shifts.model, fit, relaxation_series_of(*shifts.model, options.is_liquid), result);
+  result.n_samples = data.argument.size() - all.n_left_out;
+  result.n_left_out = all.n_left_out;
+  fill_window(all.segments, curve.factors, result);
+  add_identifiability_flags(*shifts.model, fit.state, fit.covariance,
                             {0.0, 0.0, result.fit_from_s, result.fit_to_s}, result);
-  if (options.with_curves) fill_curves(model, segments, curve.factors, fit, result);
+  flag_left_out(all, result);
+  flag_shifts(shifts, curve);
+  flag_vertical(curve);
+  if (options.with_curves) fill_curves(all.segments, shifts, curve.factors, result);
+  result.noise.sigma *= shifts.noise;  // rows with priors are divided by their noise
   return curve;
 }
 

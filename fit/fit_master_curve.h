@@ -5,6 +5,7 @@
 #include "fit/samples/fit_data.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace viscard {
@@ -23,14 +24,21 @@ struct MasterData {
 struct MasterCurve {
   FitResult fit;
   double T_ref_C = 0.0;
-  std::vector<ShiftFactor> factors;  // ascending temperature; the reference has 0
+  std::vector<ShiftFactor> factors;       // as taken, ascending temperature; the reference has 0
+  std::vector<ShiftFactor> free_factors;  // one free value for each temperature
+  std::string form;                       // of the factors taken: arrhenius, wlf, smooth or free
+  bool has_vertical_shift = false;        // ShiftFactor::ln_b
+  double residual = 0.0, free_residual = 0.0;  // relative rms, taken and free, equal terms
+  std::vector<std::string> left_out;           // isotherms with the reason
   ShiftLaws laws;
 };
 
-// Fits all segments together: one spectrum and one factor on time for each temperature, without
-// vertical shift. The start values of the factors come from equal moduli of neighbouring segments,
-// so these must overlap. Throws std::runtime_error that names the temperatures that do not overlap,
-// and for fewer than two segments of three rows or no segment at the reference.
+// Fits all segments together: one spectrum and one factor on time for each temperature. The factors
+// are fitted free, as WLF and Arrhenius laws and as a smooth curve over 1/T; the smoother ones are
+// taken unless they describe the data significantly worse (fit/master_shifts.h). Flags
+// shifts-differ or shifts-not-smooth if the free ones differ. Isotherms without overlap or with
+// fewer than three rows are left out and named (isotherms-left-out). Throws std::runtime_error if
+// fewer than two remain, naming the temperatures, and for no segment at the reference.
 MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options = {});
 
 // True if the temperatures form more than one segment.

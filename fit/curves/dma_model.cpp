@@ -24,7 +24,8 @@ Debye debye(double x) {
 }  // namespace
 
 DmaModel::DmaModel(std::span<const double> frequency_Hz, std::span<const double> storage_Pa,
-                   std::span<const double> loss_Pa, const FitOptions& options) {
+                   std::span<const double> loss_Pa, const FitOptions& options, bool with_dashpot)
+    : with_dashpot_(with_dashpot) {
   const auto count = static_cast<Index>(frequency_Hz.size());
   data_.resize(2 * count);
   sigma_Pa_.resize(2 * count);
@@ -40,10 +41,15 @@ DmaModel::DmaModel(std::span<const double> frequency_Hz, std::span<const double>
   }
   with_equilibrium_ = !options.is_liquid;
   if (with_equilibrium_) common_.push_back({"E_inf", false});
+  if (with_dashpot_) common_.push_back({"eta_Pa_s", false});
   may_be_negative_ = options.allow_negative;
   const auto [slow, fast] = std::minmax_element(angular_1_s_.begin(), angular_1_s_.end());
   ln_tau_min_ = -std::log(3.0 * *fast);
   ln_tau_max_ = -std::log(*slow / 3.0);
+}
+
+double DmaModel::frequency_Hz(Index i) const {
+  return angular_1_s_[static_cast<std::size_t>(i)] / (2.0 * std::numbers::pi);
 }
 
 ModelColumns DmaModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& /*nuisance*/,
@@ -54,6 +60,11 @@ ModelColumns DmaModel::columns(const Eigen::VectorXd& ln_tau, const Eigen::Vecto
   out.values = Eigen::MatrixXd::Zero(2 * count, n_common() + n_terms);
   if (with_slopes) out.term_slopes.resize(2 * count, n_terms);
   if (with_equilibrium_) out.values.col(0).head(count) = sigma_Pa_.head(count).cwiseInverse();
+  if (with_dashpot_) {
+    out.values.col(dashpot()).tail(count) =
+        Eigen::Map<const Eigen::VectorXd>(angular_1_s_.data(), count)
+            .cwiseQuotient(sigma_Pa_.tail(count));
+  }
   for (Index i = 0; i < n_terms; ++i) {
     const double tau_s = std::exp(ln_tau[i]);
     for (Index k = 0; k < count; ++k) {

@@ -12,20 +12,27 @@ namespace viscard {
 
 // Storage and loss modulus over frequency, fitted together, each with weight 1/value (equal
 // relative errors): E' = E_inf + sum E_i x^2/(1 + x^2), E'' = sum E_i x/(1 + x^2), x = 2 pi f tau_i
-// (fit/README.md, eq. 6). Rows: all E', then all E''.
+// (fit/README.md, eq. 6). Rows: all E', then all E''. On request with a dashpot, E'' = eta w, which
+// stands for all relaxation far faster than the measured frequencies.
 class DmaModel final : public SpectralModel {
  public:
   DmaModel(std::span<const double> frequency_Hz, std::span<const double> storage_Pa,
-           std::span<const double> loss_Pa, const FitOptions& options);
+           std::span<const double> loss_Pa, const FitOptions& options, bool with_dashpot = false);
 
   ModelColumns columns(const Eigen::VectorXd& ln_tau, const Eigen::VectorXd& nuisance,
                        bool with_slopes) const override;
   Eigen::VectorXd row_sigma() const override { return sigma_Pa_; }
 
+  Eigen::Index n_frequencies() const { return n_rows() / 2; }
+  double frequency_Hz(Eigen::Index i) const;
+  // Index of the dashpot among the common columns; -1: there is none.
+  Eigen::Index dashpot() const { return with_dashpot_ ? n_common() - 1 : -1; }
+
  private:
   std::vector<double> angular_1_s_;
   Eigen::VectorXd sigma_Pa_;
   bool with_equilibrium_ = true;
+  bool with_dashpot_ = false;
 };
 
 }  // namespace viscard

@@ -78,7 +78,9 @@ struct FitCurves {
   std::vector<double> measured;  // unit of the fitted column
   std::vector<double> fitted;
   std::vector<double> sigma;  // standard deviation of each binned value
-  std::string unit;           // "N", "Pa", "1/Pa"
+  // The loss modulus of each row beside the storage modulus; empty for other kinds.
+  std::vector<double> loss_measured, loss_fitted, loss_sigma;
+  std::string unit;  // "N", "Pa", "1/Pa"
   // Times at which a new motion begins (contact, unloading ...); a logarithmic time axis restarts
   // there. Empty: at 0 only. All time_s lie after the first of them.
   std::vector<double> motion_start_s;
@@ -88,6 +90,11 @@ struct FitCurves {
     measured.push_back(value);
     fitted.push_back(of_fit);
     sigma.push_back(deviation);
+  }
+  void add_loss(double value, double of_fit, double deviation) {
+    loss_measured.push_back(value);
+    loss_fitted.push_back(of_fit);
+    loss_sigma.push_back(deviation);
   }
 };
 
@@ -133,6 +140,10 @@ struct FitResult {
   // True speed of the stage over the commanded one, for captures. The errors above include its own.
   std::optional<double> stage_speed;
   double stage_speed_se = 0.0;
+  // Viscosity of a dashpot in parallel to the series, for kDma: relaxation far faster than the
+  // measured frequencies. E0 and the terms do not contain it.
+  std::optional<double> dashpot_Pa_s;
+  double dashpot_se_Pa_s = 0.0;
   std::size_t n_spikes = 0;              // samples left out as spikes
   std::size_t n_left_out = 0;            // rows left out because a value is not a finite number
   std::optional<LackOfFit> lack_of_fit;  // nothing: not tested

@@ -9,11 +9,13 @@
 
 namespace viscard {
 
-// ln a_T at a temperature, from a master curve.
+// ln a_T at a temperature, from a master curve, and ln of the vertical shift b_T of the moduli.
 struct ShiftFactor {
   double temperature_C = 0.0;
   double ln_a = 0.0;
   double ln_a_se = 0.0;
+  double ln_b = 0.0;
+  double ln_b_se = 0.0;
 };
 
 struct ShiftLaws {

@@ -73,6 +73,9 @@ enum class TableDrift {
   kNone
 };
 
+// Factors on the moduli of the isotherms of a master curve.
+enum class VerticalShift { kAuto, kOff, kOn };
+
 struct FitOptions {
   std::optional<int> n_terms;  // this order instead of a chosen one
   // They need n_terms. Available for relaxation, storage and loss, and tables of indentation.
@@ -88,6 +91,7 @@ struct FitOptions {
   bool with_curves = true;                      // fill FitResult::curves
   // Profile likelihoods replace the intervals of E_inf and of the times.
   bool with_profiles = false;
+  VerticalShift vertical_shift = VerticalShift::kAuto;  // kAuto: if BIC prefers them clearly
   int n_bootstrap = 0;  // resamples for all intervals (0: intervals from the covariance)
 };
 

@@ -80,15 +80,28 @@ Json json_of(const TemperatureShift& shift, double chi2, double bic) {
   return json;
 }
 
+Json json_of(const std::vector<ShiftFactor>& factors, bool has_vertical_shift) {
+  Json rows = Json::array();
+  for (const ShiftFactor& factor : factors) {
+    Json row{{"temperature_C", number(factor.temperature_C)},
+             {"ln_a", number(factor.ln_a)},
+             {"ln_a_se", number(factor.ln_a_se)}};
+    if (has_vertical_shift) row["ln_b"] = number(factor.ln_b);
+    if (has_vertical_shift) row["ln_b_se"] = number(factor.ln_b_se);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
 Json json_of(const MasterCurve& curve) {
   const ShiftLaws& laws = curve.laws;
   Json json{{"T_ref_C", number(curve.T_ref_C)}};
-  json["factors"] = Json::array();
-  for (const ShiftFactor& factor : curve.factors) {
-    json["factors"].push_back({{"temperature_C", number(factor.temperature_C)},
-                               {"ln_a", number(factor.ln_a)},
-                               {"ln_a_se", number(factor.ln_a_se)}});
-  }
+  json["factors"] = json_of(curve.factors, curve.has_vertical_shift);
+  json["form"] = curve.form;
+  json["residual_relative"] = number(curve.residual);
+  json["free_factors"] = json_of(curve.free_factors, curve.has_vertical_shift);
+  json["free_residual_relative"] = number(curve.free_residual);
+  json["left_out"] = curve.left_out;
   if (laws.wlf) json["wlf"] = json_of(*laws.wlf, laws.wlf_chi2, laws.wlf_bic);
   if (laws.arrhenius) {
     json["arrhenius"] = json_of(*laws.arrhenius, laws.arrhenius_chi2, laws.arrhenius_bic);
@@ -174,6 +187,8 @@ Json json_from_fit(const FittedFile& fitted) {
   if (fit.contact_position_m) json["contact_position_m"] = number(*fit.contact_position_m);
   if (fit.stage_speed) json["stage_speed"] = number(*fit.stage_speed);
   if (fit.stage_speed) json["stage_speed_se"] = number(fit.stage_speed_se);
+  if (fit.dashpot_Pa_s) json["dashpot_Pa_s"] = number(*fit.dashpot_Pa_s);
+  if (fit.dashpot_Pa_s) json["dashpot_se_Pa_s"] = number(fit.dashpot_se_Pa_s);
   if (fit.two_point) {
     json["two_point"] = {{"modulus_Pa", number(fit.two_point->modulus_Pa)},
                          {"se_Pa", number(fit.two_point->se_Pa)},

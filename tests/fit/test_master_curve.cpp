@@ -171,3 +171,113 @@ TEST_CASE("a zero modulus and moduli of the wrong sign are refused with their pl
   CHECK(error_text([&] { fit_master_curve(data); }).find("--column modulus_Pa=-NAME") !=
         std::string::npos);
 }
+
+namespace {
+
+// A glassy polymer swept from 0.1 to 10 Hz every 5 K: a spectrum of two terms a decade over 24
+// decades with few moduli in the glass, a WLF shift, and isotherms whose moduli are off by a factor
+// each, as by the clamps. Far below the transition E' changes by 1 to 2 % a decade.
+MasterData glassy_sweeps(double noise, double isotherm_scatter, std::uint64_t seed) {
+  PronySeries truth{1e6, {}};
+  for (int i = -36; i <= 12; ++i) {
+    const double decade = 0.5 * i;
+    const double peak = decade > -4.0 ? std::exp(-std::pow((decade + 1.0) / 1.5, 2)) : 0.0;
+    truth.terms.push_back({2e7 + 3e8 * peak, std::pow(10.0, decade)});
+  }
+  const TemperatureShift wlf{.law = ShiftLaw::kWlf, .T_ref_C = 110.0, .C1 = 12.0, .C2_K = 55.0};
+  std::mt19937_64 dice(seed);
+  std::normal_distribution<double> normal;
+  MasterData data;
+  for (double T_C = 80.0; T_C < 141.0; T_C += 5.0) {
+    const double a = std::exp(ln_shift_factor(wlf, T_C));
+    const double b = 1.0 + isotherm_scatter * normal(dice);
+    for (int i = 0; i <= 12; ++i) {
+      const double f_Hz = std::pow(10.0, -1.0 + i / 6.0);
+      const ComplexModulus modulus = complex_modulus_Pa(truth, 2.0 * std::numbers::pi * f_Hz * a);
+      data.temperature_C.push_back(T_C);
+      data.argument.push_back(f_Hz);
+      data.modulus_Pa.push_back(b * modulus.storage_Pa * (1.0 + noise * normal(dice)));
+      data.loss_Pa.push_back(b * modulus.loss_Pa * (1.0 + noise * normal(dice)));
+    }
+  }
+  data.T_ref_C = 110.0;
+  return data;
+}
+
+}  // namespace
+
+TEST_CASE("a glass whose isotherms scatter by 2 % does not climb in a staircase", "[fit][master]") {
+  const MasterCurve curve = fit_master_curve(glassy_sweeps(0.005, 0.02, 4));
+  const TemperatureShift wlf{.law = ShiftLaw::kWlf, .T_ref_C = 110.0, .C1 = 12.0, .C2_K = 55.0};
+  CAPTURE(curve.form, curve.residual, curve.free_residual);
+  CHECK(curve.form != "free");
+  REQUIRE(curve.free_factors.size() == curve.factors.size());
+  double last = 100.0;
+  for (std::size_t k = 0; k < curve.factors.size(); ++k) {
+    const ShiftFactor& factor = curve.factors[k];
+    CAPTURE(factor.temperature_C, factor.ln_a, curve.free_factors[k].ln_a);
+    CHECK(factor.ln_a == Approx(ln_shift_factor(wlf, factor.temperature_C)).margin(1.2));
+    CHECK(factor.ln_a < last - 0.5);  // no steps
+    last = factor.ln_a;
+  }
+}
+
+TEST_CASE("isotherms with a vertical shift need one, and the horizontal shifts stay right",
+          "[fit][master]") {
+  const MasterData plain = relaxation_data(kWlf, 0.003, 11);
+  MasterData data = plain;
+  for (std::size_t i = 0; i < data.modulus_Pa.size(); ++i) {
+    data.modulus_Pa[i] *= (data.temperature_C[i] + 273.15) / 293.15;  // an entropic network
+  }
+  CHECK_FALSE(fit_master_curve(plain).has_vertical_shift);
+  const MasterCurve curve = fit_master_curve(data);
+  REQUIRE(curve.has_vertical_shift);
+  CHECK(has_flag(curve.fit, "vertical-shift"));
+  for (const ShiftFactor& factor : curve.factors) {
+    CAPTURE(factor.temperature_C);
+    const double T_K = factor.temperature_C + 273.15;
+    CHECK(factor.ln_b == Approx(std::log(T_K / 293.15)).margin(4.0 * factor.ln_b_se + 0.003));
+    CHECK(factor.ln_a ==
+          Approx(ln_shift_factor(kWlf, factor.temperature_C)).margin(4.0 * factor.ln_a_se + 0.05));
+  }
+  FitOptions off;
+  off.vertical_shift = VerticalShift::kOff;
+  CHECK_FALSE(fit_master_curve(data, off).has_vertical_shift);
+}
+
+TEST_CASE("shifts that follow no smooth curve are taken free, and the difference is flagged",
+          "[fit][master]") {
+  MasterData data = relaxation_data(kWlf, 0.003, 5);
+  for (std::size_t i = 0; i < data.argument.size(); ++i) {
+    if (std::abs(data.temperature_C[i] - 30.0) < 2.0) data.argument[i] *= 2.0;  // a wrong clock
+  }
+  const MasterCurve curve = fit_master_curve(data);
+  CHECK(curve.form == "free");
+  CHECK(has_flag(curve.fit, "shifts-not-smooth"));
+  CHECK(curve.factors[3].ln_a ==
+        Approx(ln_shift_factor(kWlf, curve.factors[3].temperature_C) + std::log(2.0)).margin(0.06));
+}
+
+TEST_CASE("isotherms that are left out are named", "[fit][master]") {
+  MasterData data = relaxation_data(kWlf, 0.003, 6);
+  for (int i = 0; i < 2; ++i) {
+    data.temperature_C.push_back(80.0);
+    data.argument.push_back(1.0 + i);
+    data.modulus_Pa.push_back(2.1e6);
+  }
+  for (int i = 0; i < 5; ++i) {
+    data.temperature_C.push_back(-60.0);
+    data.argument.push_back(1.0 + i);
+    data.modulus_Pa.push_back(9e7 - 1e5 * i);  // no modulus in common with 0 C
+  }
+  const MasterCurve curve = fit_master_curve(data);
+  CHECK(curve.factors.size() == 6);
+  REQUIRE(curve.left_out.size() == 2);
+  CHECK(curve.fit.n_left_out == 7);
+  REQUIRE(has_flag(curve.fit, "isotherms-left-out"));
+  for (const MaterialFlag& flag : curve.fit.flags) {
+    if (flag.name != "isotherms-left-out") continue;
+    CHECK(flag.text.find("80 C (only 2 rows") != std::string::npos);
+    CHECK(flag.text.find("-60 C (no modulus in common") != std::string::npos);
+  }
+}

@@ -64,6 +64,9 @@ void add_data_options(po::options_description& options) {
   add("reference-temperature", po::value<std::string>(),
       "of the master curve of a table with several temperatures (temperature_C), such as "
       "\"20 degC\"; default: the middle one");
+  add("vertical-shift", po::value<std::string>()->default_value("auto"),
+      "factors on the moduli of each isotherm of a master curve: auto (if the data clearly need "
+      "them), on or off");
   add("density", po::value<std::string>(), "for the material file, such as \"965 kg/m3\"");
   add("ratio", po::value<Numbers>()->composing(),
       "mixing ratio, parts of base to one of curing agent; with --joint once for each file");

@@ -33,6 +33,13 @@ FitKind kind_from_word(const std::string& word) {
                    " Use indentation, relaxation, creep or dma");
 }
 
+VerticalShift vertical_shift_from_word(const std::string& word) {
+  if (word == "auto") return VerticalShift::kAuto;
+  if (word == "on") return VerticalShift::kOn;
+  if (word == "off") return VerticalShift::kOff;
+  throw UsageError("--vertical-shift " + word + " is not known; use auto, on or off");
+}
+
 // The constraints from --fix, --bound and the lines of the --constraints file.
 std::vector<ParameterConstraint> constraints_from(const po::variables_map& values) {
   Words texts;
@@ -93,6 +100,7 @@ FitOptions options_from(const po::variables_map& values) {
     throw UsageError("--noise " + noise + " is not known; use auto or white");
   }
   options.white_noise = noise == "white";
+  options.vertical_shift = vertical_shift_from_word(values["vertical-shift"].as<std::string>());
   options.constraints = constraints_from(values);
   if (!options.constraints.empty() && !options.n_terms) {
     throw UsageError("--fix and --bound name terms by number, so they need --terms N");

@@ -53,12 +53,29 @@ void print_fractional(const FractionalDiagnosis& fractional, std::ostream& out) 
                              : "the data do not decide between the two");
 }
 
+const char* text_of_form(const MasterCurve& curve) {
+  if (curve.form == "wlf") return "the WLF law";
+  if (curve.form == "arrhenius") return "the Arrhenius law";
+  return curve.form == "smooth" ? "a smooth curve over 1/T" : "one free value for each temperature";
+}
+
 void print_master(const MasterCurve& curve, std::ostream& out) {
   out << fmt::format("  master curve at {:.4g} C from {} temperatures\n", curve.T_ref_C,
                      curve.factors.size());
-  for (const ShiftFactor& factor : curve.factors) {
-    out << fmt::format("    {:>8.4g} C   log10 a_T {:>9.4f} +- {:.2g}\n", factor.temperature_C,
-                       factor.ln_a / std::log(10.0), factor.ln_a_se / std::log(10.0));
+  out << fmt::format(
+      "  shift factors by {} (relative residual {:.2g} %), beside free ones ({:.2g} %)\n",
+      text_of_form(curve), 100.0 * curve.residual, 100.0 * curve.free_residual);
+  const double ln_10 = std::log(10.0);
+  for (std::size_t k = 0; k < curve.factors.size(); ++k) {
+    const ShiftFactor &factor = curve.factors[k], &free = curve.free_factors[k];
+    out << fmt::format("    {:>8.4g} C   log10 a_T {:>9.4f} +- {:.2g}", factor.temperature_C,
+                       factor.ln_a / ln_10, factor.ln_a_se / ln_10);
+    out << fmt::format("   free {:>9.4f} +- {:.2g}", free.ln_a / ln_10, free.ln_a_se / ln_10);
+    if (curve.has_vertical_shift) {
+      out << fmt::format("   b_T {:.4f} +- {:.2g}", std::exp(factor.ln_b),
+                         std::exp(factor.ln_b) * factor.ln_b_se);
+    }
+    out << "\n";
   }
   const ShiftLaws& laws = curve.laws;
   if (laws.wlf) {
@@ -101,6 +118,10 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
     const FittedTerm& term = fit.terms[i];
     out << fmt::format("  g_{:<4} {:>10.5g}       95 % {:<22}  tau {:.4g} s   95 % {}\n", i + 1,
                        term.g, range(term.g_95, 1.0, 4), term.tau_s, range(term.tau_s_95, 1.0, 4));
+  }
+  if (fit.dashpot_Pa_s) {
+    out << fmt::format("  dashpot beside the terms {:.4g} Pa s +- {:.2g}\n", *fit.dashpot_Pa_s,
+                       fit.dashpot_se_Pa_s);
   }
   if (fit.systematic_relative > 0.0) {
     out << fmt::format(

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "fit/curves/master_model.h"
+#include "fit/fit_master_curve.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// The rows of a master curve by temperature.
+struct MasterSegments {
+  std::vector<MasterSegment> segments;  // ascending temperature
+  std::size_t n_left_out = 0;           // rows
+  std::vector<std::string> left_out;    // isotherms with the reason: "25 C (2 rows)"
+};
+
+// "25 C"
+std::string celsius(double temperature_C);
+
+// Sorts the rows into segments. An isotherm of fewer than three rows is left out and named. Throws
+// std::runtime_error for fewer than two segments and for moduli that are zero or of the wrong sign.
+MasterSegments segments_of(const MasterData& data);
+
+// Removes the segments from `first` to before `last`, and names them with the reason.
+void leave_out(MasterSegments& all, std::size_t first, std::size_t last, const std::string& reason);
+
+// The segment at T_ref_C, or the middle one. Throws std::runtime_error if none is there.
+std::size_t reference_of(const std::vector<MasterSegment>& segments,
+                         const std::optional<double>& T_ref_C);
+
+}  // namespace viscard

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "fit/assembly/spectral_fit.h"
+#include "fit/fit_master_curve.h"
+#include "fit/master_start.h"
+
+#include <memory>
+#include <vector>
+
+namespace viscard {
+
+// The shifts of a master curve in the form that was taken, beside free ones.
+struct ShiftFits {
+  std::unique_ptr<MasterModel> model;  // of the form that was taken
+  SpectralFit fit;
+  double noise = 1.0;  // by which the model divides its rows
+  ShiftFormKind form = ShiftFormKind::kFree;
+  bool has_vertical = false;
+  double taken_rms = 0.0, free_rms = 0.0;  // relative residuals with one number of terms
+  double smooth_rms = 0.0;                 // of the smooth curve
+  std::vector<ShiftFactor> free_factors;   // of all segments
+  ShiftLaws laws;
+};
+
+// Fits the shifts as a smooth curve over 1/T (penalised second differences, with the weight by
+// cross-validation), free, and as the WLF and Arrhenius laws, all with the number of terms of the
+// smooth fit. Takes the law with the lower BIC among those whose sum of squares is not significantly
+// and visibly above that of free shifts, else the smooth curve if that is not, else the free ones.
+// Vertical
+// shifts are used if BIC prefers them clearly, or always or never if the options ask for it.
+ShiftFits fit_shifts(const std::vector<MasterSegment>& segments, const MasterStart& start,
+                     const std::vector<int>& blocks, const FitOptions& options);
+
+// ln a, ln b of all segments with their standard errors, from a state and its covariance.
+std::vector<ShiftFactor> shift_factors(const MasterModel& model,
+                                       const std::vector<MasterSegment>& segments,
+                                       const SpectralState& state,
+                                       const Eigen::MatrixXd& covariance);
+
+}  // namespace viscard

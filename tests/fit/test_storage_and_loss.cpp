@@ -1,0 +1,115 @@
+// Storage and loss modulus of one material: what a joint fit can do, and where it cannot.
+#include "fit/fit_dma.h"
+#include "models/material/prony_series.h"
+#include "tests/fit/fit_checks.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+using namespace viscard;
+using namespace viscard::test;
+
+namespace {
+
+// Sweeps from 10^from to 10^to Hz with noise relative to each value.
+DmaData sweep(const PronySeries& series, double from, double to, int per_decade, double noise,
+              std::uint64_t seed) {
+  DmaData data;
+  std::mt19937_64 dice(seed);
+  std::normal_distribution<double> normal;
+  const int n = static_cast<int>(std::lround((to - from) * per_decade));
+  for (int i = 0; i <= n; ++i) {
+    const double f_Hz = std::pow(10.0, from + static_cast<double>(i) / per_decade);
+    const ComplexModulus modulus = complex_modulus_Pa(series, 2.0 * std::numbers::pi * f_Hz);
+    data.frequency_Hz.push_back(f_Hz);
+    data.storage_Pa.push_back(modulus.storage_Pa * (1.0 + noise * normal(dice)));
+    data.loss_Pa.push_back(modulus.loss_Pa * (1.0 + noise * normal(dice)));
+  }
+  return data;
+}
+
+// A melt: no equilibrium modulus, two terms a decade from far below to far above the window.
+PronySeries melt() {
+  PronySeries series;
+  for (int i = -12; i <= 10; ++i) {
+    const double tau_s = std::pow(10.0, 0.5 * i);
+    series.terms.push_back({1e5 * std::pow(tau_s, -0.35) * std::exp(-tau_s / 30.0), tau_s});
+  }
+  return series;
+}
+
+constexpr const char* kFlag = "storage-loss-contradict";
+
+}  // namespace
+
+TEST_CASE("a term far beyond the measured frequencies is no contradiction but a dashpot", "[fit]") {
+  const double E_inf_Pa = GENERATE(1e5, 1e3);
+  const double noise = GENERATE(0.0, 0.003);
+  CAPTURE(E_inf_Pa, noise);
+  const PronySeries truth{E_inf_Pa, {{1e6, 1e-5}}};
+  const FitResult fit = fit_dma(sweep(truth, -1.0, 2.0, 10, noise, 5));
+  for (const auto& flag : fit.flags) UNSCOPED_INFO(flag.text);
+  CHECK_FALSE(has_flag(fit, kFlag));
+  CHECK(fit.noise.sigma < 0.01);  // terms within the window left 9.8 %
+  REQUIRE(fit.dashpot_Pa_s);
+  CHECK(has_flag(fit, "fast-dashpot"));
+  CHECK(*fit.dashpot_Pa_s == Approx(10.0).epsilon(0.01));
+  CHECK(fit.E_inf_Pa == Approx(E_inf_Pa).epsilon(0.02));
+}
+
+TEST_CASE("a solvent beside a polymer is found as a dashpot, and a polymer alone has none",
+          "[fit]") {
+  const PronySeries polymer{0.0, {{300.0, 0.05}, {200.0, 0.5}, {100.0, 5.0}}};
+  DmaData data = sweep(polymer, -2.0, 2.0, 10, 0.005, 8);
+  FitOptions options;
+  options.is_liquid = true;
+  CHECK_FALSE(fit_dma(data, options).dashpot_Pa_s);
+  for (std::size_t i = 0; i < data.loss_Pa.size(); ++i) {
+    data.loss_Pa[i] += 2.0 * 2.0 * std::numbers::pi * data.frequency_Hz[i];
+  }
+  const FitResult fit = fit_dma(data, options);
+  REQUIRE(fit.dashpot_Pa_s);
+  CHECK(std::abs(*fit.dashpot_Pa_s - 2.0) < 4.0 * fit.dashpot_se_Pa_s);
+  CHECK(fit.dashpot_se_Pa_s < 0.1);
+  CHECK_FALSE(has_flag(fit, kFlag));
+}
+
+TEST_CASE(
+    "melts whose spectrum reaches beyond the window at both ends do not contradict themselves",
+    "[fit]") {
+  const int per_decade = GENERATE(4, 10, 20);  // 11 to 51 rows
+  const double noise = GENERATE(0.0, 0.002, 0.01, 0.03);
+  CAPTURE(per_decade, noise);
+  int n_flags = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const double from = -1.5 - 0.1 * static_cast<double>(seed);
+    n_flags += has_flag(fit_dma(sweep(melt(), from, from + 2.5, per_decade, noise, seed)), kFlag);
+  }
+  CHECK(n_flags == 0);
+}
+
+TEST_CASE("a modulus that is 5 % off over one decade is found with its place and size", "[fit]") {
+  const bool is_loss = GENERATE(true, false);
+  const double factor = GENERATE(1.05, 0.95);
+  const double noise = GENERATE(0.0, 0.002, 0.01);
+  CAPTURE(is_loss, factor, noise);
+  DmaData data = sweep(melt(), -2.0, 2.0, 10, noise, 17);
+  REQUIRE_FALSE(has_flag(fit_dma(data), kFlag));
+  for (std::size_t i = 0; i < data.frequency_Hz.size(); ++i) {
+    if (data.frequency_Hz[i] < 0.3 || data.frequency_Hz[i] > 3.0) continue;
+    (is_loss ? data.loss_Pa : data.storage_Pa)[i] *= factor;
+  }
+  const FitResult fit = fit_dma(data);
+  REQUIRE(has_flag(fit, kFlag));
+  const std::string text = std::find_if(fit.flags.begin(), fit.flags.end(), [](const auto& flag) {
+                             return flag.name == kFlag;
+                           })->text;
+  INFO(text);
+  if (noise < 0.005) CHECK(text.find(is_loss ? "the loss" : "the storage") == 0);
+  CHECK(text.find("Hz is ") != std::string::npos);
+}
