@@ -3,6 +3,7 @@
 #include "fit/assembly/assemble_result.h"
 #include "fit/curves/step_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/left_out.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/spikes.h"
 #include "models/material/retardation_spectrum.h"
@@ -66,8 +67,9 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
         return series_from_creep(model, state, options.is_liquid);
       },
       result);
-  result.n_left_out = clean.n_left_out();
+  add_left_out(result, left_out::kNotANumber, clean.n_left_out());
   add_spikes(result, spikes.size());
+  flag_left_out(result);
   result.fit_from_s = time_s.front();
   result.fit_to_s = time_s.back();
   add_identifiability_flags(model, fit.state, fit.covariance,

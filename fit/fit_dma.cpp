@@ -3,6 +3,7 @@
 #include "fit/assembly/assemble_result.h"
 #include "fit/curves/dma_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/left_out.h"
 #include "fit/samples/clean_data.h"
 #include "fit/search/nnls.h"
 #include "models/maths/text_of_number.h"
@@ -77,7 +78,8 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
   result.kind = FitKind::kDma;
   fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
   result.n_samples = frequency_Hz.size();
-  result.n_left_out = clean.n_left_out();
+  add_left_out(result, left_out::kNotANumber, clean.n_left_out());
+  flag_left_out(result);
   result.fit_from_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.back());
   result.fit_to_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.front());
   add_identifiability_flags(model, fit.state, fit.covariance,

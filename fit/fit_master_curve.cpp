@@ -3,6 +3,7 @@
 #include "fit/assembly/assemble_result.h"
 #include "fit/curves/master_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/left_out.h"
 #include "fit/samples/clean_data.h"
 #include "models/maths/text_of_number.h"
 
@@ -247,7 +248,8 @@ MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) 
   result.kind = data.loss_Pa.empty() ? FitKind::kRelaxation : FitKind::kDma;
   fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
   result.n_samples = data.argument.size() - n_left_out;
-  result.n_left_out = n_left_out;
+  add_left_out(result, left_out::kNotANumber, n_left_out);
+  flag_left_out(result);
   fill_window(segments, curve.factors, result);
   add_identifiability_flags(model, fit.state, fit.covariance,
                             {0.0, 0.0, result.fit_from_s, result.fit_to_s}, result);

@@ -1,5 +1,6 @@
 #include "fit/intervals/flags.h"
 
+#include "fit/intervals/left_out.h"
 #include "models/maths/text_of_number.h"
 
 #include <cmath>
@@ -75,6 +76,7 @@ void flag_misfit(double sigma, double quiet_sigma, std::size_t n_quiet, double p
 
 void add_spikes(FitResult& result, std::size_t count) {
   result.n_spikes = count;
+  add_left_out(result, left_out::kSpike, count);
   if (count == 0) return;
   result.flags.push_back(
       {"spikes-left-out", 0,
