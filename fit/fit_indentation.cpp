@@ -9,6 +9,7 @@
 #include "fit/samples/clean_data.h"
 #include "fit/samples/contact_onset.h"
 #include "fit/samples/noise_model.h"
+#include "fit/search/separable.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -141,37 +142,45 @@ HistoryFit fit_history(HistoryInput input, const FitOptions& options) {
   return of;
 }
 
+// Share of the samples that two courses of contact do not have in common.
+double share_changed(const std::vector<char>& a, const std::vector<char>& b) {
+  if (a.size() != b.size()) return 1.0;
+  std::size_t n_changed = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) n_changed += a[i] != b[i] ? 1 : 0;
+  return static_cast<double>(n_changed) / static_cast<double>(std::max<std::size_t>(a.size(), 1));
+}
+
+// The same times and nuisances fitted to another model.
+SpectralState fitted_again(const SpectralModel& model, const SpectralState& start) {
+  const SpectralState state = solve_coefficients(model, start.ln_tau, start.nuisance);
+  if (start.ln_tau.size() + start.nuisance.size() == 0) return state;
+  return quick_search(model, state, {.tolerance = 1e-10});
+}
+
 // Fits the whole record of a punch that is pulled back. Where it is in contact follows from the
-// series, so fit and course of contact are repeated until the course stays the same: with the order
-// of the fit before, and at last with a choice of the order.
-HistoryFit fit_whole(const ContactTable& table, HistoryFit start, const FitOptions& options) {
-  constexpr int kRounds = 6;
-  constexpr double kSame = 1e-3;  // share of the samples that may change sides
-  FitOptions quick = options;
-  HistoryFit current = std::move(start);
+// series, so course and series are found in turn, with the order of the first contact, until the
+// course stays the same. The order of the whole record is chosen at last.
+HistoryFit fit_whole(const ContactTable& table, const HistoryFit& start,
+                     const FitOptions& options) {
+  constexpr int kRounds = 8;
+  constexpr double kSame = 1e-3;
+  SpectralState state = start.fit.state;
+  PronySeries series = relaxation_series_of(*start.model, options.is_liquid)(state);
   std::vector<char> last;
-  for (int round = 0; round < kRounds; ++round) {
-    const PronySeries series =
-        relaxation_series_of(*current.model, options.is_liquid)(current.fit.state);
-    const double contact_m = table.contact.is_fitted ? current.fit.state.nuisance[0] : 0.0;
+  for (int round = 1;; ++round) {
+    const double contact_m = table.contact.is_fitted ? state.nuisance[0] : 0.0;
     WholeRecord whole = whole_record(table, series, contact_m, options.with_drift);
-    const std::vector<char>& is_free = whole.input.is_free;
-    std::size_t n_changed = is_free.size();
-    if (last.size() == is_free.size()) {
-      n_changed = 0;
-      for (std::size_t i = 0; i < last.size(); ++i) n_changed += last[i] != is_free[i] ? 1 : 0;
+    if (round == kRounds || share_changed(last, whole.input.is_free) <= kSame) {
+      HistoryFit fitted = fit_history(std::move(whole.input), options);
+      fitted.n_contacts = whole.n_contacts;
+      fitted.n_adhesion = whole.n_adhesion;
+      return fitted;
     }
-    const bool is_same =
-        static_cast<double>(n_changed) <= kSame * static_cast<double>(is_free.size());
-    const bool is_last = is_same || round + 1 == kRounds;
-    last = is_free;
-    quick.n_terms = static_cast<int>(current.fit.state.n_terms());
-    current = fit_history(std::move(whole.input), is_last ? options : quick);
-    current.n_contacts = whole.n_contacts;
-    current.n_adhesion = whole.n_adhesion;
-    if (is_last) break;
+    last = whole.input.is_free;
+    const HistoryModel model(std::move(whole.input), options);
+    state = fitted_again(model, state);
+    series = relaxation_series_of(model, options.is_liquid)(state);
   }
-  return current;
 }
 
 // Rows that the fit does not use.
@@ -196,7 +205,7 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
                              std::to_string(kLeastContactRows));
   }
   HistoryFit fitted = fit_history(std::move(input), options);
-  if (table.goes_back) fitted = fit_whole(table, std::move(fitted), options);
+  if (table.goes_back) fitted = fit_whole(table, fitted, options);
   FitResult result;
   result.is_stiffness = !data.contact;
   fill_result(*fitted.model, fitted.fit, relaxation_series_of(*fitted.model, options.is_liquid),

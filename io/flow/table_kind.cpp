@@ -1,5 +1,6 @@
 #include "io/flow/table_kind.h"
 
+#include "io/tables/column_names.h"
 #include "io/tables/column_proposal.h"
 
 #include <algorithm>
@@ -36,6 +37,21 @@ bool is_creep(const CsvTable& table, const FitRequest& request) {
   return range("stress_Pa") < kConstant && range("strain") > 2.0 * kConstant;
 }
 
+// True if a column of numbers that change is none of the known quantities.
+bool has_unknown_numbers(const CsvTable& table, const FitRequest& request) {
+  std::vector<char> is_known(table.columns.size(), 0);
+  for (const std::string& name : column_names()) {
+    if (const auto use = find_column(table, name, request.columns)) is_known[use->index] = 1;
+  }
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const std::vector<double>& values = table.columns[i].values;
+    const bool changes = std::any_of(values.begin(), values.end(),
+                                     [&](double value) { return value != values.front(); });
+    if (is_known[i] == 0 && changes && table.columns[i].text.empty()) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 FitKind kind_of_table(const CsvTable& table, const FitRequest& request) {
@@ -51,7 +67,7 @@ FitKind kind_of_table(const CsvTable& table, const FitRequest& request) {
   if (has("stress_Pa") && has("strain") && is_creep(table, request)) return FitKind::kCreep;
   if (has("stress_Pa")) return FitKind::kRelaxation;
   if (is_dma) return FitKind::kDma;
-  if (has("force_N") && has("time_s")) return FitKind::kRelaxation;  // at constant depth
+  if (has("time_s") && is_force_alone(table, request)) return FitKind::kRelaxation;
   refuse_unknown_columns(table);
 }
 
@@ -59,7 +75,9 @@ bool is_force_alone(const CsvTable& table, const FitRequest& request) {
   for (const char* name : {"modulus_Pa", "stress_Pa", "depth_m"}) {
     if (find_column(table, name, request.columns)) return false;
   }
-  return find_column(table, "force_N", request.columns).has_value();
+  if (!find_column(table, "force_N", request.columns)) return false;
+  // Numbers of unknown meaning may be the depth, unless the user has decided.
+  return request.kind || request.depth_m || !has_unknown_numbers(table, request);
 }
 
 }  // namespace viscard

@@ -33,9 +33,16 @@ std::string word(const char* quantity, std::size_t column) {
   return std::string(" --column ") + quantity + "=" + std::to_string(column + 1);
 }
 
-// Takes the first of the columns with a unit of that kind.
+// Takes the first of the columns that its header names as the quantity, or else the first with a unit
+// of that kind.
 std::optional<std::size_t> taken(const CsvTable& table, std::vector<std::size_t>& columns,
-                                 const char* si_unit) {
+                                 const char* si_unit, const char* quantity = nullptr) {
+  for (auto i = columns.begin(); quantity != nullptr && i != columns.end(); ++i) {
+    if (!match_header(table.columns[*i], quantity_named(quantity))) continue;
+    const std::size_t column = *i;
+    columns.erase(i);
+    return column;
+  }
   for (auto i = columns.begin(); i != columns.end(); ++i) {
     const std::string& unit = table.columns[*i].unit;
     if (!is_stated(unit) || !is_unit_of(unit, si_unit)) continue;
@@ -48,7 +55,7 @@ std::optional<std::size_t> taken(const CsvTable& table, std::vector<std::size_t>
 
 // Takes the column of time: by its unit, or the first that only rises, or the first.
 std::size_t taken_time(const CsvTable& table, std::vector<std::size_t>& columns) {
-  if (const auto column = taken(table, columns, "s")) return *column;
+  if (const auto column = taken(table, columns, "s", "time_s")) return *column;
   auto at = std::find_if(columns.begin(), columns.end(), [&](std::size_t i) {
     return !is_stated(table.columns[i].unit) && is_rising(table.columns[i]);
   });
@@ -90,7 +97,7 @@ std::string proposed_words(const CsvTable& table) {
   if (rest.size() < 2) return "";
   std::string words;
   const auto frequency = taken(table, rest, "Hz");
-  const auto storage = taken(table, rest, "Pa");
+  const auto storage = taken(table, rest, "Pa", frequency ? nullptr : "modulus_Pa");
   const auto loss = frequency ? taken(table, rest, "Pa") : std::nullopt;
   if (frequency && storage && loss) {
     return (word("frequency_Hz", *frequency) + word("storage_modulus_Pa", *storage) +
@@ -100,8 +107,8 @@ std::string proposed_words(const CsvTable& table) {
   if (rest.empty()) return "";
   words = word("time_s", taken_time(table, rest));
   if (storage) return (words + word("modulus_Pa", *storage)).substr(1);
-  auto force = taken(table, rest, "N");
-  auto depth = taken(table, rest, "m");
+  auto force = taken(table, rest, "N", "force_N");
+  auto depth = taken(table, rest, "m", "depth_m");
   const auto is_without_unit = [&](std::size_t i) { return !is_stated(table.columns[i].unit); };
   std::erase_if(rest, [&](std::size_t i) { return !is_without_unit(i); });
   if (!force && !depth && rest.size() == 1) return (words + word("modulus_Pa", rest[0])).substr(1);
@@ -111,7 +118,14 @@ std::string proposed_words(const CsvTable& table) {
     rest.erase(rest.begin());
   }
   if (!force || !depth) return "";
-  return (words + word("force_N", *force) + word("depth_m", *depth)).substr(1);
+  // The force rises with the depth; a separation falls.
+  const std::vector<double>& forces = table.columns[*force].values;
+  const std::vector<double>& depths = table.columns[*depth].values;
+  const auto peak = std::max_element(forces.begin(), forces.end()) - forces.begin();
+  const bool falls = depths[static_cast<std::size_t>(peak)] < depths.front();
+  return (words + word("force_N", *force) + " --column depth_m=" + (falls ? "-" : "") +
+          std::to_string(*depth + 1))
+      .substr(1);
 }
 
 }  // namespace viscard

@@ -222,8 +222,10 @@ TEST_CASE("columns are shown with first values, and words that read them are pro
   CHECK(proposed_words(table) == "--column time_s=1 --column modulus_Pa=2");
   const CsvTable units = read("x (mm),y (N),z (s)\n0,5,1\n1,6,2\n");
   CHECK(proposed_words(units) == "--column time_s=3 --column force_N=2 --column depth_m=1");
-  CHECK(proposed_words(read("x,y,z\n0,5,1\n1,6,0\n")) ==
+  CHECK(proposed_words(read("x,y,z\n0,5,0\n1,6,1\n")) ==
         "--column time_s=1 --column force_N=2 --column depth_m=3");
+  CHECK(proposed_words(read("time_s,separation_m,force_N\n0,5,1\n1,4,2\n")) ==
+        "--column time_s=1 --column force_N=3 --column depth_m=-2");
   CHECK(proposed_words(read("w (rad/s),a (Pa),b (Pa)\n1,5,1\n2,6,2\n")) ==
         "--column frequency_Hz=1 --column storage_modulus_Pa=2 --column loss_modulus_Pa=3");
   CHECK(proposed_words(read("x\n0\n1\n")).empty());

@@ -90,6 +90,10 @@ TEST_CASE("a record of force alone gives forces, or stiffnesses with --depth", "
   CHECK(modulus["E0_Pa"].get<double>() ==
         Approx(18.0 * (1.0 - 0.495 * 0.495) / 4e-3).epsilon(1e-4));
   CHECK(run_command({"fit", file, "--punch-diameter", "4 mm"}).status == kFailed);
+  // A column of unknown meaning may be the depth, so nothing is assumed.
+  const std::string three = folder.write("three.csv", "time_s,force_N,sep\n0,1,5\n1,2,4\n2,3,3\n");
+  CHECK_THAT(run_command({"fit", three}).err,
+             Contains("--column time_s=1 --column force_N=2 --column depth_m=-3"));
 }
 
 TEST_CASE("a constant stress with a changing strain is a creep test", "[cli]") {
