@@ -6,6 +6,7 @@
 #include "fit/curves/step_model.h"
 #include "fit/intervals/flags.h"
 #include "fit/intervals/lack_of_fit.h"
+#include "fit/intervals/left_out.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/spikes.h"
 #include "models/material/retardation_spectrum.h"
@@ -84,9 +85,10 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
   }
   FitResult result = fit_solid_or_liquid(
       options, [&](const FitOptions& as) { return fit_creep_as(time_s, clean.column(1), as); });
-  result.n_left_out = clean.n_left_out();
-  flag_lack_of_fit("1/Pa", result);
+  add_left_out(result, left_out::kNotANumber, clean.n_left_out());
   add_spikes(result, spikes.size());
+  flag_left_out(result);
+  flag_lack_of_fit("1/Pa", result);
   return result;
 }
 

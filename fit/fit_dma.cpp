@@ -5,6 +5,7 @@
 #include "fit/assembly/solid_or_liquid.h"
 #include "fit/curves/dma_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/left_out.h"
 #include "fit/samples/clean_data.h"
 #include "models/maths/text_of_number.h"
 
@@ -151,7 +152,8 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
   FitResult result = fit_solid_or_liquid(options, [&](const FitOptions& as) {
     return fit_moduli(frequency_Hz, storage_Pa, loss_Pa, as);
   });
-  result.n_left_out = clean.n_left_out();
+  add_left_out(result, left_out::kNotANumber, clean.n_left_out());
+  flag_left_out(result);
   return result;
 }
 

@@ -4,17 +4,19 @@
 #include "fit/assembly/solid_or_liquid.h"
 #include "fit/assembly/table_drift.h"
 #include "fit/assembly/two_point_modulus.h"
+#include "fit/contact_table.h"
 #include "fit/curves/history_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/left_out.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/contact_onset.h"
 #include "fit/samples/noise_model.h"
-#include "fit/samples/spikes.h"
+#include "fit/search/separable.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -25,33 +27,6 @@ namespace {
 
 using Index = Eigen::Index;
 using Column = std::vector<double>;
-constexpr std::size_t kLeastContactRows = 6;
-
-void check_force(std::span<const double> force_N) {
-  const auto [low, high] = std::minmax_element(force_N.begin(), force_N.end());
-  if (*low == *high) {
-    throw std::runtime_error(
-        "the force is constant (" + text_of(*low) +
-        " N in all samples): there was no contact, or the column is not the force");
-  }
-  const double mean = std::accumulate(force_N.begin(), force_N.end(), 0.0);
-  if (mean < 0.0 && -*low > *high) {
-    throw std::runtime_error(
-        "the force is negative at its largest magnitude, but compression must be positive. Flip "
-        "the sign of the column: --column force_N=-NAME");
-  }
-}
-
-// Throws unless the depth grows with the force.
-void check_depth(const Column& force_N, const Column& depth_m) {
-  const auto peak =
-      static_cast<std::size_t>(std::max_element(force_N.begin(), force_N.end()) - force_N.begin());
-  if (peak > 0 && depth_m[peak] < depth_m[0]) {
-    throw std::runtime_error(
-        "the depth falls while the force rises. If the depth has the other sign, flip the column: "
-        "--column depth_m=-NAME");
-  }
-}
 
 // Saturation is a long run of samples equal to the largest: the end of the converter's range.
 void flag_saturation(const Column& force_N, FitResult& result) {
@@ -85,33 +60,6 @@ void flag_gap(const Column& time_s, std::size_t contact, std::size_t loaded, Fit
   }
 }
 
-HistoryInput history_input(const std::vector<Column>& columns, const TableContact& contact,
-                           const DepthLaw& law) {
-  HistoryInput input;
-  input.time_s = columns[0];
-  input.output = columns[1];
-  input.input = columns[2];
-  input.factor = law.factor;
-  input.power = law.power;
-  input.contact = contact.first;
-  if (contact.is_fitted) {
-    const auto [low, high] = std::minmax_element(input.input.begin(), input.input.end());
-    input.contact_input = contact.depth_m;
-    input.contact_half_width = 0.25 * (*high - contact.depth_m);
-    input.with_offset = true;
-  }
-  // Once the punch loses contact after loading, the force no longer follows the depth.
-  const std::size_t loaded = end_of_loading(input.input);
-  const double limit_m = contact.is_fitted ? contact.depth_m : 0.0;
-  std::size_t end = loaded;
-  // Under a sphere or cone the contact must not shrink: the hereditary integral would not hold.
-  const double least_m =
-      law.power == 1.0 ? limit_m : limit_m + 0.98 * (input.input[loaded] - limit_m);
-  while (end < input.time_s.size() && input.input[end] > least_m) ++end;
-  for (Column* column : {&input.time_s, &input.output, &input.input}) column->resize(end);
-  return input;
-}
-
 void fill_curves(const HistoryModel& model, const HistoryInput& input, const SpectralState& state,
                  double sigma, FitResult& result) {
   const Eigen::VectorXd fitted = model.fitted_samples(state);
@@ -136,47 +84,6 @@ void flag_table_misfit(const HistoryInput& input, const TableContact& contact, F
   const auto [low, high] = std::minmax_element(input.output.begin(), input.output.end());
   flag_misfit(result.noise.sigma, sigma_from_differences(quiet_N), quiet_N.size(), *high - *low,
               result);
-}
-
-// A table after preparation: spikes, an earlier touch and the frame's part of the depth removed.
-struct ContactTable {
-  std::vector<Column> columns;  // time, force, depth
-  DepthLaw law{1.0, 1.0};
-  TableContact contact;
-  std::size_t loaded = 0;  // index of the end of loading
-  std::size_t n_left_out = 0, n_spikes = 0;
-};
-
-ContactTable contact_table(const IndentationData& data) {
-  ContactTable table;
-  CleanViews clean({data.time_s, data.force_N, data.depth_m}, kLeastContactRows);
-  check_force(clean.column(1));
-  const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
-  clean.drop(spikes);
-  table.n_left_out = clean.n_left_out();
-  table.n_spikes = spikes.size();
-  std::vector<Column>& columns = table.columns;
-  for (const std::size_t i : {0U, 1U, 2U}) {
-    columns.emplace_back(clean.column(i).begin(), clean.column(i).end());
-  }
-  check_depth(columns[1], columns[2]);
-  if (data.frame_stiffness_N_m > 0.0) {
-    for (std::size_t i = 0; i < columns[0].size(); ++i) {
-      columns[2][i] -= columns[1][i] / data.frame_stiffness_N_m;
-    }
-  }
-  if (data.contact) table.law = depth_law(*data.contact);
-  table.loaded = end_of_loading(columns[2]);
-  table.contact = find_contact(columns[1], columns[2], table.loaded, table.law.power);
-  if (!table.contact.is_fitted) return table;
-  const std::size_t touched = end_of_earlier_touch(columns[2], table.loaded, table.contact.depth_m);
-  if (touched == 0) return table;
-  for (Column& column : columns) {
-    column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(touched));
-  }
-  table.loaded = end_of_loading(columns[2]);
-  table.contact = find_contact(columns[1], columns[2], table.loaded, table.law.power);
-  return table;
 }
 
 // The two-point modulus of the loading part.
@@ -210,7 +117,7 @@ void report_table(const IndentationData& data, const ContactTable& table, const 
   flag_saturation(input.output, result);
   flag_table_misfit(input, contact, result);
   flag_gap(input.time_s, contact.first, end, result);
-  if (table.law.power != 1.0 && input.time_s.size() < table.columns[0].size()) {
+  if (table.law.power != 1.0 && input.time_s.size() < table.time_s.size()) {
     result.flags.push_back({"unloading-left-out", 0,
                             "samples after the depth began to fall were left out: the formula for "
                             "a sphere or cone holds while the contact does not shrink"});
@@ -220,28 +127,104 @@ void report_table(const IndentationData& data, const ContactTable& table, const 
   }
 }
 
+// A model of the record, or of a part of it, and its fit.
+struct HistoryFit {
+  std::unique_ptr<HistoryModel> model;
+  HistoryInput input;
+  SpectralFit fit;
+  std::size_t n_contacts = 1, n_adhesion = 0;
+
+  double zero_s() const { return input.time_s[std::min(input.contact, input.time_s.size() - 1)]; }
+};
+
+HistoryFit fit_history(HistoryInput input, const FitOptions& options) {
+  HistoryFit of;
+  of.input = std::move(input);
+  of.model = std::make_unique<HistoryModel>(of.input, options);
+  of.fit =
+      fit_spectrum(*of.model, log_time_blocks(of.model->row_time_s(), of.zero_s(), 2), options);
+  return of;
+}
+
+// Share of the samples that two courses of contact do not have in common.
+double share_changed(const std::vector<char>& a, const std::vector<char>& b) {
+  if (a.size() != b.size()) return 1.0;
+  std::size_t n_changed = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) n_changed += a[i] != b[i] ? 1 : 0;
+  return static_cast<double>(n_changed) / static_cast<double>(std::max<std::size_t>(a.size(), 1));
+}
+
+// The same times and nuisances fitted to another model.
+SpectralState fitted_again(const SpectralModel& model, const SpectralState& start) {
+  const SpectralState state = solve_coefficients(model, start.ln_tau, start.nuisance);
+  if (start.ln_tau.size() + start.nuisance.size() == 0) return state;
+  return quick_search(model, state, {.tolerance = 1e-10});
+}
+
+// Fits the whole record of a punch that is pulled back. Where it is in contact follows from the
+// series, so course and series are found in turn, with the order of the first contact, until the
+// course stays the same. The order of the whole record is chosen at last.
+HistoryFit fit_whole(const ContactTable& table, const HistoryFit& start,
+                     const FitOptions& options) {
+  constexpr int kRounds = 8;
+  constexpr double kSame = 1e-3;
+  SpectralState state = start.fit.state;
+  PronySeries series = relaxation_series_of(*start.model, options.is_liquid)(state);
+  std::vector<char> last;
+  for (int round = 1;; ++round) {
+    const double contact_m = table.contact.is_fitted ? state.nuisance[0] : 0.0;
+    WholeRecord whole = whole_record(table, series, contact_m, options.with_drift);
+    whole.input.with_drift |= start.input.with_drift;
+    if (round == kRounds || share_changed(last, whole.input.is_free) <= kSame) {
+      HistoryFit fitted = fit_history(std::move(whole.input), options);
+      fitted.n_contacts = whole.n_contacts;
+      fitted.n_adhesion = whole.n_adhesion;
+      return fitted;
+    }
+    last = whole.input.is_free;
+    const HistoryModel model(std::move(whole.input), options);
+    state = fitted_again(model, state);
+    series = relaxation_series_of(model, options.is_liquid)(state);
+  }
+}
+
+// Rows that the fit does not use.
+void count_left_out(const ContactTable& table, const HistoryFit& fitted, FitResult& result) {
+  add_left_out(result, left_out::kNotANumber, table.n_not_a_number);
+  add_spikes(result, table.n_spikes);
+  add_left_out(result, left_out::kDepthSpike, table.n_depth_spikes);
+  add_left_out(result, left_out::kEarlierTouch, table.n_touch);
+  add_left_out(result, left_out::kAdhesion, fitted.n_adhesion);
+  const std::size_t rest = table.time_s.size() - fitted.input.time_s.size() - fitted.n_adhesion;
+  add_left_out(result, table.law.power == 1.0 ? left_out::kContactLost : left_out::kUnloading,
+               rest);
+  result.n_contacts = fitted.n_contacts;
+}
+
 // The fit of a table after preparation, with or without a drift of the force.
-FitResult fit_contact_table(const IndentationData& data, const ContactTable& table,
-                            const HistoryInput& input, const FitOptions& options) {
-  const HistoryModel model(input, options);
-  const double zero_s = input.time_s[std::min(table.contact.first, input.time_s.size() - 1)];
-  const SpectralFit fit =
-      fit_spectrum(model, log_time_blocks(model.row_time_s(), zero_s, 2), options);
+FitResult fit_contact_table(const IndentationData& data, const ContactTable& table, bool with_drift,
+                            const FitOptions& options) {
+  HistoryInput input = first_contact(table);
+  input.with_drift = with_drift;
+  HistoryFit fitted = fit_history(std::move(input), options);
+  if (table.goes_back) fitted = fit_whole(table, fitted, options);
+  const HistoryModel& model = *fitted.model;
   FitResult result;
   result.is_stiffness = !data.contact;
-  fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
-  result.n_left_out = table.n_left_out;
-  add_spikes(result, table.n_spikes);
-  report_table(data, table, input, model, fit, result);
-  examine_table(model, fit, zero_s, result);
-  report_first_modulus(shortest_step_s(input.time_s), result);
-  if (options.with_curves) fill_curves(model, input, fit.state, result.noise.sigma, result);
+  fill_result(model, fitted.fit, relaxation_series_of(model, options.is_liquid), result);
+  count_left_out(table, fitted, result);
+  report_table(data, table, fitted.input, model, fitted.fit, result);
+  examine_table(model, fitted.fit, fitted.zero_s(), result);
+  report_first_modulus(shortest_step_s(fitted.input.time_s), result);
+  if (options.with_curves) {
+    fill_curves(model, fitted.input, fitted.fit.state, result.noise.sigma, result);
+  }
   return result;
 }
 
 FitResult fit_measured_depth(const IndentationData& data, const FitOptions& options) {
   const ContactTable table = contact_table(data);
-  const HistoryInput input = history_input(table.columns, table.contact, table.law);
+  const HistoryInput input = first_contact(table);
   if (input.time_s.size() < kLeastContactRows) {
     throw std::runtime_error("only " + counted(input.time_s.size(), "sample") +
                              " between contact and its loss; a fit needs at least " +
@@ -251,10 +234,9 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
   return fit_with_or_without_drift(
       options, {input.time_s.back() - input.time_s.front(), *high - *low, "N"},
       [&](TableDrift drift) {
-        HistoryInput one = input;
-        one.with_drift = drift == TableDrift::kFitted;
-        return fit_solid_or_liquid(
-            options, [&](const FitOptions& as) { return fit_contact_table(data, table, one, as); });
+        return fit_solid_or_liquid(options, [&](const FitOptions& as) {
+          return fit_contact_table(data, table, drift == TableDrift::kFitted, as);
+        });
       });
 }
 
@@ -290,6 +272,9 @@ FitResult fit_indentation(const IndentationData& data, const FitOptions& options
       data.moves.empty() ? fit_measured_depth(data, options) : fit_stage_indentation(data, options);
   result.kind = FitKind::kIndentation;
   result.systematic_relative = systematic_share(data, result);
+  add_left_out(result, left_out::kSaturated, data.n_saturated);
+  add_left_out(result, left_out::kGlitch, data.n_glitch);
+  flag_left_out(result);
   if (data.n_saturated > 0) {
     add_defect(
         result, "saturated",

@@ -3,6 +3,7 @@
 #include "fit/assembly/assemble_result.h"
 #include "fit/curves/master_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/left_out.h"
 #include "fit/master_segments.h"
 #include "fit/master_shifts.h"
 #include "fit/master_start.h"
@@ -184,7 +185,8 @@ MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) 
   result.kind = data.loss_Pa.empty() ? FitKind::kRelaxation : FitKind::kDma;
   fill_result(*shifts.model, fit, relaxation_series_of(*shifts.model, options.is_liquid), result);
   result.n_samples = data.argument.size() - all.n_left_out;
-  result.n_left_out = all.n_left_out;
+  add_left_out(result, left_out::kNotANumber, all.n_left_out);
+  flag_left_out(result);
   fill_window(all.segments, curve.factors, result);
   add_identifiability_flags(*shifts.model, fit.state, fit.covariance,
                             {0.0, 0.0, result.fit_from_s, result.fit_to_s}, result);

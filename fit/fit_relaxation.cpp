@@ -7,6 +7,7 @@
 #include "fit/curves/step_model.h"
 #include "fit/intervals/flags.h"
 #include "fit/intervals/lack_of_fit.h"
+#include "fit/intervals/left_out.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/decay.h"
 #include "fit/samples/spikes.h"
@@ -179,11 +180,13 @@ FitResult fit_relaxation(const RelaxationData& data, const FitOptions& options) 
     });
     add_spikes(result, spikes.size());
   }
-  result.n_left_out = clean.n_left_out();
+  add_left_out(result, left_out::kNotANumber, clean.n_left_out());
   if (n_early > 0) {
     result.flags.push_back(
         {"samples-before-zero", 0, counted(n_early, "sample") + " before t = 0 left out"});
   }
+  add_left_out(result, left_out::kBeforeZero, n_early);
+  flag_left_out(result);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include "fit/curves/stage_model.h"
 #include "fit/fit_indentation.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/left_out.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/contact_onset.h"
 #include "models/material/retardation_spectrum.h"
@@ -273,6 +274,7 @@ FitResult fit_stage_indentation(const IndentationData& data, const FitOptions& o
                                     "all later ones were left out. Unload to a larger share of the "
                                     "depth, and check modulus_guess of the specimen"});
   }
+  add_left_out(fit.result, left_out::kLifted, data.time_s.size() - kept.time_s.size());
   return fit.result;
 }
 

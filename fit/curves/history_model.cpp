@@ -59,12 +59,16 @@ HistoryModel::HistoryModel(HistoryInput input, const FitOptions& options) : in_(
   const double ratio = std::pow(10.0, 1.0 / kBinsPerDecade);
   const double zero_s = in_.time_s[in_.contact];
   // Samples of loading, and the first ones after it, are rows of their own.
-  const double loaded_s = zero_s + 1.5 * (in_.time_s[end_of_loading(in_.input)] - zero_s);
+  if (!in_.loaded) in_.loaded = end_of_loading(in_.input);
+  const double loaded_s = zero_s + 1.5 * (in_.time_s[*in_.loaded] - zero_s);
+  const auto has_moved = [&](std::size_t i) { return !in_.has_moved.empty() && in_.has_moved[i]; };
+  double clock_s = zero_s;
   for (std::size_t begin = 0; begin < count;) {
     std::size_t end = begin + 1;
+    if (has_moved(begin)) clock_s = in_.time_s[begin];
     if (!is_small && in_.time_s[begin] > loaded_s) {
-      const double limit_s = zero_s + (in_.time_s[begin] - zero_s) * ratio;
-      while (end < count && in_.time_s[end] < limit_s) ++end;
+      const double limit_s = clock_s + (in_.time_s[begin] - clock_s) * ratio;
+      while (end < count && in_.time_s[end] < limit_s && !has_moved(end)) ++end;
     }
     row_begin_.push_back(begin);
     begin = end;
@@ -100,7 +104,7 @@ HistoryModel::HistoryModel(HistoryInput input, const FitOptions& options) : in_(
 HistoryModel::Onset HistoryModel::onset_at(double contact_input) const {
   if (!in_.contact_input) return {in_.contact, in_.time_s[in_.contact], 0.0};
   // The last crossing of the contact position before the input stays above it.
-  Onset onset{end_of_loading(in_.input), 0.0, contact_input};
+  Onset onset{*in_.loaded, 0.0, contact_input};
   while (onset.first > 0 && in_.input[onset.first - 1] > contact_input) --onset.first;
   const std::size_t first = onset.first;
   onset.time_s = in_.time_s[first];
@@ -114,6 +118,7 @@ HistoryModel::Onset HistoryModel::onset_at(double contact_input) const {
 
 void HistoryModel::fill_equilibrium(const Onset& onset, Column into) const {
   for (std::size_t k = onset.first; k < in_.time_s.size(); ++k) {
+    if (is_free(k)) continue;  // the columns are zero
     const double depth = in_.input[k] - onset.input;
     into.value[k] = in_.factor * powered(depth, in_.power);
     if (into.by_contact != nullptr) {
@@ -136,11 +141,12 @@ void HistoryModel::fill_term(const Onset& onset, double tau_s, Column into) cons
     const double change = value - previous;
     if (into.by_ln_tau != nullptr) {
       slope = step.decay * (slope + step.x * q) + change * step.slope;
-      into.by_ln_tau[k] = c * slope;
+      into.by_ln_tau[k] = is_free(k) ? 0.0 : c * slope;
     }
     q = step.decay * q + step.p1 * change;
     previous_s = in_.time_s[k];
     previous = value;
+    if (is_free(k)) continue;
     into.value[k] = c * q;
     if (into.by_contact == nullptr) continue;
     if (in_.power == 1.0) {

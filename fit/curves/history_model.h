@@ -29,6 +29,14 @@ struct HistoryInput {
   double contact_half_width = 0.0;
   bool with_offset = false;
   bool with_drift = false;
+  // Last sample of the first loading; none: end_of_loading(input).
+  std::optional<std::size_t> loaded;
+  // For punches that lose contact (contact_course.h); empty: contact is kept. The force of a free
+  // sample is zero; `input` is then the depth of the free surface.
+  std::vector<char> is_free;
+  // Samples at which the input has moved on: no average extends over them, and the log time of the
+  // averages restarts there. Empty: none.
+  std::vector<char> has_moved;
 };
 
 // First sample with at least 98 % of the largest input: the end of loading, despite later drift.
@@ -67,6 +75,7 @@ class HistoryModel final : public SpectralModel {
   struct Column {
     double *value, *by_ln_tau, *by_contact;
   };
+  bool is_free(std::size_t sample) const { return !in_.is_free.empty() && in_.is_free[sample]; }
   void fill_equilibrium(const Onset& onset, Column into) const;
   void fill_term(const Onset& onset, double tau_s, Column into) const;
 

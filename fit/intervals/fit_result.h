@@ -98,6 +98,12 @@ struct FitCurves {
   }
 };
 
+// Rows of the input that are not fitted, for one reason (fit/intervals/left_out.h).
+struct LeftOutRows {
+  std::string reason;
+  std::size_t count = 0;
+};
+
 // How much worse the fit becomes if one parameter is held at a value and all others are fitted
 // again: rise of the sum of squares over the variance of the noise (3.84 ends the interval).
 struct ProfileCurve {
@@ -144,8 +150,10 @@ struct FitResult {
   // measured frequencies. E0 and the terms do not contain it.
   std::optional<double> dashpot_Pa_s;
   double dashpot_se_Pa_s = 0.0;
-  std::size_t n_spikes = 0;              // samples left out as spikes
-  std::size_t n_left_out = 0;            // rows left out because a value is not a finite number
+  std::size_t n_spikes = 0;    // samples left out as spikes
+  std::size_t n_left_out = 0;  // rows that are not fitted, for all reasons together
+  std::vector<LeftOutRows> left_out;
+  std::size_t n_contacts = 0;  // times that contact was made, in a table of force and depth
   std::optional<LackOfFit> lack_of_fit;  // nothing: not tested
   std::optional<FittedDrift> drift;      // of a table, if it was fitted
   bool is_converged = true;              // of the chosen order

@@ -1,5 +1,6 @@
 #include "fit/intervals/flags.h"
 
+#include "fit/intervals/left_out.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -101,6 +102,7 @@ void report_first_modulus(double time_s, FitResult& result) {
 
 void add_spikes(FitResult& result, std::size_t count) {
   result.n_spikes = count;
+  add_left_out(result, left_out::kSpike, count);
   if (count == 0) return;
   result.flags.push_back(
       {"spikes-left-out", 0,

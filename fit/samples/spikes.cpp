@@ -29,7 +29,63 @@ double noise_of(std::span<const double> values) {
   return median(std::move(sigmas));
 }
 
+// Range without the highest and lowest half per cent.
+double usual_range(std::span<const double> values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  const auto cut = static_cast<std::ptrdiff_t>(sorted.size() / 200);
+  std::nth_element(sorted.begin(), sorted.begin() + cut, sorted.end());
+  const double low = sorted[static_cast<std::size_t>(cut)];
+  std::nth_element(sorted.begin(), sorted.end() - 1 - cut, sorted.end());
+  return sorted[sorted.size() - 1 - static_cast<std::size_t>(cut)] - low;
+}
+
+// Judges a run of rows between two neighbours; at an end of the record both are the same row.
+struct JumpTest {
+  std::span<const double> force_N, depth_m;
+  double force_range_N, depth_range_m;
+
+  bool is_jump(std::size_t begin, std::size_t end) const {
+    constexpr double kFar = 0.05, kBack = 0.2, kFollows = 0.25;
+    const std::size_t before = begin > 0 ? begin - 1 : end;
+    const std::size_t after = end < depth_m.size() ? end : before;
+    const double gap_m = before != after ? std::abs(depth_m[after] - depth_m[before])
+                         : begin == 0    ? std::abs(depth_m[end + 1] - depth_m[end])
+                                         : std::abs(depth_m[begin - 1] - depth_m[begin - 2]);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double from_m = depth_m[i] - depth_m[before], to_m = depth_m[i] - depth_m[after];
+      const double far_m = std::min(std::abs(from_m), std::abs(to_m));
+      if (from_m * to_m <= 0.0 || far_m < kFar * depth_range_m || gap_m > kBack * far_m)
+        return false;
+      const double follows_N = std::abs(force_N[i] - 0.5 * (force_N[before] + force_N[after]));
+      const double share = std::min(1.0, far_m / depth_range_m);
+      if (follows_N > kFollows * share * force_range_N) return false;
+    }
+    return true;
+  }
+};
+
 }  // namespace
+
+std::vector<std::size_t> depth_jumps(std::span<const double> force_N,
+                                     std::span<const double> depth_m) {
+  constexpr std::size_t kFewest = 20, kLongest = 3;
+  std::vector<std::size_t> rows;
+  const std::size_t n = depth_m.size();
+  if (n < kFewest) return rows;
+  const JumpTest test{force_N, depth_m, usual_range(force_N), usual_range(depth_m)};
+  const double far_m = 0.05 * test.depth_range_m;
+  for (std::size_t begin = 0; begin < n; ++begin) {
+    // A jump begins where the depth changes at once; the first row has no row before it.
+    if (begin > 0 && !(std::abs(depth_m[begin] - depth_m[begin - 1]) > far_m)) continue;
+    for (std::size_t end = begin + 1; end <= std::min(n, begin + kLongest); ++end) {
+      if (!test.is_jump(begin, end)) continue;
+      for (std::size_t i = begin; i < end; ++i) rows.push_back(i);
+      begin = end - 1;
+      break;
+    }
+  }
+  return rows;
+}
 
 bool is_evenly_sampled(std::span<const double> time_s) {
   if (time_s.size() < kLeastRecord) return false;

@@ -17,6 +17,11 @@ std::vector<std::size_t> isolated_spikes(std::span<const double> time_s,
 // True if isolated_spikes() can be applied to such a record.
 bool is_evenly_sampled(std::span<const double> time_s);
 
+// Rows, at most three in succession, whose depth jumps away and back while the force does not
+// follow: a display that lost a reading, or wrote a zero.
+std::vector<std::size_t> depth_jumps(std::span<const double> force_N,
+                                     std::span<const double> depth_m);
+
 // Outliers among the residuals of a fit: samples beyond 5.5 standard deviations (from the median of
 // |residual|), in groups of at most three with good samples on either side, so that neither a fast
 // term at the start nor a misfit is taken for spikes. Returns none for records of fewer than 1000

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <map>
 #include <mutex>
@@ -177,6 +178,8 @@ void write_file(const std::filesystem::path& path, const std::string& contents, 
   }
 }
 
+constexpr std::size_t kLongestPipe = std::size_t{512} << 20, kLongestDevice = std::size_t{64} << 20;
+
 std::string read_file(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail(path, "cannot read", EISDIR);
@@ -187,7 +190,15 @@ std::string read_file(const std::filesystem::path& path) {
   const auto expected = std::filesystem::file_size(path, ignored);  // fails for a pipe
   contents.resize(
       ignored ? 0 : static_cast<std::size_t>(expected) + 1);  // one more byte, to detect the end
+  // Devices and pipes may never end.
+  const std::size_t most = std::filesystem::is_regular_file(path, ignored) ? SIZE_MAX
+                           : std::filesystem::is_fifo(path, ignored)       ? kLongestPipe
+                                                                           : kLongestDevice;
   while (true) {
+    if (size >= most) {
+      throw std::runtime_error(path.string() + ": did not end after " + std::to_string(most >> 20) +
+                               " MiB and is no ordinary file; save a part of it to a file first");
+    }
     if (size == contents.size()) contents.resize(size + std::max<std::size_t>(size, 1 << 16));
     const ssize_t count = ::read(file.get(), contents.data() + size, contents.size() - size);
     if (count < 0 && errno == EINTR) continue;

@@ -1,13 +1,7 @@
 #pragma once
 
-#include "fit/fit_master_curve.h"
-#include "fit/intervals/fit_result.h"
 #include "fit/laws/fit_mixing_ratio.h"
-#include "fit/laws/fractional_diagnosis.h"
-#include "fit/samples/fit_data.h"
-#include "io/tables/column_map.h"
-#include "models/experiment/run_temperature.h"
-#include "models/experiment/specimen.h"
+#include "io/flow/fit_request.h"
 #include "models/material/material.h"
 
 #include <functional>
@@ -16,37 +10,6 @@
 #include <vector>
 
 namespace viscard {
-
-// What to fit in a capture or a table, and how.
-struct FitRequest {
-  std::optional<FitKind> kind;  // none: the columns decide
-  FitOptions options;
-  ColumnMap columns;
-  std::vector<std::string> segments;  // use only rows of these; empty: all
-  double time_zero_s = 0.0;           // time in the table where t = 0
-  std::optional<Specimen> specimen;   // replaces the specimen of a capture
-  bool diagnose = false;              // compare with a fractional model
-  bool needs_specimen = false;        // a table of several specimens is refused
-  bool needs_modulus = false;         // a stiffness is refused, because a material will be written
-  double frame_stiffness_N_m = 0.0;   // for tables whose depth_m is the position of the stage
-  std::optional<double> T_ref_C;      // reference temperature of a master curve
-};
-
-// The fit of one file, with the specimen that the file or the options describe.
-struct FittedFile {
-  std::string path;
-  FitResult result;
-  Specimen specimen;        // empty for a table without --specimen
-  std::string specimen_id;  // of the capture, or of the table's column "specimen"; empty: not known
-  std::string fitted_unit;  // unit of the fitted column: "N", "Pa", "1/Pa"
-  // Rows of an exported capture before its first baseline, which are not fitted.
-  std::size_t n_before_test = 0;
-  // By the thermometer of the run; nothing if there was none.
-  std::optional<RunTemperature> temperature;
-  // For a table of several temperatures; `result` is then the fit at the reference temperature.
-  std::optional<MasterCurve> master;
-  std::optional<FractionalDiagnosis> fractional;  // if FitRequest::diagnose is set
-};
 
 // Reads a capture or a table and fits it. Throws std::runtime_error naming the file.
 FittedFile fit_file(const std::string& path, const FitRequest& request);

@@ -14,7 +14,7 @@ Json number(double value) {
 
 Json terms_of(const FitResult& fit, const std::string& unit) {
   Json terms = Json::array();
-  const std::string stem = fit.is_stiffness ? "stiffness" : "modulus";
+  const std::string stem = unit == "_N" ? "force" : fit.is_stiffness ? "stiffness" : "modulus";
   for (const FittedTerm& term : fit.terms) {
     Json row;
     row[stem + unit] = number(term.modulus_Pa);
@@ -129,10 +129,11 @@ const char* name_of_kind(FitKind kind) {
 
 Json json_from_fit(const FittedFile& fitted) {
   const FitResult& fit = fitted.result;
-  const std::string unit = fit.is_stiffness ? "_N_m" : "_Pa";
-  const std::string letter = fit.is_stiffness ? "K" : "E";
+  const std::string unit = fitted.has_no_depth ? "_N" : fit.is_stiffness ? "_N_m" : "_Pa";
+  const std::string letter = fitted.has_no_depth ? "F" : fit.is_stiffness ? "K" : "E";
   Json json;
   json["file"] = fitted.path;
+  if (!fitted.maker.empty()) json["maker"] = fitted.maker;
   json["kind"] = name_of_kind(fit.kind);
   json["trustworthy"] = fit.is_trustworthy;
   json[letter + "0" + unit] = number(fit.E0_Pa);
@@ -200,7 +201,12 @@ Json json_from_fit(const FittedFile& fitted) {
   if (fitted.master) json["shift"] = json_of(*fitted.master);
   if (fitted.fractional) json["fractional_zener"] = json_of(*fitted.fractional);
   json["n_spikes"] = fit.n_spikes;
+  if (!fitted.chosen.empty()) json["chosen"] = fitted.chosen;
+  json["n_rows"] = fit.n_samples + fit.n_left_out;
   json["n_left_out"] = fit.n_left_out;
+  json["left_out"] = Json::object();  // rows by reason
+  for (const LeftOutRows& left : fit.left_out) json["left_out"][left.reason] = left.count;
+  if (fit.n_contacts > 0) json["n_contacts"] = fit.n_contacts;
   json["n_before_test"] = fitted.n_before_test;
   return json;
 }

@@ -87,6 +87,11 @@ FittedFile fit_for_page(const std::string& path) {
 SpecimenReport specimen_from_fit(const ReportRequest& request, const std::string& path) {
   SpecimenReport report;
   const FittedFile fitted = fit_for_page(path);
+  if (fitted.has_no_depth) {
+    throw std::runtime_error(path +
+                             ": has force but no depth, and the page shows moduli or "
+                             "stiffnesses; add a column depth_m, stress_Pa or modulus_Pa");
+  }
   report.fit = fitted.result;
   report.specimen = fitted.specimen;
   if (report.specimen.id.empty()) report.specimen.id = fs::path(path).stem().string();

@@ -1,5 +1,6 @@
 #include "io/report/report_sections.h"
 
+#include "fit/intervals/left_out.h"
 #include "io/plots/plot_svg.h"
 #include "io/report/report_figures.h"
 #include "io/report/report_numbers.h"
@@ -64,6 +65,7 @@ std::string fit_caption(const FitResult& fit) {
       "Data (dots; averages of neighbours where samples are dense) and fit with {}, {} samples",
       counted(fit.terms.size(), "term"), fit.n_samples);
   if (fit.n_spikes > 0) text += fmt::format(", {} omitted as spikes", fit.n_spikes);
+  if (fit.n_left_out > fit.n_spikes) text += "; " + escaped_markup(left_out_text(fit));
   text += fit.curves.sigma.size() == fit.curves.time_s.size()
               ? ". Below: the difference divided by its standard deviation."
               : ". Below: the difference.";

@@ -192,6 +192,10 @@ std::optional<ColumnUse> find_column(const CsvTable& table, const std::string& n
   const Quantity& quantity = quantity_named(name);
   const auto mapped = map.find(name);
   if (mapped != map.end()) return mapped_column(table, quantity, mapped->second);
+  const auto of_maker = table.maker_columns.find(name);
+  if (of_maker != table.maker_columns.end()) {
+    return mapped_column(table, quantity, of_maker->second);
+  }
   return found_column(table, quantity);
 }
 
@@ -248,6 +252,10 @@ CsvTable rows_of_segment(const CsvTable& table, const std::string& segment, cons
     if (is_new && names.size() < 20) names.push_back(segments[row]);
   }
   if (rows.empty()) fail(table, "has no segment '" + segment + "'; there are " + listed(names));
+  return chosen_rows(table, rows);
+}
+
+CsvTable chosen_rows(const CsvTable& table, const std::vector<std::size_t>& rows) {
   CsvTable out = table;
   out.lines.clear();
   for (const std::size_t row : rows) out.lines.push_back(table.lines[row]);

@@ -58,4 +58,7 @@ std::vector<std::string> column_text(const CsvTable& table, const std::string& n
 CsvTable rows_of_segment(const CsvTable& table, const std::string& segment,
                          const ColumnMap& map = {});
 
+// Returns the table with only these rows, ascending. Their bad cells are found anew.
+CsvTable chosen_rows(const CsvTable& table, const std::vector<std::size_t>& rows);
+
 }  // namespace viscard

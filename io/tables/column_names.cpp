@@ -82,7 +82,7 @@ const std::vector<Quantity>& quantities() {
       {"depth_m",
        "depth",
        "m",
-       {"h", "indentation", "indentation depth", "displacement", "penetration", "weg",
+       {"h", "indentation", "indentation depth", "displacement", "extension", "penetration", "weg",
         "standardweg", "traversenweg", "eindringtiefe", "déplacement", "deplacement", "enfoncement",
         "profondeur", "位移", "压入深度", "深度"}},
       {"modulus_Pa",

@@ -86,6 +86,13 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
+// Without blanks and carriage returns at its ends. Tabs stay: they may stand beside empty cells.
+std::string_view without_blanks(std::string_view line) {
+  while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
+  while (!line.empty() && (line.back() == ' ' || line.back() == '\r')) line.remove_suffix(1);
+  return line;
+}
+
 bool is_comment(std::string_view line) {
   if (line.front() == '#' || line.substr(0, 2) == "//") return true;
   if (line.front() != '%') return false;
@@ -122,7 +129,7 @@ bool has_blank_between_numbers(std::string_view line) {
 char detect_separator(const std::vector<TextLine>& sample) {
   for (const char separator : {';', '\t', ','}) {
     const auto has_it = std::count_if(sample.begin(), sample.end(), [&](const TextLine& line) {
-      return count_outside_quotes(line.text, separator) > 0 &&
+      return count_outside_quotes(trimmed(line.text), separator) > 0 &&
              (separator != ',' || !has_blank_between_numbers(line.text));
     });
     if (2 * static_cast<std::size_t>(has_it) >= sample.size()) return separator;
@@ -171,14 +178,15 @@ std::string_view LineReader::take_line() {
 
 bool LineReader::next(TextLine& line) {
   while (!rest_.empty()) {
-    const std::string_view text = trimmed(take_line());
+    const std::string_view whole = take_line();
+    const std::string_view text = trimmed(whole);
     ++number_;
     if (text.empty()) continue;
     if (is_comment(text)) {
       last_comment_ = trimmed(text.substr(std::min(text.size(), text.find_first_not_of("#%/"))));
       continue;
     }
-    line = {number_, text};
+    line = {number_, without_blanks(whole)};
     return true;
   }
   return false;

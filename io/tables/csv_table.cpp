@@ -1,8 +1,9 @@
 #include "io/tables/csv_table.h"
 
-#include "io/basics/atomic_file.h"
 #include "io/basics/units.h"
 #include "io/tables/csv_dialect.h"
+#include "io/tables/csv_header.h"
+#include "io/tables/maker_table.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -25,43 +26,6 @@ std::string without_doubled_quotes(std::string_view cell) {
   return out;
 }
 
-std::string_view without_brackets(std::string_view cell) {
-  const bool is_bracketed = cell.size() >= 2 && ((cell.front() == '(' && cell.back() == ')') ||
-                                                 (cell.front() == '[' && cell.back() == ']'));
-  return is_bracketed ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
-}
-
-// E(t), G'(w): the argument of a function, not a unit.
-bool is_argument(std::string_view header, std::size_t open, std::string_view inside) {
-  const bool is_attached = open > 0 && header[open - 1] != ' ';
-  return header[open] == '(' && is_attached &&
-         (inside == "t" || inside == "w" || inside == "f" || inside == "ω" || inside == "omega");
-}
-
-void split_header(CsvColumn& column) {
-  column.name = column.header;
-  const std::string_view header = column.header;
-  if (header.empty()) return;
-  const std::size_t open = header.find_last_of("([");
-  const char close = header.back();
-  if (open != std::string_view::npos && open > 0 && (close == ')' || close == ']')) {
-    const std::string_view inside = trimmed(header.substr(open + 1, header.size() - open - 2));
-    if (is_argument(header, open, inside) || !is_unit(inside)) return;
-    column.name = trimmed(header.substr(0, open));
-    column.unit = inside;
-    return;
-  }
-  for (const char* mark : {" / ", ", ", "/"}) {  // "Force / N", "Force, N", "F/N"
-    const std::size_t at = header.rfind(mark);
-    if (at == std::string_view::npos || at == 0) continue;
-    const std::string_view unit = trimmed(header.substr(at + std::string_view(mark).size()));
-    if (unit.empty() || !is_unit(unit)) continue;
-    column.name = trimmed(header.substr(0, at));
-    column.unit = unit;
-    return;
-  }
-}
-
 class TableReader {
  public:
   TableReader(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {
@@ -76,7 +40,7 @@ class TableReader {
     find_width();
     read_head();
     read_rows();
-    drop_empty_last_column();
+    drop_empty_edge_columns();
     return std::move(table_);
   }
 
@@ -119,24 +83,72 @@ class TableReader {
     }
   }
 
+  // Without the empty cells that separators at the end of a line make.
+  void fit_to_width(std::vector<std::string_view>& cells) const {
+    while (cells.size() > width_ && cells.back().empty()) cells.pop_back();
+  }
+
+  // The line of the header: the line of text above a row of units, or else the first one, with as
+  // many cells as the table. A short table of results may stand before the record: its rows are
+  // notes if a later header has units below it and three times as many rows. 0: no header.
+  std::size_t header_line() const {
+    struct Run {
+      std::size_t header = 0, last_text = 0, n_rows = 0;
+      bool has_units = false;
+    };
+    Run chosen, run;
+    std::vector<std::string_view> cells;
+    const auto choose = [&] {
+      const bool is_record = run.has_units && run.n_rows > 3 * chosen.n_rows;
+      if (run.n_rows > 0 && (chosen.n_rows == 0 || is_record)) chosen = run;
+    };
+    for (const TextLine& line : sample_) {
+      split_cells(line, dialect_.separator, cells);
+      std::vector<std::string_view> names = header_cells(line, dialect_.separator);
+      fit_to_width(cells);
+      fit_to_width(names);
+      if (has_number(cells)) {
+        if (cells.size() == width_) ++run.n_rows;
+        continue;
+      }
+      if (names.size() != width_) continue;
+      if (run.n_rows > 0) {
+        choose();
+        run = {};
+      }
+      if (run.last_text != 0 && !run.has_units && is_row_of_units(names)) {
+        run.header = run.last_text;
+        run.has_units = true;
+      } else {
+        if (run.header == 0) run.header = line.number;
+        run.last_text = line.number;
+      }
+    }
+    choose();
+    return chosen.header;
+  }
+
   // Reads the notes, the header and the units; leaves first_row_ at the first line of numbers.
   void read_head() {
     table_.columns.resize(width_);
+    const std::size_t header = header_line();
     LineReader lines(text_);
     TextLine line;
     std::vector<std::string_view> cells;
     bool has_units = false;
     while (lines.next(line)) {
       split_cells(line, dialect_.separator, cells);
-      const std::vector<std::string_view> names = header_cells(line, dialect_.separator);
+      std::vector<std::string_view> names = header_cells(line, dialect_.separator);
+      fit_to_width(cells);
+      fit_to_width(names);
       const bool is_text = !has_number(cells);
-      if (is_text && !table_.has_header && names.size() == width_) {
+      if (line.number == header) {
         take_header(names);
       } else if (is_text && table_.has_header && !has_units && is_row_of_units(names)) {
         has_units = true;
         take_units(names);
-      } else if (!table_.has_header &&
-                 (is_text || (cells.size() != width_ && !is_all_numbers(cells)))) {
+      } else if (line.number < header ||
+                 (header == 0 && (is_text || (cells.size() != width_ && !is_all_numbers(cells))))) {
         table_.preamble.emplace_back(line.text);
       } else {
         break;
@@ -145,7 +157,10 @@ class TableReader {
     first_line_ = line.number;
     if (!table_.has_header) take_header_from_comment(lines.last_comment());
     for (CsvColumn& column : table_.columns) {
-      if (column.unit.empty()) split_header(column);
+      if (!column.unit.empty()) continue;
+      const HeaderParts parts = split_header(column.header);
+      column.name = parts.name;
+      column.unit = parts.unit;
     }
   }
 
@@ -157,6 +172,9 @@ class TableReader {
 
   void take_header(const std::vector<std::string_view>& names) {
     table_.has_header = true;
+    std::string whole;
+    for (const std::string_view name : names) whole += std::string(name) + "\t";
+    table_.maker = maker_of_header(whole);
     for (std::size_t i = 0; i < width_; ++i) {
       table_.columns[i].header = without_doubled_quotes(names[i]);
       table_.columns[i].name = table_.columns[i].header;
@@ -236,13 +254,17 @@ class TableReader {
     if (!cell.empty() && !number) is_text_[i] = 1;
   }
 
-  // Lines that end with a separator make an empty last column.
-  void drop_empty_last_column() {
-    const CsvColumn& last = table_.columns.back();
-    const bool is_empty = last.header.empty() && last.text.empty() &&
-                          std::all_of(last.values.begin(), last.values.end(),
-                                      [](double value) { return std::isnan(value); });
-    if (is_empty && width_ > 1) table_.columns.pop_back();
+  static bool is_empty(const CsvColumn& column) {
+    return column.header.empty() && column.text.empty() &&
+           std::all_of(column.values.begin(), column.values.end(),
+                       [](double value) { return std::isnan(value); });
+  }
+
+  // Lines that begin or end with a separator make empty first and last columns.
+  void drop_empty_edge_columns() {
+    std::vector<CsvColumn>& columns = table_.columns;
+    while (columns.size() > 1 && is_empty(columns.back())) columns.pop_back();
+    if (columns.size() > 1 && is_empty(columns.front())) columns.erase(columns.begin());
   }
 
   std::string_view text_;
@@ -257,19 +279,8 @@ class TableReader {
 
 }  // namespace
 
-CsvTable csv_from_text(std::string_view bytes, const std::string& name) {
-  const std::string text = utf8_from_bytes(bytes, name);
-  try {
-    return TableReader(text, name).read();
-  } catch (const std::runtime_error& error) {
-    const std::string what = error.what();  // split_cells() does not know the file
-    if (what.rfind("line ", 0) != 0) throw;
-    throw std::runtime_error(name + ": " + what);
-  }
-}
-
-CsvTable read_csv(const std::filesystem::path& path) {
-  return csv_from_text(read_file(path), path.string());
+CsvTable plain_table(std::string_view text, const std::string& name) {
+  return TableReader(text, name).read();
 }
 
 }  // namespace viscard

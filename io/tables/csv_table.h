@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,13 +33,21 @@ struct CsvTable {
   bool has_header = false;
   char separator = ',';  // ' ' for runs of blanks
   bool has_decimal_comma = false;
+  std::string maker;  // whose file it is ("JPK force curve"), if it was recognised (maker_table.h)
+  // Quantities of this maker's columns that their headers do not name, as --column writes them.
+  std::map<std::string, std::string> maker_columns;
 };
 
 // Throws std::runtime_error naming the file (and line) if it is missing, empty, not text, or has
 // rows of different lengths. A cell may hold no number; column_map.h refuses it in a used column.
-CsvTable read_csv(const std::filesystem::path& path);
+// sheet: of an Excel workbook; empty: the sheet with most numbers.
+CsvTable read_csv(const std::filesystem::path& path, const std::string& sheet = "");
 
 // The same from bytes; name stands for the file in messages.
-CsvTable csv_from_text(std::string_view bytes, const std::string& name);
+CsvTable csv_from_text(std::string_view bytes, const std::string& name,
+                       const std::string& sheet = "");
+
+// The same for UTF-8 text that is a plain table. An error about one line begins with "line N".
+CsvTable plain_table(std::string_view text, const std::string& name);
 
 }  // namespace viscard

@@ -52,8 +52,19 @@ void add_data_options(po::options_description& options) {
   auto add = options.add_options();
   add("column", po::value<Words>()->composing(),
       "NAME=HEADER or NAME=2: the column of a quantity; also NAME=-HEADER and NAME=1e9*HEADER");
+  add("sheet", po::value<std::string>(),
+      "of an Excel workbook (.xlsx); default: the one with most numbers");
   add("segment", po::value<Words>()->composing(), "use only rows of this segment (repeatable)");
   add("time-zero", po::value<std::string>()->default_value("0"), "time in the table where t = 0");
+  add("from", po::value<std::string>(), "fit only rows from this time on, such as \"2 s\"");
+  add("to", po::value<std::string>(), "fit only rows up to this time");
+  add("hold", po::value<int>(),
+      "fit only this hold of the record, from 1, with the ramp that leads to it");
+  add("crop", po::value<std::string>(),
+      "auto: fit only up to the end of the longest hold (without a depth: from the largest value "
+      "on)");
+  add("depth", po::value<std::string>(),
+      "constant depth of a table of force and time, such as \"0.1 mm\": gives stiffnesses");
   add("specimen", po::value<std::string>(), "specimen.toml with the geometry under the punch");
   add("punch-diameter", po::value<std::string>(), "of a flat punch, such as \"4.4 mm\"");
   add("layer-thickness", po::value<std::string>(),

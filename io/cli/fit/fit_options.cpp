@@ -135,6 +135,28 @@ std::optional<Specimen> specimen_from(const po::variables_map& values) {
   return specimen;
 }
 
+// The options that choose rows, and the depth of a record of force.
+void add_chosen_part(const po::variables_map& values, FitRequest& request) {
+  request.from_s = given_quantity(values, "from", "s");
+  request.to_s = given_quantity(values, "to", "s");
+  if (request.from_s && request.to_s && !(*request.from_s < *request.to_s)) {
+    throw UsageError("--from must be before --to");
+  }
+  if (const auto hold = given<int>(values, "hold")) {
+    request.hold = *hold;
+    if (*hold < 1) throw UsageError("--hold counts from 1");
+  }
+  if (const auto crop = given(values, "crop")) {
+    if (*crop != "auto") throw UsageError("--crop " + *crop + " is not known; use auto");
+    request.crop = true;
+    if (request.hold > 0) throw UsageError("--hold and --crop choose two parts; give one of them");
+  }
+  request.depth_m = given_quantity(values, "depth", "m");
+  if (request.depth_m && !(*request.depth_m > 0.0)) {
+    throw UsageError("--depth must be positive, such as \"0.1 mm\"");
+  }
+}
+
 }  // namespace
 
 FitRequest words_from(const po::variables_map& values) {
@@ -148,6 +170,7 @@ FitRequest words_from(const po::variables_map& values) {
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
+  words.sheet = given(values, "sheet").value_or("");
   words.segments = given<Words>(values, "segment").value_or(Words{});
   if (const auto stiffness_N_m = given_quantity(values, "frame-stiffness", "N/m")) {
     words.frame_stiffness_N_m = *stiffness_N_m;
@@ -155,6 +178,7 @@ FitRequest words_from(const po::variables_map& values) {
       throw UsageError("--frame-stiffness must be positive; omit it for a rigid frame");
     }
   }
+  add_chosen_part(values, words);
   words.T_ref_C = given_quantity(values, "reference-temperature", "degC");
   words.specimen = specimen_from(values);
   return words;

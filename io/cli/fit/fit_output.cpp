@@ -1,3 +1,4 @@
+#include "fit/intervals/left_out.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/flow/flow_json.h"
 #include "models/maths/text_of_number.h"
@@ -14,7 +15,9 @@ struct Shown {
   double factor = 1.0;
   std::string unit;
 };
-Shown shown_modulus(const FitResult& fit) {
+Shown shown_modulus(const FittedFile& fitted) {
+  const FitResult& fit = fitted.result;
+  if (fitted.has_no_depth) return {1.0, "N"};
   if (fit.is_stiffness) return {1.0, "N/m"};
   const double size = std::abs(fit.E0_Pa);
   if (size >= 1e9) return {1e-9, "GPa"};
@@ -94,15 +97,25 @@ void print_master(const MasterCurve& curve, std::ostream& out) {
 
 void print_fit(const FittedFile& fitted, std::ostream& out) {
   const FitResult& fit = fitted.result;
-  const Shown shown = shown_modulus(fit);
-  const char* letter = fit.is_stiffness ? "K" : "E";
+  const Shown shown = shown_modulus(fitted);
+  const char* letter = fitted.has_no_depth ? "F" : fit.is_stiffness ? "K" : "E";
   out << fmt::format("{}: {}, {}\n", fitted.path, name_of_kind(fit.kind),
                      counted(fit.n_samples, "sample"));
+  if (!fitted.maker.empty()) out << "  file of " << fitted.maker << "\n";
+  if (!fitted.chosen.empty()) out << "  chosen: " << fitted.chosen << "\n";
   if (fitted.n_before_test > 0) {
     out << "  not fitted: the " << counted(fitted.n_before_test, "row")
         << " before the first baseline, in which the rig looks for the surface\n";
   }
-  if (fit.is_stiffness) {
+  if (const std::string left = left_out_text(fit); !left.empty()) out << "  " << left << "\n";
+  if (fit.n_contacts > 1) {
+    out << "  contact was made " << fit.n_contacts << " times; the record is fitted as a whole\n";
+  }
+  if (fitted.has_no_depth) {
+    out << "  forces in N after a step of unknown depth; --depth gives stiffnesses\n";
+  } else if (fit.is_stiffness && fit.kind == FitKind::kRelaxation) {
+    out << "  stiffnesses in N/m: force over --depth\n";
+  } else if (fit.is_stiffness) {
     out << "  stiffnesses in N/m: no punch geometry was given (--specimen, or --punch-diameter)\n";
   }
   out << fmt::format("  {}0     {:>10.6g} {}   95 % {}\n", letter, fit.E0_Pa * shown.factor,

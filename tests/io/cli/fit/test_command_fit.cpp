@@ -154,3 +154,19 @@ TEST_CASE("fit --diagnose compares a relaxation with a power law and refuses oth
   CHECK(refused.status == kFailed);
   CHECK_THAT(refused.err, Contains("--diagnose compares relaxation"));
 }
+
+TEST_CASE("rows that are not fitted are counted by reason in text and JSON", "[cli]") {
+  const TableFolder folder;
+  std::string text = relaxation_table();
+  text += "-2,1.8\n-1,1.8\n";
+  const std::string file = folder.write("E.csv", text);
+  const CommandOutcome ran = run_command({"fit", file, "--json"});
+  REQUIRE(ran.status == kDone);
+  const auto json = nlohmann::json::parse(ran.out);
+  CHECK(json["n_rows"] == 103);
+  CHECK(json["n_samples"] == 101);
+  CHECK(json["n_left_out"] == 2);
+  CHECK(json["left_out"] == nlohmann::json{{"before_zero", 2}});
+  CHECK_THAT(run_command({"fit", file}).out,
+             Contains("2 of 103 rows left out: 2 rows before t = 0"));
+}

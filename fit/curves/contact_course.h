@@ -1,0 +1,37 @@
+#pragma once
+
+#include "models/material/prony_series.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace viscard {
+
+// The surface under a flat punch that may lift off. In contact the surface follows the punch. If
+// that would need a pulling force, the punch has lifted off: the force is zero and the surface
+// recovers on its own, until the punch meets it again. Both follow from the relaxation series,
+// exactly for a depth that is linear between samples (except within the step of a change).
+struct ContactCourse {
+  std::vector<double> surface_m;  // the punch's depth in contact, the free surface's out of it
+  std::vector<char> is_free;      // out of contact, after the first touch
+  std::size_t n_contacts = 1;     // times that contact was made; lifts of single samples are noise
+};
+
+// contact_m: depth of the surface at rest. first: first sample in contact. The scale of the series
+// does not matter.
+ContactCourse contact_course(std::span<const double> time_s, std::span<const double> depth_m,
+                             double contact_m, std::size_t first, const PronySeries& series);
+
+// Samples at which the depth has moved by more than 2 % of its range since the last such sample.
+std::vector<char> moved_samples(std::span<const double> depth_m);
+
+// The first loading ends at the first sample with 98 % of the largest depth that is reached before
+// the punch goes back by a fifth of the range. goes_back: it does so at all.
+struct FirstLoading {
+  std::size_t loaded = 0;
+  bool goes_back = false;
+};
+FirstLoading first_loading(std::span<const double> depth_m);
+
+}  // namespace viscard

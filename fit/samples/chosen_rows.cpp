@@ -1,0 +1,85 @@
+#include "fit/samples/chosen_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+// A stretch of rows within a band about its first row.
+struct Rest {
+  std::size_t begin = 0, end = 0;
+};
+
+// Way of the input in steps of the band, so that noise does not count.
+double way_of(std::span<const double> input, double band) {
+  double way = 0.0, last = input.front();
+  for (const double value : input) {
+    if (std::abs(value - last) <= band) continue;
+    way += std::abs(value - last);
+    last = value;
+  }
+  return way;
+}
+
+std::vector<Rest> rests_of(std::span<const double> time_s, std::span<const double> input,
+                           double band) {
+  constexpr double kSlow = 0.2;  // of the mean speed
+  constexpr std::size_t kFewest = 10;
+  const double least_s =
+      band * (time_s.back() - time_s.front()) / (kSlow * std::max(band, way_of(input, band)));
+  std::vector<Rest> rests;
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i <= input.size(); ++i) {
+    if (i < input.size() && std::abs(input[i] - input[begin]) <= band) continue;
+    const bool is_long = time_s[i - 1] - time_s[begin] >= least_s && i - begin >= kFewest;
+    // A hold that drifts is one hold.
+    const bool continues = is_long && !rests.empty() && rests.back().end == begin;
+    if (continues) {
+      rests.back().end = i;
+    } else if (is_long) {
+      rests.push_back({begin, i});
+    }
+    begin = i;
+  }
+  return rests;
+}
+
+}  // namespace
+
+std::vector<RowRange> holds_of(std::span<const double> time_s, std::span<const double> input) {
+  constexpr double kBand = 0.02, kLow = 0.1;
+  std::vector<RowRange> holds;
+  if (input.size() < 2) return holds;
+  const auto [low, high] = std::minmax_element(input.begin(), input.end());
+  const double range = *high - *low;
+  if (!(range > 0.0)) return holds;
+  std::size_t from = 0;
+  for (const Rest& rest : rests_of(time_s, input, kBand * range)) {
+    const bool is_low = input[rest.begin] - *low < kLow * range;
+    // A rest out of contact belongs to the next hold, as its baseline.
+    if (!is_low) holds.push_back({from, rest.end});
+    from = is_low ? rest.begin : rest.end;
+  }
+  return holds;
+}
+
+RowRange up_to_longest_hold(std::span<const double> time_s, std::span<const double> input) {
+  RowRange part{0, input.size()};
+  double longest_s = 0.0;
+  std::size_t last = 0;
+  for (const RowRange& hold : holds_of(time_s, input)) {
+    const double duration_s = time_s[hold.end - 1] - time_s[std::max(hold.begin, last)];
+    if (duration_s > longest_s) part.end = hold.end;
+    longest_s = std::max(longest_s, duration_s);
+    last = hold.end;
+  }
+  return part;
+}
+
+RowRange from_largest(std::span<const double> values) {
+  const auto largest = std::max_element(values.begin(), values.end());
+  return {static_cast<std::size_t>(largest - values.begin()), values.size()};
+}
+
+}  // namespace viscard

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace viscard {
+
+// Rows begin to end - 1 of a record.
+struct RowRange {
+  std::size_t begin = 0, end = 0;
+};
+
+// The holds of a record: stretches of at least ten rows in which depth or strain moves at less than
+// a fifth of its mean speed, away from its lowest place (out of contact). Each range begins with the
+// ramp that leads to the hold.
+std::vector<RowRange> holds_of(std::span<const double> time_s, std::span<const double> input);
+
+// The part that a fit of one ramp describes: the rows up to the end of the longest hold.
+RowRange up_to_longest_hold(std::span<const double> time_s, std::span<const double> input);
+
+// Without a depth: the rows from the largest value on, where relaxation begins.
+RowRange from_largest(std::span<const double> values);
+
+}  // namespace viscard

@@ -1,0 +1,107 @@
+#include "io/flow/choose_part.h"
+
+#include "fit/samples/chosen_rows.h"
+#include "models/maths/text_of_number.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+// Time and, if the table has one, the controlled quantity, in order of time.
+struct Course {
+  std::vector<std::size_t> rows;  // of the table
+  std::vector<double> time_s, input, value;
+};
+
+Course course_of(const CsvTable& table, const FitRequest& request) {
+  const auto column = [&](const char* name) {
+    return find_column(table, name, request.columns) ? column_SI(table, name, request.columns)
+                                                     : std::vector<double>();
+  };
+  Course course;
+  std::vector<double> time_s = column_SI(table, "time_s", request.columns);
+  course.rows.resize(time_s.size());
+  std::iota(course.rows.begin(), course.rows.end(), std::size_t{0});
+  std::stable_sort(course.rows.begin(), course.rows.end(),
+                   [&](std::size_t a, std::size_t b) { return time_s[a] < time_s[b]; });
+  const auto sorted = [&](const std::vector<double>& values) {
+    std::vector<double> out;
+    for (const std::size_t row : course.rows) out.push_back(values[row]);
+    return out;
+  };
+  course.time_s = sorted(time_s);
+  for (double& time : course.time_s) time -= request.time_zero_s;
+  for (const char* name : {"depth_m", "strain"}) {
+    if (const auto values = column(name); course.input.empty() && !values.empty()) {
+      course.input = sorted(values);
+    }
+  }
+  for (const char* name : {"modulus_Pa", "stress_Pa", "force_N"}) {
+    if (const auto values = column(name); course.value.empty() && !values.empty()) {
+      course.value = sorted(values);
+    }
+  }
+  return course;
+}
+
+RowRange hold_of(const Course& course, int number) {
+  if (course.input.empty()) {
+    throw std::runtime_error(
+        "--hold finds holds in depth_m or strain, and the table has neither; choose the part with "
+        "--from and --to");
+  }
+  const std::vector<RowRange> holds = holds_of(course.time_s, course.input);
+  if (static_cast<std::size_t>(number) > holds.size()) {
+    std::string found;
+    for (const RowRange& hold : holds) {
+      found += (found.empty() ? ": " : ", ") + text_of(course.time_s[hold.begin]) + " to " +
+               text_of(course.time_s[hold.end - 1]) + " s";
+    }
+    throw std::runtime_error("--hold " + std::to_string(number) + ", but the record has " +
+                             counted(holds.size(), "hold") + found);
+  }
+  return holds[static_cast<std::size_t>(number) - 1];
+}
+
+RowRange cropped(const Course& course) {
+  if (!course.input.empty()) return up_to_longest_hold(course.time_s, course.input);
+  if (!course.value.empty()) return from_largest(course.value);
+  throw std::runtime_error("--crop auto needs depth_m, strain, modulus_Pa, stress_Pa or force_N");
+}
+
+}  // namespace
+
+ChosenPart choose_part(const CsvTable& table, const FitRequest& request) {
+  if (!request.from_s && !request.to_s && request.hold == 0 && !request.crop) return {table, ""};
+  const Course course = course_of(table, request);
+  const std::size_t n = course.rows.size();
+  RowRange part{0, n};
+  if (request.hold > 0) part = hold_of(course, request.hold);
+  if (request.crop) part = cropped(course);
+  constexpr double kForever = std::numeric_limits<double>::infinity();
+  const double from_s = request.from_s.value_or(-kForever), to_s = request.to_s.value_or(kForever);
+  std::vector<std::size_t> rows;
+  double first_s = kForever, last_s = -kForever;
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    const double t = course.time_s[i];
+    if (t < from_s || t > to_s) continue;
+    rows.push_back(course.rows[i]);
+    first_s = std::min(first_s, t);
+    last_s = std::max(last_s, t);
+  }
+  if (rows.empty()) {
+    throw std::runtime_error("no row lies between --from and --to; the record covers " +
+                             text_of(course.time_s.front()) + " to " +
+                             text_of(course.time_s.back()) + " s");
+  }
+  std::sort(rows.begin(), rows.end());
+  return {chosen_rows(table, rows), counted(rows.size(), "row") + " of " + std::to_string(n) +
+                                        ", t = " + text_of(first_s) + " to " + text_of(last_s) +
+                                        " s"};
+}
+
+}  // namespace viscard

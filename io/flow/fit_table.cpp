@@ -1,0 +1,258 @@
+#include "io/flow/fit_table.h"
+
+#include "fit/fit_creep.h"
+#include "fit/fit_dma.h"
+#include "fit/fit_indentation.h"
+#include "fit/fit_relaxation.h"
+#include "fit/intervals/left_out.h"
+#include "io/basics/words.h"
+#include "io/flow/choose_part.h"
+#include "io/flow/table_kind.h"
+#include "io/tables/csv_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+using Column = std::vector<double>;
+
+// Segments of the exported table of a capture from its first baseline on; empty for any other
+// table. Before that the rig searches the surface, and its touch is an indentation of its own.
+std::vector<std::string> segments_of_test(const CsvTable& table, const FitRequest& request) {
+  if (!find_column(table, "segment", request.columns)) return {};
+  const std::vector<std::string> rows = column_text(table, "segment", request.columns);
+  const auto baseline = std::find(rows.begin(), rows.end(), "baseline");
+  if (baseline == rows.end() || std::find(rows.begin(), baseline, "tare") == baseline) return {};
+  std::vector<std::string> names;
+  for (auto row = baseline; row != rows.end(); ++row) {
+    if (std::find(names.begin(), names.end(), *row) == names.end()) names.push_back(*row);
+  }
+  return names;
+}
+
+// The rows of the chosen segments, in the order of the file.
+CsvTable rows_of_segments(const CsvTable& table, const FitRequest& request) {
+  const std::vector<std::string> segments =
+      request.segments.empty() ? segments_of_test(table, request) : request.segments;
+  if (segments.empty()) return table;
+  std::vector<CsvTable> parts;
+  for (const std::string& segment : segments) {
+    parts.push_back(rows_of_segment(table, segment, request.columns));
+  }
+  std::stable_sort(parts.begin(), parts.end(), [](const CsvTable& a, const CsvTable& b) {
+    return !a.lines.empty() && !b.lines.empty() && a.lines.front() < b.lines.front();
+  });
+  CsvTable all = parts.front();
+  for (std::size_t p = 1; p < parts.size(); ++p) {
+    all.lines.insert(all.lines.end(), parts[p].lines.begin(), parts[p].lines.end());
+    for (std::size_t c = 0; c < all.columns.size(); ++c) {
+      CsvColumn& to = all.columns[c];
+      const CsvColumn& from = parts[p].columns[c];
+      to.values.insert(to.values.end(), from.values.begin(), from.values.end());
+      to.text.insert(to.text.end(), from.text.begin(), from.text.end());
+    }
+  }
+  return all;
+}
+
+// The specimen that the table states in a column; empty without one.
+std::string specimen_id_of(const CsvTable& table, const FitRequest& request) {
+  if (!find_column(table, "specimen", request.columns)) return "";
+  const std::vector<std::string> ids = column_text(table, "specimen", request.columns);
+  for (const std::string& id : ids) {
+    if (id == ids.front()) continue;
+    if (!request.needs_specimen) return "";
+    throw std::runtime_error(table.file + ": the column specimen names '" + ids.front() +
+                             "' and '" + id +
+                             "', but a table holds one record of one specimen; divide the table");
+  }
+  return ids.empty() ? "" : ids.front();
+}
+
+Column time_of(const CsvTable& table, const FitRequest& request) {
+  Column time_s = column_SI(table, "time_s", request.columns);
+  for (double& time : time_s) time -= request.time_zero_s;
+  return time_s;
+}
+
+// Measured, or strain over constant stress.
+Column compliance_of(const CsvTable& table, const FitRequest& request) {
+  if (find_column(table, "compliance_1_Pa", request.columns) ||
+      !find_column(table, "stress_Pa", request.columns) ||
+      !find_column(table, "strain", request.columns)) {
+    return column_SI(table, "compliance_1_Pa", request.columns);
+  }
+  Column compliance = column_SI(table, "strain", request.columns);
+  const Column stress_Pa = column_SI(table, "stress_Pa", request.columns);
+  for (std::size_t i = 0; i < compliance.size(); ++i) compliance[i] /= stress_Pa[i];
+  return compliance;
+}
+
+// Parts of a maker's file whose clocks begin anew belong to different tests.
+void refuse_several_parts(const CsvTable& table, FitKind kind, const FitRequest& request) {
+  const bool has_parts = !table.maker.empty() && request.segments.empty() &&
+                         find_column(table, "segment", request.columns);
+  if (!has_parts || kind == FitKind::kDma) return;
+  const std::vector<std::string> parts = column_text(table, "segment", request.columns);
+  const Column time_s = column_with_gaps_SI(table, "time_s", request.columns);
+  std::vector<std::string> names{parts.front()};
+  bool restarts = false;
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    if (parts[i] == parts[i - 1]) continue;
+    names.push_back(parts[i]);
+    restarts = restarts || !(time_s[i] > time_s[i - 1]);
+  }
+  if (!restarts) return;
+  throw std::runtime_error(table.file + ": holds " + std::to_string(names.size()) +
+                           " parts, each with its own time or columns: " + listed(names) +
+                           ". Choose one with --segment \"" + names.back() + "\"");
+}
+
+// Force at constant depth: a stiffness if the depth is known, a modulus if the geometry is too.
+FitResult fit_force_table(const CsvTable& table, const FitRequest& request) {
+  const bool has_geometry = request.specimen.has_value();
+  if (has_geometry && !request.depth_m) {
+    throw std::runtime_error(
+        "the table has force but no depth, so a punch geometry gives no modulus; add --depth "
+        "\"0.1 mm\", the constant depth of the hold");
+  }
+  if (request.needs_modulus && !has_geometry) {
+    throw std::runtime_error(
+        "--out writes moduli, but a record of force alone gives only forces or stiffnesses; add "
+        "--depth and --punch-diameter or --specimen");
+  }
+  DepthLaw law{1.0, 1.0};
+  if (has_geometry) law = depth_law(request.specimen->contact);
+  const double per = request.depth_m ? law.factor * std::pow(*request.depth_m, law.power) : 1.0;
+  RelaxationData data{time_of(table, request), column_SI(table, "force_N", request.columns), {}};
+  for (double& value : data.value) value /= per;
+  FitResult result = fit_relaxation(data, request.options);
+  result.is_stiffness = !has_geometry;
+  return result;
+}
+
+FitResult fit_relaxation_table(const CsvTable& table, const FitRequest& request) {
+  RelaxationData data;
+  data.time_s = time_of(table, request);
+  const bool has_modulus = find_column(table, "modulus_Pa", request.columns).has_value();
+  data.value = column_SI(table, has_modulus ? "modulus_Pa" : "stress_Pa", request.columns);
+  if (!has_modulus && find_column(table, "strain", request.columns)) {
+    data.strain = column_SI(table, "strain", request.columns);
+  }
+  return fit_relaxation(data, request.options);
+}
+
+FitResult fit_indentation_table(const CsvTable& table, const FitRequest& request) {
+  if (request.needs_modulus && !request.specimen) {
+    throw std::runtime_error(
+        "--out writes moduli, but an indentation without punch geometry gives only stiffnesses; "
+        "add --specimen FILE, or --punch-diameter (and --layer-thickness)");
+  }
+  IndentationData data;
+  data.time_s = time_of(table, request);
+  data.force_N = column_SI(table, "force_N", request.columns);
+  data.depth_m = column_SI(table, "depth_m", request.columns);
+  data.frame_stiffness_N_m = request.frame_stiffness_N_m;
+  if (request.specimen) data.contact = request.specimen->contact;
+  return fit_indentation(data, request.options);
+}
+
+// Fits a master curve if a table of relaxation moduli or frequency sweeps has several temperatures.
+std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
+                                            const FitRequest& request) {
+  const bool is_step =
+      kind == FitKind::kRelaxation && find_column(table, "modulus_Pa", request.columns);
+  const bool has_temperature = find_column(table, "temperature_C", request.columns).has_value();
+  const bool may_have_several = is_step || kind == FitKind::kDma;
+  MasterData data;
+  if (has_temperature && may_have_several) {
+    data.temperature_C = column_SI(table, "temperature_C", request.columns);
+  }
+  if (!may_have_several || !has_several_temperatures(data.temperature_C)) {
+    if (!request.T_ref_C) return std::nullopt;
+    throw std::runtime_error(
+        "--reference-temperature applies only to tables of modulus_Pa, or of storage and loss "
+        "moduli, with several temperatures in a column temperature_C; omit it");
+  }
+  if (is_step) {
+    data.argument = time_of(table, request);
+    data.modulus_Pa = column_SI(table, "modulus_Pa", request.columns);
+  } else {
+    data.argument = column_SI(table, "frequency_Hz", request.columns);
+    data.modulus_Pa = column_SI(table, "storage_modulus_Pa", request.columns);
+    data.loss_Pa = column_SI(table, "loss_modulus_Pa", request.columns);
+  }
+  data.T_ref_C = request.T_ref_C;
+  return fit_master_curve(data, request.options);
+}
+
+// Fits the rows of a table that are in the chosen part.
+FittedFile fit_rows(const CsvTable& table, const FitRequest& request) {
+  FittedFile fitted;
+  if (request.specimen) fitted.specimen = *request.specimen;
+  fitted.specimen_id = specimen_id_of(table, request);
+  const FitKind kind = kind_of_table(table, request);
+  refuse_several_parts(table, kind, request);
+  fitted.master = fit_temperatures(table, kind, request);
+  // Of an exported capture; tables of several temperatures make a master curve instead.
+  if (kind == FitKind::kIndentation && find_column(table, "temperature_C", request.columns)) {
+    fitted.temperature =
+        run_temperature(column_with_gaps_SI(table, "temperature_C", request.columns));
+  }
+  if (fitted.master) {
+    fitted.result = fitted.master->fit;
+    fitted.fitted_unit = "Pa";
+    return fitted;
+  }
+  switch (kind) {
+    case FitKind::kIndentation:
+      fitted.result = fit_indentation_table(table, request);
+      fitted.fitted_unit = "N";
+      break;
+    case FitKind::kRelaxation:
+      if (is_force_alone(table, request)) {
+        fitted.result = fit_force_table(table, request);
+        fitted.fitted_unit = request.specimen ? "Pa" : request.depth_m ? "N/m" : "N";
+        fitted.has_no_depth = !request.depth_m;
+        break;
+      }
+      fitted.result = fit_relaxation_table(table, request);
+      fitted.fitted_unit = "Pa";
+      break;
+    case FitKind::kCreep:
+      fitted.result =
+          fit_creep({time_of(table, request), compliance_of(table, request)}, request.options);
+      fitted.fitted_unit = "1/Pa";
+      break;
+    case FitKind::kDma:
+      fitted.result = fit_dma({column_SI(table, "frequency_Hz", request.columns),
+                               column_SI(table, "storage_modulus_Pa", request.columns),
+                               column_SI(table, "loss_modulus_Pa", request.columns)},
+                              request.options);
+      fitted.fitted_unit = "Pa";
+      break;
+  }
+  return fitted;
+}
+
+}  // namespace
+
+FittedFile fit_table(const std::string& path, const FitRequest& request) {
+  const CsvTable all = read_csv(path, request.sheet);
+  const CsvTable table = rows_of_segments(all, request);
+  const ChosenPart part = choose_part(table, request);
+  FittedFile fitted = fit_rows(part.table, request);
+  fitted.chosen = part.text;
+  fitted.maker = all.maker;
+  add_left_out(fitted.result, left_out::kNotChosen, table.lines.size() - part.table.lines.size());
+  const std::size_t n_other = all.lines.size() - table.lines.size();
+  if (request.segments.empty()) fitted.n_before_test = n_other;
+  add_left_out(fitted.result,
+               request.segments.empty() ? left_out::kBeforeTest : left_out::kNotChosen, n_other);
+  return fitted;
+}
+
+}  // namespace viscard

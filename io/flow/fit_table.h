@@ -1,0 +1,12 @@
+#pragma once
+
+#include "io/flow/fit_request.h"
+
+#include <string>
+
+namespace viscard {
+
+// fit_file() for a table. Throws std::runtime_error, which may lack the name of the file.
+FittedFile fit_table(const std::string& path, const FitRequest& request);
+
+}  // namespace viscard

@@ -1,0 +1,83 @@
+#include "io/flow/table_kind.h"
+
+#include "io/tables/column_names.h"
+#include "io/tables/column_proposal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+[[noreturn]] void refuse_unknown_columns(const CsvTable& table) {
+  const std::string words = proposed_words(table);
+  throw std::runtime_error(
+      table.file +
+      ": no known column to fit; expected force_N with depth_m, modulus_Pa, stress_Pa, "
+      "compliance_1_Pa, or storage_modulus_Pa with loss_modulus_Pa. The columns are " +
+      columns_with_values(table) +
+      (words.empty() ? ". Name a column with --column modulus_Pa=\"HEADER\", or with its number "
+                       "from 1"
+                     : ". If these are the right ones: " + words));
+}
+
+// A constant stress with a strain that changes is a creep test.
+bool is_creep(const CsvTable& table, const FitRequest& request) {
+  const auto range = [&](const char* name) {
+    std::vector<double> values = column_with_gaps_SI(table, name, request.columns);
+    std::erase_if(values, [](double value) { return std::isnan(value); });
+    if (values.empty()) return 0.0;
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return (*high - *low) / std::max(std::abs(*low), std::abs(*high));
+  };
+  constexpr double kConstant = 0.01;
+  return range("stress_Pa") < kConstant && range("strain") > 2.0 * kConstant;
+}
+
+// True if a column of numbers that change is none of the known quantities.
+bool has_unknown_numbers(const CsvTable& table, const FitRequest& request) {
+  std::vector<char> is_known(table.columns.size(), 0);
+  for (const std::string& name : column_names()) {
+    if (const auto use = find_column(table, name, request.columns)) is_known[use->index] = 1;
+  }
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const std::vector<double>& values = table.columns[i].values;
+    const bool changes = std::any_of(values.begin(), values.end(),
+                                     [&](double value) { return value != values.front(); });
+    if (is_known[i] == 0 && changes && table.columns[i].text.empty()) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+FitKind kind_of_table(const CsvTable& table, const FitRequest& request) {
+  if (request.kind) return *request.kind;
+  const auto has = [&](const char* name) {
+    return find_column(table, name, request.columns).has_value();
+  };
+  if (has("force_N") && has("depth_m")) return FitKind::kIndentation;
+  const bool is_dma = has("storage_modulus_Pa") && has("loss_modulus_Pa");
+  if (is_dma && has("frequency_Hz")) return FitKind::kDma;
+  if (has("modulus_Pa")) return FitKind::kRelaxation;
+  if (has("compliance_1_Pa")) return FitKind::kCreep;
+  if (has("stress_Pa") && has("strain") && is_creep(table, request)) return FitKind::kCreep;
+  if (has("stress_Pa")) return FitKind::kRelaxation;
+  if (is_dma) return FitKind::kDma;
+  if (has("time_s") && is_force_alone(table, request)) return FitKind::kRelaxation;
+  refuse_unknown_columns(table);
+}
+
+bool is_force_alone(const CsvTable& table, const FitRequest& request) {
+  for (const char* name : {"modulus_Pa", "stress_Pa", "depth_m"}) {
+    if (find_column(table, name, request.columns)) return false;
+  }
+  if (!find_column(table, "force_N", request.columns)) return false;
+  // Numbers of unknown meaning may be the depth, unless the user has decided.
+  return request.kind || request.depth_m || !has_unknown_numbers(table, request);
+}
+
+}  // namespace viscard

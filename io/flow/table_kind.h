@@ -1,0 +1,15 @@
+#pragma once
+
+#include "io/flow/fit_request.h"
+#include "io/tables/csv_table.h"
+
+namespace viscard {
+
+// The kind of test by the request, or else by the columns of the table. Throws std::runtime_error
+// with the columns and their first values, and words of --column that might read them.
+FitKind kind_of_table(const CsvTable& table, const FitRequest& request);
+
+// True for a table of force without a depth, modulus or stress.
+bool is_force_alone(const CsvTable& table, const FitRequest& request);
+
+}  // namespace viscard

@@ -1,0 +1,131 @@
+#include "io/tables/column_proposal.h"
+
+#include "io/basics/number_text.h"
+#include "io/basics/units.h"
+#include "io/tables/column_names.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+constexpr std::size_t kMostColumns = 12;
+
+bool is_rising(const CsvColumn& column) {
+  return std::is_sorted(column.values.begin(), column.values.end()) &&
+         column.values.front() < column.values.back();
+}
+
+// The columns that hold numbers only.
+std::vector<std::size_t> number_columns(const CsvTable& table) {
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const CsvColumn& column = table.columns[i];
+    if (column.first_bad_line == 0 && !column.values.empty()) columns.push_back(i);
+  }
+  return columns;
+}
+
+std::string word(const char* quantity, std::size_t column) {
+  return std::string(" --column ") + quantity + "=" + std::to_string(column + 1);
+}
+
+// Takes the first of the columns that its header names as the quantity, or else the first with a unit
+// of that kind.
+std::optional<std::size_t> taken(const CsvTable& table, std::vector<std::size_t>& columns,
+                                 const char* si_unit, const char* quantity = nullptr) {
+  for (auto i = columns.begin(); quantity != nullptr && i != columns.end(); ++i) {
+    if (!match_header(table.columns[*i], quantity_named(quantity))) continue;
+    const std::size_t column = *i;
+    columns.erase(i);
+    return column;
+  }
+  for (auto i = columns.begin(); i != columns.end(); ++i) {
+    const std::string& unit = table.columns[*i].unit;
+    if (!is_stated(unit) || !is_unit_of(unit, si_unit)) continue;
+    const std::size_t column = *i;
+    columns.erase(i);
+    return column;
+  }
+  return std::nullopt;
+}
+
+// Takes the column of time: by its unit, or the first that only rises, or the first.
+std::size_t taken_time(const CsvTable& table, std::vector<std::size_t>& columns) {
+  if (const auto column = taken(table, columns, "s", "time_s")) return *column;
+  auto at = std::find_if(columns.begin(), columns.end(), [&](std::size_t i) {
+    return !is_stated(table.columns[i].unit) && is_rising(table.columns[i]);
+  });
+  if (at == columns.end()) at = columns.begin();
+  const std::size_t column = *at;
+  columns.erase(at);
+  return column;
+}
+
+}  // namespace
+
+std::string columns_with_values(const CsvTable& table) {
+  constexpr std::size_t kValues = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(table.columns.size(), kMostColumns); ++i) {
+    const CsvColumn& column = table.columns[i];
+    text += (i == 0 ? "" : ", ") + std::to_string(i + 1);
+    if (!column.header.empty()) text += " '" + column.header + "'";
+    if (is_stated(column.unit) && column.name == column.header) text += " in " + column.unit;
+    text += " (";
+    const std::size_t n = std::min(column.values.size(), kValues);
+    for (std::size_t row = 0; row < n; ++row) {
+      const bool is_number = std::isfinite(column.values[row]);
+      const std::string cell = is_number             ? text_from_number(column.values[row])
+                               : column.text.empty() ? std::string("empty")
+                                                     : column.text[row].substr(0, 20);
+      text += (row == 0 ? "" : ", ") + cell;
+    }
+    text += column.values.size() > n ? ", ...)" : ")";
+  }
+  if (table.columns.size() > kMostColumns) {
+    text += " and " + std::to_string(table.columns.size() - kMostColumns) + " more";
+  }
+  return text;
+}
+
+std::string proposed_words(const CsvTable& table) {
+  std::vector<std::size_t> rest = number_columns(table);
+  if (rest.size() < 2) return "";
+  std::string words;
+  const auto frequency = taken(table, rest, "Hz");
+  const auto storage = taken(table, rest, "Pa", frequency ? nullptr : "modulus_Pa");
+  const auto loss = frequency ? taken(table, rest, "Pa") : std::nullopt;
+  if (frequency && storage && loss) {
+    return (word("frequency_Hz", *frequency) + word("storage_modulus_Pa", *storage) +
+            word("loss_modulus_Pa", *loss))
+        .substr(1);
+  }
+  if (rest.empty()) return "";
+  words = word("time_s", taken_time(table, rest));
+  if (storage) return (words + word("modulus_Pa", *storage)).substr(1);
+  auto force = taken(table, rest, "N", "force_N");
+  auto depth = taken(table, rest, "m", "depth_m");
+  const auto is_without_unit = [&](std::size_t i) { return !is_stated(table.columns[i].unit); };
+  std::erase_if(rest, [&](std::size_t i) { return !is_without_unit(i); });
+  if (!force && !depth && rest.size() == 1) return (words + word("modulus_Pa", rest[0])).substr(1);
+  for (auto* missing : {&force, &depth}) {
+    if (*missing || rest.empty()) continue;
+    *missing = rest.front();
+    rest.erase(rest.begin());
+  }
+  if (!force || !depth) return "";
+  // The force rises with the depth; a separation falls.
+  const std::vector<double>& forces = table.columns[*force].values;
+  const std::vector<double>& depths = table.columns[*depth].values;
+  const auto peak = std::max_element(forces.begin(), forces.end()) - forces.begin();
+  const bool falls = depths[static_cast<std::size_t>(peak)] < depths.front();
+  return (words + word("force_N", *force) + " --column depth_m=" + (falls ? "-" : "") +
+          std::to_string(*depth + 1))
+      .substr(1);
+}
+
+}  // namespace viscard

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace viscard {
+
+// Files as instruments write them, recognised by their content and rewritten as a plain table:
+// a header, one row per line, and a column `segment` if the file has several parts. Every line that
+// is not a row becomes a comment, so that line numbers stay those of the file.
+struct MakerTable {
+  std::string maker;  // "JPK force curve", for the output
+  std::string text;   // the plain table; empty if the file is one already
+  // Quantities that the maker's headers do not name: as --column writes them.
+  std::map<std::string, std::string> columns;
+};
+
+// Nothing for an ordinary table. name: the path of the file; its ending tells RepTate's files apart.
+// Throws std::runtime_error that begins with "line N" if a part of the file is not as the maker
+// writes it.
+std::optional<MakerTable> maker_table(std::string_view text, const std::string& name);
+
+// The maker of an ordinary table, by the names in its header; empty if they are nobody's own.
+std::string maker_of_header(std::string_view header_line);
+
+}  // namespace viscard

@@ -1,0 +1,46 @@
+#include "io/basics/atomic_file.h"
+#include "io/tables/csv_dialect.h"
+#include "io/tables/csv_table.h"
+#include "io/tables/foreign_file.h"
+#include "io/tables/maker_table.h"
+#include "io/tables/workbook.h"
+
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace viscard {
+
+CsvTable csv_from_text(std::string_view bytes, const std::string& name, const std::string& sheet) {
+  std::string text, book;
+  if (is_workbook(bytes)) {
+    SheetText found = sheet_text(bytes, name, sheet);
+    text = std::move(found.text);
+    book = "Excel workbook, sheet '" + found.sheet + "' of " + std::to_string(found.n_sheets);
+  } else {
+    refuse_foreign_file(bytes, name);
+    if (!sheet.empty()) throw std::runtime_error(name + ": has no sheets; omit --sheet");
+    text = utf8_from_bytes(bytes, name);
+  }
+  try {
+    std::optional<MakerTable> maker = maker_table(text, name);
+    if (maker) text = std::move(maker->text);
+    CsvTable table = plain_table(text, name);
+    if (maker) {
+      table.maker = std::move(maker->maker);
+      table.maker_columns = std::move(maker->columns);
+    }
+    if (!book.empty()) table.maker += (table.maker.empty() ? "" : ", ") + book;
+    return table;
+  } catch (const std::runtime_error& error) {
+    const std::string what = error.what();  // split_cells() does not know the file
+    if (what.rfind("line ", 0) != 0) throw;
+    throw std::runtime_error(name + ": " + what);
+  }
+}
+
+CsvTable read_csv(const std::filesystem::path& path, const std::string& sheet) {
+  return csv_from_text(read_file(path), path.string(), sheet);
+}
+
+}  // namespace viscard

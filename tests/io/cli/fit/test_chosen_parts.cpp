@@ -1,0 +1,132 @@
+#include "tests/io/cli/fit/table_folder.h"
+#include "tests/support/run_command.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+using namespace viscard;
+using namespace viscard::test;
+using Catch::Contains;
+
+namespace {
+
+nlohmann::json json_of(const std::vector<std::string>& words) {
+  const CommandOutcome ran = run_command(words);
+  INFO(ran.err);
+  REQUIRE(ran.status == kDone);
+  return nlohmann::json::parse(ran.out);
+}
+
+// Two presses of 2 s ramp and 20 s hold, the first to half the depth, each after 5 s in the air.
+// Elastic, 2e4 N/m, with a trace of the last digits in place of noise.
+std::string two_presses() {
+  std::ostringstream text;
+  text.precision(12);
+  text << "time_s,force_N,depth_m\n";
+  for (int i = 0; i < 600; ++i) {
+    const double t = 0.1 * i;
+    const double in_press = std::fmod(t, 30.0);
+    const double top = t < 30.0 ? 1e-4 : 2e-4;
+    double depth = -2e-5;
+    if (in_press > 5.0) depth += (top + 2e-5) * std::min(1.0, (in_press - 5.0) / 2.0);
+    if (in_press > 27.0) depth -= (top + 2e-5) * std::min(1.0, (in_press - 27.0) / 2.0);
+    text << t << "," << 2e4 * std::max(0.0, depth) + 1e-5 * ((7 * i) % 11) << "," << depth << "\n";
+  }
+  return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("a part of a table is chosen by time, by hold or by itself, and printed", "[cli]") {
+  const TableFolder folder;
+  const std::string file = folder.write("two.csv", two_presses());
+  const auto all = json_of({"fit", file, "--json"});
+  CHECK(all["n_samples"] == 600);
+  CHECK(all["n_contacts"] == 2);
+  CHECK(all["K0_N_m"].get<double>() == Approx(2e4).epsilon(1e-3));
+  const auto second = json_of({"fit", file, "--hold", "2", "--json"});
+  CHECK(second["K0_N_m"].get<double>() == Approx(2e4).epsilon(1e-3));
+  CHECK(second["fit_from_s"].get<double>() > 26.0);
+  CHECK(second["fit_to_s"].get<double>() == Approx(57.0).margin(0.3));
+  CHECK(second["left_out"]["not_chosen"].get<int>() + second["n_samples"].get<int>() == 600);
+  CHECK(second["n_rows"] == 600);
+  const auto part = json_of({"fit", file, "--from", "1 s", "--to", "25", "--json"});
+  CHECK(part["n_samples"] == 241);
+  CHECK(part["fit_to_s"].get<double>() == Approx(25.0));
+  const CommandOutcome crop = run_command({"fit", file, "--crop", "auto"});
+  CHECK_THAT(crop.out, Contains("chosen: ") && Contains("of 600"));
+  CHECK_THAT(run_command({"fit", file, "--hold", "3"}).err, Contains("has 2 holds"));
+  CHECK_THAT(run_command({"fit", file, "--from", "100"}).err, Contains("covers 0 to 59.9 s"));
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--hold", "0"},
+                                                {"--crop", "all"},
+                                                {"--from", "2", "--to", "1"},
+                                                {"--hold", "1", "--crop", "auto"},
+                                                {"--depth", "-1 mm"}}) {
+    std::vector<std::string> line{"fit", file};
+    line.insert(line.end(), words.begin(), words.end());
+    CHECK(run_command(line).status == kBadWords);
+  }
+}
+
+TEST_CASE("a record of force alone gives forces, or stiffnesses with --depth", "[cli]") {
+  const TableFolder folder;
+  std::string text = relaxation_table();
+  text.replace(text.find("E_relax"), 7, "Force");
+  text.replace(text.find("MPa"), 3, "mN");
+  const std::string file = folder.write("F.csv", text);
+  const auto forces = json_of({"fit", file, "--json"});
+  CHECK(forces["F0_N"].get<double>() == Approx(1.8e-3).epsilon(1e-4));
+  CHECK(forces["terms"][0].contains("force_N"));
+  CHECK_THAT(run_command({"fit", file}).out, Contains("depth"));
+  const auto stiffness = json_of({"fit", file, "--depth", "0.1 mm", "--json"});
+  CHECK(stiffness["K0_N_m"].get<double>() == Approx(18.0).epsilon(1e-4));
+  const auto modulus =
+      json_of({"fit", file, "--depth", "0.1 mm", "--punch-diameter", "4 mm", "--json"});
+  // F/h = 2 a E/(1 - nu^2) on a half-space, nu = 0.495.
+  CHECK(modulus["E0_Pa"].get<double>() ==
+        Approx(18.0 * (1.0 - 0.495 * 0.495) / 4e-3).epsilon(1e-4));
+  CHECK(run_command({"fit", file, "--punch-diameter", "4 mm"}).status == kFailed);
+  // A column of unknown meaning may be the depth, so nothing is assumed.
+  const std::string three = folder.write("three.csv", "time_s,force_N,sep\n0,1,5\n1,2,4\n2,3,3\n");
+  CHECK_THAT(run_command({"fit", three}).err,
+             Contains("--column time_s=1 --column force_N=2 --column depth_m=-3"));
+}
+
+TEST_CASE("a constant stress with a changing strain is a creep test", "[cli]") {
+  const TableFolder folder;
+  std::ostringstream text;
+  text << "time (s),stress (Pa),strain\n";
+  for (int i = 0; i <= 100; ++i) {
+    const double t = std::pow(10.0, -2.0 + 4.0 * i / 100.0);
+    text << t << ",10," << 1e-5 * (1.5 - 0.5 * std::exp(-t / 3.0)) + 1e-11 * ((7 * i) % 11) << "\n";
+  }
+  const auto json = json_of({"fit", folder.write("c.csv", text.str()), "--json"});
+  CHECK(json["kind"] == "creep");
+  CHECK(json["E0_Pa"].get<double>() == Approx(1e6).epsilon(0.01));
+}
+
+TEST_CASE("a table that is not understood shows its columns and words that would read it",
+          "[cli]") {
+  const TableFolder folder;
+  std::string text = relaxation_table();
+  text.replace(0, text.find('\n', text.find('\n') + 1) + 1, "a,b\n");
+  const std::string file = folder.write("other.csv", text);
+  const CommandOutcome ran = run_command({"fit", file});
+  CHECK(ran.status == kFailed);
+  CHECK_THAT(ran.err,
+             Contains("1 'a' (0.01, ") && Contains("--column time_s=1 --column modulus_Pa=2"));
+  CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
+  CHECK(run_command({"fit", file, "--column", "time_s=1", "--column", "modulus_Pa=2"}).status ==
+        kDone);
+}
+
+TEST_CASE("a file that never ends is refused in one line", "[cli]") {
+  const CommandOutcome ran = run_command({"fit", "/dev/zero"});
+  CHECK(ran.status == kFailed);
+  CHECK_THAT(ran.err, Contains("did not end"));
+  CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
+}
