@@ -40,6 +40,14 @@ BatchMeans batch_means(const Eigen::VectorXd& residual, const std::vector<std::s
   return means;
 }
 
+// Upper limit of chi-square over its degrees of freedom at 3.5 standard deviations (Wilson & Hilferty,
+// Proc. Natl. Acad. Sci. 17 (1931) 684).
+double largest_by_chance(double freedom) {
+  constexpr double kDeviations = 3.5;
+  const double share = 2.0 / (9.0 * freedom);
+  return std::pow(1.0 - share + kDeviations * std::sqrt(share), 3);
+}
+
 // 97.5 % quantile of Student's t over that of the normal distribution, to 1 % from 4 degrees of
 // freedom on (Abramowitz & Stegun 1964, 26.7.5).
 double student_ratio(double freedom) {
@@ -50,7 +58,9 @@ double student_ratio(double freedom) {
 
 SlowNoise slow_noise(const SpectralModel& model, const SpectralState& state, double variance,
                      const Autoregression& noise) {
-  constexpr double kTenth = 0.1, kFewIndependent = 40.0, kLeastFreedom = 4.0, kDeviations = 3.0;
+  // A fit removes part of slow noise, so that the memory of the residual is shorter than that of the
+  // noise: 8 % for a tenth.
+  constexpr double kLongMemory = 0.08, kFewIndependent = 50.0, kLeastFreedom = 4.0;
   const Eigen::VectorXd residual = model.data() - model.fitted(state);
   const std::vector<std::size_t> begins = model.row_begins();
   const double n_samples = model.n_samples();
@@ -64,7 +74,7 @@ SlowNoise slow_noise(const SpectralModel& model, const SpectralState& state, dou
     slow.widening = std::max(1.0, independent / freedom) * std::pow(student_ratio(freedom), 2);
   }
   const double memory = noise.memory() / n_samples;
-  if (!noise.phi.empty() && (memory >= kTenth || independent < kFewIndependent)) {
+  if (!noise.phi.empty() && (memory >= kLongMemory || independent < kFewIndependent)) {
     slow.doubt = "the noise of the record has a memory of " + text_of(100.0 * memory, 2) +
                  " % of it, or " + text_of(independent, 2) + " independent values";
   }
@@ -74,8 +84,7 @@ SlowNoise slow_noise(const SpectralModel& model, const SpectralState& state, dou
         batch_means(residual, begins, n_samples / parts, n_parameters, variance);
     if (means.freedom < 2.0) continue;
     most = std::max(most, means.inflation);
-    const bool is_more =
-        means.inflation > inflation * (1.0 + kDeviations * std::sqrt(2.0 / means.freedom));
+    const bool is_more = means.inflation > inflation * largest_by_chance(means.freedom);
     if (is_more && slow.doubt.empty()) {
       slow.doubt = "means over a " +
                    std::string(parts == 40.0   ? "fortieth"

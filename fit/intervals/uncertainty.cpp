@@ -82,6 +82,20 @@ Eigen::MatrixXd correlated(const Eigen::MatrixXd& x, const std::vector<std::size
   return out;
 }
 
+// Widens variances for the part of the noise that is slower than the autoregression: each by its
+// share of the inflation, so that fast terms change little. Correlations stay.
+void add_slow_part_to(Eigen::MatrixXd& covariance, const Eigen::VectorXd& white,
+                      const Autoregression& noise) {
+  if (noise.slow_factor <= 1.0) return;
+  const double of_phi = noise.inflation() / noise.slow_factor;
+  for (Index j = 0; j < covariance.rows(); ++j) {
+    const double share = std::clamp(covariance(j, j) / (white[j] * of_phi), 0.0, 1.0);
+    const double factor = std::sqrt(1.0 + share * (noise.slow_factor - 1.0));
+    covariance.row(j) *= factor;
+    covariance.col(j) *= factor;
+  }
+}
+
 // For two nearly equal terms the covariance has huge entries that should cancel in the sum. The
 // rounding error that remains counts as part of the error, so the error is never zero.
 double error_of(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& gradient) {
@@ -125,7 +139,9 @@ Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralS
     const Eigen::MatrixXd middle =
         of_rows.transpose() * correlated(of_rows, model.row_begins(), noise) +
         of_priors.transpose() * of_priors;
+    const Eigen::VectorXd white = part.diagonal();
     part = variance * inverse * middle * inverse.transpose();
+    add_slow_part_to(part, white, noise);
   }
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
   covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());

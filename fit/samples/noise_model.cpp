@@ -64,6 +64,7 @@ Autoregression short_memory(const Eigen::VectorXd& series) {
 // the many small coefficients of a long memory, which add up.
 Autoregression long_memory(const Eigen::VectorXd& series) {
   constexpr Eigen::Index kMaxOrder = 80;
+  constexpr std::size_t kInVain = 40;  // orders without a better score
   const auto count = static_cast<double>(series.size());
   const Eigen::Index max_order = std::min(kMaxOrder, series.size() / 10);
   Eigen::VectorXd forward = series.array() - series.mean();
@@ -73,24 +74,28 @@ Autoregression long_memory(const Eigen::VectorXd& series) {
   double log_error = 0.0, best_score = 0.0;
   for (Eigen::Index order = 1; order <= max_order; ++order) {
     const Eigen::Index left = series.size() - order;
-    // forward[i] and backward[i] belong to samples that are `order` apart.
-    const auto ahead = forward.tail(left);
-    const auto behind = backward.head(left);
-    const double square = ahead.squaredNorm() + behind.squaredNorm();
+    double* ahead = forward.data() + order;  // ahead[i] and behind[i] are `order` samples apart
+    double* behind = backward.data();
+    const auto n_left = static_cast<std::size_t>(left);
+    const double square =
+        dot_of({ahead, n_left}, {ahead, n_left}) + dot_of({behind, n_left}, {behind, n_left});
     if (!(square > 0.0)) break;
-    const double reflection = 2.0 * ahead.dot(behind) / square;
+    const double reflection = 2.0 * dot_of({ahead, n_left}, {behind, n_left}) / square;
     if (!(std::abs(reflection) < 1.0)) break;
     add_order(phi, reflection);
+    for (Eigen::Index i = 0; i < left; ++i) {
+      const double before = ahead[i];
+      ahead[i] -= reflection * behind[i];
+      behind[i] -= reflection * before;
+    }
     log_error += std::log1p(-reflection * reflection);
-    const Eigen::VectorXd next = ahead - reflection * behind;
-    backward = Eigen::VectorXd(behind - reflection * ahead);
-    forward = next;
     const auto p = static_cast<double>(order);
     const double score = count * log_error + 2.0 * p * count / (count - p - 2.0);
     if (score < best_score) {
       best_score = score;
       best.phi = phi;
     }
+    if (phi.size() > best.phi.size() + kInVain) break;
   }
   return best;
 }
@@ -114,13 +119,39 @@ bool has_slow_part(const Eigen::VectorXd& series) {
                       (freedom + kDeviations * std::sqrt(2.0 * freedom));
 }
 
+// Means of 2, 4, 8 ... samples.
+Eigen::VectorXd means_of(const Eigen::VectorXd& series, Eigen::Index length) {
+  const Eigen::Index count = series.size() / length;
+  return series.head(count * length).reshaped(length, count).colwise().mean().transpose();
+}
+
+// Slow noise needs many small coefficients, which no criterion finds, but its means of some samples
+// need few. The largest estimate from such means replaces that from the samples.
+void add_slow_part(const Eigen::VectorXd& series, Autoregression& noise) {
+  constexpr Eigen::Index kFewestMeans = 100;
+  const Eigen::VectorXd centred = series.array() - series.mean();
+  const double variance = centred.squaredNorm() / static_cast<double>(series.size());
+  const double of_samples = noise.inflation();
+  for (Eigen::Index length = 2; series.size() / length >= kFewestMeans; length *= 2) {
+    const Eigen::VectorXd means = means_of(centred, length);
+    const Autoregression coarse = long_memory(means);
+    const auto size = static_cast<double>(length);
+    const double share = size * means.squaredNorm() / static_cast<double>(means.size()) / variance;
+    noise.slow_factor = std::max(noise.slow_factor, share * coarse.inflation() / of_samples);
+    if (coarse.phi.empty()) break;
+    noise.slow_memory = std::max(noise.slow_memory, size * coarse.memory());
+  }
+}
+
 }  // namespace
 
 Autoregression autoregression(const Eigen::VectorXd& series) {
   Autoregression quick = short_memory(series);
   if (quick.phi.empty() && !has_slow_part(series)) return quick;
-  Autoregression slow = long_memory(series);
-  return slow.phi.empty() ? quick : slow;
+  Autoregression noise = long_memory(series);
+  if (noise.phi.empty()) noise = quick;
+  add_slow_part(series, noise);
+  return noise;
 }
 
 std::vector<double> Autoregression::autocorrelation() const {
@@ -153,7 +184,7 @@ std::vector<double> Autoregression::autocorrelation() const {
 }
 
 double Autoregression::inflation() const {
-  if (phi.empty()) return 1.0;
+  if (phi.empty()) return slow_factor;
   const std::vector<double> rho = autocorrelation();
   double explained = 0.0;
   double sum = 0.0;
@@ -161,7 +192,7 @@ double Autoregression::inflation() const {
     explained += phi[k] * rho[k + 1];
     sum += phi[k];
   }
-  return std::max(1.0, (1.0 - explained) / ((1.0 - sum) * (1.0 - sum)));
+  return std::max(1.0, slow_factor * (1.0 - explained) / ((1.0 - sum) * (1.0 - sum)));
 }
 
 double Autoregression::memory() const {
@@ -169,7 +200,7 @@ double Autoregression::memory() const {
   const std::vector<double> rho = autocorrelation();
   std::size_t lag = rho.size();
   while (lag > 1 && std::abs(rho[lag - 1]) < kForgotten) --lag;
-  return static_cast<double>(lag);
+  return std::max(slow_memory, static_cast<double>(lag));
 }
 
 PairSums::PairSums(const Autoregression& noise) : twice_summed_{0.0, 0.5} {

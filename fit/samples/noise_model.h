@@ -12,6 +12,9 @@ namespace viscard {
 // to Time Series and Forecasting (2016), sect. 5.1.2 and 5.5.2).
 struct Autoregression {
   std::vector<double> phi;  // empty: white noise
+  // Means of up to some tens of samples, with an autoregression of their own, show a slower part:
+  // factor on the inflation that phi implies, and its memory in samples.
+  double slow_factor = 1.0, slow_memory = 0.0;
 
   // Factor by which autocorrelation increases the variance of a mean over many samples: spectral
   // density at frequency 0 over the variance. At least 1.

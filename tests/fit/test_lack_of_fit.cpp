@@ -166,3 +166,26 @@ TEST_CASE("data without noise have no structure", "[fit]") {
     CHECK_FALSE(fit.drift);
   }
 }
+
+TEST_CASE("E0 is compared with the modulus at the first sample", "[fit]") {
+  // A term of 0.05 s, of which a record from 0.1 s on shows the tail.
+  const PronySeries truth{1.0, {{0.5, 0.05}, {0.3, 5.0}}};
+  RelaxationData data;
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 2000; ++i) {
+    data.time_s.push_back(0.1 + 0.01 * i);
+    data.value.push_back(relaxation_modulus_Pa(truth, data.time_s.back()) + 1e-4 * normal(random));
+  }
+  const FitResult fit = fit_relaxation(data);
+  REQUIRE(fit.first);
+  CHECK(fit.first->time_s == 0.1);
+  CHECK(holds(fit.first->interval_95, relaxation_modulus_Pa(truth, 0.1)));
+  CHECK(fit.first->interval_95.high - fit.first->interval_95.low < 1e-3);
+  CHECK(has_flag(fit, "E0-extrapolated"));
+  // From zero on nothing is extrapolated.
+  const FitResult whole = fit_relaxation(relaxation_of(truth, 2000, 20.0, 1e-3, 3));
+  REQUIRE(whole.first);
+  CHECK(whole.first->modulus_Pa == Approx(whole.E0_Pa));
+  CHECK_FALSE(has_flag(whole, "E0-extrapolated"));
+}
