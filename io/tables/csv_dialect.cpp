@@ -14,74 +14,6 @@
 namespace viscard {
 namespace {
 
-void append_utf8(std::string& out, char32_t code) {
-  if (code < 0x80) {
-    out += static_cast<char>(code);
-  } else if (code < 0x800) {
-    out += static_cast<char>(0xc0 | (code >> 6));
-    out += static_cast<char>(0x80 | (code & 0x3f));
-  } else if (code < 0x10000) {
-    out += static_cast<char>(0xe0 | (code >> 12));
-    out += static_cast<char>(0x80 | ((code >> 6) & 0x3f));
-    out += static_cast<char>(0x80 | (code & 0x3f));
-  } else {
-    out += static_cast<char>(0xf0 | (code >> 18));
-    out += static_cast<char>(0x80 | ((code >> 12) & 0x3f));
-    out += static_cast<char>(0x80 | ((code >> 6) & 0x3f));
-    out += static_cast<char>(0x80 | (code & 0x3f));
-  }
-}
-
-unsigned char byte_at(std::string_view bytes, std::size_t i) {
-  return static_cast<unsigned char>(bytes[i]);
-}
-
-std::string from_utf16(std::string_view bytes, bool is_big_endian) {
-  std::string out;
-  out.reserve(bytes.size() / 2);
-  const auto unit = [&](std::size_t i) {
-    const unsigned high = byte_at(bytes, is_big_endian ? i : i + 1);
-    const unsigned low = byte_at(bytes, is_big_endian ? i + 1 : i);
-    return static_cast<char32_t>(high << 8 | low);
-  };
-  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
-    char32_t code = unit(i);
-    if (code >= 0xd800 && code < 0xdc00 && i + 3 < bytes.size()) {  // a surrogate pair
-      code = 0x10000 + ((code - 0xd800) << 10) + ((unit(i + 2) - 0xdc00) & 0x3ff);
-      i += 2;
-    }
-    append_utf8(out, code);
-  }
-  return out;
-}
-
-bool is_utf8(std::string_view bytes) {
-  for (std::size_t i = 0; i < bytes.size();) {
-    std::uint64_t eight = 0x80;
-    if (i + 8 <= bytes.size()) std::memcpy(&eight, bytes.data() + i, 8);
-    if ((eight & 0x8080808080808080u) == 0) {
-      i += 8;
-      continue;
-    }
-    const std::size_t length = utf8_length(bytes, i);
-    if (length == 0) return false;
-    i += length;
-  }
-  return true;
-}
-
-// Byte order of UTF-16 by its BOM, or without one because every other byte of the first characters
-// is zero; nothing for other encodings.
-std::optional<bool> is_big_endian_utf16(std::string_view bytes) {
-  if (bytes.size() >= 2 && byte_at(bytes, 0) == 0xff && byte_at(bytes, 1) == 0xfe) return false;
-  if (bytes.size() >= 2 && byte_at(bytes, 0) == 0xfe && byte_at(bytes, 1) == 0xff) return true;
-  if (bytes.size() < 4) return std::nullopt;
-  const bool odd = bytes[1] == 0 && bytes[3] == 0 && bytes[0] != 0 && bytes[2] != 0;
-  const bool even = bytes[0] == 0 && bytes[2] == 0 && bytes[1] != 0 && bytes[3] != 0;
-  if (!odd && !even) return std::nullopt;
-  return even;
-}
-
 bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
@@ -139,21 +71,11 @@ char detect_separator(const std::vector<TextLine>& sample) {
 
 }  // namespace
 
-std::string utf8_from_bytes(std::string_view bytes, const std::string& name) {
-  if (const auto is_big_endian = is_big_endian_utf16(bytes)) {
-    std::string text = from_utf16(bytes, *is_big_endian);
-    if (text.rfind("\xef\xbb\xbf", 0) == 0) text.erase(0, 3);
-    if (text.find('\0') == std::string::npos) return text;
-  }
-  if (bytes.substr(0, 3) == "\xef\xbb\xbf") bytes.remove_prefix(3);
-  if (bytes.find('\0') != std::string_view::npos) {
-    throw std::runtime_error(name +
-                             ": is not a text table (it contains NUL bytes); export it as CSV");
-  }
-  if (is_utf8(bytes)) return std::string(bytes);
-  std::string text;  // Latin-1, in which old instruments write the micro sign
-  for (std::size_t i = 0; i < bytes.size(); ++i) append_utf8(text, byte_at(bytes, i));
-  return text;
+std::string_view first_line(std::string_view text) {
+  const std::size_t at = text.find_first_of("\r\n");
+  if (at == std::string_view::npos) return text;
+  const bool is_crlf = text[at] == '\r' && at + 1 < text.size() && text[at + 1] == '\n';
+  return text.substr(0, at + (is_crlf ? 2 : 1));
 }
 
 // The next "\n" is kept between lines: in a file whose lines end in "\r", searching it again for

@@ -10,10 +10,6 @@ namespace viscard {
 
 // The first step of reading a table: from the bytes of a file to lines and cells.
 
-// Converts UTF-8 (with or without BOM), UTF-16 or Latin-1 to UTF-8. Throws std::runtime_error
-// naming the file if it contains NUL bytes, because then it is not text.
-std::string utf8_from_bytes(std::string_view bytes, const std::string& name);
-
 struct TextLine {
   std::size_t number = 0;  // from 1
   std::string_view text;
@@ -34,6 +30,9 @@ class LineReader {
   std::size_t number_ = 0;
   std::string_view last_comment_;
 };
+
+// The first line of a text with its end: LF, CRLF or CR.
+std::string_view first_line(std::string_view text);
 
 struct Dialect {
   char separator = ',';  // ' ' stands for any run of blanks

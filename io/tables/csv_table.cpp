@@ -4,11 +4,11 @@
 #include "io/tables/csv_dialect.h"
 #include "io/tables/csv_header.h"
 #include "io/tables/maker_table.h"
+#include "io/tables/table_rows.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -45,10 +45,6 @@ class TableReader {
   }
 
  private:
-  [[noreturn]] void fail(std::size_t line, const std::string& what) const {
-    throw std::runtime_error(name_ + ":" + std::to_string(line) + ": " + what);
-  }
-
   void take_sample() {
     LineReader lines(text_);
     TextLine line;
@@ -155,6 +151,10 @@ class TableReader {
       }
     }
     first_line_ = line.number;
+    first_at_ = static_cast<std::size_t>(line.text.data() - text_.data());
+    while (first_at_ > 0 && text_[first_at_ - 1] != '\n' && text_[first_at_ - 1] != '\r') {
+      --first_at_;
+    }
     if (!table_.has_header) take_header_from_comment(lines.last_comment());
     for (CsvColumn& column : table_.columns) {
       if (!column.unit.empty()) continue;
@@ -207,10 +207,7 @@ class TableReader {
     const auto guess = static_cast<std::size_t>(std::count(text_.begin(), text_.end(), '\n')) + 1;
     for (CsvColumn& column : table_.columns) column.values.reserve(guess);
     table_.lines.reserve(guess);
-    for_each_row([&](const TextLine& line, const std::vector<std::string_view>& cells) {
-      table_.lines.push_back(static_cast<std::uint32_t>(line.number));
-      for (std::size_t i = 0; i < width_; ++i) add_value(table_.columns[i], cells[i], line.number);
-    });
+    is_text_ = append_rows(text_, {first_at_, first_line_}, dialect_, table_);
     const bool has_text =
         std::any_of(is_text_.begin(), is_text_.end(), [](char is) { return is != 0; });
     if (!has_text) return;
@@ -223,35 +220,14 @@ class TableReader {
 
   template <typename Take>
   void for_each_row(Take take) {
-    is_text_.resize(width_, 0);
     LineReader lines(text_);
     TextLine line;
     std::vector<std::string_view> cells;
     while (lines.next(line)) {
       if (line.number < first_line_) continue;
-      split_cells(line, dialect_.separator, cells);
-      const bool has_more =
-          std::any_of(cells.begin() + static_cast<std::ptrdiff_t>(std::min(width_, cells.size())),
-                      cells.end(), [](auto cell) { return !cell.empty(); });
-      if (cells.size() < width_ || has_more) {
-        fail(line.number, std::to_string(cells.size()) + " cells, but the table has " +
-                              std::to_string(width_) + " columns");
-      }
+      row_cells(line, dialect_, width_, name_, cells);
       take(line, cells);
     }
-  }
-
-  void add_value(CsvColumn& column, std::string_view cell, std::size_t line) {
-    const auto number = number_from_cell(cell, dialect_);
-    const bool is_good = number && std::isfinite(*number);
-    column.values.push_back(is_good ? *number : std::numeric_limits<double>::quiet_NaN());
-    if (is_good) return;
-    if (column.first_bad_line == 0) {
-      column.first_bad_line = line;
-      column.first_bad_cell = std::string(cell.substr(0, 40));
-    }
-    const auto i = static_cast<std::size_t>(&column - table_.columns.data());
-    if (!cell.empty() && !number) is_text_[i] = 1;
   }
 
   static bool is_empty(const CsvColumn& column) {
@@ -274,7 +250,8 @@ class TableReader {
   std::vector<TextLine> sample_;
   std::vector<char> is_text_;
   std::size_t width_ = 0;
-  std::size_t first_line_ = 0;
+  std::size_t first_line_ = 0;  // of numbers: its number from 1, and ...
+  std::size_t first_at_ = 0;    // ... the character at which it begins
 };
 
 }  // namespace

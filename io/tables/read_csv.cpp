@@ -1,8 +1,8 @@
 #include "io/basics/atomic_file.h"
-#include "io/tables/csv_dialect.h"
 #include "io/tables/csv_table.h"
 #include "io/tables/foreign_file.h"
 #include "io/tables/maker_table.h"
+#include "io/tables/text_encoding.h"
 #include "io/tables/workbook.h"
 
 #include <optional>
@@ -12,19 +12,21 @@
 namespace viscard {
 
 CsvTable csv_from_text(std::string_view bytes, const std::string& name, const std::string& sheet) {
-  std::string text, book;
+  std::string converted, book;
+  std::string_view text;
   if (is_workbook(bytes)) {
     SheetText found = sheet_text(bytes, name, sheet);
-    text = std::move(found.text);
+    converted = std::move(found.text);
+    text = converted;
     book = "Excel workbook, sheet '" + found.sheet + "' of " + std::to_string(found.n_sheets);
   } else {
     refuse_foreign_file(bytes, name);
     if (!sheet.empty()) throw std::runtime_error(name + ": has no sheets; omit --sheet");
-    text = utf8_from_bytes(bytes, name);
+    text = utf8_view(bytes, name, converted);
   }
   try {
     std::optional<MakerTable> maker = maker_table(text, name);
-    if (maker) text = std::move(maker->text);
+    if (maker) text = maker->text;
     CsvTable table = plain_table(text, name);
     if (maker) {
       table.maker = std::move(maker->maker);
