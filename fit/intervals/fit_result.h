@@ -40,6 +40,7 @@ struct LackOfFit {
   double worst_from_s = 0.0, worst_to_s = 0.0;
   double rise = 0.0;  // of the smooth curve through the data, over its largest value
   bool is_significant = false;
+  bool is_far_above_noise = false;  // and above 0.5 % of the data
 };
 
 // A drift of the instrument that was fitted to a table: value = ... + per_s t.

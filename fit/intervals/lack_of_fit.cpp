@@ -28,7 +28,8 @@ bool may_have_structure(const Eigen::VectorXd& residual) {
   constexpr Index kRun = 8;
   constexpr double kFar = 5.0;  // for one sum
   const double variance = total / count * static_cast<double>(kRun);
-  const auto n_runs = static_cast<double>(n / kRun);
+  const Index whole_runs = n / kRun;
+  const auto n_runs = static_cast<double>(whole_runs);
   double square = 0.0;
   for (Index begin = 0; begin + kRun <= n; begin += kRun) {
     const double sum = residual.segment(begin, kRun).sum();
@@ -66,12 +67,17 @@ Eigen::MatrixXd smooth_basis(const SpectralModel& model, const SpectralState& st
   return columns * (system.vectors.rightCols(kept) * scale.asDiagonal());
 }
 
+constexpr double kSmallStructure = 5e-3;  // of the data
+
 // The stretch of rows, of a third of a decade or more, where the structure is largest.
 void find_worst(const Eigen::VectorXd& structure, const Eigen::VectorXd& fitted,
                 const std::vector<std::size_t>& begins, const std::vector<double>& row_time_s,
                 double chance, LackOfFit& lack) {
   constexpr std::size_t kFewestRows = 5;
   constexpr double kRatio = 2.15;
+  constexpr double kTimesNoise = 4.0;
+  // The first few of many samples often show the settling of the instrument.
+  constexpr double kLeastShare = 2e-4;
   double most = 0.0;
   for (std::size_t first = 0; first < row_time_s.size();) {
     double square = 0.0, size = 0.0;
@@ -84,10 +90,18 @@ void find_worst(const Eigen::VectorXd& structure, const Eigen::VectorXd& fitted,
       ++end;
     }
     const auto count = static_cast<double>(begins[end] - begins[first]);
-    if (square > chance && square / count > most) {
+    if (square <= chance) {
+      first = end;
+      continue;
+    }
+    const double relative = std::sqrt(square / std::max(size, 1e-300));
+    lack.is_far_above_noise |= count >= kLeastShare * static_cast<double>(begins.back()) &&
+                               square > std::pow(kTimesNoise * lack.noise, 2) * count &&
+                               relative > kSmallStructure;
+    if (square / count > most) {
       most = square / count;
       lack.worst = std::sqrt(most);
-      lack.worst_relative = std::sqrt(square / std::max(size, 1e-300));
+      lack.worst_relative = relative;
       lack.worst_from_s = row_time_s[first];
       lack.worst_to_s = row_time_s[end - 1];
     }
@@ -182,6 +196,9 @@ std::optional<LackOfFit> lack_of_fit(const SpectralModel& model, const SpectralS
   if (!lack.is_significant) return lack;
   lack.noise = std::sqrt(std::max(0.0, variance));
   lack.relative = std::sqrt(square / std::max(fitted.squaredNorm(), 1e-300));
+  constexpr double kTimesNoise = 2.0;
+  lack.is_far_above_noise =
+      lack.structure > kTimesNoise * lack.noise && lack.relative > kSmallStructure;
   find_worst(structure, fitted, begins, row_time_s, kDeviations * kDeviations * chance, lack);
   lack.rise = rise_of(fitted + structure, begins, row_time_s, drift_in(model, state));
   return lack;
@@ -190,11 +207,6 @@ std::optional<LackOfFit> lack_of_fit(const SpectralModel& model, const SpectralS
 void flag_lack_of_fit(const std::string& unit, FitResult& result) {
   if (!result.lack_of_fit || !result.lack_of_fit->is_significant) return;
   const LackOfFit& lack = *result.lack_of_fit;
-  constexpr double kTimesNoise = 2.0, kTimesNoiseInStretch = 4.0;
-  constexpr double kSmall = 5e-3;  // of the data
-  const bool is_far = lack.structure > kTimesNoise * lack.noise && lack.relative > kSmall;
-  const bool is_far_in_stretch =
-      lack.worst > kTimesNoiseInStretch * lack.noise && lack.worst_relative > kSmall;
   std::string text = "the residual is not noise: a smooth curve of " + shown(lack.structure) + " " +
                      unit + " rms is left over, beside noise of " + shown(lack.noise) + " " + unit +
                      " between neighbours";
@@ -202,7 +214,7 @@ void flag_lack_of_fit(const std::string& unit, FitResult& result) {
     text += " (worst from t = " + shown(lack.worst_from_s) + " to " + shown(lack.worst_to_s) +
             " s: " + shown(lack.worst) + " " + unit + ")";
   }
-  if (is_far || is_far_in_stretch) {
+  if (lack.is_far_above_noise) {
     add_defect(result, "misfit",
                text +
                    ". The model does not describe this record. Look at the curve: a drift "

@@ -71,10 +71,14 @@ SlowNoise slow_noise(const SpectralModel& model, const SpectralState& state, dou
   const double independent = n_samples / inflation;
   if (!noise.phi.empty()) {
     const double freedom = std::max(kLeastFreedom, independent - n_parameters);
-    slow.widening = std::max(1.0, independent / freedom) * std::pow(student_ratio(freedom), 2);
+    // The variance counts one sample for each parameter already.
+    const double counted = std::max(1.0, n_samples - n_parameters) / n_samples;
+    slow.widening =
+        std::max(1.0, counted * independent / freedom) * std::pow(student_ratio(freedom), 2);
   }
   const double memory = noise.memory() / n_samples;
-  if (!noise.phi.empty() && (memory >= kLongMemory || independent < kFewIndependent)) {
+  constexpr double kSlow = 5.0;  // less is not slow, and few values may be independent
+  if (inflation > kSlow && (memory >= kLongMemory || independent < kFewIndependent)) {
     slow.doubt = "the noise of the record has a memory of " + text_of(100.0 * memory, 2) +
                  " % of it, or " + text_of(independent, 2) + " independent values";
   }

@@ -189,3 +189,14 @@ TEST_CASE("E0 is compared with the modulus at the first sample", "[fit]") {
   CHECK(whole.first->modulus_Pa == Approx(whole.E0_Pa));
   CHECK_FALSE(has_flag(whole, "E0-extrapolated"));
 }
+
+TEST_CASE("a series of few terms for a continuous spectrum is not slow noise", "[fit]") {
+  RelaxationData data;  // a power law, sampled in log time and rounded to four decimals
+  for (int i = 0; i < 200; ++i) {
+    data.time_s.push_back(std::pow(10.0, -3.0 + 0.03 * i));
+    data.value.push_back(1e-4 * std::round(1e4 / std::pow(1.0 + data.time_s.back(), 0.3)));
+  }
+  const FitResult fit = fit_relaxation(data);
+  CHECK_FALSE(has_flag(fit, "slow-noise"));
+  CHECK(fit.is_trustworthy);
+}

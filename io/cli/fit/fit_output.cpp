@@ -121,9 +121,9 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   out << fmt::format("  {}0     {:>10.6g} {}   95 % {}\n", letter, fit.E0_Pa * shown.factor,
                      shown.unit, range(fit.E0_interval_95, shown.factor, 6));
   if (fit.first && fit.first->time_s > 0.0) {
-    out << fmt::format("  {}({:.3g} s) {:.6g} {}   95 % {}   at the first sample\n", letter,
-                       fit.first->time_s, fit.first->modulus_Pa * shown.factor, shown.unit,
-                       range(fit.first->interval_95, shown.factor, 6));
+    out << fmt::format("  {}(t_1) {:>10.6g} {}   95 % {}   at the first sample, t_1 = {:.3g} s\n",
+                       letter, fit.first->modulus_Pa * shown.factor, shown.unit,
+                       range(fit.first->interval_95, shown.factor, 6), fit.first->time_s);
   }
   out << fmt::format("  {}_inf  {:>10.6g} {}   95 % {}\n", letter, fit.E_inf_Pa * shown.factor,
                      shown.unit, range(fit.E_inf_interval_95, shown.factor, 6));
