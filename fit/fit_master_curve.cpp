@@ -143,6 +143,28 @@ void flag_shifts(const ShiftFits& shifts, MasterCurve& curve) {
                                  ") and were taken"});
 }
 
+// The material holds a law, even where no law describes the factors.
+void flag_law(MasterCurve& curve) {
+  const TemperatureShift* law = curve.laws.better();
+  if (law == nullptr || curve.form == "wlf" || curve.form == "arrhenius") return;
+  double most = 0.0, where_C = curve.T_ref_C;
+  for (const ShiftFactor& factor : curve.factors) {
+    const double off = std::abs(ln_shift_factor(*law, factor.temperature_C) - factor.ln_a);
+    if (off <= most) continue;
+    most = off;
+    where_C = factor.temperature_C;
+  }
+  constexpr double kVisible = 0.1 * std::numbers::ln10;
+  if (most < kVisible) return;
+  curve.fit.flags.push_back(
+      {"shift-law-misfit", 0,
+       std::string("neither WLF nor Arrhenius describes the shift factors; the ") +
+           (law->law == ShiftLaw::kWlf ? "WLF" : "Arrhenius") +
+           " law of the material is off by up to " + text_of(most / std::numbers::ln10, 2) +
+           " decades, at " + celsius(where_C) +
+           ". Use the factors themselves, or fit fewer temperatures"});
+}
+
 void flag_vertical(MasterCurve& curve) {
   if (!curve.has_vertical_shift) return;
   const auto by_size = [](const ShiftFactor& a, const ShiftFactor& b) {
@@ -158,6 +180,10 @@ void flag_vertical(MasterCurve& curve) {
 }
 
 }  // namespace
+
+bool has_several_temperatures(const std::vector<double>& temperature_C) {
+  return n_isotherms(temperature_C) > 1;
+}
 
 MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) {
   MasterSegments all = segments_of(data);
@@ -192,6 +218,7 @@ MasterCurve fit_master_curve(const MasterData& data, const FitOptions& options) 
                             {0.0, 0.0, result.fit_from_s, result.fit_to_s}, result);
   flag_left_out(all, result);
   flag_shifts(shifts, curve);
+  flag_law(curve);
   flag_vertical(curve);
   if (options.with_curves) fill_curves(all.segments, shifts, curve.factors, result);
   result.noise.sigma *= shifts.noise;  // rows with priors are divided by their noise

@@ -4,21 +4,10 @@
 #include "fit/laws/shift_law.h"
 #include "fit/samples/fit_data.h"
 
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace viscard {
-
-// Rows at several temperatures: relaxation modulus over time, or storage and loss moduli over
-// frequency. Rows whose temperatures lie within 1 K of each other form one segment.
-struct MasterData {
-  std::vector<double> temperature_C;
-  std::vector<double> argument;    // s, or Hz if loss_Pa is given
-  std::vector<double> modulus_Pa;  // relaxation or storage modulus
-  std::vector<double> loss_Pa;
-  std::optional<double> T_ref_C;  // temperature of a segment; none: the middle one
-};
 
 // The spectrum at the reference temperature, and the shift of time with temperature.
 struct MasterCurve {

@@ -51,8 +51,8 @@ std::string celsius(double temperature_C) {
   return text_of(temperature_C, 4) + " C";
 }
 
-bool has_several_temperatures(const std::vector<double>& temperature_C) {
-  return rows_by_temperature(temperature_C).size() > 1;
+std::size_t n_isotherms(const std::vector<double>& temperature_C) {
+  return rows_by_temperature(temperature_C).size();
 }
 
 MasterSegments segments_of(const MasterData& data) {

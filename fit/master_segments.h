@@ -1,9 +1,10 @@
 #pragma once
 
 #include "fit/curves/master_model.h"
-#include "fit/fit_master_curve.h"
+#include "fit/samples/fit_data.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct MasterSegments {
   std::size_t n_left_out = 0;           // rows
   std::vector<std::string> left_out;    // isotherms with the reason: "25 C (2 rows)"
 };
+
+// Number of isotherms: temperatures more than 1 K apart.
+std::size_t n_isotherms(const std::vector<double>& temperature_C);
 
 // "25 C"
 std::string celsius(double temperature_C);

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "fit/assembly/spectral_fit.h"
-#include "fit/fit_master_curve.h"
+#include "fit/curves/master_model.h"
+#include "fit/laws/shift_law.h"
 #include "fit/master_start.h"
 
 #include <memory>

@@ -161,7 +161,7 @@ Eigen::VectorXd chain_of(const std::vector<Step>& steps, bool is_dma, bool by_ov
 
 // The parameters of a law with the least scatter: from the best of several starts, steps of each by
 // a factor, which become finer where none helps.
-ShiftCandidate best_of_law(const ShiftForm& form, std::vector<Eigen::VectorXd> starts,
+ShiftCandidate best_of_law(const ShiftForm& form, const std::vector<Eigen::VectorXd>& starts,
                            const SpectrumScatter& scatter) {
   ShiftCandidate best;
   Eigen::VectorXd p;

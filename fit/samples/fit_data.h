@@ -59,6 +59,16 @@ struct DmaData {
   std::vector<double> loss_Pa;
 };
 
+// Rows at several temperatures: relaxation modulus over time, or storage and loss moduli over
+// frequency. Rows whose temperatures lie within 1 K of each other form one segment.
+struct MasterData {
+  std::vector<double> temperature_C;
+  std::vector<double> argument;    // s, or Hz if loss_Pa is given
+  std::vector<double> modulus_Pa;  // relaxation or storage modulus
+  std::vector<double> loss_Pa;
+  std::optional<double> T_ref_C;  // temperature of a segment; none: the middle one
+};
+
 // A parameter held fixed (low == high) or kept within bounds. Names and rules:
 // fit/assembly/constraints.h.
 struct ParameterConstraint {

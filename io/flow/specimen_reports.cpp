@@ -83,6 +83,38 @@ FittedFile fit_for_page(const std::string& path) {
   return fit_file(path, request);
 }
 
+// The factors of a master curve for the page, and the law on a fine grid of temperatures.
+ShiftReport shift_report(const MasterCurve& curve) {
+  constexpr int kPoints = 120;
+  const double ln_10 = std::log(10.0);
+  ShiftReport report;
+  report.T_ref_C = curve.T_ref_C;
+  for (std::size_t k = 0; k < curve.factors.size(); ++k) {
+    const ShiftFactor &taken = curve.factors[k], &free = curve.free_factors[k];
+    report.temperature_C.push_back(taken.temperature_C);
+    report.log10_a.push_back(taken.ln_a / ln_10);
+    report.log10_a_se.push_back(taken.ln_a_se / ln_10);
+    report.free_log10_a.push_back(free.ln_a / ln_10);
+    report.free_log10_a_se.push_back(free.ln_a_se / ln_10);
+  }
+  report.form_text = curve.form == "wlf"         ? "WLF law"
+                     : curve.form == "arrhenius" ? "Arrhenius law"
+                     : curve.form == "smooth"    ? "smooth curve over 1/T"
+                                                 : "free";
+  const TemperatureShift* law = curve.laws.better();
+  if (law == nullptr) return report;
+  report.law_text = law->law == ShiftLaw::kWlf
+                        ? fmt::format("WLF, C1 = {:.3g}, C2 = {:.3g} K", law->C1, law->C2_K)
+                        : fmt::format("Arrhenius, {:.3g} kJ/mol", 1e-3 * law->activation_J_mol);
+  const double first_C = report.temperature_C.front(), last_C = report.temperature_C.back();
+  for (int i = 0; i <= kPoints; ++i) {
+    const double T_C = first_C + (last_C - first_C) * i / kPoints;
+    report.law_temperature_C.push_back(T_C);
+    report.law_log10_a.push_back(ln_shift_factor(*law, T_C) / ln_10);
+  }
+  return report;
+}
+
 // Fits a capture or a table as `viscard fit FILE` does.
 SpecimenReport specimen_from_fit(const ReportRequest& request, const std::string& path) {
   SpecimenReport report;
@@ -93,6 +125,7 @@ SpecimenReport specimen_from_fit(const ReportRequest& request, const std::string
                              "stiffnesses; add a column depth_m, stress_Pa or modulus_Pa");
   }
   report.fit = fitted.result;
+  if (fitted.master) report.shift = shift_report(*fitted.master);
   report.specimen = fitted.specimen;
   if (report.specimen.id.empty()) report.specimen.id = fs::path(path).stem().string();
   if (looks_like_capture(path)) {
@@ -186,13 +219,19 @@ ReportCard card_of(const Material& material, const std::string& target,
   return card;
 }
 
-void add_pillar_and_cards(SpecimenReport& specimen, const ReportRequest& request) {
-  if (!specimen.material) return;
+void add_pillar(SpecimenReport& specimen) {
   try {
     specimen.pillar = pillar_of(*specimen.material);
   } catch (const std::invalid_argument& error) {
     specimen.notes.push_back(std::string("The pillar was not run: ") + error.what());
   }
+}
+
+void add_pillar_and_cards(SpecimenReport& specimen, const ReportRequest& request) {
+  if (!specimen.material) return;
+  // Users of tables from other machines ask for the material, not for a pillar.
+  const bool is_table = specimen.fit && !specimen.run;
+  if (!is_table) add_pillar(specimen);
   const std::string stem = fs::path(specimen.files.front().path).stem().string();
   for (const std::string& target : request.card_targets) {
     specimen.cards.push_back(card_of(*specimen.material, target, request, stem));

@@ -35,7 +35,10 @@ struct PlotSeries {
   std::vector<double> y_low, y_high;  // kBand (y unused) and kErrorBars
   std::vector<double> x_low, x_high;  // kErrorBars
   Ink ink = Ink::kBlue;
-  bool is_dashed = false;
+  bool is_dashed = false;  // wide dashes, for limits and truths
+  // Of dashes or of the shape of dots, so that series differ without colour too: 0 is a solid line
+  // and round dots. The number after the last begins anew.
+  int pattern = 0;
   bool is_hollow = false;  // points and error bars: an open ring
   double size = 1.0;       // factor on the line width or on the diameter of the dot
 };

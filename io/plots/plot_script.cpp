@@ -164,9 +164,31 @@ void write_data(Out out, std::size_t index, const PlotSeries& series,
   fmt::format_to(out, "EOD\n");
 }
 
+constexpr std::size_t kPatterns = 6;
+
+std::size_t pattern_of(const PlotSeries& series) {
+  return static_cast<std::size_t>(std::max(0, series.pattern)) % kPatterns;
+}
+
+const char* dashes_of(const PlotSeries& series) {
+  constexpr const char* kDashes[kPatterns] = {"",
+                                              " dashtype (9,3)",
+                                              " dashtype (2,3)",
+                                              " dashtype (9,3,2,3)",
+                                              " dashtype (4,2)",
+                                              " dashtype (9,3,2,3,2,3)"};
+  return series.is_dashed ? " dashtype (7,4)" : kDashes[pattern_of(series)];
+}
+
+// gnuplot's number of a symbol: round, square, triangle, diamond, triangle downwards, pentagon.
+int symbol_of(const PlotSeries& series) {
+  constexpr int kHollow[kPatterns] = {6, 4, 8, 12, 10, 14};
+  return kHollow[pattern_of(series)] + (series.is_hollow ? 0 : 1);
+}
+
 std::string style_of(const PlotSeries& series) {
   const char* rgb = colour(series.ink);
-  const int dot = series.is_hollow ? 6 : 7;
+  const int dot = symbol_of(series);
   switch (series.mark) {
     case Mark::kBand:
       return fmt::format(
@@ -181,7 +203,7 @@ std::string style_of(const PlotSeries& series) {
       break;
   }
   return fmt::format("using 1:2 with lines lc rgb '{}' lw {:.3g}{}", rgb, 1.7 * series.size,
-                     series.is_dashed ? " dashtype (7,4)" : "");
+                     dashes_of(series));
 }
 
 // gnuplot puts a title below the legend and in the middle; as the legend's own title it stands
@@ -248,7 +270,7 @@ std::string gnuplot_script(const Plot& plot) {
                  plot.width_px, plot.height_px, kAxisColour, kTextColour, kGridColour, kLeftMargin,
                  kRightMargin);
   fmt::format_to(out,
-                 "set key tmargin left Left reverse horizontal samplen 1.6 noenhanced textcolor "
+                 "set key tmargin left Left reverse horizontal samplen 2.6 noenhanced textcolor "
                  "rgb '{}'\nset multiplot\n",
                  kTextColour);
   for (std::size_t i = 0; i < plot.panels.size(); ++i) {

@@ -66,7 +66,7 @@ std::string html_from_page(const ReportInput& input, const Page& page) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light\">\n<title>" +
+      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
       title + "</title>\n<style>" + report_style() + "</style>\n</head>\n<body>\n";
   html +=
       "<header class=\"top\">\n<p class=\"by\">" + byline(input) + "</p>\n<h1>" + title + "</h1>\n";

@@ -28,6 +28,16 @@ struct PillarCheck {
   std::string setup;    // one sentence: geometry, load, unknowns, steps
 };
 
+// Shift factors of a master curve, as taken and free; one value for each isotherm.
+struct ShiftReport {
+  double T_ref_C = 0.0;
+  std::vector<double> temperature_C, log10_a, log10_a_se, free_log10_a, free_log10_a_se;
+  std::string form_text;  // "WLF law"
+  // The law of the material; empty without one.
+  std::string law_text;  // "WLF, C1 = 8.9, C2 = 102 K"
+  std::vector<double> law_temperature_C, law_log10_a;
+};
+
 // A material card for another solver.
 struct ReportCard {
   std::string target;     // "abaqus"
@@ -42,6 +52,7 @@ struct SpecimenReport {
   Specimen specimen;  // its id is the section's title; without an id, the material's name
   std::optional<CapturedRun> run;      // raw record
   std::optional<FitResult> fit;        // estimates with data and residuals
+  std::optional<ShiftReport> shift;    // of a master curve
   std::optional<Material> material;    // from its file; shown if there is no fit
   std::optional<EmulatedTruth> truth;  // emulated rig only
   std::optional<PillarCheck> pillar;

@@ -86,13 +86,16 @@ std::vector<SpecimenStyle> styles_of(const std::vector<SpecimenEstimates>& estim
   std::vector<SpecimenStyle> styles(estimates.size());
   if (!is_campaign) {
     for (std::size_t i = 0; i < estimates.size(); ++i) {
-      styles[i] = {ink_of_series(i), estimates[i].label};
+      styles[i] = {ink_of_series(i), static_cast<int>(i), estimates[i].label};
     }
     return styles;
   }
   std::size_t number = 0;
   for (const auto& [ratio, members] : by_ratio) {
-    for (const std::size_t i : members) styles[i].ink = ink_of_series(number);
+    for (const std::size_t i : members) {
+      styles[i].ink = ink_of_series(number);
+      styles[i].pattern = static_cast<int>(number);
+    }
     styles[members.front()].label =
         fmt::format("{:g} : 1 ({})", ratio,
                     counted(touches_by_specimen(estimates, members).size(), "specimen"));

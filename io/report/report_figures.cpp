@@ -41,16 +41,17 @@ PlotSeries line(const std::vector<double>& x, const std::vector<double>& y, Ink 
 }
 
 // Adds one specimen's curve and band, times `factor`.
-void add_relaxation(PlotPanel& panel, const RelaxationBand& band, double factor, Ink ink,
-                    const std::string& label) {
+void add_relaxation(PlotPanel& panel, const RelaxationBand& band, double factor,
+                    const SpecimenStyle& style) {
   if (!band.low.empty()) {
     panel.series.push_back({.mark = Mark::kBand,
                             .x = band.time_s,
                             .y_low = scaled(band.low, factor),
                             .y_high = scaled(band.high, factor),
-                            .ink = ink});
+                            .ink = style.ink});
   }
-  panel.series.push_back(line(band.time_s, scaled(band.value, factor), ink, label));
+  panel.series.push_back(line(band.time_s, scaled(band.value, factor), style.ink, style.label));
+  panel.series.back().pattern = style.pattern;
 }
 
 PlotSeries truth_line(const Material& truth, const std::vector<double>& time_s, double factor,
@@ -87,6 +88,7 @@ void add_law(PlotPanel& panel, const MixingLaw& law, double factor) {
 
 PlotSeries spectrum_of(const SpecimenEstimates& specimen, const SpecimenStyle& style) {
   PlotSeries series = error_bars(style.ink, style.label);
+  series.pattern = style.pattern;
   for (const TermEstimate& term : specimen.terms) {
     add_point(series, term.tau_s.value, term.g.value, term.g.interval_95);
     const Interval& tau = term.tau_s.interval_95;
@@ -129,7 +131,7 @@ std::optional<Plot> relaxation_plot(const ReportInput& input,
     for (std::size_t p = 0; p < 2; ++p) {
       const bool is_relative = p == 1;
       add_relaxation(plot.panels[p], relaxation_band(estimates[i], time_s, is_relative),
-                     is_relative ? 1.0 : unit.per_si, styles[i].ink, styles[i].label);
+                     is_relative ? 1.0 : unit.per_si, styles[i]);
     }
   }
   const char* truth_label = "truth";  // one entry in the legend, after the specimens

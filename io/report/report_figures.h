@@ -15,6 +15,7 @@ namespace viscard {
 // and one entry, "10 : 1 (3 specimens)".
 struct SpecimenStyle {
   Ink ink = Ink::kBlue;
+  int pattern = 0;    // of lines and dots, so that they differ without colour too
   std::string label;  // empty if another specimen of this ratio has the entry
 };
 std::vector<SpecimenStyle> styles_of(const std::vector<SpecimenEstimates>& estimates);
@@ -64,8 +65,19 @@ std::optional<Plot> pillar_plot(const ReportInput& input,
 // Output of the load cell and depth (or stage position) of one run over time.
 std::optional<Plot> run_plot(const RunSeries& series);
 
-// Data with fit, and residuals over their standard deviation, against log time since each motion.
-std::optional<Plot> fit_plot(const FitResult& fit);
+// Data with fit against log time since each motion, and residuals over their standard deviation
+// against log time and in time order.
+// is_master: times and frequencies are reduced by the shift factors.
+std::optional<Plot> fit_plot(const FitResult& fit, bool is_master = false);
+
+// Storage and loss modulus, loss factor and residuals over frequency. Nothing without both moduli.
+std::optional<Plot> oscillation_plot(const FitResult& fit, bool is_master);
+
+// Shift factors over temperature: taken with their band, free, and the law.
+std::optional<Plot> shift_plot(const ShiftReport& shift);
+
+// Adds the band that should contain 95 % of the residuals, and makes the axis symmetric about zero.
+void show_two_sigma(PlotPanel& panel);
 
 // Profile likelihoods: rise of the sum of squares over E_inf and over each relaxation time, one
 // panel each. Nothing if the fit has none.

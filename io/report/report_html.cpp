@@ -63,9 +63,10 @@ void Page::add_figure(const Plot& plot, const std::string& name, const std::stri
   const std::size_t number = pictures_.size() + 1;
   const std::string id = fmt::format("fig-{}", number);
   pictures_.push_back({fmt::format("{:02}_{}", number, name), svg_from_plot(plot, id)});
-  body_ +=
-      fmt::format("<figure id=\"{}\">\n{}<figcaption><b>Figure {}.</b> {}</figcaption></figure>\n",
-                  id, pictures_.back().svg, number, caption_html);
+  body_ += fmt::format(
+      "<figure id=\"{}\">\n<div class=\"drawing\">{}</div>\n<figcaption><b>Figure {}.</b> "
+      "{}</figcaption></figure>\n",
+      id, pictures_.back().svg, number, caption_html);
 }
 
 std::string Page::contents_html() const {

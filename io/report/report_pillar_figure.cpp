@@ -10,8 +10,9 @@ namespace {
 constexpr double kRounding =
     1e-16;  // smaller errors are drawn here, because a logarithmic axis has no zero
 
-void add_error(PlotPanel& panel, const PillarCurve& curve, Ink ink) {
-  PlotSeries error{.mark = Mark::kLine, .ink = ink, .size = 0.8};
+void add_error(PlotPanel& panel, const PillarCurve& curve, const SpecimenStyle& style) {
+  PlotSeries error{.mark = Mark::kLine, .ink = style.ink, .size = 0.8};
+  error.pattern = style.pattern;
   for (std::size_t i = 0; i < curve.time_s.size(); ++i) {
     const double relative = std::abs(curve.solver[i] / curve.exact[i] - 1.0);
     error.x.push_back(curve.time_s[i]);
@@ -44,14 +45,15 @@ double first_value(const std::vector<double>& values) {
   return 1.0;
 }
 
-void add_pillar_curve(PlotPanel& panel, const PillarCurve& curve, Ink ink,
-                      const std::string& label) {
+void add_pillar_curve(PlotPanel& panel, const PillarCurve& curve, const SpecimenStyle& style) {
   const double factor = 1.0 / first_value(curve.exact);
-  PlotSeries exact{.mark = Mark::kLine, .ink = ink, .size = 0.9};
+  PlotSeries exact{.mark = Mark::kLine, .ink = style.ink, .size = 0.9};
   exact.x = curve.time_s;
   exact.y = scaled(curve.exact, factor);
-  PlotSeries solver{.mark = Mark::kPoints, .label = label, .ink = ink, .is_hollow = true};
+  PlotSeries solver{
+      .mark = Mark::kPoints, .label = style.label, .ink = style.ink, .is_hollow = true};
   solver.size = 1.9;
+  solver.pattern = exact.pattern = style.pattern;
   const std::size_t stride = std::max<std::size_t>(1, curve.time_s.size() / 40);
   for (std::size_t i = 0; i < curve.time_s.size(); i += stride) {
     solver.x.push_back(curve.time_s[i]);
@@ -88,8 +90,8 @@ std::optional<Plot> pillar_plot(const ReportInput& input,
     const PillarCurve* curves[] = {&input.specimens[i].pillar->relaxation,
                                    &input.specimens[i].pillar->creep};
     for (std::size_t p = 0; p < 2; ++p) {
-      add_pillar_curve(plot.panels[p], *curves[p], styles[i].ink, styles[i].label);
-      add_error(plot.panels[p + 2], *curves[p], styles[i].ink);
+      add_pillar_curve(plot.panels[p], *curves[p], styles[i]);
+      add_error(plot.panels[p + 2], *curves[p], styles[i]);
     }
   }
   for (std::size_t p = 2; p < 4; ++p) add_limit(plot.panels[p], limit);

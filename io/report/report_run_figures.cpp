@@ -70,33 +70,12 @@ void show_the_hold(PlotAxis& axis, const PlotSeries& fitted) {
   axis.max = *high + (is_loading ? 0.15 : 0.35) * span;
 }
 
-// Adds the band that should contain 95 % of the residuals.
-void show_two_sigma(PlotPanel& panel) {
-  const PlotSeries& residual = panel.series.front();
-  double largest = 3.0;
-  for (const double value : residual.y) {
-    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  }
-  panel.y.max = 1.1 * largest;
-  panel.y.min = -1.1 * largest;
-  // The band begins at the first time above zero, because the axis is logarithmic.
-  const auto first = std::find_if(residual.x.begin(), residual.x.end(),
-                                  [](double time_s) { return time_s > 0.0; });
-  if (first == residual.x.end()) return;
-  PlotSeries band{.mark = Mark::kBand, .ink = Ink::kGrey};
-  band.x = {*first, residual.x.back()};
-  band.y_low = {-1.96, -1.96};
-  band.y_high = {1.96, 1.96};
-  panel.series.insert(panel.series.begin(), band);
-}
-
 const char* motion_name(std::size_t index, std::size_t n_motions) {
   if (n_motions == 1) return "";
   constexpr const char* kNames[] = {"Loading and hold", "Unloading and recovery"};
   return index < 2 ? kNames[index] : "Next motion";
 }
 
-// The curves do not include the loss modulus.
 const char* value_name(const FitResult& fit) {
   constexpr const char* kNames[] = {"force", "relaxation modulus", "creep compliance",
                                     "storage modulus"};
@@ -161,24 +140,52 @@ std::optional<Plot> run_plot(const RunSeries& series) {
   return plot;
 }
 
-std::optional<Plot> fit_plot(const FitResult& fit) {
+void show_two_sigma(PlotPanel& panel) {
+  double largest = 3.0, first = INFINITY, last = -INFINITY;
+  for (const PlotSeries& residual : panel.series) {
+    for (const double value : residual.y) {
+      if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+    }
+    // The band begins at the first time that the axis can show.
+    for (const double at : residual.x) {
+      if (panel.x.is_log && !(at > 0.0)) continue;
+      first = std::min(first, at);
+      last = std::max(last, at);
+    }
+  }
+  panel.y.max = 1.1 * largest;
+  panel.y.min = -1.1 * largest;
+  if (!(last > first)) return;
+  PlotSeries band{.mark = Mark::kBand, .ink = Ink::kGrey};
+  band.x = {first, last};
+  band.y_low = {-1.96, -1.96};
+  band.y_high = {1.96, 1.96};
+  panel.series.insert(panel.series.begin(), band);
+}
+
+std::optional<Plot> fit_plot(const FitResult& fit, bool is_master) {
+  if (const auto oscillation = oscillation_plot(fit, is_master)) return oscillation;
   const FitCurves& curves = fit.curves;
   const std::vector<Motion> motions = motions_of(curves);
   if (motions.empty()) return std::nullopt;
   const bool is_dma = fit.kind == FitKind::kDma;
   const ShownUnit unit = shown_unit(curves.unit, curves.measured);
-  Plot plot{
-      .title = "Data and fit",
-      .description = "Measured and fitted values and their difference over the logarithm of time.",
-      .columns = static_cast<int>(motions.size()),
-      .height_px = 430};
-  std::vector<PlotPanel> residuals;
+  Plot plot{.title = "Data and fit",
+            .description =
+                "Measured and fitted values over the logarithm of time, and their difference over "
+                "the logarithm of time and in time order.",
+            .columns = static_cast<int>(motions.size()),
+            .height_px = 660};
+  std::vector<PlotPanel> residuals, in_order;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     FitColumns columns = columns_of(curves, motions[k], unit.per_si);
     PlotPanel values;
     values.title = motion_name(k, motions.size());
     values.x.is_log = true;
-    values.x.label = is_dma ? "frequency (Hz)" : k == 0 ? "time (s)" : "time since unloading (s)";
+    values.x.label = is_dma      ? "frequency (Hz)"
+                     : is_master ? "reduced time t/aT (s)"
+                     : k == 0    ? "time (s)"
+                                 : "time since unloading (s)";
     values.y.label = fmt::format("{} ({})", value_name(fit), unit.text);
     values.height_share = 2.0;
     values.shares_x_with_below = true;
@@ -190,11 +197,18 @@ std::optional<Plot> fit_plot(const FitResult& fit) {
     residual.height_share = 1.1;
     values.series = {columns.measured, columns.fitted};
     residual.series = {columns.residual};
-    if (has_sigma) show_two_sigma(residual);
+    PlotPanel ordered = residual;
+    ordered.x.is_log = false;
+    ordered.x.label = values.x.label + ", in time order";
+    for (PlotPanel* panel : {&residual, &ordered}) {
+      if (has_sigma) show_two_sigma(*panel);
+    }
     plot.panels.push_back(values);
     residuals.push_back(residual);
+    in_order.push_back(ordered);
   }
   plot.panels.insert(plot.panels.end(), residuals.begin(), residuals.end());
+  plot.panels.insert(plot.panels.end(), in_order.begin(), in_order.end());
   for (const PlotPanel& panel : plot.panels) {
     if (!has_something_to_draw(panel)) return std::nullopt;
   }

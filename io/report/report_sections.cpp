@@ -59,18 +59,29 @@ std::string summary_caption(const std::vector<SpecimenEstimates>& estimates) {
   return text;
 }
 
-std::string fit_caption(const FitResult& fit) {
+// is_relative: the noise is relative to each value.
+std::string fit_caption(const FitResult& fit, bool is_relative) {
   const bool is_punch = fit.kind == FitKind::kIndentation;
+  const bool is_oscillation = !fit.curves.loss_measured.empty();
   std::string text = fmt::format(
-      "Data (dots; averages of neighbours where samples are dense) and fit with {}, {} samples",
-      counted(fit.terms.size(), "term"), fit.n_samples);
+      "{} and fit with {}, {}",
+      is_oscillation ? "Storage modulus (rings, solid line), loss modulus (squares, dashed line) "
+                       "and their ratio tan δ"
+                     : "Data (dots; averages of neighbours where samples are dense)",
+      counted(fit.terms.size(), "term"),
+      is_oscillation ? counted(fit.n_samples, "row") : counted(fit.n_samples, "sample"));
   if (fit.n_spikes > 0) text += fmt::format(", {} omitted as spikes", fit.n_spikes);
   if (fit.n_left_out > fit.n_spikes) text += "; " + escaped_markup(left_out_text(fit));
   text += fit.curves.sigma.size() == fit.curves.time_s.size()
-              ? ". Below: the difference divided by its standard deviation."
-              : ". Below: the difference.";
+              ? ". Below: the difference divided by its standard deviation"
+              : ". Below: the difference";
+  text += is_oscillation ? "." : ", over the logarithm of time and in time order.";
   if (is_punch) text += " The force axis shows the range of the hold.";
-  if (fit.noise.sigma > 0.0) {
+  if (is_relative && fit.noise.sigma > 0.0) {
+    text += fmt::format(" Noise: {} % of each modulus; variance factor for autocorrelation {}.",
+                        readable_number(100.0 * fit.noise.sigma, 3),
+                        readable_number(fit.noise.inflation, 3));
+  } else if (fit.noise.sigma > 0.0) {
     const std::string base = fit.curves.unit;
     const ShownUnit unit = shown_unit(base, {fit.noise.sigma});
     text += fmt::format(" Noise of one sample: {} {}; variance factor for autocorrelation {}.",
@@ -210,7 +221,9 @@ void add_specimen(Page& page, const SpecimenReport& specimen, const SpecimenEsti
     series = series_from_run(*specimen.run, std::nullopt);
   }
   const auto recorded = specimen.run ? run_plot(series) : std::nullopt;
-  const auto fitted = specimen.fit ? fit_plot(*specimen.fit) : std::nullopt;
+  const auto fitted =
+      specimen.fit ? fit_plot(*specimen.fit, specimen.shift.has_value()) : std::nullopt;
+  const bool is_relative = specimen.shift || (specimen.fit && specimen.fit->kind == FitKind::kDma);
   const bool has_orders = specimen.fit && !specimen.fit->orders.empty();
   page.add_heading(2, estimates.anchor, estimates.label);
   for (const std::string& note : specimen.notes) page.add_paragraph(escaped_markup(note));
@@ -219,7 +232,14 @@ void add_specimen(Page& page, const SpecimenReport& specimen, const SpecimenEsti
     return;
   }
   if (recorded) page.add_figure(*recorded, "run", run_caption(*specimen.run, series));
-  if (fitted) page.add_figure(*fitted, "fit", fit_caption(*specimen.fit));
+  if (fitted) page.add_figure(*fitted, "fit", fit_caption(*specimen.fit, is_relative));
+  if (const auto shifts = specimen.shift ? shift_plot(*specimen.shift) : std::nullopt) {
+    page.add_figure(
+        *shifts, "shift",
+        fmt::format("Shift factors of the isotherms, reference {:.4g} °C: as taken "
+                    "({}) with the 95 % band, and fitted free with 95 % intervals.",
+                    specimen.shift->T_ref_C, escaped_markup(specimen.shift->form_text)));
+  }
   if (const auto profiles = specimen.fit ? profile_plot(*specimen.fit) : std::nullopt) {
     page.add_figure(
         *profiles, "profiles",

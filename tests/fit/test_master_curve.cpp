@@ -254,6 +254,7 @@ TEST_CASE("shifts that follow no smooth curve are taken free, and the difference
   const MasterCurve curve = fit_master_curve(data);
   CHECK(curve.form == "free");
   CHECK(has_flag(curve.fit, "shifts-not-smooth"));
+  CHECK(has_flag(curve.fit, "shift-law-misfit"));
   CHECK(curve.factors[3].ln_a ==
         Approx(ln_shift_factor(kWlf, curve.factors[3].temperature_C) + std::log(2.0)).margin(0.06));
 }

@@ -50,6 +50,11 @@ TEST_CASE("a table of several temperatures becomes a material with its shift, an
   const auto shift = nlohmann::json::parse(ran.out)["shift"];
   CHECK(shift["better"] == "wlf");
   CHECK(shift["factors"].size() == 6);
+  CHECK(shift["form"] == "wlf");
+  CHECK(shift["free_factors"].size() == 6);
+  CHECK(shift["free_residual_relative"].get<double>() <=
+        shift["residual_relative"].get<double>() + 1e-9);
+  CHECK(shift["left_out"].empty());
   CHECK(shift["wlf"]["C1"].get<double>() == Approx(8.86).epsilon(2e-3));  // ripple 1e-6 at 6 points
   const Material read = read_material(material).material;
   REQUIRE(read.shift);
@@ -70,4 +75,15 @@ TEST_CASE(
       run_command({"fit", write_table(folder), "--reference-temperature", "25 degC"});
   CHECK(ran.status == kFailed);
   CHECK_THAT(ran.err, Contains("there are 0 C, 10 C, 20 C"));
+}
+
+TEST_CASE("the text of a master curve shows the factors taken beside free ones", "[cli][master]") {
+  const ScratchFolder folder;
+  const std::string table = write_table(folder);
+  const CommandOutcome ran = run_command({"fit", table});
+  CHECK_THAT(ran.out, Contains("shift factors by the WLF law"));
+  CHECK_THAT(ran.out, Contains("   free "));
+  const CommandOutcome bad = run_command({"fit", table, "--vertical-shift", "maybe"});
+  CHECK(bad.status == kBadWords);
+  CHECK_THAT(bad.err, Contains("use auto, on or off"));
 }

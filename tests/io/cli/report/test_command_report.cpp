@@ -194,4 +194,17 @@ TEST_CASE("an existing page is kept unless --force is given", "[cli][report]") {
   CHECK(contents_of(page) != "mine");
 }
 
+TEST_CASE("a table becomes a page without a pillar", "[cli][report]") {
+  const test::ScratchFolder folder;
+  const std::string page = (folder / "page.html").string();
+  const auto outcome = run_command(
+      {"report", VISCARD_SOURCE_DIR "/data/demo/example_relaxation.csv", "--out", page, "--json"});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == kDone);
+  CHECK_FALSE(nlohmann::json::parse(outcome.out)["specimens"][0].contains("pillar"));
+  const std::string text = test::text_of(contents_of(page));
+  CHECK_FALSE(contains(text, "pillar"));
+  CHECK(contains(text, "Material cards"));
+}
+
 }  // namespace viscard
