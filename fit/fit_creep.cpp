@@ -3,6 +3,7 @@
 #include "fit/assembly/assemble_result.h"
 #include "fit/curves/step_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/spikes.h"
 #include "models/material/retardation_spectrum.h"
@@ -66,6 +67,7 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
         return series_from_creep(model, state, options.is_liquid);
       },
       result);
+  fit_laws(model, fit, result);
   result.n_left_out = clean.n_left_out();
   add_spikes(result, spikes.size());
   result.fit_from_s = time_s.front();

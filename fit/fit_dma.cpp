@@ -3,6 +3,7 @@
 #include "fit/assembly/assemble_result.h"
 #include "fit/curves/dma_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
 #include "fit/search/nnls.h"
 #include "models/maths/text_of_number.h"
@@ -76,6 +77,7 @@ FitResult fit_dma(const DmaData& data, const FitOptions& options) {
   FitResult result;
   result.kind = FitKind::kDma;
   fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
+  fit_laws(model, fit, result);
   result.n_samples = frequency_Hz.size();
   result.n_left_out = clean.n_left_out();
   result.fit_from_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.back());

@@ -4,6 +4,7 @@
 #include "fit/assembly/two_point_modulus.h"
 #include "fit/curves/history_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/contact_onset.h"
 #include "fit/samples/noise_model.h"
@@ -233,6 +234,7 @@ FitResult fit_measured_depth(const IndentationData& data, const FitOptions& opti
   FitResult result;
   result.is_stiffness = !data.contact;
   fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
+  fit_laws(model, fit, result);
   result.n_left_out = table.n_left_out;
   add_spikes(result, table.n_spikes);
   report_table(data, table, input, model, fit, result);

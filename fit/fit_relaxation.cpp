@@ -4,6 +4,7 @@
 #include "fit/curves/history_model.h"
 #include "fit/curves/step_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/decay.h"
 #include "fit/samples/spikes.h"
@@ -43,6 +44,7 @@ FitResult fit_strain_history(const CleanViews& clean, const FitOptions& options)
   FitResult result;
   result.kind = FitKind::kRelaxation;
   fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
+  fit_laws(model, fit, result);
   const double zero_s = input.time_s[input.contact];
   const TestWindow window{shortest_step_s(input.time_s),
                           input.time_s[end_of_loading(input.input)] - zero_s, 0.0,
@@ -60,6 +62,7 @@ FitResult fit_step(std::span<const double> time_s, std::span<const double> value
   FitResult result;
   result.kind = FitKind::kRelaxation;
   fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
+  fit_laws(model, fit, result);
   const TestWindow window{model.sampling_s(), 0.0, time_s.front(), time_s.back()};
   add_identifiability_flags(model, fit.state, fit.covariance, window, result);
   if (options.with_curves) fill_step_curves(model, fit, "Pa", result);

@@ -79,7 +79,8 @@ struct FitOptions {
   bool with_curves = true;      // fill FitResult::curves
   // Profile likelihoods replace the intervals of E_inf and of the times.
   bool with_profiles = false;
-  int n_bootstrap = 0;  // resamples for all intervals (0: intervals from the covariance)
+  bool with_laws = false;  // fill FitResult::laws
+  int n_bootstrap = 0;     // resamples for all intervals (0: intervals from the covariance)
 };
 
 }  // namespace viscard

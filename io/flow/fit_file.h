@@ -25,7 +25,8 @@ struct FitRequest {
   std::vector<std::string> segments;  // use only rows of these; empty: all
   double time_zero_s = 0.0;           // time in the table where t = 0
   std::optional<Specimen> specimen;   // replaces the specimen of a capture
-  bool diagnose = false;              // compare with a fractional model
+  bool diagnose = false;              // compare with other laws (FitResult::laws)
+  std::string model;                  // a law of fit/laws/law_values.h as the answer; empty: series
   bool needs_specimen = false;        // a table of several specimens is refused
   bool needs_modulus = false;         // a stiffness is refused, because a material will be written
   double frame_stiffness_N_m = 0.0;   // for tables whose depth_m is the position of the stage
@@ -45,7 +46,9 @@ struct FittedFile {
   std::optional<RunTemperature> temperature;
   // For a table of several temperatures; `result` is then the fit at the reference temperature.
   std::optional<MasterCurve> master;
-  std::optional<FractionalDiagnosis> fractional;  // if FitRequest::diagnose is set
+  // If FitRequest::diagnose is set, of a relaxation after a step.
+  std::optional<FractionalDiagnosis> fractional;
+  std::string model;  // the law that `result` is written from; empty: a series
 };
 
 // Reads a capture or a table and fits it. Throws std::runtime_error naming the file.
