@@ -7,6 +7,7 @@
 #include "fit/intervals/flags.h"
 #include "fit/intervals/lack_of_fit.h"
 #include "fit/intervals/left_out.h"
+#include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/spikes.h"
 #include "models/material/retardation_spectrum.h"
@@ -49,6 +50,7 @@ FitResult fit_creep_as(std::span<const double> time_s, std::span<const double> c
         return series_from_creep(model, state, options.is_liquid);
       },
       result);
+  fit_laws(model, fit, result);
   result.fit_from_s = time_s.front();
   result.fit_to_s = time_s.back();
   add_identifiability_flags(model, fit.state, fit.covariance,

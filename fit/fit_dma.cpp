@@ -6,6 +6,7 @@
 #include "fit/curves/dma_model.h"
 #include "fit/intervals/flags.h"
 #include "fit/intervals/left_out.h"
+#include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
 #include "models/maths/text_of_number.h"
 
@@ -120,6 +121,7 @@ FitResult fit_moduli(std::span<const double> frequency_Hz, std::span<const doubl
   FitResult result;
   result.kind = FitKind::kDma;
   fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
+  fit_laws(model, fit, result);
   result.n_samples = frequency_Hz.size();
   result.fit_from_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.back());
   result.fit_to_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.front());

@@ -8,6 +8,7 @@
 #include "fit/curves/history_model.h"
 #include "fit/intervals/flags.h"
 #include "fit/intervals/left_out.h"
+#include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/contact_onset.h"
 #include "fit/samples/noise_model.h"
@@ -212,6 +213,7 @@ FitResult fit_contact_table(const IndentationData& data, const ContactTable& tab
   FitResult result;
   result.is_stiffness = !data.contact;
   fill_result(model, fitted.fit, relaxation_series_of(model, options.is_liquid), result);
+  fit_laws(model, fitted.fit, result);
   count_left_out(table, fitted, result);
   report_table(data, table, fitted.input, model, fitted.fit, result);
   examine_table(model, fitted.fit, fitted.zero_s(), result);

@@ -8,6 +8,7 @@
 #include "fit/intervals/flags.h"
 #include "fit/intervals/lack_of_fit.h"
 #include "fit/intervals/left_out.h"
+#include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/decay.h"
 #include "fit/samples/spikes.h"
@@ -47,6 +48,7 @@ FitResult fit_history_once(const HistoryInput& input, const FitOptions& options)
   FitResult result;
   result.kind = FitKind::kRelaxation;
   fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
+  fit_laws(model, fit, result);
   examine_table(model, fit, zero_s, result);
   const TestWindow window{shortest_step_s(input.time_s),
                           input.time_s[end_of_loading(input.input)] - zero_s, 0.0,
@@ -82,6 +84,7 @@ FitResult fit_step_once(std::span<const double> time_s, std::span<const double> 
   FitResult result;
   result.kind = FitKind::kRelaxation;
   fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
+  fit_laws(model, fit, result);
   const TestWindow window{model.sampling_s(), 0.0, time_s.front(), time_s.back()};
   add_identifiability_flags(model, fit.state, fit.covariance, window, result);
   examine_table(model, fit, 0.0, result);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fit/intervals/fitted_law.h"
 #include "fit/search/order_row.h"
 #include "models/material/material.h"
 
@@ -163,6 +164,7 @@ struct FitResult {
   std::vector<ProfileCurve> profiles;  // if FitOptions::with_profiles
   int n_bootstrap = 0;                 // resamples for the intervals; 0: from the covariance
   FitCurves curves;
+  std::vector<FittedLaw> laws;  // if FitOptions::with_laws, for kinds of test that have them
 };
 
 // Adds a relative standard uncertainty to both sides of a value's interval, in quadrature.

@@ -113,7 +113,11 @@ Interval symmetric(double value, double error) {
 
 Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralState& state,
                                      double variance, const Autoregression& noise) {
-  Eigen::MatrixXd jacobian = full_jacobian(model, state);
+  return covariance_from_jacobian(model, full_jacobian(model, state), variance, noise);
+}
+
+Eigen::MatrixXd covariance_from_jacobian(const SpectralModel& model, Eigen::MatrixXd jacobian,
+                                         double variance, const Autoregression& noise) {
   const Index count = jacobian.cols(), priors = model.n_nuisances();
   jacobian.conservativeResize(model.n_rows() + priors, Eigen::NoChange);
   jacobian.bottomRows(priors).setZero();

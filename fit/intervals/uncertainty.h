@@ -22,6 +22,10 @@ namespace viscard {
 Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralState& state,
                                      double variance, const Autoregression& noise = {});
 
+// The same from the derivatives of the rows by any parameters, those by the model's nuisances last.
+Eigen::MatrixXd covariance_from_jacobian(const SpectralModel& model, Eigen::MatrixXd jacobian,
+                                         double variance, const Autoregression& noise);
+
 // The material's series for a state, terms in the order of the state.
 using SeriesFromState = std::function<PronySeries(const SpectralState&)>;
 

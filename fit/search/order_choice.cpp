@@ -140,6 +140,7 @@ struct Candidates {
   std::vector<std::vector<LeftOut>> errors;
   std::vector<bool> is_eligible;
   std::size_t best_bic = 0, best_cv = 0;  // among the eligible
+  double n_effective = 1.0, least_rss = 0.0;
 };
 
 OrderRow scored(const SpectralModel& model, const SpectralState& state, double rss,
@@ -173,6 +174,8 @@ Candidates candidates_of(const SpectralModel& model, const std::vector<SpectralS
   constexpr double kRounding = 2.2e-16;
   const double least_rss = std::max(kRounding * kRounding * model.data().squaredNorm(), 1e-300);
   const double noise = std::max(input.rss.back(), least_rss);
+  all.n_effective = n_effective;
+  all.least_rss = least_rss;
   std::optional<std::size_t> best_bic, best_cv;
   for (std::size_t i = 0; i < path.size(); ++i) {
     OrderRow row = scored(model, path[i], input.rss[i], least_rss, input.n_samples, n_effective);
@@ -218,6 +221,8 @@ OrderScores choose_order(const SpectralModel& model, const std::vector<SpectralS
   OrderScores scores;
   scores.chosen = without_lasting_term(model, path, all, std::min(choice, all.best_bic));
   scores.rows = std::move(all.rows);
+  scores.n_effective = all.n_effective;
+  scores.least_rss = all.least_rss;
   scores.rows[scores.chosen].is_chosen = true;
   // Orders that are not eligible although they describe the data much better.
   constexpr double kVeryStrong = 10.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773

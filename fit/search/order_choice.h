@@ -14,6 +14,9 @@ struct OrderScores {
   // Higher orders describe the data much better, but have a time at the end of the record's range.
   bool wants_faster = false;
   bool wants_slower = false;
+  // For the BIC of other laws: number of independent values, and the sum of squares below which
+  // only the rounding of the data is left.
+  double n_effective = 1.0, least_rss = 0.0;
 };
 
 // n_samples: before averaging.

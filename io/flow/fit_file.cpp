@@ -2,6 +2,7 @@
 
 #include "fit/fit_indentation.h"
 #include "fit/indentation_from_capture.h"
+#include "fit/laws/law_fit.h"
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "io/flow/fit_table.h"
@@ -61,22 +62,33 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
   return fitted;
 }
 
+// Answers with the law that was asked for.
+void take_laws(const FitRequest& request, bool is_capture, FittedFile& fitted) {
+  if (!request.diagnose && request.model.empty()) return;
+  if (fitted.result.laws.empty()) {
+    throw std::runtime_error(
+        std::string(request.model.empty() ? "--diagnose compares" : "--model fits") +
+        " laws in tables of relaxation, creep, oscillation and indentation at one temperature; " +
+        (is_capture ? "write this capture as a table first (viscard export), and fit that"
+                    : "these data are of another kind, so omit it"));
+  }
+  if (request.model.empty()) return;
+  take_law(request.model, fitted.result);
+  fitted.model = request.model;
+}
+
 }  // namespace
 
 FittedFile fit_file(const std::string& path, const FitRequest& request) {
   const bool is_capture = looks_like_capture(path);
   // Readers name the file in their messages; the fit does not know it.
   try {
-    FittedFile fitted = is_capture ? fit_capture(path, request) : fit_table(path, request);
+    FitRequest wanted = request;
+    wanted.options.with_laws = request.diagnose || !request.model.empty();
+    FittedFile fitted = is_capture ? fit_capture(path, wanted) : fit_table(path, wanted);
     fitted.path = path;
-    if (request.diagnose) {
-      fitted.fractional = diagnose_fractional(fitted.result);
-      if (!fitted.fractional) {
-        throw std::runtime_error(
-            "--diagnose compares relaxation after a step (modulus_Pa or stress_Pa over time_s) "
-            "with a power law; these data are of another kind, so omit it");
-      }
-    }
+    if (request.diagnose) fitted.fractional = diagnose_fractional(fitted.result);
+    take_laws(request, is_capture, fitted);
     return fitted;
   } catch (const std::exception& error) {
     const std::string text = error.what();

@@ -120,6 +120,30 @@ Json json_of(const FractionalDiagnosis& fractional) {
           {"bic_difference", number(fractional.bic_difference)}};
 }
 
+Json laws_of(const FitResult& fit) {
+  Json laws = Json::array();
+  for (const FittedLaw& law : fit.laws) {
+    Json row{{"name", law.name},
+             {"n_parameters", law.n_parameters},
+             {"rss", number(law.rss)},
+             {"bic", number(law.bic)},
+             {"bic_difference", number(law.bic_difference)},
+             {"at_bound", law.is_at_bound}};
+    row["parameters"] = Json::object();
+    for (const LawParameter& one : law.parameters) {
+      row["parameters"][one.name] = {{"value", number(one.value)},
+                                     {"se", number(one.se)},
+                                     {"interval_95", json_from(one.interval_95)}};
+    }
+    row["series"] = {{"n_terms", law.series.terms.size()},
+                     {"largest_error", number(law.series_error)},
+                     {"t_min_s", number(law.t_min_s)},
+                     {"t_max_s", number(law.t_max_s)}};
+    laws.push_back(row);
+  }
+  return laws;
+}
+
 }  // namespace
 
 const char* name_of_kind(FitKind kind) {
@@ -200,6 +224,8 @@ Json json_from_fit(const FittedFile& fitted) {
   if (!fit.profiles.empty()) json["profiles"] = profiles_of(fit);
   if (fitted.master) json["shift"] = json_of(*fitted.master);
   if (fitted.fractional) json["fractional_zener"] = json_of(*fitted.fractional);
+  if (!fit.laws.empty()) json["laws"] = laws_of(fit);
+  if (!fitted.model.empty()) json["model"] = fitted.model;
   json["n_spikes"] = fit.n_spikes;
   if (!fitted.chosen.empty()) json["chosen"] = fitted.chosen;
   json["n_rows"] = fit.n_samples + fit.n_left_out;

@@ -28,7 +28,8 @@ struct FitRequest {
   // Depth of a record of force at constant depth; without it the results are forces.
   std::optional<double> depth_m;
   std::optional<Specimen> specimen;  // replaces the specimen of a capture
-  bool diagnose = false;             // compare with a fractional model
+  bool diagnose = false;             // compare with other laws (FitResult::laws)
+  std::string model;                 // a law of fit/laws/law_values.h as the answer; empty: series
   bool needs_specimen = false;       // a table of several specimens is refused
   bool needs_modulus = false;        // a stiffness is refused, because a material will be written
   double frame_stiffness_N_m = 0.0;  // for tables whose depth_m is the position of the stage
@@ -51,7 +52,9 @@ struct FittedFile {
   std::optional<RunTemperature> temperature;
   // For a table of several temperatures; `result` is then the fit at the reference temperature.
   std::optional<MasterCurve> master;
-  std::optional<FractionalDiagnosis> fractional;  // if FitRequest::diagnose is set
+  // If FitRequest::diagnose is set, of a relaxation after a step.
+  std::optional<FractionalDiagnosis> fractional;
+  std::string model;  // the law that `result` is written from; empty: a series
 };
 
 }  // namespace viscard

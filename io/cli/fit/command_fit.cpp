@@ -37,7 +37,12 @@ void add_fit_options(po::options_description& options) {
   add("no-drift", "never fit a drift to a table");
   add("full-data", "fit every sample instead of averages in log time");
   add("profiles", "asymmetric intervals of E_inf and times from profile likelihoods");
-  add("diagnose", "compare by BIC with a power law between two plateaus (fractional Zener)");
+  add("diagnose",
+      "compare by BIC with laws of few parameters: stretched exponential, springpot, fractional "
+      "Maxwell, Kelvin-Voigt and Zener");
+  add("model", po::value<std::string>(),
+      "answer with this law: kww, springpot, fractional-maxwell, fractional-kelvin-voigt or "
+      "fractional-zener; its Prony series goes to --out");
   add("bootstrap", po::value<int>(), "intervals from this many resamples of blocks of residuals");
   add("fix", po::value<Words>()->composing(),
       "hold a parameter at a value in SI, such as tau_1=0.2; parameters are E0, E_inf, and E_i, "
@@ -180,6 +185,9 @@ int run_fit(const Words& words, Streams& streams) {
   if (out && files.size() > 1 && !is_joint) {
     throw UsageError("--out writes the material of one input file, but there are " +
                      std::to_string(files.size()) + "; fit them one by one, or with --joint");
+  }
+  if (is_joint && values->count("model") > 0) {
+    throw UsageError("--model answers for single files; omit it with --joint");
   }
   const bool overwrite = values->count("force") > 0;
   if (out) refuse_existing(*out, overwrite);

@@ -1,4 +1,5 @@
 #include "fit/assembly/constraints.h"
+#include "fit/laws/law_values.h"
 #include "io/basics/atomic_file.h"
 #include "io/basics/timestamp.h"
 #include "io/basics/words.h"
@@ -164,6 +165,14 @@ FitRequest words_from(const po::variables_map& values) {
   if (const auto kind = given(values, "kind")) words.kind = kind_from_word(*kind);
   words.options = options_from(values);
   words.diagnose = values.count("diagnose") > 0;
+  if (const auto model = given(values, "model")) {
+    const std::vector<std::string>& names = law_names();
+    if (std::find(names.begin(), names.end(), *model) == names.end()) {
+      throw UsageError("--model " + *model + " is not known" + did_you_mean(*model, names) +
+                       " Use " + listed(names));
+    }
+    words.model = *model;
+  }
   words.time_zero_s = *given_quantity(values, "time-zero", "s");
   try {
     words.columns = column_map_from_words(given<Words>(values, "column").value_or(Words{}));

@@ -62,6 +62,20 @@ const char* text_of_form(const MasterCurve& curve) {
   return curve.form == "smooth" ? "a smooth curve over 1/T" : "one free value for each temperature";
 }
 
+void print_laws(const FittedFile& fitted, std::ostream& out) {
+  out << fmt::format("\n  {:<24} {:>10} {:>14} {:>26}\n", "law", "parameters", "rss",
+                     "BIC minus that of series");
+  for (const FittedLaw& law : fitted.result.laws) {
+    out << fmt::format("{} {:<24} {:>10} {:>14.6g} {:>+26.1f}{}\n",
+                       law.name == fitted.model ? "*" : " ", law.name, law.n_parameters, law.rss,
+                       law.bic_difference, law.is_at_bound ? "   at the end of its range" : "");
+    for (const LawParameter& one : law.parameters) {
+      out << fmt::format("      {:<20} {:>14.6g}   95 % {}\n", one.name, one.value,
+                         range(one.interval_95, 1.0, 6));
+    }
+  }
+}
+
 void print_master(const MasterCurve& curve, std::ostream& out) {
   out << fmt::format("  master curve at {:.4g} C from {} temperatures\n", curve.T_ref_C,
                      curve.factors.size());
@@ -165,6 +179,7 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   if (fitted.master) print_master(*fitted.master, out);
   if (fitted.fractional) print_fractional(*fitted.fractional, out);
   print_orders(fit, fitted.fitted_unit, out);
+  if (!fit.laws.empty()) print_laws(fitted, out);
   if (!fit.flags.empty()) out << "\n";
   for (const MaterialFlag& flag : fit.flags) {
     out << "  ! " << flag.name << ": " << flag.text << "\n";

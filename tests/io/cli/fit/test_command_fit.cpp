@@ -140,7 +140,8 @@ TEST_CASE("several files are fitted together, in their order", "[cli]") {
   CHECK(json["fits"][0]["E0_Pa"] == json["fits"][1]["E0_Pa"]);
 }
 
-TEST_CASE("fit --diagnose compares a relaxation with a power law and refuses other data", "[cli]") {
+TEST_CASE("fit --diagnose compares tables with laws of few parameters, and refuses captures",
+          "[cli]") {
   const TableFolder folder;
   const std::string file = folder.write("E.csv", relaxation_table());
   const CommandOutcome ran = run_command({"fit", file, "--diagnose", "--json"});
@@ -150,9 +151,59 @@ TEST_CASE("fit --diagnose compares a relaxation with a power law and refuses oth
   CHECK(fractional.at("tau_s").get<double>() == Approx(3.0).epsilon(0.02));
   const std::string creep =
       folder.write("J.csv", "time_s,compliance_1_Pa\n0.1,1e-6\n1,1.1e-6\n10,1.2e-6\n100,1.21e-6\n");
-  const CommandOutcome refused = run_command({"fit", creep, "--diagnose"});
+  const auto laws = nlohmann::json::parse(run_command({"fit", creep, "--diagnose", "--json"}).out);
+  REQUIRE(laws.at("laws").size() == 5);
+  for (const auto& law : laws["laws"]) {
+    for (const char* key : {"name", "n_parameters", "rss", "bic", "bic_difference", "at_bound",
+                            "parameters", "series"}) {
+      CHECK(law.contains(key));
+    }
+  }
+  CHECK_FALSE(laws.contains("fractional_zener"));
+  CHECK_THAT(run_command({"fit", creep, "--diagnose"}).out,
+             Contains("BIC minus that of series") && Contains("springpot"));
+  const CapturedRun captured = in_memory_run(demo_truth(13, 4), {});
+  {
+    CaptureWriter writer(folder.file("run.viscap"), captured);
+    for (const LoadSample& sample : captured.load_samples) writer.append(sample);
+    for (const CommandedMove& move : captured.moves) writer.append(move);
+    writer.finish("finished");
+  }
+  const CommandOutcome refused = run_command({"fit", folder.file("run.viscap"), "--diagnose"});
   CHECK(refused.status == kFailed);
-  CHECK_THAT(refused.err, Contains("--diagnose compares relaxation"));
+  CHECK_THAT(refused.err, Contains("--diagnose compares laws") && Contains("viscard export"));
+}
+
+TEST_CASE("fit --model answers with a law, and its card states the error of its series", "[cli]") {
+  const TableFolder folder;
+  std::ostringstream text;
+  text.precision(12);
+  text << "time_s,modulus_Pa\n";
+  for (int i = 0; i <= 200; ++i) {
+    const double t = std::pow(10.0, -2.0 + 5.0 * i / 200.0);
+    text << t << "," << 1e6 + 2e6 * std::exp(-std::pow(t / 3.0, 0.45)) + ((7 * i) % 11) - 5.0
+         << "\n";
+  }
+  const std::string file = folder.write("E.csv", text.str());
+  const CommandOutcome ran =
+      run_command({"fit", file, "--model", "kww", "--json", "--out", folder.file("m.json")});
+  CHECK(ran.err == "");
+  REQUIRE(ran.status == kDone);
+  const auto json = nlohmann::json::parse(ran.out);
+  CHECK(json["model"] == "kww");
+  CHECK(json["laws"][0]["name"] == "kww");
+  CHECK(json["laws"][0]["parameters"]["beta"]["value"].get<double>() == Approx(0.45).epsilon(1e-3));
+  CHECK(json["laws"][0]["parameters"]["beta"]["interval_95"].size() == 2);
+  CHECK(json["laws"][0]["series"]["largest_error"].get<double>() < 1e-3);
+  CHECK(json["n_terms"] == json["terms"].size());
+  const CommandOutcome card = run_command({"card", folder.file("m.json"), "--for", "csv"});
+  REQUIRE(card.status == kDone);
+  CHECK_THAT(card.out, Contains("the law kww") && Contains("% from 0.01 s to 1000 s"));
+  const CommandOutcome misspelt = run_command({"fit", file, "--model", "springpots"});
+  CHECK(misspelt.status == kBadWords);
+  CHECK_THAT(misspelt.err, Contains("did you mean 'springpot'?"));
+  CHECK(run_command({"fit", file, "--model", "kww", "--joint", "--ratio", "10"}).status ==
+        kBadWords);
 }
 
 TEST_CASE("rows that are not fitted are counted by reason in text and JSON", "[cli]") {
