@@ -207,7 +207,8 @@ class TableReader {
     const auto guess = static_cast<std::size_t>(std::count(text_.begin(), text_.end(), '\n')) + 1;
     for (CsvColumn& column : table_.columns) column.values.reserve(guess);
     table_.lines.reserve(guess);
-    is_text_ = append_rows(text_, {first_at_, first_line_}, dialect_, table_);
+    is_text_ =
+        append_rows(text_, {first_at_, first_line_}, dialect_, name_, table_.columns, table_.lines);
     const bool has_text =
         std::any_of(is_text_.begin(), is_text_.end(), [](char is) { return is != 0; });
     if (!has_text) return;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "io/tables/csv_column.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -14,17 +16,6 @@ namespace viscard {
 // of units; comma, semicolon, tab or blanks between cells; decimal point or comma; comments (#, %,
 // //), blank lines, quoted cells; UTF-8 with or without BOM, UTF-16, any line end. column_map.h
 // finds the columns by quantity.
-struct CsvColumn {
-  std::string header;          // as written: "Force [nN]"; "" without a header
-  std::string name;            // without the bracketed unit: "Force"
-  std::string unit;            // bracketed or from the row of units: "nN"; "" if none
-  std::vector<double> values;  // as written, one per row; NaN where the cell is not a finite number
-  std::vector<std::string> text;  // all cells, if one of them is text; otherwise empty
-  // The first cell that is not a finite number: its line (from 1; 0 if there is none) and its text.
-  std::size_t first_bad_line = 0;
-  std::string first_bad_cell;
-};
-
 struct CsvTable {
   std::string file;
   std::vector<CsvColumn> columns;     // all of the same length

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <system_error>
@@ -76,16 +75,17 @@ void row_cells(const TextLine& line, const Dialect& dialect, std::size_t width,
 }
 
 std::vector<char> append_rows(std::string_view text, RowPlace from, const Dialect& dialect,
-                              CsvTable& table) {
-  const std::size_t width = table.columns.size();
+                              const std::string& name, std::vector<CsvColumn>& columns,
+                              std::vector<std::uint32_t>& lines) {
+  const std::size_t width = columns.size();
   std::vector<char> is_text(width, 0);
   std::vector<double> values(width);
   std::vector<std::string_view> cells;
   for (; from.at < text.size(); ++from.line) {
     if (const std::size_t taken = take_quick_row(text.substr(from.at), dialect, values)) {
       from.at += taken;
-      table.lines.push_back(static_cast<std::uint32_t>(from.line));
-      for (std::size_t i = 0; i < width; ++i) table.columns[i].values.push_back(values[i]);
+      lines.push_back(static_cast<std::uint32_t>(from.line));
+      for (std::size_t i = 0; i < width; ++i) columns[i].values.push_back(values[i]);
       continue;
     }
     const std::string_view whole = first_line(text.substr(from.at));
@@ -94,10 +94,10 @@ std::vector<char> append_rows(std::string_view text, RowPlace from, const Dialec
     TextLine line;
     if (!one.next(line)) continue;  // blank, or a comment
     line.number = from.line;
-    row_cells(line, dialect, width, table.file, cells);
-    table.lines.push_back(static_cast<std::uint32_t>(from.line));
+    row_cells(line, dialect, width, name, cells);
+    lines.push_back(static_cast<std::uint32_t>(from.line));
     for (std::size_t i = 0; i < width; ++i) {
-      if (add_value(cells[i], from.line, dialect, table.columns[i])) is_text[i] = 1;
+      if (add_value(cells[i], from.line, dialect, columns[i])) is_text[i] = 1;
     }
   }
   return is_text;

@@ -1,9 +1,10 @@
 #pragma once
 
+#include "io/tables/csv_column.h"
 #include "io/tables/csv_dialect.h"
-#include "io/tables/csv_table.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,9 +21,10 @@ struct RowPlace {
   std::size_t line = 1;  // number of its line
 };
 
-// Appends the rows from that place on to lines and values of a table with its columns. Returns for
-// each column whether a cell of it is text (then not zero).
+// Appends the rows from that place on to the columns, and the numbers of their lines to `lines`.
+// Returns for each column whether a cell of it is text (then not zero). name: of the file.
 std::vector<char> append_rows(std::string_view text, RowPlace from, const Dialect& dialect,
-                              CsvTable& table);
+                              const std::string& name, std::vector<CsvColumn>& columns,
+                              std::vector<std::uint32_t>& lines);
 
 }  // namespace viscard
