@@ -85,6 +85,7 @@ struct FitResult {
   std::vector<FittedTerm> terms;
   double rss = 0.0;
   std::size_t n_samples = 0;
+  std::size_t n_averages = 0;  // rows of the fit: averages in log time, or single samples
   std::vector<OrderRow> orders;
   std::vector<MaterialFlag> flags;
   NoiseEstimate noise;
