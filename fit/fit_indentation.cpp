@@ -153,7 +153,7 @@ double largest_change(const Column& a, const Column& b) {
 
 // The same times and nuisances fitted to another model.
 SpectralState fitted_again(const SpectralModel& model, const SpectralState& start) {
-  const SpectralState state = solve_coefficients(model, start.ln_tau, start.nuisance);
+  SpectralState state = solve_coefficients(model, start.ln_tau, start.nuisance);
   if (start.ln_tau.size() + start.nuisance.size() == 0) return state;
   return quick_search(model, state, {.tolerance = 1e-10});
 }

@@ -34,7 +34,7 @@ HeaderParts split_header(std::string_view header) {
     }
     return split_header(narrow);
   }
-  const HeaderParts whole{std::string(header), ""};
+  HeaderParts whole{std::string(header), ""};
   if (header.empty()) return whole;
   const std::size_t open = header.find_last_of("([");
   const char close = header.back();
