@@ -69,7 +69,7 @@ void validate(const Material& material) {
 
 bool is_defect(const std::string& flag_name) {
   constexpr std::array kDefects{"not-converged", "saturated",        "gap-in-ramp", "contact-lost",
-                                "E0-unknown",    "contradicts-data", "misfit", "rows-lost"};
+                                "E0-unknown",    "contradicts-data", "misfit",      "rows-lost"};
   return std::find(kDefects.begin(), kDefects.end(), flag_name) != kDefects.end();
 }
 
