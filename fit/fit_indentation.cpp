@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -147,46 +148,59 @@ HistoryFit fit_history(HistoryInput input, const FitOptions& options) {
   return of;
 }
 
-// Share of the samples that two courses of contact do not have in common.
-double share_changed(const std::vector<char>& a, const std::vector<char>& b) {
-  if (a.size() != b.size()) return 1.0;
-  std::size_t n_changed = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) n_changed += a[i] != b[i] ? 1 : 0;
-  return static_cast<double>(n_changed) / static_cast<double>(std::max<std::size_t>(a.size(), 1));
+// Largest change of the surface between two courses of contact.
+double largest_change(const Column& a, const Column& b) {
+  if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
 }
 
 // The same times and nuisances fitted to another model.
 SpectralState fitted_again(const SpectralModel& model, const SpectralState& start) {
-  const SpectralState state = solve_coefficients(model, start.ln_tau, start.nuisance);
+  SpectralState state = solve_coefficients(model, start.ln_tau, start.nuisance);
   if (start.ln_tau.size() + start.nuisance.size() == 0) return state;
   return quick_search(model, state, {.tolerance = 1e-10});
 }
 
-// Fits the whole record of a punch that is pulled back. Where it is in contact follows from the
-// series, so course and series are found in turn, with the order of the first contact, until the
-// course stays the same. The order of the whole record is chosen at last.
-HistoryFit fit_whole(const ContactTable& table, const HistoryFit& start,
-                     const FitOptions& options) {
-  constexpr int kRounds = 8;
-  constexpr double kSame = 1e-3;
-  SpectralState state = start.fit.state;
-  PronySeries series = relaxation_series_of(*start.model, options.is_liquid)(state);
-  std::vector<char> last;
+// The whole record with the course of contact of this series and that of the record in turn, until
+// the course stays the same. The order is that of the state.
+WholeRecord settled_record(const ContactTable& table, SpectralState state, PronySeries series,
+                           bool with_drift, const FitOptions& options) {
+  constexpr int kRounds = 12;
+  constexpr double kSame = 1e-5;  // of the range of the depth
+  const auto [low, high] = std::minmax_element(table.depth_m.begin(), table.depth_m.end());
+  Column last;
   for (int round = 1;; ++round) {
     const double contact_m = table.contact.is_fitted ? state.nuisance[0] : 0.0;
     WholeRecord whole = whole_record(table, series, contact_m, options.with_drift);
-    whole.input.with_drift |= start.input.with_drift;
-    if (round == kRounds || share_changed(last, whole.input.is_free) <= kSame) {
-      HistoryFit fitted = fit_history(std::move(whole.input), options);
-      fitted.n_contacts = whole.n_contacts;
-      fitted.n_adhesion = whole.n_adhesion;
-      return fitted;
-    }
-    last = whole.input.is_free;
+    whole.input.with_drift |= with_drift;
+    const bool is_same = largest_change(last, whole.input.input) <= kSame * (*high - *low);
+    if (is_same || round == kRounds) return whole;
+    last = whole.input.input;
     const HistoryModel model(std::move(whole.input), options);
     state = fitted_again(model, state);
     series = relaxation_series_of(model, options.is_liquid)(state);
   }
+}
+
+// Fits the whole record of a punch that is pulled back. Where it is in contact follows from the
+// series. If the whole record asks for another order than the first contact, the course is found
+// again with that.
+HistoryFit fit_whole(const ContactTable& table, HistoryFit fitted, const FitOptions& options) {
+  constexpr int kOrders = 4;
+  const bool with_drift = fitted.input.with_drift;
+  for (int round = 0; round < kOrders; ++round) {
+    const SpectralState start = fitted.fit.state;
+    WholeRecord whole =
+        settled_record(table, start, relaxation_series_of(*fitted.model, options.is_liquid)(start),
+                       with_drift, options);
+    fitted = fit_history(std::move(whole.input), options);
+    fitted.n_contacts = whole.n_contacts;
+    fitted.n_adhesion = whole.n_adhesion;
+    if (fitted.fit.state.n_terms() == start.n_terms()) break;
+  }
+  return fitted;
 }
 
 // Rows that the fit does not use.
@@ -208,7 +222,7 @@ FitResult fit_contact_table(const IndentationData& data, const ContactTable& tab
   HistoryInput input = first_contact(table);
   input.with_drift = with_drift;
   HistoryFit fitted = fit_history(std::move(input), options);
-  if (table.goes_back) fitted = fit_whole(table, fitted, options);
+  if (table.goes_back) fitted = fit_whole(table, std::move(fitted), options);
   const HistoryModel& model = *fitted.model;
   FitResult result;
   result.is_stiffness = !data.contact;

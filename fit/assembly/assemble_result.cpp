@@ -203,6 +203,7 @@ void fill_result(const SpectralModel& model, const SpectralFit& fit,
     result.rss = in_unit(fit.state);
   }
   result.n_samples = static_cast<std::size_t>(model.n_samples());
+  result.n_averages = static_cast<std::size_t>(model.n_rows());
   result.is_converged = fit.state.is_converged;
   judge(result);
 }

@@ -130,6 +130,7 @@ struct FitResult {
   bool may_flow = false;  // the data do not exclude E_inf = 0, so a liquid should be tried
   // If both were tried: below zero the liquid is shown.
   std::optional<double> bic_liquid_minus_solid;
+  std::size_t n_averages = 0;  // rows of the fit: averages in log time, or single samples
   std::vector<OrderRow> orders;
   std::vector<MaterialFlag> flags;
   NoiseEstimate noise;

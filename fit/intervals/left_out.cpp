@@ -24,7 +24,7 @@ constexpr std::array kReasons{
     Reason{left_out::kGlitch, Kind::kLost, "that the amplifier garbled"},
     Reason{left_out::kBeforeZero, Kind::kOutside, "before t = 0"},
     Reason{left_out::kEarlierTouch, Kind::kLost, "of an earlier touch"},
-    Reason{left_out::kUnloading, Kind::kByFormula, "after the depth of a sphere or cone fell"},
+    Reason{left_out::kUnloading, Kind::kLost, "after the depth of a sphere or cone fell"},
     Reason{left_out::kContactLost, Kind::kLost, "after contact was lost"},
     Reason{left_out::kLifted, Kind::kByFormula, "from the move that lifted the punch off"},
     Reason{left_out::kAdhesion, Kind::kLost, "in tension (adhesion)"},
@@ -79,9 +79,9 @@ void flag_left_out(FitResult& result) {
                            " of the test are not fitted: " + list_of(result, /*only_lost=*/true);
   if (share(lost) > kMuch) {
     result.is_trustworthy = false;
-    result.flags.push_back(
-        {"rows-lost", 0,
-         text + ". Look at the record, or choose the part to fit with --from and --to"});
+    result.flags.push_back({"rows-lost", 0,
+                            text + ". Look at the record, or choose the part to fit with --crop "
+                                   "auto, or --from and --to"});
   } else {
     result.flags.push_back({"rows-left-out", 0, text});
   }

@@ -29,8 +29,8 @@ void add_left_out(FitResult& result, const std::string& reason, std::size_t coun
 
 // Adds the flag rows-left-out if more than 1 % of the rows of the test are lost, and the defect
 // rows-lost if it is more than 20 %. Rows that do not belong to the test or that the user did not
-// choose are not lost. What the formula cannot describe (unloading of a sphere or cone, a captured
-// run after the punch was lifted off) is a reason for the first flag only.
+// choose are not lost. The part of a captured run after the punch was lifted off is a reason for the
+// first flag only.
 void flag_left_out(FitResult& result);
 
 // "3 of 3000 rows left out: 2 rows that are spikes, 1 row without a number"; empty without any.

@@ -65,13 +65,16 @@ std::vector<RowRange> holds_of(std::span<const double> time_s, std::span<const d
 }
 
 RowRange up_to_longest_hold(std::span<const double> time_s, std::span<const double> input) {
+  constexpr double kLonger = 1.05;
   RowRange part{0, input.size()};
   double longest_s = 0.0;
   std::size_t last = 0;
   for (const RowRange& hold : holds_of(time_s, input)) {
     const double duration_s = time_s[hold.end - 1] - time_s[std::max(hold.begin, last)];
-    if (duration_s > longest_s) part.end = hold.end;
-    longest_s = std::max(longest_s, duration_s);
+    if (duration_s > kLonger * longest_s) {  // the first of several that are alike
+      part.end = hold.end;
+      longest_s = duration_s;
+    }
     last = hold.end;
   }
   return part;

@@ -75,8 +75,8 @@ RowRange cropped(const Course& course) {
 
 }  // namespace
 
-ChosenPart choose_part(const CsvTable& table, const FitRequest& request) {
-  if (!request.from_s && !request.to_s && request.hold == 0 && !request.crop) return {table, ""};
+std::string choose_part(CsvTable& table, const FitRequest& request) {
+  if (!request.from_s && !request.to_s && request.hold == 0 && !request.crop) return "";
   const Course course = course_of(table, request);
   const std::size_t n = course.rows.size();
   RowRange part{0, n};
@@ -99,9 +99,9 @@ ChosenPart choose_part(const CsvTable& table, const FitRequest& request) {
                              text_of(course.time_s.back()) + " s");
   }
   std::sort(rows.begin(), rows.end());
-  return {chosen_rows(table, rows), counted(rows.size(), "row") + " of " + std::to_string(n) +
-                                        ", t = " + text_of(first_s) + " to " + text_of(last_s) +
-                                        " s"};
+  table = chosen_rows(table, rows);
+  return counted(rows.size(), "row") + " of " + std::to_string(n) + ", t = " + text_of(first_s) +
+         " to " + text_of(last_s) + " s";
 }
 
 }  // namespace viscard

@@ -7,12 +7,9 @@
 
 namespace viscard {
 
-// The rows of a table that --from, --to, --hold and --crop choose, and a sentence that says which.
-// Throws std::runtime_error if none remain, or if the table does not have what the choice needs.
-struct ChosenPart {
-  CsvTable table;
-  std::string text;  // empty: all rows
-};
-ChosenPart choose_part(const CsvTable& table, const FitRequest& request);
+// Keeps the rows of a table that --from, --to, --hold and --crop choose, and returns a sentence that
+// says which; empty if the request chooses none, so that all stay. Throws std::runtime_error if no
+// row remains, or if the table does not have what the choice needs.
+std::string choose_part(CsvTable& table, const FitRequest& request);
 
 }  // namespace viscard

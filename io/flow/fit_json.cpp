@@ -171,6 +171,7 @@ Json json_from_fit(const FittedFile& fitted) {
   json["terms"] = terms_of(fit, unit);
   json["rss"] = number(fit.rss);
   json["n_samples"] = fit.n_samples;
+  json["n_averages"] = fit.n_averages;
   json["n_terms"] = fit.terms.size();
   json["orders"] = orders_of(fit);
   if (fit.bic_liquid_minus_solid) {

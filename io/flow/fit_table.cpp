@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -34,7 +35,7 @@ std::vector<std::string> segments_of_test(const CsvTable& table, const FitReques
 }
 
 // The rows of the chosen segments, in the order of the file.
-CsvTable rows_of_segments(const CsvTable& table, const FitRequest& request) {
+CsvTable rows_of_segments(CsvTable table, const FitRequest& request) {
   const std::vector<std::string> segments =
       request.segments.empty() ? segments_of_test(table, request) : request.segments;
   if (segments.empty()) return table;
@@ -241,14 +242,17 @@ FittedFile fit_rows(const CsvTable& table, const FitRequest& request) {
 }  // namespace
 
 FittedFile fit_table(const std::string& path, const FitRequest& request) {
-  const CsvTable all = read_csv(path, request.sheet);
-  const CsvTable table = rows_of_segments(all, request);
-  const ChosenPart part = choose_part(table, request);
-  FittedFile fitted = fit_rows(part.table, request);
-  fitted.chosen = part.text;
-  fitted.maker = all.maker;
-  add_left_out(fitted.result, left_out::kNotChosen, table.lines.size() - part.table.lines.size());
-  const std::size_t n_other = all.lines.size() - table.lines.size();
+  CsvTable all = read_csv(path, request.sheet);
+  const std::string maker = all.maker;
+  const std::size_t n_all = all.lines.size();
+  CsvTable table = rows_of_segments(std::move(all), request);
+  const std::size_t n_in_segments = table.lines.size();
+  std::string chosen = choose_part(table, request);
+  FittedFile fitted = fit_rows(table, request);
+  fitted.maker = maker;
+  fitted.chosen = std::move(chosen);
+  add_left_out(fitted.result, left_out::kNotChosen, n_in_segments - table.lines.size());
+  const std::size_t n_other = n_all - n_in_segments;
   if (request.segments.empty()) fitted.n_before_test = n_other;
   add_left_out(fitted.result,
                request.segments.empty() ? left_out::kBeforeTest : left_out::kNotChosen, n_other);

@@ -3,6 +3,8 @@
 #include "io/basics/units.h"
 #include "models/maths/text_of_number.h"
 
+#include <utility>
+
 namespace viscard {
 namespace {
 
@@ -22,7 +24,17 @@ std::string_view without_brackets(std::string_view cell) {
 }
 
 HeaderParts split_header(std::string_view header) {
-  const HeaderParts whole{std::string(header), ""};
+  constexpr std::string_view kWideOpen = "\uff08", kWideClose = "\uff09";  // of Chinese text
+  if (header.find(kWideOpen) != std::string_view::npos) {
+    std::string narrow(header);
+    for (const auto& [wide, bracket] : {std::pair{kWideOpen, "("}, {kWideClose, ")"}}) {
+      for (auto at = narrow.find(wide); at != std::string::npos; at = narrow.find(wide)) {
+        narrow.replace(at, wide.size(), bracket);
+      }
+    }
+    return split_header(narrow);
+  }
+  HeaderParts whole{std::string(header), ""};
   if (header.empty()) return whole;
   const std::size_t open = header.find_last_of("([");
   const char close = header.back();

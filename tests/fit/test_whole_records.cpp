@@ -165,6 +165,9 @@ TEST_CASE("contact that is lost and made again is found each time", "[fit]") {
   check_truth(fit);
   REQUIRE(fit.terms.size() == 2);
   CHECK(holds(fit.terms[1].tau_s_95, 40.0));
+  // The order of the first contact, in which the slow term does not show, has no influence.
+  const FitResult two = fit_indentation(data, {.n_terms = 2});
+  CHECK(fit.rss == Approx(two.rss).epsilon(1e-6));
 }
 
 TEST_CASE("rows in tension are left out and counted", "[fit]") {
@@ -179,4 +182,19 @@ TEST_CASE("rows in tension are left out and counted", "[fit]") {
   CHECK(count_of(fit, "adhesion") + count_of(fit, "spike") >= n_pulled - 2);
   CHECK(fit.n_samples + fit.n_left_out == data.time_s.size());
   CHECK(fit.E0_Pa == Approx(1.8).epsilon(0.01));
+}
+
+TEST_CASE("the unloading of a sphere is left out, counted, and a defect if it is much", "[fit]") {
+  const Points long_retract{{0.0, -3e-5}, {1.3, 1e-4}, {40.0, 1e-4}, {60.0, -3e-5}};
+  for (const auto& [points, is_much] :
+       {std::pair{kApproachHoldRetract, true}, std::pair{long_retract, true},
+        std::pair{Points{{0.0, -3e-5}, {1.3, 1e-4}, {40.0, 1e-4}, {41.3, -3e-5}}, false}}) {
+    IndentationData data = record_of(points, 0.02, 1e-3);
+    data.contact = PunchContact{.punch_radius_m = 1e-3, .shape = TipShape::kSphere};
+    const FitResult fit = fit_indentation(data, {.n_terms = 1});
+    CHECK(count_of(fit, "unloading") == fit.n_left_out);
+    CHECK(fit.n_samples + fit.n_left_out == data.time_s.size());
+    CHECK(has_flag(fit, "rows-lost") == is_much);
+    CHECK(has_flag(fit, "rows-left-out") != is_much);
+  }
 }

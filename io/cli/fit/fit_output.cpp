@@ -116,6 +116,10 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   out << fmt::format("{}: {}, {}\n", fitted.path, name_of_kind(fit.kind),
                      counted(fit.n_samples, "sample"));
   if (!fitted.maker.empty()) out << "  file of " << fitted.maker << "\n";
+  if (fit.n_averages < fit.n_samples) {
+    out << fmt::format("  fitted as {} in log time (--full-data: every sample)\n",
+                       counted(fit.n_averages, "average"));
+  }
   if (!fitted.chosen.empty()) out << "  chosen: " << fitted.chosen << "\n";
   if (fitted.n_before_test > 0) {
     out << "  not fitted: the " << counted(fitted.n_before_test, "row")

@@ -54,6 +54,7 @@ TEST_CASE("columns are found by headers in German, French and Chinese", "[io][cs
   CHECK(first("Temps (s),Déplacement (mm),Contrainte (MPa)\n1,2,3\n", "depth_m") == 2.0 * 1e-3);
   CHECK(first("Fréquence (Hz),Module de perte (kPa)\n1,2\n", "loss_modulus_Pa") == 2000.0);
   CHECK(first("时间 (s),位移 (mm),载荷 (N)\n1,2,3\n", "force_N") == 3.0);
+  CHECK(first("试验时间（s）,位移（mm）,试验力（kN）\n1,2,3\n", "force_N") == 3000.0);
   CHECK(first("角频率 (rad/s),储能模量 (MPa),损耗模量 (MPa)\n1,2,3\n", "loss_modulus_Pa") == 3e6);
 }
 
