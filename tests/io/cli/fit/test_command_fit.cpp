@@ -7,6 +7,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <random>
 #include <sstream>
 
 using namespace viscard;
@@ -220,4 +222,41 @@ TEST_CASE("rows that are not fitted are counted by reason in text and JSON", "[c
   CHECK(json["left_out"] == nlohmann::json{{"before_zero", 2}});
   CHECK_THAT(run_command({"fit", file}).out,
              Contains("2 of 103 rows left out: 2 rows before t = 0"));
+}
+
+TEST_CASE("a drift is fitted by itself, on request or never, and a misfit gets no card", "[cli]") {
+  const TableFolder folder;
+  std::ostringstream table;
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  table << "time_s,modulus_Pa\n";
+  for (int i = 1; i <= 1500; ++i) {  // up by 5 % of E_inf in 300 s
+    const double t = 0.2 * i;
+    table << t << ","
+          << 1e6 * (1.0 + 0.3 * std::exp(-t / 5.0) + 0.05 * t / 300.0 + 2e-3 * normal(random))
+          << "\n";
+  }
+  const std::string file = folder.write("E.csv", table.str());
+  const CommandOutcome ran = run_command({"fit", file, "--json"});
+  REQUIRE(ran.status == kDone);
+  const auto json = nlohmann::json::parse(ran.out);
+  CHECK(json["drift"]["per_s"].get<double>() == Approx(0.05e6 / 300.0).epsilon(0.05));
+  CHECK(json["drift"]["unit"] == "Pa/s");
+  CHECK(json["lack_of_fit"]["significant"] == false);
+  CHECK(json["E_inf_Pa"].get<double>() == Approx(1e6).epsilon(0.003));
+  CHECK(json["first_sample_s"] == 0.2);
+  CHECK(json["E_first_sample_Pa"].get<double>() < json["E0_Pa"].get<double>());
+  CHECK(json.contains("E_first_sample_interval_95"));
+  CHECK_THAT(run_command({"fit", file, "--drift"}).out,
+             Contains("drift") && Contains("at the first sample"));
+
+  const CommandOutcome plain =
+      run_command({"fit", file, "--no-drift", "--out", folder.file("m.json")});
+  CHECK(plain.status == kFailed);
+  CHECK_THAT(plain.err, Contains("not to be trusted"));
+  const CommandOutcome card = run_command(
+      {"card", folder.file("m.json"), "--for", "abaqus", "--out", folder.file("m.inp")});
+  CHECK(card.status == kFailed);
+  CHECK_THAT(card.err, Contains("misfit"));
+  CHECK(run_command({"fit", file, "--drift", "--no-drift"}).status == kBadWords);
 }
