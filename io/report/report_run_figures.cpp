@@ -164,7 +164,7 @@ void show_two_sigma(PlotPanel& panel) {
 }
 
 std::optional<Plot> fit_plot(const FitResult& fit, bool is_master) {
-  if (const auto oscillation = oscillation_plot(fit, is_master)) return oscillation;
+  if (auto oscillation = oscillation_plot(fit, is_master)) return oscillation;
   const FitCurves& curves = fit.curves;
   const std::vector<Motion> motions = motions_of(curves);
   if (motions.empty()) return std::nullopt;

@@ -206,7 +206,7 @@ void add_pillar(Page& page, const ReportInput& input,
   }
   if (!setup.empty()) page.add_paragraph(escaped_markup(setup));
   page.add_figure(*plot, "pillar",
-                  "Above: the time-stepping solver (rings, some of its steps) and the exact "
+                  "Above: the time-stepping solver (marks, some of its steps) and the exact "
                   "solution (lines), relative to the first value. Below: the relative error of "
                   "every step; errors below 10⁻¹⁶ are drawn at 10⁻¹⁶.");
   page.add_table(table, "Agreement of the solver with the exact solution.");
