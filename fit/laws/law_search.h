@@ -42,7 +42,7 @@ class LawSearch {
 
   Eigen::VectorXd kernel(const LawPoint& point) const { return columns_.terms * point.weights; }
   LawPoint at(double ln_tau, double exponent) const;
-  // The best of a grid, then Levenberg-Marquardt from the three best points.
+  // The best of a grid, then Levenberg-Marquardt from the two best points.
   LawPoint best() const;
   bool is_at_bound(const LawPoint& point) const;
   // The point with one shape (0: time, if the law has one) changed, within its bounds.

@@ -111,8 +111,8 @@ void take_law(const std::string& name, FitResult& result) {
            "this window, not to the law"});
   if (found->is_at_bound) {
     result.flags.push_back({"law-at-bound", 0,
-                            "an exponent or a time of the law ended at the end of its range, so a "
-                            "simpler law describes the data as well"});
+                            "an exponent or a time of the law ended at the end of its range: the "
+                            "data do not determine it, or another law is nearer"});
   }
   constexpr double kVeryStrong = 10.0;  // Kass & Raftery, J. Am. Stat. Assoc. 90 (1995) 773
   if (found->bic_difference > kVeryStrong) {

@@ -21,6 +21,15 @@ ValidityWindow window_of(const FitResult& fit) {
   return window;
 }
 
+// A law's series holds where it was compared with the law.
+void narrow_to_law(const FittedFile& fitted, ValidityWindow& window) {
+  for (const FittedLaw& law : fitted.result.laws) {
+    if (law.name != fitted.model) continue;
+    window.t_min_s = std::max(window.t_min_s, law.t_min_s);
+    window.t_max_s = std::min(window.t_max_s, law.t_max_s);
+  }
+}
+
 // What a thermometer has measured counts more than what somebody has noted.
 void set_temperature(const FittedFile& fitted, Material& material) {
   if (fitted.temperature) {
@@ -48,6 +57,7 @@ Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& r
     if (const TemperatureShift* shift = fitted.master->laws.better()) material.shift = *shift;
   }
   material.valid = window_of(fitted.result);
+  narrow_to_law(fitted, material.valid);
   material.provenance.created_by = "viscard " VISCARD_VERSION;
   material.provenance.created_at = request.created_at;
   material.provenance.command = request.command;

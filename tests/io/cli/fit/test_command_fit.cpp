@@ -176,6 +176,17 @@ TEST_CASE("fit --diagnose compares tables with laws of few parameters, and refus
   CHECK_THAT(refused.err, Contains("--diagnose compares laws") && Contains("viscard export"));
 }
 
+TEST_CASE("the material of a law is valid where its series was compared with the law", "[cli]") {
+  const TableFolder folder;
+  const std::string file = folder.write(
+      "E.csv", "time_s,modulus_Pa\n0,2e6\n0.1,1.9e6\n1,1.8e6\n10,1.75e6\n100,1.7e6\n1000,1.69e6\n");
+  REQUIRE(run_command({"fit", file, "--model", "fractional-zener", "--out", folder.file("m.json")})
+              .status == kDone);
+  const Material material = read_material(folder.file("m.json")).material;
+  CHECK(material.valid.t_min_s == Approx(0.1));
+  CHECK(material.valid.t_max_s == Approx(1000.0));
+}
+
 TEST_CASE("fit --model answers with a law, and its card states the error of its series", "[cli]") {
   const TableFolder folder;
   std::ostringstream text;
