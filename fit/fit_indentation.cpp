@@ -4,6 +4,7 @@
 #include "fit/assembly/solid_or_liquid.h"
 #include "fit/assembly/table_drift.h"
 #include "fit/assembly/two_point_modulus.h"
+#include "fit/contact_fit.h"
 #include "fit/contact_table.h"
 #include "fit/curves/history_model.h"
 #include "fit/intervals/flags.h"
@@ -127,80 +128,6 @@ void report_table(const IndentationData& data, const ContactTable& table, const 
   if (data.contact && table.law.power == 1.0 && end > contact.first) {
     result.two_point = two_points(input, contact.first, end, *data.contact, result);
   }
-}
-
-// A model of the record, or of a part of it, and its fit.
-struct HistoryFit {
-  std::unique_ptr<HistoryModel> model;
-  HistoryInput input;
-  SpectralFit fit;
-  std::size_t n_contacts = 1, n_adhesion = 0;
-
-  double zero_s() const { return input.time_s[std::min(input.contact, input.time_s.size() - 1)]; }
-};
-
-HistoryFit fit_history(HistoryInput input, const FitOptions& options) {
-  HistoryFit of;
-  of.input = std::move(input);
-  of.model = std::make_unique<HistoryModel>(of.input, options);
-  of.fit =
-      fit_spectrum(*of.model, log_time_blocks(of.model->row_time_s(), of.zero_s(), 2), options);
-  return of;
-}
-
-// Largest change of the surface between two courses of contact.
-double largest_change(const Column& a, const Column& b) {
-  if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
-  return largest;
-}
-
-// The same times and nuisances fitted to another model.
-SpectralState fitted_again(const SpectralModel& model, const SpectralState& start) {
-  SpectralState state = solve_coefficients(model, start.ln_tau, start.nuisance);
-  if (start.ln_tau.size() + start.nuisance.size() == 0) return state;
-  return quick_search(model, state, {.tolerance = 1e-10});
-}
-
-// The whole record with the course of contact of this series and that of the record in turn, until
-// the course stays the same. The order is that of the state.
-WholeRecord settled_record(const ContactTable& table, SpectralState state, PronySeries series,
-                           bool with_drift, const FitOptions& options) {
-  constexpr int kRounds = 12;
-  constexpr double kSame = 1e-5;  // of the range of the depth
-  const auto [low, high] = std::minmax_element(table.depth_m.begin(), table.depth_m.end());
-  Column last;
-  for (int round = 1;; ++round) {
-    const double contact_m = table.contact.is_fitted ? state.nuisance[0] : 0.0;
-    WholeRecord whole = whole_record(table, series, contact_m, options.with_drift);
-    whole.input.with_drift |= with_drift;
-    const bool is_same = largest_change(last, whole.input.input) <= kSame * (*high - *low);
-    if (is_same || round == kRounds) return whole;
-    last = whole.input.input;
-    const HistoryModel model(std::move(whole.input), options);
-    state = fitted_again(model, state);
-    series = relaxation_series_of(model, options.is_liquid)(state);
-  }
-}
-
-// Fits the whole record of a punch that is pulled back. Where it is in contact follows from the
-// series. If the whole record asks for another order than the first contact, the course is found
-// again with that.
-HistoryFit fit_whole(const ContactTable& table, HistoryFit fitted, const FitOptions& options) {
-  constexpr int kOrders = 4;
-  const bool with_drift = fitted.input.with_drift;
-  for (int round = 0; round < kOrders; ++round) {
-    const SpectralState start = fitted.fit.state;
-    WholeRecord whole =
-        settled_record(table, start, relaxation_series_of(*fitted.model, options.is_liquid)(start),
-                       with_drift, options);
-    fitted = fit_history(std::move(whole.input), options);
-    fitted.n_contacts = whole.n_contacts;
-    fitted.n_adhesion = whole.n_adhesion;
-    if (fitted.fit.state.n_terms() == start.n_terms()) break;
-  }
-  return fitted;
 }
 
 // Rows that the fit does not use.
