@@ -1,9 +1,9 @@
 #include "io/basics/timestamp.h"
 #include "io/basics/units.h"
 #include "io/cli/rig/calibrate_words.h"
-#include "io/cli/words/json_errors.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/json_errors.h"
 #include "io/cli/words/output_paths.h"
 #include "models/maths/text_of_number.h"
 

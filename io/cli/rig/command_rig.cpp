@@ -1,7 +1,7 @@
-#include "io/cli/words/json_errors.h"
 #include "io/cli/rig/overshoot_study.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/json_errors.h"
 #include "io/cli/words/progress.h"
 #include "io/config/config_file.h"
 #include "io/flow/check_rig_config.h"
