@@ -125,7 +125,7 @@ TEST_CASE("a command that fails prints no result on stdout, and with --json at m
     const auto outcome = run_command({name, "--json", "/nowhere/no-such-file"});
     CHECK(outcome.status != kDone);
     CHECK(is_one_line(outcome.err));
-    if (name == "rig" || name == "calibrate" || name == "export") {
+    if (name == "rig" || name == "calibrate" || name == "export" || name == "serve") {
       const auto json = nlohmann::json::parse(outcome.out);
       CHECK(json.size() == 1);
       CHECK(json.at("error").at("code").is_string());
