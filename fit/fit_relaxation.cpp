@@ -14,6 +14,8 @@
 #include "fit/samples/spikes.h"
 #include "models/maths/text_of_number.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -31,9 +33,9 @@ std::vector<double> copy_of(std::span<const double> column) {
 }
 
 double largest_of(std::span<const double> column) {
-  double largest = 0.0;
-  for (const double one : column) largest = std::max(largest, std::abs(one));
-  return largest;
+  const Eigen::Map<const Eigen::ArrayXd> values(column.data(),
+                                                static_cast<Eigen::Index>(column.size()));
+  return values.size() == 0 ? 0.0 : values.abs().maxCoeff();
 }
 
 TableExtent extent_of(const CleanViews& clean) {
