@@ -18,7 +18,9 @@ struct HistoryFit {
   SpectralFit fit;
   std::size_t n_contacts = 1, n_adhesion = 0;
 
-  double zero_s() const { return input.time_s[std::min(input.contact, input.time_s.size() - 1)]; }
+  double zero_s() const {
+    return input.step_s.value_or(input.time_s[std::min(input.contact, input.time_s.size() - 1)]);
+  }
 };
 
 HistoryFit fit_history(HistoryInput input, const FitOptions& options);

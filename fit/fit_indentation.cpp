@@ -148,6 +148,9 @@ FitResult fit_contact_table(const IndentationData& data, const ContactTable& tab
                             const FitOptions& options) {
   HistoryInput input = first_contact(table);
   input.with_drift = with_drift;
+  if (!input.contact_input && input.contact == 0 && !table.goes_back) {
+    input.step_s = step_before(input.time_s, input.input);
+  }
   HistoryFit fitted = fit_history(std::move(input), options);
   if (table.goes_back) fitted = fit_whole(table, std::move(fitted), options);
   const HistoryModel& model = *fitted.model;
@@ -157,8 +160,11 @@ FitResult fit_contact_table(const IndentationData& data, const ContactTable& tab
   fit_laws(model, fitted.fit, result);
   count_left_out(table, fitted, result);
   report_table(data, table, fitted.input, model, fitted.fit, result);
+  flag_step_before(fitted.input.step_s, fitted.input.time_s.front(), result);
   examine_table(model, fitted.fit, fitted.zero_s(), result);
-  report_first_modulus(shortest_step_s(fitted.input.time_s), result);
+  const std::vector<double>& time_s = fitted.input.time_s;
+  const auto& step_s = fitted.input.step_s;
+  report_first_modulus(step_s ? time_s.front() - *step_s : shortest_step_s(time_s), result);
   if (options.with_curves) {
     fill_curves(model, fitted.input, fitted.fit.state, result.noise.sigma, result);
   }

@@ -43,7 +43,7 @@ TableExtent extent_of(const CleanViews& clean) {
 }
 
 FitResult fit_history_once(const HistoryInput& input, const FitOptions& options) {
-  const double zero_s = input.time_s[input.contact];
+  const double zero_s = input.step_s.value_or(input.time_s[input.contact]);
   const HistoryModel model(input, options);
   const SpectralFit fit =
       fit_spectrum(model, log_time_blocks(model.row_time_s(), zero_s, 1), options);
@@ -52,11 +52,11 @@ FitResult fit_history_once(const HistoryInput& input, const FitOptions& options)
   fill_result(model, fit, relaxation_series_of(model, options.is_liquid), result);
   fit_laws(model, fit, result);
   examine_table(model, fit, zero_s, result);
-  const TestWindow window{shortest_step_s(input.time_s),
-                          input.time_s[end_of_loading(input.input)] - zero_s, 0.0,
+  const TestWindow window{shortest_step_s(input.time_s), loading_s(input), 0.0,
                           input.time_s.back() - zero_s};
   add_identifiability_flags(model, fit.state, fit.covariance, window, result);
-  report_first_modulus(window.sampling_s, result);
+  report_first_modulus(input.step_s ? input.time_s.front() - *input.step_s : window.sampling_s,
+                       result);
   result.fit_from_s = input.time_s.front();
   result.fit_to_s = input.time_s.back();
   return result;
@@ -75,8 +75,11 @@ FitResult fit_strain_history(const CleanViews& clean, TableDrift drift, const Fi
     throw std::runtime_error(
         "the strain is zero in every row: no strain was applied, or the column is not the strain");
   }
-  return fit_solid_or_liquid(options,
-                             [&](const FitOptions& as) { return fit_history_once(input, as); });
+  input.step_s = step_before(input.time_s, input.input);
+  FitResult result = fit_solid_or_liquid(
+      options, [&](const FitOptions& as) { return fit_history_once(input, as); });
+  flag_step_before(input.step_s, input.time_s.front(), result);
+  return result;
 }
 
 FitResult fit_step_once(std::span<const double> time_s, std::span<const double> value,

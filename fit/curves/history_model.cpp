@@ -57,7 +57,7 @@ HistoryModel::HistoryModel(HistoryInput input, const FitOptions& options) : in_(
   may_be_negative_ = options.allow_negative;
   const bool is_small = count <= kSmallRecord || options.full_data;
   const double ratio = std::pow(10.0, 1.0 / kBinsPerDecade);
-  const double zero_s = in_.time_s[in_.contact];
+  const double zero_s = in_.step_s.value_or(in_.time_s[in_.contact]);
   // Samples of loading, and the first ones after it, are rows of their own.
   if (!in_.loaded) in_.loaded = end_of_loading(in_.input);
   const double loaded_s = zero_s + 1.5 * (in_.time_s[*in_.loaded] - zero_s);
@@ -101,8 +101,36 @@ HistoryModel::HistoryModel(HistoryInput input, const FitOptions& options) : in_(
   ln_tau_max_ = std::log(longest_s * 3.0);
 }
 
+double loading_s(const HistoryInput& input) {
+  if (input.step_s) return 0.0;
+  const std::size_t end = end_of_loading(input.input);
+  double fastest = 0.0;
+  for (std::size_t i = input.contact + 1; i <= end; ++i) {
+    const double dt_s = input.time_s[i] - input.time_s[i - 1];
+    if (dt_s > 0.0) fastest = std::max(fastest, (input.input[i] - input.input[i - 1]) / dt_s);
+  }
+  const double whole_s = input.time_s[end] - input.time_s[std::min(input.contact, end)];
+  const double rise = input.input[end] - input.input[std::min(input.contact, end)];
+  return fastest > 0.0 ? std::min(whole_s, rise / fastest) : whole_s;
+}
+
+std::optional<double> step_before(const std::vector<double>& time_s,
+                                  const std::vector<double>& input) {
+  constexpr double kShare = 0.1;
+  if (time_s.size() < 2 || input.front() == 0.0 || !(time_s.front() > 0.0)) return std::nullopt;
+  if (time_s.front() > kShare * (time_s.back() - time_s.front())) return std::nullopt;
+  // A ramp that the record shows from its first sample on is no step.
+  double largest = 0.0;
+  for (const double one : input) largest = std::max(largest, std::abs(one));
+  constexpr double kLoaded = 0.5;
+  if (std::abs(input.front()) < kLoaded * largest) return std::nullopt;
+  return 0.0;
+}
+
 HistoryModel::Onset HistoryModel::onset_at(double contact_input) const {
-  if (!in_.contact_input) return {in_.contact, in_.time_s[in_.contact], 0.0};
+  if (!in_.contact_input) {
+    return {in_.contact, in_.step_s.value_or(in_.time_s[in_.contact]), 0.0};
+  }
   // The last crossing of the contact position before the input stays above it.
   Onset onset{*in_.loaded, 0.0, contact_input};
   while (onset.first > 0 && in_.input[onset.first - 1] > contact_input) --onset.first;
@@ -134,6 +162,7 @@ void HistoryModel::fill_term(const Onset& onset, double tau_s, Column into) cons
   double q = 0.0, slope = 0.0;
   double q_by_contact = 0.0;  // used for spheres and cones
   double previous_s = onset.time_s, previous = 0.0, previous_slope = 0.0;
+  if (in_.step_s) q = previous = powered(in_.input[onset.first] - onset.input, in_.power);
   for (std::size_t k = onset.first; k < in_.time_s.size(); ++k) {
     step.set(in_.time_s[k] - previous_s, tau_s);
     const double depth = in_.input[k] - onset.input;

@@ -24,6 +24,9 @@ struct HistoryInput {
   // input must not fall: Lee & Radok (models/contact/punch_contact.h).
   double power = 1.0;
   std::size_t contact = 0;  // first sample that may be in contact; before it the input counts as 0
+  // The input was applied in a step at this time, before the first sample; none: at the first
+  // sample. For records that begin under load (step_before).
+  std::optional<double> step_s;
   // Contact position as a nuisance, in the unit of the input; none: contact at input 0.
   std::optional<double> contact_input;
   double contact_half_width = 0.0;
@@ -41,6 +44,15 @@ struct HistoryInput {
 
 // First sample with at least 98 % of the largest input: the end of loading, despite later drift.
 std::size_t end_of_loading(const std::vector<double>& input);
+
+// Time for which the load rises: up to the end of loading, without the holds between several ramps.
+// 0 for a step.
+double loading_s(const HistoryInput& input);
+
+// The time of the step that a record which begins under load has seen: t = 0, if that is before the
+// first sample by at most a tenth of the record. None for other records.
+std::optional<double> step_before(const std::vector<double>& time_s,
+                                  const std::vector<double>& input);
 
 class HistoryModel final : public SpectralModel {
  public:

@@ -100,6 +100,14 @@ void report_first_modulus(double time_s, FitResult& result) {
            " % below E0, more than the interval of E0: E0 is an extrapolation to t = 0"});
 }
 
+void flag_step_before(std::optional<double> step_s, double first_s, FitResult& result) {
+  if (!step_s) return;
+  result.flags.push_back({"step-before-record", 0,
+                          "the record begins under load, at t = " + number(first_s) +
+                              " s: the load counts as a step at t = " + number(*step_s) +
+                              " s (--time-zero moves that)"});
+}
+
 void add_spikes(FitResult& result, std::size_t count) {
   result.n_spikes = count;
   add_left_out(result, left_out::kSpike, count);

@@ -4,6 +4,7 @@
 #include "fit/search/separable.h"
 #include "models/material/material.h"
 
+#include <optional>
 #include <string>
 
 namespace viscard {
@@ -44,5 +45,8 @@ void add_defect(FitResult& result, const std::string& name, const std::string& t
 // noise out of contact, from n_quiet samples; peak: largest force. All in one unit.
 void flag_misfit(double sigma, double quiet_sigma, std::size_t n_quiet, double peak,
                  FitResult& result);
+
+// Adds the flag step-before-record if the record begins under load, at first_s.
+void flag_step_before(std::optional<double> step_s, double first_s, FitResult& result);
 
 }  // namespace viscard
