@@ -190,6 +190,22 @@ std::optional<MasterCurve> fit_temperatures(const CsvTable& table, FitKind kind,
   return fit_master_curve(data, request.options);
 }
 
+// Options that this kind of table cannot use are refused, because a person who gives them expects
+// that they count.
+void check_options(const CsvTable& table, FitKind kind, const FitRequest& request) {
+  const bool is_alone = kind == FitKind::kRelaxation && is_force_alone(table, request);
+  if (request.depth_m && !is_alone) {
+    throw std::runtime_error(
+        "--depth is for a record of force at constant depth, without a column of depth; omit it");
+  }
+  const bool has_drift = kind == FitKind::kRelaxation || kind == FitKind::kIndentation;
+  if (request.options.drift == TableDrift::kFitted && !has_drift) {
+    throw std::runtime_error(
+        "--drift is for tables of relaxation and indentation: in creep a drift is flow, and in an "
+        "oscillation there is none; omit it");
+  }
+}
+
 // Fits the rows of a table that are in the chosen part.
 FittedFile fit_rows(const CsvTable& table, const FitRequest& request) {
   FittedFile fitted;
@@ -197,6 +213,7 @@ FittedFile fit_rows(const CsvTable& table, const FitRequest& request) {
   fitted.specimen_id = specimen_id_of(table, request);
   const FitKind kind = kind_of_table(table, request);
   refuse_several_parts(table, kind, request);
+  check_options(table, kind, request);
   fitted.master = fit_temperatures(table, kind, request);
   // Of an exported capture; tables of several temperatures make a master curve instead.
   if (kind == FitKind::kIndentation && find_column(table, "temperature_C", request.columns)) {

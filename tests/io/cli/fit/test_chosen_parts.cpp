@@ -130,3 +130,18 @@ TEST_CASE("a file that never ends is refused in one line", "[cli]") {
   CHECK_THAT(ran.err, Contains("did not end"));
   CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
 }
+
+TEST_CASE("options that a table cannot use are refused, not ignored", "[cli]") {
+  const TableFolder folder;
+  const std::string depth = folder.write("depth.csv", two_presses());
+  CommandOutcome ran = run_command({"fit", depth, "--depth", "0.1 mm"});
+  CHECK(ran.status == kFailed);
+  CHECK_THAT(ran.err, Contains("--depth is for a record of force"));
+  std::string creep = "time_s,compliance_1_Pa\n";
+  for (int i = 0; i < 50; ++i) {
+    creep += std::to_string(i) + "," + std::to_string(2.0 - std::exp(-0.1 * i)) + "\n";
+  }
+  ran = run_command({"fit", folder.write("creep.csv", creep), "--drift"});
+  CHECK(ran.status == kFailed);
+  CHECK_THAT(ran.err, Contains("--drift is for tables of relaxation"));
+}
