@@ -116,7 +116,10 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   const char* letter = fitted.has_no_depth ? "F" : fit.is_stiffness ? "K" : "E";
   out << fmt::format("{}: {}, {}\n", fitted.path, name_of_kind(fit.kind),
                      counted(fit.n_samples, "sample"));
-  if (!fitted.maker.empty()) out << "  file of " << fitted.maker << "\n";
+  if (!fitted.maker.empty()) {
+    const bool is_book_only = fitted.maker.starts_with("Excel workbook");
+    out << (is_book_only ? "  " : "  file of ") << fitted.maker << "\n";
+  }
   if (fit.n_averages < fit.n_samples) {
     out << fmt::format("  fitted as {} in log time (--full-data: every sample)\n",
                        counted(fit.n_averages, "average"));
