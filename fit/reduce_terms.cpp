@@ -1,6 +1,7 @@
 #include "fit/reduce_terms.h"
 
 #include "fit/chebyshev_series.h"
+#include "models/material/liquid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +44,7 @@ ReducedSeries reduce_terms(const PronySeries& series, int n_terms, double t_min_
 }
 
 ReducedMaterial reduce_material(const Material& material, int n_terms) {
-  validate(material);
+  validate_solid(material);
   const bool is_constant_poisson = has_constant_poisson_ratio(material) || material.nu == 0.5;
   ReducedMaterial out{material, 0.0, material.valid.t_min_s, material.valid.t_max_s};
   double fastest_s = std::numeric_limits<double>::infinity(), slowest_s = 0.0;

@@ -1,6 +1,7 @@
 #include "fit/intervals/flags.h"
 
 #include "fit/intervals/left_out.h"
+#include "fit/intervals/viscosity.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -30,8 +31,10 @@ void flag_time(const FittedTerm& term, int n, const TestWindow& window, FitResul
                               " s): most of this term relaxed while the load rose");
   }
   if (window.to_s > 0.0 && term.tau_s > window.to_s / 3.0) {
-    add("tau-beyond-window", tau + "is above a third of the record (" + number(window.to_s / 3.0) +
-                                 " s): the equilibrium modulus is an upper bound only");
+    add("tau-beyond-window",
+        tau + "is above a third of the record (" + number(window.to_s / 3.0) + " s): " +
+            (is_liquid(result) ? "the slowest time is known roughly only"
+                               : "the equilibrium modulus is an upper bound only"));
   }
   if (term.modulus_Pa_95.low <= 0.0 && term.modulus_Pa_95.high >= 0.0) {
     add("modulus-may-be-zero", "the 95 % interval of its modulus contains zero");

@@ -13,12 +13,13 @@ enum class Kind { kLost, kByFormula, kOutside };
 struct Reason {
   const char* key;
   Kind kind;
-  const char* text;  // after "N rows"
+  const char* text;           // after "N rows"
+  const char* one = nullptr;  // after "1 row", where it differs
 };
 
 constexpr std::array kReasons{
     Reason{left_out::kNotANumber, Kind::kLost, "without a number"},
-    Reason{left_out::kSpike, Kind::kLost, "that are spikes"},
+    Reason{left_out::kSpike, Kind::kLost, "that are spikes", "that is a spike"},
     Reason{left_out::kDepthSpike, Kind::kLost, "whose depth jumps away and back without the force"},
     Reason{left_out::kSaturated, Kind::kLost, "at the end of the converter's range"},
     Reason{left_out::kGlitch, Kind::kLost, "that the amplifier garbled"},
@@ -42,7 +43,9 @@ std::string list_of(const FitResult& result, bool only_lost) {
   for (const LeftOutRows& left : result.left_out) {
     const Reason* reason = reason_of(left.reason);
     if (reason == nullptr || (only_lost && reason->kind == Kind::kOutside)) continue;
-    text += (text.empty() ? "" : ", ") + counted(left.count, "row") + " " + reason->text;
+    const bool is_single = left.count == 1 && reason->one != nullptr;
+    text += (text.empty() ? "" : ", ") + counted(left.count, "row") + " " +
+            (is_single ? reason->one : reason->text);
   }
   return text;
 }

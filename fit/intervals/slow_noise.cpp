@@ -56,6 +56,15 @@ double student_ratio(double freedom) {
 
 }  // namespace
 
+std::string memory_text(double memory, double independent) {
+  const std::string of_noise = "the noise of the record has a memory ";
+  if (memory > 1.0 || independent < 1.0) {
+    return of_noise + "longer than the record, so that not even one value is independent";
+  }
+  return of_noise + "of " + text_of(100.0 * memory, 2) + " % of it, or " + text_of(independent, 2) +
+         " independent values";
+}
+
 SlowNoise slow_noise(const SpectralModel& model, const SpectralState& state, double variance,
                      const Autoregression& noise) {
   // A fit removes part of slow noise, so that the memory of the residual is shorter than that of the
@@ -79,8 +88,7 @@ SlowNoise slow_noise(const SpectralModel& model, const SpectralState& state, dou
   const double memory = noise.memory() / n_samples;
   constexpr double kSlow = 5.0;  // less is not slow, and few values may be independent
   if (inflation > kSlow && (memory >= kLongMemory || independent < kFewIndependent)) {
-    slow.doubt = "the noise of the record has a memory of " + text_of(100.0 * memory, 2) +
-                 " % of it, or " + text_of(independent, 2) + " independent values";
+    slow.doubt = memory_text(memory, independent);
   }
   double most = 1.0;
   for (const double parts : {40.0, 20.0, 10.0}) {

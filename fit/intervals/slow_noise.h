@@ -26,6 +26,10 @@ struct SlowNoise {
 SlowNoise slow_noise(const SpectralModel& model, const SpectralState& state, double variance,
                      const Autoregression& noise);
 
+// "the noise of the record has a memory of 12 % of it, or 8.1 independent values". memory: over the
+// length of the record.
+std::string memory_text(double memory, double independent);
+
 // The covariance after both steps. white: the covariance for white noise of the same variance.
 Eigen::MatrixXd widened(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& white,
                         const SlowNoise& slow);

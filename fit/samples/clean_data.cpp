@@ -82,6 +82,12 @@ void CleanViews::drop(const std::vector<std::size_t>& rows) {
 void check_sign(std::span<const double> values, const std::string& what,
                 const std::string& column) {
   if (sum_of(values) > 0.0) return;
+  if (std::all_of(values.begin(), values.end(), [](double value) { return value == 0.0; })) {
+    throw std::runtime_error("every value of the fitted column is zero, but " + what +
+                             " is positive. If it is the wrong column, name the right one: "
+                             "--column " +
+                             column + "=NAME");
+  }
   throw std::runtime_error("the sum of the fitted column is negative or zero, but " + what +
                            " is positive. If the instrument has the other sign, flip the column: "
                            "--column " +

@@ -6,6 +6,7 @@
 #include "io/config/sensible_bounds.h"
 #include "models/experiment/converter.h"
 #include "models/experiment/test_phases.h"
+#include "models/material/liquid.h"
 #include "models/maths/text_of_number.h"
 
 #include <cmath>
@@ -90,7 +91,7 @@ void check_specimen(Specimen& specimen) {
 void check_truth(EmulatedTruth& truth) {
   if (std::isnan(truth.material.nu)) truth.material.nu = truth.contact.poisson_ratio;
   validate(truth.contact);
-  validate(truth.material);
+  validate_solid(truth.material);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/materials/material_file.h"
+#include "models/material/liquid.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -125,6 +126,7 @@ PreparedMaterial prepare_card_material(const CardMaterialRequest& request) {
     if (request.ratio)
       throw std::invalid_argument(request.material + " is one material; it has no ratio");
     prepared.material = read_material(request.material).material;
+    refuse_liquid(prepared.material, request.material);
   }
   prepared.sha256 = sha256_of_file(request.material);
   if (prepared.material.name.empty()) {

@@ -1,3 +1,4 @@
+#include "fit/intervals/viscosity.h"
 #include "io/flow/flow_json.h"
 #include "io/materials/material_json.h"
 
@@ -166,6 +167,10 @@ Json json_from_fit(const FittedFile& fitted) {
   json[letter + "_inf_se" + unit] = number(fit.E_inf_se_Pa);
   json[letter + "0_interval_95"] = json_from(fit.E0_interval_95);
   json[letter + "_inf_interval_95"] = json_from(fit.E_inf_interval_95);
+  if (const auto viscosity = viscosity_of(fit)) {
+    json["viscosity_Pa_s"] = number(viscosity->value_Pa_s);
+    json["viscosity_interval_95"] = json_from(viscosity->interval_95);
+  }
   json["sum_g"] = number(fit.sum_g);
   json["sum_g_interval_95"] = json_from(fit.sum_g_95);
   json["terms"] = terms_of(fit, unit);

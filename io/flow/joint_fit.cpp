@@ -2,6 +2,7 @@
 #include "io/flow/fit_file.h"
 #include "io/flow/input_files.h"
 #include "io/materials/material_file.h"
+#include "models/material/liquid.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -38,6 +39,7 @@ std::vector<JointRecord> read_records(const JointRequest& request) {
       continue;
     }
     Material& material = records.back().material = read_material(file).material;
+    refuse_liquid(material, file);
     if (material.name.empty()) material.name = std::filesystem::path(file).stem().string();
   }
   FitRequest fit = request.fit;

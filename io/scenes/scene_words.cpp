@@ -1,6 +1,7 @@
 #include "io/scenes/scene_words.h"
 
 #include "io/materials/material_file.h"
+#include "models/material/liquid.h"
 
 #include <algorithm>
 
@@ -72,7 +73,11 @@ MediumFile film_medium(const std::string& key, const RawMaterial& raw,
 }
 
 Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder) {
-  if (!raw.file.empty()) return read_material(folder / raw.file).material;
+  if (!raw.file.empty()) {
+    Material material = read_material(folder / raw.file).material;
+    refuse_liquid(material, raw.file);
+    return material;
+  }
   if (!(raw.E_Pa > 0.0)) {
     throw SceneMistake("materials.pillar", "needs E (and nu, rho) or a file");
   }

@@ -72,7 +72,7 @@ class TableReader {
     }
     if (counts.empty()) {
       throw std::runtime_error(name_ + ": has no line with a number in its first " +
-                               std::to_string(sample_.size()) + "; expected a table of numbers");
+                               counted(sample_.size(), "line") + "; expected a table of numbers");
     }
     for (const auto& [width, count] : counts) {
       if (count > counts[width_]) width_ = width;

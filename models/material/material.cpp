@@ -1,5 +1,6 @@
 #include "models/material/material.h"
 
+#include "models/material/lasting_share.h"
 #include "models/material/retardation_spectrum.h"
 #include "models/maths/require.h"
 
@@ -24,10 +25,11 @@ void validate_term(const MaterialTerm& term, std::size_t number) {
   require_positive(where + "tau", term.tau_s, "s");
 }
 
-// The sum must stay below 1. Rounding of a liquid's shares may give 1 + 1e-16; cards refuse it too.
-void validate_sum(const char* name, double sum) {
-  require(sum < 1.0, std::string("the ") + name + " of all terms add up to " + text_of(sum) +
-                         "; the sum must be below 1, so that part of the modulus never relaxes");
+void validate_sum(const char* name, double sum, bool may_be_one) {
+  require(
+      sum < 1.0 || (may_be_one && lasting_share(sum) == 0.0),
+      std::string("the ") + name + " of all terms add up to " + text_of(sum) +
+          "; the sum must be below 1, or 1 for a liquid, in which no part of the modulus lasts");
 }
 
 PronySeries series_of(const Material& material, double equilibrium_Pa,
@@ -63,8 +65,9 @@ void validate(const Material& material) {
                 text_of(material.shift->T_ref_C) + " C; T_ref_C must be given and be the same");
   }
   for (std::size_t i = 0; i < material.terms.size(); ++i) validate_term(material.terms[i], i + 1);
-  validate_sum("g", sum_of(material.terms, &MaterialTerm::g));
-  validate_sum("k", sum_of(material.terms, &MaterialTerm::k));
+  const double sum_g = sum_of(material.terms, &MaterialTerm::g);
+  validate_sum("g", sum_g, /*may_be_one=*/true);
+  validate_sum("k", sum_of(material.terms, &MaterialTerm::k), lasting_share(sum_g) == 0.0);
 }
 
 bool is_defect(const std::string& flag_name) {
@@ -84,13 +87,14 @@ DerivedModuli derived_moduli(const Material& material) {
   out.sum_g = sum_of(material.terms, &MaterialTerm::g);
   out.sum_k = sum_of(material.terms, &MaterialTerm::k);
   out.E0_Pa = material.E0_Pa;
-  out.E_rest_Pa = (1.0 - out.sum_g) * material.E0_Pa;
+  const double lasting = lasting_share(out.sum_g);
+  out.E_rest_Pa = lasting * material.E0_Pa;
   out.G0_Pa = material.E0_Pa / (2.0 * (1.0 + material.nu));
-  out.G_inf_Pa = out.G0_Pa * (1.0 - out.sum_g);
+  out.G_inf_Pa = out.G0_Pa * lasting;
   const bool incompressible = material.nu == 0.5;
   out.K0_Pa = incompressible ? std::numeric_limits<double>::infinity()
                              : material.E0_Pa / (3.0 * (1.0 - 2.0 * material.nu));
-  out.K_inf_Pa = out.K0_Pa * (1.0 - out.sum_k);
+  out.K_inf_Pa = incompressible ? out.K0_Pa : out.K0_Pa * lasting_share(out.sum_k);
   if (incompressible) {
     out.E_inf_Pa = 3.0 * out.G_inf_Pa;
     out.nu_inf = 0.5;
@@ -100,7 +104,7 @@ DerivedModuli derived_moduli(const Material& material) {
         (3.0 * out.K_inf_Pa - 2.0 * out.G_inf_Pa) / (2.0 * (3.0 * out.K_inf_Pa + out.G_inf_Pa));
   }
   if (has_constant_poisson_ratio(material)) {  // directly, without the rounding of 9KG/(3K + G)
-    out.E_inf_Pa = material.E0_Pa * (1.0 - out.sum_g);
+    out.E_inf_Pa = out.E_rest_Pa;
     out.nu_inf = material.nu;
   }
   for (const MaterialTerm& term : material.terms) {
@@ -129,6 +133,7 @@ PronySeries young_series(const Material& material) {
   const RetardationSpectrum bulk =
       retardation_from_relaxation(series_of(material, moduli.K_inf_Pa, moduli.K_Pa));
   RetardationSpectrum uniaxial;
+  uniaxial.fluidity_1_Pa_s = shear.fluidity_1_Pa_s / 3.0 + bulk.fluidity_1_Pa_s / 9.0;
   uniaxial.instantaneous_compliance_1_Pa =
       shear.instantaneous_compliance_1_Pa / 3.0 + bulk.instantaneous_compliance_1_Pa / 9.0;
   for (const RetardationTerm& term : shear.terms) {
@@ -145,7 +150,7 @@ std::complex<double> relative_modulus(const std::vector<MaterialTerm>& terms,
   // Sum of the lasting and the relaxing parts: 1 - sum m/(1 + s tau) would cancel.
   double rest = 1.0;
   for (const MaterialTerm& term : terms) rest -= term.*share;
-  std::complex<double> modulus = rest;
+  std::complex<double> modulus = lasting_share(1.0 - rest) == 0.0 ? 0.0 : rest;
   for (const MaterialTerm& term : terms) {
     const std::complex<double> x = s * term.tau_s;
     modulus += term.*share * (std::abs(x) > 1.0 ? 1.0 / (1.0 + 1.0 / x) : x / (1.0 + x));

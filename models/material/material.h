@@ -87,8 +87,8 @@ struct Material {
 };
 
 // Throws std::invalid_argument naming the value: E0 not positive, nu outside (-1, 0.5], density
-// negative, a g or k negative or not finite, tau not positive, sum g or sum k >= 1, a shift
-// whose reference is not T_ref_C.
+// negative, a g or k negative or not finite, tau not positive, sum g or sum k above 1 (sum g = 1 is
+// a liquid, see liquid.h), a shift whose reference is not T_ref_C.
 void validate(const Material& material);
 
 // True when every k_i equals its g_i (constant Poisson ratio).

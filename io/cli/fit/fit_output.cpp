@@ -1,4 +1,5 @@
 #include "fit/intervals/left_out.h"
+#include "fit/intervals/viscosity.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/flow/flow_json.h"
 #include "models/maths/text_of_number.h"
@@ -115,7 +116,10 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   const char* letter = fitted.has_no_depth ? "F" : fit.is_stiffness ? "K" : "E";
   out << fmt::format("{}: {}, {}\n", fitted.path, name_of_kind(fit.kind),
                      counted(fit.n_samples, "sample"));
-  if (!fitted.maker.empty()) out << "  file of " << fitted.maker << "\n";
+  if (!fitted.maker.empty()) {
+    const bool is_book_only = fitted.maker.starts_with("Excel workbook");
+    out << (is_book_only ? "  " : "  file of ") << fitted.maker << "\n";
+  }
   if (fit.n_averages < fit.n_samples) {
     out << fmt::format("  fitted as {} in log time (--full-data: every sample)\n",
                        counted(fit.n_averages, "average"));
@@ -145,6 +149,10 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   }
   out << fmt::format("  {}_inf  {:>10.6g} {}   95 % {}\n", letter, fit.E_inf_Pa * shown.factor,
                      shown.unit, range(fit.E_inf_interval_95, shown.factor, 6));
+  if (const auto viscosity = viscosity_of(fit)) {
+    out << fmt::format("  eta_0  {:>10.5g} Pa s  95 % {}   sum of E_i tau_i\n",
+                       viscosity->value_Pa_s, range(viscosity->interval_95, 1.0, 4));
+  }
   for (std::size_t i = 0; i < fit.terms.size(); ++i) {
     const FittedTerm& term = fit.terms[i];
     out << fmt::format("  g_{:<4} {:>10.5g}       95 % {:<22}  tau {:.4g} s   95 % {}\n", i + 1,

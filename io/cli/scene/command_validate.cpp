@@ -3,6 +3,7 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/progress.h"
 #include "io/materials/material_file.h"
+#include "models/material/liquid.h"
 #include "models/pillar/validate_material.h"
 
 #include <fmt/format.h>
@@ -94,6 +95,7 @@ int run_validate(const Words& words, Streams& streams) {
     throw UsageError("--max-error must lie between 0 and 1");
   }
   const Material material = read_material(path).material;
+  refuse_liquid(material, path);
   const std::string name = material.name.empty() ? path : material.name;
   Progress progress(streams, "validate");
   options.progress = [&](double fraction) { progress.show(fraction, name); };

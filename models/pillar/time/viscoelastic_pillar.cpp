@@ -1,5 +1,6 @@
 #include "models/pillar/time/viscoelastic_pillar.h"
 
+#include "models/material/liquid.h"
 #include "models/maths/require.h"
 
 namespace viscard {
@@ -42,7 +43,7 @@ ViscoelasticPillar::ViscoelasticPillar(const PillarGeometry& geometry,
                                        const Discretisation& discretisation,
                                        const Material& material, TopLoad top,
                                        const std::optional<Medium>& film) {
-  validate(material);
+  validate_solid(material);
   model_ = std::make_unique<PillarModel>(
       geometry, discretisation,
       PillarMedia{isotropic_medium(material.E0_Pa, material.nu, material.rho_kg_m3), film},

@@ -1,4 +1,6 @@
+#include "models/material/liquid.h"
 #include "models/material/material.h"
+#include "models/material/prediction.h"
 #include "tests/support/printed_digits.h"
 
 #include <catch2/catch.hpp>
@@ -95,4 +97,43 @@ TEST_CASE("Young's series of any bulk relaxation obeys 1/E = 1/(3G) + 1/(9K)", "
     }
     CHECK(E_Pa == Approx(9.0 * K_Pa * G_Pa / (3.0 * K_Pa + G_Pa)).epsilon(1e-12));  // rounding
   }
+}
+
+TEST_CASE("shares that add up to 1 within rounding are a liquid with E_inf = 0", "[models]") {
+  for (const double rounding : {-1e-10, 0.0, 4e-16, 1e-10}) {
+    for (const double nu : {0.3, 0.495, 0.5}) {
+      for (const double k_over_g : {0.0, 1.0}) {
+        INFO("rounding " << rounding << ", nu " << nu << ", k/g " << k_over_g);
+        Material material = reference_material(false);
+        material.nu = nu;
+        const double g = 0.6 + rounding;
+        material.terms = {{0.4, k_over_g * 0.4, 0.1}, {g, k_over_g * g, 2.0}};
+        CHECK_NOTHROW(validate(material));
+        CHECK(is_liquid(material));
+        CHECK_THROWS_WITH(validate_solid(material), Catch::Contains("liquid") &&
+                                                        Catch::Contains("--solid") &&
+                                                        Catch::Contains("viscard predict"));
+        CHECK(derived_moduli(material).E_inf_Pa == 0.0);
+        const PronySeries young = young_series(material);
+        CHECK(std::abs(young.equilibrium_modulus_Pa) < 1e-9 * material.E0_Pa);
+        CHECK(instantaneous_modulus_Pa(young) == Approx(material.E0_Pa));
+        CHECK(std::abs(relative_modulus(material.terms, &MaterialTerm::g, 1e-30)) < 1e-20);
+        // The strain of creep goes on growing at stress/eta.
+        const TestPrediction creep = predict_test(
+            material, {.test = PredictedTest::kCreep, .from = 1e4, .to = 2e4, .points = 2});
+        double eta_Pa_s = 0.0;
+        for (const MaxwellTerm& term : young.terms)
+          eta_Pa_s += term.modulus_Pa * term.relaxation_time_s;
+        const std::vector<double>& J_1_Pa = creep.curves.at(0).curve.value;
+        CHECK((J_1_Pa.back() - J_1_Pa.front()) / 1e4 == Approx(1.0 / eta_Pa_s).epsilon(1e-6));
+      }
+    }
+  }
+  Material solid = reference_material(false);
+  CHECK_FALSE(is_liquid(solid));
+  CHECK_NOTHROW(validate_solid(solid));
+  solid.terms = {{0.4, 0.0, 0.1}, {0.6 + 1e-8, 0.0, 2.0}};
+  CHECK_THROWS_WITH(validate(solid), Catch::Contains("the g of all terms"));
+  solid.terms = {{0.4, 1.0, 0.1}};
+  CHECK_THROWS_WITH(validate(solid), Catch::Contains("the k of all terms"));
 }

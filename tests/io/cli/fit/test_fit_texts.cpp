@@ -1,0 +1,55 @@
+// Wording of what `viscard fit` prints about odd tables.
+#include "fit/intervals/left_out.h"
+#include "fit/intervals/slow_noise.h"
+#include "io/cli/fit/fit_command.h"
+#include "tests/io/cli/fit/table_folder.h"
+#include "tests/support/run_command.h"
+
+#include <catch2/catch.hpp>
+
+#include <sstream>
+
+using namespace viscard;
+using namespace viscard::test;
+using Catch::Contains;
+
+TEST_CASE("rows left out as spikes are counted in the singular and the plural", "[cli]") {
+  FitResult one, two;
+  add_left_out(one, left_out::kSpike, 1);
+  add_left_out(two, left_out::kSpike, 2);
+  CHECK_THAT(left_out_text(one), Contains("1 row that is a spike"));
+  CHECK_THAT(left_out_text(two), Contains("2 rows that are spikes"));
+}
+
+TEST_CASE("a table without numbers or with zeros alone is refused with the reason", "[cli]") {
+  const TableFolder folder;
+  const CommandOutcome bare = run_command({"fit", folder.write("a.csv", "time_s,modulus_Pa\n")});
+  CHECK(bare.status == kFailed);
+  CHECK_THAT(bare.err, Contains("has no line with a number in its first 1 line; expected"));
+  std::ostringstream zeros;
+  zeros << "time_s,modulus_Pa\n";
+  for (int i = 1; i <= 60; ++i) zeros << 0.1 * i << ",0\n";
+  const CommandOutcome zero = run_command({"fit", folder.write("z.csv", zeros.str())});
+  CHECK(zero.status == kFailed);
+  CHECK_THAT(zero.err, Contains("every value of the fitted column is zero") &&
+                           Contains("--column modulus_Pa=NAME") && !Contains("flip"));
+}
+
+TEST_CASE("a workbook is not called the file of a maker", "[cli]") {
+  FittedFile fitted;
+  std::ostringstream of_book, of_maker;
+  fitted.maker = "Excel workbook, sheet 'Data' of 2";
+  print_fit(fitted, of_book);
+  CHECK_THAT(of_book.str(), Contains("\n  Excel workbook, sheet 'Data' of 2\n"));
+  fitted.maker = "TRIOS";
+  print_fit(fitted, of_maker);
+  CHECK_THAT(of_maker.str(), Contains("\n  file of TRIOS\n"));
+}
+
+TEST_CASE("a memory of the noise beyond the record is not printed in percent", "[cli]") {
+  CHECK(memory_text(0.12, 8.1) ==
+        "the noise of the record has a memory of 12 % of it, or 8.1 independent values");
+  CHECK(memory_text(19.0, 2.7e-4) ==
+        "the noise of the record has a memory longer than the record, so that not even one value "
+        "is independent");
+}
