@@ -9,6 +9,7 @@
 #include "fit/intervals/left_out.h"
 #include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
+#include "fit/samples/end_rows.h"
 #include "fit/samples/spikes.h"
 #include "models/material/retardation_spectrum.h"
 #include "models/maths/text_of_number.h"
@@ -70,13 +71,14 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
         "moduli and times of creep follow from its retardation spectrum and cannot be constrained");
   }
   CleanViews clean({data.time_s, data.compliance_1_Pa}, kLeastRows);
+  if (clean.column(0).front() < 0.0) {
+    throw std::runtime_error("the first time is " + text_of(clean.column(0).front()) +
+                             " s; t = 0 must be the step of stress (set it with --time-zero)");
+  }
+  const EndRows ends = drop_end_rows(clean, StepRecord::kCreep);
   const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
   clean.drop(spikes);
   const auto time_s = clean.column(0);
-  if (time_s.front() < 0.0) {
-    throw std::runtime_error("the first time is " + text_of(time_s.front()) +
-                             " s; t = 0 must be the step of stress (set it with --time-zero)");
-  }
   if (!(time_s.back() > time_s.front())) {
     throw std::runtime_error("all rows have the same time, so no creep can be fitted");
   }
@@ -89,6 +91,7 @@ FitResult fit_creep(const CreepData& data, const FitOptions& options) {
       options, [&](const FitOptions& as) { return fit_creep_as(time_s, clean.column(1), as); });
   add_left_out(result, left_out::kNotANumber, clean.n_left_out());
   add_spikes(result, spikes.size());
+  add_end_rows(result, ends, "1/Pa");
   flag_left_out(result);
   flag_lack_of_fit("1/Pa", result);
   return result;

@@ -11,6 +11,7 @@
 #include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
 #include "fit/samples/decay.h"
+#include "fit/samples/end_rows.h"
 #include "fit/samples/spikes.h"
 #include "models/maths/text_of_number.h"
 
@@ -131,6 +132,7 @@ std::vector<double> residual_of(const FitResult& fit, std::span<const double> ti
 // Fits, then fits again without the spikes that show in the residual. The second fit is made if the
 // comparison with neighbours found spikes or could not be applied.
 FitResult fit_robustly(CleanViews& clean, const FitOptions& options) {
+  const EndRows ends = drop_end_rows(clean, StepRecord::kRelaxation);
   const std::vector<std::size_t> spikes = isolated_spikes(clean.column(0), clean.column(1));
   clean.drop(spikes);
   FitResult result = fit_step(clean, options);
@@ -146,6 +148,7 @@ FitResult fit_robustly(CleanViews& clean, const FitOptions& options) {
     }
   }
   add_spikes(result, n_spikes);
+  add_end_rows(result, ends, "Pa");
   return result;
 }
 

@@ -121,6 +121,21 @@ void add_spikes(FitResult& result, std::size_t count) {
            (count == 1 ? "was left out as a spike" : "were left out as spikes")});
 }
 
+void add_end_rows(FitResult& result, const EndRows& ends, const std::string& unit) {
+  const auto add = [&](const EndRow& row, const std::string& name, const std::string& beside) {
+    if (!row.is_wrong) return;
+    ++result.n_spikes;
+    add_left_out(result, left_out::kSpike, 1);
+    result.flags.push_back({name + "-row-left-out", 0,
+                            "the " + name + " row (t = " + number(row.time_s) + " s, " +
+                                number(row.value) + " " + unit + ") was left out: the rows " +
+                                beside + " it lead to " + number(row.expected) + " " + unit +
+                                ". Look at it, and correct it or delete it in the table"});
+  };
+  add(ends.first, "first", "after");
+  add(ends.last, "last", "before");
+}
+
 void add_identifiability_flags(const SpectralModel& model, const SpectralState& state,
                                const Eigen::MatrixXd& covariance, const TestWindow& window,
                                FitResult& result) {

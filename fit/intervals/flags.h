@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fit/intervals/fit_result.h"
+#include "fit/samples/end_rows.h"
 #include "fit/search/separable.h"
 #include "models/material/material.h"
 
@@ -33,6 +34,10 @@ void report_first_modulus(double time_s, FitResult& result);
 
 // Adds the flag with the number of samples left out as spikes, if there are any.
 void add_spikes(FitResult& result, std::size_t count);
+
+// Adds the flags first-row-left-out and last-row-left-out for rows that were left out, and counts them
+// as spikes. Call it after add_spikes().
+void add_end_rows(FitResult& result, const EndRows& ends, const std::string& unit);
 
 // One of the flags that make the whole result untrustworthy (models/material/material.h).
 inline constexpr const char* kContradictsData = "contradicts-data";
