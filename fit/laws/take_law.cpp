@@ -132,6 +132,14 @@ void take_law(const std::string& name, FitResult& result) {
            " s to " + text_of(found->t_max_s, 4) +
            " s, and at the angular frequencies of these times. E0 and E_inf belong to the ends of "
            "this window, not to the law"});
+  constexpr double kLargestError = 0.05;  // of a series that still stands for its law
+  if (!(found->series_error <= kLargestError)) {
+    add_defect(result, "law-not-a-series",
+               "the Prony series misses the law " + name + " by up to " +
+                   text_of(100.0 * found->series_error, 2) +
+                   " %, so it does not stand for the law. Take the series of the fit (omit "
+                   "--model) or another law");
+  }
   if (found->is_at_bound) {
     result.flags.push_back({"law-at-bound", 0,
                             "an exponent or a time of the law ended at the end of its range: the "

@@ -112,6 +112,29 @@ TEST_CASE("bad data get a clear refusal or a flagged answer", "[cli]") {
   }
 }
 
+TEST_CASE("a series that misses its law by more than 5 % is a defect, and gets no card", "[cli]") {
+  const TableFolder folder;
+  std::ostringstream table;
+  table << "omega_rad_s,storage_modulus_Pa,loss_modulus_Pa\n";
+  for (int i = 0; i < 60; ++i) {  // the flow of one Maxwell element, with 2 % of noise
+    const double omega = std::pow(10.0, -3.0 + 4.0 * i / 59.0), x = 0.05 * omega;
+    const double E_Pa = 1e5 * x / (1.0 + x * x);
+    table << omega << "," << E_Pa * x * (1.0 + 0.02 * std::sin(7.0 * i)) << ","
+          << E_Pa * (1.0 + 0.02 * std::sin(11.0 * i)) << "\n";
+  }
+  const std::string material = folder.file("m.json");
+  const CommandOutcome ran = run_command({"fit", folder.write("newton.csv", table.str()), "--model",
+                                          "kww", "--json", "--out", material});
+  CHECK(ran.status == kFailed);
+  CHECK_THAT(ran.err, Contains("not to be trusted") && Contains("misses the law kww"));
+  const auto json = nlohmann::json::parse(ran.out);
+  CHECK_FALSE(json["trustworthy"].get<bool>());
+  CHECK_THAT(json["flags"].dump(), Contains("law-not-a-series"));
+  const CommandOutcome card = run_command({"card", material, "--for", "csv"});
+  CHECK(card.status == kFailed);
+  CHECK_THAT(card.err, Contains("not to be trusted"));
+}
+
 TEST_CASE("a file with the suffix of a capture that is not one is not read as a table", "[cli]") {
   const TableFolder folder;
   const std::string file = folder.write("run.viscap", "SQLxte format 3\n0.1,0.2\n0.3,0.4\n");
