@@ -34,10 +34,11 @@ WholeRecord settled_record(const ContactTable& table, SpectralState state, Prony
   constexpr int kRounds = 12;
   constexpr double kSame = 1e-5;  // of the range of the depth
   const auto [low, high] = std::minmax_element(table.depth_m.begin(), table.depth_m.end());
+  const bool may_drift = options.with_drift && options.drift != TableDrift::kNone;
   std::vector<double> last;
   for (int round = 1;; ++round) {
     const double contact_m = table.contact.is_fitted ? state.nuisance[0] : 0.0;
-    WholeRecord whole = whole_record(table, series, contact_m, options.with_drift);
+    WholeRecord whole = whole_record(table, series, contact_m, may_drift);
     whole.input.with_drift |= with_drift;
     const bool is_same = largest_change(last, whole.input.input) <= kSame * (*high - *low);
     if (is_same || round == kRounds) return whole;

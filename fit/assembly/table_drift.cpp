@@ -31,13 +31,16 @@ bool is_better_with(const FitResult& plain, const FitResult& with, const TableEx
          with.lack_of_fit->structure < 0.5 * plain.lack_of_fit->structure;
 }
 
-void note_drift(const TableExtent& table, bool is_own_choice, FitResult& result) {
+enum class DriftReason { kAskedFor, kOutOfContact, kStructure };
+
+void note_drift(const TableExtent& table, DriftReason reason, FitResult& result) {
   constexpr double kSlowest = 3.0;  // the longest time that is searched, in records
   const double moved = result.drift->per_s * table.duration_s;
   std::string text = "a drift of " + text_of(moved, 3) + " " + table.unit + " in " +
                      text_of(table.duration_s, 3) + " s was fitted";
-  if (is_own_choice) text += ", because the residual without it has structure";
-  const bool is_doubtful = is_own_choice && moved < 0.0;
+  if (reason == DriftReason::kOutOfContact) text += ", because readings out of contact allow it";
+  if (reason == DriftReason::kStructure) text += ", because the residual without it has structure";
+  const bool is_doubtful = reason != DriftReason::kAskedFor && moved < 0.0;
   if (is_doubtful) {
     result.flags.push_back(
         {"slower-relaxation", 0,
@@ -65,12 +68,16 @@ FitResult fit_with_or_without_drift(const FitOptions& options, const TableExtent
                                     const std::function<FitResult(TableDrift)>& fit) {
   const bool is_asked = options.drift == TableDrift::kFitted;
   FitResult result = fit(is_asked ? TableDrift::kFitted : TableDrift::kNone);
+  // Tables with readings out of contact have a drift that no one asked for.
+  const DriftReason reason = is_asked       ? DriftReason::kAskedFor
+                             : result.drift ? DriftReason::kOutOfContact
+                                            : DriftReason::kStructure;
   const bool has_structure = result.lack_of_fit && result.lack_of_fit->is_significant;
   if (may_try(options) && has_structure) {
     FitResult with = fit(TableDrift::kFitted);
     if (is_better_with(result, with, table)) result = std::move(with);
   }
-  if (result.drift) note_drift(table, !is_asked, result);
+  if (result.drift) note_drift(table, reason, result);
   flag_lack_of_fit(table.unit, result);
   return result;
 }

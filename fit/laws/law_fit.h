@@ -19,7 +19,8 @@ void fit_laws(const SpectralModel& model, const SpectralFit& fit, FitResult& res
 
 // Makes the named law the result: moduli, terms and covariance are those of its Prony series, with
 // the flag law-as-series, and misfit if the series of the fit describes the data much better (BIC by
-// 10). Throws std::invalid_argument if no such law was fitted.
+// 10). What was found out about the terms, the order and the E0 of the series is dropped and judged
+// again. The defect law-not-a-series: the series misses the law by more than 5 %. Throws std::invalid_argument if no such law was fitted.
 void take_law(const std::string& name, FitResult& result);
 
 }  // namespace viscard

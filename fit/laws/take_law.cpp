@@ -86,6 +86,39 @@ void take_series(const FittedLaw& law, FitResult& result) {
   }
 }
 
+// True if the law describes the structure that the series left in the residual: what is left is less
+// than half of it. Readings out of contact give a misfit of their own, which stays.
+bool describes_structure(const FittedLaw& law, const FitResult& result) {
+  constexpr double kShare = 0.75;  // of the sum of squares
+  if (!result.lack_of_fit || result.contact_position_m) return false;
+  const double square =
+      std::pow(result.lack_of_fit->structure, 2) * static_cast<double>(result.n_samples);
+  return square > 0.0 && result.rss - law.rss > kShare * square;
+}
+
+// Removes what was found out about the terms, the order and the E0 of the series.
+void drop_answers_of_series(const FittedLaw& law, FitResult& result) {
+  std::vector<std::string> names{"order-uncertain", "slower-relaxation", "faster-relaxation",
+                                 "fewer-terms",     "E0-extrapolated",   "E0-unknown",
+                                 "liquid",          "solid-or-liquid"};
+  if (describes_structure(law, result)) {
+    names.insert(names.end(), {"misfit", "lack-of-fit"});
+    result.lack_of_fit.reset();
+  }
+  const bool was_liquid = result.bic_liquid_minus_solid.value_or(0.0) < 0.0;
+  std::erase_if(result.flags, [&](const MaterialFlag& flag) {
+    return flag.term > 0 || std::find(names.begin(), names.end(), flag.name) != names.end();
+  });
+  result.bic_liquid_minus_solid.reset();
+  // A law has an equilibrium modulus only if the series has one.
+  if (was_liquid && law.series.equilibrium_modulus_Pa == 0.0) {
+    result.flags.push_back({"liquid", 0,
+                            "the law is fitted without an equilibrium modulus, because the series "
+                            "describes the data better so: E_inf = 0. Use --solid to keep it"});
+  }
+  result.is_trustworthy = true;  // judge() decides again
+}
+
 }  // namespace
 
 void take_law(const std::string& name, FitResult& result) {
@@ -96,12 +129,9 @@ void take_law(const std::string& name, FitResult& result) {
                                 " does not describe these data: its amplitude is zero, or the kind "
                                 "of test has no laws");
   }
+  drop_answers_of_series(*found, result);
   take_series(*found, result);
-  // Flags of the terms and of the choice of their number do not concern the law.
-  std::erase_if(result.flags, [](const MaterialFlag& flag) {
-    return flag.term > 0 || flag.name == "order-uncertain" || flag.name == "slower-relaxation" ||
-           flag.name == "faster-relaxation" || flag.name == "fewer-terms";
-  });
+  if (result.first) report_first_modulus(result.first->time_s, result);
   result.flags.push_back(
       {"law-as-series", 0,
        text_of_law(*found) + " is written as a Prony series: within " +
@@ -109,6 +139,14 @@ void take_law(const std::string& name, FitResult& result) {
            " s to " + text_of(found->t_max_s, 4) +
            " s, and at the angular frequencies of these times. E0 and E_inf belong to the ends of "
            "this window, not to the law"});
+  constexpr double kLargestError = 0.05;  // of a series that still stands for its law
+  if (!(found->series_error <= kLargestError)) {
+    add_defect(result, "law-not-a-series",
+               "the Prony series misses the law " + name + " by up to " +
+                   text_of(100.0 * found->series_error, 2) +
+                   " %, so it does not stand for the law. Take the series of the fit (omit "
+                   "--model) or another law");
+  }
   if (found->is_at_bound) {
     result.flags.push_back({"law-at-bound", 0,
                             "an exponent or a time of the law ended at the end of its range: the "
@@ -120,6 +158,7 @@ void take_law(const std::string& name, FitResult& result) {
                "a Prony series describes the data much better than the law " + name +
                    " (BIC lower by " + text_of(found->bic_difference, 3) + ")");
   }
+  judge(result);
 }
 
 }  // namespace viscard

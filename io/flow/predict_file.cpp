@@ -4,6 +4,7 @@
 #include "io/basics/words.h"
 #include "io/materials/material_file.h"
 #include "io/tables/csv_table.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <cmath>
@@ -160,6 +161,18 @@ Values wanted_arguments(PredictedTest test, const ReadTable& measured) {
   return at;
 }
 
+// Largest magnitude of the strain that is applied or predicted.
+double largest_strain(const TestPrediction& prediction) {
+  double largest = 0.0;
+  const auto look = [&](const std::string& name, const Values& values) {
+    if (name != "strain") return;
+    for (const double value : values) largest = std::max(largest, std::abs(value));
+  };
+  look(prediction.input_name, prediction.input);
+  for (const PredictedCurve& one : prediction.curves) look(one.name, one.curve.value);
+  return largest;
+}
+
 std::vector<std::string> notes_about(const Material& material, const PredictedFile& predicted) {
   std::vector<std::string> notes;
   for (const MaterialFlag& flag : material.flags) {
@@ -172,6 +185,12 @@ std::vector<std::string> notes_about(const Material& material, const PredictedFi
   }
   if (!predicted.prediction.is_window_known) {
     notes.push_back("the material states no window of times, so nothing is marked as outside");
+  }
+  constexpr double kLargeStrain = 0.5;
+  const double strain = largest_strain(predicted.prediction);
+  if (strain > kLargeStrain) {
+    notes.push_back("a strain of " + text_of(strain, 4) + " is " + text_of(100.0 * strain, 4) +
+                    " %, but the model is for small strains; write 1 % as \"1 %\" or 0.01");
   }
   return notes;
 }
@@ -186,6 +205,9 @@ PredictedFile predict_file(const PredictFileRequest& request) {
                                    : material.name;
   if (request.temperature_C) material = material_at_temperature(material, *request.temperature_C);
   out.has_band = has_band(material);
+  out.flags = material.flags;
+  out.is_trustworthy = std::none_of(out.flags.begin(), out.flags.end(),
+                                    [](const auto& flag) { return is_defect(flag.name); });
   if (material.uncertainty) out.systematic_relative = material.uncertainty->systematic_relative;
 
   PredictionRequest wanted = request.prediction;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/tables/column_map.h"
+#include "models/material/material.h"
 #include "models/material/prediction.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -46,6 +47,8 @@ struct PredictedFile {
   std::string path, name;  // of the material
   double systematic_relative = 0.0;
   bool has_band = false;
+  std::vector<MaterialFlag> flags;  // of the material
+  bool is_trustworthy = true;       // none of them is a defect
   TestPrediction prediction;
   std::string against;               // table that was compared; empty: none
   std::vector<Agreement> agreement;  // one for each predicted quantity that was measured

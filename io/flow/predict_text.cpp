@@ -63,6 +63,14 @@ nlohmann::ordered_json json_from_prediction(const PredictedFile& predicted) {
   json["n_outside_window"] =
       std::count(prediction.is_inside.begin(), prediction.is_inside.end(), false);
   json["has_band"] = predicted.has_band;
+  json["trustworthy"] = predicted.is_trustworthy;
+  json["flags"] = Object::array();
+  for (const MaterialFlag& flag : predicted.flags) {
+    Object row{{"name", flag.name}};
+    if (flag.term > 0) row["term"] = flag.term;
+    row["text"] = flag.text;
+    json["flags"].push_back(std::move(row));
+  }
   json["systematic_relative"] = finite_or_null(predicted.systematic_relative);
   for (const NamedColumn& column : columns_of(prediction)) {
     Object values = Object::array();

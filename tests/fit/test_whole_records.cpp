@@ -144,6 +144,24 @@ TEST_CASE("approach, hold and retract are fitted as one record", "[fit]") {
   CHECK(*fit.contact_position_m == Approx(surface_m).margin(2e-7));
 }
 
+TEST_CASE("readings out of contact allow a drift, and kNone still forbids it", "[fit]") {
+  const IndentationData data = record_of(kApproachHoldRetract, 0.02, 1e-3);
+  FitOptions options{.n_terms = 2};
+  const FitResult fit = fit_indentation(data, options);
+  CHECK(fit.drift);
+  const auto note = std::find_if(fit.flags.begin(), fit.flags.end(), [](const MaterialFlag& flag) {
+    return flag.name == "drift-fitted";
+  });
+  REQUIRE(note != fit.flags.end());
+  CHECK(note->text.find("readings out of contact") != std::string::npos);
+  CHECK(note->text.find("structure") == std::string::npos);
+  options.drift = TableDrift::kNone;
+  const FitResult none = fit_indentation(data, options);
+  CHECK_FALSE(none.drift);
+  CHECK_FALSE(has_flag(none, "drift-fitted"));
+  check_truth(none);
+}
+
 TEST_CASE("contact that is lost and made again is found each time", "[fit]") {
   // Three cycles into the air, then two steps with holds, then a hold at half the depth.
   Points points{{0.0, -3e-5}};

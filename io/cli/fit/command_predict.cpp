@@ -30,8 +30,9 @@ CommandSyntax predict_syntax() {
   add("test", po::value<std::string>(),
       "relaxation, creep, recovery, cycles, oscillation or history; by default the columns of "
       "--history or --against decide, or else relaxation");
-  add("strain", po::value<double>(),
-      "size of the strain; relaxation without it is E(t) after an ideal step, cycles have 0.01");
+  add("strain", po::value<std::string>(),
+      "size of the strain, such as 0.01 or \"1 %\"; relaxation without it is E(t) after an ideal "
+      "step, cycles have 0.01");
   add("stress", po::value<std::string>(),
       "size of the stress, such as \"10 kPa\"; creep without it is J(t) after an ideal step, "
       "recovery has 1 kPa");
@@ -58,6 +59,7 @@ CommandSyntax predict_syntax() {
       "predict at this temperature, such as \"40 degC\", by the material's temperature shift");
   add("csv", po::value<std::string>(), "write the curve with its band here");
   add("svg", po::value<std::string>(), "draw the curve here");
+  add("accept-flags", "exit with 0 also if the fit of the material is not to be trusted");
   add("force", "overwrite existing files");
   syntax.positional = {"material"};
   return syntax;
@@ -85,7 +87,7 @@ std::optional<double> positive(const po::variables_map& values, const char* name
 
 PredictionRequest prediction_words(const po::variables_map& values, bool is_sweep) {
   PredictionRequest words;
-  words.strain = given<double>(values, "strain");
+  words.strain = given_quantity(values, "strain", "1");
   words.stress_Pa = given_quantity(values, "stress", "Pa");
   if (words.strain && words.stress_Pa) {
     throw UsageError("--strain and --stress exclude each other: one of them is the input");
@@ -153,6 +155,20 @@ PredictFileRequest predict_words(const po::variables_map& values, const CommandS
   return request;
 }
 
+// Prints one line if the material is not to be trusted and returns the exit status.
+int report_trust(const PredictedFile& predicted, bool accepts_flags, std::ostream& err) {
+  if (predicted.is_trustworthy || accepts_flags) return kDone;
+  std::string reasons;
+  for (const MaterialFlag& flag : predicted.flags) {
+    if (is_defect(flag.name)) {
+      reasons += (reasons.empty() ? "" : "; ") + flag.name + ": " + flag.text;
+    }
+  }
+  err << "viscard: " << predicted.path << ": the material is not to be trusted: " << reasons
+      << "; pass --accept-flags to use it anyway, or repeat the measurement\n";
+  return kFailed;
+}
+
 }  // namespace
 
 int run_predict(const Words& words, Streams& streams) {
@@ -176,7 +192,7 @@ int run_predict(const Words& words, Streams& streams) {
   if (!print_json(*values, json_from_prediction(predicted), streams)) {
     print_prediction(predicted, streams.out);
   }
-  return kDone;
+  return report_trust(predicted, values->count("accept-flags") > 0, streams.err);
 }
 
 }  // namespace viscard

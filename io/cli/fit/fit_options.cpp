@@ -172,6 +172,9 @@ FitRequest words_from(const po::variables_map& values) {
                        " Use " + listed(names));
     }
     words.model = *model;
+    if (words.options.n_terms) {
+      throw UsageError("--terms does not belong to --model, because a law has no terms; omit it");
+    }
   }
   words.time_zero_s = *given_quantity(values, "time-zero", "s");
   try {

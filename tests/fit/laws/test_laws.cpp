@@ -263,6 +263,32 @@ TEST_CASE("the intervals of a law's series are those of the law", "[fit]") {
   CHECK(fit.E0_interval_95.high - fit.E0_interval_95.low < 0.5 * fit.E0_Pa);
 }
 
+TEST_CASE("a law does not keep answers and flags of the series", "[fit]") {
+  FitResult fit = relaxation_fit(
+      [](double t) { return 1e6 + 2e6 * std::exp(-std::pow(t / 3.0, 0.5)); }, 0.01, 4);
+  REQUIRE(fit.first);
+  const double time_s = fit.first->time_s;
+  for (const char* name :
+       {"E0-extrapolated", "E0-unknown", "liquid", "solid-or-liquid", "tau-beyond-window"}) {
+    const int term = std::string(name) == "tau-beyond-window" ? 1 : 0;
+    fit.flags.push_back({name, term, "of the series"});
+  }
+  fit.flags.push_back({"rows-left-out", 0, "of the record"});
+  fit.first->modulus_Pa = 9e6;
+  fit.bic_liquid_minus_solid = 1.0;
+  fit.is_trustworthy = false;
+  take_law("kww", fit);
+  const PronySeries series = young_series(material_from_fit(fit, 0.495, 0.0));
+  CHECK(fit.first->modulus_Pa == Approx(relaxation_modulus_Pa(series, time_s)).epsilon(1e-9));
+  CHECK(fit.first->modulus_Pa <= fit.E0_Pa);
+  CHECK_FALSE(fit.bic_liquid_minus_solid);
+  CHECK(fit.is_trustworthy);
+  CHECK(std::none_of(fit.flags.begin(), fit.flags.end(),
+                     [](const MaterialFlag& flag) { return flag.text == "of the series"; }));
+  CHECK(std::any_of(fit.flags.begin(), fit.flags.end(),
+                    [](const MaterialFlag& flag) { return flag.name == "rows-left-out"; }));
+}
+
 TEST_CASE("without being asked for, no law is fitted", "[fit]") {
   CHECK(fit_relaxation(relaxation_of(s2(), 400, 1000.0, 0.002, 5)).laws.empty());
 }

@@ -215,6 +215,9 @@ TEST_CASE("fit --model answers with a law, and its card states the error of its 
   const CommandOutcome misspelt = run_command({"fit", file, "--model", "springpots"});
   CHECK(misspelt.status == kBadWords);
   CHECK_THAT(misspelt.err, Contains("did you mean 'springpot'?"));
+  const CommandOutcome terms = run_command({"fit", file, "--model", "kww", "--terms", "2"});
+  CHECK(terms.status == kBadWords);
+  CHECK_THAT(terms.err, Contains("a law has no terms"));
   CHECK(run_command({"fit", file, "--model", "kww", "--joint", "--ratio", "10"}).status ==
         kBadWords);
 }

@@ -204,6 +204,40 @@ TEST_CASE("a table that does not fit the test is refused with the reason", "[cli
   refused({"--history", back}, "backwards");
 }
 
+TEST_CASE("a material that is not to be trusted gives status 1 unless its flags are accepted",
+          "[cli]") {
+  const TableFolder folder;
+  auto json = nlohmann::json::parse(read_file(fitted_example(folder)));
+  json["flags"] = {{{"name", "misfit"}, {"text", "the residual is large"}}};
+  const std::string material = folder.write("bad.json", json.dump());
+  const CommandOutcome ran = run_command({"predict", material, "--json"});
+  CHECK(ran.status == kFailed);
+  CHECK_THAT(ran.err, Contains("not to be trusted: misfit: the residual is large"));
+  CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
+  const auto found = nlohmann::json::parse(ran.out);
+  CHECK_FALSE(found["trustworthy"].get<bool>());
+  CHECK(found["flags"][0]["name"] == "misfit");
+  const CommandOutcome accepted = run_command({"predict", material, "--accept-flags"});
+  CHECK(accepted.status == kDone);
+  CHECK(accepted.err == "");
+  CHECK(predicted({folder.file("material.json")})["trustworthy"] == true);
+}
+
+TEST_CASE("a strain may be given in per cent, and a large one is warned of", "[cli]") {
+  const std::string material = kData + "materials/pdms_1to10_seed.json";
+  const auto stress_of = [&](const char* strain) {
+    return predicted({material, "--strain", strain})["curve"]["stress_Pa"];
+  };
+  CHECK(stress_of("1 %") == stress_of("0.01"));
+  CHECK(stress_of("1%") == stress_of("0.01"));
+  CHECK_THAT(run_command({"predict", material, "--strain", "50"}).out,
+             Contains("5000 %, but the model is for small strains"));
+  CHECK_THAT(run_command({"predict", material, "--strain", "0.5"}).out, !Contains("small strains"));
+  const CommandOutcome wrong = run_command({"predict", material, "--strain", "1 kPa"});
+  CHECK(wrong.status == kBadWords);
+  CHECK_THAT(wrong.err, Contains("--strain"));
+}
+
 TEST_CASE("bands of predicted creep cover the truth", "[cli]") {
   // Two terms, noise 0.1 % of E0, 30 records of 400 samples; creep between 0.1 s and 100 s.
   const PronySeries truth{1.0e6, {{0.3e6, 0.5}, {0.2e6, 8.0}}};
