@@ -105,10 +105,17 @@ void drop_answers_of_series(const FittedLaw& law, FitResult& result) {
     names.insert(names.end(), {"misfit", "lack-of-fit"});
     result.lack_of_fit.reset();
   }
+  const bool was_liquid = result.bic_liquid_minus_solid.value_or(0.0) < 0.0;
   std::erase_if(result.flags, [&](const MaterialFlag& flag) {
     return flag.term > 0 || std::find(names.begin(), names.end(), flag.name) != names.end();
   });
   result.bic_liquid_minus_solid.reset();
+  // A law has an equilibrium modulus only if the series has one.
+  if (was_liquid && law.series.equilibrium_modulus_Pa == 0.0) {
+    result.flags.push_back({"liquid", 0,
+                            "the law is fitted without an equilibrium modulus, because the series "
+                            "describes the data better so: E_inf = 0. Use --solid to keep it"});
+  }
   result.is_trustworthy = true;  // judge() decides again
 }
 

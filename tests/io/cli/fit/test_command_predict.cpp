@@ -220,7 +220,7 @@ TEST_CASE("a material that is not to be trusted gives status 1 unless its flags 
   const CommandOutcome accepted = run_command({"predict", material, "--accept-flags"});
   CHECK(accepted.status == kDone);
   CHECK(accepted.err == "");
-  CHECK(predicted({fitted_example(folder)})["trustworthy"] == true);
+  CHECK(predicted({folder.file("material.json")})["trustworthy"] == true);
 }
 
 TEST_CASE("a strain may be given in per cent, and a large one is warned of", "[cli]") {

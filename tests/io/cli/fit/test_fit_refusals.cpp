@@ -1,3 +1,4 @@
+#include "io/basics/atomic_file.h"
 #include "tests/io/cli/fit/table_folder.h"
 #include "tests/support/run_command.h"
 
@@ -115,24 +116,30 @@ TEST_CASE("bad data get a clear refusal or a flagged answer", "[cli]") {
 TEST_CASE("a series that misses its law by more than 5 % is a defect, and gets no card", "[cli]") {
   const TableFolder folder;
   std::ostringstream table;
-  table << "omega_rad_s,storage_modulus_Pa,loss_modulus_Pa\n";
+  table << "omega [rad/s],storage_modulus_Pa,loss_modulus_Pa\n";
   for (int i = 0; i < 60; ++i) {  // the flow of one Maxwell element, with 2 % of noise
     const double omega = std::pow(10.0, -3.0 + 4.0 * i / 59.0), x = 0.05 * omega;
     const double E_Pa = 1e5 * x / (1.0 + x * x);
     table << omega << "," << E_Pa * x * (1.0 + 0.02 * std::sin(7.0 * i)) << ","
           << E_Pa * (1.0 + 0.02 * std::sin(11.0 * i)) << "\n";
   }
-  const std::string material = folder.file("m.json");
-  const CommandOutcome ran = run_command({"fit", folder.write("newton.csv", table.str()), "--model",
-                                          "kww", "--json", "--out", material});
+  const CommandOutcome ran =
+      run_command({"fit", folder.write("newton.csv", table.str()), "--model", "kww", "--json"});
   CHECK(ran.status == kFailed);
   CHECK_THAT(ran.err, Contains("not to be trusted") && Contains("misses the law kww"));
-  const auto json = nlohmann::json::parse(ran.out);
+  auto json = nlohmann::json::parse(ran.out);
   CHECK_FALSE(json["trustworthy"].get<bool>());
-  CHECK_THAT(json["flags"].dump(), Contains("law-not-a-series"));
-  const CommandOutcome card = run_command({"card", material, "--for", "csv"});
+  CHECK_THAT(json["flags"].dump(), Contains("law-not-a-series") && Contains("\"liquid\""));
+  CHECK_FALSE(json.contains("bic_liquid_minus_solid"));
+  // A card of a material with this flag is refused.
+  const std::string good = folder.write("E.csv", relaxation_table());
+  REQUIRE(run_command({"fit", good, "--out", folder.file("m.json")}).status == kDone);
+  auto material = nlohmann::json::parse(read_file(folder.file("m.json")));
+  material["flags"] = {{{"name", "law-not-a-series"}, {"text", "it misses the law"}}};
+  const CommandOutcome card =
+      run_command({"card", folder.write("bad.json", material.dump()), "--for", "csv"});
   CHECK(card.status == kFailed);
-  CHECK_THAT(card.err, Contains("not to be trusted"));
+  CHECK_THAT(card.err, Contains("not to be trusted (law-not-a-series"));
 }
 
 TEST_CASE("a file with the suffix of a capture that is not one is not read as a table", "[cli]") {
