@@ -3,7 +3,7 @@
 namespace viscard {
 
 // The share of a modulus that never relaxes, 1 - sum: exactly 0 if the relaxing shares add up to 1
-// within 1e-9, which is a liquid whose shares were rounded.
+// within 1e-12, which is a liquid whose shares were rounded.
 double lasting_share(double sum);
 
 }  // namespace viscard

@@ -6,7 +6,7 @@
 
 namespace viscard {
 
-// True when the shares g add up to 1 within 1e-9: E_inf = 0. Its moduli can be predicted, but it
+// True when the shares g add up to 1 within 1e-12: E_inf = 0. Its moduli can be predicted, but it
 // has no equilibrium for a solver to start from.
 bool is_liquid(const Material& material);
 
