@@ -17,9 +17,9 @@ struct MakerTable {
   std::map<std::string, std::string> columns;
 };
 
-// Nothing for an ordinary table. name: the path of the file; its ending tells RepTate's files apart.
-// Throws std::runtime_error that begins with "line N" if a part of the file is not as the maker
-// writes it.
+// Nothing for an ordinary table. name: the path of the file; the files of RepTate differ by their
+// ending. Throws std::runtime_error that begins with "line N" if a part of the file is not as the
+// maker writes it.
 std::optional<MakerTable> maker_table(std::string_view text, const std::string& name);
 
 // The maker of an ordinary table, by the names in its header; empty if they are nobody's own.
