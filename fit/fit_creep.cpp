@@ -5,6 +5,7 @@
 #include "fit/assembly/table_drift.h"
 #include "fit/curves/step_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/kept_rows.h"
 #include "fit/intervals/lack_of_fit.h"
 #include "fit/intervals/left_out.h"
 #include "fit/laws/law_fit.h"
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -39,6 +41,13 @@ FitResult fit_creep_as(std::span<const double> time_s, std::span<const double> c
   const StepModel model(time_s, compliance_1_Pa, StepShape::kCreep, options);
   const SpectralFit fit = fit_spectrum(model, log_time_blocks(model.row_time_s(), 0.0, 1), options);
   if (!(fit.state.coefficients[0] > 0.0)) {
+    // Among several tests another one may show E0; creep contributes what fewer terms describe.
+    const auto n_terms = static_cast<int>(fit.state.n_terms());
+    if (options.keep_rows && n_terms > 0) {
+      FitOptions fewer = options;
+      fewer.max_terms = n_terms - 1;
+      return fit_creep_as(time_s, compliance_1_Pa, fewer);
+    }
     throw std::runtime_error(
         "the record shows no instantaneous compliance (it begins at zero), so E0 would be "
         "infinite. Start the record earlier after the step, or give fewer terms with --terms");
@@ -54,11 +63,17 @@ FitResult fit_creep_as(std::span<const double> time_s, std::span<const double> c
   fit_laws(model, fit, result);
   result.fit_from_s = time_s.front();
   result.fit_to_s = time_s.back();
-  add_identifiability_flags(model, fit.state, fit.covariance,
-                            {shortest_step_s(time_s), 0.0, time_s.front(), time_s.back()}, result);
+  const TestWindow window{shortest_step_s(time_s), 0.0, time_s.front(), time_s.back()};
+  add_identifiability_flags(model, fit.state, fit.covariance, window, result);
   report_first_modulus(time_s.front(), result);
   examine_table(model, fit, 0.0, result);
   if (options.with_curves) fill_step_curves(model, fit, "1/Pa", result);
+  if (options.keep_rows) {
+    KeptRows kept{.shape = KeptRows::Shape::kCreep, .window = window};
+    kept.at.assign(time_s.begin(), time_s.end());
+    kept.value.assign(compliance_1_Pa.begin(), compliance_1_Pa.end());
+    keep(std::move(kept), fit, result);
+  }
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include "fit/assembly/solid_or_liquid.h"
 #include "fit/curves/dma_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/kept_rows.h"
 #include "fit/intervals/left_out.h"
 #include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
@@ -125,11 +126,19 @@ FitResult fit_moduli(std::span<const double> frequency_Hz, std::span<const doubl
   result.n_samples = frequency_Hz.size();
   result.fit_from_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.back());
   result.fit_to_s = 1.0 / (2.0 * std::numbers::pi * frequency_Hz.front());
-  add_identifiability_flags(model, fit.state, fit.covariance,
-                            {0.0, 0.0, result.fit_from_s, 3.0 * result.fit_to_s}, result);
+  const TestWindow window{0.0, 0.0, result.fit_from_s, 3.0 * result.fit_to_s};
+  add_identifiability_flags(model, fit.state, fit.covariance, window, result);
   report_dashpot(fitted, result);
   flag_contradiction(model, result);
   if (options.with_curves) add_curves(model, fit.state, result);
+  if (options.keep_rows) {
+    KeptRows kept{.shape = KeptRows::Shape::kOscillation, .window = window};
+    kept.at.assign(frequency_Hz.begin(), frequency_Hz.end());
+    kept.value.assign(storage_Pa.begin(), storage_Pa.end());
+    kept.loss.assign(loss_Pa.begin(), loss_Pa.end());
+    kept.with_dashpot = model.dashpot() >= 0;
+    keep(std::move(kept), fit, result);
+  }
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "fit/contact_table.h"
 #include "fit/curves/history_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/kept_rows.h"
 #include "fit/intervals/left_out.h"
 #include "fit/laws/law_fit.h"
 #include "fit/samples/clean_data.h"
@@ -24,6 +25,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -103,6 +105,13 @@ std::optional<TwoPointModulus> two_points(const HistoryInput& input, std::size_t
                            result.noise.sigma);
 }
 
+TestWindow window_of(const ContactTable& table, const HistoryInput& input) {
+  const std::size_t last = input.time_s.size() - 1;
+  const double zero_s = input.time_s[std::min(table.contact.first, last)];
+  return {shortest_step_s(input.time_s), input.time_s[std::min(table.loaded, last)] - zero_s, 0.0,
+          input.time_s.back() - zero_s};
+}
+
 // Fills window, flags and the two-point modulus.
 void report_table(const IndentationData& data, const ContactTable& table, const HistoryInput& input,
                   const HistoryModel& model, const SpectralFit& fit, FitResult& result) {
@@ -113,10 +122,7 @@ void report_table(const IndentationData& data, const ContactTable& table, const 
   if (contact.is_fitted) result.contact_position_m = fit.state.nuisance[0];
   const std::size_t end = std::min(table.loaded, input.time_s.size() - 1);
   result.fastest_s = std::max(0.0, input.time_s[end] - zero_s);
-  add_identifiability_flags(model, fit.state, fit.covariance,
-                            {shortest_step_s(input.time_s), input.time_s[end] - zero_s, 0.0,
-                             input.time_s.back() - zero_s},
-                            result);
+  add_identifiability_flags(model, fit.state, fit.covariance, window_of(table, input), result);
   flag_saturation(input.output, result);
   flag_table_misfit(input, contact, result);
   flag_gap(input.time_s, contact.first, end, result);
@@ -167,6 +173,12 @@ FitResult fit_contact_table(const IndentationData& data, const ContactTable& tab
   report_first_modulus(step_s ? time_s.front() - *step_s : shortest_step_s(time_s), result);
   if (options.with_curves) {
     fill_curves(model, fitted.input, fitted.fit.state, result.noise.sigma, result);
+  }
+  if (options.keep_rows) {
+    KeptRows kept{.shape = KeptRows::Shape::kHistory, .zero_s = fitted.zero_s()};
+    kept.window = window_of(table, fitted.input);
+    kept.history = std::move(fitted.input);
+    keep(std::move(kept), fitted.fit, result);
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include "fit/curves/history_model.h"
 #include "fit/curves/step_model.h"
 #include "fit/intervals/flags.h"
+#include "fit/intervals/kept_rows.h"
 #include "fit/intervals/lack_of_fit.h"
 #include "fit/intervals/left_out.h"
 #include "fit/laws/law_fit.h"
@@ -22,6 +23,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace viscard {
@@ -60,6 +62,11 @@ FitResult fit_history_once(const HistoryInput& input, const FitOptions& options)
                        result);
   result.fit_from_s = input.time_s.front();
   result.fit_to_s = input.time_s.back();
+  if (options.keep_rows) {
+    KeptRows kept{.shape = KeptRows::Shape::kHistory, .history = input, .zero_s = zero_s};
+    kept.window = window;
+    keep(std::move(kept), fit, result);
+  }
   return result;
 }
 
@@ -98,6 +105,11 @@ FitResult fit_step_once(std::span<const double> time_s, std::span<const double> 
   if (options.with_curves) fill_step_curves(model, fit, "Pa", result);
   result.fit_from_s = time_s.front();
   result.fit_to_s = time_s.back();
+  if (options.keep_rows) {
+    KeptRows kept{.at = copy_of(time_s), .value = copy_of(value), .window = window};
+    kept.with_drift = options.drift == TableDrift::kFitted;
+    keep(std::move(kept), fit, result);
+  }
   return result;
 }
 

@@ -69,10 +69,6 @@ void note_fewer_terms(const SpectralModel& model, SpectralFit& fit) {
                            (wanted == 1 ? " was" : " were") + " requested; " + why});
 }
 
-double full_rss(const SpectralModel& model, const SpectralState& state) {
-  return state.rss + model.hidden_rss(state);
-}
-
 int n_parameters(const SpectralModel& model, const SpectralState& state) {
   return static_cast<int>(model.n_common() + 2 * state.n_terms() + model.n_nuisances());
 }
@@ -81,8 +77,11 @@ double variance_of(const SpectralModel& model, const SpectralState& state, doubl
   return rss / std::max(1.0, model.n_samples() - static_cast<double>(n_parameters(model, state)));
 }
 
+// A fit removes slow parts from its residual, which is therefore correlated negatively, all the more
+// in few rows. Noise with less than the variance of white noise in its slow part counts as white.
 Autoregression noise_of(const SpectralModel& model, const SpectralState& state) {
-  return autoregression(model.residual_series(state));
+  Autoregression noise = autoregression(model.residual_series(state));
+  return noise.inflation() > 1.0 ? noise : Autoregression{};
 }
 
 bool is_creep(const SpectralModel& model) {
@@ -123,7 +122,8 @@ void add_profiles(const SpectralModel& model, const SpectralFit& fit,
 }
 
 void widen_for_slow_noise(const SpectralModel& model, SpectralFit& fit) {
-  const SlowNoise slow = slow_noise(model, fit.state, fit.variance, fit.noise);
+  fit.slow = slow_noise(model, fit.state, fit.variance, fit.noise);
+  const SlowNoise& slow = fit.slow;
   const bool is_doubtful = !slow.doubt.empty();
   fit.covariance = widened(
       fit.covariance,
@@ -151,23 +151,31 @@ void take_optimum(const SpectralModel& model, const SpectralState& averaged, Spe
 
 }  // namespace
 
-SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blocks,
-                         const FitOptions& options) {
-  SpectralFit fit;
-  fit.options = options;
-  fit.path = path_for(model, options);
+double full_rss(const SpectralModel& model, const SpectralState& state) {
+  return state.rss + model.hidden_rss(state);
+}
+
+void search_orders(const SpectralModel& model, const std::vector<int>& blocks,
+                   std::optional<double> inflation, SpectralFit& fit) {
+  fit.path = path_for(model, fit.options);
   ChoiceInput choice;
   choice.n_samples = model.n_samples();
   choice.blocks = blocks;
   for (const SpectralState& state : fit.path) choice.rss.push_back(full_rss(model, state));
-  if (!options.white_noise) choice.inflation = noise_of(model, fit.path.back()).inflation();
+  choice.inflation = inflation ? *inflation : noise_of(model, fit.path.back()).inflation();
   fit.scores = choose_order(model, fit.path, choice);
-  if (options.n_terms) {
-    for (OrderRow& row : fit.scores.rows) row.is_chosen = false;
-    fit.scores.chosen = position_of(fit.path, *options.n_terms);
-    fit.scores.rows[fit.scores.chosen].is_chosen = true;
-    note_fewer_terms(model, fit);
-  }
+  if (!fit.options.n_terms) return;
+  for (OrderRow& row : fit.scores.rows) row.is_chosen = false;
+  fit.scores.chosen = position_of(fit.path, *fit.options.n_terms);
+  fit.scores.rows[fit.scores.chosen].is_chosen = true;
+}
+
+SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blocks,
+                         const FitOptions& options) {
+  SpectralFit fit;
+  fit.options = options;
+  search_orders(model, blocks, options.white_noise ? std::optional(1.0) : std::nullopt, fit);
+  if (options.n_terms) note_fewer_terms(model, fit);
   // The quick search comes near the optimum and leaves little work for the slower ones.
   const SpectralState near = quick_search(model, fit.path[fit.scores.chosen], {.tolerance = 1e-10});
   take_optimum(model, polish(model, refine(model, near)), fit);
@@ -175,6 +183,14 @@ SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blo
   if (!options.white_noise) widen_for_slow_noise(model, fit);
   if (!options.constraints.empty()) constrain(model, options, fit);
   return fit;
+}
+
+void keep(KeptRows rows, const SpectralFit& fit, FitResult& result) {
+  rows.variance = fit.variance;
+  rows.noise = fit.noise;
+  rows.slow = fit.slow;
+  rows.n_parameters = result.evidence.n_parameters;
+  result.kept = std::make_shared<const KeptRows>(std::move(rows));
 }
 
 void fill_result(const SpectralModel& model, const SpectralFit& fit,

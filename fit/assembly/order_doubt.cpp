@@ -22,6 +22,11 @@ double width(const Interval& interval) {
   return interval.high - interval.low;
 }
 
+// Creep without an instantaneous compliance has no finite E0, so it is no alternative.
+bool starts_at_zero(const SpectralModel& model, const SpectralState& state) {
+  return model.n_common() > 0 && model.common()[0].name == "J_g" && !(state.coefficients[0] > 0.0);
+}
+
 // The lowest E_inf at which the sum of squares rises by at most 3.84 variances if one more term at
 // the end of the range replaces part of E_inf. The steps double; the root is interpolated linearly.
 double lowest_equilibrium(const SpectralModel& fine, const SpectralFit& fit, double step) {
@@ -67,6 +72,7 @@ void carry_order_doubt(const SpectralModel& model, const SpectralFit& fit,
     const bool is_near =
         std::abs(fit.scores.rows[i].bic - fit.scores.rows[fit.scores.chosen].bic) < kStrong;
     if (i == fit.scores.chosen || !is_near || !is_within_range(model, fit.path[i])) continue;
+    if (starts_at_zero(model, fit.path[i])) continue;
     const PronySeries series = series_from_state(fit.path[i]);
     widen(result.E0_interval_95, instantaneous_modulus_Pa(series), result.E0_se_Pa);
     widen(result.E_inf_interval_95, series.equilibrium_modulus_Pa, result.E_inf_se_Pa);

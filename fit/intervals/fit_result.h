@@ -7,13 +7,15 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace viscard {
 
-enum class FitKind { kIndentation, kRelaxation, kCreep, kDma };
+// kSeveral: several tests of one material together.
+enum class FitKind { kIndentation, kRelaxation, kCreep, kDma, kSeveral };
 
 // One term of the fitted series; ascending tau. Without punch geometry "modulus" is a stiffness in
 // N/m (FitResult::is_stiffness).
@@ -115,6 +117,37 @@ struct ProfileCurve {
   Interval interval_95;
 };
 
+// One of several tests that were fitted together.
+struct FittedTest {
+  std::string name;  // "relaxation", or "relaxation 2" if there are several
+  FitKind kind = FitKind::kRelaxation;
+  bool is_stiffness = false;
+  std::size_t n_samples = 0;
+  std::string fitted_unit;  // of its column, if the reader of the file knows it
+  NoiseEstimate noise;      // in the unit of its fitted column (kDma: relative)
+  double rss = 0.0;         // over all samples, in that unit
+  double from_s = 0.0, to_s = 0.0;
+  // Its values over those of the material: free for a stiffness, uncertain where the geometry is.
+  bool has_scale = false;
+  double scale = 1.0;
+  Interval scale_95;
+  // Its own fit, without the other tests.
+  int own_terms = 0;
+  double own_E0_Pa = 0.0, own_E_inf_Pa = 0.0;
+  Interval own_E0_95, own_E_inf_95;
+  double own_rss = 0.0;  // as rss (kDma: relative)
+  // How far it lies from what the other tests allow (fit/assembly/test_agreement.h): a factor on all
+  // its values, the largest departure in its window, and the probability of so much by chance.
+  double difference = 0.0, worst = 0.0;
+  Interval difference_95;
+  double p_value = 1.0;
+  int freedom = 0;         // of the test; 0: nothing to compare it with
+  bool disagrees = false;  // by more than chance and 0.5 %
+  FitCurves curves;
+};
+
+struct KeptRows;
+
 struct FitResult {
   FitKind kind = FitKind::kIndentation;
   bool is_stiffness = false;
@@ -165,6 +198,8 @@ struct FitResult {
   std::vector<ProfileCurve> profiles;  // if FitOptions::with_profiles
   int n_bootstrap = 0;                 // resamples for the intervals; 0: from the covariance
   FitCurves curves;
+  std::vector<FittedTest> tests;         // of kSeveral
+  std::shared_ptr<const KeptRows> kept;  // if FitOptions::keep_rows
   std::vector<FittedLaw> laws;  // if FitOptions::with_laws, for kinds of test that have them
 };
 

@@ -61,9 +61,23 @@ Eigen::MatrixXd series_slopes(const SpectralModel& model, const SpectralState& s
   return slopes;
 }
 
-// C x for every column x. C correlates the rows; a row is sqrt(n) times a mean of samples.
-Eigen::MatrixXd correlated(const Eigen::MatrixXd& x, const std::vector<std::size_t>& begins,
-                           const Autoregression& noise) {
+// For two nearly equal terms the covariance has huge entries that should cancel in the sum. The
+// rounding error that remains counts as part of the error, so the error is never zero.
+double error_of(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& gradient) {
+  constexpr double kRounding = 1e-15;
+  const Eigen::VectorXd size = gradient.cwiseAbs();
+  const double lost = kRounding * size.dot(covariance.cwiseAbs() * size);
+  return std::sqrt(std::max(lost, gradient.dot(covariance * gradient)));
+}
+
+Interval symmetric(double value, double error) {
+  return {value - kNormal95 * error, value + kNormal95 * error};
+}
+
+}  // namespace
+
+Eigen::MatrixXd correlated_rows(const Eigen::MatrixXd& x, const std::vector<std::size_t>& begins,
+                                const Autoregression& noise) {
   const PairSums sums(noise);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x.rows(), x.cols());
   for (Index r = 0; r < x.rows(); ++r) {
@@ -82,10 +96,8 @@ Eigen::MatrixXd correlated(const Eigen::MatrixXd& x, const std::vector<std::size
   return out;
 }
 
-// Widens variances for the part of the noise that is slower than the autoregression: each by its
-// share of the inflation, so that fast terms change little. Correlations stay.
-void add_slow_part_to(Eigen::MatrixXd& covariance, const Eigen::VectorXd& white,
-                      const Autoregression& noise) {
+void add_slow_part(Eigen::MatrixXd& covariance, const Eigen::VectorXd& white,
+                   const Autoregression& noise) {
   if (noise.slow_factor <= 1.0) return;
   const double of_phi = noise.inflation() / noise.slow_factor;
   for (Index j = 0; j < covariance.rows(); ++j) {
@@ -95,21 +107,6 @@ void add_slow_part_to(Eigen::MatrixXd& covariance, const Eigen::VectorXd& white,
     covariance.col(j) *= factor;
   }
 }
-
-// For two nearly equal terms the covariance has huge entries that should cancel in the sum. The
-// rounding error that remains counts as part of the error, so the error is never zero.
-double error_of(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& gradient) {
-  constexpr double kRounding = 1e-15;
-  const Eigen::VectorXd size = gradient.cwiseAbs();
-  const double lost = kRounding * size.dot(covariance.cwiseAbs() * size);
-  return std::sqrt(std::max(lost, gradient.dot(covariance * gradient)));
-}
-
-Interval symmetric(double value, double error) {
-  return {value - kNormal95 * error, value + kNormal95 * error};
-}
-
-}  // namespace
 
 Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralState& state,
                                      double variance, const Autoregression& noise) {
@@ -141,11 +138,11 @@ Eigen::MatrixXd covariance_from_jacobian(const SpectralModel& model, Eigen::Matr
     const Eigen::MatrixXd q = qr.basis();
     const Eigen::MatrixXd of_rows = q.topRows(model.n_rows()), of_priors = q.bottomRows(priors);
     const Eigen::MatrixXd middle =
-        of_rows.transpose() * correlated(of_rows, model.row_begins(), noise) +
+        of_rows.transpose() * correlated_rows(of_rows, model.row_begins(), noise) +
         of_priors.transpose() * of_priors;
     const Eigen::VectorXd white = part.diagonal();
     part = variance * inverse * middle * inverse.transpose();
-    add_slow_part_to(part, white, noise);
+    add_slow_part(part, white, noise);
   }
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
   covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -25,6 +26,17 @@ Eigen::MatrixXd parameter_covariance(const SpectralModel& model, const SpectralS
 // The same from the derivatives of the rows by any parameters, those by the model's nuisances last.
 Eigen::MatrixXd covariance_from_jacobian(const SpectralModel& model, Eigen::MatrixXd jacobian,
                                          double variance, const Autoregression& noise);
+
+// C x for every column x. C correlates the rows; a row is sqrt(n) times a mean of the samples from
+// begins[row] on.
+Eigen::MatrixXd correlated_rows(const Eigen::MatrixXd& x, const std::vector<std::size_t>& begins,
+                                const Autoregression& noise);
+
+// Widens variances for the part of the noise that is slower than the autoregression: each by its
+// share of the inflation, so that fast terms change little. Correlations stay. white: the variances
+// for white noise.
+void add_slow_part(Eigen::MatrixXd& covariance, const Eigen::VectorXd& white,
+                   const Autoregression& noise);
 
 // The material's series for a state, terms in the order of the state.
 using SeriesFromState = std::function<PronySeries(const SpectralState&)>;

@@ -6,6 +6,7 @@
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "io/flow/fit_table.h"
+#include "io/flow/table_from_capture.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -26,7 +27,20 @@ void add_temperature(const CapturedRun& run, FittedFile& fitted) {
   if (!drift.empty() && !is_said) flags.push_back({"temperature-drift", 0, drift});
 }
 
+// Among several tests a run counts as its table of force and depth. The depth is without the frame.
+FittedFile fit_as_table(const std::string& path, const CapturedRun& run,
+                        const FitRequest& request) {
+  FitRequest of_table = request;
+  of_table.specimen = run.specimen;
+  of_table.frame_stiffness_N_m = 0.0;
+  return fit_csv(csv_from_text(table_from_capture(run), path), of_table);
+}
+
 FittedFile fit_capture(const std::string& path, const FitRequest& request) {
+  if (request.kind && *request.kind != FitKind::kIndentation && request.is_one_of_several) {
+    throw std::runtime_error(path + ": is a captured run, which is an indentation; write " +
+                             "indentation=" + path);
+  }
   if (request.kind && *request.kind != FitKind::kIndentation) {
     throw std::runtime_error(path + ": a capture is an indentation; omit --kind");
   }
@@ -42,10 +56,14 @@ FittedFile fit_capture(const std::string& path, const FitRequest& request) {
   if (request.specimen) run.specimen = *request.specimen;
   if (request.frame_stiffness_N_m > 0.0) run.rig.frame.stiffness_N_m = request.frame_stiffness_N_m;
   FittedFile fitted;
+  if (request.is_one_of_several) {
+    fitted = fit_as_table(path, run, request);
+  } else {
+    fitted.result = fit_indentation(indentation_from_capture(run), request.options);
+  }
   fitted.specimen = run.specimen;
   fitted.specimen_id = specimen_id;
   fitted.fitted_unit = "N";
-  fitted.result = fit_indentation(indentation_from_capture(run), request.options);
   if (run.status != "finished") {
     fitted.result.flags.push_back(
         {"run-" + run.status, 0,

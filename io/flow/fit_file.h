@@ -21,6 +21,12 @@ using FlowProgress = std::function<void(double fraction, const std::string& step
 std::vector<FittedFile> fit_files(const std::vector<std::string>& files, const FitRequest& request,
                                   const FlowProgress& progress);
 
+// Fits several tests of one material together. A captured run counts as the table that `viscard
+// export` writes. Throws what fit_file() and fit_together() throw, and std::runtime_error for a file
+// that is given twice or whose columns are of another kind of test.
+FittedFile fit_tests(const std::vector<TestFile>& tests, const FitRequest& request,
+                     const FlowProgress& progress);
+
 // Properties of the material that the fit does not determine.
 struct MaterialRequest {
   std::optional<double> nu;         // none: that of the specimen, or 0.495 without punch geometry

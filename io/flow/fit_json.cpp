@@ -145,10 +145,54 @@ Json laws_of(const FitResult& fit) {
   return laws;
 }
 
+Json tests_of(const FittedFile& fitted) {
+  Json tests = Json::array();
+  for (std::size_t k = 0; k < fitted.result.tests.size(); ++k) {
+    const FittedTest& test = fitted.result.tests[k];
+    const FitCurves& curves = test.curves;
+    const std::string unit = test.is_stiffness ? "_N_m" : "_Pa";
+    const std::string letter = test.is_stiffness ? "K" : "E";
+    Json row{{"name", test.name}, {"kind", name_of_kind(test.kind)}};
+    if (k < fitted.tests.size()) row["file"] = fitted.tests[k].path;
+    row["n_samples"] = test.n_samples;
+    row["unit"] = test.kind == FitKind::kDma ? "relative" : test.fitted_unit;
+    row["rss"] = number(test.rss);
+    row["noise"] = {{"sigma", number(test.noise.sigma)},
+                    {"inflation", number(test.noise.inflation)}};
+    row["from_s"] = number(test.from_s);
+    row["to_s"] = number(test.to_s);
+    if (test.has_scale) {
+      row["scale"] = number(test.scale);
+      row["scale_interval_95"] = json_from(test.scale_95);
+    }
+    row["alone"] = {{"n_terms", test.own_terms},
+                    {letter + "0" + unit, number(test.own_E0_Pa)},
+                    {letter + "0_interval_95", json_from(test.own_E0_95)},
+                    {letter + "_inf" + unit, number(test.own_E_inf_Pa)},
+                    {letter + "_inf_interval_95", json_from(test.own_E_inf_95)},
+                    {"rss", number(test.own_rss)}};
+    row["difference"] = {
+        {"relative", number(test.difference)}, {"interval_95", json_from(test.difference_95)},
+        {"worst", number(test.worst)},         {"p_value", number(test.p_value)},
+        {"degrees_of_freedom", test.freedom},  {"disagrees", test.disagrees}};
+    row["residuals"][test.kind == FitKind::kDma ? "frequency_Hz" : "time_s"] = curves.time_s;
+    row["residuals"]["measured"] = curves.measured;
+    row["residuals"]["fitted"] = curves.fitted;
+    row["residuals"]["sigma"] = curves.sigma;
+    if (!curves.loss_measured.empty()) {
+      row["residuals"]["loss_measured"] = curves.loss_measured;
+      row["residuals"]["loss_fitted"] = curves.loss_fitted;
+      row["residuals"]["loss_sigma"] = curves.loss_sigma;
+    }
+    tests.push_back(row);
+  }
+  return tests;
+}
+
 }  // namespace
 
 const char* name_of_kind(FitKind kind) {
-  constexpr const char* kNames[] = {"indentation", "relaxation", "creep", "dma"};
+  constexpr const char* kNames[] = {"indentation", "relaxation", "creep", "dma", "several"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -232,6 +276,7 @@ Json json_from_fit(const FittedFile& fitted) {
   if (fitted.fractional) json["fractional_zener"] = json_of(*fitted.fractional);
   if (!fit.laws.empty()) json["laws"] = laws_of(fit);
   if (!fitted.model.empty()) json["model"] = fitted.model;
+  if (!fit.tests.empty()) json["tests"] = tests_of(fitted);
   json["n_spikes"] = fit.n_spikes;
   if (!fitted.chosen.empty()) json["chosen"] = fitted.chosen;
   json["n_rows"] = fit.n_samples + fit.n_left_out;

@@ -14,6 +14,12 @@
 
 namespace viscard {
 
+// One of several tests of a material.
+struct TestFile {
+  FitKind kind = FitKind::kRelaxation;
+  std::string path;
+};
+
 // What to fit in a capture or a table, and how.
 struct FitRequest {
   std::optional<FitKind> kind;  // none: the columns decide
@@ -33,7 +39,9 @@ struct FitRequest {
   bool needs_specimen = false;       // a table of several specimens is refused
   bool needs_modulus = false;        // a stiffness is refused, because a material will be written
   double frame_stiffness_N_m = 0.0;  // for tables whose depth_m is the position of the stage
-  std::optional<double> T_ref_C;     // reference temperature of a master curve
+  // The kind was stated for this file: other columns are refused, options for others do not count.
+  bool is_one_of_several = false;
+  std::optional<double> T_ref_C;  // reference temperature of a master curve
 };
 
 // The fit of one file, with the specimen that the file or the options describe.
@@ -54,7 +62,8 @@ struct FittedFile {
   std::optional<MasterCurve> master;
   // If FitRequest::diagnose is set, of a relaxation after a step.
   std::optional<FractionalDiagnosis> fractional;
-  std::string model;  // the law that `result` is written from; empty: a series
+  std::vector<TestFile> tests;  // the files of kSeveral; path joins their names
+  std::string model;            // the law that `result` is written from; empty: a series
 };
 
 }  // namespace viscard

@@ -206,8 +206,23 @@ void check_options(const CsvTable& table, FitKind kind, const FitRequest& reques
   }
 }
 
+// Options for other ones of several tests do not count for this one.
+FitRequest of_this_test(const CsvTable& table, const FitRequest& request) {
+  FitRequest one = request;
+  if (!request.is_one_of_several || !request.kind) return one;
+  require_kind(table, *request.kind, request);
+  const bool is_alone = *request.kind == FitKind::kRelaxation && is_force_alone(table, request);
+  if (!is_alone) one.depth_m.reset();
+  if (*request.kind != FitKind::kIndentation && !one.depth_m) one.specimen.reset();
+  const bool may_drift =
+      *request.kind == FitKind::kRelaxation || *request.kind == FitKind::kIndentation;
+  if (!may_drift) one.options.drift = TableDrift::kNone;
+  return one;
+}
+
 // Fits the rows of a table that are in the chosen part.
-FittedFile fit_rows(const CsvTable& table, const FitRequest& request) {
+FittedFile fit_rows(const CsvTable& table, const FitRequest& asked) {
+  const FitRequest request = of_this_test(table, asked);
   FittedFile fitted;
   if (request.specimen) fitted.specimen = *request.specimen;
   fitted.specimen_id = specimen_id_of(table, request);
@@ -252,6 +267,8 @@ FittedFile fit_rows(const CsvTable& table, const FitRequest& request) {
                               request.options);
       fitted.fitted_unit = "Pa";
       break;
+    case FitKind::kSeveral:
+      throw std::logic_error("a table is one test");
   }
   return fitted;
 }
@@ -259,7 +276,10 @@ FittedFile fit_rows(const CsvTable& table, const FitRequest& request) {
 }  // namespace
 
 FittedFile fit_table(const std::string& path, const FitRequest& request) {
-  CsvTable all = read_csv(path, request.sheet);
+  return fit_csv(read_csv(path, request.sheet), request);
+}
+
+FittedFile fit_csv(CsvTable all, const FitRequest& request) {
   const std::string maker = all.maker;
   const std::size_t n_all = all.lines.size();
   CsvTable table = rows_of_segments(std::move(all), request);

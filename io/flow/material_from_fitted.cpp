@@ -1,8 +1,11 @@
 #include "io/basics/atomic_file.h"
 #include "io/flow/fit_file.h"
+#include "io/flow/test_words.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -47,8 +50,8 @@ Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& r
   const double nu = request.nu.value_or(has_contact ? specimen.contact.poisson_ratio : kUsualNu);
   Material material =
       material_from_fit(fitted.result, nu, request.rho_kg_m3.value_or(specimen.rho_kg_m3));
-  material.name =
-      specimen.id.empty() ? std::filesystem::path(fitted.path).stem().string() : specimen.id;
+  const std::string& first = fitted.tests.empty() ? fitted.path : fitted.tests.front().path;
+  material.name = specimen.id.empty() ? std::filesystem::path(first).stem().string() : specimen.id;
   set_temperature(fitted, material);
   material.mixing_ratio = specimen.mixing_ratio;
   material.specimen_id = fitted.specimen_id;
@@ -61,7 +64,11 @@ Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& r
   material.provenance.created_by = "viscard " VISCARD_VERSION;
   material.provenance.created_at = request.created_at;
   material.provenance.command = request.command;
-  material.provenance.raw_files = {{fitted.path, sha256_of_file(fitted.path)}};
+  std::vector<std::string> files = paths_of(fitted.tests);
+  if (files.empty()) files.push_back(fitted.path);
+  for (const std::string& file : files) {
+    material.provenance.raw_files.push_back({file, sha256_of_file(file)});
+  }
   return material;
 }
 

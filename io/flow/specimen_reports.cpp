@@ -251,6 +251,11 @@ std::vector<SpecimenReport> read_specimens(const ReportRequest& request,
   if (!request.truth_files.empty() && request.truth_files.size() != files.measured.size()) {
     throw std::invalid_argument("there must be one truth file for each capture or table");
   }
+  if (!request.tests.empty()) {
+    std::vector<SpecimenReport> one{specimen_of_tests(request, progress)};
+    add_pillar_and_cards(one.front(), request);
+    return one;
+  }
   const std::size_t n_steps = 2 * files.measured.size() + files.materials.size();
   std::mutex mutex;
   std::size_t n_done = 0;

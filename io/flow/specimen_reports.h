@@ -13,6 +13,8 @@ namespace viscard {
 // What a report is made of.
 struct ReportRequest {
   std::vector<std::string> files;  // captures, tables and material files
+  // Instead of files: several tests of one material, which make one specimen.
+  std::vector<TestFile> tests;
   // One per capture or table, in their order. Empty: the truth files beside the captures, if any.
   std::vector<std::string> truth_files;
   std::vector<std::string> card_targets;
@@ -29,6 +31,9 @@ struct ReportRequest {
 // std::invalid_argument if the number of truth files differs from measured_count().
 std::vector<SpecimenReport> read_specimens(const ReportRequest& request,
                                            const FlowProgress& progress);
+
+// The specimen of several tests that are fitted together.
+SpecimenReport specimen_of_tests(const ReportRequest& request, const FlowProgress& progress);
 
 // How many of the files are captures or tables. Throws std::runtime_error if a file does not exist.
 std::size_t measured_count(const std::vector<std::string>& files);

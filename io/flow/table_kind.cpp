@@ -71,6 +71,46 @@ FitKind kind_of_table(const CsvTable& table, const FitRequest& request) {
   refuse_unknown_columns(table);
 }
 
+void require_kind(const CsvTable& table, FitKind kind, const FitRequest& request) {
+  const auto has = [&](const char* name) {
+    return find_column(table, name, request.columns).has_value();
+  };
+  const bool has_history = has("stress_Pa") && has("strain");
+  bool is_of_kind = false;
+  switch (kind) {
+    case FitKind::kIndentation:
+      is_of_kind = has("force_N") && has("depth_m");
+      break;
+    case FitKind::kRelaxation:
+      is_of_kind = has("modulus_Pa") || (has("stress_Pa") && !has("compliance_1_Pa") &&
+                                         !(has_history && is_creep(table, request)));
+      is_of_kind |= is_force_alone(table, request) && !has("compliance_1_Pa");
+      break;
+    case FitKind::kCreep:
+      is_of_kind = has("compliance_1_Pa") || (has_history && is_creep(table, request));
+      break;
+    case FitKind::kDma:
+      is_of_kind = has("storage_modulus_Pa") && has("loss_modulus_Pa");
+      break;
+    case FitKind::kSeveral:
+      break;
+  }
+  if (is_of_kind) return;
+  constexpr const char* kNames[] = {"an indentation", "a relaxation", "creep", "an oscillation"};
+  constexpr const char* kColumns[] = {"force_N and depth_m",
+                                      "modulus_Pa, stress_Pa or force_N alone",
+                                      "compliance_1_Pa, or strain under a constant stress_Pa",
+                                      "frequency_Hz, storage_modulus_Pa and loss_modulus_Pa"};
+  FitRequest open = request;
+  open.kind.reset();
+  const FitKind found = kind_of_table(table, open);  // refuses columns that are of no kind
+  throw std::runtime_error(
+      table.file + ": was given as " + kNames[static_cast<std::size_t>(kind)] + " (" +
+      kColumns[static_cast<std::size_t>(kind)] + "), but its columns are those of " +
+      kNames[static_cast<std::size_t>(found)] + ": " + columns_with_values(table) +
+      ". State the other kind, or name the columns with --column");
+}
+
 bool is_force_alone(const CsvTable& table, const FitRequest& request) {
   for (const char* name : {"modulus_Pa", "stress_Pa", "depth_m"}) {
     if (find_column(table, name, request.columns)) return false;

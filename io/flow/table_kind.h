@@ -9,6 +9,9 @@ namespace viscard {
 // with the columns and their first values, and words of --column that might read them.
 FitKind kind_of_table(const CsvTable& table, const FitRequest& request);
 
+// Throws std::runtime_error if the columns are not those of the stated kind of test.
+void require_kind(const CsvTable& table, FitKind kind, const FitRequest& request);
+
 // True for a table of force without a depth, modulus or stress.
 bool is_force_alone(const CsvTable& table, const FitRequest& request);
 

@@ -78,7 +78,7 @@ const char* motion_name(std::size_t index, std::size_t n_motions) {
 
 const char* value_name(const FitResult& fit) {
   constexpr const char* kNames[] = {"force", "relaxation modulus", "creep compliance",
-                                    "storage modulus"};
+                                    "storage modulus", "value"};
   return kNames[static_cast<std::size_t>(fit.kind)];
 }
 

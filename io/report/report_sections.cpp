@@ -19,6 +19,12 @@ bool has_truth(const ReportInput& input) {
                      [](const SpecimenReport& specimen) { return specimen.truth.has_value(); });
 }
 
+// The text of a flag, whose term the page names beside the specimen.
+std::string without_term(const MaterialFlag& flag) {
+  const std::string stem = fmt::format("term {}: ", flag.term);
+  return flag.text.starts_with(stem) ? flag.text.substr(stem.size()) : flag.text;
+}
+
 void add_flags(Page& page, const std::vector<SpecimenEstimates>& estimates) {
   std::string items;
   for (const SpecimenEstimates& specimen : estimates) {
@@ -26,7 +32,7 @@ void add_flags(Page& page, const std::vector<SpecimenEstimates>& estimates) {
       const std::string where =
           flag.term > 0 ? fmt::format("{}, term {}", specimen.label, flag.term) : specimen.label;
       items += fmt::format("<li><b>{}:</b> {} <code>{}</code></li>\n", escaped_markup(where),
-                           escaped_markup(flag.text), escaped_markup(flag.name));
+                           escaped_markup(without_term(flag)), escaped_markup(flag.name));
     }
   }
   if (items.empty()) return;
@@ -59,7 +65,30 @@ std::string summary_caption(const std::vector<SpecimenEstimates>& estimates) {
   return text;
 }
 
-// is_relative: the noise is relative to each value.
+// Two digits of an error are enough.
+std::string rough_html(double value) {
+  const Interval two_digits{0.9 * value, 1.1 * value};
+  return number_html(value, 1.0, value > 0.0 ? &two_digits : nullptr);
+}
+
+std::string run_caption(const CapturedRun& run, const RunSeries& series) {
+  std::string text =
+      fmt::format("The run as recorded, times since it began: {} readings", series.time_s.size());
+  if (!series.flagged_s.empty())
+    text += fmt::format(" and {} flagged ones (drawn at the edge if they are outside)",
+                        series.flagged_s.size());
+  text += fmt::format(" of the {}, {} of the stage", series.is_force ? "force gauge" : "amplifier",
+                      counted(run.stage_reports.size(), "report"));
+  text += series.depth_m.empty()
+              ? ", over its own position axis."
+              : ". The depth of the punch is the stage position minus the contact position and the "
+                "deflection of the frame. Most of the approach is not shown.";
+  if (run.status != "finished") text += " <b>This run was " + escaped_markup(run.status) + ".</b>";
+  return text;
+}
+
+}  // namespace
+
 std::string fit_caption(const FitResult& fit, bool is_relative) {
   const bool is_punch = fit.kind == FitKind::kIndentation;
   const bool is_oscillation = !fit.curves.loss_measured.empty();
@@ -90,30 +119,6 @@ std::string fit_caption(const FitResult& fit, bool is_relative) {
   }
   return text;
 }
-
-// Two digits of an error are enough.
-std::string rough_html(double value) {
-  const Interval two_digits{0.9 * value, 1.1 * value};
-  return number_html(value, 1.0, value > 0.0 ? &two_digits : nullptr);
-}
-
-std::string run_caption(const CapturedRun& run, const RunSeries& series) {
-  std::string text =
-      fmt::format("The run as recorded, times since it began: {} readings", series.time_s.size());
-  if (!series.flagged_s.empty())
-    text += fmt::format(" and {} flagged ones (drawn at the edge if they are outside)",
-                        series.flagged_s.size());
-  text += fmt::format(" of the {}, {} of the stage", series.is_force ? "force gauge" : "amplifier",
-                      counted(run.stage_reports.size(), "report"));
-  text += series.depth_m.empty()
-              ? ", over its own position axis."
-              : ". The depth of the punch is the stage position minus the contact position and the "
-                "deflection of the frame. Most of the approach is not shown.";
-  if (run.status != "finished") text += " <b>This run was " + escaped_markup(run.status) + ".</b>";
-  return text;
-}
-
-}  // namespace
 
 void add_summary(Page& page, const ReportInput& input,
                  const std::vector<SpecimenEstimates>& estimates) {
@@ -233,6 +238,7 @@ void add_specimen(Page& page, const SpecimenReport& specimen, const SpecimenEsti
   }
   if (recorded) page.add_figure(*recorded, "run", run_caption(*specimen.run, series));
   if (fitted) page.add_figure(*fitted, "fit", fit_caption(*specimen.fit, is_relative));
+  if (specimen.fit) add_tests(page, *specimen.fit);
   if (const auto shifts = specimen.shift ? shift_plot(*specimen.shift) : std::nullopt) {
     page.add_figure(
         *shifts, "shift",

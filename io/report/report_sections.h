@@ -23,4 +23,10 @@ void add_methods(Page& page, const ReportInput& input);
 void add_provenance(Page& page, const ReportInput& input,
                     const std::vector<SpecimenEstimates>& estimates);
 
+// Figures and table of the tests that were fitted together; nothing for a fit of one test.
+void add_tests(Page& page, const FitResult& fit);
+
+// What the figure of data and fit shows. is_relative: the noise is relative to each value.
+std::string fit_caption(const FitResult& fit, bool is_relative);
+
 }  // namespace viscard

@@ -6,11 +6,15 @@
 #include "io/cli/words/progress.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/flow_json.h"
+#include "io/flow/test_words.h"
 #include "io/materials/material_file.h"
 
 #include <nlohmann/json.hpp>
 
 #include <ostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace po = boost::program_options;
 
@@ -95,7 +99,8 @@ CommandSyntax fit_syntax() {
       "Fits the instantaneous modulus and a Prony series, with 95 % intervals, to captures "
       "(*.viscap) or tables from any machine. Columns are found by name and unit (force_N, \"Force "
       "[N]\", t (s)). The fit uses the exact loading history and chooses the number of terms "
-      "unless it is given.";
+      "unless it is given. Several tests of one material are fitted together if each states its "
+      "kind: relaxation=a.csv creep=b.csv dma=c.csv indentation=d.csv.";
   syntax.example = "viscard fit data/demo/example_relaxation.csv --out material.json";
   add_fit_options(syntax.options);
   add_data_options(syntax.options);
@@ -109,7 +114,7 @@ CommandSyntax fit_syntax() {
   add("own-terms", "with --joint: each mixing ratio keeps its own number of terms");
   add("share", po::value<Words>()->composing(),
       "with --joint: E0, g, tau or one of them (tau_1) is the same at all ratios (repeatable)");
-  add("out", po::value<std::string>(), "material file to write (one input file)");
+  add("out", po::value<std::string>(), "material file to write (one input file, or several tests)");
   add("force", "replace an existing material file");
   syntax.positional = {"file"};
   syntax.last_is_repeatable = true;
@@ -164,13 +169,39 @@ int report_defects(const std::vector<FittedFile>& fitted, std::ostream& err) {
   return status;
 }
 
+// The tests that the words name; empty: plain files.
+std::vector<TestFile> tests_given(const Words& words, const po::variables_map& values) {
+  std::vector<TestFile> tests;
+  try {
+    tests = tests_from_words(words);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  if (tests.empty()) return tests;
+  for (const char* option : {"kind", "joint"}) {
+    if (values.count(option) == 0) continue;
+    throw UsageError(std::string("--") + option +
+                     " does not belong to tests that state their kind (creep=FILE); omit it");
+  }
+  if (tests.size() == 1) return tests;
+  for (const char* option : {"fix", "bound", "constraints", "profiles", "bootstrap",
+                             "allow-negative", "model", "diagnose", "reference-temperature"}) {
+    if (values.count(option) == 0) continue;
+    throw UsageError(std::string("--") + option + " is for single tests; omit it for several");
+  }
+  return tests;
+}
+
 }  // namespace
 
 int run_fit(const Words& words, Streams& streams) {
   CommandSyntax syntax = fit_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
-  const auto files = required<Words>(*values, "file", syntax);
+  auto files = required<Words>(*values, "file", syntax);
+  const std::vector<TestFile> tests = tests_given(files, *values);
+  if (!tests.empty()) files = paths_of(tests);
+  const bool is_several = tests.size() > 1;
   const auto out = given(*values, "out");
   const bool is_joint = values->count("joint") > 0;
   for (const char* option : {"share", "specimen-id", "own-terms"}) {
@@ -178,11 +209,11 @@ int run_fit(const Words& words, Streams& streams) {
       throw UsageError(std::string("--") + option + " needs --joint");
     }
   }
-  if (!is_joint && values->count("ratio") > 0 && files.size() > 1) {
+  if (!is_joint && !is_several && values->count("ratio") > 0 && files.size() > 1) {
     throw UsageError(
         "--ratio is for one input file; for several, give it once for each with --joint");
   }
-  if (out && files.size() > 1 && !is_joint) {
+  if (out && files.size() > 1 && !is_joint && !is_several) {
     throw UsageError("--out writes the material of one input file, but there are " +
                      std::to_string(files.size()) + "; fit them one by one, or with --joint");
   }
@@ -194,11 +225,16 @@ int run_fit(const Words& words, Streams& streams) {
   if (is_joint) return run_joint(*values, files, quoted_command_line("fit", words), streams);
   FitRequest fit_words = words_from(*values);
   fit_words.needs_modulus = out.has_value();
+  if (tests.size() == 1) fit_words.kind = tests.front().kind;
   const MaterialRequest about = material_words(
       *values, quoted_command_line("fit", words));  // refuses bad words before the fit
   Progress progress(streams, "fit");
-  const std::vector<FittedFile> fitted = fit_files(
-      files, fit_words, [&](double done, const std::string& file) { progress.show(done, file); });
+  const FlowProgress show = [&](double done, const std::string& file) {
+    progress.show(done, file);
+  };
+  const std::vector<FittedFile> fitted =
+      is_several ? std::vector<FittedFile>{fit_tests(tests, fit_words, show)}
+                 : fit_files(files, fit_words, show);
   progress.clear();
   print(fitted, values->count("json") > 0, streams.out);
   if (out) {

@@ -57,6 +57,35 @@ void print_fractional(const FractionalDiagnosis& fractional, std::ostream& out) 
                              : "the data do not decide between the two");
 }
 
+// One line for each of several tests.
+void print_tests(const FittedFile& fitted, std::ostream& out) {
+  out << fmt::format("\n  {:<14} {:>8} {:>18} {:>6} {:>28} {:>9}\n", "test", "samples",
+                     "noise of a sample", "terms", "% above the other tests", "chance");
+  for (const FittedTest& test : fitted.result.tests) {
+    const std::string noise = test.kind == FitKind::kDma
+                                  ? fmt::format("{:.3g} %", 100.0 * test.noise.sigma)
+                                  : fmt::format("{:.3g} {}", test.noise.sigma, test.fitted_unit);
+    const Interval& range_95 = test.difference_95;
+    const bool has_factor = range_95.high > range_95.low;
+    const std::string difference =
+        has_factor ? fmt::format("{:+.2g} ({:+.2g} to {:+.2g})", 100.0 * test.difference,
+                                 100.0 * range_95.low, 100.0 * range_95.high)
+                   : std::string("scale is free");
+    out << fmt::format("{} {:<14} {:>8} {:>18} {:>6} {:>28} {:>9}\n", test.disagrees ? "!" : " ",
+                       test.name, test.n_samples, noise, test.own_terms, difference,
+                       test.freedom > 0 ? fmt::format("{:.2g}", test.p_value) : "-");
+    if (test.noise.inflation > 1.0) {
+      out << fmt::format("      noise: variance x {:.3g} for autocorrelation\n",
+                         test.noise.inflation);
+    }
+    if (test.has_scale) {
+      out << fmt::format("      values over those of the material: {:.5g}   95 % {}\n", test.scale,
+                         range(test.scale_95, 1.0, 5));
+    }
+  }
+  out << "  (terms: of its own fit; chance: of so large a difference between tests that agree)\n";
+}
+
 const char* text_of_form(const MasterCurve& curve) {
   if (curve.form == "wlf") return "the WLF law";
   if (curve.form == "arrhenius") return "the Arrhenius law";
@@ -114,7 +143,9 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   const FitResult& fit = fitted.result;
   const Shown shown = shown_modulus(fitted);
   const char* letter = fitted.has_no_depth ? "F" : fit.is_stiffness ? "K" : "E";
-  out << fmt::format("{}: {}, {}\n", fitted.path, name_of_kind(fit.kind),
+  out << fmt::format("{}: {}, {}\n", fitted.path,
+                     fit.tests.empty() ? std::string(name_of_kind(fit.kind))
+                                       : counted(fit.tests.size(), "test") + " together",
                      counted(fit.n_samples, "sample"));
   if (!fitted.maker.empty()) {
     const bool is_book_only = fitted.maker.starts_with("Excel workbook");
@@ -176,8 +207,10 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
                        fit.two_point->half_space_modulus_Pa * shown.factor, fit.two_point->bias);
   }
   const std::string sigma_unit = fit.kind == FitKind::kDma ? "(relative)" : fitted.fitted_unit;
-  out << fmt::format("  noise {:.3g} {}, variance x {:.3g} for autocorrelation\n", fit.noise.sigma,
-                     sigma_unit, fit.noise.inflation);
+  if (fit.tests.empty()) {
+    out << fmt::format("  noise {:.3g} {}, variance x {:.3g} for autocorrelation\n",
+                       fit.noise.sigma, sigma_unit, fit.noise.inflation);
+  }
   if (fit.drift) {
     out << fmt::format("  drift {:.4g} {}/s, standard error {:.2g}\n", fit.drift->per_s,
                        fitted.fitted_unit, fit.drift->se_per_s);
@@ -190,6 +223,7 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   }
   if (fitted.master) print_master(*fitted.master, out);
   if (fitted.fractional) print_fractional(*fitted.fractional, out);
+  if (!fit.tests.empty()) print_tests(fitted, out);
   print_orders(fit, fitted.fitted_unit, out);
   if (!fit.laws.empty()) print_laws(fitted, out);
   if (!fit.flags.empty()) out << "\n";

@@ -8,6 +8,7 @@
 #include "io/cli/words/progress.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/specimen_reports.h"
+#include "io/flow/test_words.h"
 #include "io/report/report.h"
 #include "models/maths/text_of_number.h"
 
@@ -28,7 +29,8 @@ CommandSyntax report_syntax() {
   CommandSyntax syntax{
       "viscard report FILE... --out PAGE.html [OPTIONS]",
       "Writes one self-contained HTML page about captures and tables (which it fits), material "
-      "files and a joint fit: estimates with intervals, raw record, fit and residuals, spectrum, "
+      "files and a joint fit, or about several tests of one material (relaxation=a.csv "
+      "creep=b.csv): estimates with intervals, raw record, fit and residuals, spectrum, "
       "mixing ratios, the pillar, cards and provenance.",
       "viscard report data/materials/pdms_1to10_seed.json --out report.html"};
   auto add = syntax.options.add_options();
@@ -52,11 +54,21 @@ CommandSyntax report_syntax() {
 ReportRequest checked_words(const po::variables_map& values, const Words& words,
                             const CommandSyntax& syntax) {
   ReportRequest report{required<Words>(values, "files", syntax),
+                       {},
                        given<Words>(values, "truth").value_or(Words{}),
                        given<Words>(values, "card").value_or(Words{}),
                        values["units"].as<std::string>(),
                        "",
                        quoted_command_line("report", words)};
+  try {
+    report.tests = tests_from_words(report.files);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  if (report.tests.size() == 1) {
+    throw UsageError("there is one test only; give its file without the kind, or more tests");
+  }
+  if (!report.tests.empty()) report.files.clear();
   if (values.count("out") == 0) {
     throw UsageError("which page? name it with --out report.html");
   }

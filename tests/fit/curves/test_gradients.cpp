@@ -1,5 +1,7 @@
+#include "fit/curves/creep_rows.h"
 #include "fit/curves/dma_model.h"
 #include "fit/curves/history_model.h"
+#include "fit/curves/joint_model.h"
 #include "fit/curves/stage_model.h"
 #include "fit/curves/step_model.h"
 #include "fit/indentation_from_capture.h"
@@ -115,4 +117,70 @@ TEST_CASE("slopes of the stage model equal finite differences in times, starts a
   const StageModel model(data, nuisance_start(data), {.resting_N = 5e-4, .moving_N = 7e-4}, {});
   // The model is not differentiable at a sample within one step of a kink; there are none here.
   CHECK(worst_gradient_error(model, state_of(model, {0.02, 0.2, 2.4, 80.0})) < 1e-5);
+}
+
+TEST_CASE("creep as a function of the relaxation spectrum", "[fit][gradient]") {
+  // Closed form of one term (Tschoegl 1989, ch. 3): J(t) = 1/E_inf - E_1/(E_inf E_0) exp(-t/lambda),
+  // lambda = tau E_0/E_inf.
+  const auto compliance = [](double E_inf, double E_1, double ln_tau, double t_s) {
+    const double E0 = E_inf + E_1, lambda_s = std::exp(ln_tau) * E0 / E_inf;
+    return 1.0 / E_inf - E_1 / (E_inf * E0) * std::exp(-t_s / lambda_s);
+  };
+  const double E_inf = 1.3, E_1 = 2.1, ln_tau = std::log(0.7);
+  const bool is_long = GENERATE(false, true);
+  std::vector<double> time_s, value;
+  for (int i = 0; i < (is_long ? 30000 : 40); ++i) {
+    time_s.push_back(is_long ? 1e-3 * (i + 1) : 1e-2 * std::pow(10.0, i / 10.0));
+    value.push_back(0.0);
+  }
+  const CreepRows model(time_s, value, {E_inf, {{E_1, std::exp(ln_tau)}}}, {});
+  REQUIRE(model.n_rows() == model.step().n_rows());
+  REQUIRE(model.n_rows() < 400);
+  SpectralState state;
+  state.ln_tau = Eigen::VectorXd::Constant(1, ln_tau);
+  state.nuisance.resize(0);
+  state.coefficients = Eigen::Vector2d(E_inf, E_1);
+  const Eigen::VectorXd fitted = model.fitted(state);
+  const Eigen::MatrixXd slopes = full_jacobian(model, state);
+  const double h = 1e-5;
+  for (Eigen::Index row = 0; row < model.n_rows(); ++row) {
+    const LogBin& bin = model.step().bins()[static_cast<std::size_t>(row)];
+    const auto mean = [&](double a, double b, double c) {
+      double sum = 0.0;
+      for (std::size_t i = bin.begin; i < bin.end; ++i) sum += compliance(a, b, c, time_s[i]);
+      return sum / std::sqrt(bin.count);
+    };
+    // At its own reference the linear model gives -J, so that the residual is J_measured - J.
+    const double exact = mean(E_inf, E_1, ln_tau);
+    CHECK(fitted[row] == Approx(-exact).epsilon(1e-10));
+    CHECK(model.data()[row] == Approx(-2.0 * exact).epsilon(1e-9));
+    const double size = exact;
+    CHECK(std::abs(slopes(row, 0) - (mean(E_inf + h, E_1, ln_tau) - mean(E_inf - h, E_1, ln_tau)) /
+                                        (2 * h)) < kDifferences * size);
+    CHECK(std::abs(slopes(row, 1) - (mean(E_inf, E_1 + h, ln_tau) - mean(E_inf, E_1 - h, ln_tau)) /
+                                        (2 * h)) < kDifferences * size);
+    CHECK(std::abs(slopes(row, 2) - (mean(E_inf, E_1, ln_tau + h) - mean(E_inf, E_1, ln_tau - h)) /
+                                        (2 * h)) < kDifferences * size);
+  }
+}
+
+TEST_CASE("slopes of several tests together equal finite differences", "[fit][gradient]") {
+  const RelaxationData relaxation = relaxation_of(s2(), 40, 100.0, 0.01, 5);
+  const std::vector<double> frequency_Hz{0.01, 0.1, 1.0, 10.0}, storage{1.6, 1.7, 1.8, 1.8},
+      loss{0.02, 0.05, 0.02, 0.01};
+  FitOptions with_drift;
+  with_drift.drift = TableDrift::kFitted;
+  std::vector<JointMember> members(3);
+  members[0].model = std::make_unique<StepModel>(relaxation.time_s, relaxation.value,
+                                                 StepShape::kRelaxation, with_drift);
+  members[0].has_scale = true;
+  members[0].scale_start = 2.0;
+  auto creep = std::make_unique<CreepRows>(relaxation.time_s, relaxation.value, s2(), FitOptions{});
+  members[1].creep = creep.get();
+  members[1].model = std::move(creep);
+  members[1].weight = 3.0;
+  members[2].model = std::make_unique<DmaModel>(frequency_Hz, storage, loss, FitOptions{}, true);
+  const JointModel model(std::move(members), /*is_liquid=*/false);
+  REQUIRE(model.n_common() == 3);  // E_inf, drift, dashpot
+  CHECK(worst_gradient_error(model, state_of(model, {0.5, 8.0})) < kDifferences);
 }

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "fit/curves/joint_model.h"
+#include "fit/intervals/grouped_covariance.h"
+#include "models/maths/interval.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace viscard {
+
+// Whether one of several tests agrees with the spectrum of all. Its values may depart from it by a
+// factor 1 + d(u), d a parabola in u = log time. The spectrum of all tests and d are fitted together
+// (one linearised step), so d is how far this test lies from what the others allow.
+struct TestAgreement {
+  double difference = 0.0;  // the same factor at all times
+  Interval difference_95;
+  double worst = 0.0;     // d where it exceeds its error most
+  double at_least = 0.0;  // |d| there, minus 1.96 standard errors
+  // Of so large a difference by chance: the smaller one of the tests for a factor and for a parabola,
+  // times two. F test with the noise of every test and its memory; degrees of freedom of
+  // Satterthwaite, Biometrics Bull. 2 (1946) 110.
+  double p_value = 1.0;
+  int freedom = 0;  // directions in which the others leave something to compare with
+};
+
+// For each test. state: an optimum of the model. ln_time: of the rows of each test. freedom: of each
+// test's own noise.
+std::vector<TestAgreement> test_agreement(const JointModel& model, const SpectralState& state,
+                                          const std::vector<NoiseGroup>& groups,
+                                          const std::vector<Eigen::VectorXd>& ln_time,
+                                          const Eigen::VectorXd& freedom);
+
+}  // namespace viscard

@@ -1,0 +1,76 @@
+#include "io/flow/test_words.h"
+
+#include "io/basics/words.h"
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace fs = std::filesystem;
+
+namespace viscard {
+namespace {
+
+bool exists(const std::string& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+FitKind kind_of_test(const std::string& kind, const std::string& word) {
+  static const std::vector<std::pair<std::string, FitKind>> kKinds{
+      {"relaxation", FitKind::kRelaxation},
+      {"creep", FitKind::kCreep},
+      {"dma", FitKind::kDma},
+      {"oscillation", FitKind::kDma},
+      {"indentation", FitKind::kIndentation}};
+  std::vector<std::string> names;
+  for (const auto& [name, known] : kKinds) {
+    if (name == kind) return known;
+    names.push_back(name);
+  }
+  throw std::invalid_argument(word + ": no such file, and '" + kind + "' is no kind of test" +
+                              did_you_mean(kind, names) +
+                              " Name a test as relaxation=FILE, creep=FILE, dma=FILE (or "
+                              "oscillation=FILE) or indentation=FILE");
+}
+
+// Nothing for a plain file.
+std::optional<TestFile> test_from_word(const std::string& word) {
+  const std::size_t sign = word.find('=');
+  if (sign == std::string::npos || exists(word)) return std::nullopt;
+  const std::string kind = word.substr(0, sign), path = word.substr(sign + 1);
+  if (kind.find('/') != std::string::npos) return std::nullopt;
+  const FitKind known = kind_of_test(kind, word);
+  if (path.empty()) throw std::invalid_argument(word + " names no file; write " + kind + "=FILE");
+  return TestFile{known, path};
+}
+
+}  // namespace
+
+std::vector<TestFile> tests_from_words(const std::vector<std::string>& words) {
+  std::vector<TestFile> tests;
+  std::string plain;
+  for (const std::string& word : words) {
+    if (const auto test = test_from_word(word)) {
+      tests.push_back(*test);
+    } else if (plain.empty()) {
+      plain = word;
+    }
+  }
+  if (!tests.empty() && !plain.empty()) {
+    throw std::invalid_argument(plain +
+                                " states no kind of test, but others do; write for instance "
+                                "creep=" +
+                                plain + ", or fit the files apart");
+  }
+  return tests;
+}
+
+std::vector<std::string> paths_of(const std::vector<TestFile>& tests) {
+  std::vector<std::string> paths;
+  for (const TestFile& test : tests) paths.push_back(test.path);
+  return paths;
+}
+
+}  // namespace viscard

@@ -1,0 +1,187 @@
+// Several tests of one material together: viscard fit relaxation=a.csv creep=b.csv dma=c.csv.
+#include "io/materials/material_file.h"
+#include "models/material/prony_series.h"
+#include "models/material/retardation_spectrum.h"
+#include "tests/io/cli/fit/table_folder.h"
+#include "tests/support/run_command.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <random>
+#include <sstream>
+
+using namespace viscard;
+using namespace viscard::test;
+using Catch::Contains;
+
+namespace {
+
+const PronySeries kTruth{1.0e6, {{0.6e6, 0.1}, {0.5e6, 10.0}}};
+
+// Tables of one material, with noise of 1 %.
+class Tables {
+ public:
+  Tables() {
+    const RetardationSpectrum creep = retardation_from_relaxation(kTruth);
+    std::ostringstream relaxation, compliance, oscillation, force;
+    relaxation << "time_s,modulus_Pa\n";
+    compliance << "time_s,compliance_1_Pa\n";
+    oscillation << "frequency_Hz,storage_modulus_Pa,loss_modulus_Pa\n";
+    force << "time_s,force_N\n";
+    for (int i = 0; i < 80; ++i) {
+      const double t_s = 0.1 * std::pow(1e4, i / 79.0), f_Hz = 0.003 * std::pow(1e4, i / 79.0);
+      const double modulus_Pa = relaxation_modulus_Pa(kTruth, t_s);
+      relaxation << t_s << "," << modulus_Pa * noisy() << "\n";
+      force << t_s << "," << 2e-6 * modulus_Pa * noisy() << "\n";
+      compliance << t_s << "," << creep_compliance_1_Pa(creep, t_s) * noisy() << "\n";
+      const ComplexModulus at = complex_modulus_Pa(kTruth, 2.0 * std::numbers::pi * f_Hz);
+      oscillation << f_Hz << "," << at.storage_Pa * noisy() << "," << at.loss_Pa * noisy() << "\n";
+    }
+    relaxation_ = folder.write("relaxation.csv", relaxation.str());
+    creep_ = folder.write("creep.csv", compliance.str());
+    dma_ = folder.write("dma.csv", oscillation.str());
+    force_ = folder.write("force.csv", force.str());
+  }
+
+  TableFolder folder;
+  std::string relaxation_, creep_, dma_, force_;
+
+ private:
+  double noisy() { return 1.0 + 0.01 * normal_(random_); }
+  std::mt19937_64 random_{11};
+  std::normal_distribution<double> normal_;
+};
+
+}  // namespace
+
+TEST_CASE("three tests are fitted together, saved, predicted and written as a card", "[cli]") {
+  const Tables tables;
+  const std::string out = tables.folder.file("material.json");
+  const std::vector<std::string> words{"fit", "relaxation=" + tables.relaxation_,
+                                       "creep=" + tables.creep_, "oscillation=" + tables.dma_};
+  auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), words.begin(), words.end());
+    return run_command(more);
+  };
+  const CommandOutcome text = with({"--out", out});
+  CAPTURE(text.out, text.err);
+  REQUIRE(text.status == kDone);
+  CHECK_THAT(text.out, Contains("3 tests together, 240 samples") && Contains("creep") &&
+                           Contains("% above the other tests"));
+
+  const CommandOutcome json = with({"--json"});
+  const auto fit = nlohmann::json::parse(json.out);
+  CHECK(fit["kind"] == "several");
+  CHECK(fit["E0_interval_95"][0].get<double>() < 2.1e6);
+  CHECK(fit["E0_interval_95"][1].get<double>() > 2.1e6);
+  CHECK(fit["E0_Pa"].get<double>() == Approx(2.1e6).epsilon(0.01));
+  CHECK(fit["n_terms"] == 2);
+  REQUIRE(fit["tests"].size() == 3);
+  CHECK(fit["tests"][1]["name"] == "creep");
+  CHECK(fit["tests"][1]["file"] == tables.creep_);
+  CHECK(fit["tests"][1]["residuals"]["time_s"].size() == 80);
+  CHECK(fit["tests"][2]["residuals"]["loss_fitted"].size() == 80);
+  CHECK(fit["tests"][2]["kind"] == "dma");
+  CHECK(fit["tests"][0]["difference"]["disagrees"] == false);
+  CHECK(fit["tests"][0]["difference"]["p_value"].get<double>() > 1e-3);
+
+  const Material material = read_material(out).material;
+  CHECK(material.provenance.raw_files.size() == 3);
+  CHECK(material.valid.t_max_s == Approx(1000.0));  // of relaxation and creep
+  CHECK(material.valid.t_min_s == Approx(1.0 / (2.0 * std::numbers::pi * 30.0)));  // of the sweep
+  const CommandOutcome predicted = run_command({"predict", out, "--test", "creep", "--json"});
+  CAPTURE(predicted.err);
+  CHECK(predicted.status == kDone);
+  const CommandOutcome card =
+      run_command({"card", out, "--for", "abaqus", "--out", tables.folder.file("card.inp")});
+  CAPTURE(card.err);
+  CHECK(card.status == kDone);
+}
+
+TEST_CASE("tests that disagree are told, and their card is refused", "[cli]") {
+  const Tables tables;
+  std::ifstream in(tables.creep_);
+  std::ostringstream stiffer;
+  std::string line;
+  for (std::getline(in, line), stiffer << line << "\n"; std::getline(in, line);) {
+    const std::size_t comma = line.find(',');
+    stiffer << line.substr(0, comma) << "," << std::stod(line.substr(comma + 1)) / 1.05 << "\n";
+  }
+  const std::string creep = tables.folder.write("stiffer.csv", stiffer.str());
+  const std::string out = tables.folder.file("material.json");
+  const CommandOutcome fitted = run_command({"fit", "relaxation=" + tables.relaxation_,
+                                             "creep=" + creep, "dma=" + tables.dma_, "--out", out});
+  CHECK(fitted.status == kFailed);
+  CHECK_THAT(fitted.out, Contains("! tests-disagree: ") && Contains("the creep lies"));
+  CHECK_THAT(fitted.err, Contains("not to be trusted"));
+  const CommandOutcome card =
+      run_command({"card", out, "--for", "abaqus", "--out", tables.folder.file("card.inp")});
+  CHECK(card.status == kFailed);
+}
+
+TEST_CASE("a record of force among moduli gets its scale", "[cli]") {
+  const Tables tables;
+  const CommandOutcome fitted =
+      run_command({"fit", "relaxation=" + tables.force_, "dma=" + tables.dma_, "--json"});
+  CAPTURE(fitted.err);
+  REQUIRE(fitted.status == kDone);
+  const auto fit = nlohmann::json::parse(fitted.out);
+  CHECK(fit["E0_Pa"].get<double>() == Approx(2.1e6).epsilon(0.01));
+  CHECK(fit["tests"][0]["scale_interval_95"][0].get<double>() < 2e-6);
+  CHECK(fit["tests"][0]["scale_interval_95"][1].get<double>() > 2e-6);
+}
+
+TEST_CASE("words of tests: refusals, and plain files with an equals sign", "[cli]") {
+  const Tables tables;
+  const auto refused = [](const std::vector<std::string>& words) {
+    const CommandOutcome outcome = run_command(words);
+    CAPTURE(outcome.out);
+    CHECK(outcome.status != kDone);
+    return outcome.err;
+  };
+  CHECK_THAT(refused({"fit", "relaxation=" + tables.relaxation_, "creep=" + tables.dma_}),
+             Contains("was given as creep") && Contains("an oscillation"));
+  CHECK_THAT(refused({"fit", "dma=" + tables.relaxation_, "creep=" + tables.creep_}),
+             Contains("was given as an oscillation") && Contains("those of a relaxation"));
+  CHECK_THAT(refused({"fit", "relaxing=" + tables.relaxation_, "creep=" + tables.creep_}),
+             Contains("'relaxing' is no kind of test") && Contains("relaxation"));
+  CHECK_THAT(refused({"fit", tables.relaxation_, "creep=" + tables.creep_}),
+             Contains("states no kind of test"));
+  CHECK_THAT(refused({"fit", "creep=" + tables.creep_, "creep=" + tables.creep_}),
+             Contains("given twice"));
+  CHECK_THAT(refused({"fit", "creep=" + tables.creep_, "dma=" + tables.dma_, "--kind", "creep"}),
+             Contains("--kind does not belong"));
+  CHECK_THAT(refused({"fit", "creep=" + tables.creep_, "dma=" + tables.dma_, "--profiles"}),
+             Contains("--profiles is for single tests"));
+  CHECK_THAT(refused({"fit", "creep=", "dma=" + tables.dma_}), Contains("names no file"));
+
+  // A file whose own name has an equals sign; and one test that states its kind.
+  const std::string strange = tables.folder.file("T=25.csv");
+  std::filesystem::copy_file(tables.relaxation_, strange);
+  CHECK(run_command({"fit", strange}).status == kDone);
+  const CommandOutcome one = run_command({"fit", "creep=" + tables.creep_, "--json"});
+  CAPTURE(one.err);
+  CHECK(nlohmann::json::parse(one.out)["kind"] == "creep");
+}
+
+TEST_CASE("the page shows each of several tests with its residuals", "[cli][plots]") {
+  const Tables tables;
+  const std::string page = tables.folder.file("page.html");
+  const CommandOutcome made =
+      run_command({"report", "relaxation=" + tables.relaxation_, "creep=" + tables.creep_,
+                   "dma=" + tables.dma_, "--out", page, "--json"});
+  CAPTURE(made.out, made.err);
+  REQUIRE(made.status == kDone);
+  std::ifstream in(page);
+  const std::string html((std::istreambuf_iterator<char>(in)), {});
+  for (const char* part :
+       {"<b>relaxation.</b>", "<b>creep.</b>", "<b>dma.</b>", "Difference (%)"}) {
+    CHECK_THAT(html, Contains(part));
+  }
+  CHECK(nlohmann::json::parse(made.out)["specimens"][0]["files"].size() == 3);
+}
