@@ -48,12 +48,12 @@ double correlation(const Eigen::MatrixXd& covariance, Index i, Index j) {
 
 }  // namespace
 
-void judge(FitResult& result) {
+void judge(FitResult& result, const std::string& advice) {
   if (!(result.E0_interval_95.low > 0.0) || !std::isfinite(result.E0_interval_95.high)) {
     add_defect(result, "E0-unknown",
                "the 95 % interval of E0 (" + number(result.E0_interval_95.low) + " to " +
                    number(result.E0_interval_95.high) +
-                   ") reaches zero: the data do not determine E0. Use fewer terms");
+                   ") reaches zero: the data do not determine E0. " + advice);
   }
   for (const MaterialFlag& flag : result.flags) {
     if (is_defect(flag.name)) result.is_trustworthy = false;

@@ -26,7 +26,8 @@ void add_identifiability_flags(const SpectralModel& model, const SpectralState& 
 
 // Checks that apply to every kind of fit: an interval of E0 that reaches zero makes the result
 // untrustworthy (E0-unknown), and so do notes that are defects.
-void judge(FitResult& result);
+// advice: what to do about an unknown E0.
+void judge(FitResult& result, const std::string& advice = "Use fewer terms");
 
 // Fills the modulus at the first sample, and adds the flag E0-extrapolated if it is below the interval
 // of E0.

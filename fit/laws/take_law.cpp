@@ -158,7 +158,7 @@ void take_law(const std::string& name, FitResult& result) {
                "a Prony series describes the data much better than the law " + name +
                    " (BIC lower by " + text_of(found->bic_difference, 3) + ")");
   }
-  judge(result);
+  judge(result, "Take the series of the fit (omit --model) or another law");
 }
 
 }  // namespace viscard

@@ -4,6 +4,7 @@
 #include "io/flow/fit_request.h"
 #include "models/material/material.h"
 
+#include <exception>
 #include <functional>
 #include <optional>
 #include <string>
@@ -16,6 +17,17 @@ FittedFile fit_file(const std::string& path, const FitRequest& request);
 
 // Called with the fraction done and the name of the step that was finished last; may be empty.
 using FlowProgress = std::function<void(double fraction, const std::string& step)>;
+
+// What became of one of several files: its fit, or the reason why there is none.
+struct FileOutcome {
+  std::string path;
+  std::optional<FittedFile> fitted;
+  std::exception_ptr error;
+};
+
+// Fits all files on all cores. A file that fails does not keep the others from being fitted.
+std::vector<FileOutcome> fit_each_file(const std::vector<std::string>& files,
+                                       const FitRequest& request, const FlowProgress& progress);
 
 // Fits all files on all cores. If some fail, rethrows the exception of the first such file.
 std::vector<FittedFile> fit_files(const std::vector<std::string>& files, const FitRequest& request,

@@ -47,7 +47,8 @@ bool has_alias(const Quantity& quantity, const std::string& name) {
 bool is_angular(const std::string& name) {
   const std::string text = plain(name);
   const char* kNames[] = {"omega",         "angular frequency", "ang frequency",
-                          "kreisfrequenz", "pulsation",         "角频率"};
+                          "kreisfrequenz", "pulsation",         "角频率",
+                          "omega rad s",   "frequency rad s",   "angular frequency rad s"};
   return name == "w" || name == "ω" ||
          std::any_of(std::begin(kNames), std::end(kNames),
                      [&](auto known) { return text == known; });
@@ -109,7 +110,8 @@ const std::vector<Quantity>& quantities() {
        "frequency",
        "Hz",
        {"f", "freq", "frequenz", "fréquence", "频率", "w", "ω", "omega", "angular frequency",
-        "ang frequency", "kreisfrequenz", "pulsation", "角频率"}},
+        "ang frequency", "kreisfrequenz", "pulsation", "角频率", "omega rad s", "frequency rad s",
+        "angular frequency rad s"}},
       {"storage_modulus_Pa",
        "storage_modulus",
        "Pa",

@@ -4,6 +4,7 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
+#include "io/flow/command_error.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/flow_json.h"
 #include "io/flow/test_words.h"
@@ -11,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <exception>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -136,35 +138,68 @@ int run_joint(const po::variables_map& values, const Words& files, const std::st
   return run_joint_fit(joint, streams);
 }
 
-void print(const std::vector<FittedFile>& fitted, bool as_json, std::ostream& out) {
+// The object of a file that could not be fitted stands in its place among the others.
+nlohmann::ordered_json json_of(const FileOutcome& outcome) {
+  if (outcome.fitted) return json_from_fit(*outcome.fitted);
+  nlohmann::ordered_json json;
+  json["file"] = outcome.path;
+  try {
+    std::rethrow_exception(outcome.error);
+  } catch (const std::exception& error) {
+    json["error"] = json_from_error(command_error(error));
+  }
+  return json;
+}
+
+void print(const std::vector<FileOutcome>& outcomes, bool as_json, std::ostream& out) {
   if (!as_json) {
-    for (const FittedFile& file : fitted) {
-      if (&file != &fitted.front()) out << "\n";
-      print_fit(file, out);
+    bool is_first = true;
+    for (const FileOutcome& outcome : outcomes) {
+      if (!outcome.fitted) continue;
+      if (!is_first) out << "\n";
+      is_first = false;
+      print_fit(*outcome.fitted, out);
     }
     return;
   }
-  if (fitted.size() == 1) {
-    out << json_from_fit(fitted.front()).dump(2) << "\n";
+  if (outcomes.size() == 1) {
+    out << json_of(outcomes.front()).dump(2) << "\n";
     return;
   }
   nlohmann::ordered_json json;
   json["fits"] = nlohmann::ordered_json::array();
-  for (const FittedFile& file : fitted) json["fits"].push_back(json_from_fit(file));
+  for (const FileOutcome& outcome : outcomes) json["fits"].push_back(json_of(outcome));
   out << json.dump(2) << "\n";
 }
 
-// Prints one line for each result that is not to be trusted and returns the exit status.
-int report_defects(const std::vector<FittedFile>& fitted, std::ostream& err) {
+// Without a single result the command fails as a whole, with the first reason.
+void require_one(const std::vector<FileOutcome>& outcomes) {
+  for (const FileOutcome& outcome : outcomes) {
+    if (outcome.fitted) return;
+  }
+  std::rethrow_exception(outcomes.front().error);
+}
+
+// Prints one line for each file that failed and for each result that is not to be trusted, and
+// returns the exit status.
+int report_defects(const std::vector<FileOutcome>& outcomes, std::ostream& err) {
   int status = kDone;
-  for (const FittedFile& file : fitted) {
-    if (file.result.is_trustworthy) continue;
+  for (const FileOutcome& outcome : outcomes) {
+    if (outcome.fitted && outcome.fitted->result.is_trustworthy) continue;
     status = kFailed;
+    if (!outcome.fitted) {
+      try {
+        std::rethrow_exception(outcome.error);
+      } catch (const std::exception& error) {
+        err << "viscard: " << error.what() << "\n";
+      }
+      continue;
+    }
     std::string names;
-    for (const MaterialFlag& flag : file.result.flags) {
+    for (const MaterialFlag& flag : outcome.fitted->result.flags) {
       if (is_defect(flag.name)) names += (names.empty() ? "" : "; ") + flag.text;
     }
-    err << "viscard: " << file.path << ": the result is not to be trusted: " << names << "\n";
+    err << "viscard: " << outcome.path << ": the result is not to be trusted: " << names << "\n";
   }
   return status;
 }
@@ -232,17 +267,22 @@ int run_fit(const Words& words, Streams& streams) {
   const FlowProgress show = [&](double done, const std::string& file) {
     progress.show(done, file);
   };
-  const std::vector<FittedFile> fitted =
-      is_several ? std::vector<FittedFile>{fit_tests(tests, fit_words, show)}
-                 : fit_files(files, fit_words, show);
+  std::vector<FileOutcome> outcomes;
+  if (is_several) {
+    const FittedFile fitted = fit_tests(tests, fit_words, show);
+    outcomes.push_back({fitted.path, fitted, nullptr});
+  } else {
+    outcomes = fit_each_file(files, fit_words, show);
+  }
   progress.clear();
-  print(fitted, values->count("json") > 0, streams.out);
+  require_one(outcomes);
+  print(outcomes, values->count("json") > 0, streams.out);
   if (out) {
-    Material material = material_from_fitted(fitted.front(), about);
+    Material material = material_from_fitted(*outcomes.front().fitted, about);
     if (const auto ratio = given<Numbers>(*values, "ratio")) material.mixing_ratio = ratio->front();
     write_file(*out, json_from_material(material), overwrite);
   }
-  return report_defects(fitted, streams.err);
+  return report_defects(outcomes, streams.err);
 }
 
 }  // namespace viscard

@@ -292,3 +292,17 @@ TEST_CASE("a law does not keep answers and flags of the series", "[fit]") {
 TEST_CASE("without being asked for, no law is fitted", "[fit]") {
   CHECK(fit_relaxation(relaxation_of(s2(), 400, 1000.0, 0.002, 5)).laws.empty());
 }
+
+TEST_CASE("a law with an unknown E0 does not advise fewer terms", "[fit]") {
+  FitResult fit = relaxation_fit(
+      [](double t) { return 1e6 + 2e6 * std::exp(-std::pow(t / 3.0, 0.5)); }, 0.01, 4);
+  for (FittedLaw& one : fit.laws) one.series_covariance *= 1e8;  // as of a record of few rows
+  take_law("kww", fit);
+  const auto flag = std::find_if(fit.flags.begin(), fit.flags.end(), [](const MaterialFlag& one) {
+    return one.name == "E0-unknown";
+  });
+  REQUIRE(flag != fit.flags.end());
+  CHECK(flag->text.find("fewer terms") == std::string::npos);
+  CHECK(flag->text.find("another law") != std::string::npos);
+  CHECK_FALSE(fit.is_trustworthy);
+}

@@ -151,6 +151,15 @@ TEST_CASE("names and texts of any spelling stay text", "[io][report]") {
   CHECK(has(text_of(html), nasty));
 }
 
+TEST_CASE("the page names the term of a flag once", "[io][report]") {
+  ReportInput input = synthetic_report();
+  input.specimens.resize(1);
+  input.specimens[0].fit->flags = {{"tau-below-ramp", 1, "term 1: relaxation time 0.1 s"}};
+  const std::string text = text_of(html_of(input));
+  CHECK(has(text, "term 1: relaxation time 0.1 s"));
+  CHECK_FALSE(has(text, "term 1: term 1:"));
+}
+
 TEST_CASE("NaN and infinity are never printed", "[io][report]") {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   ReportInput input = synthetic_report();

@@ -74,6 +74,11 @@ TEST_CASE("primes of moduli are read as instruments write them", "[io][csv]") {
 TEST_CASE("angular frequency becomes frequency", "[io][csv]") {
   const double two_pi = 2.0 * std::numbers::pi;
   CHECK(first("omega,G'\n3,1\n", "frequency_Hz") == Approx(3.0 / two_pi).epsilon(1e-15));
+  for (const char* name : {"omega_rad_s", "angular_frequency_rad_s", "frequency_rad_s"}) {
+    CAPTURE(name);
+    CHECK(first(std::string(name) + ",G'\n3,1\n", "frequency_Hz") ==
+          Approx(3.0 / two_pi).epsilon(1e-15));
+  }
   CHECK(first("w (rad/s),G' (Pa)\n3,1\n", "frequency_Hz") == Approx(3.0 / two_pi).epsilon(1e-15));
   CHECK(first("f (Hz),G'\n3,1\n", "frequency_Hz") == 3.0);
   CHECK(first("f (rad/s),G'\n3,1\n", "frequency_Hz") == Approx(3.0 / two_pi).epsilon(1e-15));

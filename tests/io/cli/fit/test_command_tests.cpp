@@ -185,3 +185,24 @@ TEST_CASE("the page shows each of several tests with its residuals", "[cli][plot
   }
   CHECK(nlohmann::json::parse(made.out)["specimens"][0]["files"].size() == 3);
 }
+
+TEST_CASE("one file that fails does not lose the others", "[cli]") {
+  const Tables tables;
+  const std::string bad = tables.folder.write("bad.csv", "time_s,modulus_Pa\n1,2\n");
+  const CommandOutcome json = run_command({"fit", tables.relaxation_, bad, tables.creep_, "--json"});
+  CHECK(json.status == kFailed);
+  const auto fits = nlohmann::json::parse(json.out)["fits"];
+  REQUIRE(fits.size() == 3);
+  CHECK(fits[0]["kind"] == "relaxation");
+  CHECK(fits[1]["file"] == bad);
+  CHECK_THAT(fits[1]["error"]["message"].get<std::string>(), Contains("rows"));
+  CHECK(fits[2]["kind"] == "creep");
+  CHECK_THAT(json.err, Contains(bad));
+  const CommandOutcome text = run_command({"fit", bad, tables.relaxation_});
+  CHECK(text.status == kFailed);
+  CHECK_THAT(text.out, Contains(tables.relaxation_ + ": relaxation"));
+  CHECK_THAT(text.err, Contains(bad));
+  // Without a single result the whole fails, as before.
+  const auto none = nlohmann::json::parse(run_command({"fit", bad, bad, "--json"}).out);
+  CHECK(none.contains("error"));
+}
