@@ -244,6 +244,9 @@ FitResult fit_as(const std::vector<MaterialTest>& tests, const FitOptions& optio
   result.is_stiffness = std::all_of(tests.begin(), tests.end(),
                                     [](const MaterialTest& test) { return test.own.is_stiffness; });
   fill_result(*joint.model, fit, relaxation_series_of(*joint.model, options.is_liquid), result);
+  // Creep may determine a small E_inf so well that it seems to differ from zero; BIC decides.
+  constexpr double kSmallShare = 0.01;
+  result.may_flow |= result.E_inf_Pa < kSmallShare * result.E0_Pa;
   double independent = 0.0;
   for (const NoiseGroup& group : joint.groups) {
     independent += group.n_samples / group.noise.inflation();
