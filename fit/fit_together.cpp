@@ -3,7 +3,7 @@
 #include "fit/assembly/assemble_result.h"
 #include "fit/assembly/joint_spectrum.h"
 #include "fit/assembly/solid_or_liquid.h"
-#include "fit/assembly/test_agreement.h"
+#include "fit/compare_tests.h"
 #include "fit/intervals/flags.h"
 #include "fit/intervals/kept_rows.h"
 #include "fit/intervals/left_out.h"
@@ -138,65 +138,6 @@ FittedTest fitted_test(const MaterialTest& test, const JointTests& joint, std::s
   return one;
 }
 
-// The order with the best AICc, if it is larger: a misfit of too few terms is no disagreement.
-const SpectralState& generous_state(const SpectralFit& fit) {
-  std::size_t best = fit.scores.chosen;
-  for (std::size_t i = best + 1; i < fit.path.size(); ++i) {
-    if (fit.scores.rows[i].aicc < fit.scores.rows[best].aicc) best = i;
-  }
-  return best == fit.scores.chosen ? fit.state : fit.path[best];
-}
-
-std::string percent(double share) {
-  return text_of(100.0 * std::abs(share), 3);
-}
-
-std::string text_of_difference(const FittedTest& test) {
-  const bool is_factor = std::abs(test.worst - test.difference) < 1e-12;
-  const bool is_above = test.worst > 0.0;
-  std::string text = "the " + test.name + " lies " + (is_factor ? "" : "up to ") +
-                     percent(test.worst) + " % " + (is_above ? "above" : "below") +
-                     " what the other tests allow (";
-  if (is_factor) {
-    const Interval& range = test.difference_95;
-    text += "95 % " + percent(is_above ? range.low : range.high) + " to " +
-            percent(is_above ? range.high : range.low) + " %, ";
-  }
-  return text + (test.p_value < 1e-12 ? "p below 1e-12" : "p = " + text_of(test.p_value, 2)) + ")";
-}
-
-void compare_tests(const JointTests& joint, const SpectralFit& fit, FitResult& result) {
-  constexpr double kSmall = 5e-3;   // of the values; less does not matter to a material
-  constexpr double kChance = 0.01;  // of a report for tests that agree, all together
-  const Eigen::VectorXd used = leverage_by_group(*joint.model, fit.state, joint.groups);
-  const std::vector<TestAgreement> found = test_agreement(
-      *joint.model, generous_state(fit), joint.groups, joint.ln_time, noise_freedom(joint, used));
-  std::vector<const FittedTest*> different;
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    FittedTest& test = result.tests[k];
-    test.difference = found[k].difference;
-    test.difference_95 = found[k].difference_95;
-    test.worst = found[k].worst;
-    test.p_value = found[k].p_value;
-    test.freedom = found[k].freedom;
-    const bool is_chance = test.p_value > kChance / static_cast<double>(found.size());
-    test.disagrees = test.freedom > 0 && !is_chance && found[k].at_least > kSmall;
-    if (test.disagrees) different.push_back(&test);
-  }
-  if (different.empty()) return;
-  std::stable_sort(
-      different.begin(), different.end(),
-      [](const FittedTest* a, const FittedTest* b) { return a->p_value < b->p_value; });
-  std::string text = "the tests do not belong to one linear material: ";
-  for (const FittedTest* test : different) {
-    text += (test == different.front() ? "" : "; ") + text_of_difference(*test);
-  }
-  add_defect(result, "tests-disagree",
-             text +
-                 ". Compare strain, temperature, specimen and geometry of the tests, or fit them "
-                 "one by one");
-}
-
 // Flags of a test's own fit that are about its data; what its window does not show, others may.
 void carry_flags(const MaterialTest& test, FitResult& result) {
   constexpr std::array kAboutData{
@@ -259,7 +200,8 @@ FitResult fit_as(const std::vector<MaterialTest>& tests, const FitOptions& optio
     result.n_samples += tests[k].own.n_samples;
   }
   report_window(tests, *joint.model, fit, result);
-  compare_tests(joint, fit, result);
+  const Eigen::VectorXd used = leverage_by_group(*joint.model, fit.state, joint.groups);
+  compare_tests(joint, fit, noise_freedom(joint, used), result);
   return result;
 }
 

@@ -18,12 +18,18 @@ struct Residual {
   Eigen::MatrixXd basis;  // of what the parameters can do
 };
 
-Residual residual_of(const JointModel& model, const SpectralState& state) {
+// own: columns of one test, from this row on, that count as further parameters.
+Residual residual_of(const JointModel& model, const SpectralState& state, Index first_row,
+                     const Eigen::MatrixXd& own) {
   const Index priors = model.n_nuisances(), rows = model.n_rows();
   Eigen::MatrixXd jacobian = full_jacobian(model, state);
+  const Index n_parameters = jacobian.cols();
   jacobian.conservativeResize(rows + priors, Eigen::NoChange);
   jacobian.bottomRows(priors).setZero();
   jacobian.bottomRightCorner(priors, priors).diagonal() = model.prior_weight();
+  jacobian.conservativeResize(Eigen::NoChange, n_parameters + own.cols());
+  jacobian.rightCols(own.cols()).setZero();
+  jacobian.block(first_row, n_parameters, own.rows(), own.cols()) = own;
   for (Index j = 0; j < jacobian.cols(); ++j) {
     const double norm = jacobian.col(j).norm();
     if (norm > 0.0) jacobian.col(j) /= norm;
@@ -33,6 +39,16 @@ Residual residual_of(const JointModel& model, const SpectralState& state) {
   of.left.resize(rows + priors);
   of.left << model.data() - model.fitted(state), -model.prior_residual(state.nuisance);
   return of;
+}
+
+// A parabola in log time: 1, u, u^2 of each row, with u from -1 to 1.
+Eigen::MatrixXd powers_of(const Eigen::VectorXd& ln_time) {
+  const double middle = 0.5 * (ln_time.maxCoeff() + ln_time.minCoeff());
+  const double half = std::max(0.5 * (ln_time.maxCoeff() - ln_time.minCoeff()), 1e-9);
+  const Eigen::ArrayXd u = (ln_time.array() - middle) / half;
+  Eigen::MatrixXd powers(ln_time.size(), 3);
+  powers << Eigen::VectorXd::Ones(u.size()), u.matrix(), u.square().matrix();
+  return powers;
 }
 
 // Departures of a test from the spectrum that the others leave testable.
@@ -110,11 +126,7 @@ TestAgreement agreement_of(std::size_t k, const JointModel& model, const Spectra
                            const Residual& residual, const std::vector<NoiseGroup>& groups,
                            const Eigen::VectorXd& ln_time, const Eigen::VectorXd& freedom) {
   const Eigen::VectorXd value = model.moduli_part(k, state);
-  const double middle = 0.5 * (ln_time.maxCoeff() + ln_time.minCoeff());
-  const double half = std::max(0.5 * (ln_time.maxCoeff() - ln_time.minCoeff()), 1e-9);
-  const Eigen::ArrayXd u = (ln_time.array() - middle) / half;
-  Eigen::MatrixXd powers(ln_time.size(), 3);
-  powers << Eigen::VectorXd::Ones(u.size()), u.matrix(), u.square().matrix();
+  const Eigen::MatrixXd powers = powers_of(ln_time);
   TestAgreement agreement;
   const Departures all = departures(residual, model.first_row(k), value, powers);
   agreement.freedom = static_cast<int>(all.rows.cols());
@@ -146,8 +158,11 @@ TestAgreement agreement_of(std::size_t k, const JointModel& model, const Spectra
 std::vector<TestAgreement> test_agreement(const JointModel& model, const SpectralState& state,
                                           const std::vector<NoiseGroup>& groups,
                                           const std::vector<Eigen::VectorXd>& ln_time,
-                                          const Eigen::VectorXd& freedom) {
-  const Residual residual = residual_of(model, state);
+                                          const Eigen::VectorXd& freedom,
+                                          std::optional<std::size_t> freed) {
+  Eigen::MatrixXd own;
+  if (freed) own = model.moduli_part(*freed, state).asDiagonal() * powers_of(ln_time[*freed]);
+  const Residual residual = residual_of(model, state, freed ? model.first_row(*freed) : 0, own);
   std::vector<TestAgreement> found;
   for (std::size_t k = 0; k < groups.size(); ++k) {
     found.push_back(agreement_of(k, model, state, residual, groups, ln_time[k], freedom));

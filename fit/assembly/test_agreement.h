@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace viscard {
@@ -27,10 +28,11 @@ struct TestAgreement {
 };
 
 // For each test. state: an optimum of the model. ln_time: of the rows of each test. freedom: of each
-// test's own noise.
+// test's own noise. freed: this test has a parabola of its own while the others are compared.
 std::vector<TestAgreement> test_agreement(const JointModel& model, const SpectralState& state,
                                           const std::vector<NoiseGroup>& groups,
                                           const std::vector<Eigen::VectorXd>& ln_time,
-                                          const Eigen::VectorXd& freedom);
+                                          const Eigen::VectorXd& freedom,
+                                          std::optional<std::size_t> freed = std::nullopt);
 
 }  // namespace viscard

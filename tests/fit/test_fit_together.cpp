@@ -188,6 +188,8 @@ TEST_CASE("a disagreement of 5 % is found and told, and the result is not truste
     // The compliance is 1/1.05 of the one that belongs to the other tests.
     CHECK(holds({creep.difference_95.low - 0.005, creep.difference_95.high + 0.005}, 1 / 1.05 - 1));
     CHECK(creep.p_value < 1e-6);
+    CHECK_FALSE(fit.tests[0].disagrees);  // relaxation and oscillation agree without the creep
+    CHECK_FALSE(fit.tests[2].disagrees);
     const auto flag = std::find_if(fit.flags.begin(), fit.flags.end(),
                                    [](const auto& one) { return one.name == "tests-disagree"; });
     CHECK_THAT(flag->text, Contains("the creep lies") && Contains("% below") && Contains("p "));
