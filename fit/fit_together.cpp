@@ -9,7 +9,6 @@
 #include "fit/intervals/left_out.h"
 #include "fit/joint_tests.h"
 #include "models/maths/f_distribution.h"
-#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <array>
@@ -101,7 +100,7 @@ FitCurves curves_of(const MaterialTest& test, const JointTests& joint, std::size
 }
 
 // What a test shows, since its load began: as in the window of a material.
-Interval window_of(const FitResult& own) {
+Interval shown_window(const FitResult& own) {
   if (own.kind == FitKind::kIndentation) return {own.fastest_s, own.fit_to_s - own.fit_from_s};
   return {std::max(0.0, own.fit_from_s), own.fit_to_s - std::min(0.0, own.fit_from_s)};
 }
@@ -116,7 +115,7 @@ FittedTest fitted_test(const MaterialTest& test, const JointTests& joint, std::s
   one.n_samples = own.n_samples;
   one.noise = {joint.sigma[k], joint.groups[k].noise.inflation()};
   one.rss = own_unit_rss(joint, k, fit.state);
-  const Interval window = window_of(own);
+  const Interval window = shown_window(own);
   one.from_s = window.low;
   one.to_s = window.high;
   one.own_terms = static_cast<int>(own.terms.size());

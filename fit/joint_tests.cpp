@@ -29,7 +29,7 @@ double fastest_s(const KeptRows& rows) {
 }
 
 // The first test with moduli counts as it is; without one, the first test.
-std::size_t reference_of(const std::vector<MaterialTest>& tests) {
+std::size_t fixed_test(const std::vector<MaterialTest>& tests) {
   const auto found = std::find_if(tests.begin(), tests.end(),
                                   [](const MaterialTest& test) { return !test.own.is_stiffness; });
   return found == tests.end() ? 0 : static_cast<std::size_t>(found - tests.begin());
@@ -107,7 +107,7 @@ Eigen::VectorXd ln_times(const std::vector<double>& time_s, const KeptRows& rows
 }
 
 // Blocks of one test; storage and loss of one frequency share a block.
-std::vector<int> blocks_of(const KeptRows& rows, std::vector<double> time_s) {
+std::vector<int> blocks_of_test(const KeptRows& rows, std::vector<double> time_s) {
   const bool is_oscillation = rows.shape == KeptRows::Shape::kOscillation;
   if (is_oscillation) time_s.assign(rows.at.begin(), rows.at.end());
   const std::size_t shortest = rows.shape == KeptRows::Shape::kHistory ? 2 : 1;
@@ -133,7 +133,7 @@ void set_sigma(std::size_t k, double sigma, JointTests& joint) {
 }
 
 JointTests joint_tests(const std::vector<MaterialTest>& tests, const FitOptions& options) {
-  const std::size_t reference = reference_of(tests);
+  const std::size_t reference = fixed_test(tests);
   std::vector<JointMember> members;
   JointTests joint;
   int n_blocks = 0;
@@ -150,7 +150,7 @@ JointTests joint_tests(const std::vector<MaterialTest>& tests, const FitOptions&
     }
     const std::vector<double> time_s = row_times_s(rows, *member.model);
     joint.ln_time.push_back(ln_times(time_s, rows));
-    for (const int block : blocks_of(rows, time_s)) joint.blocks.push_back(n_blocks + block);
+    for (const int block : blocks_of_test(rows, time_s)) joint.blocks.push_back(n_blocks + block);
     n_blocks = joint.blocks.back() + 1;
     joint.groups.push_back({first_row, member.model->n_rows(), member.model->row_begins(),
                             member.model->n_samples(), 1.0, rows.noise, rows.slow});
