@@ -109,6 +109,8 @@ TEST_CASE("what accuracy costs: rows, a front, and advice that keeps what it pro
   for (const auto& row : study["rows"]) {
     CHECK(row["unknowns"].get<int>() > 0);
     CHECK(row["wall_s"].get<double>() > 0.0);
+    CHECK(row["cpu_s"].get<double>() > 0.0);
+    CHECK_FALSE(row["predicted"].get<bool>());
     CHECK(row["error"].get<double>() >= 0.0);
   }
   for (const auto& advice : study["recommendations"]) {
@@ -119,18 +121,26 @@ TEST_CASE("what accuracy costs: rows, a front, and advice that keeps what it pro
   for (const char* name : {"cost.csv", "cost.json", "cost.svg"}) {
     CHECK(std::ifstream(out + "/" + name).good());
   }
+  CHECK(study["machine"]["cores"].get<int>() >= 1);
+  CHECK(study["machine"]["processor_share"].get<double>() > 0.0);
+  CHECK(study["rows"].size() + study["predicted_rows"].size() ==
+        study["rows"].size() + study["rows_left_out"].get<std::size_t>());
+  std::stringstream picture;
+  picture << std::ifstream(out + "/cost.svg").rdbuf();
+  for (const char* part : {"processor time (s)", "the scene's tolerance, 0.001", ">p2/1<"}) {
+    CAPTURE(part);
+    CHECK(picture.str().find(part) != std::string::npos);
+  }
   CHECK(run_command({"cost", scene.path(), "--budget", "soon"}).status == 2);
 }
 
 TEST_CASE("the factor over linear elements is read off the line through their errors",
           "[io][scene]") {
   CostStudy study;
-  study.rows = {{.discretisation = "h1 10 um", .effects = "all on", .wall_s = 1e-3, .error = 4e-2},
-                {.discretisation = "h1 5 um", .effects = "all on", .wall_s = 1e-2, .error = 4e-3},
-                {.discretisation = "graded p4, 2 layers",
-                 .effects = "all on",
-                 .wall_s = 2e-3,
-                 .error = 9e-4}};
+  study.rows = {
+      {.discretisation = "h1 10 um", .effects = "all on", .cpu_s = 1e-3, .error = 4e-2},
+      {.discretisation = "h1 5 um", .effects = "all on", .cpu_s = 1e-2, .error = 4e-3},
+      {.discretisation = "graded p4, 2 layers", .effects = "all on", .cpu_s = 2e-3, .error = 9e-4}};
   const auto beyond = factor_over_linear(study, 1e-3);  // error falls as 1/time here
   REQUIRE(beyond);
   CHECK(beyond->factor == Approx(4e-2 / 2e-3).epsilon(1e-12));
