@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -81,8 +82,7 @@ std::vector<Trial> effect_trials(const Body& scene, const Discretisation& mesh) 
     if (estimate.role != EffectRole::kOptional || estimate.error == 0.0) continue;
     Body without = std::get<Body>(with_all_on(scene));
     on.leave_out(without);
-    trials.push_back({graded_name(mesh), std::string("without ") + effect.name, without,
-                      mesh_without_effect(without, mesh)});
+    trials.push_back({graded_name(mesh), effect.name, without, mesh_without_effect(without, mesh)});
   }
   return trials;
 }
@@ -136,12 +136,25 @@ CostTrials trials_of(const Scene& scene) {
   const auto append = [&](std::vector<Trial> more) {
     rows.insert(rows.end(), more.begin(), more.end());
   };
-  append(std::visit([&](const auto& body) { return effect_trials(body, usual); }, scene));
+  std::vector<Trial> of_effects =
+      std::visit([&](const auto& body) { return effect_trials(body, usual); }, scene);
+  for (Trial& one : of_effects) one.effects = "without " + one.effects;
+  append(std::move(of_effects));
   append(time_trials(scene, usual));
   rows.push_back({graded_name(usual), "as planned", plan.reduced, usual});
   for (const Trial& row : rows) {
     trials.rows.push_back(trial_from(row, kind_of_mesh(row.discretisation)));
   }
+  return trials;
+}
+
+std::vector<CostTrial> effect_trials_on(const Scene& scene, int degree, int layers) {
+  const Scene all_on = with_all_on(scene);
+  const Discretisation mesh = graded_mesh(all_on, degree, layers);
+  std::vector<CostTrial> trials{trial_from({graded_name(mesh), "all on", all_on, mesh}, kGraded)};
+  const std::vector<Trial> without =
+      std::visit([&](const auto& body) { return effect_trials(body, mesh); }, scene);
+  for (const Trial& one : without) trials.push_back(trial_from(one, kGraded));
   return trials;
 }
 

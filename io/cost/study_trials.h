@@ -31,6 +31,10 @@ struct CostTrials {
 };
 CostTrials trials_of(const Scene& scene);
 
+// The scene with all effects on, then without each effect that the plan might leave out, named by
+// the effect, on a graded mesh.
+std::vector<CostTrial> effect_trials_on(const Scene& scene, int degree, int layers);
+
 // The meshes that a cost study of a scene compares, by kind of scene.
 struct CostMeshes {
   double diameter_m = 0.0;

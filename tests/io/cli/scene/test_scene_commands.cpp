@@ -90,8 +90,35 @@ TEST_CASE("the plan is one object with every effect, estimate and reason", "[cli
     CHECK_FALSE(effect["reason"].get<std::string>().empty());
   }
   CHECK(object["left_out"].get<double>() <= 0.5 * object["tolerance"].get<double>());
+  // Without [want] the film's coupling is a need, so that there is nothing to save.
+  CHECK(object["savings"].is_array());
   CHECK(run_command({"plan"}).status == 2);
   CHECK(run_command({"plan", scene.path(), "--tol", "2"}).status == 2);
+}
+
+TEST_CASE("the plan shows choices, what leaving them out saves, and why the rest is as it is",
+          "[cli][scene]") {
+  const SceneText scene(std::string(kSensor) + "[want]\nquantities = [\"electrode_voltage\"]\n");
+  const CommandOutcome printed = run_command({"plan", scene.path()});
+  REQUIRE(printed.status == 0);
+  CAPTURE(printed.out);
+  CHECK(printed.out.find("1.0e+00") == std::string::npos);
+  CHECK(printed.out.find("\n  piezo_coupling ") != std::string::npos);  // a choice
+  CHECK(printed.out.find("\n  crosstalk ") == std::string::npos);       // none
+  CHECK(printed.out.find("  off, not needed\n") < printed.out.find("    crosstalk: "));
+  CHECK(printed.out.find("  on, needed\n") < printed.out.find("    film_compliance: "));
+  CHECK(printed.out.find("  without piezo_coupling: ") != std::string::npos);
+  const auto object = nlohmann::json::parse(run_command({"plan", scene.path(), "--json"}).out);
+  REQUIRE(object["savings"].size() == 1);
+  const auto& saving = object["savings"][0];
+  CHECK(saving["effect"] == "piezo_coupling");
+  CHECK(saving["cpu_s"].get<double>() > 0.0);
+  // One way solves displacements and potentials one after the other.
+  CHECK(saving["unknowns_without"].get<int>() < saving["unknowns"].get<int>());
+  for (const auto& effect : object["effects"]) {
+    CAPTURE(effect["name"].get<std::string>());
+    CHECK(effect["choice"].get<bool>() == (effect["name"] == "piezo_coupling"));
+  }
 }
 
 TEST_CASE("what accuracy costs: rows, a front, and advice that keeps what it promises",
