@@ -1,6 +1,8 @@
 #include "io/cost/study_trials.h"
+#include "models/array/plane/array_geometry.h"
 #include "models/array/plane/simulate_array.h"
 #include "models/pillar/analyses/analysis.h"
+#include "models/pillar/body/pillar_model.h"
 #include "models/pillar/mesh/pillar_mesh.h"
 
 #include <algorithm>
@@ -59,6 +61,40 @@ Discretisation without_effect(const ArrayScene&, Discretisation mesh) {
   return mesh;
 }
 
+// Unknowns of axial motion with its potential, with the bottom and one face of the film held.
+// Other motions have more fields, in about the same proportion on every mesh.
+double size_of(const PillarScene& scene, const Discretisation& mesh) {
+  const PillarMesh made = pillar_mesh(with_electrode_edge(scene.geometry, scene.electrodes), mesh);
+  const Section& section = made.section;
+  const double bottom_m = scene.film ? -scene.geometry.film->thickness_m : 0.0;
+  double count = 0.0;
+  for (int node = 0; node < section.node_count(); ++node) {
+    const double z_m = section.node_z(node);
+    if (z_m > bottom_m) count += section.node_x(node) > 0.0 ? 2.0 : 1.0;
+    if (scene.electrodes && z_m < 0.0) count += 1.0;
+  }
+  return count;
+}
+
+// Unknowns of the pieces of a row and of the chain that joins them (models/array/plane).
+double size_of(const ArrayScene& scene, const Discretisation& mesh) {
+  const ArrayMesh lines = array_mesh(scene.geometry, scene.electrodes, mesh);
+  const auto nodes = [&](std::size_t breaks) {
+    return static_cast<double>(mesh.degree) * (static_cast<double>(breaks) - 1.0);
+  };
+  const double fields = scene.film.has_permittivity() ? 3.0 : 2.0;
+  const double end = fields * nodes(lines.film_z.size());
+  const int under = lines.last_pillar_column - lines.first_pillar_column;
+  double count = 2.0 * (mesh.degree * under + 1.0) * nodes(lines.pillar_z.size());
+  int pieces = scene.geometry.count;
+  for (const auto* piece : {&lines.cell_x, &lines.gap_x, &lines.edge_x}) {
+    if (!piece->empty()) count += end * (nodes(piece->size()) + 1.0);
+  }
+  if (!lines.gap_x.empty()) pieces += scene.geometry.count - 1;
+  if (!lines.edge_x.empty()) pieces += 2;
+  return count + end * (pieces + 1);
+}
+
 }  // namespace
 
 CostMeshes cost_meshes(const Scene& scene) {
@@ -73,6 +109,10 @@ Discretisation uniform_mesh(const Scene& scene, int degree) {
   Discretisation mesh = graded_mesh(scene, degree, 1);
   mesh.layers = cost_meshes(scene).uniform_layers;
   return mesh;
+}
+
+double mesh_size(const Scene& scene, const Discretisation& mesh) {
+  return std::visit([&](const auto& body) { return size_of(body, mesh); }, scene);
 }
 
 Discretisation mesh_without_effect(const Scene& without, Discretisation mesh) {

@@ -1,22 +1,17 @@
 #include "io/cost/study_cost.h"
 
+#include "io/cost/cost_model.h"
 #include "io/cost/study_trials.h"
 
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <fstream>
+#include <limits>
+#include <optional>
 
 namespace viscard {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Largest relative error of what the reference is asked for.
 double relative_error(const SceneAnswer& answer, const SceneAnswer& reference) {
@@ -37,139 +32,182 @@ double relative_error(const SceneAnswer& answer, const SceneAnswer& reference) {
   return largest;
 }
 
-// A line of /proc/self/status in bytes; 0 if it is not there.
-double status_B(const std::string& key) {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  double kB = 0.0;
-  while (status >> word) {
-    if (word == key && status >> kB) return 1024.0 * kB;
-  }
-  return 0.0;
-}
-
 constexpr double kQuick_s = 0.3;  // rows that take less are repeated
+// The first rows run although the budget is spent, if they are as quick as this.
+constexpr std::size_t kShown = 3;
+constexpr double kShown_s = 0.1;
+constexpr double kReferenceShare = 0.5;  // of the budget, at most
 
-// What a row will take at most, from the last of its kind: the factors of direct solvers in the
-// plane, unknowns^1.5, on meshes of half the size (8) and one degree or layer more.
-double expected_s(const Discretisation& mesh, const std::vector<CostRow>& rows, int repeats) {
-  for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
-    const Discretisation& last = row->mesh;
-    if ((last.uniform_m > 0.0) != (mesh.uniform_m > 0.0)) continue;
-    const double finer = mesh.uniform_m > 0.0 ? last.uniform_m / mesh.uniform_m : 1.0;
-    const double higher = static_cast<double>(mesh.degree) / last.degree;
-    const double layers = static_cast<double>(mesh.layers) / last.layers;
-    const double once_s = row->wall_s * std::pow(std::max(finer * higher * layers, 0.0), 3.0);
-    return once_s < kQuick_s ? once_s * repeats : once_s;
-  }
-  return 0.0;
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
 }
 
-// Runs once or, if that was quick, a few times.
-CostRow measured(const CostTrial& trial, const SceneAnswer& reference, int repeats) {
-  CostRow row{trial.discretisation, trial.effects, trial.mesh};
-  std::vector<double> wall_s;
-  do {
-    malloc_trim(0);                                 // what earlier rows left behind
-    std::ofstream("/proc/self/clear_refs") << "5";  // the peak starts anew
-    const double before_B = status_B("VmRSS:");
-    const Clock::time_point start = Clock::now();
-    const SceneAnswer answer = trial.run();
-    wall_s.push_back(seconds_since(start));
-    row.memory_B = std::max(row.memory_B, status_B("VmHWM:") - before_B);
-    row.unknowns = answer.unknowns;
-    row.error = relative_error(answer, reference);
-  } while (wall_s.back() < kQuick_s && static_cast<int>(wall_s.size()) < repeats);
-  std::sort(wall_s.begin(), wall_s.end());
-  row.wall_s = wall_s[wall_s.size() / 2];
+struct Ran {
+  CostRow row;
+  SceneAnswer answer;
+};
+
+// Runs trials within a budget of wall time and learns what they cost.
+class CostRunner {
+ public:
+  CostRunner(const CostOptions& options, std::size_t count)
+      : options_(options),
+        count_(count),
+        start_wall_s_(options.clock.wall_s()),
+        start_cpu_s_(options.clock.cpu_s()) {}
+
+  double spent_s() const { return options_.clock.wall_s() - start_wall_s_; }
+  double left_s() const { return options_.budget_s - spent_s(); }
+  // Of all processor time that passed by since the start, what this program got.
+  double share() const {
+    const double wall_s = spent_s();
+    return wall_s > 0.0 ? (options_.clock.cpu_s() - start_cpu_s_) / wall_s : 1.0;
+  }
+  // Wall time that a trial will take with its repeats, on a machine as busy as it was so far.
+  double expected_s(const CostTrial& trial, int repeats) const {
+    const double once_s = model_.cpu_s(trial.kind, trial.size);
+    const double all_s = once_s < kQuick_s ? once_s * repeats : once_s;
+    return all_s / std::clamp(share(), 1e-3, 1.0);
+  }
+  const CostModel& model() const { return model_; }
+
+  // Runs once or, if that was quick, a few times.
+  Ran run(const CostTrial& trial, int repeats) {
+    if (options_.progress) {
+      options_.progress(static_cast<double>(done_) / static_cast<double>(count_),
+                        trial.discretisation);
+    }
+    ++done_;
+    Ran ran{{trial.discretisation, trial.effects, trial.mesh}, {}};
+    std::vector<double> wall_s, cpu_s;
+    do {
+      forget_peak();
+      const double before_B = resident_B();
+      const double wall_before_s = options_.clock.wall_s();
+      const double cpu_before_s = options_.clock.cpu_s();
+      ran.answer = trial.run();
+      cpu_s.push_back(options_.clock.cpu_s() - cpu_before_s);
+      wall_s.push_back(options_.clock.wall_s() - wall_before_s);
+      ran.row.memory_B = std::max(ran.row.memory_B, peak_resident_B() - before_B);
+    } while (cpu_s.back() < kQuick_s && static_cast<int>(cpu_s.size()) < repeats &&
+             wall_s.back() < left_s());
+    ran.row.unknowns = ran.answer.unknowns;
+    ran.row.cpu_s = median(cpu_s);
+    ran.row.wall_s = median(wall_s);
+    model_.add(trial.kind, {.unknowns = static_cast<double>(ran.row.unknowns),
+                            .cpu_s = ran.row.cpu_s,
+                            .memory_B = ran.row.memory_B,
+                            .size = trial.size});
+    return ran;
+  }
+
+ private:
+  const CostOptions& options_;
+  std::size_t count_;
+  std::size_t done_ = 0;
+  double start_wall_s_, start_cpu_s_;
+  CostModel model_;
+};
+
+// The finest reference that half of the budget allows, and one of a lower degree to estimate its
+// error. Starts with the coarsest and jumps to the best pair whose predicted time fits.
+struct References {
+  Ran finest;
+  std::optional<SceneAnswer> coarser;
+};
+
+References references_within(double share_s, const std::vector<CostTrial>& ladder,
+                             CostRunner& runner) {
+  const double stop_s = runner.spent_s() + share_s;
+  References found{runner.run(ladder.front(), 1), std::nullopt};
+  for (std::size_t at = 0; at + 1 < ladder.size();) {
+    std::size_t next = at;
+    for (std::size_t top = ladder.size() - 1; top > at && next == at; --top) {
+      const std::size_t first = std::max(top - 1, at + 1);
+      double needed_s = runner.expected_s(ladder[top], 1);
+      if (first < top) needed_s += runner.expected_s(ladder[first], 1);
+      if (runner.spent_s() + needed_s <= stop_s) next = first;
+    }
+    if (next == at) break;
+    found.coarser = std::move(found.finest.answer);
+    found.finest = runner.run(ladder[next], 1);
+    at = next;
+  }
+  return found;
+}
+
+PredictedRow predicted(const CostTrial& trial, const CostModel& model) {
+  PredictedRow row{.discretisation = trial.discretisation, .effects = trial.effects};
+  row.unknowns = model.unknowns(trial.kind, trial.size);
+  if (const auto power = model.power(trial.kind)) {
+    row.cpu_s = power->cpu_s_of(row.unknowns);
+    row.memory_B = power->memory_B_of(row.unknowns);
+  }
   return row;
 }
 
-void mark_front(std::vector<CostRow>& rows) {
-  for (CostRow& row : rows) {
-    row.is_on_front = std::none_of(rows.begin(), rows.end(), [&](const CostRow& other) {
-      return other.wall_s < row.wall_s && other.error <= row.error;
-    });
+// Laws of the kinds that rows were left out of.
+std::vector<CostLaw> laws_of(const CostTrials& trials, const CostModel& model) {
+  std::vector<CostLaw> laws;
+  for (const CostTrial& trial : trials.rows) {
+    const bool is_known = std::any_of(laws.begin(), laws.end(),
+                                      [&](const CostLaw& law) { return law.kind == trial.kind; });
+    const auto power = model.power(trial.kind);
+    if (is_known || !power) continue;
+    laws.push_back({trial.kind, power->cpu_s_of(1.0), power->exponent});
   }
+  return laws;
 }
 
-// Half the tolerance is for the row, half for what the reference itself does not know.
-CostAdvice advice_for(double tolerance, const CostStudy& study) {
-  const std::vector<CostRow>& rows = study.rows;
-  CostAdvice advice{tolerance, fmt::format("{:g}: none of these is accurate enough", tolerance)};
-  if (study.reference_error > 0.5 * tolerance) {
-    advice.text = fmt::format("{:g}: the reference itself is known to {:.1e} only", tolerance,
-                              study.reference_error);
-    return advice;
-  }
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].error > 0.5 * tolerance) continue;
-    if (advice.row >= 0 && rows[static_cast<std::size_t>(advice.row)].wall_s <= rows[i].wall_s) {
-      continue;
-    }
-    advice.row = static_cast<int>(i);
-  }
-  if (advice.row < 0) return advice;
-  const CostRow& row = rows[static_cast<std::size_t>(advice.row)];
-  advice.text = fmt::format("{:g}: {}, {} ({:.2g} ms, error {:.1e})", tolerance, row.discretisation,
-                            row.effects, 1e3 * row.wall_s, row.error);
-  return advice;
+std::size_t first_linear(const CostTrials& trials) {
+  const auto found =
+      std::find_if(trials.rows.begin(), trials.rows.end(),
+                   [](const CostTrial& trial) { return trial.kind == kLinearElements; });
+  return static_cast<std::size_t>(found - trials.rows.begin());
 }
 
 }  // namespace
 
-CostStudy study_cost(const Scene& scene, const CostOptions& options) {
-  const CostTrials trials = trials_of(scene);
-  const Clock::time_point start = Clock::now();
-  if (options.progress) options.progress(0.0, "reference");
-  const SceneAnswer reference = trials.reference();
+CostStudy study_of(const CostTrials& trials, const CostOptions& options) {
   CostStudy study;
-  study.reference_error = relative_error(trials.coarser_reference(), reference);
-  for (std::size_t i = 0; i < trials.rows.size(); ++i) {
-    const bool is_cheap = i < 4;  // something is always shown
-    const double left_s = options.budget_s - seconds_since(start);
-    if (!is_cheap && expected_s(trials.rows[i].mesh, study.rows, options.repeats) > left_s) {
-      ++study.left_out;
+  study.tolerance = trials.tolerance;
+  study.budget_s = options.budget_s;
+  study.machine = this_machine();
+  CostRunner runner(options, trials.rows.size() + 3);
+  std::vector<std::optional<Ran>> ran(trials.rows.size());
+  const std::size_t linear = first_linear(trials);
+  if (linear < ran.size()) ran[linear] = runner.run(trials.rows[linear], options.repeats);
+  const References references =
+      references_within(kReferenceShare * runner.left_s(), trials.references, runner);
+  for (std::size_t i = 0; i < ran.size(); ++i) {
+    if (ran[i]) continue;
+    const bool fits = runner.expected_s(trials.rows[i], options.repeats) <= runner.left_s();
+    const bool is_shown = i < kShown && runner.expected_s(trials.rows[i], 1) < kShown_s;
+    if (fits || is_shown) ran[i] = runner.run(trials.rows[i], fits ? options.repeats : 1);
+  }
+  for (std::size_t i = 0; i < ran.size(); ++i) {
+    if (!ran[i]) {
+      study.predicted.push_back(predicted(trials.rows[i], runner.model()));
       continue;
     }
-    if (options.progress) {
-      options.progress(static_cast<double>(i + 1) / static_cast<double>(trials.rows.size() + 1),
-                       trials.rows[i].discretisation);
-    }
-    study.rows.push_back(measured(trials.rows[i], reference, options.repeats));
+    ran[i]->row.error = relative_error(ran[i]->answer, references.finest.answer);
+    study.rows.push_back(ran[i]->row);
   }
-  mark_front(study.rows);
-  for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5}) {
-    study.advice.push_back(advice_for(tolerance, study));
-  }
+  if (!study.predicted.empty()) study.laws = laws_of(trials, runner.model());
+  study.left_out = static_cast<int>(study.predicted.size());
+  study.reference = references.finest.row.discretisation;
+  study.reference_error = references.coarser
+                              ? relative_error(*references.coarser, references.finest.answer)
+                              : std::numeric_limits<double>::infinity();
+  rank_by_processor_time(study);
+  study.machine.share = runner.share();
+  study.wall_s = runner.spent_s();
   return study;
 }
 
-std::optional<LinearFactor> factor_over_linear(const CostStudy& study, double error) {
-  const CostRow* quickest = nullptr;
-  std::vector<const CostRow*> linear;
-  for (const CostRow& row : study.rows) {
-    if (row.effects != "all on") continue;
-    if (row.discretisation.rfind("h1 ", 0) == 0) linear.push_back(&row);
-    const bool reaches = row.error <= error && row.wall_s > 0.0;
-    if (reaches && (quickest == nullptr || row.wall_s < quickest->wall_s)) quickest = &row;
-  }
-  if (quickest == nullptr || linear.size() < 2) return std::nullopt;
-  std::sort(linear.begin(), linear.end(),
-            [](const CostRow* a, const CostRow* b) { return a->error > b->error; });
-  std::size_t fine = 1;
-  while (fine + 1 < linear.size() && linear[fine]->error > error) ++fine;
-  const CostRow &coarser = *linear[fine - 1], &finer = *linear[fine];
-  const double fall = std::log(coarser.error / finer.error);
-  const double rise = std::log(finer.wall_s / coarser.wall_s);
-  // Errors that hardly fall with the mesh come from something else, and no line leads to zero.
-  constexpr double kSteepest = 5.0;  // time goes with the error to the -3 at the most
-  if (!(fall > 0.0 && rise > 0.0 && rise < kSteepest * fall)) return std::nullopt;
-  const double log_time = std::log(finer.wall_s) + std::log(finer.error / error) * rise / fall;
-  return LinearFactor{.error = error,
-                      .factor = std::exp(log_time) / quickest->wall_s,
-                      .is_extrapolated = error < linear.back()->error,
-                      .quickest = quickest->discretisation};
+CostStudy study_cost(const Scene& scene, const CostOptions& options) {
+  return study_of(trials_of(scene), options);
 }
 
 }  // namespace viscard

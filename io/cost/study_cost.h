@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/cost/cost_clock.h"
 #include "models/pillar/mesh/pillar_mesh.h"
 #include "models/scene/scene.h"
 
@@ -10,6 +11,8 @@
 
 namespace viscard {
 
+struct CostTrials;
+
 // What accuracy costs: one scene on many discretisations, with effects on and off, each compared
 // with an answer on a finer mesh with all effects on.
 struct CostRow {
@@ -17,10 +20,17 @@ struct CostRow {
   std::string effects;         // "all on", "without film_compliance"
   Discretisation mesh;
   int unknowns = 0;          // of the largest system
+  double cpu_s = 0.0;        // processor time, median of repeats; rows are ranked by it
   double wall_s = 0.0;       // median of repeats
   double memory_B = 0.0;     // rise of the resident set at its peak; 0: below one page or unknown
   double error = 0.0;        // largest relative one of what is asked for
-  bool is_on_front = false;  // no other row is both faster and more accurate
+  bool is_on_front = false;  // no other row takes less processor time and is as accurate
+};
+
+// A row that did not fit into the budget, as the model of cost predicts it.
+struct PredictedRow {
+  std::string discretisation, effects;
+  double unknowns = 0.0, cpu_s = 0.0, memory_B = 0.0;
 };
 
 struct CostAdvice {
@@ -29,17 +39,32 @@ struct CostAdvice {
   int row = -1;      // of the cheapest that is; its error is at most half the tolerance
 };
 
+// Processor time of one kind of elements, cpu_s = seconds * unknowns^exponent.
+struct CostLaw {
+  std::string kind;  // "h1", "h2", "p", "graded p"
+  double seconds = 0.0;
+  double exponent = 0.0;
+};
+
 struct CostStudy {
   std::vector<CostRow> rows;
+  std::vector<PredictedRow> predicted;
+  std::vector<CostLaw> laws;  // that predicted them, of the kinds that have two rows or more
   std::vector<CostAdvice> advice;
-  double reference_error = 0.0;  // relative change of the reference from one degree less
+  std::string reference;         // discretisation of the answer that errors refer to
+  double reference_error = 0.0;  // relative change of the reference from a lower degree
   int left_out = 0;              // rows for which the budget was too short
+  double tolerance = 0.0;        // of the scene
+  double budget_s = 0.0;
+  double wall_s = 0.0;  // of the whole study
+  CostMachine machine;
 };
 
 struct CostOptions {
-  double budget_s = 60.0;
+  double budget_s = 60.0;                                    // of wall time
   int repeats = 3;                                           // of rows that take less than 0.3 s
   std::function<void(double, const std::string&)> progress;  // fraction, row; may be empty
+  CostClock clock = process_clock();
 };
 
 // How much longer plain linear elements ("h1" rows) take to an error than the quickest row that has
@@ -47,14 +72,21 @@ struct CostOptions {
 // in log error against log time, as errors fall with a power of the mesh size.
 struct LinearFactor {
   double error = 0.0;
-  double factor = 0.0;
+  double factor = 0.0;           // of processor times
   bool is_extrapolated = false;  // finer linear meshes than any that were run
   std::string quickest;          // discretisation it is compared with
 };
 // Empty if no row reaches the error or fewer than two h1 rows have errors that fall with the mesh.
 std::optional<LinearFactor> factor_over_linear(const CostStudy& study, double error);
 
-// Throws what simulate() throws for a scene that contradicts itself.
+// Ends within the budget plus one row: a row, or a finer reference, only starts if the model of
+// cost predicts that it ends in time. One row of linear elements and the coarsest reference always
+// run, and so do three cheap rows that take less than 0.1 s each. Throws what simulate() throws for
+// a scene that contradicts itself.
 CostStudy study_cost(const Scene& scene, const CostOptions& options);
+CostStudy study_of(const CostTrials& trials, const CostOptions& options);
+
+// Marks the front and writes the advice of a study whose rows are complete.
+void rank_by_processor_time(CostStudy& study);
 
 }  // namespace viscard

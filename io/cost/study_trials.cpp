@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -19,6 +20,22 @@ struct Trial {
   Scene scene;
   Discretisation mesh;
 };
+
+constexpr const char* kGraded = "graded p";
+
+std::string kind_of_mesh(const std::string& discretisation) {
+  if (discretisation.rfind(kGraded, 0) == 0) return kGraded;
+  return discretisation.substr(0, discretisation[0] == 'p' ? 1 : 2);  // "p", "h1", "h2"
+}
+
+CostTrial trial_from(const Trial& row, const std::string& kind) {
+  return {.discretisation = row.discretisation,
+          .effects = row.effects,
+          .mesh = row.mesh,
+          .run = [row] { return answer_on(row.scene, row.mesh); },
+          .kind = kind,
+          .size = mesh_size(row.scene, row.mesh)};
+}
 
 std::string graded_name(const Discretisation& mesh) {
   return fmt::format("graded p{}, {}", mesh.degree,
@@ -65,8 +82,7 @@ std::vector<Trial> effect_trials(const Body& scene, const Discretisation& mesh) 
     if (estimate.role != EffectRole::kOptional || estimate.error == 0.0) continue;
     Body without = std::get<Body>(with_all_on(scene));
     on.leave_out(without);
-    trials.push_back({graded_name(mesh), std::string("without ") + effect.name, without,
-                      mesh_without_effect(without, mesh)});
+    trials.push_back({graded_name(mesh), effect.name, without, mesh_without_effect(without, mesh)});
   }
   return trials;
 }
@@ -96,6 +112,10 @@ std::vector<Trial> time_trials(const Scene& scene, const Discretisation& mesh) {
   return trials;
 }
 
+// Degrees of the references; the coarsest is for budgets that allow no more.
+constexpr int kCoarsestReference = 3;
+constexpr int kFinestReference = 9;
+
 }  // namespace
 
 CostTrials trials_of(const Scene& scene) {
@@ -104,25 +124,37 @@ CostTrials trials_of(const Scene& scene) {
   Scene all_on = with_all_on(scene);
   Scene fine = all_on;
   common(fine).tolerance = meshes.step_tolerance;
-  const auto reference = [&](int degree) {
-    return [fine, mesh = graded_mesh(fine, degree, meshes.reference_layers)] {
-      return answer_on(fine, mesh);
-    };
-  };
-  CostTrials trials{reference(9), reference(8), {}};
+  CostTrials trials;
+  trials.tolerance = common(scene).tolerance;
+  for (int degree = kCoarsestReference; degree <= kFinestReference; ++degree) {
+    const Discretisation mesh = graded_mesh(fine, degree, meshes.reference_layers);
+    trials.references.push_back(trial_from({graded_name(mesh), "all on", fine, mesh}, "reference"));
+  }
   common(all_on).tolerance = std::max(1e-5, meshes.step_tolerance);
   std::vector<Trial> rows = mesh_trials(all_on);
   const Discretisation usual = graded_mesh(all_on, 5, 2);
   const auto append = [&](std::vector<Trial> more) {
     rows.insert(rows.end(), more.begin(), more.end());
   };
-  append(std::visit([&](const auto& body) { return effect_trials(body, usual); }, scene));
+  std::vector<Trial> of_effects =
+      std::visit([&](const auto& body) { return effect_trials(body, usual); }, scene);
+  for (Trial& one : of_effects) one.effects = "without " + one.effects;
+  append(std::move(of_effects));
   append(time_trials(scene, usual));
   rows.push_back({graded_name(usual), "as planned", plan.reduced, usual});
   for (const Trial& row : rows) {
-    trials.rows.push_back({row.discretisation, row.effects, row.mesh,
-                           [row] { return answer_on(row.scene, row.mesh); }});
+    trials.rows.push_back(trial_from(row, kind_of_mesh(row.discretisation)));
   }
+  return trials;
+}
+
+std::vector<CostTrial> effect_trials_on(const Scene& scene, int degree, int layers) {
+  const Scene all_on = with_all_on(scene);
+  const Discretisation mesh = graded_mesh(all_on, degree, layers);
+  std::vector<CostTrial> trials{trial_from({graded_name(mesh), "all on", all_on, mesh}, kGraded)};
+  const std::vector<Trial> without =
+      std::visit([&](const auto& body) { return effect_trials(body, mesh); }, scene);
+  for (const Trial& one : without) trials.push_back(trial_from(one, kGraded));
   return trials;
 }
 

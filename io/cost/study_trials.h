@@ -11,20 +11,29 @@
 
 namespace viscard {
 
+inline constexpr const char* kLinearElements = "h1";
+
 // One row of a cost study to come.
 struct CostTrial {
   std::string discretisation, effects;
   Discretisation mesh;
   std::function<SceneAnswer()> run;
+  std::string kind;   // trials of one kind follow one law of cost: "h1", "h2", "p", "graded p"
+  double size = 1.0;  // of the mesh; unknowns are in proportion to it
 };
 
-// Everything a study runs: the reference, the same on a mesh of one degree less, and the rows,
-// cheap ones of every kind first, so that a short budget still shows something of each.
+// Everything a study runs: references of rising degree on the same layers, and the rows, cheap ones
+// of every kind first, so that a short budget still shows something of each.
 struct CostTrials {
-  std::function<SceneAnswer()> reference, coarser_reference;
+  std::vector<CostTrial> references;
   std::vector<CostTrial> rows;
+  double tolerance = 0.0;  // of the scene
 };
 CostTrials trials_of(const Scene& scene);
+
+// The scene with all effects on, then without each effect that the plan might leave out, named by
+// the effect, on a graded mesh.
+std::vector<CostTrial> effect_trials_on(const Scene& scene, int degree, int layers);
 
 // The meshes that a cost study of a scene compares, by kind of scene.
 struct CostMeshes {
@@ -41,6 +50,8 @@ CostMeshes cost_meshes(const Scene& scene);
 Discretisation graded_mesh(const Scene& scene, int degree, int layers);
 // The mesh that equal elements start from; the caller sets their size.
 Discretisation uniform_mesh(const Scene& scene, int degree);
+// Nodes of the largest system on a mesh, or a number in proportion to them. Nothing is solved.
+double mesh_size(const Scene& scene, const Discretisation& mesh);
 // The mesh for a scene that an effect was left out of.
 Discretisation mesh_without_effect(const Scene& without, Discretisation mesh);
 

@@ -34,6 +34,9 @@ struct PlotSeries {
   std::vector<double> x, y;
   std::vector<double> y_low, y_high;  // kBand (y unused) and kErrorBars
   std::vector<double> x_low, x_high;  // kErrorBars
+  // Of dots, one each; empty text: none. A name without room beside its dot is left out, those of
+  // earlier dots and series first served.
+  std::vector<std::string> names;
   Ink ink = Ink::kBlue;
   bool is_dashed = false;  // wide dashes, for limits and truths
   // Of dashes or of the shape of dots, so that series differ without colour too: 0 is a solid line

@@ -197,7 +197,8 @@ void validate(const PlotSeries& series) {
   const bool fits = (series.mark == Mark::kBand || series.y.size() == n) &&
                     (!needs_bars || (series.y_low.size() == n && series.y_high.size() == n)) &&
                     (series.x_low.size() == series.x_high.size()) &&
-                    (series.x_low.empty() || series.x_low.size() == n);
+                    (series.x_low.empty() || series.x_low.size() == n) &&
+                    (series.names.empty() || series.names.size() == n);
   if (!fits) {
     throw std::invalid_argument("plot: the columns of series '" + series.label +
                                 "' differ in length; give every point all its values");

@@ -1,6 +1,7 @@
 #include "io/plots/plot_script.h"
 
 #include "io/basics/words.h"
+#include "io/plots/plot_names.h"
 #include "io/plots/plot_points.h"
 
 #include <fmt/format.h>
@@ -149,6 +150,18 @@ void write_notes(Out out, const PlotPanel& panel, const AxisSpan& x, double widt
                  kAxisColour, names);
 }
 
+// The same ink as the dots, beside them.
+void write_names(Out out, const PlotPanel& panel, const PanelSpans& spans, double width_px,
+                 double height_px) {
+  for (const PlacedName& name : placed_names(panel, spans, width_px, height_px)) {
+    fmt::format_to(out,
+                   "set label {} at first {:.12g}, first {:.12g} left offset graph {:.5f}, graph "
+                   "{:.5f} noenhanced font 'sans-serif,9' textcolor rgb '{}'\n",
+                   quoted(name.text), name.x, name.y, name.right_px / width_px,
+                   name.up_px / height_px, colour(name.ink));
+  }
+}
+
 void write_data(Out out, std::size_t index, const PlotSeries& series,
                 const std::vector<PlotPoint>& points) {
   fmt::format_to(out, "$d{} << EOD\n", index);
@@ -242,7 +255,7 @@ void write_panel(Out out, const Plot& plot, const PlotPanel& panel, const PanelP
   const double width_px =
       place.width * plot.width_px - (kLeftMargin + kRightMargin) * kCharacter_px;
   const double height_px = place.height * plot.height_px - kLinesBesideData_px;
-  fmt::format_to(out, "unset arrow\nunset x2tics\n");
+  fmt::format_to(out, "unset arrow\nunset label\nunset x2tics\n");
   fmt::format_to(out, "set origin {:.6f},{:.6f}\nset size {:.6f},{:.6f}\n", place.left,
                  place.bottom, place.width, place.height);
   fmt::format_to(out, "set bmargin {}\n", panel.shares_x_with_below ? 1 : -1);
@@ -250,6 +263,7 @@ void write_panel(Out out, const Plot& plot, const PlotPanel& panel, const PanelP
   write_axis(out, 'y', panel.y, spans.y, height_px, true);
   write_titles(out, panel);
   write_notes(out, panel, spans.x, width_px);
+  write_names(out, panel, spans, width_px, height_px);
   write_curves(out, panel, spans, static_cast<int>(width_px), plot.height_px);
 }
 

@@ -2,6 +2,7 @@
 #include "io/scenes/scene_words.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/simulate_pillar.h"
+#include "models/pillar/system/rotated_medium.h"
 #include "models/scene/effects.h"
 
 #include <cmath>
@@ -19,7 +20,7 @@ struct RawScene {
   std::string film_material, film_bottom, bottom;  // bottoms: empty means fixed
   std::string electrode_face, electrode_kind, poling = "+z";
   double electrode_radius_m = 0.0;
-  bool quadrants = false;
+  bool quadrants = false, film_directional = true;
   RawMaterial pillar, film;
   std::string analysis = "static";
   RawDrive drive;
@@ -52,6 +53,7 @@ void show_geometry(FieldVisitor& v, RawScene& s) {
     f.quantity({.key = "radius", .unit = "m", .range = Range::kPositive}, s.film_radius_m);
     f.text({"material", "pvdf"}, s.film_material);
     f.text({"bottom", "fixed"}, s.film_bottom);
+    f.boolean("directional", s.film_directional);
   });
   v.section("electrode", [&](FieldVisitor& e) {
     e.text({"face", "bottom"}, s.electrode_face);
@@ -120,8 +122,14 @@ void fill_film(const RawScene& raw, const std::filesystem::path& folder, PillarS
   const bool is_averaged = !raw.film.file.empty() && !scene.plane;
   scene.film = is_averaged ? averaged_about_z(film.medium) : film.medium;
   if (!raw.film.file.empty()) scene.film_charge_C_N = film.charge_C_N;
+  if (is_averaged && raw.film_directional && !is_isotropic_about_z(film.medium)) {
+    scene.directional_film = film.medium;
+  }
   if (choice<bool>("geometry.poling", raw.poling, {{"+z", false}, {"-z", true}})) {
     scene.film = with_reversed_poling(*scene.film);
+    if (scene.directional_film) {
+      scene.directional_film = with_reversed_poling(*scene.directional_film);
+    }
   }
 }
 

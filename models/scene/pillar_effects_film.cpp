@@ -55,6 +55,7 @@ EffectEstimate film_compliance_estimate(const PillarScene& scene) {
 
 void leave_out_film(PillarScene& scene) {
   scene.film.reset();
+  scene.directional_film.reset();
   scene.geometry.film.reset();
   scene.electrodes.reset();
 }

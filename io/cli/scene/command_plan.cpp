@@ -1,13 +1,18 @@
 #include "io/cli/scene/answer_output.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cost/effect_savings.h"
 #include "io/scenes/scene_file.h"
 #include "models/scene/plan.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <ostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace po = boost::program_options;
 
@@ -23,26 +28,85 @@ const char* state_of(const SceneEffect& effect) {
   return effect.on ? "on" : "off";
 }
 
-void print_plan(const std::string& path, const Scene& scene, const ScenePlan& plan,
-                std::ostream& out) {
-  out << fmt::format("{}, tolerance {:g}\n  {:<20} {:<5} {:>9}  {:<38} {}\n", path,
-                     common(scene).tolerance, "effect", "", "if off", "what decides", "why");
+// A warning that the effect may change everything only repeats that the analysis is not of it.
+bool is_warning(const SceneEffect& effect) {
+  return effect.is_outside && effect.estimate > 0.0 && effect.estimate < 1.0;
+}
+
+// One line for each effect: its name and why.
+template <typename Condition>
+std::string list_of(const ScenePlan& plan, const Condition& belongs) {
+  std::string list;
   for (const SceneEffect& e : plan.effects) {
+    if (!belongs(e)) continue;
+    list += fmt::format("{}    {}: {}", list.empty() ? "" : "\n", e.name, e.reason);
+  }
+  return list;
+}
+
+void print_rows(const ScenePlan& plan, std::ostream& out) {
+  for (const SceneEffect& e : plan.effects) {
+    if (!e.is_choice && !is_warning(e)) continue;
     const std::string number =
         e.number.empty() ? "" : fmt::format("{} = {:.3g}", e.number, e.value);
-    out << fmt::format("  {:<20} {:<5} {:>9}  {:<38} {}\n", e.name, state_of(e),
+    out << fmt::format("  {:<20} {:<9} {:>9}  {:<38} {}\n", e.name,
+                       e.is_choice ? state_of(e) : "warning",
                        acts(e) ? fmt::format("{:.1e}", e.estimate) : "-", number, e.reason);
   }
+}
+
+void print_savings(const std::vector<EffectSaving>& savings, std::ostream& out) {
+  for (const EffectSaving& one : savings) {
+    out << fmt::format(
+        "  without {}: {:.2g} s instead of {:.2g} s, {} unknowns instead of {} ({})\n", one.effect,
+        one.cpu_s_without, one.cpu_s, one.unknowns_without, one.unknowns, one.discretisation);
+  }
+}
+
+void print_plan(const std::string& path, const Scene& scene, const ScenePlan& plan,
+                const std::vector<EffectSaving>& savings, std::ostream& out) {
+  const bool has_rows =
+      std::any_of(plan.effects.begin(), plan.effects.end(),
+                  [](const SceneEffect& e) { return e.is_choice || is_warning(e); });
+  out << fmt::format("{}, tolerance {:g}\n", path, common(scene).tolerance);
+  if (has_rows) {
+    out << fmt::format("  {:<20} {:<9} {:>9}  {:<38} {}\n", "effect", "", "if off", "what decides",
+                       "why");
+    print_rows(plan, out);
+  } else {
+    out << "  no effect of this scene is a choice\n";
+  }
+  const std::string always =
+      list_of(plan, [](const SceneEffect& e) { return e.on && !e.is_choice; });
+  if (!always.empty()) out << "  on, needed\n" << always << "\n";
+  const std::string never =
+      list_of(plan, [](const SceneEffect& e) { return !e.on && !e.is_choice && !is_warning(e); });
+  if (!never.empty()) out << "  off, not needed\n" << never << "\n";
+  print_savings(savings, out);
   out << fmt::format(
       "  left out: {:.1e}; the mesh and the steps may take {:.1e}   (! forced by the scene)\n",
       plan.left_out, common(plan.reduced).tolerance);
 }
 
+nlohmann::json json_from_savings(const std::vector<EffectSaving>& savings) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const EffectSaving& one : savings) {
+    list.push_back({{"effect", one.effect},
+                    {"discretisation", one.discretisation},
+                    {"cpu_s", one.cpu_s},
+                    {"cpu_s_without", one.cpu_s_without},
+                    {"unknowns", one.unknowns},
+                    {"unknowns_without", one.unknowns_without}});
+  }
+  return list;
+}
+
 CommandSyntax plan_syntax() {
   CommandSyntax syntax{"viscard plan SCENE.toml [OPTIONS]",
                        "Says which effects a scene needs at its tolerance, with the number that "
-                       "decides and the error of leaving each out. 'viscard simulate' follows it; "
-                       "[effects] in the scene overrules it.",
+                       "decides, the error of leaving each out, and what that saves in processor "
+                       "time and unknowns. 'viscard simulate' follows it; [effects] in the scene "
+                       "overrules it.",
                        "viscard plan data/scenes/pillar_modal.toml"};
   add_tolerance_option(syntax.options);
   syntax.positional = {"scene"};
@@ -63,6 +127,7 @@ nlohmann::json json_from_effects(const std::vector<SceneEffect>& effects) {
                     {"value", has_number ? json(effect.value) : json()},
                     {"forced", effect.is_forced},
                     {"counted", effect.is_counted},
+                    {"choice", effect.is_choice},
                     {"reason", effect.reason}});
   }
   return list;
@@ -91,11 +156,18 @@ int run_plan(const Words& words, Streams& streams) {
   Scene scene = read_scene(path).scene;
   apply_tolerance(*values, scene);
   const ScenePlan plan = with_lines_of(path, [&] { return checked_plan(scene); });
+  std::vector<EffectSaving> savings;
+  try {
+    savings = effect_savings(scene);
+  } catch (const std::runtime_error& e) {  // the plan itself solves nothing and stands
+    streams.err << "viscard plan: what leaving out saves could not be timed: " << e.what() << "\n";
+  }
   const nlohmann::json object{{"effects", json_from_effects(plan.effects)},
                               {"tolerance", common(scene).tolerance},
                               {"left_out", plan.left_out},
+                              {"savings", json_from_savings(savings)},
                               {"mesh_tolerance", common(plan.reduced).tolerance}};
-  if (!print_json(*values, object, streams)) print_plan(path, scene, plan, streams.out);
+  if (!print_json(*values, object, streams)) print_plan(path, scene, plan, savings, streams.out);
   return kDone;
 }
 

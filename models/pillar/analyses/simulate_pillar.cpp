@@ -2,6 +2,7 @@
 
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/analyses/top_load.h"
 #include "models/pillar/mesh/pillar_mesh.h"
 
 namespace viscard {
@@ -23,6 +24,7 @@ SceneAnswer simulate_pillar(const PillarScene& scene) {
   SceneAnswer answer =
       answer_within({scene.tolerance, meshes, scene.progress, analysis_of(scene).share_left},
                     [&](const Discretisation& mesh) { return pillar_answer_on(scene, mesh); });
+  add_film_direction(scene, answer);
   const std::string why = holds_straight(scene) ? beyond_buckling(scene) : "";
   if (!why.empty()) {
     answer.notes.push_back(why + ", unless it is held straight, as the scene declares");

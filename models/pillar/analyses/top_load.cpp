@@ -47,14 +47,13 @@ void add_reading(const PillarScene& scene, double voltage_V, double capacitance_
 
 // A pillar on a film with an electrode, its top moved: voltage and force with the electrode open
 // (or driven), the charge that flows onto it shorted, and its capacitance with the top held.
-void add_moved_piezoelectric(const PillarScene& scene, const PillarModel& model,
-                             const PiezoAnswer& per_Pa, SceneAnswer& answer) {
+void add_moved_piezoelectric(const PillarScene& scene, const PiezoAnswer& per_Pa, double area_m2,
+                             SceneAnswer& answer) {
   const double shorted_m = shorted_displacement_m(per_Pa);
   const double charge_C_per_m = per_Pa.charge_C / shorted_m;
   // A voltage on the electrode moves no charge by moving a top that is held.
   const double held_F = per_Pa.capacitance_F - charge_C_per_m * per_Pa.displacement_per_V_m;
   const double pressure_Pa = top_pressure_Pa(scene, per_Pa);
-  const double area_m2 = model.top_traction().sum();
   const bool is_driven = drive_V(scene) != 0.0;
   const double voltage_V = is_driven ? drive_V(scene) : per_Pa.voltage_V * pressure_Pa;
   const double by_motion_C = charge_C_per_m * *displacement_m(scene);
@@ -71,12 +70,11 @@ void add_moved_piezoelectric(const PillarScene& scene, const PillarModel& model,
 // pillar on its film is given with the electrode shorted (or driven) and open, and how a drive
 // changes it by changing length and cross-section of the film under it,
 //   dk/k = (d31 + d32 - d33) V/t   (eq. 25, from k = E A/L).
-void add_driven(const PillarScene& scene, const PillarModel& model, SceneAnswer& answer) {
-  const PiezoAnswer unit = piezo_static(model, 1.0);  // 1 Pa; of a free body only the drive counts
+void add_driven(const PillarScene& scene, const PiezoAnswer& unit, double force_N_Pa,
+                SceneAnswer& answer) {
   const double p_Pa = pressure_Pa(scene);
   const double V = drive_V(scene);
   const double short_m_Pa = shorted_displacement_m(unit);
-  const double force_N_Pa = top_area_m2(model);
   const PiezoMatrix& d = scene.film_charge_C_N;
   answer.results = {{"electrode_voltage", V, "V"},
                     {"electrode_charge", unit.charge_C * p_Pa + unit.capacitance_F * V, "C"},
@@ -93,24 +91,30 @@ void add_driven(const PillarScene& scene, const PillarModel& model, SceneAnswer&
                 [](const SceneResult& result) { return result.name.starts_with("stiffness"); });
 }
 
-// The potential of a charge-free face, from the state under 1 Pa.
-void add_sampled(const PillarScene& scene, const PillarModel& coupled, const PillarState& per_Pa,
-                 SceneAnswer& answer) {
-  const double area_m2 = coupled.top_traction().sum();
-  const double moved_m = coupled.mean_top_displacement_m(per_Pa);
+// The potential of a charge-free face.
+void add_sampled(const PillarScene& scene, const FilmAnswer& per_Pa, SceneAnswer& answer) {
+  const double moved_m = per_Pa.piezo.top_displacement_m;
   const double pressure_Pa = top_pressure_Pa(scene, moved_m);
-  const double z_m = free_face_m(scene);
-  const double R_m = coupled.radius_m();
-  answer.results = {
-      {"potential_at_centre", pressure_Pa * potential_at_V(coupled, per_Pa, 0.0, z_m), "V"},
-      {"potential_mean", pressure_Pa * mean_potential_V(coupled, per_Pa, z_m, R_m), "V"}};
+  answer.results = {{"potential_at_centre", pressure_Pa * per_Pa.centre_V, "V"},
+                    {"potential_mean", pressure_Pa * per_Pa.mean_V, "V"}};
   if (!moves_top(scene)) return;
-  add_top_force(scene, -pressure_Pa * area_m2, -area_m2 / moved_m, answer);
+  add_top_force(scene, -pressure_Pa * per_Pa.area_m2, -per_Pa.area_m2 / moved_m, answer);
 }
 
-}  // namespace
+void add_pressed(const PillarScene& scene, const PiezoAnswer& per_Pa, SceneAnswer& answer) {
+  const double p_Pa = pressure_Pa(scene);
+  answer.results = {{"electrode_voltage", p_Pa * per_Pa.voltage_V, "V"},
+                    {"electrode_charge", p_Pa * per_Pa.charge_C, "C"},
+                    {"electrode_capacitance", per_Pa.capacitance_F, "F"},
+                    {"top_displacement", p_Pa * per_Pa.top_displacement_m, "m"}};
+  if (!scene.one_way_potential) {
+    answer.results.push_back({"displacement_per_volt", per_Pa.displacement_per_V_m, "m/V"});
+  }
+  add_reading(scene, p_Pa * per_Pa.voltage_V, per_Pa.capacitance_F, answer);
+}
 
-void run_static_piezo(const PillarScene& scene, SceneAnswer& answer) {
+// On one mesh, with the film averaged in its plane.
+FilmAnswer film_answer(const PillarScene& scene, SceneAnswer& answer) {
   const PillarModel coupled = electric_model_of(scene, axial_motion(scene), answer.discretisation);
   std::optional<PillarModel> elastic;
   if (scene.one_way_potential) {
@@ -118,27 +122,35 @@ void run_static_piezo(const PillarScene& scene, SceneAnswer& answer) {
                     media_of(scene), options_of(scene, axial_motion(scene)));
   }
   count_unknowns(elastic ? *elastic : coupled, answer);
-  if (coupled.electrode_dof() < 0) {  // charge-free face, read at its centre
-    const PillarState state =
-        elastic ? piezo_one_way_sampled(*elastic, coupled, 1.0) : piezo_sampled(coupled, 1.0);
-    return add_sampled(scene, coupled, state, answer);
+  FilmAnswer per_Pa;
+  per_Pa.area_m2 = coupled.top_traction().sum();
+  if (coupled.electrode_dof() >= 0) {
+    per_Pa.piezo = elastic ? piezo_one_way(*elastic, coupled, 1.0) : piezo_static(coupled, 1.0);
+    return per_Pa;
   }
+  const PillarState state =
+      elastic ? piezo_one_way_sampled(*elastic, coupled, 1.0) : piezo_sampled(coupled, 1.0);
+  const double z_m = free_face_m(scene);
+  per_Pa.piezo.top_displacement_m = coupled.mean_top_displacement_m(state);
+  per_Pa.centre_V = potential_at_V(coupled, state, 0.0, z_m);
+  per_Pa.mean_V = mean_potential_V(coupled, state, z_m, coupled.radius_m());
+  return per_Pa;
+}
+
+}  // namespace
+
+void add_film_results(const PillarScene& scene, const FilmAnswer& per_Pa, SceneAnswer& answer) {
+  if (scene.electrodes->electrode_radius_m == 0.0) return add_sampled(scene, per_Pa, answer);
   if (moves_top(scene)) {
-    const PiezoAnswer unit =
-        elastic ? piezo_one_way(*elastic, coupled, 1.0) : piezo_static(coupled, 1.0);
-    return add_moved_piezoelectric(scene, coupled, unit, answer);
+    return add_moved_piezoelectric(scene, per_Pa.piezo, per_Pa.area_m2, answer);
   }
-  if (drive_V(scene) != 0.0) return add_driven(scene, coupled, answer);
-  const PiezoAnswer piezo = elastic ? piezo_one_way(*elastic, coupled, pressure_Pa(scene))
-                                    : piezo_static(coupled, pressure_Pa(scene));
-  answer.results = {{"electrode_voltage", piezo.voltage_V, "V"},
-                    {"electrode_charge", piezo.charge_C, "C"},
-                    {"electrode_capacitance", piezo.capacitance_F, "F"},
-                    {"top_displacement", piezo.top_displacement_m, "m"}};
-  if (!elastic) {
-    answer.results.push_back({"displacement_per_volt", piezo.displacement_per_V_m, "m/V"});
-  }
-  add_reading(scene, piezo.voltage_V, piezo.capacitance_F, answer);
+  // Of a free body only the drive counts.
+  if (drive_V(scene) != 0.0) return add_driven(scene, per_Pa.piezo, per_Pa.area_m2, answer);
+  add_pressed(scene, per_Pa.piezo, answer);
+}
+
+void run_static_piezo(const PillarScene& scene, SceneAnswer& answer) {
+  add_film_results(scene, film_answer(scene, answer), answer);
 }
 
 }  // namespace viscard

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/pillar/body/directional_film.h"
 #include "models/pillar/body/piezo_static.h"
 #include "models/pillar/body/section_grid.h"
 #include "models/pillar/scene/pillar_scene.h"
@@ -34,6 +35,13 @@ void add_top_force(const PillarScene& scene, double force_N, double stiffness_N_
 // A static load along the axis of a pillar whose film has an electrode or a charge-free face: adds
 // voltage, charge, capacitance and motion to the answer (eq. 19 to 25).
 void run_static_piezo(const PillarScene& scene, SceneAnswer& answer);
+// Its results from what the film does under 1 Pa.
+void add_film_results(const PillarScene& scene, const FilmAnswer& per_Pa, SceneAnswer& answer);
+
+// What the average over the directions in the film's plane neglects (film_direction.cpp): changes
+// the results of axial statics, which are then those of the film as it is, and adds to the error
+// estimates of all other analyses with electrodes. Reports both in the notes.
+void add_film_direction(const PillarScene& scene, SceneAnswer& answer);
 
 // A shear on the top along x, and a voltage on the opposite halves of quadrants.
 

@@ -4,20 +4,13 @@
 
 namespace viscard {
 
-PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa) {
-  const int electrode = model.electrode_dof();
-  if (electrode < 0) {
-    throw std::invalid_argument("the film has no electrode; its voltage is undefined");
-  }
-  const Eigen::VectorXd traction = model.top_traction();
+PiezoAnswer piezo_answer(const StiffnessFactor& factor, const Eigen::VectorXd& traction,
+                         int electrode, double scale_V, double pressure_Pa) {
   const double area = traction.sum();
   Eigen::VectorXd unit_charge = Eigen::VectorXd::Zero(traction.size());
   unit_charge[electrode] = 1.0;
-  StiffnessFactor factor;
-  model.factor(model.stiffness(), factor);
   // Row of the electrode: (charge that leaves it) * scale, because phi = scale * unknown and the
   // electric part of the form is negative.
-  const double scale_V = model.potential_scale_V();
   PiezoAnswer answer;
   answer.open.unknowns = factor.solve(-pressure_Pa * traction, &answer.open.pressure_source);
   const Eigen::VectorXd by_charge = factor.solve(unit_charge);
@@ -30,6 +23,17 @@ PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa) {
   const double u_per_C = -traction.dot(by_charge) / area * scale_V;
   answer.displacement_per_V_m = u_per_C / V_per_C;
   return answer;
+}
+
+PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa) {
+  const int electrode = model.electrode_dof();
+  if (electrode < 0) {
+    throw std::invalid_argument("the film has no electrode; its voltage is undefined");
+  }
+  StiffnessFactor factor;
+  model.factor(model.stiffness(), factor);
+  return piezo_answer(factor, model.top_traction(), electrode, model.potential_scale_V(),
+                      pressure_Pa);
 }
 
 PillarState piezo_sampled(const PillarModel& model, double pressure_Pa) {

@@ -18,6 +18,11 @@ struct PiezoAnswer {
 // The model must have electrodes with a radius. Throws std::invalid_argument otherwise.
 PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa);
 
+// The same from a factored matrix: `traction` is the force per unit pressure pulling along +z on
+// the top, `electrode` the unknown of its potential.
+PiezoAnswer piezo_answer(const StiffnessFactor& factor, const Eigen::VectorXd& traction,
+                         int electrode, double scale_V, double pressure_Pa);
+
 // Solution with a charge-free face instead of an electrode; potential_at_V() reads it.
 PillarState piezo_sampled(const PillarModel& model, double pressure_Pa);
 double potential_at_V(const PillarModel& model, const PillarState& state, double x, double z);

@@ -14,6 +14,8 @@ namespace viscard {
 struct PillarScene : SceneCommon {
   PillarGeometry geometry;
   std::optional<Medium> film;
+  // The film with its directions, if it has any and they count; film is then its mean over them.
+  std::optional<Medium> directional_film;
   std::optional<ElectrodeOptions> electrodes;
   PiezoMatrix film_charge_C_N = PiezoMatrix::Zero();
   std::optional<PlaneState> plane;  // a strip 1 m thick instead of a cylinder

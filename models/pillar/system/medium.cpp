@@ -7,24 +7,9 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 
 namespace viscard {
-namespace {
-
-// Rotates Voigt stresses about z (Auld, Acoustic Fields and Waves in Solids (1973), ch. 3); strains
-// rotate with the inverse transpose.
-Matrix6d stress_rotation(double angle) {
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  Matrix6d M = Matrix6d::Zero();
-  M << c * c, s * s, 0, 0, 0, 2 * c * s, s * s, c * c, 0, 0, 0, -2 * c * s, 0, 0, 1, 0, 0, 0, 0, 0,
-      0, c, -s, 0, 0, 0, 0, s, c, 0, -c * s, c * s, 0, 0, 0, c * c - s * s;
-  return M;
-}
-
-}  // namespace
 
 Matrix6d deviatoric_form() {
   Matrix6d form = Matrix6d::Zero();
@@ -100,24 +85,6 @@ Medium piezo_medium(const Matrix6d& stiffness_Pa, const PiezoMatrix& charge_C_N,
 Medium with_reversed_poling(Medium medium) {
   medium.piezo_C_m2 = -medium.piezo_C_m2;
   return medium;
-}
-
-Medium averaged_about_z(const Medium& medium) {
-  Medium mean = medium;
-  mean.stiffness_Pa.setZero();
-  mean.piezo_C_m2.setZero();
-  mean.permittivity_F_m.setZero();
-  constexpr int kAngles = 8;  // fourth-order harmonics and lower cancel exactly
-  for (int i = 0; i < kAngles; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kAngles;
-    const Matrix6d M = stress_rotation(angle);
-    Eigen::Matrix3d a = Eigen::Matrix3d::Identity();
-    a.topLeftCorner<2, 2>() << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
-    mean.stiffness_Pa += M * medium.stiffness_Pa * M.transpose() / kAngles;
-    mean.piezo_C_m2 += a * medium.piezo_C_m2 * M.transpose() / kAngles;
-    mean.permittivity_F_m += a * medium.permittivity_F_m * a.transpose() / kAngles;
-  }
-  return mean;
 }
 
 Eigen::MatrixXd coupled_form(const Medium& medium) {

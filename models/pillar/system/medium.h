@@ -55,10 +55,6 @@ Medium piezo_medium(const Matrix6d& stiffness_Pa, const PiezoMatrix& charge_C_N,
 // Poled along -z instead of +z: e changes sign.
 Medium with_reversed_poling(Medium medium);
 
-// The mean of the medium over all directions about z, which is all that an axisymmetric model can
-// represent of an orthotropic film. Exact on the axis for loads without direction.
-Medium averaged_about_z(const Medium& medium);
-
 // The 9 x 9 form [c, -e^t; -e, -eps] for rows [strain; electric field] with E = -grad phi.
 Eigen::MatrixXd coupled_form(const Medium& medium);
 // The form for rows of strain or, if electric, [strain; electric field].

@@ -33,6 +33,9 @@ SceneEffect decided_by_role(const std::string& name, const EffectEstimate& estim
   SceneEffect decision{name,           false,           estimate.reason,
                        estimate.error, estimate.number, estimate.value};
   decision.is_forced = choice != EffectChoice::kAuto;
+  decision.is_choice = estimate.role == EffectRole::kOptional &&
+                       (estimate.error > 0.0 || choice != EffectChoice::kAuto);
+  decision.is_outside = estimate.role == EffectRole::kOutside;
   switch (estimate.role) {
     case EffectRole::kAbsent:
       if (choice == EffectChoice::kOn) decision.reason += "; switching it on changes nothing";

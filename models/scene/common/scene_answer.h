@@ -34,6 +34,8 @@ struct SceneEffect {
   double value = 0.0;       // of that number
   bool is_forced = false;   // by the scene
   bool is_counted = false;  // left out, and its estimate is part of the reported error
+  bool is_choice = false;   // the plan or the scene chose; others are needed or have no part in it
+  bool is_outside = false;  // no analysis can compute it; the estimate is a warning
 };
 
 // A quantity against time or frequency. A scene's curves have the same abscissa on every mesh.

@@ -126,6 +126,29 @@ TEST_CASE("names of any spelling stay text in a plot", "[io][report]") {
   CHECK(count_of(text_of(svg), nasty) == 5);
 }
 
+TEST_CASE("dots carry their names where there is room, and none covers another", "[io][report]") {
+  Plot plot = small_plot();
+  PlotSeries dots{.mark = Mark::kPoints, .label = "", .x = {1.0, 2.0}, .y = {2.0, 6.0}};
+  dots.names = {"alone", "apart & free"};
+  // Thirty dots in one place have room for a few names only.
+  PlotSeries crowd{.mark = Mark::kPoints, .label = ""};
+  for (int i = 0; i < 30; ++i) {
+    crowd.x.push_back(3.0);
+    crowd.y.push_back(4.0 + 1e-3 * i);
+    crowd.names.push_back("crowd " + std::to_string(i));
+  }
+  plot.panels.front().series.push_back(dots);
+  plot.panels.front().series.push_back(crowd);
+  const std::string svg = svg_from_plot(plot, "p");
+  CHECK(count_of(svg, ">alone<") == 1);
+  CHECK(count_of(svg, ">apart &amp; free<") == 1);
+  CHECK(count_of(svg, ">crowd ") >= 1);
+  CHECK(count_of(svg, ">crowd ") <= 4);  // at most one on each side of the place
+  crowd.names.pop_back();
+  plot.panels.front().series.back() = crowd;
+  CHECK_THROWS_AS(svg_from_plot(plot, "p"), std::invalid_argument);
+}
+
 TEST_CASE("values that are not finite never reach the picture", "[io][report]") {
   Plot plot = small_plot();
   const double nan = std::numeric_limits<double>::quiet_NaN();

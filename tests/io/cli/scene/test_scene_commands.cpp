@@ -90,8 +90,35 @@ TEST_CASE("the plan is one object with every effect, estimate and reason", "[cli
     CHECK_FALSE(effect["reason"].get<std::string>().empty());
   }
   CHECK(object["left_out"].get<double>() <= 0.5 * object["tolerance"].get<double>());
+  // Without [want] the film's coupling is a need, so that there is nothing to save.
+  CHECK(object["savings"].is_array());
   CHECK(run_command({"plan"}).status == 2);
   CHECK(run_command({"plan", scene.path(), "--tol", "2"}).status == 2);
+}
+
+TEST_CASE("the plan shows choices, what leaving them out saves, and why the rest is as it is",
+          "[cli][scene]") {
+  const SceneText scene(std::string(kSensor) + "[want]\nquantities = [\"electrode_voltage\"]\n");
+  const CommandOutcome printed = run_command({"plan", scene.path()});
+  REQUIRE(printed.status == 0);
+  CAPTURE(printed.out);
+  CHECK(printed.out.find("1.0e+00") == std::string::npos);
+  CHECK(printed.out.find("\n  piezo_coupling ") != std::string::npos);  // a choice
+  CHECK(printed.out.find("\n  crosstalk ") == std::string::npos);       // none
+  CHECK(printed.out.find("  off, not needed\n") < printed.out.find("    crosstalk: "));
+  CHECK(printed.out.find("  on, needed\n") < printed.out.find("    film_compliance: "));
+  CHECK(printed.out.find("  without piezo_coupling: ") != std::string::npos);
+  const auto object = nlohmann::json::parse(run_command({"plan", scene.path(), "--json"}).out);
+  REQUIRE(object["savings"].size() == 1);
+  const auto& saving = object["savings"][0];
+  CHECK(saving["effect"] == "piezo_coupling");
+  CHECK(saving["cpu_s"].get<double>() > 0.0);
+  // One way solves displacements and potentials one after the other.
+  CHECK(saving["unknowns_without"].get<int>() < saving["unknowns"].get<int>());
+  for (const auto& effect : object["effects"]) {
+    CAPTURE(effect["name"].get<std::string>());
+    CHECK(effect["choice"].get<bool>() == (effect["name"] == "piezo_coupling"));
+  }
 }
 
 TEST_CASE("what accuracy costs: rows, a front, and advice that keeps what it promises",
@@ -109,6 +136,8 @@ TEST_CASE("what accuracy costs: rows, a front, and advice that keeps what it pro
   for (const auto& row : study["rows"]) {
     CHECK(row["unknowns"].get<int>() > 0);
     CHECK(row["wall_s"].get<double>() > 0.0);
+    CHECK(row["cpu_s"].get<double>() > 0.0);
+    CHECK_FALSE(row["predicted"].get<bool>());
     CHECK(row["error"].get<double>() >= 0.0);
   }
   for (const auto& advice : study["recommendations"]) {
@@ -119,18 +148,26 @@ TEST_CASE("what accuracy costs: rows, a front, and advice that keeps what it pro
   for (const char* name : {"cost.csv", "cost.json", "cost.svg"}) {
     CHECK(std::ifstream(out + "/" + name).good());
   }
+  CHECK(study["machine"]["cores"].get<int>() >= 1);
+  CHECK(study["machine"]["processor_share"].get<double>() > 0.0);
+  CHECK(study["rows"].size() + study["predicted_rows"].size() ==
+        study["rows"].size() + study["rows_left_out"].get<std::size_t>());
+  std::stringstream picture;
+  picture << std::ifstream(out + "/cost.svg").rdbuf();
+  for (const char* part : {"processor time (s)", "the scene's tolerance, 0.001", ">p2/1<"}) {
+    CAPTURE(part);
+    CHECK(picture.str().find(part) != std::string::npos);
+  }
   CHECK(run_command({"cost", scene.path(), "--budget", "soon"}).status == 2);
 }
 
 TEST_CASE("the factor over linear elements is read off the line through their errors",
           "[io][scene]") {
   CostStudy study;
-  study.rows = {{.discretisation = "h1 10 um", .effects = "all on", .wall_s = 1e-3, .error = 4e-2},
-                {.discretisation = "h1 5 um", .effects = "all on", .wall_s = 1e-2, .error = 4e-3},
-                {.discretisation = "graded p4, 2 layers",
-                 .effects = "all on",
-                 .wall_s = 2e-3,
-                 .error = 9e-4}};
+  study.rows = {
+      {.discretisation = "h1 10 um", .effects = "all on", .cpu_s = 1e-3, .error = 4e-2},
+      {.discretisation = "h1 5 um", .effects = "all on", .cpu_s = 1e-2, .error = 4e-3},
+      {.discretisation = "graded p4, 2 layers", .effects = "all on", .cpu_s = 2e-3, .error = 9e-4}};
   const auto beyond = factor_over_linear(study, 1e-3);  // error falls as 1/time here
   REQUIRE(beyond);
   CHECK(beyond->factor == Approx(4e-2 / 2e-3).epsilon(1e-12));

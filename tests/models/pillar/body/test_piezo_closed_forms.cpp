@@ -1,6 +1,7 @@
 // Piezoelectric films with an answer on paper, or from another method to many digits.
 #include "models/pillar/body/piezo_static.h"
 #include "models/pillar/system/krylov_modes.h"
+#include "models/pillar/system/rotated_medium.h"
 #include "tests/models/pillar/system/small_body.h"
 #include "tests/support/printed_digits.h"
 

@@ -1,4 +1,5 @@
 #include "models/pillar/body/piezo_static.h"
+#include "models/pillar/system/rotated_medium.h"
 #include "tests/support/printed_digits.h"
 
 #include <catch2/catch.hpp>

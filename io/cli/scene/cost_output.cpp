@@ -1,0 +1,153 @@
+#include "io/cli/scene/cost_output.h"
+
+#include "models/maths/text_of_number.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+using nlohmann::json;
+
+json json_from_row(const CostRow& row) {
+  return {{"discretisation", row.discretisation},
+          {"effects", row.effects},
+          {"unknowns", row.unknowns},
+          {"cpu_s", row.cpu_s},
+          {"wall_s", row.wall_s},
+          {"memory_B", row.memory_B},
+          {"error", row.error},
+          {"pareto", row.is_on_front},
+          {"predicted", false}};
+}
+
+json json_from_prediction(const PredictedRow& row) {
+  return {{"discretisation", row.discretisation},
+          {"effects", row.effects},
+          {"unknowns", std::round(row.unknowns)},
+          {"cpu_s", row.cpu_s},
+          {"memory_B", row.memory_B},
+          {"predicted", true}};
+}
+
+json json_from_machine(const CostMachine& machine) {
+  return {{"processor", machine.processor},
+          {"cores", machine.cores},
+          {"load", machine.load},
+          {"processor_share", machine.share}};
+}
+
+// "AMD EPYC, 2 cores, load 1.3 before; this program got 93 % of a core".
+std::string text_of_machine(const CostMachine& machine) {
+  return fmt::format("{}, {}, load {:.1f} before; this program got {:.0f} % of a core",
+                     machine.processor.empty() ? "processor unknown" : machine.processor,
+                     counted(static_cast<std::size_t>(machine.cores), "core"), machine.load,
+                     100.0 * machine.share);
+}
+
+void print_rows(const CostStudy& study, std::ostream& out) {
+  out << fmt::format("  {:<36} {:<28} {:>8} {:>10} {:>10} {:>8} {:>9}\n", "discretisation",
+                     "effects", "unknowns", "CPU (ms)", "wall (ms)", "MB", "error");
+  for (const CostRow& row : study.rows) {
+    out << fmt::format("{} {:<36} {:<28} {:>8} {:>10.3g} {:>10.3g} {:>8.2f} {:>9.1e}\n",
+                       row.is_on_front ? "*" : " ", row.discretisation, row.effects, row.unknowns,
+                       1e3 * row.cpu_s, 1e3 * row.wall_s, 1e-6 * row.memory_B, row.error);
+  }
+  for (const PredictedRow& row : study.predicted) {
+    out << fmt::format("~ {:<36} {:<28} {:>8.0f} {:>10.2g} {:>10} {:>8.2g} {:>9}\n",
+                       row.discretisation, row.effects, row.unknowns, 1e3 * row.cpu_s, "-",
+                       1e-6 * row.memory_B, "-");
+  }
+}
+
+void print_legend(const CostStudy& study, std::ostream& out) {
+  out << "  * on the Pareto front: nothing takes less processor time and is as accurate\n"
+         "  effects: 'all on' leaves nothing out, so its error is that of the mesh; 'without ...' "
+         "leaves out\n    one effect of the scene, 'as planned' those that viscard plan leaves "
+         "out; "
+         "their errors contain that\n";
+  if (study.predicted.empty()) return;
+  out << fmt::format(
+      "  ~ predicted: {} more did not fit into the budget of {:g} s; --budget gives more time\n",
+      study.left_out, study.budget_s);
+  for (const CostLaw& law : study.laws) {
+    out << fmt::format("    {}: CPU time about {:.1e} s x unknowns^{:.2f}\n", law.kind, law.seconds,
+                       law.exponent);
+  }
+}
+
+}  // namespace
+
+json json_from_study(const CostStudy& study) {
+  json rows = json::array(), predicted = json::array(), advice = json::array();
+  for (const CostRow& row : study.rows) rows.push_back(json_from_row(row));
+  for (const PredictedRow& row : study.predicted) predicted.push_back(json_from_prediction(row));
+  for (const CostAdvice& one : study.advice) {
+    advice.push_back({{"tolerance", one.tolerance},
+                      {"row", one.row < 0 ? json() : json(one.row)},
+                      {"text", one.text}});
+  }
+  json linear;  // null if the rows do not give it
+  if (const auto factor = factor_over_linear(study, 1e-3)) {
+    linear = {{"error", factor->error},
+              {"factor", factor->factor},
+              {"extrapolated", factor->is_extrapolated},
+              {"quickest", factor->quickest}};
+  }
+  json laws = json::array();
+  for (const CostLaw& law : study.laws) {
+    laws.push_back({{"kind", law.kind}, {"seconds", law.seconds}, {"exponent", law.exponent}});
+  }
+  const bool is_known = std::isfinite(study.reference_error);
+  return {{"rows", rows},
+          {"predicted_rows", predicted},
+          {"cost_laws", laws},
+          {"recommendations", advice},
+          {"linear_elements", linear},
+          {"reference", study.reference},
+          {"reference_error", is_known ? json(study.reference_error) : json()},
+          {"rows_left_out", study.left_out},
+          {"tolerance", study.tolerance},
+          {"budget_s", study.budget_s},
+          {"wall_s", study.wall_s},
+          {"machine", json_from_machine(study.machine)}};
+}
+
+std::string csv_from_study(const CostStudy& study, const std::string& command) {
+  std::string text = fmt::format(
+      "# {} (viscard {})\n# {}\n"
+      "discretisation,effects,unknowns,wall_s,memory_B,error,pareto,cpu_s,predicted\n",
+      command, VISCARD_VERSION, text_of_machine(study.machine));
+  for (const CostRow& row : study.rows) {
+    text += fmt::format("\"{}\",\"{}\",{},{},{},{},{},{},0\n", row.discretisation, row.effects,
+                        row.unknowns, row.wall_s, row.memory_B, row.error, row.is_on_front ? 1 : 0,
+                        row.cpu_s);
+  }
+  for (const PredictedRow& row : study.predicted) {
+    text += fmt::format("\"{}\",\"{}\",{:.0f},,{:.0f},,0,{:.3g},1\n", row.discretisation,
+                        row.effects, row.unknowns, row.memory_B, row.cpu_s);
+  }
+  return text;
+}
+
+void print_study(const CostStudy& study, const std::string& path, std::ostream& out) {
+  out << fmt::format("{}; reference {}, {}\non {}\n", path, study.reference,
+                     std::isfinite(study.reference_error)
+                         ? fmt::format("known to {:.1e}", study.reference_error)
+                         : "whose error is not known: the budget allowed no second one",
+                     text_of_machine(study.machine));
+  print_rows(study, out);
+  print_legend(study, out);
+  if (const auto linear = factor_over_linear(study, 1e-3)) {
+    out << fmt::format("linear elements need {:.3g} times the time of {} for an error of 0.1 %{}\n",
+                       linear->factor, linear->quickest,
+                       linear->is_extrapolated ? " (extrapolated from the two finest)" : "");
+  }
+  out << "recommended for a tolerance of (processor time)\n";
+  for (const CostAdvice& advice : study.advice) out << "  " << advice.text << "\n";
+}
+
+}  // namespace viscard

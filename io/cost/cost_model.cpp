@@ -1,0 +1,94 @@
+#include "io/cost/cost_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+using Run = CostModel::Run;
+
+// Assembly grows in proportion to the unknowns. Factors of a mesh in the plane take unknowns^1.5
+// with the best order of elimination (George, SIAM J. Numer. Anal. 10 (1973) 345) and unknowns^2
+// with a banded one, so no sensible power lies outside.
+constexpr double kLeastExponent = 1.0;
+constexpr double kUsualExponent = 1.5;
+constexpr double kLargestExponent = 2.0;
+// Smaller runs spend their time on set-up and would make the line too flat.
+constexpr double kSmallest = 1.0 / 30.0;  // of the largest, in unknowns
+
+const Run& largest_of(const std::vector<Run>& runs) {
+  return *std::max_element(runs.begin(), runs.end(),
+                           [](const Run& a, const Run& b) { return a.unknowns < b.unknowns; });
+}
+
+// Slope of the least-squares line of log time over log unknowns.
+double exponent_of(const std::vector<Run>& runs) {
+  const double least = kSmallest * largest_of(runs).unknowns;
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  for (const Run& run : runs) {
+    if (run.unknowns < least || !(run.cpu_s > 0.0)) continue;
+    const double log_n = std::log(run.unknowns);
+    const double log_s = std::log(run.cpu_s);
+    n += 1.0;
+    x += log_n;
+    y += log_s;
+    xx += log_n * log_n;
+    xy += log_n * log_s;
+  }
+  const double spread = xx - x * x / std::max(n, 1.0);
+  if (n < 2.0 || spread < 1e-3) return kUsualExponent;
+  return std::clamp((xy - x * y / n) / spread, kLeastExponent, kLargestExponent);
+}
+
+}  // namespace
+
+double CostPower::cpu_s_of(double more_unknowns) const {
+  return cpu_s * std::pow(more_unknowns / unknowns, exponent);
+}
+
+// Factors of a mesh in the plane have unknowns * log2(unknowns) entries (George 1973).
+double CostPower::memory_B_of(double more_unknowns) const {
+  const auto entries = [](double n) { return n * std::log2(std::max(n, 2.0)); };
+  return memory_B * entries(more_unknowns) / entries(unknowns);
+}
+
+void CostModel::add(const std::string& kind, const Run& run) {
+  runs_[kind].push_back(run);
+}
+
+const std::vector<Run>* CostModel::runs_like(const std::string& kind) const {
+  const auto own = runs_.find(kind);
+  if (own != runs_.end()) return &own->second;
+  const std::vector<Run>* best = nullptr;
+  for (const auto& [name, runs] : runs_) {
+    if (best == nullptr || largest_of(runs).unknowns > largest_of(*best).unknowns) best = &runs;
+  }
+  return best;
+}
+
+std::optional<CostPower> CostModel::power(const std::string& kind) const {
+  const std::vector<Run>* runs = runs_like(kind);
+  if (runs == nullptr) return std::nullopt;
+  const Run& largest = largest_of(*runs);
+  const bool is_own = runs_.count(kind) > 0;
+  return CostPower{is_own ? exponent_of(*runs) : kUsualExponent, largest.unknowns, largest.cpu_s,
+                   largest.memory_B};
+}
+
+double CostModel::unknowns(const std::string& kind, double size) const {
+  const std::vector<Run>* runs = runs_like(kind);
+  if (runs == nullptr) return 0.0;
+  const auto distance = [size](const Run& run) { return std::abs(std::log(run.size / size)); };
+  const Run& nearest =
+      *std::min_element(runs->begin(), runs->end(),
+                        [&](const Run& a, const Run& b) { return distance(a) < distance(b); });
+  return nearest.unknowns * size / nearest.size;
+}
+
+double CostModel::cpu_s(const std::string& kind, double size) const {
+  const std::optional<CostPower> of = power(kind);
+  return of ? of->cpu_s_of(unknowns(kind, size)) : 0.0;
+}
+
+}  // namespace viscard

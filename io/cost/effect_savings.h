@@ -1,0 +1,27 @@
+#pragma once
+
+#include "io/cost/cost_clock.h"
+#include "models/scene/scene.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// What leaving one effect out saves: the scene with all effects on, and without this one, on the
+// same mesh.
+struct EffectSaving {
+  std::string effect;
+  std::string discretisation;
+  int unknowns = 0, unknowns_without = 0;  // of the largest system
+  double cpu_s = 0.0, cpu_s_without = 0.0;
+};
+
+// Solves the scene once with all effects and once without each that the plan may leave out, on a
+// graded mesh of degree 4, or of degree 2 if that takes more than half a second. Empty if there is
+// no choice.
+std::vector<EffectSaving> effect_savings(const Scene& scene,
+                                         const CostClock& clock = process_clock());
+
+}  // namespace viscard
