@@ -298,9 +298,8 @@ TEST_CASE("a law with an unknown E0 does not advise fewer terms", "[fit]") {
       [](double t) { return 1e6 + 2e6 * std::exp(-std::pow(t / 3.0, 0.5)); }, 0.01, 4);
   for (FittedLaw& one : fit.laws) one.series_covariance *= 1e8;  // as of a record of few rows
   take_law("kww", fit);
-  const auto flag = std::find_if(fit.flags.begin(), fit.flags.end(), [](const MaterialFlag& one) {
-    return one.name == "E0-unknown";
-  });
+  const auto flag = std::find_if(fit.flags.begin(), fit.flags.end(),
+                                 [](const MaterialFlag& one) { return one.name == "E0-unknown"; });
   REQUIRE(flag != fit.flags.end());
   CHECK(flag->text.find("fewer terms") == std::string::npos);
   CHECK(flag->text.find("another law") != std::string::npos);
