@@ -14,8 +14,8 @@ struct FilmAnswer {
 };
 
 // A pillar under an axial load on a film whose constants depend on the direction in its plane, such
-// as stretched PVDF with d31 != d32. Along the angle t the constants are c0 + c2 cos 2t + c4 cos 4t,
-// so that an axisymmetric load excites the harmonics 0, 2, 4, ... of displacement and potential,
+// as stretched PVDF with d31 != d32. Along the angle t they are c0 + c2 cos 2t + c4 cos 4t, so that
+// an axisymmetric load excites the harmonics 0, 2, 4, ... of displacement and potential,
 // which the film couples. Harmonic 0 alone is the film averaged about z.
 //
 // All harmonics stand side by side as fields of one system (eq. 25d): the block of the form between
