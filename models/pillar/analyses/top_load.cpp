@@ -5,7 +5,9 @@
 #include "models/pillar/body/pillar_model.h"
 
 #include <cmath>
+#include <map>
 #include <optional>
+#include <string>
 
 namespace viscard {
 
@@ -43,6 +45,26 @@ void add_reading(const PillarScene& scene, double voltage_V, double capacitance_
   const ReadoutFilter filter = readout_filter(*scene.readout, capacitance_F);
   answer.results.push_back({"reading_at_once", filter.gain * voltage_V, "V"});
   add_time_constant(filter.time_constant_s, answer);
+}
+
+// Errors that the coupled solution itself shows. Per displacement of the top an answer also has the
+// error of the displacement per force.
+void note_unresolved(const PillarScene& scene, const PiezoRest& rest, SceneAnswer& answer) {
+  const double of_top = moves_top(scene) ? rest.displacement : 0.0;
+  const std::map<std::string, double> unresolved = {{"electrode_voltage", rest.voltage + of_top},
+                                                    {"electrode_charge", rest.charge + of_top},
+                                                    {"electrode_capacitance", rest.capacitance},
+                                                    {"top_displacement", rest.displacement},
+                                                    {"top_force", rest.displacement},
+                                                    {"top_stiffness", rest.displacement},
+                                                    {"stiffness_driven", rest.displacement},
+                                                    {"stiffness_open", rest.displacement},
+                                                    {"displacement_per_volt", rest.charge},
+                                                    {"reading_at_once", rest.voltage + of_top}};
+  for (SceneResult& result : answer.results) {
+    const auto found = unresolved.find(result.name);
+    if (found != unresolved.end()) result.unresolved = found->second;
+  }
 }
 
 // A pillar on a film with an electrode, its top moved: voltage and force with the electrode open
@@ -87,6 +109,7 @@ void add_driven(const PillarScene& scene, const PillarModel& model, SceneAnswer&
                     {"stiffness_open", -force_N_Pa / unit.top_displacement_m, "N/m"},
                     {"film_stiffness_change_by_drive",
                      (d(2, 0) + d(2, 1) - d(2, 2)) * V / scene.geometry.film->thickness_m, "1"}};
+  note_unresolved(scene, unit.rest, answer);
   // A free body has no stiffness against a force.
   if (scene.fixed_bottom) return;
   std::erase_if(answer.results,
@@ -126,7 +149,8 @@ void run_static_piezo(const PillarScene& scene, SceneAnswer& answer) {
   if (moves_top(scene)) {
     const PiezoAnswer unit =
         elastic ? piezo_one_way(*elastic, coupled, 1.0) : piezo_static(coupled, 1.0);
-    return add_moved_piezoelectric(scene, coupled, unit, answer);
+    add_moved_piezoelectric(scene, coupled, unit, answer);
+    return note_unresolved(scene, unit.rest, answer);
   }
   if (drive_V(scene) != 0.0) return add_driven(scene, coupled, answer);
   const PiezoAnswer piezo = elastic ? piezo_one_way(*elastic, coupled, pressure_Pa(scene))
@@ -139,6 +163,7 @@ void run_static_piezo(const PillarScene& scene, SceneAnswer& answer) {
     answer.results.push_back({"displacement_per_volt", piezo.displacement_per_V_m, "m/V"});
   }
   add_reading(scene, piezo.voltage_V, piezo.capacitance_F, answer);
+  note_unresolved(scene, piezo.rest, answer);
 }
 
 }  // namespace viscard

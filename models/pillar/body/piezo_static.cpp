@@ -1,8 +1,23 @@
 #include "models/pillar/body/piezo_static.h"
 
+#include "models/pillar/body/solution_rest.h"
+
 #include <stdexcept>
 
 namespace viscard {
+
+PiezoRest piezo_rest(const PillarModel& model, const PiezoSolutions& s, double work) {
+  const double open_potential = s.open[model.electrode_dof()];
+  const double potential_per_charge = s.charged[model.electrode_dof()];
+  const SolutionRest open(model, s.open);
+  const SolutionRest charged(model, s.charged);
+  const SolutionRest shorted(model, s.open - open_potential / potential_per_charge * s.charged);
+  const SolutionRest dual = s.dual.size() > 0 ? SolutionRest(model, s.dual) : charged;
+  return {.voltage = missing_share(open, dual, open_potential),
+          .charge = missing_share(shorted, dual, open_potential),
+          .capacitance = missing_share(charged, charged, potential_per_charge),
+          .displacement = missing_share(open, open, work)};
+}
 
 PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa) {
   const int electrode = model.electrode_dof();
@@ -29,6 +44,8 @@ PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa) {
   answer.charge_C = -answer.voltage_V / V_per_C;
   const double u_per_C = -traction.dot(by_charge) / area * scale_V;
   answer.displacement_per_V_m = u_per_C / V_per_C;
+  answer.rest = piezo_rest(model, {answer.open.unknowns, by_charge, {}},
+                           pressure_Pa * traction.dot(answer.open.unknowns));
   return answer;
 }
 

@@ -129,6 +129,10 @@ Eigen::MatrixXd PillarModel::elastic_form(const Medium& medium) const {
   return material_form(medium, options_.electrodes.has_value(), is_plane_stress());
 }
 
+double PillarModel::mean_modulus_Pa(int region) const {
+  return elastic_form(medium(region)).diagonal().head(6).mean();
+}
+
 SymmetricSparse PillarModel::stiffness() const {
   const std::vector<OperatorRow> rows = system_->kinematics().strain_and_field();
   const auto n = static_cast<Eigen::Index>(rows.size());
