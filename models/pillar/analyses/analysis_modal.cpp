@@ -4,6 +4,7 @@
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/pillar_modes.h"
 #include "models/pillar/body/section_grid.h"
+#include "models/pillar/body/solution_rest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,7 +86,10 @@ void run_modal(const PillarScene& scene, SceneAnswer& answer) {
     const PillarModel model = model_of(scene, family.motion, answer.discretisation);
     count_unknowns(model, answer);
     for (const PillarMode& mode : family_modes(scene, family, model, answer.discretisation)) {
-      answer.modes.push_back({family.name, family.harmonic, mode.frequency_Hz, 0.0});
+      const double omega_1_s = 2.0 * std::numbers::pi * mode.frequency_Hz;
+      const SolutionRest rest(model, mode.shape);  // omega^2 is the work of a unit mass norm
+      const double unresolved = 0.5 * missing_share(rest, rest, omega_1_s * omega_1_s);
+      answer.modes.push_back({family.name, family.harmonic, mode.frequency_Hz, 0.0, unresolved});
     }
   }
   note_rigid_motions(scene, answer);

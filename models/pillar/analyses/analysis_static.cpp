@@ -4,6 +4,7 @@
 #include "models/pillar/analyses/top_load.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/section_grid.h"
+#include "models/pillar/body/solution_rest.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
@@ -64,6 +65,9 @@ void run_elastic(const PillarScene& scene, SceneAnswer& answer) {
   } else {
     answer.results.push_back({"top_displacement", moved_m * pressure_Pa, "m"});
   }
+  const SolutionRest rest(axial, per_Pa.unknowns);
+  const double unresolved = missing_share(rest, rest, traction.dot(per_Pa.unknowns));
+  for (SceneResult& result : answer.results) result.unresolved = unresolved;
   add_stresses(axial, state, answer);
   // Converges slowly: only if asked for by name.
   if (!scene.wanted.empty() && asks_for(scene, "base_stress_rim_mean")) {

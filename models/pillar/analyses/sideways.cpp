@@ -3,6 +3,7 @@
 #include "models/pillar/body/piezo_static.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/section_grid.h"
+#include "models/pillar/body/solution_rest.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
 namespace viscard {
@@ -13,6 +14,15 @@ double side_force_N(const PillarScene& scene, const PillarModel& model, double d
                     double moved_by_voltage_m = 0.0) {
   const double area_m2 = top_area_m2(model);
   return area_m2 * top_pressure_Pa(scene, area_m2 * displacement_per_N_m, moved_by_voltage_m);
+}
+
+// Errors that the solution under the force itself shows.
+void note_unresolved_sideways(double of_displacement, double of_charge, SceneAnswer& answer) {
+  for (SceneResult& result : answer.results) {
+    const bool is_of_charge =
+        result.name == "displacement_per_volt" || result.name == "quadrant_charge";
+    result.unresolved = is_of_charge ? of_charge : of_displacement;
+  }
 }
 
 void add_quadrants(const PillarScene& scene, const PillarModel& model, SceneAnswer& answer) {
@@ -28,8 +38,10 @@ void add_quadrants(const PillarScene& scene, const PillarModel& model, SceneAnsw
   }
   answer.results.push_back({"displacement_per_volt", unit.displacement_per_V_m, "m/V"});
   // Under a drive the charge of touching quadrants is unbounded.
-  if (drive_V(scene) != 0.0) return;
-  answer.results.push_back({"quadrant_charge", force_N * unit.charge_C, "C"});
+  if (drive_V(scene) == 0.0) {
+    answer.results.push_back({"quadrant_charge", force_N * unit.charge_C, "C"});
+  }
+  note_unresolved_sideways(unit.rest.displacement, unit.rest.charge, answer);
 }
 
 PillarState sideways_state(const PillarScene& scene, const PillarModel& model) {
@@ -97,6 +109,8 @@ void run_sideways(const PillarScene& scene, SceneAnswer& answer) {
   } else {
     answer.results.push_back({"top_displacement", force_N * moved_m, "m"});
   }
+  const SolutionRest rest(model, unit.unknowns);
+  note_unresolved_sideways(missing_share(rest, rest, moved_m), 0.0, answer);
   if (!scene.electrodes) return;
   const double mean_V = quadrant_mean_V(model, unit, free_face_m(scene), model.radius_m());
   answer.results.push_back({"quadrant_voltage", force_N * mean_V, "V"});

@@ -5,7 +5,9 @@
 #include "models/pillar/body/pillar_model.h"
 
 #include <cmath>
+#include <map>
 #include <optional>
+#include <string>
 
 namespace viscard {
 
@@ -43,6 +45,26 @@ void add_reading(const PillarScene& scene, double voltage_V, double capacitance_
   const ReadoutFilter filter = readout_filter(*scene.readout, capacitance_F);
   answer.results.push_back({"reading_at_once", filter.gain * voltage_V, "V"});
   add_time_constant(filter.time_constant_s, answer);
+}
+
+// Errors that the coupled solution itself shows. Per displacement of the top an answer also has the
+// error of the displacement per force.
+void note_unresolved(const PillarScene& scene, const PiezoRest& rest, SceneAnswer& answer) {
+  const double of_top = moves_top(scene) ? rest.displacement : 0.0;
+  const std::map<std::string, double> unresolved = {{"electrode_voltage", rest.voltage + of_top},
+                                                    {"electrode_charge", rest.charge + of_top},
+                                                    {"electrode_capacitance", rest.capacitance},
+                                                    {"top_displacement", rest.displacement},
+                                                    {"top_force", rest.displacement},
+                                                    {"top_stiffness", rest.displacement},
+                                                    {"stiffness_driven", rest.displacement},
+                                                    {"stiffness_open", rest.displacement},
+                                                    {"displacement_per_volt", rest.charge},
+                                                    {"reading_at_once", rest.voltage + of_top}};
+  for (SceneResult& result : answer.results) {
+    const auto found = unresolved.find(result.name);
+    if (found != unresolved.end()) result.unresolved = found->second;
+  }
 }
 
 // A pillar on a film with an electrode, its top moved: voltage and force with the electrode open
@@ -142,11 +164,13 @@ FilmAnswer film_answer(const PillarScene& scene, SceneAnswer& answer) {
 void add_film_results(const PillarScene& scene, const FilmAnswer& per_Pa, SceneAnswer& answer) {
   if (scene.electrodes->electrode_radius_m == 0.0) return add_sampled(scene, per_Pa, answer);
   if (moves_top(scene)) {
-    return add_moved_piezoelectric(scene, per_Pa.piezo, per_Pa.area_m2, answer);
+    add_moved_piezoelectric(scene, per_Pa.piezo, per_Pa.area_m2, answer);
+  } else if (drive_V(scene) != 0.0) {  // of a free body only the drive counts
+    add_driven(scene, per_Pa.piezo, per_Pa.area_m2, answer);
+  } else {
+    add_pressed(scene, per_Pa.piezo, answer);
   }
-  // Of a free body only the drive counts.
-  if (drive_V(scene) != 0.0) return add_driven(scene, per_Pa.piezo, per_Pa.area_m2, answer);
-  add_pressed(scene, per_Pa.piezo, answer);
+  note_unresolved(scene, per_Pa.piezo.rest, answer);
 }
 
 void run_static_piezo(const PillarScene& scene, SceneAnswer& answer) {

@@ -19,6 +19,10 @@ class FilmPotential {
     factor_.factor(potential_block());
   }
 
+  // Forces of a potential on the elastic body, in the numbering of the electric model.
+  Eigen::VectorXd forces_of(const Eigen::VectorXd& potential) const {
+    return times(form_, potential);
+  }
   // Unknowns of the electric model for the strain of `u`, with the electrode open.
   Eigen::VectorXd from_strain(const Eigen::VectorXd& u) const {
     return expanded(factor_.solve(times(form_, u)(dof_)));
@@ -71,17 +75,17 @@ class FilmPotential {
   StiffnessFactor factor_;
 };
 
-// The elastic solution in the numbering of the electric model, potentials zero.
-Eigen::VectorXd renumbered(const PillarModel& elastic, const PillarModel& electric,
+// Displacements of one model in the numbering of another on the same mesh, potentials zero.
+Eigen::VectorXd renumbered(const PillarModel& from, const PillarModel& to,
                            const Eigen::VectorXd& u) {
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(electric.system().size());
-  const int potential = electric.system().kinematics().potential_field;
-  for (int field = 0; field < electric.system().kinematics().field_count; ++field) {
-    if (field == potential) continue;
-    for (int node = 0; node < electric.system().section().node_count(); ++node) {
-      const int to = electric.system().dofs().dof(field, node);
-      const int from = elastic.system().dofs().dof(field, node);
-      if (to >= 0 && from >= 0) all[to] = u[from];
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(to.system().size());
+  const int fields = std::min(from.system().kinematics().field_count,
+                              to.system().kinematics().field_count);  // the potential is the last
+  for (int field = 0; field < fields; ++field) {
+    for (int node = 0; node < to.system().section().node_count(); ++node) {
+      const int target = to.system().dofs().dof(field, node);
+      const int source = from.system().dofs().dof(field, node);
+      if (target >= 0 && source >= 0) all[target] = u[source];
     }
   }
   return all;
@@ -103,15 +107,24 @@ PiezoAnswer piezo_one_way(const PillarModel& elastic, const PillarModel& electri
     throw std::invalid_argument("the film has no electrode; its voltage is undefined");
   }
   PiezoAnswer answer;
-  answer.open = elastic.solve(-pressure_Pa * elastic.top_traction());
+  const Eigen::VectorXd force = -pressure_Pa * elastic.top_traction();
+  StiffnessFactor factor;
+  elastic.factor(elastic.stiffness(), factor);
+  answer.open.unknowns = factor.solve(force, &answer.open.pressure_source);
   answer.top_displacement_m = elastic.mean_top_displacement_m(answer.open);
   const FilmPotential film(electric);
   const double scale_V = electric.potential_scale_V();
-  answer.voltage_V =
-      film.from_strain(renumbered(elastic, electric, answer.open.unknowns))[electrode] * scale_V;
-  const double V_per_C = -film.from_electrode()[electrode] * scale_V * scale_V;
+  const Eigen::VectorXd u = renumbered(elastic, electric, answer.open.unknowns);
+  const Eigen::VectorXd open = u + film.from_strain(u);
+  const Eigen::VectorXd charged = film.from_electrode();
+  answer.voltage_V = open[electrode] * scale_V;
+  const double V_per_C = -charged[electrode] * scale_V * scale_V;
   answer.capacitance_F = 1.0 / V_per_C;
   answer.charge_C = -answer.voltage_V / V_per_C;
+  const Eigen::VectorXd by_charge =
+      factor.solve(renumbered(electric, elastic, film.forces_of(charged)));
+  const Eigen::VectorXd dual = charged + renumbered(elastic, electric, by_charge);
+  answer.rest = piezo_rest(electric, {open, charged, dual}, force.dot(answer.open.unknowns));
   return answer;
 }
 

@@ -1,5 +1,6 @@
 #include "models/pillar/body/piezo_static.h"
 #include "models/pillar/body/pillar_model.h"
+#include "models/pillar/body/solution_rest.h"
 
 #include <numbers>
 #include <stdexcept>
@@ -22,7 +23,8 @@ QuadrantAnswer piezo_quadrants(const PillarModel& lateral, double force_N) {
   PillarState& state = answer.shorted;
   state.unknowns = factor.solve(force_N * push, &state.pressure_source);
   // The charge that brings the amplitude of the potential back to zero.
-  const double charge = -state.unknowns[electrode] / by_charge[electrode];
+  const double open_potential = state.unknowns[electrode];
+  const double charge = -open_potential / by_charge[electrode];
   state.unknowns += charge * by_charge;
   state.pressure_source += charge * source_by_charge;
   // The load of a charge Q is -Q scale (piezo_static.cpp), and the charge conjugate to the
@@ -33,6 +35,9 @@ QuadrantAnswer piezo_quadrants(const PillarModel& lateral, double force_N) {
   const double per_V = 4.0 / std::numbers::pi / (by_charge[electrode] * scale_V);
   answer.driven_per_V = {per_V * by_charge, per_V * source_by_charge};
   answer.displacement_per_V_m = push.dot(answer.driven_per_V.unknowns);
+  const SolutionRest shorted(lateral, state.unknowns);
+  answer.rest.displacement = missing_share(shorted, shorted, force_N * answer.top_displacement_m);
+  answer.rest.charge = missing_share(shorted, SolutionRest(lateral, by_charge), open_potential);
   return answer;
 }
 

@@ -1,8 +1,23 @@
 #include "models/pillar/body/piezo_static.h"
 
+#include "models/pillar/body/solution_rest.h"
+
 #include <stdexcept>
 
 namespace viscard {
+
+PiezoRest piezo_rest(const PillarModel& model, const PiezoSolutions& s, double work) {
+  const double open_potential = s.open[model.electrode_dof()];
+  const double potential_per_charge = s.charged[model.electrode_dof()];
+  const SolutionRest open(model, s.open);
+  const SolutionRest charged(model, s.charged);
+  const SolutionRest shorted(model, s.open - open_potential / potential_per_charge * s.charged);
+  const SolutionRest dual = s.dual.size() > 0 ? SolutionRest(model, s.dual) : charged;
+  return {.voltage = missing_share(open, dual, open_potential),
+          .charge = missing_share(shorted, dual, open_potential),
+          .capacitance = missing_share(charged, charged, potential_per_charge),
+          .displacement = missing_share(open, open, work)};
+}
 
 PiezoAnswer piezo_answer(const StiffnessFactor& factor, const Eigen::VectorXd& traction,
                          int electrode, double scale_V, double pressure_Pa) {
@@ -22,6 +37,7 @@ PiezoAnswer piezo_answer(const StiffnessFactor& factor, const Eigen::VectorXd& t
   answer.charge_C = -answer.voltage_V / V_per_C;
   const double u_per_C = -traction.dot(by_charge) / area * scale_V;
   answer.displacement_per_V_m = u_per_C / V_per_C;
+  answer.by_charge = by_charge;
   return answer;
 }
 
@@ -32,8 +48,12 @@ PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa) {
   }
   StiffnessFactor factor;
   model.factor(model.stiffness(), factor);
-  return piezo_answer(factor, model.top_traction(), electrode, model.potential_scale_V(),
-                      pressure_Pa);
+  const Eigen::VectorXd traction = model.top_traction();
+  PiezoAnswer answer =
+      piezo_answer(factor, traction, electrode, model.potential_scale_V(), pressure_Pa);
+  answer.rest = piezo_rest(model, {answer.open.unknowns, answer.by_charge, {}},
+                           pressure_Pa * traction.dot(answer.open.unknowns));
+  return answer;
 }
 
 PillarState piezo_sampled(const PillarModel& model, double pressure_Pa) {

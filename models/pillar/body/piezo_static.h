@@ -6,6 +6,12 @@ namespace viscard {
 
 // Static response of a pillar on a piezoelectric film, with elasticity and potential solved
 // together (eq. 20). Charges are in C; for the strip of plane motions, per metre of thickness.
+// Relative errors that the solutions themselves show (solution_rest.h), of answers per unit force
+// or voltage. The charge per force is also the displacement per volt.
+struct PiezoRest {
+  double voltage = 0.0, charge = 0.0, capacitance = 0.0, displacement = 0.0;
+};
+
 struct PiezoAnswer {
   double voltage_V = 0.0;             // electrode open (no charge flows)
   double charge_C = 0.0;              // electrode shorted to ground: charge that flows onto it
@@ -13,6 +19,8 @@ struct PiezoAnswer {
   double top_displacement_m = 0.0;    // mean, electrode open
   double displacement_per_V_m = 0.0;  // actuator: mean top displacement per volt on the electrode
   PillarState open;                   // solution with the electrode open
+  Eigen::VectorXd by_charge;          // for a unit entry of the electrode
+  PiezoRest rest;                     // of one pillar with a film averaged in its plane
 };
 
 // The model must have electrodes with a radius. Throws std::invalid_argument otherwise.
@@ -22,6 +30,13 @@ PiezoAnswer piezo_static(const PillarModel& model, double pressure_Pa);
 // the top, `electrode` the unknown of its potential.
 PiezoAnswer piezo_answer(const StiffnessFactor& factor, const Eigen::VectorXd& traction,
                          int electrode, double scale_V, double pressure_Pa);
+
+// Solutions of one model: with the electrode open under a load, and for a unit entry of the
+// electrode. `dual` is the dual solution of the voltage if that is not `charged`.
+struct PiezoSolutions {
+  Eigen::VectorXd open, charged, dual;
+};
+PiezoRest piezo_rest(const PillarModel& model, const PiezoSolutions& solutions, double work);
 
 // Solution with a charge-free face instead of an electrode; potential_at_V() reads it.
 PillarState piezo_sampled(const PillarModel& model, double pressure_Pa);
@@ -59,6 +74,7 @@ struct QuadrantAnswer {
   double top_displacement_m = 0.0;  // mean, all shorted
   PillarState shorted;
   PillarState driven_per_V;  // without force, 1 and -1 V on the halves
+  PiezoRest rest;            // of displacement and charge
 };
 
 // Solution under a force along x on the top, for a lateral model whose electrode has a radius. A

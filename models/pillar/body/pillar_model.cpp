@@ -23,8 +23,11 @@ bool is_sideways(Motion motion) {
 PillarGeometry with_electrode_edge(PillarGeometry geometry,
                                    const std::optional<ElectrodeOptions>& electrodes) {
   if (electrodes && geometry.film) {
-    geometry.film->electrode_radius_m = electrodes->electrode_radius_m;
-    geometry.film->electrode_is_below = electrodes->grounded == FilmFace::kTop;
+    // A charge-free face is read under the pillar; there is no edge, but the film's rim matters.
+    const bool has_edge = electrodes->electrode_radius_m > 0.0;
+    geometry.film->electrode_radius_m =
+        has_edge ? electrodes->electrode_radius_m : bond_radius_m(geometry);
+    geometry.film->electrode_is_below = has_edge && electrodes->grounded == FilmFace::kTop;
   }
   return geometry;
 }
@@ -127,6 +130,10 @@ double PillarModel::condensed_bulk_Pa(const Medium& medium) const {
 Eigen::MatrixXd PillarModel::elastic_form(const Medium& medium) const {
   if (condenses_pressure(medium)) return medium.shear_Pa * deviatoric_form();
   return material_form(medium, options_.electrodes.has_value(), is_plane_stress());
+}
+
+double PillarModel::mean_modulus_Pa(int region) const {
+  return elastic_form(medium(region)).diagonal().head(6).mean();
 }
 
 SymmetricSparse PillarModel::stiffness() const {

@@ -100,6 +100,8 @@ class PillarModel {
   double mean_stress(const PillarState& state, int component, double z, int region,
                      double radius_m) const;
   const SectionElement& element_at(double x, double z, int region) const;
+  // Mean of the moduli of the six strains as they enter the stiffness, without condensed pressures.
+  double mean_modulus_Pa(int region) const;
 
  private:
   DofMap make_dofs(const Kinematics& kinematics);

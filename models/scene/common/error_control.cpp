@@ -17,6 +17,7 @@ struct Number {
   double value = 0.0;
   double size = 0.0;
   double* error = nullptr;
+  double unresolved = 0.0;  // relative to the value
 };
 
 void add_curve(SceneCurve& curve, std::vector<Number>& numbers) {
@@ -33,10 +34,12 @@ std::vector<Number> numbers_of(SceneAnswer& answer) {
   std::vector<Number> numbers;
   for (SceneResult& r : answer.results) {
     if (!r.is_wanted) continue;
-    numbers.push_back({r.name, r.value, std::max(std::abs(r.value), r.scale), &r.error_estimate});
+    numbers.push_back(
+        {r.name, r.value, std::max(std::abs(r.value), r.scale), &r.error_estimate, r.unresolved});
   }
   for (SceneMode& m : answer.modes) {
-    numbers.push_back({m.family + " frequency", m.frequency_Hz, m.frequency_Hz, &m.error_estimate});
+    numbers.push_back(
+        {m.family + " frequency", m.frequency_Hz, m.frequency_Hz, &m.error_estimate, m.unresolved});
   }
   for (SceneCurve& curve : answer.curves) add_curve(curve, numbers);
   return numbers;
@@ -81,7 +84,8 @@ class ChangeTracker {
         const double left_over = is_noise ? change[i] : remaining(change[i], last_change_[i]);
         change[i] = std::max(left_over, left * last_change_[i]);
       }
-      const double error = change[i] + answer.step_error * numbers[i].size;
+      const double unresolved = numbers[i].unresolved * std::abs(numbers[i].value);
+      const double error = std::max(change[i], unresolved) + answer.step_error * numbers[i].size;
       *numbers[i].error = error;
       if (comparable && !(error <= answer.largest_relative_error * numbers[i].size)) {
         answer.largest_relative_error = error / numbers[i].size;

@@ -15,6 +15,8 @@ struct SceneResult {
   double error_estimate = 0.0;  // absolute, in the unit
   double scale = 0.0;           // the error is relative to the larger of |value| and this
   bool is_wanted = true;        // false: not asked for, and its error is not watched
+  // Relative error that the solution itself shows, whatever other meshes say; part of the estimate.
+  double unresolved = 0.0;
 };
 
 struct SceneMode {
@@ -22,6 +24,7 @@ struct SceneMode {
   int harmonic = 0;
   double frequency_Hz = 0.0;
   double error_estimate = 0.0;  // Hz
+  double unresolved = 0.0;      // as that of a result
 };
 
 // Decision of the plan on one effect.

@@ -1,6 +1,6 @@
 #pragma once
 
-// The value of an answer with this name. Throws std::runtime_error if there is none.
+// The value, result or curve of an answer with this name. Throws std::runtime_error if there is none.
 #include "models/scene/common/scene_answer.h"
 
 #include <stdexcept>
@@ -15,11 +15,15 @@ inline const SceneCurve& curve_of(const SceneAnswer& answer, const std::string& 
   throw std::runtime_error("no curve " + name);
 }
 
-inline double value_of(const SceneAnswer& answer, const std::string& name) {
+inline const SceneResult& result_of(const SceneAnswer& answer, const std::string& name) {
   for (const SceneResult& result : answer.results) {
-    if (result.name == name) return result.value;
+    if (result.name == name) return result;
   }
   throw std::runtime_error("no result " + name);
+}
+
+inline double value_of(const SceneAnswer& answer, const std::string& name) {
+  return result_of(answer, name).value;
 }
 
 }  // namespace viscard::test
