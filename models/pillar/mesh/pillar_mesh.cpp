@@ -175,6 +175,16 @@ void grade_toward_electrode(const FilmGeometry& film, const Discretisation& d,
   if (film.electrode_is_below) grade_toward(z.front(), d, z);
 }
 
+// A dead pressure on a top that turns is a shear along it, d_z u times the pressure (eq. 21), which
+// the free side does not bear: at the rim between them the stress goes with the logarithm of the
+// distance, and a rising degree alone gains only a half per step. The corner is weaker than the bond's
+// (displacements grow as r), so half of the layers do.
+void grade_toward_top(double top_m, const Discretisation& d, std::vector<double>& z) {
+  Discretisation fewer = d;
+  fewer.layers = (d.layers + 1) / 2;
+  grade_toward(top_m, fewer, z);
+}
+
 }  // namespace
 
 double bond_radius_m(const PillarGeometry& g) {
@@ -233,6 +243,7 @@ PillarMesh pillar_mesh(const PillarGeometry& g, const Discretisation& d) {
       grade_toward_electrode(*g.film, d, breaks.x, breaks.z);
     }
   }
+  if (d.grades_top && !is_uniform) grade_toward_top(g.length_m, d, breaks.z);
   if (g.foot.width_m != 0.0) insert_break(breaks.z, g.foot.height_m);
   if (g.tip.width_m != 0.0) insert_break(breaks.z, g.length_m - g.tip.height_m);
   if (is_uniform) {
