@@ -44,7 +44,7 @@ class RelaxedSearch {
         instantaneous_(lowest_modes(model, stiffness_at(body_, 1.0, 1.0), known_)),
         lifted_(lifted_body()),
         span_(lifted_) {
-    for (const PillarMode& mode : instantaneous_) span_.add(mode.shape);
+    for (const PillarMode& mode : instantaneous_) add(mode.shape);
   }
 
   // Adds the modes at the storage moduli of this frequency and of the mode with that number. All
@@ -77,10 +77,17 @@ class RelaxedSearch {
   double quick_error(const Pair& pair) const;
 
  private:
+  // What a vector adds to the basis may be so small a part of it that its rounding changes the volume
+  // of an incompressible body: that part is projected (in the energy) on motions that keep it.
+  bool add(Eigen::VectorXd v) {
+    if (!body_.incompressible) return span_.add(std::move(v));
+    if (span_.count() > 0) v -= span_.basis() * (span_.image(1.0, 1.0).transpose() * v);
+    return span_.add(span_.instantaneous().solve(times(stiffness_at(lifted_, 1.0, 1.0), v)));
+  }
   void add_modes_at(double omega_rad_s) {
     const RelativeModuli m = storage_at(body_.terms, omega_rad_s);
     const SymmetricSparse stiffness = stiffness_at(body_, m.shear.real(), m.bulk.real());
-    for (const PillarMode& mode : lowest_modes(model_, stiffness, known_)) span_.add(mode.shape);
+    for (const PillarMode& mode : lowest_modes(model_, stiffness, known_)) add(mode.shape);
   }
   // Frequency of a mode if only the storage moduli act, rad/s; 0: none. Sets its vector and the
   // share of the spectrum that separates it from what the basis lacks.
@@ -109,9 +116,24 @@ class RelaxedSearch {
   }
   // Nonlinear Rayleigh quotient iteration in the basis (Ruhe 1973).
   void iterate(Pair& pair) const;
+  // T(s) of the whole body times the pair's vector.
   Eigen::VectorXcd residual_of(const Pair& pair) const {
     const RelativeModuli m = relative_moduli(body_.terms, pair.s);
-    return span_.image_of(m.shear, m.bulk, shift_1_s2_ - pair.s * pair.s, pair.y);
+    Eigen::VectorXcd r = span_.image_of(m.shear, m.bulk, shift_1_s2_ - pair.s * pair.s, pair.y);
+    if (!body_.incompressible) return r;
+    r.real() = without_pressures(r.real());
+    r.imag() = without_pressures(r.imag());
+    return r;
+  }
+  // The pressures of an incompressible body balance most of a residual and move nothing. Taken out
+  // first, they do not spoil the digits of what is left.
+  Eigen::VectorXd without_pressures(Eigen::VectorXd r) const {
+    for (int pass = 0; pass < 2; ++pass) {
+      Eigen::VectorXd source;
+      span_.instantaneous().solve(r, &source);
+      r -= times(body_.bulk, source);
+    }
+    return r;
   }
   // Error of s from r' P^-1 r of its residual: T'(s) weighs the change of s.
   double error_from(const Pair& pair, double residual2) const {
@@ -186,8 +208,8 @@ double RelaxedSearch::refine(Pair& pair) {
     const Eigen::VectorXd imaginary = factor.solve(Eigen::VectorXd(r.imag()));
     error = error_from(pair, std::abs(r.real().dot(real) + r.imag().dot(imaginary)));
     if (error <= tolerance_) return error;
-    const bool grew = span_.add(real);
-    if (!(span_.add(imaginary) || grew)) return error;
+    const bool grew = add(real);
+    if (!(add(imaginary) || grew)) return error;
     Eigen::VectorXcd longer = Eigen::VectorXcd::Zero(span_.count());
     longer.head(pair.y.size()) = pair.y;
     pair.y = longer;
