@@ -48,6 +48,7 @@ ScenePlan plan_effects(const Scene& scene) {
 
 ScenePlan checked_plan(const Scene& scene) {
   refuse_beyond_buckling(scene);
+  refuse_buckling_in_creep(scene);
   return plan_effects(scene);
 }
 

@@ -2,6 +2,7 @@
 
 #include "models/array/plane/simulate_array.h"
 #include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/analyses/creep_buckling.h"
 #include "models/pillar/analyses/simulate_pillar.h"
 
 namespace viscard {
@@ -28,6 +29,19 @@ void validate(const Scene& scene) {
 
 void refuse_beyond_buckling(const Scene& scene) {
   if (const auto* pillar = std::get_if<PillarScene>(&scene)) refuse_beyond_buckling(*pillar);
+}
+
+std::string creep_buckling_note(const Scene& scene) {
+  if (const auto* pillar = std::get_if<PillarScene>(&scene)) return creep_buckling_note(*pillar);
+  const auto& row = std::get<ArrayScene>(scene);
+  if (row.load != ArrayLoad::kPressure || !std::holds_alternative<RowStatic>(row.drive)) return "";
+  PillarScene one = single_pillar(row);
+  one.drive = StaticDrive{.pressure_Pa = row.load_Pa};
+  return creep_buckling_note(one);
+}
+
+void refuse_buckling_in_creep(const Scene& scene) {
+  if (const auto* pillar = std::get_if<PillarScene>(&scene)) refuse_buckling_in_creep(*pillar);
 }
 
 std::vector<std::string> result_names(const Scene& scene) {

@@ -28,6 +28,11 @@ void validate(const Scene& scene);
 // row is validated for that.
 void refuse_beyond_buckling(const Scene& scene);
 
+// Buckling in creep (models/pillar/analyses/creep_buckling.h): a sentence for the answer, or "";
+// throws SceneMistake for a history of creep that a pillar does not bear.
+std::string creep_buckling_note(const Scene& scene);
+void refuse_buckling_in_creep(const Scene& scene);
+
 // Everything that may stand under [want].
 std::vector<std::string> result_names(const Scene& scene);
 

@@ -30,24 +30,21 @@ SceneAnswer solve_on(const ArrayScene& scene, const Discretisation& mesh) {
   return array_answer_on(scene, mesh);
 }
 
-void finish(const Scene& scene, SceneAnswer& answer) {
-  if (const auto* pillar = std::get_if<PillarScene>(&scene)) finish_pillar(*pillar, answer);
-}
-
 }  // namespace
 
 SceneAnswer simulate(const Scene& scene) {
   const ScenePlan plan = plan_effects(scene);
+  refuse_buckling_in_creep(scene);  // the plan may leave relaxation out
   SceneAnswer answer = std::visit([](const auto& body) { return solve(body); }, plan.reduced);
-  finish(plan.reduced, answer);
+  const std::string in_creep = creep_buckling_note(scene);
+  if (!in_creep.empty()) answer.notes.push_back(in_creep);
   report_left_out({plan.effects, plan.left_out}, common(scene).tolerance, answer);
+  require_tolerance(common(scene).tolerance, answer);
   return answer;
 }
 
 SceneAnswer answer_on(const Scene& scene, const Discretisation& mesh) {
-  SceneAnswer answer = std::visit([&](const auto& body) { return solve_on(body, mesh); }, scene);
-  finish(scene, answer);
-  return answer;
+  return std::visit([&](const auto& body) { return solve_on(body, mesh); }, scene);
 }
 
 std::vector<SectionGrid> solution_fields(const Scene& scene, const Discretisation& mesh) {

@@ -23,6 +23,9 @@ nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s) {
                      {"harmonic", m.harmonic},
                      {"frequency_Hz", m.frequency_Hz},
                      {"error_estimate", m.error_estimate}});
+    if (!m.damping_ratio) continue;
+    modes.back()["damping_ratio"] = *m.damping_ratio;
+    modes.back()["damping_error"] = m.damping_error;
   }
   return {{"results", results},
           {"modes", modes},
@@ -30,6 +33,7 @@ nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s) {
           {"discretisation",
            {{"degree", answer.discretisation.degree}, {"layers", answer.discretisation.layers}}},
           {"notes", answer.notes},
+          {"within_tolerance", answer.within_tolerance},
           {"unknowns", answer.unknowns},
           {"wall_s", wall_s}};
 }
@@ -40,8 +44,12 @@ void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out) {
                        r.error_estimate);
   }
   for (const SceneMode& m : answer.modes) {
-    out << fmt::format("  {:<13} m = {}  {:>14.2f} Hz +- {:.1e}\n", m.family, m.harmonic,
+    out << fmt::format("  {:<13} m = {}  {:>14.2f} Hz +- {:.1e}", m.family, m.harmonic,
                        m.frequency_Hz, m.error_estimate);
+    if (m.damping_ratio) {
+      out << fmt::format(", damping ratio {:.3g} +- {:.1e}", *m.damping_ratio, m.damping_error);
+    }
+    out << "\n";
   }
   for (const std::string& note : answer.notes) out << "  note: " << note << "\n";
   out << fmt::format("  effects on: ");
@@ -112,11 +120,17 @@ std::string csv_of_results(const std::vector<SceneResult>& results, const std::s
 }
 
 std::string csv_of_modes(const std::vector<SceneMode>& modes, const std::string& command) {
-  std::string text = fmt::format("# {} (viscard {})\nfamily,harmonic,frequency_Hz,error_Hz\n",
-                                 command, VISCARD_VERSION);
+  const bool is_damped = std::any_of(
+      modes.begin(), modes.end(), [](const SceneMode& m) { return m.damping_ratio.has_value(); });
+  std::string text =
+      fmt::format("# {} (viscard {})\nfamily,harmonic,frequency_Hz,error_Hz{}\n", command,
+                  VISCARD_VERSION, is_damped ? ",damping_ratio,damping_error" : "");
   for (const SceneMode& m : modes) {
-    text += fmt::format("{},{},{:.9g},{:.3g}\n", m.family, m.harmonic, m.frequency_Hz,
-                        m.error_estimate);
+    text +=
+        fmt::format("{},{},{:.9g},{:.3g}", m.family, m.harmonic, m.frequency_Hz, m.error_estimate);
+    if (is_damped)
+      text += fmt::format(",{:.9g},{:.3g}", m.damping_ratio.value_or(0.0), m.damping_error);
+    text += "\n";
   }
   return text;
 }

@@ -35,11 +35,7 @@ Analysis buckling_analysis() {
   return {.name = "buckling",
           .drive = BucklingDrive{},
           .bends = true,
-          // Geometric stiffness weighs the squares of gradients by a stress that is itself
-          // singular: where displacements grow as r^lambda its error falls as r^(3 lambda - 1), not
-          // r^(2 lambda). lambda is 0.60 at a bonded rim of nu -> 0.5 (Williams, J. Appl. Mech. 19
-          // (1952) 526) and 0.7 at 0.33, so that a layer of ratio 0.15 leaves up to 0.23.
-          .share_left = 0.3,
+          .share_left = kShareLeftOfStress,
           .check = check_buckling,
           .result_names = [](const PillarScene&) -> std::vector<std::string> {
             return {"buckling_pressure"};

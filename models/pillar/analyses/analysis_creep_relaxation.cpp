@@ -146,6 +146,7 @@ Analysis creep_analysis() {
   return {.name = "creep",
           .drive = CreepDrive{},
           .relaxes = true,
+          .follows_creep = true,
           .history = HistoryOf::kPressure,
           .check = check_quasi_static,
           .result_names =

@@ -1,14 +1,19 @@
 #include "models/maths/require.h"
+#include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/pillar_modes.h"
 #include "models/pillar/body/section_grid.h"
 #include "models/pillar/body/solution_rest.h"
+#include "models/pillar/time/relaxed_modes.h"
+#include "models/pillar/time/viscoelastic_pillar.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -37,14 +42,34 @@ std::vector<ModeFamily> mode_families(const PillarScene& scene) {
           {"ovalling", Motion::kOvalling, 2}};
 }
 
-std::vector<PillarMode> family_modes(const PillarScene& scene, const ModeFamily& family,
-                                     const PillarModel& model, const Discretisation& mesh) {
-  const bool pressed = modal_drive(scene).pressure_Pa != 0.0 && family.motion == Motion::kLateral;
-  const int rigid = scene.fixed_bottom ? 0 : rigid_motion_count(family.motion);
-  const int wanted = std::min(modal_drive(scene).modes, model.system().size() - rigid);
-  return pressed ? modes_under_pressure(model_of(scene, Motion::kLongitudinal, mesh), model,
-                                        modal_drive(scene).pressure_Pa, wanted)
-                 : lowest_modes(model, wanted);
+int modes_of_family(const PillarScene& scene, const PillarModel& model) {
+  const int rigid = scene.fixed_bottom ? 0 : rigid_motion_count(model.options().motion);
+  return std::min(modal_drive(scene).modes, model.system().size() - rigid);
+}
+
+// Modes of a strip are computed without load.
+bool is_pressed(const PillarScene& scene) {
+  return modal_drive(scene).pressure_Pa != 0.0 && !scene.plane;
+}
+
+// The model whose stress stiffens or softens the modes, or null without a pressure. A pressure at
+// rest has been there for long: the stress is that of the long-term moduli, unless the pillar
+// buckles before it comes to that.
+std::unique_ptr<PillarModel> pressed_model(const PillarScene& scene, const Discretisation& mesh) {
+  if (!is_pressed(scene)) return nullptr;
+  const double pressure_Pa = modal_drive(scene).pressure_Pa;
+  const PillarScene relaxed = long_term_scene(scene);
+  const bool lasts = pressure_Pa < 0.9 * engesser_pressure_Pa(relaxed);
+  return std::make_unique<PillarModel>(scene.geometry, mesh, media_of(lasts ? relaxed : scene),
+                                       options_of(scene, Motion::kLongitudinal));
+}
+
+std::vector<PillarMode> family_modes(const PillarScene& scene, const PillarModel& model,
+                                     const PillarModel* axial) {
+  const int wanted = modes_of_family(scene, model);
+  return axial != nullptr
+             ? modes_under_pressure(*axial, model, modal_drive(scene).pressure_Pa, wanted)
+             : lowest_modes(model, wanted);
 }
 
 void check_modal(const PillarScene& scene) {
@@ -76,25 +101,75 @@ void note_rigid_motions(const PillarScene& scene, SceneAnswer& answer) {
                          ") have no frequency and are not listed");
 }
 
+// A mode that a push does not set swinging has no frequency.
+void note_overdamped(const PillarScene& scene, const std::string& mode, SceneAnswer& answer) {
+  if (modal_drive(scene).pressure_Pa > 0.0) {
+    throw std::runtime_error(mode + " does not vibrate under the pressure of " +
+                             text_of(modal_drive(scene).pressure_Pa, 5) +
+                             " Pa: the material relaxes so quickly that the pillar creeps instead, "
+                             "and may buckle; reduce the pressure");
+  }
+  answer.notes.push_back(mode +
+                         " does not vibrate: the material relaxes so quickly that it creeps back "
+                         "after a push; it is not listed");
+}
+
+// Modes with the moduli at their own complex frequencies (eq. 22b).
+void add_relaxed_modes(const PillarScene& scene, const ModeFamily& family, const PillarModel& model,
+                       const PillarModel* axial, SceneAnswer& answer) {
+  ViscoelasticSystem body = viscoelastic_system(model, scene.pillar, /*with_mass=*/true);
+  if (axial != nullptr) {
+    const double pressure_Pa = modal_drive(scene).pressure_Pa;
+    if (family.motion == Motion::kLateral) require_below_buckling(*axial, model, pressure_Pa);
+    body.elastic.coeffs() += pressure_Pa * stress_stiffness_per_Pa(*axial, model).coeffs();
+  }
+  const double small = 0.03 * scene.tolerance;  // of what the basis leaves out
+  int number = 0;
+  for (const RelaxedMode& mode :
+       relaxed_modes(model, std::move(body), modes_of_family(scene, model), small)) {
+    ++number;
+    if (mode.frequency_Hz == 0.0) {
+      note_overdamped(scene, std::string(family.name) + " mode " + std::to_string(number), answer);
+      continue;
+    }
+    answer.modes.push_back({.family = family.name,
+                            .harmonic = family.harmonic,
+                            .frequency_Hz = mode.frequency_Hz,
+                            .damping_ratio = mode.damping_ratio});
+    answer.step_error = std::max(answer.step_error, mode.error);
+  }
+}
+
 void run_modal(const PillarScene& scene, SceneAnswer& answer) {
   // The n-th mode of a clamped bar has n - 1/2 half waves; with an element for each, even the
   // lowest degrees resolve all of them.
   if (!scene.discretisation) {
     answer.discretisation.longest_m = scene.geometry.length_m / (modal_drive(scene).modes - 0.5);
   }
+  if (!scene.discretisation) answer.discretisation.grades_top = is_pressed(scene);
+  const std::unique_ptr<PillarModel> axial = pressed_model(scene, answer.discretisation);
   for (const ModeFamily& family : mode_families(scene)) {
     const PillarModel model = model_of(scene, family.motion, answer.discretisation);
     count_unknowns(model, answer);
-    for (const PillarMode& mode : family_modes(scene, family, model, answer.discretisation)) {
+    if (!scene.pillar.terms.empty()) {
+      add_relaxed_modes(scene, family, model, axial.get(), answer);
+      continue;
+    }
+    for (const PillarMode& mode : family_modes(scene, model, axial.get())) {
       const double omega_1_s = 2.0 * std::numbers::pi * mode.frequency_Hz;
       const SolutionRest rest(model, mode.shape);  // omega^2 is the work of a unit mass norm
       const double unresolved = 0.5 * missing_share(rest, rest, omega_1_s * omega_1_s);
-      answer.modes.push_back({family.name, family.harmonic, mode.frequency_Hz, 0.0, unresolved});
+      answer.modes.push_back({.family = family.name,
+                              .harmonic = family.harmonic,
+                              .frequency_Hz = mode.frequency_Hz,
+                              .unresolved = unresolved,
+                              .damping_ratio = {}});
     }
   }
   note_rigid_motions(scene, answer);
 }
 
+// Shapes right after loading, with the instantaneous moduli.
 SectionGrid modal_grid(const PillarScene& scene, const ModeFamily& family,
                        const Discretisation& mesh) {
   const PillarModel model = model_of(scene, family.motion, mesh);
@@ -102,7 +177,8 @@ SectionGrid modal_grid(const PillarScene& scene, const ModeFamily& family,
   at.grid.name = family.name;
   at.grid.harmonic = family.motion == Motion::kPlaneAntisymmetric ? 1 : family.harmonic;
   int number = 0;
-  for (const PillarMode& mode : family_modes(scene, family, model, mesh)) {
+  const std::unique_ptr<PillarModel> axial = pressed_model(scene, mesh);
+  for (const PillarMode& mode : family_modes(scene, model, axial.get())) {
     SectionField shape = displacement_field(
         model, at, std::string(family.name) + "_" + std::to_string(++number), mode.shape);
     shape.unit = "1";
@@ -147,21 +223,24 @@ EffectEstimate modal_film_compliance(const PillarScene& scene, const EffectEstim
           "base compliance over pillar's", largest, "lowers the frequencies of pillar and film"};
 }
 
-// The modulus at the lowest frequency against the instantaneous one (eq. E3).
+// The modulus at the lowest frequency against the instantaneous one (eq. E3). A pressure takes the
+// share p/p_cr of the stiffness, so that f^2 goes as E'(w)/E_0 - p/p_cr.
 EffectEstimate modal_relaxation(const PillarScene& scene, const EffectEstimate& usual) {
   if (!(scene.pillar.rho_kg_m3 > 0.0)) return usual;
   const PronySeries series = largest_relaxation(scene.pillar);
-  const double nu_w = 2.0 * std::numbers::pi * 0.5 *
+  const double share =
+      std::clamp(modal_drive(scene).pressure_Pa / engesser_pressure_Pa(scene), 0.0, 0.99);
+  const double nu_w = 2.0 * std::numbers::pi * 0.5 * std::sqrt(1.0 - share) *
                       std::min(1.0, 0.5 * scene.geometry.diameter_m / scene.geometry.length_m) *
                       first_rod_frequency_Hz(scene);
   const double loss =
       1.0 - complex_modulus_Pa(series, nu_w).storage_Pa / instantaneous_modulus_Pa(series);
-  return {EffectRole::kOptional, 0.5 * loss, "1 - E'(w)/E_0", loss,
+  return {EffectRole::kOptional, 0.5 * loss / (1.0 - share), "1 - E'(w)/E_0", loss,
           "the modulus at the lowest frequency"};
 }
 
 // f(p) = f(0) sqrt(1 - p/p_cr) holds for the first lateral mode, exactly for equal shapes, and
-// bounds the others (eq. E6).
+// bounds the others (eq. E6): torsion falls by p/(2 G), axial modes by p/(2 E).
 EffectEstimate modal_geometric_stiffness(const PillarScene& scene, const EffectEstimate& usual) {
   const double share = usual.value;
   if (usual.number.empty()) return usual;  // no pressure
@@ -172,46 +251,7 @@ EffectEstimate modal_geometric_stiffness(const PillarScene& scene, const EffectE
   const double error = modal_drive(scene).pressure_Pa < 0.0 ? std::sqrt(1.0 + share) - 1.0
                        : share < 0.9                        ? 1.0 - std::sqrt(1.0 - share / 0.95)
                                                             : 1.0;
-  return {EffectRole::kOptional, error, "p/p_cr", share, "the load softens lateral modes"};
-}
-
-// At the relaxed frequency the storage modulus at the frequency itself carries the vibration:
-//   f^2 = f_0^2 [E'(2 pi f)/E_0 - s]/(1 - s)   (eq. E8), s = p/p_cr.
-double relaxed_frequency_Hz(double f0_Hz, const PronySeries& series, double stress_share) {
-  const double E0 = instantaneous_modulus_Pa(series);
-  double f_Hz = f0_Hz;
-  constexpr int kIterations = 40;  // each reduces the error by d ln E'/d ln f < 1/2 or less
-  for (int i = 0; i < kIterations; ++i) {
-    const double E = complex_modulus_Pa(series, 2.0 * std::numbers::pi * f_Hz).storage_Pa / E0;
-    f_Hz = f0_Hz * std::sqrt(std::max(0.0, (E - stress_share) / (1.0 - stress_share)));
-  }
-  return f_Hz;
-}
-
-// Replaces frequencies found with the instantaneous moduli by relaxed ones; torsion uses G', and
-// only lateral modes feel the pressure. Exact without film and load at constant Poisson ratio
-// (correspondence principle: Christensen, Theory of Viscoelasticity (1982), ch. 2); otherwise a
-// tenth of the change is added to the error.
-void relax_modes(const PillarScene& scene, SceneAnswer& answer) {
-  if (scene.pillar.terms.empty()) return;
-  const PronySeries young = young_series(scene.pillar);
-  const PronySeries shear = shear_series(scene.pillar);
-  const double share = pressure_Pa(scene) / engesser_pressure_Pa(scene);
-  double first_lateral_Hz = 0.0;
-  for (SceneMode& mode : answer.modes) {
-    double stress_share = 0.0;
-    if (mode.family == "lateral") {
-      if (first_lateral_Hz == 0.0) first_lateral_Hz = mode.frequency_Hz;
-      const double stiffer = first_lateral_Hz / mode.frequency_Hz;
-      stress_share = std::min(0.99, share * stiffer * stiffer);
-    }
-    const double f_Hz = relaxed_frequency_Hz(
-        mode.frequency_Hz, mode.family == "torsion" ? shear : young, stress_share);
-    const bool exact = !scene.film && stress_share == 0.0 &&
-                       (has_constant_poisson_ratio(scene.pillar) || mode.family == "torsion");
-    if (!exact) mode.error_estimate += 0.1 * std::abs(mode.frequency_Hz - f_Hz);
-    mode.frequency_Hz = f_Hz;
-  }
+  return {EffectRole::kOptional, error, "p/p_cr", share, "the load softens the modes"};
 }
 
 }  // namespace
@@ -221,11 +261,12 @@ Analysis modal_analysis() {
           .drive = ModalDrive{},
           .has_inertia = true,
           .bends = true,
+          .load_stays = true,
           .free_bottom = FreeBottom::kFloats,
+          .share_left_under_pressure = kShareLeftOfStress,
           .check = check_modal,
           .result_names = modal_names,
           .run = run_modal,
-          .finish = relax_modes,
           .push_Pa = pressure_Pa,
           .fields = modal_fields,
           .relaxation = modal_relaxation,

@@ -228,6 +228,7 @@ const char* static_why_two_way(const PillarScene& scene) {
 Analysis static_analysis() {
   return {.name = "static",
           .drive = StaticDrive{},
+          .load_stays = true,
           .free_bottom = FreeBottom::kPinned,
           .check = check_static,
           .result_names = static_names,

@@ -65,6 +65,15 @@ double engesser_pressure_Pa(const PillarScene& scene) {
   return euler_Pa / (1.0 + euler_Pa / (kappa * shear_Pa));
 }
 
+PillarScene long_term_scene(const PillarScene& scene) {
+  const DerivedModuli moduli = derived_moduli(scene.pillar);
+  PillarScene relaxed = scene;
+  relaxed.pillar.terms.clear();
+  relaxed.pillar.E0_Pa = moduli.E_inf_Pa;
+  relaxed.pillar.nu = moduli.nu_inf;
+  return relaxed;
+}
+
 double largest_pressure_Pa(const PillarScene& scene) {
   const Analysis& analysis = analysis_of(scene);
   if (analysis.found_pressure_Pa != nullptr) return analysis.found_pressure_Pa(scene);
@@ -78,17 +87,25 @@ double largest_pressure_Pa(const PillarScene& scene) {
   return largest;
 }
 
+double rough_buckling_pressure_Pa(const PillarScene& scene) {
+  const double slenderness = scene.geometry.diameter_m / scene.geometry.length_m;
+  const double pi = std::numbers::pi;
+  const double euler_Pa = pi * pi / 64.0 * scene.pillar.E0_Pa * slenderness * slenderness;
+  const double turn = scene.film ? 2.0 * film_shares(scene).bending : 0.0;  // of the foot
+  return 0.5 * euler_Pa / (1.0 + kUnevenTraction * turn);
+}
+
+double pillar_buckling_pressure_Pa(const PillarScene& scene) {
+  return scene.plane ? engesser_pressure_Pa(scene) : buckling_limit(scene, false);
+}
+
 std::string beyond_buckling(const PillarScene& scene) {
   const Analysis& analysis = analysis_of(scene);
   if (analysis.push_Pa == nullptr || is_lateral(scene)) return "";
   if (moves_top(scene)) return beyond_buckling_under_plate(scene);
   const double largest_Pa = analysis.push_Pa(scene);
-  const double slenderness = scene.geometry.diameter_m / scene.geometry.length_m;
-  const double pi = std::numbers::pi;
-  const double euler_Pa = pi * pi / 64.0 * scene.pillar.E0_Pa * slenderness * slenderness;
-  if (largest_Pa < 0.5 * euler_Pa) return "";
-  const double critical_Pa =
-      scene.plane ? engesser_pressure_Pa(scene) : buckling_limit(scene, false);
+  if (largest_Pa < rough_buckling_pressure_Pa(scene)) return "";
+  const double critical_Pa = pillar_buckling_pressure_Pa(scene);
   if (largest_Pa < critical_Pa) return "";
   return "a pressure of " + text_of(largest_Pa, 5) +
          " Pa is beyond the buckling pressure of about " + text_of(critical_Pa, 5) +

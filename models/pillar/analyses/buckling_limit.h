@@ -11,6 +11,17 @@ namespace viscard {
 // the top keeps it upright but lets it slide, which makes the pressure four times as large.
 double engesser_pressure_Pa(const PillarScene& scene);
 
+// A pressure well below which no pillar buckles under a free top: half of Euler's, with the turn of
+// its foot on the film (eq. E1).
+double rough_buckling_pressure_Pa(const PillarScene& scene);
+
+// Pressure at which the pillar buckles under a free top: its own on a coarse mesh (infinite if it is
+// so stubby that it buckles only locally), for a strip Engesser's (eq. E6).
+double pillar_buckling_pressure_Pa(const PillarScene& scene);
+
+// The same pillar long after loading: with its long-term moduli, which relax no further.
+PillarScene long_term_scene(const PillarScene& scene);
+
 // Largest pressure on the top, Pa; 0 for a history of shortening. A top that is moved counts as
 // E u/L, and an analysis that finds a pressure itself as that pressure.
 double largest_pressure_Pa(const PillarScene& scene);

@@ -21,8 +21,11 @@ SceneAnswer simulate_pillar(const PillarScene& scene) {
   refuse_beyond_buckling(scene);
   const std::vector<Discretisation> meshes =
       scene.discretisation ? refinements_to(*scene.discretisation) : mesh_sequence(scene.geometry);
+  const Analysis& analysis = analysis_of(scene);
+  const double share_left =
+      pressure_Pa(scene) == 0.0 ? analysis.share_left : analysis.share_left_under_pressure;
   SceneAnswer answer =
-      answer_within({scene.tolerance, meshes, scene.progress, analysis_of(scene).share_left},
+      answer_within({scene.tolerance, meshes, scene.progress, share_left},
                     [&](const Discretisation& mesh) { return pillar_answer_on(scene, mesh); });
   add_film_direction(scene, answer);
   const std::string why = holds_straight(scene) ? beyond_buckling(scene) : "";
@@ -30,11 +33,6 @@ SceneAnswer simulate_pillar(const PillarScene& scene) {
     answer.notes.push_back(why + ", unless it is held straight, as the scene declares");
   }
   return answer;
-}
-
-void finish_pillar(const PillarScene& scene, SceneAnswer& answer) {
-  const Analysis& analysis = analysis_of(scene);
-  if (analysis.finish != nullptr) analysis.finish(scene, answer);
 }
 
 }  // namespace viscard

@@ -24,8 +24,4 @@ SceneAnswer simulate_pillar(const PillarScene& scene);
 // The same on one mesh, without mesh errors.
 SceneAnswer pillar_answer_on(const PillarScene& scene, const Discretisation& mesh);
 
-// Changes an answer of simulate_pillar() or pillar_answer_on() once its errors are known, if the
-// analysis does that (modes of a material that relaxes).
-void finish_pillar(const PillarScene& scene, SceneAnswer& answer);
-
 }  // namespace viscard

@@ -12,10 +12,8 @@
 #include <stdexcept>
 
 namespace viscard {
-namespace {
 
-// Stress stiffness of a lateral model per Pa of pressure on the top of the axial one.
-SymmetricSparse stress_stiffness_per_Pa(const PillarModel& axial, const PillarModel& lateral) {
+SymmetricSparse stress_stiffness_per_Pa(const PillarModel& axial, const PillarModel& model) {
   const PillarState state = axial.solve(-axial.top_traction());
   const auto form = [&](const SectionElement& element, double x, double z) {
     const Eigen::VectorXd s = axial.stress_at(state, element, x, z);
@@ -25,8 +23,10 @@ SymmetricSparse stress_stiffness_per_Pa(const PillarModel& axial, const PillarMo
     for (Eigen::Index k = 0; k < 3; ++k) D.block<3, 3>(3 * k, 3 * k) = stress;
     return D;
   };
-  return lateral.system().varying_form(lateral.system().kinematics().gradient, form);
+  return model.system().varying_form(model.system().kinematics().gradient, form);
 }
+
+namespace {
 
 // A motion without its rigid part: x - R (R'MR)^-1 R'M x. The elastic modes of a free body are
 // those of its stiffness among these remaining motions.
@@ -151,6 +151,11 @@ std::vector<PillarMode> lowest_modes(const PillarModel& model, int count) {
   return modes_of(model, model.stiffness(), count);
 }
 
+std::vector<PillarMode> lowest_modes(const PillarModel& model, const SymmetricSparse& stiffness,
+                                     int count) {
+  return modes_of(model, stiffness, count);
+}
+
 namespace {
 
 // The pencil K + p K_sigma of a lateral model, and the criterion for a mode of the whole pillar.
@@ -240,18 +245,24 @@ Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int coun
       "stubby pillar does not buckle sideways; for a slender one ask for a larger tolerance");
 }
 
-std::vector<PillarMode> modes_under_pressure(const PillarModel& axial, const PillarModel& lateral,
-                                             double pressure_Pa, int count) {
+void require_below_buckling(const PillarModel& axial, const PillarModel& lateral,
+                            double pressure_Pa) {
   const double critical_Pa = search_buckling(axial, lateral, 1).pressure_Pa;
-  if (critical_Pa > 0.0 && pressure_Pa >= critical_Pa) {
-    throw std::runtime_error("a pressure of " + text_of(pressure_Pa, 5) +
-                             " Pa on the top is beyond the buckling pressure of " +
-                             text_of(critical_Pa, 5) +
-                             " Pa; reduce it, because vibrations need a stable straight pillar");
+  if (!(critical_Pa > 0.0 && pressure_Pa >= critical_Pa)) return;
+  throw std::runtime_error("a pressure of " + text_of(pressure_Pa, 5) +
+                           " Pa on the top is beyond the buckling pressure of " +
+                           text_of(critical_Pa, 5) +
+                           " Pa; reduce it, because vibrations need a stable straight pillar");
+}
+
+std::vector<PillarMode> modes_under_pressure(const PillarModel& axial, const PillarModel& model,
+                                             double pressure_Pa, int count) {
+  if (model.options().motion == Motion::kLateral) {
+    require_below_buckling(axial, model, pressure_Pa);
   }
-  SymmetricSparse stiffness = lateral.stiffness();
-  stiffness.coeffs() += pressure_Pa * stress_stiffness_per_Pa(axial, lateral).coeffs();
-  return modes_of(lateral, stiffness, count);
+  SymmetricSparse stiffness = model.stiffness();
+  stiffness.coeffs() += pressure_Pa * stress_stiffness_per_Pa(axial, model).coeffs();
+  return modes_of(model, stiffness, count);
 }
 
 }  // namespace viscard

@@ -15,6 +15,9 @@ struct PillarMode {
 // modes are its elastic ones, orthogonal to the rigid motions. Each mode of a harmonic m >= 1
 // represents two. Throws std::runtime_error if the iteration does not converge.
 std::vector<PillarMode> lowest_modes(const PillarModel& model, int count);
+// The same with another stiffness of the model: relaxed, or with that of a stress.
+std::vector<PillarMode> lowest_modes(const PillarModel& model, const SymmetricSparse& stiffness,
+                                     int count);
 
 // Pressure on the top at which the straight pillar buckles sideways (linear buckling with the full
 // stress field of the loaded pillar, dead load):
@@ -30,9 +33,17 @@ struct Buckling {
 };
 Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int count = 1);
 
-// Lowest modes of the lateral family under a pressure on the top. Throws std::runtime_error with
-// the critical pressure if the pillar would buckle.
-std::vector<PillarMode> modes_under_pressure(const PillarModel& axial, const PillarModel& lateral,
+// Stress stiffness K_sigma (eq. 21) of a model in any family of motion of a cylinder, per Pa of
+// pressure on the top of the axial one. Both must have the same mesh.
+SymmetricSparse stress_stiffness_per_Pa(const PillarModel& axial, const PillarModel& model);
+
+// Throws std::runtime_error with the critical pressure if the pillar would buckle.
+void require_below_buckling(const PillarModel& axial, const PillarModel& lateral,
+                            double pressure_Pa);
+
+// Lowest modes of any family of a cylinder under a pressure on the top. Throws std::runtime_error
+// as above if lateral modes are asked for.
+std::vector<PillarMode> modes_under_pressure(const PillarModel& axial, const PillarModel& model,
                                              double pressure_Pa, int count);
 
 }  // namespace viscard

@@ -134,6 +134,16 @@ Breaks graded_mesh_breaks(const PillarGeometry& g, const Discretisation& d) {
   return breaks;
 }
 
+// A dead pressure on a top that turns is a shear along it, d_z u times the pressure (eq. 21), which
+// the free side does not bear: at the rim between them the stress goes with the logarithm of the
+// distance, and a rising degree alone gains only a half per step. The corner is weaker than the bond's
+// (displacements grow as r), so half of the layers do.
+void grade_toward_top(const Discretisation& d, std::vector<double>& z) {
+  const double top_m = z.back();
+  z.pop_back();
+  append_breaks(z, graded_breaks(z.back(), top_m, (d.layers + 1) / 2, d.ratio, true));
+}
+
 }  // namespace
 
 double bond_radius_m(const PillarGeometry& g) {
@@ -189,6 +199,7 @@ PillarMesh pillar_mesh(const PillarGeometry& g, const Discretisation& d) {
   if (g.film && is_uniform && g.film->electrode_radius_m > 0.0) {
     insert_break(breaks.x, g.film->electrode_radius_m);
   }
+  if (d.grades_top && !is_uniform) grade_toward_top(d, breaks.z);
   if (g.foot.width_m != 0.0) insert_break(breaks.z, g.foot.height_m);
   if (g.tip.width_m != 0.0) insert_break(breaks.z, g.length_m - g.tip.height_m);
   if (is_uniform) {

@@ -68,16 +68,18 @@ bool ReducedSpan::add(Eigen::VectorXd v) {
 }
 
 Eigen::MatrixXcd ReducedSpan::restricted(std::complex<double> shear, std::complex<double> bulk,
-                                         double omega2) const {
+                                         std::complex<double> omega2) const {
   Eigen::MatrixXcd sum(count(), count());
   sum.real() = small_elastic_ + shear.real() * small_shear_ + bulk.real() * small_bulk_ -
-               omega2 * small_mass_;
-  sum.imag() = shear.imag() * small_shear_ + bulk.imag() * small_bulk_;
+               omega2.real() * small_mass_;
+  sum.imag() =
+      shear.imag() * small_shear_ + bulk.imag() * small_bulk_ - omega2.imag() * small_mass_;
   return sum;
 }
 
 Eigen::VectorXcd ReducedSpan::image_of(std::complex<double> shear, std::complex<double> bulk,
-                                       double omega2, const Eigen::VectorXcd& c) const {
+                                       std::complex<double> omega2,
+                                       const Eigen::VectorXcd& c) const {
   Eigen::MatrixXd parts(c.size(), 2);
   parts << c.real(), c.imag();
   const auto whole = [&](const Eigen::MatrixXd& matrix) -> Eigen::VectorXcd {

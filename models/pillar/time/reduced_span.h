@@ -32,10 +32,14 @@ class ReducedSpan {
 
   // basis' (elastic + shear S + bulk B - omega^2 M) basis.
   Eigen::MatrixXcd restricted(std::complex<double> shear, std::complex<double> bulk,
-                              double omega2) const;
+                              std::complex<double> omega2) const;
   // (elastic + shear S + bulk B - omega^2 M) basis c, without forming the sum.
-  Eigen::VectorXcd image_of(std::complex<double> shear, std::complex<double> bulk, double omega2,
-                            const Eigen::VectorXcd& c) const;
+  Eigen::VectorXcd image_of(std::complex<double> shear, std::complex<double> bulk,
+                            std::complex<double> omega2, const Eigen::VectorXcd& c) const;
+  // basis' times the mass, shear and bulk matrices times basis.
+  const Eigen::MatrixXd& small_mass() const { return small_mass_; }
+  const Eigen::MatrixXd& small_shear() const { return small_shear_; }
+  const Eigen::MatrixXd& small_bulk() const { return small_bulk_; }
 
   // Norm of a residual in the inverse of the instantaneous stiffness.
   double dual_norm(const Eigen::VectorXd& residual) const;

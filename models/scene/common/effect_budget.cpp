@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace viscard {
 namespace {
@@ -89,7 +90,12 @@ void add_left_out(double left_out, SceneAnswer& answer) {
   for (SceneResult& result : answer.results) {
     result.error_estimate += left_out * std::max(std::abs(result.value), result.scale);
   }
-  for (SceneMode& mode : answer.modes) mode.error_estimate += left_out * mode.frequency_Hz;
+  for (SceneMode& mode : answer.modes) {
+    mode.error_estimate += left_out * mode.frequency_Hz;
+    // A share of the stiffness that does not relax takes it from the damping; the frequency changes
+    // by half of it.
+    if (mode.damping_ratio) mode.damping_error += 2.0 * left_out * *mode.damping_ratio;
+  }
   for (SceneCurve& curve : answer.curves) {
     const double peak = largest_size(curve.value);
     for (double& error : curve.error) error += left_out * peak;
@@ -128,6 +134,33 @@ void report_left_out(const EffectDecisions& decisions, double tolerance, SceneAn
   add_left_out(decisions.left_out, answer);
   add_notes(decisions, tolerance, answer);
   answer.effects = decisions.effects;
+}
+
+void require_tolerance(double tolerance, SceneAnswer& answer) {
+  std::string worst = "answer";
+  double largest = answer.largest_relative_error;
+  const auto look_at = [&](const std::string& name, double error, double size) {
+    if (error <= largest * size) return;
+    worst = name;
+    largest = error / size;
+  };
+  for (const SceneResult& r : answer.results) {
+    if (r.is_wanted) look_at(r.name, r.error_estimate, std::max(std::abs(r.value), r.scale));
+  }
+  for (const SceneMode& mode : answer.modes) {
+    look_at(mode.family + " frequency", mode.error_estimate, mode.frequency_Hz);
+    look_at(mode.family + " damping ratio", mode.damping_error, 1.0);
+  }
+  answer.within_tolerance = largest <= tolerance * (1.0 + 1e-9);
+  if (answer.within_tolerance) return;
+  const bool is_declared =
+      std::any_of(answer.effects.begin(), answer.effects.end(),
+                  [](const SceneEffect& effect) { return effect.is_forced && effect.is_counted; });
+  const std::string what = "the " + worst + " has a relative error of about " +
+                           text_of(largest, 2) + ", more than the tolerance of " +
+                           text_of(tolerance, 2);
+  if (!is_declared) throw std::runtime_error(what + "; ask for a larger tolerance");
+  answer.notes.push_back(what + ", with the effects that the scene forces off");
 }
 
 }  // namespace viscard

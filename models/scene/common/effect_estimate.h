@@ -53,4 +53,9 @@ EffectDecisions decide_effects(const std::vector<NamedEstimate>& estimates,
 // that the error estimates cannot contain.
 void report_left_out(const EffectDecisions& decisions, double tolerance, SceneAnswer& answer);
 
+// Decides for every answer, whichever analysis made it, if all its error estimates are within the
+// tolerance, and says so in `within_tolerance`. Throws std::runtime_error with the worst number
+// unless effects that the scene itself forces off are the reason; that gets a note.
+void require_tolerance(double tolerance, SceneAnswer& answer);
+
 }  // namespace viscard

@@ -40,6 +40,8 @@ std::vector<Number> numbers_of(SceneAnswer& answer) {
   for (SceneMode& m : answer.modes) {
     numbers.push_back(
         {m.family + " frequency", m.frequency_Hz, m.frequency_Hz, &m.error_estimate, m.unresolved});
+    if (!m.damping_ratio) continue;
+    numbers.push_back({m.family + " damping ratio", *m.damping_ratio, 1.0, &m.damping_error});
   }
   for (SceneCurve& curve : answer.curves) add_curve(curve, numbers);
   return numbers;

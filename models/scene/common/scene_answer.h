@@ -3,6 +3,7 @@
 #include "models/pillar/mesh/pillar_mesh.h"
 
 #include <complex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,10 @@ struct SceneMode {
   std::string family;
   int harmonic = 0;
   double frequency_Hz = 0.0;
-  double error_estimate = 0.0;  // Hz
-  double unresolved = 0.0;      // as that of a result
+  double error_estimate = 0.0;          // Hz
+  double unresolved = 0.0;              // as that of a result
+  std::optional<double> damping_ratio;  // of a material that relaxes; the error is absolute
+  double damping_error = 0.0;
 };
 
 // Decision of the plan on one effect.
@@ -62,6 +65,7 @@ struct SceneAnswer {
   Discretisation discretisation;   // that met the tolerance
   int unknowns = 0;                // of the largest system
   double largest_relative_error = 0.0;
+  bool within_tolerance = true;  // every error estimate; set by simulate()
   double step_error = 0.0;  // relative, of time steps and reduced bases; part of the errors above
 };
 

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <random>
 
 namespace viscard::test {
 namespace {
@@ -73,6 +75,31 @@ void draw_static(Draw& draw, PillarScene& scene) {
   if (draw.chance(0.3)) scene.wanted.emplace_back("base_stress_at_half_radius");
 }
 
+// Materials that damp the modes, and films as soft as the pillar or softer. They have a stream of
+// their own, so that the other scenes of a seed stay what they were.
+void draw_damped_modes(const Ranges& ranges, PillarScene& scene) {
+  std::mt19937_64 own(static_cast<std::uint64_t>(1e15 * scene.geometry.length_m));
+  Draw draw(own);
+  if (draw.chance(0.4)) return;
+  const double period_s =
+      4.0 * scene.geometry.length_m / std::sqrt(scene.pillar.E0_Pa / scene.pillar.rho_kg_m3);
+  const int count = 1 + draw.below(3);
+  const bool is_alike = draw.chance(0.4);
+  scene.pillar.terms.clear();
+  double& pressure_Pa = as<ModalDrive>(scene).pressure_Pa;
+  for (int i = 0; i < count; ++i) {
+    const double g = draw.log_uniform(1e-3, 0.7 / count);
+    pressure_Pa -= pressure_Pa * g;  // stays below the long-term buckling pressure
+    scene.pillar.terms.push_back(
+        {g, is_alike ? g : g * draw.uniform(0.0, 1.0), period_s * draw.log_uniform(1e-3, 1e2)});
+  }
+  if (!scene.film || !draw.chance(0.4)) return;
+  scene.film = isotropic_medium(scene.pillar.E0_Pa * draw.log_uniform(ranges.softest_film, 10.0),
+                                draw.uniform(0.1, 0.4), draw.uniform(1000.0, 2000.0));
+  scene.electrodes.reset();
+  pressure_Pa = 0.0;  // the foot turns so easily that Engesser's pressure is no guide
+}
+
 }  // namespace
 
 PillarScene random_scene(std::mt19937_64& random, const Ranges& ranges) {
@@ -98,6 +125,7 @@ PillarScene random_scene(std::mt19937_64& random, const Ranges& ranges) {
         as<ModalDrive>(scene).pressure_Pa =
             draw.log_uniform(1e-5, 0.5) * engesser_pressure_Pa(scene);
       }
+      draw_damped_modes(ranges, scene);
       break;
     case 3:
       scene.drive = BucklingDrive{};  // stubbier ones do not bend

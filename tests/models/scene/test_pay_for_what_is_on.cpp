@@ -71,7 +71,6 @@ Told with_choice(PillarScene scene, const std::string& effect, EffectChoice choi
   auto reduced = std::get<PillarScene>(plan_effects(scene).reduced);
   reduced.tolerance = scene.tolerance;
   SceneAnswer answer = simulate_pillar(reduced);
-  finish_pillar(reduced, answer);
   return told(answer);
 }
 Told with_choice(ArrayScene scene, const std::string& effect, EffectChoice choice) {
