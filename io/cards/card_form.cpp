@@ -73,6 +73,9 @@ std::optional<CardFinding> first_difference(const std::string& text, const std::
     }
     ++at;
   }
+  if (at != found.end() && at->form == wanted.back().form) {
+    return differs(at_line(at->line, "repeats the last line of the card"));
+  }
   return std::nullopt;
 }
 

@@ -145,6 +145,7 @@ TEST_CASE("an edit that no reader sees is reported with its line", "[cards]") {
   CHECK(check.findings[0].text.find("where viscard writes 'type = Compute") != std::string::npos);
   const std::string json = edited(right_card("json"), "\"G0\": 0.62", "\"G0\": 0.72");
   CHECK(findings_of(json, "json") == "form-differs");
+  CHECK(findings_of(right_card("mfront") + "}\n", "mfront") == "form-differs");
   const std::string csv = right_card("csv");
   const std::size_t row = csv.find('\n', csv.find("time_")) + 1;
   const std::size_t third = csv.find(',', csv.find(',', row) + 1) + 1;

@@ -154,6 +154,19 @@ TEST_CASE("strong relaxation is proven by an error proportional to the step", "[
   CHECK_FALSE(refused.holds());
 }
 
+TEST_CASE("a card that makes ccx diverge is blamed if the right card does not", "[cards]") {
+  if (!has_ccx()) return;
+  const Material material = with_bulk_rule(reference_material(), BulkRule::kConstantBulk);
+  std::string text = write_card(material, card_target("calculix"), {.units = "mm-kg-ms"}).text;
+  const std::size_t at = text.find("LAW=NORTON\n") + 11;
+  text.replace(at, text.find(',', at) - at, "1e12");  // 3e9 times the right rate
+  const CalculixProof proof = prove_in_calculix(text, material, unit_system("mm-kg-ms"), 10);
+  REQUIRE(proof.divergence);
+  CHECK(proof.divergence->test == "relaxation");
+  CHECK(proof.divergence->is_card_blamed);
+  CHECK_FALSE(proof.holds());
+}
+
 TEST_CASE("ccx errors come back in one line", "[cards]") {
   if (!has_ccx()) return;
   CHECK_THROWS_WITH(prove_in_calculix("*MATERIAL, NAME=A\n*ELASTIC\nnonsense\n",
