@@ -14,7 +14,7 @@ struct CardTarget;
 enum class Mapping { kExact, kApproximated, kDropped };
 
 struct FidelityItem {
-  std::string item;  // "terms", "bulk", "nu", "density", "numbers"
+  std::string item;  // "terms", "bulk", "nu", "density", "numbers", "temperature", "total"
   Mapping mapping = Mapping::kExact;
   std::string text;
 };
@@ -29,8 +29,9 @@ struct Card {
   std::string text;
   std::vector<CompanionFile> companions;
   std::vector<FidelityItem> fidelity;
-  Material written;                 // what a reader of the card gets, SI
-  double largest_difference = 0.0;  // of E(t) from the given material, relative, over the window
+  Material written;  // what a reader of the card gets, SI
+  // Of E(t), relative, over the window: from CardOptions::original, else from the given material.
+  double largest_difference = 0.0;
 };
 
 struct CardOptions {
@@ -43,13 +44,15 @@ struct CardOptions {
   std::string command;               // command line
   std::string material_sha256;
   std::vector<FidelityItem> done_before;  // changes made to the material (terms reduced ...)
+  std::optional<Material> original;       // the material before those changes
   std::vector<std::string> notes;         // further header lines
 };
 
 // Writes the card in memory, reads it back and compares before returning it.
 // Throws std::invalid_argument with one line about what to do: unknown unit system, unphysical
 // material, nu = 0.5 where K must be finite, too many terms, a stated bulk relaxation the target
-// has no place for, flagged terms, numbers that do not fit the columns.
+// has no place for, an Arrhenius shift likewise, flagged terms, no density where the solver needs
+// one, numbers that do not fit the columns.
 Card write_card(const Material& material, const CardTarget& target,
                 const CardOptions& options = {});
 

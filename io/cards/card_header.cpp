@@ -107,6 +107,12 @@ std::vector<std::string> card_header(const Material& material, const CardTarget&
   std::vector<std::string> lines;
   lines.push_back("viscard " VISCARD_VERSION ": " +
                   (material.name.empty() ? "material" : material.name) + " for " + target.code);
+  if (material.shift && takes_shift(target, material) && !target.set_temperature.empty()) {
+    lines.push_back(
+        fmt::format("SET THE TEMPERATURE of the model: {}, {} C for the times below; "
+                    "without it the solver shifts them",
+                    target.set_temperature, material.shift->T_ref_C));
+  }
   lines.push_back(std::string("units: ") + units.name + " (" + units.description + ")");
   lines.push_back("conventions: " + conventions_in_words(target));
   add_moduli(lines, material, units);
@@ -119,6 +125,9 @@ std::vector<std::string> card_header(const Material& material, const CardTarget&
   add_provenance(lines, material, options);
   lines.insert(lines.end(), options.notes.begin(), options.notes.end());
   if (!target.advice.empty()) lines.push_back(target.advice);
+  if (target.step_note != nullptr && !material.terms.empty()) {
+    lines.push_back(target.step_note(material));
+  }
   for (std::string& line : lines) line = ascii(line);
   return lines;
 }

@@ -1,10 +1,17 @@
 #include "io/cards/card_lines.h"
 
 #include <cctype>
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
 namespace viscard {
+namespace {
+
+// std::regex recurses once per character of a match; 100 kB overflow the stack.
+constexpr std::size_t kLongestLine = 10000;
+
+}  // namespace
 
 std::vector<CardLine> card_lines(const std::string& text, const std::string& comment) {
   std::vector<CardLine> lines;
@@ -12,6 +19,11 @@ std::vector<CardLine> card_lines(const std::string& text, const std::string& com
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.size() > kLongestLine) {
+      throw std::runtime_error("line " + std::to_string(number) + ": has " +
+                               std::to_string(line.size()) + " characters; a card has at most " +
+                               std::to_string(kLongestLine));
+    }
     if (trimmed(line).rfind(comment, 0) == 0) continue;
     lines.push_back({number, line});
   }
@@ -58,6 +70,14 @@ double cell_number(const std::vector<std::string>& row, std::size_t index, const
         at_line(line, expected + " is missing (field " + std::to_string(index + 1) + ")"));
   }
   return card_number(row[index], line, expected);
+}
+
+int cell_integer(const std::vector<std::string>& row, std::size_t index, const CardLine& line,
+                 const std::string& expected) {
+  const double value = cell_number(row, index, line, expected);
+  if (value >= 0.0 && value <= 1e6 && value == std::floor(value)) return static_cast<int>(value);
+  throw std::runtime_error(at_line(
+      line, "'" + row[index] + "' is not a whole number from 0 to 1000000 (" + expected + ")"));
 }
 
 double cell_number_or_zero(const std::vector<std::string>& row, std::size_t index,

@@ -16,7 +16,8 @@ struct CardLine {
   std::string text;
 };
 
-// All lines except those that start with the comment sign, blanks before it ignored.
+// All lines except those that start with the comment sign, blanks before it ignored. Throws
+// std::runtime_error for a line of more than 10000 characters.
 std::vector<CardLine> card_lines(const std::string& text, const std::string& comment);
 
 std::string upper(std::string_view text);
@@ -31,6 +32,9 @@ std::string at_line(const CardLine& line, const std::string& text);
 double card_number(const std::string& cell, const CardLine& line, const std::string& expected);
 double cell_number(const std::vector<std::string>& row, std::size_t index, const CardLine& line,
                    const std::string& expected);
+// A whole number from 0 to 1000000. Throws for another.
+int cell_integer(const std::vector<std::string>& row, std::size_t index, const CardLine& line,
+                 const std::string& expected);
 // 0 where the cell is missing or blank.
 double cell_number_or_zero(const std::vector<std::string>& row, std::size_t index,
                            const CardLine& line, const std::string& expected);

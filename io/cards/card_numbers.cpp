@@ -112,9 +112,7 @@ CardNumbers numbers_from_material(const Material& given, const CardTarget& targe
   numbers.bulk = to_card(is_instantaneous ? moduli.K0_Pa : moduli.K_inf_Pa, stress);
   numbers.shear = to_card(is_instantaneous ? moduli.G0_Pa : moduli.G_inf_Pa, stress);
   numbers.density = to_card(material.rho_kg_m3, units.density_exponent);
-  if (material.shift && material.shift->law == ShiftLaw::kWlf && target.takes_wlf) {
-    numbers.shift = material.shift;
-  }
+  if (takes_shift(target, material)) numbers.shift = material.shift;
   numbers.equilibrium = target.branch == BranchNumber::kRelative ? 1.0 - moduli.sum_g
                         : target.branch == BranchNumber::kAbsoluteShear
                             ? to_card(moduli.G_inf_Pa, stress)

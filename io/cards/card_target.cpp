@@ -13,6 +13,11 @@ std::string conventions_in_words(const CardTarget& target) {
          to_word(target.bulk);
 }
 
+bool takes_shift(const CardTarget& target, const Material& material) {
+  if (!material.shift) return true;
+  return material.shift->law == ShiftLaw::kWlf ? target.takes_wlf : target.takes_arrhenius;
+}
+
 std::string to_word(ElasticForm form) {
   constexpr const char* kWords[] = {"E, nu", "K, G", "K, with G the sum of the branches",
                                     "nu, with E the sum of the shares"};

@@ -93,14 +93,24 @@ struct CardTarget {
   BulkRule bulk = BulkRule::kOwnNumbers;
   bool states_equilibrium = false;   // the share that never relaxes stands in the card
   bool states_density = true;        // false: the density is a comment
+  bool is_case_sensitive = true;     // the solver distinguishes keywords by case
   bool numbers_carry_units = false;  // each number states its own unit
   int max_terms = 0;                 // 0: no limit known
   bool takes_incompressible = false;
-  bool takes_wlf = false;  // has a place for log10 a_T = -C1 (T - T_ref)/(C2 + T - T_ref)
+  bool needs_density = false;    // the solver refuses or misuses a density of 0
+  bool takes_wlf = false;        // has a place for log10 a_T = -C1 (T - T_ref)/(C2 + T - T_ref)
+  bool takes_arrhenius = false;  // has a place for ln a_T = (E_a/R) (1/T - 1/T_ref)
+  // How a model states its temperature, where a shift needs it and the solver would assume another.
+  std::string set_temperature = {};
+  // A sentence about the time step that this material needs, for solvers of low order.
+  std::string (*step_note)(const Material& material) = nullptr;
   Evidence evidence = Evidence::kOurs;
   std::string evidence_note;
   std::string advice;  // what the user of this code must do besides pasting the card
 };
+
+// Whether the card has a place for the material's temperature shift; true without a shift.
+bool takes_shift(const CardTarget& target, const Material& material);
 
 // "instantaneous E, nu; branches relative (g_i = G_i/G_0); time tau; bulk relaxes with its own k_i"
 std::string conventions_in_words(const CardTarget& target);

@@ -1,6 +1,8 @@
 #include "io/cards/check_card.h"
 
 #include "io/cards/card.h"
+#include "io/cards/card_form.h"
+#include "io/cards/list_differences.h"
 #include "io/cards/material_difference.h"
 
 #include <fmt/format.h>
@@ -82,21 +84,44 @@ std::optional<CardFinding> density_finding(const ReadCard& read, const Material&
       true};
 }
 
+std::string in_words(const TemperatureShift& shift) {
+  return shift.law == ShiftLaw::kWlf
+             ? fmt::format("WLF, {:g}, {:g} K at {:g} C", shift.C1, shift.C2_K, shift.T_ref_C)
+             : fmt::format("Arrhenius, {:g} J/mol at {:g} C", shift.activation_J_mol,
+                           shift.T_ref_C);
+}
+
+CardFinding shift_differs(const TemperatureShift& found, const TemperatureShift& expected) {
+  return {"shift-differs",
+          "the shift is " + in_words(found) + " and the material's " + in_words(expected), true};
+}
+
 std::optional<CardFinding> shift_finding(const ReadCard& read, const Material& reference) {
-  const bool is_wanted = reference.shift && reference.shift->law == ShiftLaw::kWlf;
-  if (!is_wanted || !read.understood.takes_wlf) return std::nullopt;
+  if (!reference.shift && read.material.shift) {
+    return CardFinding{"shift-unexpected",
+                       "the card has a temperature shift (" + in_words(*read.material.shift) +
+                           ") and the material none",
+                       true};
+  }
+  if (!reference.shift || !takes_shift(read.understood, reference)) return std::nullopt;
   const TemperatureShift& expected = *reference.shift;
   if (!read.material.shift) {
     return CardFinding{"shift-missing",
-                       fmt::format("the material has a WLF shift ({:g}, {:g} K at {:g} C) and the "
-                                   "card none: it holds at {:g} C only",
-                                   expected.C1, expected.C2_K, expected.T_ref_C, expected.T_ref_C),
+                       fmt::format("the material has a shift ({}) and the card none: it holds at "
+                                   "{:g} C only",
+                                   in_words(expected), expected.T_ref_C),
                        true};
   }
   const TemperatureShift& found = *read.material.shift;
   const auto is_close = [](double a, double b) {
     return std::abs(a - b) <= kHandTyped * std::max(1.0, std::abs(b));
   };
+  if (found.law != expected.law) return shift_differs(found, expected);
+  if (found.law == ShiftLaw::kArrhenius) {
+    const bool is_same = is_close(found.activation_J_mol, expected.activation_J_mol) &&
+                         is_close(found.T_ref_C, expected.T_ref_C);
+    return is_same ? std::nullopt : std::optional(shift_differs(found, expected));
+  }
   const bool is_C_right = is_close(found.C1, expected.C1) && is_close(found.C2_K, expected.C2_K);
   if (is_C_right && is_close(found.T_ref_C, expected.T_ref_C)) return std::nullopt;
   if (is_C_right && is_close(found.T_ref_C + kAbsoluteZero_C, expected.T_ref_C)) {
@@ -108,12 +133,7 @@ std::optional<CardFinding> shift_finding(const ReadCard& read, const Material& r
     return CardFinding{"natural-logarithm-C1",
                        "C1 is that of ln a_T; this field wants that of log10 a_T", true};
   }
-  return CardFinding{
-      "shift-differs",
-      fmt::format(
-          "the WLF shift is {:g}, {:g} K at {:g} C and the material's {:g}, {:g} K at {:g} C",
-          found.C1, found.C2_K, found.T_ref_C, expected.C1, expected.C2_K, expected.T_ref_C),
-      true};
+  return shift_differs(found, expected);
 }
 
 void add(const std::optional<CardFinding>& finding, CardCheck& check) {
@@ -144,10 +164,16 @@ void compare(const Material& reference, CardCheck& check) {
   if (has_mistake(causes)) return;
   add(bulk, check);
   add(density, check);
-  if (causes.empty() && is_far && !has_mistake(check.findings)) {
-    check.findings.push_back(
-        {"differs", "the card is of another material, or wrong in a way not known here", true});
-  }
+  if (!causes.empty() || !is_far || has_mistake(check.findings)) return;
+  const CardNumbers expected =
+      numbers_from_material(with_bulk_rule(reference, check.read.understood.bulk),
+                            check.read.understood, check.read.units);
+  const std::vector<CardFinding> listed =
+      listed_differences(check.read.numbers, expected, check.read.understood);
+  check.findings.insert(check.findings.end(), listed.begin(), listed.end());
+  if (!listed.empty()) return;
+  check.findings.push_back(
+      {"differs", "the card is of another material, or wrong in a way not known here", true});
 }
 
 // The header of a card by viscard states E0. It reveals edited numbers, even without a material.
@@ -181,7 +207,12 @@ CardCheck check_table(const std::string& text, const CardTarget& target,
   check.E_difference_with_bulk = check.E_difference;
   check.tolerance = options.tolerance.value_or(kExactEnough);
   check.agrees = *check.E_difference <= check.tolerance;
-  if (!check.agrees) {
+  // If viscard wrote the table of this very material, the other columns must be its own too.
+  const auto form = form_difference(text, target, *reference);
+  if (form && (!check.agrees || *check.E_difference <= 1e-9)) {
+    check.findings.push_back({"table-differs", form->text, true});
+    check.agrees = false;
+  } else if (!check.agrees) {
     check.findings.push_back({"differs", "the table is of another material", true});
   }
   return check;
@@ -216,6 +247,7 @@ CardCheck check_card(const std::string& text, const CardTarget& target, const Ch
   if (has_cause) {
     std::erase_if(check.findings, [](const CardFinding& f) { return f.name == "no-solid"; });
   }
+  if (check.findings.empty()) add(form_difference(text, check.read), check);
   check.agrees = !has_mistake(check.findings) &&
                  (!check.E_difference || *check.E_difference <= check.tolerance);
   return check;

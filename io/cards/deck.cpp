@@ -8,12 +8,14 @@ namespace {
 std::string expected(const Card& card, const ElementTest& test, const UnitSystem& units) {
   const bool is_creep = test.kind == ElementTestKind::kCreep;
   const std::string header = fmt::format(
-      "# one element in simple tension, sides free; ramp of {0} {1}, then held; amplitude {2}\n"
-      "# {3}\ntime_{1},{4}\n",
-      to_card(test.ramp_s, units.time_exponent), units.time, test.amplitude,
+      "# one element in simple tension, sides free; ramp of {0} {1}, then {2}; amplitude {3}\n"
+      "# {4}\ntime_{1},{5}\n",
+      to_card(test.ramp_s, units.time_exponent), units.time,
+      test.blocks.back().load == 1.0 ? "held" : "as much again in every doubling of the time",
+      test.amplitude,
       is_creep
-          ? "expected: strain divided by the amplitude; the stress held is amplitude times E0"
-          : "expected: stress divided by (amplitude times E0); the strain held is the amplitude",
+          ? "expected: strain divided by the amplitude; the ramp's stress is amplitude times E0"
+          : "expected: stress divided by (amplitude times E0); the ramp's strain is the amplitude",
       is_creep ? "strain_over_amplitude" : "stress_over_amplitude_E0");
   return expected_curve_csv(card.written, test, to_card(1.0, units.time_exponent), header);
 }
@@ -25,7 +27,8 @@ std::vector<DeckBlock> DeckInput::blocks() const {
   double from_s = 0.0;
   for (const TimeBlock& block : test.blocks) {
     const double length = time(block.end_s - from_s);
-    out.push_back({length, length / block.increments, time(block.end_s), block.increments});
+    out.push_back(
+        {length, length / block.increments, time(block.end_s), block.increments, block.load});
     from_s = block.end_s;
   }
   return out;

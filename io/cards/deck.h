@@ -38,6 +38,7 @@ struct DeckBlock {
   double step = 0.0;
   double end = 0.0;
   int increments = 0;
+  double load = 1.0;  // at the end, in amplitudes
 };
 
 // What the deck writer of a target formats. The model is a unit cube from the origin with rollers
@@ -51,11 +52,11 @@ struct DeckInput {
   double time(double time_s) const { return to_card(time_s, units.time_exponent); }
   double ramp() const { return time(test.ramp_s); }
   double end() const { return time(test.end_s()); }
-  // The load of a creep test, amplitude times E0.
+  // The load of a creep test after its ramp, amplitude times E0.
   double stress() const {
     return to_card(test.amplitude * card.written.E0_Pa, units.stress_exponent);
   }
-  // Held after the ramp: the displacement of face z = 1, or the force on each of its four nodes.
+  // After the ramp: the displacement of face z = 1, or the force on each of its four nodes.
   double pull() const { return is_creep() ? 0.25 * stress() : test.amplitude; }
   std::vector<DeckBlock> blocks() const;
 };

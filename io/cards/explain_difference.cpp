@@ -1,5 +1,6 @@
 #include "io/cards/check_card.h"
 #include "io/cards/known_mistakes.h"
+#include "io/cards/list_differences.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +8,6 @@
 
 namespace viscard {
 namespace {
-
-double mismatch(double a, double b) {
-  if (a == b) return 0.0;
-  const double size = std::max(std::abs(a), std::abs(b));
-  return std::isfinite(size) ? std::abs(a - b) / size : 1.0;
-}
 
 std::vector<CardBranch> by_time(std::vector<CardBranch> branches) {
   std::sort(branches.begin(), branches.end(), [](const CardBranch& a, const CardBranch& b) {
@@ -26,9 +21,10 @@ double branch_mismatch(const CardNumbers& one, const CardNumbers& other, const C
   double worst = 0.0;
   const std::vector<CardBranch> a = by_time(one.branches), b = by_time(other.branches);
   for (std::size_t i = 0; i < a.size(); ++i) {
-    worst = std::max({worst, mismatch(a[i].shear, b[i].shear), mismatch(a[i].time, b[i].time)});
+    worst = std::max({worst, relative_mismatch(a[i].shear, b[i].shear),
+                      relative_mismatch(a[i].time, b[i].time)});
     if (target.bulk == BulkRule::kOwnNumbers)
-      worst = std::max(worst, mismatch(a[i].bulk, b[i].bulk));
+      worst = std::max(worst, relative_mismatch(a[i].bulk, b[i].bulk));
   }
   return worst;
 }
@@ -37,7 +33,7 @@ double branch_mismatch(const CardNumbers& one, const CardNumbers& other, const C
 double mismatch(const CardNumbers& one, const CardNumbers& other, const CardTarget& target) {
   double worst = branch_mismatch(one, other, target);
   const auto compare = [&](double CardNumbers::*member) {
-    worst = std::max(worst, mismatch(one.*member, other.*member));
+    worst = std::max(worst, relative_mismatch(one.*member, other.*member));
   };
   using enum ElasticForm;
   const ElasticForm elastic = target.elastic;
@@ -68,7 +64,7 @@ bool are_terms_swapped(const CardNumbers& found, const CardNumbers& expected,
   std::sort(times.begin(), times.end());
   std::sort(wanted.begin(), wanted.end());
   for (std::size_t i = 0; i < times.size(); ++i) {
-    if (mismatch(times[i], wanted[i]) > kHandTyped) return false;
+    if (relative_mismatch(times[i], wanted[i]) > kHandTyped) return false;
   }
   CardNumbers regrouped = found;
   regrouped.branches = by_share;
@@ -81,32 +77,37 @@ struct Best {
   std::vector<const CardMistake*> mistakes;
 };
 
-Best best_explanation(const std::vector<CardMistake>& list, const CardNumbers& found,
+// The planted mistakes, one or two, whose numbers are nearest to those of the card.
+Best best_explanation(const std::vector<CardMistake>& list, bool are_two, const CardNumbers& found,
                       const CardNumbers& expected, const CardTarget& target) {
   Best best;
   const auto consider = [&](const CardNumbers& numbers, std::vector<const CardMistake*> mistakes) {
     const double off = mismatch(found, numbers, target);
-    // Two mistakes must explain much better than one.
-    const double penalty =
-        mistakes.size() > best.mistakes.size() && !best.mistakes.empty() ? 10.0 : 1.0;
-    if (off * penalty < best.mismatch) best = {off, std::move(mistakes)};
+    if (off < best.mismatch) best = {off, std::move(mistakes)};
   };
   for (const CardMistake& one : list) {
     CardNumbers numbers = expected;
     one.plant(numbers);
-    consider(numbers, {&one});
-  }
-  if (best.mismatch <= kHandTyped) return best;
-  for (const CardMistake& one : list) {
+    if (!are_two) {
+      consider(numbers, {&one});
+      continue;
+    }
     for (const CardMistake& two : list) {
       if (one.name == two.name) continue;
-      CardNumbers numbers = expected;
-      one.plant(numbers);
-      two.plant(numbers);
-      consider(numbers, {&one, &two});
+      CardNumbers both = numbers;
+      two.plant(both);
+      consider(both, {&one, &two});
     }
   }
   return best;
+}
+
+std::vector<CardFinding> findings_of(const Best& best) {
+  std::vector<CardFinding> findings;
+  for (const CardMistake* mistake : best.mistakes) {
+    findings.push_back({mistake->name, mistake->text, true});
+  }
+  return findings;
 }
 
 }  // namespace
@@ -120,20 +121,27 @@ std::vector<CardFinding> explain_difference(const ReadCard& read, const Material
              "the shares and the times are right, but paired with the wrong partner", true}};
   }
   const std::vector<CardMistake> list = known_mistakes(context);
-  const Best best = best_explanation(list, read.numbers, expected, context.target);
   const double plain = mismatch(read.numbers, expected, context.target);
-  if (best.mismatch > kHandTyped || best.mismatch > 0.2 * plain) {
-    if (plain > kHandTyped) return {};
+  const auto explains = [&](const Best& best) {
+    return best.mismatch <= kHandTyped && best.mismatch <= 0.2 * plain;
+  };
+  const Best one = best_explanation(list, false, read.numbers, expected, context.target);
+  if (explains(one)) return findings_of(one);
+  if (plain <= kHandTyped) {
     return {
         {"rounded",
          "the numbers are the material's, with fewer digits; --tolerance accepts the difference",
          false}};
   }
-  std::vector<CardFinding> findings;
-  for (const CardMistake* mistake : best.mistakes) {
-    findings.push_back({mistake->name, mistake->text, true});
-  }
-  return findings;
+  // A mistake that the reader found explains the numbers that follow from it.
+  const bool has_cause = std::any_of(
+      read.findings.begin(), read.findings.end(),
+      [](const CardFinding& finding) { return finding.is_mistake && finding.name != "no-solid"; });
+  if (has_cause) return {};
+  std::vector<CardFinding> single = single_difference(read.numbers, expected, context.target);
+  if (!single.empty()) return single;
+  const Best two = best_explanation(list, true, read.numbers, expected, context.target);
+  return explains(two) ? findings_of(two) : std::vector<CardFinding>{};
 }
 
 }  // namespace viscard

@@ -66,6 +66,32 @@ std::vector<KeywordBlock> keyword_blocks(const std::vector<CardLine>& lines, cha
   return blocks;
 }
 
+void check_width(const CardLine& line, std::size_t most, ReadCard& card) {
+  std::vector<std::string> row = cells(line.text, ',');
+  while (!row.empty() && row.back().empty()) row.pop_back();
+  if (row.size() <= most) return;
+  card.add("decimal-comma",
+           at_line(line, fmt::format("{} numbers stand where at most {} belong: a decimal comma "
+                                     "(write a point), or a column that is not read",
+                                     row.size(), most)));
+}
+
+void check_single_material(const std::vector<KeywordBlock>& blocks, ReadCard& card) {
+  const KeywordBlock* first = nullptr;
+  for (const KeywordBlock& block : blocks) {
+    if (block.keyword.substr(1) != "MATERIAL") continue;
+    if (first != nullptr) {
+      card.add("several-materials",
+               at_line(block.line, "a second material begins; check a file with one of them"));
+      return;
+    }
+    first = &block;
+  }
+  if (first == nullptr) {
+    card.add("missing-material", "no keyword MATERIAL begins the material");
+  }
+}
+
 double density_in(const KeywordBlock& block) {
   const CardLine& line = block.first_data();
   return cell_number(cells(line.text, ','), 0, line, "density");
@@ -76,6 +102,9 @@ void read_elastic(const KeywordBlock& block, ReadCard& card, CardNumbers& number
   const auto row = cells(line.text, ',');
   numbers.young = cell_number(row, 0, line, "E");
   numbers.poisson = cell_number(row, 1, line, "nu");
+  // A third column is a temperature, if the second is a Poisson ratio.
+  const bool is_ratio = numbers.poisson > -1.0 && numbers.poisson <= 0.5;
+  check_width(line, is_ratio ? 3 : 2, card);
   if (block.data.size() < 2) return;
   card.add("more-elastic-rows",
            at_line(block.data[1], "only the first row of " + block.keyword +
@@ -83,14 +112,24 @@ void read_elastic(const KeywordBlock& block, ReadCard& card, CardNumbers& number
            false);
 }
 
-void read_wlf(const KeywordBlock& block, ReadCard& card) {
-  if (!block.parameters.empty() && !block.has("DEFINITION=WLF")) {
-    card.add("shift-not-read",
-             at_line(block.line, "only DEFINITION=WLF is read; the shift is left out"), false);
+void read_shift_rows(const KeywordBlock& block, ArrheniusRow form, ReadCard& card) {
+  const bool is_arrhenius = block.has("DEFINITION=ARRHENIUS");
+  if (!block.parameters.empty() && !block.has("DEFINITION=WLF") && !is_arrhenius) {
+    card.add("shift-not-read", at_line(block.line, "only DEFINITION=WLF and ARRHENIUS are read"));
     return;
   }
   const CardLine& line = block.first_data();
   const auto row = cells(line.text, ',');
+  if (is_arrhenius) {
+    const bool is_ratio = form == ArrheniusRow::kRatioAndZero;
+    const double zero = is_ratio ? cell_number(row, 2, line, "absolute zero") : kAbsoluteZero_C;
+    card.numbers.shift =
+        TemperatureShift{.law = ShiftLaw::kArrhenius,
+                         .T_ref_C = cell_number(row, 0, line, "T_ref") - zero + kAbsoluteZero_C,
+                         .activation_J_mol = cell_number(row, 1, line, "E_a") *
+                                             (is_ratio ? kGasConstant_J_mol_K : 1.0)};
+    return;
+  }
   card.numbers.shift = TemperatureShift{.T_ref_C = cell_number(row, 0, line, "T_ref"),
                                         .C1 = cell_number(row, 1, line, "C1"),
                                         .C2_K = cell_number(row, 2, line, "C2")};
@@ -110,6 +149,16 @@ std::string number_of_20(double value) {
   return number_within(value, 20);
 }
 
+std::string arrhenius_row(const TemperatureShift& shift, ArrheniusRow form) {
+  if (form == ArrheniusRow::kEnergy) {
+    return fmt::format("{}, {}\n", number_of_20(shift.T_ref_C),
+                       number_of_20(shift.activation_J_mol));
+  }
+  return fmt::format("{}, {}, {}\n", number_of_20(shift.T_ref_C),
+                     number_of_20(shift.activation_J_mol / kGasConstant_J_mol_K),
+                     number_of_20(kAbsoluteZero_C));
+}
+
 std::string wlf_row(const TemperatureShift& shift) {
   return fmt::format("{}, {}, {}\n", number_of_20(shift.T_ref_C), number_of_20(shift.C1),
                      number_of_20(shift.C2_K));
@@ -122,10 +171,15 @@ std::string keyword_cube() {
 }
 
 std::string keyword_rollers_and_ramp(const DeckInput& input) {
-  return fmt::format(
+  std::string out =
       "*BOUNDARY\nBASE, 3, 3\n1, 1, 2\n4, 1, 1\n5, 1, 2\n8, 1, 1\n2, 2, 2\n6, 2, 2\n"
-      "*AMPLITUDE, NAME=RAMP, TIME=TOTAL TIME\n0., 0., {}, 1.\n{}, 1.\n",
-      number_of_20(input.ramp()), number_of_20(2.0 * input.end()));
+      "*AMPLITUDE, NAME=RAMP, TIME=TOTAL TIME\n0., 0.\n";
+  double load = 0.0;
+  for (const DeckBlock& block : input.blocks()) {
+    if (block.load != load) out += fmt::format("{}, {}.\n", number_of_20(block.end), block.load);
+    load = block.load;
+  }
+  return out + fmt::format("{}, {}.\n", number_of_20(2.0 * input.end()), load);
 }
 
 std::string keyword_pull(const DeckInput& input) {

@@ -12,6 +12,10 @@ namespace viscard {
 // Keyword files with free-format numbers: Abaqus, CalculiX ("*KEYWORD, PARAMETER=VALUE") and
 // FrontISTR ("!KEYWORD"). Readers throw std::runtime_error naming the line.
 
+// Rows of an Arrhenius law: T_ref, E_a (Abaqus; R and absolute zero are constants of the model), or
+// T_ref, E_a/R, absolute zero (FrontISTR).
+enum class ArrheniusRow { kEnergy, kRatioAndZero };
+
 // A keyword line, its parameters upper-cased without blanks, and the data lines below it.
 struct KeywordBlock {
   CardLine line;
@@ -28,10 +32,15 @@ struct KeywordBlock {
 std::vector<KeywordBlock> keyword_blocks(const std::vector<CardLine>& lines, char mark);
 
 double density_in(const KeywordBlock& block);
+// A mistake if the row has more cells than the keyword takes: a decimal comma, or a column that is
+// not read.
+void check_width(const CardLine& line, std::size_t most, ReadCard& card);
+// A mistake if the file has more than one material: their numbers would be mixed.
+void check_single_material(const std::vector<KeywordBlock>& blocks, ReadCard& card);
 // Young's modulus and Poisson ratio of the first row; other rows are noted as a finding.
 void read_elastic(const KeywordBlock& block, ReadCard& card, CardNumbers& numbers);
-// T_ref, C1, C2 of a WLF law; another law is noted as a finding.
-void read_wlf(const KeywordBlock& block, ReadCard& card);
+// T_ref, C1, C2 of a WLF law, or the row of an Arrhenius law; another law is noted as a mistake.
+void read_shift_rows(const KeywordBlock& block, ArrheniusRow form, ReadCard& card);
 // A mistake if the block is a *STATIC step; `wanted` is what relaxes instead.
 void check_static_step(const KeywordBlock& block, const char* wanted, ReadCard& card);
 // Throws "the card has no *ELASTIC".
@@ -41,9 +50,10 @@ void require(bool is_there, const std::string& what);
 std::string number_of_20(double value);
 // T_ref, C1, C2: the order of Abaqus, ANSYS and FrontISTR.
 std::string wlf_row(const TemperatureShift& shift);
+std::string arrhenius_row(const TemperatureShift& shift, ArrheniusRow form);
 
 // Parts of a one-element model that Abaqus and CalculiX share: nodes 1 to 8 of the cube with the
-// node sets BASE and TOP; the rollers, and the amplitude RAMP, which rises from 0 to 1 and stays;
+// node sets BASE and TOP; the rollers, and the amplitude RAMP, the load at the end of each block;
 // the pull of a step, a force in creep and a displacement in relaxation.
 std::string keyword_cube();
 std::string keyword_rollers_and_ramp(const DeckInput& input);

@@ -57,6 +57,10 @@ void add_modulus_mistake(const CardContext& context, const CardNumbers& other,
          n.bulk = other.bulk;
          n.shear = other.shear;
        }});
+  // The same with the Poisson ratio of the right end: only the modulus was mistaken.
+  CardMistake young_alone = list.back();
+  young_alone.plant = [other](CardNumbers& n) { n.young = other.young; };
+  if (elastic == ElasticForm::kYoungPoisson) list.push_back(young_alone);
 }
 
 void add_equilibrium_mistake(const CardContext& context, const CardNumbers& expected,

@@ -28,6 +28,16 @@ struct Decay {
   }
 };
 
+// One length of all increments: a ramp of some of them and a hold. The ramp is longer than half the
+// shortest relaxation time if the increments are.
+void add_equal_increments(const ElementTestOptions& options, int ramp_steps, double end_s,
+                          ElementTest& test) {
+  const double step_s = std::max(test.ramp_s / ramp_steps, end_s / options.most_equal_increments);
+  test.ramp_s = ramp_steps * step_s;
+  const int hold_steps = static_cast<int>(std::ceil(end_s / step_s)) - ramp_steps;
+  test.blocks = {{test.ramp_s, ramp_steps}, {test.ramp_s + hold_steps * step_s, hold_steps}};
+}
+
 }  // namespace
 
 ElementTest element_test(const Material& material, const ElementTestOptions& options) {
@@ -40,16 +50,16 @@ ElementTest element_test(const Material& material, const ElementTestOptions& opt
   }
   test.ramp_s = 0.5 * shortest_s;
   const int ramp_steps = std::max(1, options.steps_per_tau / 2);
+  if (options.most_equal_increments > 0) {
+    add_equal_increments(options, ramp_steps, 10.0 * longest_s, test);
+    return test;
+  }
   test.blocks.push_back({test.ramp_s, ramp_steps});
-  test.blocks.push_back({3.0 * shortest_s, 5 * ramp_steps});
-  int sum = 6 * ramp_steps;
-  while (test.end_s() < 10.0 * longest_s && sum < options.most_increments) {
-    const double length_s = test.end_s();  // each block doubles the time
-    const double least = length_s / (options.longest_step_tau * shortest_s);
-    const int increments = std::max(5 * ramp_steps, static_cast<int>(std::min(least, 1e9)) + 1);
-    if (increments > options.most_increments - sum) break;
-    test.blocks.push_back({2.0 * length_s, increments});
-    sum += increments;
+  if (!options.rises) test.blocks.push_back({3.0 * shortest_s, 5 * ramp_steps});
+  while (test.end_s() < 10.0 * longest_s) {  // each block doubles the time
+    const TimeBlock& last = test.blocks.back();
+    test.blocks.push_back({2.0 * last.end_s, options.rises ? ramp_steps : 5 * ramp_steps,
+                           options.rises ? last.load + 1.0 : last.load});
   }
   return test;
 }
@@ -66,7 +76,15 @@ double exact_response(const Material& material, const ElementTest& test, double 
       decay.terms.push_back({-term.compliance_1_Pa, term.retardation_time_s});
     }
   }
-  const double response = decay.after_ramp(time_s, test.ramp_s);
+  double response = 0.0, from_s = 0.0, load = 0.0;
+  for (const TimeBlock& block : test.blocks) {
+    if (time_s <= from_s) break;
+    if (block.load != load) {
+      response += (block.load - load) * decay.after_ramp(time_s - from_s, block.end_s - from_s);
+    }
+    from_s = block.end_s;
+    load = block.load;
+  }
   return test.kind == ElementTestKind::kCreep ? response * material.E0_Pa
                                               : response / material.E0_Pa;
 }

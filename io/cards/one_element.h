@@ -8,17 +8,20 @@
 namespace viscard {
 
 // The test that proves a card: a unit cube in simple tension, its sides free. In relaxation the
-// strain rises linearly during the ramp and is held, in creep the stress. Both have closed answers.
+// strain rises linearly during the ramp and is held, in creep the stress. A rising test adds the
+// same load again in every block, and each block doubles the time: so all decades are loaded, and
+// no branch ever relaxes to zero. All have closed answers.
 enum class ElementTestKind { kRelaxation, kCreep };
 
 struct TimeBlock {
   double end_s = 0.0;
   int increments = 0;  // of equal length
+  double load = 1.0;   // at the end of the block, in amplitudes; linear in time within it
 };
 
 struct ElementTest {
   ElementTestKind kind = ElementTestKind::kRelaxation;
-  double amplitude = 1e-6;  // strain held; in creep stress held over E0
+  double amplitude = 1e-6;  // strain after the ramp; in creep stress after it over E0
   double ramp_s = 0.0;
   std::vector<TimeBlock> blocks;  // the first is the ramp
 
@@ -28,17 +31,19 @@ struct ElementTest {
 struct ElementTestOptions {
   ElementTestKind kind = ElementTestKind::kRelaxation;
   double amplitude = 1e-6;
-  int steps_per_tau = 40;          // in the shortest relaxation time
-  double longest_step_tau = 1e30;  // limit of an increment, in shortest relaxation times
-  int most_increments = 20000;     // the hold ends early if it would need more
+  int steps_per_tau = 40;  // in the shortest relaxation time
+  bool rises = false;      // every block adds the load of the ramp instead of holding it
+  // All increments are of one length, and the ramp is longer if the test would need more of them
+  // than this; 0: increments grow with time.
+  int most_equal_increments = 0;
 };
 
-// Ramp of half the shortest relaxation time, hold to ten times the longest; increments grow with
-// time. A material without terms is held for 1 s.
+// Ramp of half the shortest relaxation time, then hold or rise to ten times the longest; increments
+// grow with time. A material without terms is held for 1 s.
 ElementTest element_test(const Material& material, const ElementTestOptions& options);
 
 // Stress over amplitude and E0 (relaxation) or strain over amplitude (creep) at a time: exact, from
-// E(t) or the creep compliance J(t), integrated over the ramp (models/README.md, eq. 1, 3, 5).
+// E(t) or the creep compliance J(t), integrated over the blocks (models/README.md, eq. 1, 3, 5).
 double exact_response(const Material& material, const ElementTest& test, double time_s);
 
 // The header, then rows of time and response, four per block. time_factor: s to the card's unit.

@@ -5,16 +5,6 @@
 namespace viscard {
 namespace {
 
-// The unit system in "units: mm-t-s (...)" of the header, or "".
-std::string stated_units(const std::string& text) {
-  const std::size_t at = text.find("units: ");
-  if (at == std::string::npos) return "";
-  const std::size_t begin = at + 7;
-  const std::size_t end = text.find_first_of(" \n\"", begin);
-  const std::string name = text.substr(begin, end - begin);
-  return find_unit_system(name) != nullptr ? name : "";
-}
-
 // The MFront writer pads its arrays with empty branches.
 void drop_empty_branches(CardNumbers& numbers) {
   std::erase_if(numbers.branches,
@@ -34,8 +24,17 @@ bool has_negative_branch(ReadCard& card) {
 
 }  // namespace
 
+std::string stated_unit_system(const std::string& text) {
+  const std::size_t at = text.find("units: ");
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + 7;
+  const std::size_t end = text.find_first_of(" \n\"", begin);
+  const std::string name = text.substr(begin, end - begin);
+  return find_unit_system(name) != nullptr ? name : "";
+}
+
 ReadCard read_card(const std::string& text, const CardTarget& target, const std::string& units) {
-  const std::string stated = stated_units(text);
+  const std::string stated = stated_unit_system(text);
   ReadCard card{.understood = target,
                 .units = unit_system(!units.empty()    ? units
                                      : !stated.empty() ? stated

@@ -33,6 +33,9 @@ struct ReadCard {
   }
 };
 
+// The unit system in "units: mm-t-s (...)" of a header, or "".
+std::string stated_unit_system(const std::string& text);
+
 // Reads a card, written by viscard or by hand, as the target's solver would. `units` names the unit
 // system; empty: that of the header, else SI. Throws std::runtime_error naming the line and what
 // was expected there, std::invalid_argument for an unknown unit system or a csv table.

@@ -95,8 +95,15 @@ void settle_bulk(Material& material, const CardTarget& target, const CardOptions
   material = mapped;
 }
 
-// Only WLF has a form that solvers share; the header alone states an Arrhenius shift.
-void settle_shift(const Material& material, const CardTarget& target,
+void refuse_missing_density(const Material& material, const CardTarget& target) {
+  if (!target.needs_density || material.rho_kg_m3 > 0.0) return;
+  throw std::invalid_argument("the material gives no density, which " + target.code +
+                              " needs even for slow tests; set rho_kg_m3 in the material file");
+}
+
+// A shift without a place in the card: a WLF law is left out and the header states it, an Arrhenius
+// law is refused unless the user accepts a card of one temperature.
+void settle_shift(const Material& material, const CardTarget& target, const CardOptions& options,
                   std::vector<FidelityItem>& fidelity) {
   if (!material.shift) return;
   const TemperatureShift& shift = *material.shift;
@@ -104,24 +111,56 @@ void settle_shift(const Material& material, const CardTarget& target,
   const std::string law =
       is_wlf ? fmt::format("WLF, C1 = {}, C2 = {} K at {} C", shift.C1, shift.C2_K, shift.T_ref_C)
              : fmt::format("Arrhenius, {} J/mol at {} C", shift.activation_J_mol, shift.T_ref_C);
-  if (is_wlf && target.takes_wlf) {
+  if (takes_shift(target, material)) {
     fidelity.push_back({"temperature", Mapping::kExact, law + "; temperatures in C"});
-  } else {
-    fidelity.push_back({"temperature", Mapping::kDropped,
-                        law + (is_wlf ? "; no shift is written for this target"
-                                      : "; only WLF is written, so the card holds at its "
-                                        "reference temperature")});
+    return;
   }
+  if (is_wlf) {
+    fidelity.push_back(
+        {"temperature", Mapping::kDropped, law + "; no shift is written for this target"});
+    return;
+  }
+  if (!options.may_approximate) {
+    throw std::invalid_argument(fmt::format(
+        "the material has an Arrhenius shift ({} J/mol at {} C) and cards for {} have no place for "
+        "one; pass --approximate for a card that holds at {} C only, or choose another target",
+        shift.activation_J_mol, shift.T_ref_C, target.code, shift.T_ref_C));
+  }
+  fidelity.push_back({"temperature", Mapping::kApproximated,
+                      law + fmt::format("; the card holds at {} C only", shift.T_ref_C)});
 }
 
 // Throws unless the shift was written wherever the target has a place for it.
 void check_shift(const Material& read, const Material& material, const CardTarget& target) {
-  if (!target.takes_wlf || !material.shift || material.shift->law != ShiftLaw::kWlf) return;
-  const auto is_same = [](double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(b); };
-  if (!read.shift || !is_same(read.shift->C1, material.shift->C1) ||
-      !is_same(read.shift->C2_K, material.shift->C2_K)) {
+  if (!material.shift || !takes_shift(target, material)) return;
+  // Ten columns keep at least seven digits.
+  const auto is_same = [](double a, double b) { return std::abs(a - b) <= 1e-6 * std::abs(b); };
+  const TemperatureShift& wanted = *material.shift;
+  const TemperatureShift found = read.shift.value_or(TemperatureShift{});
+  const bool are_constants_same =
+      wanted.law == ShiftLaw::kWlf
+          ? is_same(found.C1, wanted.C1) && is_same(found.C2_K, wanted.C2_K)
+          : is_same(found.activation_J_mol, wanted.activation_J_mol);
+  const bool is_reference_same =
+      is_same(found.T_ref_C - kAbsoluteZero_C, wanted.T_ref_C - kAbsoluteZero_C);
+  if (!read.shift || found.law != wanted.law || !are_constants_same || !is_reference_same) {
     throw std::logic_error("viscard wrote a wrong temperature shift for " + target.name);
   }
+}
+
+// The errors of fewer terms, of the bulk rule and of the columns add up or cancel; the header
+// states the difference that all of them make together.
+void state_total(const Material& original, const Material& given, Card& card) {
+  card.largest_difference = largest_E_difference(card.written, original, comparison_times_s(given));
+  const auto n_approximated =
+      std::count_if(card.fidelity.begin(), card.fidelity.end(), [](const FidelityItem& item) {
+        return item.mapping != Mapping::kExact && item.item != "density" &&
+               item.item != "temperature";
+      });
+  if (n_approximated < 2) return;
+  card.fidelity.push_back(
+      {"total", Mapping::kApproximated,
+       fmt::format("{:.1e} in E(t), all of the above together", card.largest_difference)});
 }
 
 FidelityItem density_item(const Material& read, const Material& material,
@@ -174,7 +213,8 @@ Card write_card(const Material& given, const CardTarget& target, const CardOptio
   settle_nu(material, target, options, card.fidelity);
   settle_terms(material, target);
   settle_bulk(material, target, options, card.fidelity);
-  settle_shift(material, target, card.fidelity);
+  settle_shift(material, target, options, card.fidelity);
+  refuse_missing_density(material, target);
   const bool is_reduced =
       std::any_of(card.fidelity.begin(), card.fidelity.end(),
                   [](const FidelityItem& item) { return item.item == "terms"; });
@@ -193,7 +233,7 @@ Card write_card(const Material& given, const CardTarget& target, const CardOptio
   } else {
     read_back(target.write(body), target, units, material, card);
   }
-  card.largest_difference = largest_E_difference(card.written, given, comparison_times_s(given));
+  state_total(options.original.value_or(given), given, card);
   body.header = card_header(material, target, units, options, card.fidelity);
   const std::string comments = as_comments(body.header, target.comment);
   card.name = body.name;

@@ -83,6 +83,7 @@ void reduce_to_target(const CardMaterialRequest& request, PreparedMaterial& prep
   prepared.terms_change =
       fmt::format("{} refitted to {}, E(t) within {:.2e} from {:g} s to {:g} s", given, wanted,
                   reduced.largest_error, reduced.t_min_s, reduced.t_max_s);
+  prepared.original = prepared.material;
   prepared.material = reduced.material;
   prepared.material.valid.t_min_s = reduced.t_min_s;
   prepared.material.valid.t_max_s = reduced.t_max_s;

@@ -27,6 +27,7 @@ struct PreparedMaterial {
   std::vector<std::string> notes;           // header lines
   std::optional<std::string> terms_change;  // "approximated" text of the terms, if reduced
   bool are_terms_dropped = false;
+  std::optional<Material> original;  // before its terms were reduced, if they were
 };
 
 // Throws std::runtime_error naming the file, std::invalid_argument if a joint file has no ratio or

@@ -1,5 +1,6 @@
 // Abaqus. Sources: Keywords Reference (*ELASTIC: MODULI defaults to LONG TERM; *VISCOELASTIC,
-// TIME=PRONY: rows g_i, k_i, tau_i); Analysis User's Manual, time domain viscoelasticity (*TRS).
+// TIME=PRONY: rows g_i, k_i, tau_i); Analysis User's Manual, time domain viscoelasticity (*TRS:
+// ln A = (E_0/R) (1/(T - T_Z) - 1/(T_0 - T_Z)), with R and T_Z of *PHYSICAL CONSTANTS).
 #include "io/cards/keyword_lines.h"
 #include "io/cards/known_mistakes.h"
 #include "io/cards/targets/card_targets.h"
@@ -13,6 +14,12 @@ namespace {
 
 constexpr const char* kMissingKeyword = "*ELASTIC lacks MODULI=INSTANTANEOUS";
 
+// For an Arrhenius shift in C and J/mol; keywords of the model, not of the material.
+std::string physical_constants() {
+  return fmt::format("*PHYSICAL CONSTANTS, ABSOLUTE ZERO={}, UNIVERSAL GAS CONSTANT={}\n",
+                     kAbsoluteZero_C, kGasConstant_J_mol_K);
+}
+
 std::string write_abaqus(const CardBody& body) {
   const auto number = number_of_20;
   const CardNumbers& numbers = body.numbers;
@@ -24,9 +31,14 @@ std::string write_abaqus(const CardBody& body) {
   for (const CardBranch& branch : numbers.branches) {
     out += number(branch.shear) + ", " + number(branch.bulk) + ", " + number(branch.time) + "\n";
   }
+  if (!numbers.shift) return out;
   // log10 a_T = -C1 (T - T0)/(C2 + T - T0)
-  if (numbers.shift) out += "*TRS, DEFINITION=WLF\n" + wlf_row(*numbers.shift);
-  return out;
+  if (numbers.shift->law == ShiftLaw::kWlf) {
+    return out + "*TRS, DEFINITION=WLF\n" + wlf_row(*numbers.shift);
+  }
+  return out + "*TRS, DEFINITION=ARRHENIUS\n" +
+         arrhenius_row(*numbers.shift, ArrheniusRow::kEnergy) +
+         "** The model needs: " + physical_constants();
 }
 
 void read_prony(const KeywordBlock& block, ReadCard& card) {
@@ -35,6 +47,7 @@ void read_prony(const KeywordBlock& block, ReadCard& card) {
   }
   for (const CardLine& line : block.data) {
     const auto row = cells(line.text, ',');
+    check_width(line, 3, card);
     card.numbers.branches.push_back({cell_number(row, 0, line, "g_i"),
                                      cell_number_or_zero(row, 1, line, "k_i"),
                                      cell_number(row, 2, line, "tau_i")});
@@ -43,7 +56,9 @@ void read_prony(const KeywordBlock& block, ReadCard& card) {
 
 void read_abaqus(const std::string& text, ReadCard& card) {
   bool has_elastic = false, is_instantaneous = false;
-  for (const KeywordBlock& block : keyword_blocks(card_lines(text, "**"), '*')) {
+  const std::vector<KeywordBlock> blocks = keyword_blocks(card_lines(text, "**"), '*');
+  check_single_material(blocks, card);
+  for (const KeywordBlock& block : blocks) {
     if (block.keyword == "*MATERIAL") {
       card.name = block.name();
     } else if (block.keyword == "*DENSITY") {
@@ -53,7 +68,7 @@ void read_abaqus(const std::string& text, ReadCard& card) {
       is_instantaneous = block.has("MODULI=INSTANTANEOUS");
       read_elastic(block, card, card.numbers);
     } else if (block.keyword == "*TRS") {
-      read_wlf(block, card);
+      read_shift_rows(block, ArrheniusRow::kEnergy, card);
     } else if (block.keyword == "*VISCOELASTIC") {
       read_prony(block, card);
     }
@@ -70,6 +85,11 @@ std::vector<DeckFile> abaqus_deck(const DeckInput& input, const std::string& nam
   std::string out = keyword_cube() + "*ELEMENT, TYPE=C3D8H, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n" +
                     input.card.text + "*SOLID SECTION, ELSET=E, MATERIAL=" + input.card.name +
                     "\n,\n" + keyword_rollers_and_ramp(input);
+  if (const auto& shift = input.card.written.shift) {
+    // Abaqus starts at 0 degrees where no temperature is set.
+    if (shift->law == ShiftLaw::kArrhenius) out += physical_constants();
+    out += "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, " + number(shift->T_ref_C) + "\n";
+  }
   for (const DeckBlock& block : input.blocks()) {
     out += fmt::format("*STEP, INC=1000000\n*VISCO\n{0}, {1}, {0}, {0}\n", number(block.step),
                        number(block.length));
@@ -103,8 +123,11 @@ CardTarget abaqus_target() {
           .read = read_abaqus,
           .deck = DeckWriter{abaqus_deck, "abaqus job={}"},
           .add_mistakes = add_abaqus_mistakes,
+          .is_case_sensitive = false,
           .takes_incompressible = true,
           .takes_wlf = true,
+          .takes_arrhenius = true,
+          .set_temperature = "*INITIAL CONDITIONS, TYPE=TEMPERATURE (0 if not given)",
           .evidence = Evidence::kParsed,
           .evidence_note = "public keyword manual; an independent reader found the numbers",
           .advice =

@@ -66,9 +66,8 @@ std::vector<CardBranch> pairs_of(const PronyTable& table) {
 
 void add_constants(const std::vector<std::string>& row, const CardLine& line, PronyTable& table,
                    ReadCard& card) {
-  int location = row.size() > 1 && !row[1].empty()
-                     ? static_cast<int>(card_number(row[1], line, "location"))
-                     : table.next_location;
+  int location = row.size() > 1 && !row[1].empty() ? cell_integer(row, 1, line, "location")
+                                                   : table.next_location;
   for (std::size_t i = 2; i < row.size(); ++i, ++location) {
     if (row[i].empty()) continue;
     if (!table.constants.emplace(location, card_number(row[i], line, "constant")).second) {
@@ -117,6 +116,17 @@ std::vector<CardLine> ansys_commands(const std::string& text) {
   return commands;
 }
 
+// All commands of the card must be of one material number.
+void check_material_number(const std::vector<std::string>& row, const CardLine& line,
+                           std::string& number, ReadCard& card) {
+  const std::string found = row.size() > 2 ? row[2] : "";
+  if (number.empty()) number = found;
+  if (found == number) return;
+  card.add("material-number-differs",
+           at_line(line, row[0] + " is of material '" + found + "' and the commands before of '" +
+                             number + "'"));
+}
+
 void read_property(const std::vector<std::string>& row, const CardLine& line, ReadCard& card,
                    bool& has_young) {
   const std::string property = upper(row.size() > 1 ? row[1] : "");
@@ -133,17 +143,25 @@ void read_property(const std::vector<std::string>& row, const CardLine& line, Re
 
 PronyTable table_of(const std::vector<std::string>& row, const CardLine& line) {
   const std::string part = upper(row.size() > 5 ? row[5] : "SHEAR").substr(0, 4);
+  if (part != "SHEA" && part != "BULK") {
+    throw std::runtime_error(at_line(line, "'" + row[5] + "' is neither SHEAR nor BULK"));
+  }
+  if (cell_number_or_zero(row, 3, line, "number of temperatures") > 1.0) {
+    throw std::runtime_error(at_line(line, "tables at more than one temperature are not read"));
+  }
   return {.line = line,
           .is_bulk = part == "BULK",
-          .pairs = static_cast<int>(cell_number(row, 4, line, "number of pairs"))};
+          .pairs = cell_integer(row, 4, line, "number of pairs")};
 }
 
 void read_ansys(const std::string& text, ReadCard& card) {
   std::vector<PronyTable> tables;
   bool in_elastic = false, in_shift = false, has_young = false;
+  std::string number;
   for (const CardLine& line : ansys_commands(text)) {
     const std::vector<std::string> row = cells(line.text, ',');
     const std::string command = upper(row[0]);
+    if (command == "MP" || command == "TB") check_material_number(row, line, number, card);
     if (command == "MP") {
       read_property(row, line, card, has_young);
     } else if (command == "TB") {
@@ -175,6 +193,11 @@ std::vector<DeckFile> ansys_deck(const DeckInput& input, const std::string& name
       "NLGEOM,OFF\nKBC,0\nOUTRES,ALL,ALL\nNSEL,S,LOC,Z,1\n";
   out += (input.is_creep() ? "F,ALL,FZ," : "D,ALL,UZ,") + number_of_20(input.pull()) + "\n";
   out += "ALLSEL\n";
+  // MAPDL starts at TUNIF, which is 0 where it is not given.
+  if (const auto& shift = input.card.written.shift) {
+    out +=
+        "TREF," + number_of_20(shift->T_ref_C) + "\nTUNIF," + number_of_20(shift->T_ref_C) + "\n";
+  }
   for (const DeckBlock& block : input.blocks()) {
     out += fmt::format("TIME,{0}\nNSUBST,{1},{1},{1}\nSOLVE\n", number_of_20(block.end),
                        block.increments);
@@ -196,8 +219,10 @@ CardTarget ansys_target() {
           .write = write_ansys,
           .read = read_ansys,
           .deck = DeckWriter{ansys_deck, "mapdl -b -i {}.mac"},
+          .is_case_sensitive = false,
           .max_terms = 100,
           .takes_wlf = true,
+          .set_temperature = "TUNIF or BF,ALL,TEMP (0 if not given)",
           .evidence = Evidence::kParsed,
           .evidence_note = "public command manual; an independent reader found the numbers",
           .advice =

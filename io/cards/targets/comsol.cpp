@@ -14,6 +14,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace viscard {
@@ -47,9 +48,15 @@ std::string write_comsol(const CardBody& body) {
         row("tau" + index, numbers.branches[i].time, time, "branch " + index + " relaxation time");
   }
   if (numbers.shift) {
-    out += row("Tref", numbers.shift->T_ref_C, "degC", "WLF reference temperature");
-    out += row("C1", numbers.shift->C1, "", "WLF constant C1");
-    out += row("C2", numbers.shift->C2_K, "K", "WLF constant C2");
+    const bool is_wlf = numbers.shift->law == ShiftLaw::kWlf;
+    out += row("Tref", numbers.shift->T_ref_C, "degC",
+               is_wlf ? "WLF reference temperature" : "Arrhenius reference temperature");
+    if (is_wlf) {
+      out += row("C1", numbers.shift->C1, "", "WLF constant C1");
+      out += row("C2", numbers.shift->C2_K, "K", "WLF constant C2");
+    } else {
+      out += row("Q", numbers.shift->activation_J_mol, "J/mol", "Arrhenius activation energy");
+    }
   }
   return out;
 }
@@ -79,50 +86,70 @@ double unit_factor(const std::string& unit, const CardLine& line) {
   return found->second;
 }
 
-// A constant of the WLF law.
+// A constant of the WLF or the Arrhenius law.
 void read_shift(const std::string& kind, double value, const std::string& unit, ReadCard& card) {
   if (!card.numbers.shift) card.numbers.shift.emplace();
   if (kind == "C1") card.numbers.shift->C1 = value;
   if (kind == "C2") card.numbers.shift->C2_K = value;
+  if (kind == "Q") {
+    card.numbers.shift->law = ShiftLaw::kArrhenius;
+    card.numbers.shift->activation_J_mol = unit == "kJ/mol" ? 1e3 * value : value;
+  }
   if (kind != "Tref") return;
   card.numbers.shift->T_ref_C = unit == "K" ? value + kAbsoluteZero_C : value;
+}
+
+void read_elastic_number(const std::string& kind, double value, ReadCard& card) {
+  if (kind == "Einf" || kind == "E_inf") card.numbers.young = value;
+  if (kind == "nuinf" || kind == "nu") card.numbers.poisson = value;
+  if (kind == "rho") card.numbers.density = value;
 }
 
 void read_comsol(const std::string& text, ReadCard& card) {
   card.units = unit_system("SI");  // each expression carries its own
   card.units_were_stated = true;
   std::map<int, CardBranch> branches;
+  std::set<std::string> prefixes;
   bool has_young = false;
   const char* row = "^\\s*(\\w+)\\s+([-+.\\deE]+)(?:\\[([^\\]]*)\\])?(?:\\s.*)?$";
-  const char* suffix = "^(.*_)?(Einf|E_inf|nuinf|nu|rho|Tref|C1|C2|G\\d+|tau\\d+)$";
+  const char* suffix = "^(.*_)?(Einf|E_inf|nuinf|nu|rho|Tref|C1|C2|Q|G\\d+|tau\\d+)$";
   for (const CardLine& line : card_lines(text, "%")) {
+    if (trimmed(line.text).empty()) continue;
     const auto match = first_match(line.text, row);
-    if (!match) continue;
+    if (!match) {
+      card.add("line-not-read", at_line(line, "is not a name, a number[unit] and a text"), false);
+      continue;
+    }
     const std::string& name = match->group[1];
     const std::string& unit = match->group[3];
     const auto role = first_match(name, suffix);
-    if (!role) continue;
+    if (!role) {
+      card.add("parameter-not-known", at_line(line, name + " is no parameter of these cards"),
+               false);
+      continue;
+    }
+    if (prefixes.insert(role->group[1]).second && prefixes.size() > 1) {
+      card.add("prefix-differs",
+               at_line(line, name + " is of another material than the lines above"));
+    }
     const std::string& kind = role->group[2];
-    if (kind == "Tref" || kind == "C1" || kind == "C2") {
+    if (kind == "Tref" || kind == "C1" || kind == "C2" || kind == "Q") {
       read_shift(kind, card_number(match->group[2], line, name), unit, card);
       continue;
     }
     const double factor = unit_factor(unit, line);
     const double number = card_number(match->group[2], line, name);
     const double value = factor < 1.0 ? number / std::round(1.0 / factor) : number * factor;
-    if (kind == "Einf" || kind == "E_inf") {
-      card.numbers.young = value;
-      has_young = true;
-      if (!role->group[1].empty()) card.name = role->group[1].substr(0, role->group[1].size() - 1);
-    } else if (kind == "nuinf" || kind == "nu") {
-      card.numbers.poisson = value;
-    } else if (kind == "rho") {
-      card.numbers.density = value;
-    } else if (kind[0] == 'G') {
-      branches[std::stoi(kind.substr(1))].shear = value;
-    } else {
-      branches[std::stoi(kind.substr(3))].time = value;
+    if (kind[0] == 'G' || kind[0] == 't') {
+      const bool is_modulus = kind[0] == 'G';
+      CardBranch& branch = branches[cell_integer({kind.substr(is_modulus ? 1 : 3)}, 0, line, name)];
+      (is_modulus ? branch.shear : branch.time) = value;
+      continue;
     }
+    read_elastic_number(kind, value, card);
+    if (kind[0] != 'E') continue;
+    has_young = true;
+    if (!role->group[1].empty()) card.name = role->group[1].substr(0, role->group[1].size() - 1);
   }
   if (!has_young) throw std::runtime_error("the card has no parameter ending in Einf or E_inf");
   for (const auto& [index, branch] : branches) card.numbers.branches.push_back(branch);
@@ -154,9 +181,7 @@ constexpr const char* kSetup = R"java(    Model model = ModelUtil.create("Model"
     elastic.set("E", prefix + "_Einf");
     elastic.set("nu_mat", "userdef");
     elastic.set("nu", prefix + "_nuinf");
-    elastic.set("rho_mat", "userdef");
-    elastic.set("rho", prefix + "_rho");
-    elastic.create("vis1", "Viscoelasticity", 3);
+{}    elastic.create("vis1", "Viscoelasticity", 3);
     elastic.feature("vis1").set("Gvm", moduli);
     elastic.feature("vis1").set("tauvm", times);
     model.component("comp1").physics("solid").create("roll1", "Roller", 2);
@@ -203,7 +228,10 @@ std::vector<DeckFile> comsol_deck(const DeckInput& input, const std::string& nam
       name, input.card.name);
   out += java_names("moduli", "G", written.terms.size());
   out += java_names("times", "tau", written.terms.size());
-  out += fmt::format(kSetup, input.test.amplitude, input.test.ramp_s, written.E0_Pa);
+  const char* density =
+      "    elastic.set(\"rho_mat\", \"userdef\");\n    elastic.set(\"rho\", prefix + \"_rho\");\n";
+  out += fmt::format(kSetup, input.test.amplitude, input.test.ramp_s, written.E0_Pa,
+                     written.rho_kg_m3 > 0.0 ? density : "");
   out += input.is_creep() ? kForce : kDisplacement;
   out += fmt::format(
       kStudy, times,
@@ -246,6 +274,8 @@ CardTarget comsol_target() {
           .bulk = BulkRule::kConstantBulk,
           .numbers_carry_units = true,
           .takes_wlf = true,
+          .takes_arrhenius = true,
+          .set_temperature = "Model Input > Temperature, and the shift function of Viscoelasticity",
           .evidence = Evidence::kDocumentation,
           .evidence_note = "public documentation and published model files; not run",
           .advice =

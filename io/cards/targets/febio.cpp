@@ -32,11 +32,14 @@ std::string write_febio(const CardBody& body) {
     out += fmt::format("  <g{0}>{1}</g{0}><t{0}>{2}</t{0}>\n", i + 1, numbers.branches[i].shear,
                        numbers.branches[i].time);
   }
+  // FEBio takes the bulk modulus of an uncoupled material from its top level and warns that it
+  // ignores that of the child.
+  if (is_uncoupled) out += "  " + tag("k", numbers.bulk) + "\n";
   out += is_uncoupled ? "  <elastic type=\"Mooney-Rivlin\">\n    "
                       : "  <elastic type=\"isotropic elastic\">\n    ";
   if (numbers.density > 0.0) out += tag("density", numbers.density);
   if (is_uncoupled) {
-    out += tag("c1", 0.5 * numbers.shear) + "<c2>0</c2>" + tag("k", numbers.bulk);
+    out += tag("c1", 0.5 * numbers.shear) + "<c2>0</c2>";
   } else {
     out += tag("E", numbers.young) + tag("v", numbers.poisson);
   }
@@ -80,13 +83,60 @@ std::string viscoelastic_material(const std::string& text) {
   return before + text.substr(begin, end == std::string::npos ? end : end - begin);
 }
 
-void read_child(const std::string& text, const std::string& type, ReadCard& card) {
+// Throws unless every opened element of the text is closed in order.
+void check_nesting(const std::string& text) {
+  std::vector<std::string> open;
+  for (const Match& match : all_matches(text, "<(/?)([A-Za-z_][\\w.-]*)([^<>]*)>")) {
+    const bool is_single = !match.group[3].empty() && match.group[3].back() == '/';
+    if (is_single) continue;
+    if (match.group[1].empty()) {
+      open.push_back(match.group[2]);
+    } else if (open.empty() || open.back() != match.group[2]) {
+      throw std::runtime_error(
+          at_line(line_of(text, match.at[0]), "</" + match.group[2] + "> closes no open element"));
+    } else {
+      open.pop_back();
+    }
+  }
+  if (!open.empty()) throw std::runtime_error("<" + open.back() + "> is not closed");
+}
+
+// The material without its elastic child, and the child.
+struct FebioParts {
+  std::string outside, child;
+};
+
+FebioParts parts_of(const std::string& text) {
+  const std::size_t begin = text.find("<elastic"), end = text.find("</elastic>");
+  if (begin == std::string::npos || end == std::string::npos || end < begin) return {text, ""};
+  return {text.substr(0, begin) + text.substr(end), text.substr(begin, end - begin)};
+}
+
+// The elastic child decides what its numbers mean.
+void check_child(const std::string& text, const char* wanted, ReadCard& card) {
+  const auto child = first_match(text, "<elastic\\s[^>]*type\\s*=\\s*[\"']([^\"']*)[\"']");
+  if (child && child->group[1] == wanted) return;
+  card.add("elastic-type", "the elastic child is '" + (child ? child->group[1] : std::string()) +
+                               "'; its numbers are read as those of '" + wanted + "'");
+}
+
+void read_child(const FebioParts& parts, const std::string& type, ReadCard& card) {
+  const std::string& text = parts.child;
   if (type == "uncoupled viscoelastic") {
     card.understood = febio_uncoupled_target();
+    check_child(text, "Mooney-Rivlin", card);
     card.numbers.shear = 2.0 * (required_tag(text, "c1") + tag_value(text, "c2").value_or(0.0));
-    card.numbers.bulk = required_tag(text, "k");
+    const auto outer = tag_value(parts.outside, "k"), inner = tag_value(text, "k");
+    if (!outer && !inner) throw std::runtime_error("the card has no <k>");
+    card.numbers.bulk = outer.value_or(inner.value_or(0.0));
+    if (inner) {
+      card.add("bulk-in-child",
+               "<k> stands in the elastic child; FEBio 4 takes that of the top level and warns",
+               outer.has_value());
+    }
   } else if (type == "viscoelastic") {
     card.understood = febio_target();
+    check_child(text, "isotropic elastic", card);
     card.numbers.young = required_tag(text, "E");
     card.numbers.poisson = required_tag(text, "v");
   } else {
@@ -96,13 +146,19 @@ void read_child(const std::string& text, const std::string& type, ReadCard& card
 }
 
 void read_febio(const std::string& commented, ReadCard& card) {
-  const std::string text = viscoelastic_material(without_xml_comments(commented));
+  (void)card_lines(commented, "\n");  // refuses lines that are too long to match
+  const std::string whole = without_xml_comments(commented);
+  check_nesting(whole);
+  std::string text = viscoelastic_material(whole);
   const auto type = first_match(text, "<material\\s[^>]*type\\s*=\\s*[\"']([^\"']*)[\"']");
   if (!type) throw std::runtime_error("the card has no <material type=\"...\">");
-  read_child(text, type->group[1], card);
+  const FebioParts parts = parts_of(text);
+  read_child(parts, type->group[1], card);
   const auto name = first_match(text, "<material\\s[^>]*name\\s*=\\s*[\"']([^\"']*)[\"']");
   if (name) card.name = name->group[1];
-  card.numbers.density = tag_value(text, "density").value_or(0.0);
+  card.numbers.density =
+      tag_value(parts.child, "density").value_or(tag_value(text, "density").value_or(0.0));
+  text = parts.outside;
   double sum = 0.0;
   for (int i = 1; i <= 6; ++i) {
     const double g = tag_value(text, "g" + std::to_string(i)).value_or(0.0);

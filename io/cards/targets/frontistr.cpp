@@ -1,4 +1,5 @@
-// FrontISTR. Sources: manual and fstr_ctrl_material.f90 (rows mu_i, tau_i).
+// FrontISTR. Sources: manual and fstr_ctrl_material.f90 (rows mu_i, tau_i); fstr_AddBC.f90 and
+// fstr_ass_load.f90 (what a step adds) of versions 5.6 to 5.9.
 #include "io/cards/keyword_lines.h"
 #include "io/cards/targets/card_targets.h"
 
@@ -7,59 +8,106 @@
 namespace viscard {
 namespace {
 
-// INFINITESIMAL because the default is a total Lagrangian formulation.
+// INFINITESIMAL because the default of both keywords is a total Lagrangian formulation; the last of
+// the two decides. !ELASTIC comes first: after !VISCOELASTIC it would make the material elastic.
 std::string write_frontistr(const CardBody& body) {
   const CardNumbers& numbers = body.numbers;
-  std::string out = fmt::format("!MATERIAL, NAME={}\n!ELASTIC\n {}, {}\n", body.name, numbers.young,
-                                numbers.poisson);
+  std::string out = fmt::format("!MATERIAL, NAME={}\n!ELASTIC, INFINITESIMAL\n {}, {}\n", body.name,
+                                numbers.young, numbers.poisson);
   if (numbers.density > 0.0) out += fmt::format("!DENSITY\n {}\n", numbers.density);
   if (!numbers.branches.empty()) out += "!VISCOELASTIC, INFINITESIMAL\n";
   for (const CardBranch& branch : numbers.branches) {
     out += fmt::format(" {}, {}\n", branch.shear, branch.time);
   }
-  if (numbers.shift) out += "!TRS, DEFINITION=WLF\n " + wlf_row(*numbers.shift);
-  return out;
+  if (!numbers.shift) return out;
+  if (numbers.shift->law == ShiftLaw::kWlf) {
+    return out + "!TRS, DEFINITION=WLF\n " + wlf_row(*numbers.shift);
+  }
+  return out + "!TRS, DEFINITION=ARRHENIUS\n " +
+         arrhenius_row(*numbers.shift, ArrheniusRow::kRatioAndZero);
 }
 
 void read_frontistr(const std::string& text, ReadCard& card) {
   std::vector<CardLine> lines = card_lines(text, "#");
   std::erase_if(lines, [](const CardLine& line) { return trimmed(line.text).rfind("!!", 0) == 0; });
-  bool has_elastic = false;
-  for (const KeywordBlock& block : keyword_blocks(lines, '!')) {
+  bool has_elastic = false, is_small_strain = false;
+  const std::vector<KeywordBlock> blocks = keyword_blocks(lines, '!');
+  check_single_material(blocks, card);
+  for (const KeywordBlock& block : blocks) {
+    if (block.keyword == "!ELASTIC" || block.keyword == "!VISCOELASTIC") {
+      is_small_strain = block.has("INFINITESIMAL") || block.has("INFINITE");
+    }
     if (block.keyword == "!MATERIAL") {
       card.name = block.name();
     } else if (block.keyword == "!ELASTIC") {
       has_elastic = true;
       read_elastic(block, card, card.numbers);
+      if (!card.numbers.branches.empty()) {
+        card.add("elastic-after-viscoelastic",
+                 at_line(block.line,
+                         "!ELASTIC after !VISCOELASTIC makes the material elastic; put it first"));
+      }
     } else if (block.keyword == "!DENSITY") {
       card.numbers.density = density_in(block);
     } else if (block.keyword == "!VISCOELASTIC") {
       for (const CardLine& line : block.data) {
         const auto row = cells(line.text, ',');
+        check_width(line, 2, card);
         card.numbers.branches.push_back(
             {cell_number(row, 0, line, "mu_i"), 0.0, cell_number(row, 1, line, "tau_i")});
       }
     } else if (block.keyword == "!TRS") {
-      read_wlf(block, card);
+      read_shift_rows(block, ArrheniusRow::kRatioAndZero, card);
     } else if (block.keyword == "!SOLUTION" && block.has("TYPE=STATIC")) {
       card.add("static-step",
                at_line(block.line, "needs !SOLUTION, TYPE=NLSTATIC and !STEP, TYPE=VISCO"));
     }
   }
   require(has_elastic, "!ELASTIC");
+  if (is_small_strain) return;
+  card.add("finite-strain",
+           "the last of !ELASTIC and !VISCOELASTIC lacks INFINITESIMAL: the formulation is total "
+           "Lagrangian, 3e-3 off at a strain of 1e-3");
 }
 
-std::string frontistr_mesh() {
+std::string frontistr_mesh(const DeckInput& input) {
   std::string out = "!HEADER\n one element\n!NODE\n";
   int id = 0;
   for (const auto& [x, y, z] : kCubeCorners) {
     out += fmt::format(" {}, {}., {}., {}.\n", ++id, x, y, z);
   }
+  std::string temperature;
+  if (const auto& shift = input.card.written.shift) {
+    temperature = fmt::format(
+        "!NGROUP, NGRP=NALL\n 1, 2, 3, 4, 5, 6, 7, 8\n"
+        "!INITIAL CONDITION, TYPE=TEMPERATURE\n NALL, {}\n",
+        shift->T_ref_C);
+  }
   return out +
          "!ELEMENT, TYPE=361, EGRP=E\n 1, 1, 2, 3, 4, 5, 6, 7, 8\n"
          "!SECTION, TYPE=SOLID, EGRP=E, MATERIAL=M\n!MATERIAL, NAME=M, ITEM=1\n!ITEM=1, SUBITEM=2\n"
          " 1.0, 0.3\n!NGROUP, NGRP=X0\n 1, 4, 5, 8\n!NGROUP, NGRP=Y0\n 1, 2, 5, 6\n"
-         "!NGROUP, NGRP=Z0\n 1, 2, 3, 4\n!NGROUP, NGRP=Z1\n 5, 6, 7, 8\n!END\n";
+         "!NGROUP, NGRP=Z0\n 1, 2, 3, 4\n!NGROUP, NGRP=Z1\n 5, 6, 7, 8\n" +
+         temperature + "!END\n";
+}
+
+// In a step of TYPE=VISCO a prescribed displacement is an increment: the first increment of the step
+// adds all of it, whatever the amplitude says (fstr_AddBC.f90). So the ramp is one increment of the
+// first step, and the displacement of the other steps is 0. A force rises linearly over the first
+// step in which it is active and stays in the next ones (fstr_ass_load.f90).
+std::string frontistr_steps(const DeckInput& input) {
+  std::string out;
+  const std::string loads = std::string(input.is_creep() ? " LOAD, 1\n" : "") +
+                            (input.card.written.shift ? " LOAD, 2\n" : "");
+  int group = 1;
+  for (const DeckBlock& block : input.blocks()) {
+    const bool is_jump = group == 1 && !input.is_creep();
+    out += fmt::format("!STEP, TYPE=VISCO, CONVERG=1.0E-10\n {}, {}\n BOUNDARY, {}\n{}",
+                       is_jump ? block.length : block.step, block.length,
+                       input.is_creep() ? 1 : group, loads);
+    group = 2;
+  }
+  return out;
 }
 
 std::string frontistr_control(const DeckInput& input) {
@@ -67,24 +115,28 @@ std::string frontistr_control(const DeckInput& input) {
   // The mesh calls the material of its section M.
   const std::size_t at = card.find("!MATERIAL, NAME=");
   card.replace(at, card.find('\n', at) - at, "!MATERIAL, NAME=M");
+  const auto boundary = [](int group, const std::string& pulled) {
+    return fmt::format("!BOUNDARY, GRPID={}\n X0, 1, 1, 0.0\n Y0, 2, 2, 0.0\n Z0, 3, 3, 0.0\n{}",
+                       group, pulled);
+  };
   std::string out = "!VERSION\n 3\n!SOLUTION, TYPE=NLSTATIC\n!WRITE, RESULT\n" + card;
-  out += fmt::format(
-      "!AMPLITUDE, NAME=RAMP, VALUE=RELATIVE\n 0.0, 0.0, 1.0, {}, 1.0, {}\n"
-      "!BOUNDARY, GRPID=1\n X0, 1, 1, 0.0\n Y0, 2, 2, 0.0\n Z0, 3, 3, 0.0\n",
-      input.ramp(), 2.0 * input.end());
-  out +=
-      fmt::format("!{}, GRPID=1, AMP=RAMP\n Z1, 3, {}{}\n", input.is_creep() ? "CLOAD" : "BOUNDARY",
-                  input.is_creep() ? "" : "3, ", input.pull());
-  for (const DeckBlock& block : input.blocks()) {
-    out += fmt::format("!STEP, TYPE=VISCO, CONVERG=1.0E-10\n {}, {}\n BOUNDARY, 1\n{}", block.step,
-                       block.length, input.is_creep() ? " LOAD, 1\n" : "");
+  if (input.is_creep()) {
+    out += boundary(1, "") + fmt::format("!CLOAD, GRPID=1\n Z1, 3, {}\n", input.pull());
+  } else {
+    out +=
+        boundary(1, fmt::format(" Z1, 3, 3, {}\n", input.pull())) + boundary(2, " Z1, 3, 3, 0.0\n");
   }
-  return out + "!SOLVER, METHOD=DIRECT\n 10000, 1\n 1.0E-12, 1.0, 0.0\n!END\n";
+  // As in FrontISTR's own tests of !TRS: the temperature is a load beside the initial condition.
+  if (const auto& shift = input.card.written.shift) {
+    out += fmt::format("!TEMPERATURE, GRPID=2\n NALL, {}\n", shift->T_ref_C);
+  }
+  return out + frontistr_steps(input) +
+         "!SOLVER, METHOD=DIRECT\n 10000, 1\n 1.0E-12, 1.0, 0.0\n!END\n";
 }
 
 std::vector<DeckFile> frontistr_deck(const DeckInput& input, const std::string& name) {
   return {{name + ".cnt", frontistr_control(input)},
-          {name + ".msh", frontistr_mesh()},
+          {name + ".msh", frontistr_mesh(input)},
           {"hecmw_ctrl.dat", "!MESH, NAME=fstrMSH, TYPE=HECMW-ENTIRE\n " + name +
                                  ".msh\n!CONTROL, NAME=fstrCNT\n " + name +
                                  ".cnt\n!RESULT, NAME=fstrRES, IO=OUT\n " + name + ".res\n"}};
@@ -93,18 +145,28 @@ std::vector<DeckFile> frontistr_deck(const DeckInput& input, const std::string& 
 }  // namespace
 
 CardTarget frontistr_target() {
-  return {.name = "frontistr",
-          .code = "FrontISTR",
-          .extension = ".cnt",
-          .comment = "#",
-          .write = write_frontistr,
-          .read = read_frontistr,
-          .deck = DeckWriter{frontistr_deck, "fistr1"},
-          .bulk = BulkRule::kConstantBulk,
-          .takes_wlf = true,
-          .evidence = Evidence::kRun,
-          .evidence_note = "FrontISTR on one element, ramp and hold: 3e-8",
-          .advice = "Needs !SOLUTION, TYPE=NLSTATIC and !STEP, TYPE=VISCO."};
+  return {
+      .name = "frontistr",
+      .code = "FrontISTR",
+      .extension = ".cnt",
+      .comment = "#",
+      .write = write_frontistr,
+      .read = read_frontistr,
+      // Geometrically linear, so the strain is 1: forces below 1e-8 units would be compared with
+      // an absolute residual (fstr_CheckConvergence.f90).
+      .deck = DeckWriter{frontistr_deck, "fistr1", {.amplitude = 1.0, .steps_per_tau = 8}},
+      .bulk = BulkRule::kConstantBulk,
+      .is_case_sensitive = false,
+      .takes_wlf = true,
+      .takes_arrhenius = true,
+      .set_temperature = "!INITIAL CONDITION, TYPE=TEMPERATURE and !TEMPERATURE (0 if not given)",
+      .evidence = Evidence::kRun,
+      .evidence_note = "FrontISTR on one element, ramp and hold: 3e-8",
+      .advice =
+          "Needs !SOLUTION, TYPE=NLSTATIC and !STEP, TYPE=VISCO; each such step adds its "
+          "prescribed "
+          "displacements again. INFINITESIMAL: small strain; without it the formulation is total "
+          "Lagrangian."};
 }
 
 }  // namespace viscard

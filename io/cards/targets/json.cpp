@@ -36,11 +36,13 @@ std::string write_json(const CardBody& body) {
     json["k"].push_back(branch.bulk);
     json["tau"].push_back(branch.time);
   }
-  if (body.numbers.shift) {
-    json["shift"] = {{"law", "wlf"},
-                     {"T_ref_C", body.numbers.shift->T_ref_C},
-                     {"C1", body.numbers.shift->C1},
-                     {"C2_K", body.numbers.shift->C2_K}};
+  if (const auto& shift = body.numbers.shift; shift && shift->law == ShiftLaw::kWlf) {
+    json["shift"] = {
+        {"law", "wlf"}, {"T_ref_C", shift->T_ref_C}, {"C1", shift->C1}, {"C2_K", shift->C2_K}};
+  } else if (shift) {
+    json["shift"] = {{"law", "arrhenius"},
+                     {"T_ref_C", shift->T_ref_C},
+                     {"activation_J_mol", shift->activation_J_mol}};
   }
   auto& derived = json["derived"];
   derived["E_inf"] = stress(moduli.E_inf_Pa);
@@ -77,9 +79,19 @@ void read_json(const std::string& text, ReadCard& card) {
       card.numbers.branches.push_back({g[i], k[i], tau[i]});
     if (json.contains("shift")) {
       const nlohmann::json& shift = json["shift"];
-      card.numbers.shift = TemperatureShift{.T_ref_C = shift.at("T_ref_C").get<double>(),
-                                            .C1 = shift.at("C1").get<double>(),
-                                            .C2_K = shift.at("C2_K").get<double>()};
+      const std::string law = shift.value("law", "wlf");
+      if (law != "wlf" && law != "arrhenius") {
+        throw std::runtime_error("the law of the shift is '" + law +
+                                 "'; wlf or arrhenius is expected");
+      }
+      card.numbers.shift = TemperatureShift{.T_ref_C = shift.at("T_ref_C").get<double>()};
+      if (law == "wlf") {
+        card.numbers.shift->C1 = shift.at("C1").get<double>();
+        card.numbers.shift->C2_K = shift.at("C2_K").get<double>();
+      } else {
+        card.numbers.shift->law = ShiftLaw::kArrhenius;
+        card.numbers.shift->activation_J_mol = shift.at("activation_J_mol").get<double>();
+      }
     }
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(std::string("not a JSON card: ") + error.what());
@@ -96,6 +108,7 @@ CardTarget json_target() {
           .read = read_json,
           .takes_incompressible = true,
           .takes_wlf = true,
+          .takes_arrhenius = true,
           .evidence_note = "read back by viscard; units stand beside the numbers"};
 }
 

@@ -39,7 +39,13 @@ std::string write_076(const CardBody& body) {
   const CardNumbers& numbers = body.numbers;
   std::string out = "*MAT_GENERAL_VISCOELASTIC_TITLE\n" + body.name + "\n";
   out += "$      MID        RO      BULK       PCF        EF      TREF         A         B\n";
-  out += first_fields(numbers) + "\n";
+  out += first_fields(numbers);
+  // Phi(T) = exp(-A (1/T - 1/TREF)) multiplies time if B is 0; T is absolute.
+  if (numbers.shift) {
+    out += right("", 20) + field(numbers.shift->T_ref_C - kAbsoluteZero_C) +
+           field(numbers.shift->activation_J_mol / kGasConstant_J_mol_K) + field(0.0);
+  }
+  out += "\n";
   out += "$     LCID        NT    BSTART     TRAMP     LCIDK       NTK   BSTARTK    TRAMPK\n\n";
   out += "$       GI     BETAI        KI    BETAKI\n";
   out += field(numbers.equilibrium) + field(0.0) + "\n";
@@ -119,8 +125,24 @@ std::size_t read_card_2(const KeywordCards& cards, ReadCard& card) {
   return 2;
 }
 
+// TREF, A, B: an Arrhenius law if B is 0, none if A is 0 too.
+void read_076_shift(const KeywordCards& cards, ReadCard& card) {
+  const CardLine& line = cards.lines.front();
+  const auto row = columns(line.text, cards.width);
+  const double A = cell_number_or_zero(row, 6, line, "A");
+  if (cell_number_or_zero(row, 7, line, "B") != 0.0) {
+    card.add("shift-not-read", at_line(line, "B is set: a WLF shift, which is not read here"));
+  } else if (A != 0.0) {
+    card.numbers.shift =
+        TemperatureShift{.law = ShiftLaw::kArrhenius,
+                         .T_ref_C = cell_number_or_zero(row, 5, line, "TREF") + kAbsoluteZero_C,
+                         .activation_J_mol = A * kGasConstant_J_mol_K};
+  }
+}
+
 void read_076(const std::string& text, ReadCard& card) {
   const KeywordCards cards = material_cards(text, "*MAT_GENERAL_VISCOELASTIC", "*MAT_076", card);
+  read_076_shift(cards, card);
   bool has_equilibrium = false;
   for (std::size_t next = read_card_2(cards, card); next < cards.lines.size(); ++next) {
     const CardLine& line = cards.lines[next];
@@ -207,6 +229,12 @@ std::vector<DeckFile> lsdyna_deck(const DeckInput& input, const std::string& nam
   out += input.is_creep() ? "*LOAD_NODE_SET\n         4         3         1       1.0\n"
                           : "*BOUNDARY_PRESCRIBED_MOTION_SET\n"
                             "         4         3         2         1       1.0\n";
+  if (const auto& shift = input.card.written.shift) {
+    out +=
+        "*LOAD_THERMAL_CONSTANT\n$     NSID    NSIDEX     BOXID\n         0\n$        T        "
+        "TE\n" +
+        field(shift->T_ref_C - kAbsoluteZero_C) + "\n";
+  }
   out += "*DEFINE_CURVE\n         1\n" + ramp_rows(input) + "*DEFINE_CURVE\n         2\n" +
          increment_rows(input) + "*END\n";
   return {{name + ".k", out}};
@@ -237,7 +265,11 @@ CardTarget lsdyna_target() {
           .time = TimeNumber::kBeta,
           .bulk = BulkRule::kConstantBulk,
           .states_equilibrium = true,
+          .is_case_sensitive = false,
           .max_terms = 17,
+          .needs_density = true,
+          .takes_arrhenius = true,
+          .set_temperature = "*LOAD_THERMAL_CONSTANT or another load, in K (0 if not given)",
           .evidence = Evidence::kParsed,
           .evidence_note =
               "independent readers found the numbers; "
@@ -253,6 +285,7 @@ CardTarget lsdyna006_target() {
   target.write = write_006;
   target.read = read_006;
   target.add_mistakes = add_006_mistakes;
+  target.takes_arrhenius = false;
   target.max_terms = 1;
   target.evidence_note = "independent readers found the numbers";
   target.advice = "GI is the long-term shear modulus here. Numbers are rounded to ten columns.";

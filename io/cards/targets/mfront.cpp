@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
+
 namespace viscard {
 namespace {
 
@@ -45,13 +47,17 @@ q.setEntryName("BranchStress");
 }
 )";
 
-std::string write_mfront(const CardBody& body) {
-  CardNumbers numbers = body.numbers;
-  // MFront makes an array of one a scalar; a branch without stiffness keeps it an array.
+// MFront makes an array of one a scalar; a branch without stiffness keeps it an array.
+CardNumbers at_least_two_branches(CardNumbers numbers) {
   while (numbers.branches.size() < 2) {
     const double time = numbers.branches.empty() ? 1.0 : numbers.branches.back().time;
     numbers.branches.push_back({0.0, 0.0, time});
   }
+  return numbers;
+}
+
+std::string write_mfront(const CardBody& body) {
+  const CardNumbers numbers = at_least_two_branches(body.numbers);
   std::string out = "@DSL Default;\n@Behaviour " + body.name + ";\n\n";
   if (numbers.density > 0.0) {
     out += fmt::format("// mass density {} {}\n", numbers.density, body.units.density);
@@ -97,8 +103,8 @@ std::string gallery_properties(const CardNumbers& numbers) {
 
 std::vector<CompanionFile> mfront_companions(const CardBody& body) {
   if (!(body.material.nu < 0.5)) return {};
-  return {{"_gallery.mtest",
-           gallery_properties(numbers_from_material(body.material, gallery_target(), body.units))}};
+  return {{"_gallery.mtest", gallery_properties(at_least_two_branches(numbers_from_material(
+                                 body.material, gallery_target(), body.units)))}};
 }
 
 void read_gallery(const std::string& text, ReadCard& card) {
@@ -113,6 +119,46 @@ void read_gallery(const std::string& text, ReadCard& card) {
     card.numbers.branches.push_back({one_of(named, "ViscoelasticShearModulus" + index),
                                      one_of(named, "ViscoelasticBulkModulus" + index),
                                      one_of(named, "TimeScale" + index)});
+  }
+  const std::size_t read = 2 + 3 * card.numbers.branches.size();
+  if (named.size() == read) return;
+  card.add("property-without-partner",
+           std::to_string(named.size() - read) +
+               " properties are not read: each branch needs a bulk modulus, a shear modulus and a "
+               "TimeScale of one index, counted from 0");
+}
+
+// The lines of a program without blanks and comments.
+std::string squeezed(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (std::isspace(static_cast<unsigned char>(c)) == 0) out += c;
+  }
+  return out;
+}
+
+// The numbers say nothing if the lines that use them do something else.
+void check_program(const std::string& text, const NamedNumbers& named, std::size_t count,
+                   ReadCard& card) {
+  const std::string program = squeezed(text);
+  const bool has_head = program.find("@DSLDefault;") != std::string::npos && !card.name.empty();
+  if (!has_head || program.find(squeezed(kMfrontIntegrator)) == std::string::npos) {
+    card.add("integrator-differs",
+             "the lines that integrate the stress, or @DSL and @Behaviour, are not those that "
+             "viscard writes, so the numbers alone say nothing");
+  }
+  const auto size = first_match(text, "@IntegerConstant\\s+Nt\\s*=\\s*(\\d+)\\s*;");
+  if (!size || size->group[1] != std::to_string(count)) {
+    card.add("array-size", "Nt is not the number of relaxation times, " + std::to_string(count));
+  }
+  for (const char* name : {"E0", "nu0", "g", "k", "tau"}) {
+    const bool is_array = named.at(name).size() > 1;
+    const std::string mark =
+        std::string("@Parameterreal") + name + (is_array ? "\\[Nt\\]=\\{[^{};]*\\};" : "=[^{};]*;");
+    if (!first_match(program, mark)) {
+      card.add("array-size",
+               std::string(name) + " is not declared as '@Parameter real' of size Nt");
+    }
   }
 }
 
@@ -134,6 +180,7 @@ void read_mfront(const std::string& commented, ReadCard& card) {
   for (std::size_t i = 0; i < count; ++i) {
     card.numbers.branches.push_back({g[i], k[i], named.at("tau")[i]});
   }
+  check_program(text, named, count, card);
 }
 
 // MTest drives one material point; the behaviour needs no material property.
@@ -141,7 +188,7 @@ std::vector<DeckFile> mfront_deck(const DeckInput& input, const std::string& nam
   const double top = input.is_creep() ? input.stress() : input.test.amplitude;
   std::string out = fmt::format(
       "@ModellingHypothesis 'Tridimensional';\n@Behaviour<generic> 'src/libBehaviour.so' '{}';\n"
-      "@ExternalStateVariable 'Temperature' 293.15;\n"
+      "@ExternalStateVariable 'Temperature' 293.15;\n@OutputFilePrecision 15;\n"
       "@Imposed{} {{0. : 0., {} : {}, {} : {}}};\n@StrainEpsilon {};\n@StressEpsilon {};\n"
       "@Times {{0.",
       input.card.name, input.is_creep() ? "Stress<evolution> 'SZZ'" : "Strain<evolution> 'EZZ'",

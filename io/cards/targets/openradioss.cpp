@@ -160,7 +160,9 @@ CardTarget openradioss_target() {
           .time = TimeNumber::kBeta,
           .bulk = BulkRule::kConstantBulk,
           .states_equilibrium = true,
+          .is_case_sensitive = false,
           .max_terms = 5,
+          .needs_density = true,
           .evidence = Evidence::kSource,
           .evidence_note = "format definition of the open source code; not run",
           .advice = "The card declares its units in /UNIT; solid elements only."};

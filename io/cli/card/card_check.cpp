@@ -23,6 +23,9 @@ nlohmann::ordered_json json_of(const CardTarget& target) {
           {"bulk", to_word(target.bulk)},
           {"max_terms", target.max_terms},
           {"takes_nu_0_5", target.takes_incompressible},
+          {"takes_wlf", target.takes_wlf},
+          {"takes_arrhenius", target.takes_arrhenius},
+          {"needs_density", target.needs_density},
           {"evidence", to_word(target.evidence)},
           {"evidence_note", target.evidence_note},
           {"advice", target.advice}};
@@ -50,11 +53,13 @@ nlohmann::ordered_json json_of(const CardCheck& check, const CardWords& words) {
   for (const MaterialTerm& term : material.terms) {
     out["terms"].push_back({{"g", term.g}, {"k", term.k}, {"tau_s", term.tau_s}});
   }
-  if (material.shift) {
-    out["shift"] = {{"law", "wlf"},
-                    {"T_ref_C", material.shift->T_ref_C},
-                    {"C1", material.shift->C1},
-                    {"C2_K", material.shift->C2_K}};
+  if (const auto& shift = material.shift; shift && shift->law == ShiftLaw::kWlf) {
+    out["shift"] = {
+        {"law", "wlf"}, {"T_ref_C", shift->T_ref_C}, {"C1", shift->C1}, {"C2_K", shift->C2_K}};
+  } else if (shift) {
+    out["shift"] = {{"law", "arrhenius"},
+                    {"T_ref_C", shift->T_ref_C},
+                    {"activation_J_mol", shift->activation_J_mol}};
   }
   json["tolerance"] = check.tolerance;
   json["E_difference"] = optional_json(check.E_difference);
@@ -66,6 +71,15 @@ nlohmann::ordered_json json_of(const CardCheck& check, const CardWords& words) {
         {{"name", finding.name}, {"mistake", finding.is_mistake}, {"text", finding.text}});
   }
   return json;
+}
+
+std::string shift_row(const TemperatureShift& shift) {
+  if (shift.law == ShiftLaw::kWlf) {
+    return fmt::format("  WLF: C1 = {:.9g}, C2 = {:.9g} K, T_ref = {:.9g} C\n", shift.C1,
+                       shift.C2_K, shift.T_ref_C);
+  }
+  return fmt::format("  Arrhenius: E_a = {:.9g} J/mol, T_ref = {:.9g} C\n", shift.activation_J_mol,
+                     shift.T_ref_C);
 }
 
 void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
@@ -80,10 +94,7 @@ void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
       out << fmt::format("  term {}: g = {:.9g}, k = {:.9g}, tau = {:.9g} s\n", i + 1,
                          material.terms[i].g, material.terms[i].k, material.terms[i].tau_s);
     }
-    if (material.shift) {
-      out << fmt::format("  WLF: C1 = {:.9g}, C2 = {:.9g} K, T_ref = {:.9g} C\n",
-                         material.shift->C1, material.shift->C2_K, material.shift->T_ref_C);
-    }
+    if (material.shift) out << shift_row(*material.shift);
   }
   if (check.E_difference) {
     out << fmt::format("largest difference in E(t): {:.2e}", *check.E_difference);

@@ -21,12 +21,68 @@ nlohmann::ordered_json json_of(const StepError& error) {
   return {{"error", error.at_step},
           {"at_s", error.worst_s},
           {"extrapolated_error", error.remaining},
+          {"resolved", error.resolved},
           {"vanishes_with_step", error.vanishes_with_step()}};
 }
 
 std::string row_of(const char* test, const StepError& error) {
-  return fmt::format("  {:<11} {:.2e} at {:g} s; {:.2e} extrapolated to no step\n", test,
-                     error.at_step, error.worst_s, error.remaining);
+  return fmt::format(
+      "  {:<11} {:.2e} at {:g} s; {:.2e} extrapolated to no step (resolves {:.1e})\n", test,
+      error.at_step, error.worst_s, error.remaining, error.resolved);
+}
+
+nlohmann::ordered_json json_of(const CalculixProof& proof, const std::string& card) {
+  nlohmann::ordered_json json{{"card", card},
+                              {"solver", "CalculiX"},
+                              {"relaxation", json_of(proof.relaxation)},
+                              {"creep", json_of(proof.creep)},
+                              {"end_s", proof.end_s},
+                              {"increments", proof.increments}};
+  json["terms"] = nlohmann::ordered_json::array();
+  for (const TermProof& term : proof.terms) {
+    json["terms"].push_back({{"g", term.g},
+                             {"tau_s", term.tau_s},
+                             {"change_with_tau", term.change},
+                             {"exercised", term.is_exercised}});
+  }
+  json["divergence"] = nullptr;
+  if (const auto& divergence = proof.divergence) {
+    json["divergence"] = {{"test", divergence->test},
+                          {"reached_s", divergence->reached_s},
+                          {"card_blamed", divergence->is_card_blamed}};
+  }
+  json["holds"] = proof.holds();
+  return json;
+}
+
+std::string text_of(const SolverDivergence& divergence) {
+  return fmt::format(
+      "  {}: ccx diverged after {:g} s\n{}", divergence.test, divergence.reached_s,
+      divergence.is_card_blamed
+          ? "the card does not hold: the card that viscard writes for this material runs to the "
+            "end of the same test\n"
+          : "nothing is proven: the right card of this material diverges too, a limit of ccx\n");
+}
+
+std::string terms_of(const CalculixProof& proof) {
+  std::string out;
+  for (std::size_t i = 0; i < proof.terms.size(); ++i) {
+    const TermProof& term = proof.terms[i];
+    out += fmt::format(
+        "  term {}: g = {:g}, tau = {:g} s: {}; a tau 10 % off changes the answer by {:.1e}\n",
+        i + 1, term.g, term.tau_s, term.is_exercised ? "exercised" : "NOT exercised", term.change);
+  }
+  return out;
+}
+
+std::string verdict_of(const CalculixProof& proof) {
+  if (!proof.agrees()) return "the card does not hold: the error stays at smaller steps\n";
+  if (!proof.exercises_all_terms()) {
+    return "the answers agree, but nothing is proven of the terms that were not exercised: an "
+           "error in them would be smaller than what the tests resolve\n";
+  }
+  return "the card holds: the error goes with the step, as that of a rule of first order does, and "
+         "every term was exercised\n";
 }
 
 }  // namespace
@@ -43,24 +99,19 @@ int prove_card_file(const CardWords& words, Streams& streams) {
   material = with_bulk_rule(material, BulkRule::kConstantBulk);
   const CalculixProof proof = prove_in_calculix(text, material, read.units);
   if (words.json) {
-    const nlohmann::ordered_json json{{"card", words.prove},
-                                      {"solver", "CalculiX"},
-                                      {"relaxation", json_of(proof.relaxation)},
-                                      {"creep", json_of(proof.creep)},
-                                      {"end_s", proof.end_s},
-                                      {"increments", proof.increments},
-                                      {"holds", proof.holds()}};
-    streams.out << json.dump(2) << "\n";
+    streams.out << json_of(proof, words.prove).dump(2) << "\n";
   } else {
     streams.out << fmt::format(
-                       "{}: CalculiX on one element, {} increments to {:g} s, against the exact "
-                       "answer of {}\n",
-                       words.prove, proof.increments, proof.end_s,
-                       words.material.empty() ? "the card as read" : words.material)
-                << row_of("relaxation", proof.relaxation) << row_of("creep", proof.creep)
-                << (proof.holds() ? "the card holds: the error goes with the step, as that of a "
-                                    "rule of first order does\n"
-                                  : "the card does not hold: the error stays at smaller steps\n");
+        "{}: CalculiX on one element, {} increments to {:g} s, against the exact "
+        "answer of {}\n",
+        words.prove, proof.increments, proof.end_s,
+        words.material.empty() ? "the card as read" : words.material);
+    if (proof.divergence) {
+      streams.out << text_of(*proof.divergence);
+    } else {
+      streams.out << row_of("relaxation", proof.relaxation) << row_of("creep", proof.creep)
+                  << terms_of(proof) << verdict_of(proof);
+    }
   }
   return proof.holds() ? kDone : kFailed;
 }

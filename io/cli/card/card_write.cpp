@@ -83,6 +83,7 @@ CardOptions card_options(const CardWords& words, const PreparedMaterial& prepare
   options.command = words.command_line;
   options.material_sha256 = prepared.sha256;
   options.notes = prepared.notes;
+  options.original = prepared.original;
   if (prepared.terms_change) {
     options.done_before.push_back(
         {"terms", prepared.are_terms_dropped ? Mapping::kDropped : Mapping::kApproximated,

@@ -1,4 +1,6 @@
 #include "io/cards/card.h"
+#include "io/cards/check_card.h"
+#include "io/cards/deck.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
 #include "tests/io/cards/card_materials.h"
@@ -33,6 +35,10 @@ TEST_CASE("every card that has a place for a WLF shift contains it, and it reads
     if (target.max_terms == 1 || target.name == "csv") continue;
     CAPTURE(target.name);
     const Card card = write_card(shifted_material(ShiftLaw::kWlf), target);
+    // Where the solver would assume 0 degrees, one of the first lines says what to set.
+    const std::size_t told = card.text.find("SET THE TEMPERATURE of the model: ");
+    CHECK((told != std::string::npos) == (target.takes_wlf && !target.set_temperature.empty()));
+    if (told != std::string::npos) CHECK(told < card.text.find("units: "));
     CHECK(temperature_mapping(card) == (target.takes_wlf ? "exact" : "dropped"));
     const ReadCard read = read_card(card.text, target, "");
     REQUIRE(read.material.shift.has_value() == target.takes_wlf);
@@ -53,10 +59,67 @@ TEST_CASE("the WLF lines are those of the manuals", "[cards]") {
   CHECK_THAT(text_of("comsol"), Contains("PDMS_C2 101.6[K]"));
 }
 
-TEST_CASE("an Arrhenius shift is not written as another law, and the header states that",
+TEST_CASE("an Arrhenius shift is written where the solver has one and refused elsewhere",
           "[cards]") {
-  const Card card = write_card(shifted_material(ShiftLaw::kArrhenius), card_target("abaqus"));
-  CHECK(temperature_mapping(card) == "dropped");
-  CHECK_THAT(card.text, Contains("temperature: dropped, Arrhenius, 52000 J/mol at 23 C"));
-  CHECK_THAT(card.text, !Contains("*TRS"));
+  const Material material = shifted_material(ShiftLaw::kArrhenius);
+  for (const CardTarget& target : card_targets()) {
+    if (target.max_terms == 1 || target.name == "csv") continue;
+    CAPTURE(target.name);
+    if (!target.takes_arrhenius) {
+      CHECK_THROWS_WITH(write_card(material, target),
+                        Contains("Arrhenius shift (52000 J/mol") && Contains("--approximate"));
+      const Card card = write_card(material, target, {.may_approximate = true});
+      CHECK(temperature_mapping(card) == "approximated");
+      CHECK_THAT(card.text, Contains("the card holds at 23 C only"));
+      continue;
+    }
+    const Card card = write_card(material, target);
+    CHECK(temperature_mapping(card) == "exact");
+    const ReadCard read = read_card(card.text, target, "");
+    REQUIRE(read.material.shift);
+    CHECK(read.material.shift->law == ShiftLaw::kArrhenius);
+    // Ten columns of LS-DYNA keep seven digits.
+    CHECK(read.material.shift->activation_J_mol == Approx(5.2e4).epsilon(1e-7));
+    CHECK(read.material.shift->T_ref_C == Approx(23.0).epsilon(1e-6));
+    const CardCheck check = check_card(card.text, target, {}, &material);
+    CHECK(check.agrees);
+    Material other = material;
+    other.shift->activation_J_mol = 6e4;
+    CHECK_FALSE(check_card(card.text, target, {}, &other).agrees);
+  }
+}
+
+TEST_CASE("the Arrhenius lines are those of the manuals", "[cards]") {
+  const auto text_of = [](const char* target) {
+    return write_card(shifted_material(ShiftLaw::kArrhenius), card_target(target)).text;
+  };
+  CHECK_THAT(text_of("abaqus"), Contains("\n*TRS, DEFINITION=ARRHENIUS\n23, 52000\n** The model "
+                                         "needs: *PHYSICAL CONSTANTS, ABSOLUTE ZERO=-273.15, "
+                                         "UNIVERSAL GAS CONSTANT=8.314462618\n"));
+  // E_a/R = 52000/8.314462618 = 6254.162 K, absolute zero in C
+  CHECK_THAT(text_of("frontistr"),
+             Contains("\n!TRS, DEFINITION=ARRHENIUS\n 23, 6254.1624") && Contains(", -273.15\n"));
+  CHECK_THAT(text_of("comsol"), Contains("PDMS_Q 52000[J/mol]"));
+  CHECK_THAT(text_of("lsdyna"), Contains("    296.15") && Contains("6254.16"));  // K
+}
+
+TEST_CASE("one-element models with a shift start at its reference temperature", "[cards]") {
+  const auto deck_text = [](const char* target, ShiftLaw law) {
+    const Card card = write_card(shifted_material(law), card_target(target));
+    std::string text;
+    for (const DeckFile& file :
+         one_element_deck(card, card_deck(target), unit_system("SI"), ElementTestKind::kRelaxation)
+             .files) {
+      text += file.text;
+    }
+    return text;
+  };
+  CHECK_THAT(deck_text("abaqus", ShiftLaw::kWlf),
+             Contains("\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, 23\n"));
+  CHECK_THAT(deck_text("abaqus", ShiftLaw::kArrhenius), Contains("\n*PHYSICAL CONSTANTS, "));
+  CHECK_THAT(deck_text("ansys", ShiftLaw::kWlf), Contains("\nTUNIF,23\n"));
+  CHECK_THAT(deck_text("frontistr", ShiftLaw::kWlf),
+             Contains("\n!INITIAL CONDITION, TYPE=TEMPERATURE\n NALL, 23\n") &&
+                 Contains("\n!TEMPERATURE, GRPID=2\n NALL, 23\n") && Contains(" LOAD, 2\n"));
+  CHECK_THAT(deck_text("lsdyna", ShiftLaw::kArrhenius), Contains("\n*LOAD_THERMAL_CONSTANT\n"));
 }

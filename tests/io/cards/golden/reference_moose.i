@@ -10,7 +10,7 @@
 # valid: 0.0125 s to 60 s, strain up to 0.05, temperature not stated
 # tests behind it: 1
 # raw data run.viscap sha256 aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa
-# creep_viscosity is the relaxation time. Keep the UserObject, or nothing relaxes.
+# creep_viscosity is the relaxation time. Keep the UserObject, or nothing relaxes. zienkiewicz is exact for steps of one size; where the size changes, MOOSE uses the old one once.
 [Materials]
   [PDMS]
     type = GeneralizedMaxwellModel

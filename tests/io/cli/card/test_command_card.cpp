@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <utility>
@@ -228,6 +229,26 @@ TEST_CASE("viscard card --deck writes a model that holds the card and the expect
       CHECK(holds_card);
     }
   }
+}
+
+TEST_CASE("viscard card --prove names the terms that it exercised", "[cards][cli]") {
+  if (std::system("command -v ccx >/dev/null 2>&1") != 0) {
+    WARN("ccx is not installed; CalculiX is not run");
+    return;
+  }
+  CardCommand command;
+  Material material = reference_material();
+  material.terms.push_back({1e-7, 1e-7, 0.7});  // too small to be seen
+  const std::string file = command.save(material), card = command.path("c.inp");
+  REQUIRE(command.run({file, "--for", "calculix", "--units", "mm-t-s", "--out", card}) == kDone);
+  CHECK(command.run({file, "--prove", card, "--for", "calculix", "--json"}) == kFailed);
+  const auto json = nlohmann::json::parse(command.out);
+  CHECK(json.at("holds") == false);
+  CHECK(json.at("relaxation").at("vanishes_with_step") == true);
+  REQUIRE(json.at("terms").size() == 3);
+  CHECK(json.at("terms")[0].at("exercised") == true);
+  CHECK(json.at("terms")[2].at("exercised") == false);
+  CHECK(json.at("divergence").is_null());
 }
 
 TEST_CASE("viscard card --help has an example, and --reproducible repeats itself", "[cards][cli]") {

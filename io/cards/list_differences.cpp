@@ -1,0 +1,187 @@
+#include "io/cards/list_differences.h"
+
+#include "models/maths/text_of_number.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace viscard {
+namespace {
+
+struct Difference {
+  std::string what;  // "E", "tau of the term 0.1945"
+  double found = 0.0, expected = 0.0;
+};
+
+const char* share_word(const CardTarget& target) {
+  return target.branch == BranchNumber::kRelative        ? "g"
+         : target.branch == BranchNumber::kAbsoluteShear ? "G"
+                                                         : "E_i";
+}
+
+const char* time_word(const CardTarget& target) {
+  return target.time == TimeNumber::kTau ? "tau" : target.time == TimeNumber::kBeta ? "beta" : "A";
+}
+
+bool is_same_branch(const CardBranch& a, const CardBranch& b, const CardTarget& target) {
+  const bool has_bulk = target.bulk == BulkRule::kOwnNumbers;
+  return relative_mismatch(a.shear, b.shear) <= kHandTyped &&
+         relative_mismatch(a.time, b.time) <= kHandTyped &&
+         (!has_bulk || relative_mismatch(a.bulk, b.bulk) <= kHandTyped);
+}
+
+// Branches of one side without a partner on the other.
+struct Unpaired {
+  std::vector<CardBranch> found, expected;
+};
+
+Unpaired unpaired(const CardNumbers& found, const CardNumbers& expected, const CardTarget& target) {
+  Unpaired rest{found.branches, {}};
+  for (const CardBranch& branch : expected.branches) {
+    const auto same = std::find_if(rest.found.begin(), rest.found.end(), [&](const CardBranch& b) {
+      return is_same_branch(b, branch, target);
+    });
+    if (same == rest.found.end()) {
+      rest.expected.push_back(branch);
+    } else {
+      rest.found.erase(same);
+    }
+  }
+  return rest;
+}
+
+void note_if_off(const char* what, double found, double expected, std::vector<Difference>& out) {
+  if (relative_mismatch(found, expected) > kHandTyped) out.push_back({what, found, expected});
+}
+
+// The numbers outside the branches.
+std::vector<Difference> elastic_differences(const CardNumbers& found, const CardNumbers& expected,
+                                            const CardTarget& target) {
+  std::vector<Difference> out;
+  using enum ElasticForm;
+  const ElasticForm form = target.elastic;
+  if (form == kYoungPoisson) note_if_off("E", found.young, expected.young, out);
+  if (form == kYoungPoisson || form == kPoissonOnly) {
+    note_if_off("nu", found.poisson, expected.poisson, out);
+  }
+  if (form == kBulkShear || form == kBulkOnly) note_if_off("K", found.bulk, expected.bulk, out);
+  if (form == kBulkShear) note_if_off("G", found.shear, expected.shear, out);
+  if (target.states_equilibrium) {
+    note_if_off("the share that never relaxes", found.equilibrium, expected.equilibrium, out);
+  }
+  if (found.density > 0.0 && expected.density > 0.0) {
+    note_if_off("the density", found.density, expected.density, out);
+  }
+  return out;
+}
+
+void compare_branch(const CardBranch& found, const CardBranch& expected, const CardTarget& target,
+                    std::vector<Difference>& out) {
+  const auto add = [&](const char* word, double a, double b) {
+    if (relative_mismatch(a, b) <= kHandTyped) return;
+    out.push_back({fmt::format("{} of the term {} = {:g}, {} = {:g}", word, share_word(target),
+                               expected.shear, time_word(target), expected.time),
+                   a, b});
+  };
+  add(share_word(target), found.shear, expected.shear);
+  if (target.bulk == BulkRule::kOwnNumbers) add("k", found.bulk, expected.bulk);
+  add(time_word(target), found.time, expected.time);
+}
+
+std::string difference_in_words(const Difference& difference) {
+  return fmt::format("{} is {:g} where {:g} is expected", difference.what, difference.found,
+                     difference.expected);
+}
+
+// A whole power of ten of at least ten, or its inverse.
+bool is_power_of_ten(double ratio) {
+  if (!(ratio > 0.0)) return false;
+  const double exponent = std::log10(ratio), nearest = std::round(exponent);
+  return nearest != 0.0 && std::abs(exponent - nearest) <= 1e-3;
+}
+
+std::vector<CardFinding> one_row_too_few(const CardNumbers& found, const CardNumbers& expected,
+                                         const CardBranch& row, const CardTarget& target) {
+  const std::string term = fmt::format("{} = {:g}, {} = {:g}", share_word(target), row.shear,
+                                       time_word(target), row.time);
+  const bool is_in_equilibrium =
+      target.time == TimeNumber::kNortonA &&
+      relative_mismatch(found.equilibrium, expected.equilibrium + row.shear) <= kHandTyped;
+  if (is_in_equilibrium) {
+    return {{"missing-creep",
+             "the material of the share " + term + " has no *CREEP: it never relaxes", true}};
+  }
+  return {{"missing-row", "the term " + term + " is missing", true}};
+}
+
+}  // namespace
+
+double relative_mismatch(double a, double b) {
+  if (a == b) return 0.0;
+  const double size = std::max(std::abs(a), std::abs(b));
+  return std::isfinite(size) ? std::abs(a - b) / size : 1.0;
+}
+
+std::vector<CardFinding> single_difference(const CardNumbers& found, const CardNumbers& expected,
+                                           const CardTarget& target) {
+  if (found.branches.empty() && !expected.branches.empty()) {
+    return {{"missing-viscoelastic",
+             "the card has no relaxing term, so the solver stays elastic; the material has " +
+                 std::to_string(expected.branches.size()),
+             true}};
+  }
+  const Unpaired rest = unpaired(found, expected, target);
+  if (rest.found.empty() && rest.expected.size() == 1) {
+    return one_row_too_few(found, expected, rest.expected[0], target);
+  }
+  std::vector<Difference> all = elastic_differences(found, expected, target);
+  if (rest.expected.empty() && rest.found.size() == 1 && all.empty()) {
+    const CardBranch& extra = rest.found[0];
+    const bool is_doubled =
+        std::any_of(expected.branches.begin(), expected.branches.end(),
+                    [&](const CardBranch& b) { return is_same_branch(b, extra, target); });
+    return {{is_doubled ? "doubled-row" : "extra-row",
+             fmt::format("the term {} = {:g}, {} = {:g} {}", share_word(target), extra.shear,
+                         time_word(target), extra.time,
+                         is_doubled ? "is in the card twice" : "is not of the material"),
+             true}};
+  }
+  if (rest.found.size() != rest.expected.size() || rest.found.size() > 1) return {};
+  if (rest.found.size() == 1) compare_branch(rest.found[0], rest.expected[0], target, all);
+  const bool has_own_finding =
+      std::all_of(all.begin(), all.end(), [](const Difference& difference) {
+        return difference.what == "nu" || difference.what == "the density";
+      });
+  if (all.size() != 1 || has_own_finding) return {};
+  const Difference& one = all.front();
+  if (is_power_of_ten(one.found / one.expected)) {
+    return {{"one-number-unit", difference_in_words(one) + ": one number in another unit", true}};
+  }
+  return {{"one-number", difference_in_words(one) + "; all others are right", true}};
+}
+
+std::vector<CardFinding> listed_differences(const CardNumbers& found, const CardNumbers& expected,
+                                            const CardTarget& target) {
+  std::vector<Difference> all = elastic_differences(found, expected, target);
+  const Unpaired rest = unpaired(found, expected, target);
+  std::string text;
+  if (found.branches.size() != expected.branches.size()) {
+    text = fmt::format("the card has {} and the material {}",
+                       counted(found.branches.size(), "term"), expected.branches.size());
+  }
+  for (std::size_t i = 0; i < std::min(rest.found.size(), rest.expected.size()); ++i) {
+    compare_branch(rest.found[i], rest.expected[i], target, all);
+  }
+  constexpr std::size_t kInWords = 4;
+  for (std::size_t i = 0; i < std::min(kInWords, all.size()); ++i) {
+    text += (text.empty() ? "" : "; ") + difference_in_words(all[i]);
+  }
+  if (all.size() > kInWords) text += fmt::format("; and {} more", all.size() - kInWords);
+  if (text.empty()) return {};
+  return {{"numbers-differ", text, true}};
+}
+
+}  // namespace viscard

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "io/cards/card_numbers.h"
+#include "io/cards/read_card.h"
+
+#include <vector>
+
+namespace viscard {
+
+// Largest relative difference of two numbers; 1 if one of them is not finite.
+double relative_mismatch(double a, double b);
+
+// A row of the card too few or too many, or one number off: "missing-row", "doubled-row",
+// "missing-creep", "missing-viscoelastic", "one-number", "one-number-unit". Empty if the
+// differences are of another kind, or only those of nu or of the density, which have their own
+// findings.
+std::vector<CardFinding> single_difference(const CardNumbers& found, const CardNumbers& expected,
+                                           const CardTarget& target);
+
+// "numbers-differ" with all numbers that differ, the first few in words. Empty if none does.
+std::vector<CardFinding> listed_differences(const CardNumbers& found, const CardNumbers& expected,
+                                            const CardTarget& target);
+
+}  // namespace viscard

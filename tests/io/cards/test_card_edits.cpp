@@ -1,0 +1,183 @@
+// Mutation tests of --check: edits of a right card are each named, or harmless.
+#include "io/cards/card.h"
+#include "io/cards/check_card.h"
+#include "io/cards/targets/card_targets.h"
+#include "tests/io/cards/card_edits.h"
+#include "tests/io/cards/card_materials.h"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <iostream>
+
+using namespace viscard;
+using namespace viscard::test;
+
+namespace {
+
+std::string right_card(const char* target, const Material& material = reference_material()) {
+  return write_card(material, card_target(target), {.units = "mm-t-s", .is_reproducible = true})
+      .text;
+}
+
+std::string edited(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  INFO("looking for: " << from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+// The names of all findings, or the text of the error.
+std::string findings_of(const std::string& text, const char* target,
+                        const Material& material = reference_material()) {
+  try {
+    std::string names;
+    for (const CardFinding& finding :
+         check_card(text, card_target(target), {.units = "mm-t-s"}, &material).findings) {
+      names += (names.empty() ? "" : " ") + finding.name;
+    }
+    return names;
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
+enum class Verdict { kNamed, kAgrees, kUnnamed };
+
+Verdict verdict_of(const std::string& text, const CardTarget& target, const Material& material) {
+  try {
+    const CardCheck check = check_card(text, target, {}, &material);
+    for (const CardFinding& finding : check.findings) {
+      if (finding.name != "differs") return Verdict::kNamed;
+    }
+    return check.agrees ? Verdict::kAgrees : Verdict::kUnnamed;
+  } catch (const std::runtime_error& error) {
+    return std::string(error.what()).empty() ? Verdict::kUnnamed : Verdict::kNamed;
+  } catch (const std::invalid_argument& error) {
+    return std::string(error.what()).empty() ? Verdict::kUnnamed : Verdict::kNamed;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a card without its viscoelastic keyword is named", "[cards]") {
+  const std::string abaqus = right_card("abaqus"), frontistr = right_card("frontistr");
+  CHECK(findings_of(abaqus.substr(0, abaqus.find("*VISCOELASTIC")), "abaqus") ==
+        "missing-viscoelastic");
+  CHECK(findings_of(frontistr.substr(0, frontistr.find("!VISCOELASTIC")), "frontistr") ==
+        "missing-viscoelastic");
+  CHECK(findings_of(
+            edited(right_card("calculix"), "*CREEP, LAW=NORTON\n332.15513131443174, 1., 0.\n", ""),
+            "calculix") == "missing-creep");
+}
+
+TEST_CASE("a missing row, a doubled one and one number off are named", "[cards]") {
+  const std::string abaqus = right_card("abaqus"), row = "0.01386, 0.01386, 2.403\n";
+  CHECK(findings_of(edited(abaqus, row, ""), "abaqus") == "missing-row");
+  CHECK(findings_of(edited(abaqus, row, row + row), "abaqus") == "doubled-row");
+  CHECK(findings_of(edited(abaqus, ", 2.403", ", 2403"), "abaqus").find("one-number-unit") == 0);
+  CHECK(findings_of(edited(abaqus, ", 2.403", ", 3.1"), "abaqus").find("one-number") == 0);
+  const std::string lsdyna = right_card("lsdyna");
+  CHECK(findings_of(edited(lsdyna, ".008714649 .41614648\n", ""), "lsdyna") == "missing-row");
+  const Material material = reference_material();
+  const CardCheck check = check_card(edited(abaqus, ", 2.403", ", 2403"), card_target("abaqus"),
+                                     {.units = "mm-t-s"}, &material);
+  CHECK(check.findings.at(0).text.find("tau of the term g = 0.01386") == 0);
+}
+
+TEST_CASE("a decimal comma is named", "[cards]") {
+  CHECK(findings_of(
+            edited(right_card("abaqus"), "0.01386, 0.01386, 2.403", "0.01386, 0.01386, 2,403"),
+            "abaqus")
+            .find("decimal-comma") == 0);
+  CHECK(findings_of(edited(right_card("abaqus"), "1.88, 0.495", "1,88, 0.495"), "abaqus")
+            .find("decimal-comma") == 0);
+  CHECK(findings_of(edited(right_card("frontistr"), " 0.01386, 2.403", " 0,01386, 2.403"),
+                    "frontistr")
+            .find("decimal-comma") == 0);
+  CHECK(findings_of(edited(right_card("febio"), "<E>1.88</E>", "<E>1,88</E>"), "febio")
+            .find("'1,88' is not a number") != std::string::npos);
+}
+
+TEST_CASE("right numbers in a card that does something else are named", "[cards]") {
+  CHECK(findings_of(edited(right_card("ansys"), "MP,EX,1,", "MP,EX,2,"), "ansys")
+            .find("material-number-differs") == 0);
+  CHECK(findings_of(edited(right_card("mfront"), "real(1)", "real(2)"), "mfront") ==
+        "integrator-differs");
+  CHECK(findings_of(edited(right_card("mfront"), "Nt = 2", "Nt = 3"), "mfront") == "array-size");
+  CHECK(
+      findings_of(edited(right_card("frontistr"), "!VISCOELASTIC, INFINITESIMAL", "!VISCOELASTIC"),
+                  "frontistr") == "finite-strain");
+  CHECK(findings_of(edited(right_card("moose"), "    integration_rule = zienkiewicz\n", ""),
+                    "moose") == "integration-rule");
+  CHECK(findings_of(edited(right_card("febio"), "isotropic elastic", "neo-Hookean"), "febio") ==
+        "elastic-type");
+  CHECK(findings_of(edited(right_card("febio"), "  </elastic>\n", ""), "febio")
+            .find("closes no open element") != std::string::npos);
+  // Three moduli, two times: the third branch has no partner.
+  const Card mfront = write_card(reference_material(), card_target("mfront"), {.units = "mm-t-s"});
+  const std::string third = "@MaterialProperty<constant> 'ViscoelasticShearModulus[2]' 0.1;\n";
+  CHECK(findings_of(mfront.companions.at(0).text + third, "mfront")
+            .find("property-without-partner") == 0);
+  // By FrontISTR's source the last of the two keywords decides the type of the material.
+  CHECK(findings_of("!MATERIAL, NAME=R\n!VISCOELASTIC, INFINITESIMAL\n.008206,.1945\n"
+                    ".01386,2.403\n!ELASTIC, INFINITESIMAL\n1.88,.495\n",
+                    "frontistr")
+            .find("elastic-after-viscoelastic") == 0);
+}
+
+TEST_CASE("a COMSOL card with E0 beside nu_inf is blamed on the modulus", "[cards]") {
+  const std::string comsol = right_card("comsol");
+  const std::size_t at = comsol.find("PDMS_Einf ") + 10;
+  const std::string young = comsol.substr(at, comsol.find('[', at) - at);
+  CHECK(findings_of(edited(comsol, young + "[MPa]", "1.88[MPa]"), "comsol") ==
+        "instantaneous-modulus-as-long-term");
+}
+
+TEST_CASE("an edit that no reader sees is reported with its line", "[cards]") {
+  const Material material = reference_material();
+  const std::string text = edited(right_card("moose"), "type = ComputeIncrementalSmallStrain",
+                                  "tyxe = ComputeIncrementalSmallStrain");
+  const CardCheck check = check_card(text, card_target("moose"), {}, &material);
+  REQUIRE(check.findings.size() == 1);
+  CHECK(check.findings[0].name == "form-differs");
+  CHECK(check.findings[0].text.find("where viscard writes 'type = Compute") != std::string::npos);
+  const std::string json = edited(right_card("json"), "\"G0\": 0.62", "\"G0\": 0.72");
+  CHECK(findings_of(json, "json") == "form-differs");
+  CHECK(findings_of(right_card("mfront") + "}\n", "mfront") == "form-differs");
+  const std::string csv = right_card("csv");
+  const std::size_t row = csv.find('\n', csv.find("time_")) + 1;
+  const std::size_t third = csv.find(',', csv.find(',', row) + 1) + 1;
+  CHECK(findings_of(std::string(csv).insert(third, "1"), "csv") == "table-differs");
+}
+
+TEST_CASE("random edits of a right card are named or harmless", "[cards][slow]") {
+  constexpr int kEdits = 200;
+  for (const CardTarget& target : card_targets()) {
+    Material material = reference_material();
+    if (target.max_terms == 1) material.terms.resize(1);
+    const std::string text =
+        write_card(material, target, {.units = "mm-t-s", .is_reproducible = true}).text;
+    std::mt19937 random(17);
+    int named = 0, agreed = 0, unnamed = 0;
+    for (int done = 0, tried = 0; done < kEdits; ++tried) {
+      const std::string& kind = kEditKinds[static_cast<std::size_t>(tried) % kEditKinds.size()];
+      const CardEdit edit = random_edit(text, target.comment, kind, random);
+      if (edit.text == text) continue;
+      ++done;
+      const Verdict verdict = verdict_of(edit.text, target, material);
+      named += verdict == Verdict::kNamed ? 1 : 0;
+      agreed += verdict == Verdict::kAgrees ? 1 : 0;
+      unnamed += verdict == Verdict::kUnnamed ? 1 : 0;
+      if (verdict != Verdict::kNamed && std::getenv("VISCARD_LIST_EDITS") != nullptr) {
+        std::cout << fmt::format("{} {} {}: '{}' -> '{}'\n", target.name,
+                                 verdict == Verdict::kAgrees ? "agrees" : "UNNAMED", edit.kind,
+                                 edit.line, edit.now);
+      }
+    }
+    std::cout << fmt::format("{:<16} named {:>3}, agrees {:>3}, unnamed {:>3}\n", target.name,
+                             named, agreed, unnamed);
+    CHECK(unnamed == 0);
+  }
+}
