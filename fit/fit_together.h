@@ -1,18 +1,12 @@
 #pragma once
 
 #include "fit/intervals/fit_result.h"
+#include "fit/material_test.h"
 #include "fit/samples/fit_data.h"
 
-#include <string>
 #include <vector>
 
 namespace viscard {
-
-// One test of a material and its own fit, made with FitOptions::keep_rows.
-struct MaterialTest {
-  std::string name;  // for messages: "creep"
-  FitResult own;
-};
 
 // Fits one series to several tests of one material: relaxation, creep, oscillation and indentation, at
 // least two. Each test counts by its own noise. Stiffnesses get a free factor to the moduli; if no

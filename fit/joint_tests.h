@@ -1,8 +1,9 @@
 #pragma once
 
 #include "fit/curves/joint_model.h"
-#include "fit/fit_together.h"
 #include "fit/intervals/grouped_covariance.h"
+#include "fit/material_test.h"
+#include "fit/samples/fit_data.h"
 #include "models/material/prony_series.h"
 
 #include <Eigen/Core>

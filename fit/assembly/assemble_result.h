@@ -3,7 +3,9 @@
 #include "fit/assembly/spectral_fit.h"
 #include "fit/curves/step_model.h"
 #include "fit/intervals/fit_result.h"
+#include "fit/intervals/kept_rows.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +15,17 @@ namespace viscard {
 // Fits the path of orders and chooses one. blocks: log_time_blocks() of the rows.
 SpectralFit fit_spectrum(const SpectralModel& model, const std::vector<int>& blocks,
                          const FitOptions& options);
+
+// Keeps the rows of a test, and the noise that its fit found, in the result.
+void keep(KeptRows rows, const SpectralFit& fit, FitResult& result);
+
+// Fits the path of orders and chooses one; a requested order is taken instead. blocks:
+// log_time_blocks() of the rows. inflation: of the noise; none: by the residual of the largest order.
+void search_orders(const SpectralModel& model, const std::vector<int>& blocks,
+                   std::optional<double> inflation, SpectralFit& fit);
+
+// Weighted sum of squares over all samples.
+double full_rss(const SpectralModel& model, const SpectralState& state);
 
 // Fills what follows from the fit alone: parameters, intervals (with the uncertainty of the order,
 // and with profiles and bootstrap if the options ask for them), orders, noise.

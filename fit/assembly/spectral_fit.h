@@ -1,13 +1,11 @@
 #pragma once
 
-#include "fit/intervals/kept_rows.h"
 #include "fit/intervals/slow_noise.h"
 #include "fit/intervals/uncertainty.h"
 #include "fit/samples/fit_data.h"
 #include "fit/search/order_choice.h"
 #include "fit/search/order_path.h"
 
-#include <optional>
 #include <vector>
 
 namespace viscard {
@@ -25,17 +23,6 @@ struct SpectralFit {
   Eigen::MatrixXd covariance;       // of all parameters of the state
   std::vector<MaterialFlag> notes;  // about the constraints that were applied
 };
-
-// Keeps the rows of a test, and the noise that its fit found, in the result.
-void keep(KeptRows rows, const SpectralFit& fit, FitResult& result);
-
-// Fits the path of orders and chooses one; a requested order is taken instead. blocks:
-// log_time_blocks() of the rows. inflation: of the noise; none: by the residual of the largest order.
-void search_orders(const SpectralModel& model, const std::vector<int>& blocks,
-                   std::optional<double> inflation, SpectralFit& fit);
-
-// Weighted sum of squares over all samples.
-double full_rss(const SpectralModel& model, const SpectralState& state);
 
 // Replaces the state of the fit by the best one that satisfies the constraints: least squares in
 // all parameters within bounds (trust region of Ceres), started from the free optimum and the fixed

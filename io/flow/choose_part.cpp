@@ -1,6 +1,5 @@
-#include "io/flow/choose_part.h"
-
 #include "fit/samples/chosen_rows.h"
+#include "io/flow/fit_table.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>

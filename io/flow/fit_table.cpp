@@ -6,8 +6,6 @@
 #include "fit/fit_relaxation.h"
 #include "fit/intervals/left_out.h"
 #include "io/basics/words.h"
-#include "io/flow/choose_part.h"
-#include "io/flow/table_kind.h"
 #include "io/tables/csv_table.h"
 
 #include <algorithm>

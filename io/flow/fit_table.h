@@ -13,4 +13,19 @@ FittedFile fit_csv(CsvTable all, const FitRequest& request);
 // fit_file() for a table. Throws std::runtime_error, which may lack the name of the file.
 FittedFile fit_table(const std::string& path, const FitRequest& request);
 
+// The kind of test by the request, or else by the columns of the table. Throws std::runtime_error
+// with the columns and their first values, and words of --column that might read them.
+FitKind kind_of_table(const CsvTable& table, const FitRequest& request);
+
+// Throws std::runtime_error if the columns are not those of the stated kind of test.
+void require_kind(const CsvTable& table, FitKind kind, const FitRequest& request);
+
+// True for a table of force without a depth, modulus or stress.
+bool is_force_alone(const CsvTable& table, const FitRequest& request);
+
+// Keeps the rows of a table that --from, --to, --hold and --crop choose, and returns a sentence that
+// says which; empty if the request chooses none, so that all stay. Throws std::runtime_error if no
+// row remains, or if the table does not have what the choice needs.
+std::string choose_part(CsvTable& table, const FitRequest& request);
+
 }  // namespace viscard

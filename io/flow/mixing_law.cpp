@@ -1,10 +1,13 @@
 #include "fit/laws/fit_mixing_ratio.h"
 #include "fit/laws/ratio_estimates.h"
 #include "fit/laws/scatter_levels.h"
+#include "io/basics/atomic_file.h"
+#include "io/flow/fit_file.h"
 #include "io/flow/specimen_reports.h"
 #include "io/materials/material_file.h"
 
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <utility>
@@ -87,6 +90,24 @@ std::optional<MixingLaw> mixing_law_of(const std::vector<std::string>& files,
   RatioFit fit = fit_mixing_ratio(moduli);
   fit.scatter = scatter_of_all(records, fit);
   return law_from(fit);
+}
+
+SpecimenReport specimen_of_tests(const ReportRequest& request, const FlowProgress& progress) {
+  const FittedFile fitted = fit_tests(request.tests, {}, progress);
+  SpecimenReport report;
+  report.fit = fitted.result;
+  report.specimen = fitted.specimen;
+  if (report.specimen.id.empty()) {
+    report.specimen.id = std::filesystem::path(request.tests.front().path).stem().string();
+  }
+  for (const TestFile& test : request.tests) {
+    report.files.push_back({test.path, sha256_of_file(test.path)});
+  }
+  if (!fitted.result.is_stiffness) {
+    report.material = material_from_fitted(
+        fitted, {.command = request.command, .created_at = request.created_at});
+  }
+  return report;
 }
 
 }  // namespace viscard

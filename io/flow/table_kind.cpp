@@ -1,5 +1,4 @@
-#include "io/flow/table_kind.h"
-
+#include "io/flow/fit_table.h"
 #include "io/tables/column_names.h"
 #include "io/tables/column_proposal.h"
 
