@@ -23,11 +23,8 @@ bool is_sideways(Motion motion) {
 PillarGeometry with_electrode_edge(PillarGeometry geometry,
                                    const std::optional<ElectrodeOptions>& electrodes) {
   if (electrodes && geometry.film) {
-    // A charge-free face is read under the pillar; there is no edge, but the film's rim matters.
-    const bool has_edge = electrodes->electrode_radius_m > 0.0;
-    geometry.film->electrode_radius_m =
-        has_edge ? electrodes->electrode_radius_m : bond_radius_m(geometry);
-    geometry.film->electrode_is_below = has_edge && electrodes->grounded == FilmFace::kTop;
+    geometry.film->electrode_radius_m = electrodes->electrode_radius_m;
+    geometry.film->electrode_is_below = electrodes->grounded == FilmFace::kTop;
   }
   return geometry;
 }

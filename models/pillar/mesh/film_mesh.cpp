@@ -87,8 +87,6 @@ std::vector<double> film_heights(const FilmGeometry& film, double bond_radius_m,
 }
 
 int film_rim_layers(const FilmGeometry& film, double bond_radius_m, const Discretisation& d) {
-  // Without electrodes only the film's yielding counts, which is little beside the pillar's.
-  if (film.electrode_radius_m == 0.0) return 1;
   const double loaded_m = std::max(bond_radius_m, film.electrode_radius_m);
   const double skipped = kSkippedPerThickness * (film.radius_m - loaded_m) / film.thickness_m;
   return std::max(1, d.layers - static_cast<int>(std::lround(std::min(skipped, 100.0))));

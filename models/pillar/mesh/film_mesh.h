@@ -16,7 +16,7 @@ std::vector<double> film_heights(const FilmGeometry& film, double bond_radius_m,
 
 // Layers of a graded mesh toward the film's own rim, where its held bottom ends: at least 1, which
 // means none. Fewer than at the rim of the bond if the film is wide, because what happens under the
-// pillar and its electrode decays toward the rim, and none if nothing is read off the film.
+// pillar and its electrode decays toward the rim.
 int film_rim_layers(const FilmGeometry& film, double bond_radius_m, const Discretisation& d);
 
 // Adds layers toward the edge of the film's electrode and toward the film's rim to breaks that
