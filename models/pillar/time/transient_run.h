@@ -43,9 +43,14 @@ struct TransientResult {
 TransientResult empty_result(const TransientRequest& request, Eigen::Index observers);
 
 // Runs from rest. Rows of `observers` are linear outputs. A body whose whole stiffness relaxes with
-// one relative modulus is solved exactly (modal_response.h), any other by time steps.
+// one relative modulus is solved by its modes (modal_response.h), any other by the exponential of
+// its matrix, or by time steps if that matrix would be too large. Modes and exponential are exact.
 TransientResult run_transient(const ViscoelasticSystem& small, const TransientRequest& request,
                               const Eigen::MatrixXd& observers);
+
+// Runs by the matrix exponential over the interval between outputs (state_transition.h).
+TransientResult run_exactly(const ViscoelasticSystem& small, const TransientRequest& request,
+                            const Eigen::MatrixXd& observers);
 
 // Runs by time steps. All steps are halved until the extrapolated answer (Richardson, fourth order)
 // changes by less than the tolerance.

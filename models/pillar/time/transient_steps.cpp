@@ -9,6 +9,9 @@
 namespace viscard {
 namespace {
 
+// The exponential takes about 50 states^3 operations: a minute for this many.
+constexpr Eigen::Index kMostStates = 2000;
+
 Eigen::MatrixXd run_once(const ViscoelasticSystem& small, const TransientRequest& r,
                          const std::vector<TransientPiece>& pieces,
                          const Eigen::MatrixXd& observers, int refinement, int& steps) {
@@ -51,8 +54,10 @@ TransientResult run_transient(const ViscoelasticSystem& small, const TransientRe
                                                  return a.time_s < b.time_s;
                                                }),
           "a transient load needs a history whose times do not go back");
-  return relaxes_alike(small) ? run_by_modes(small, r, observers)
-                              : run_by_steps(small, r, observers);
+  if (relaxes_alike(small)) return run_by_modes(small, r, observers);
+  const auto states = small.mass.rows() * static_cast<Eigen::Index>(2 + small.terms.size());
+  return states <= kMostStates ? run_exactly(small, r, observers)
+                               : run_by_steps(small, r, observers);
 }
 
 TransientResult run_by_steps(const ViscoelasticSystem& small, const TransientRequest& r,
