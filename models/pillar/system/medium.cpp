@@ -102,6 +102,18 @@ Medium with_reversed_poling(Medium medium) {
   return medium;
 }
 
+Medium rotated_about_z(const Medium& medium, double angle_rad) {
+  const Matrix6d M = stress_rotation(angle_rad);
+  Eigen::Matrix3d a = Eigen::Matrix3d::Identity();
+  a.topLeftCorner<2, 2>() << std::cos(angle_rad), std::sin(angle_rad), -std::sin(angle_rad),
+      std::cos(angle_rad);
+  Medium rotated = medium;
+  rotated.stiffness_Pa = M * medium.stiffness_Pa * M.transpose();
+  rotated.piezo_C_m2 = a * medium.piezo_C_m2 * M.transpose();
+  rotated.permittivity_F_m = a * medium.permittivity_F_m * a.transpose();
+  return rotated;
+}
+
 Medium averaged_about_z(const Medium& medium) {
   Medium mean = medium;
   mean.stiffness_Pa.setZero();
@@ -109,13 +121,10 @@ Medium averaged_about_z(const Medium& medium) {
   mean.permittivity_F_m.setZero();
   constexpr int kAngles = 8;  // fourth-order harmonics and lower cancel exactly
   for (int i = 0; i < kAngles; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kAngles;
-    const Matrix6d M = stress_rotation(angle);
-    Eigen::Matrix3d a = Eigen::Matrix3d::Identity();
-    a.topLeftCorner<2, 2>() << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
-    mean.stiffness_Pa += M * medium.stiffness_Pa * M.transpose() / kAngles;
-    mean.piezo_C_m2 += a * medium.piezo_C_m2 * M.transpose() / kAngles;
-    mean.permittivity_F_m += a * medium.permittivity_F_m * a.transpose() / kAngles;
+    const Medium rotated = rotated_about_z(medium, 2.0 * std::numbers::pi * i / kAngles);
+    mean.stiffness_Pa += rotated.stiffness_Pa / kAngles;
+    mean.piezo_C_m2 += rotated.piezo_C_m2 / kAngles;
+    mean.permittivity_F_m += rotated.permittivity_F_m / kAngles;
   }
   return mean;
 }

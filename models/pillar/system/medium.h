@@ -55,6 +55,9 @@ Medium piezo_medium(const Matrix6d& stiffness_Pa, const PiezoMatrix& charge_C_N,
 // Poled along -z instead of +z: e changes sign.
 Medium with_reversed_poling(Medium medium);
 
+// The medium in axes that are turned by `angle_rad` about z, as seen along the new axis x.
+Medium rotated_about_z(const Medium& medium, double angle_rad);
+
 // The mean of the medium over all directions about z, which is all that an axisymmetric model can
 // represent of an orthotropic film. Exact on the axis for loads without direction.
 Medium averaged_about_z(const Medium& medium);
