@@ -31,9 +31,7 @@ class HeldPillar {
     return held_.system().line_load(field, mesh.top_row, 0, mesh.pillar_columns, power) /
            std::pow(radius_m, power);
   }
-  double top_radius_m() const {
-    return radius_at_m(held_.geometry(), held_.geometry().length_m);
-  }
+  double top_radius_m() const { return radius_at_m(held_.geometry(), held_.geometry().length_m); }
 
   struct Answer {
     Eigen::VectorXd motion;

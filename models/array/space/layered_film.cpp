@@ -13,12 +13,12 @@ namespace {
 
 // One term of strain or field of a wave: factor k^k_power d^dz (field); fields a, b, w, phi.
 struct WaveTerm {
-  int field;
+  std::size_t field;
   int dz;
   int k_power;
   double factor;
 };
-constexpr int kPhi = 3;
+constexpr std::size_t kPhi = 3;
 
 // Rows xx yy zz yz xz xy, E_x E_y E_z of eq. S1. The shears yz and xz and the fields E_x and E_y are i
 // times what stands here; a film of class mm2 about z does not couple them to the other rows, so i
@@ -50,8 +50,8 @@ std::vector<double> film_breaks(const LayeredFilm& film, double largest_k_1_m, d
   std::vector<double> breaks = {0.0};
   for (const FilmLayer& layer : film.layers) {
     const double height = layer.thickness_m / unit_m;
-    const int count =
-        std::max(2, static_cast<int>(std::ceil(largest_k_1_m * layer.thickness_m / kLongestInWaves)));
+    const int count = std::max(
+        2, static_cast<int>(std::ceil(largest_k_1_m * layer.thickness_m / kLongestInWaves)));
     const double start = breaks.back();
     for (int i = 1; i <= count; ++i) breaks.push_back(start + height * i / count);
   }
@@ -67,6 +67,62 @@ const FilmLayer& layer_at(const LayeredFilm& film, double z_m) {
   return film.layers.back();
 }
 
+// Unknowns a, b, w and phi by node, so that the matrix is banded; -1 where a field is held or absent.
+class Numbering {
+ public:
+  Numbering(const LayeredFilm& film, const LineMesh& line) {
+    int film_top = 0;  // node at the film's upper face, where the potential ends
+    while (line.nodes()[static_cast<std::size_t>(film_top)] < 1.0 - 1e-9) ++film_top;
+    const int grounded = film.grounded == FilmFace::kTop ? film_top : 0;
+    for (int node = 0; node < line.node_count(); ++node) {
+      std::array<int, 4> unknown = {-1, -1, -1, -1};
+      for (std::size_t field = 0; field < kPhi; ++field) {
+        if (node > 0 || film.backing) unknown[field] = count_++;
+      }
+      if (node <= film_top && node != grounded) unknown[kPhi] = count_++;
+      unknowns_.push_back(unknown);
+    }
+    read_ = of_node(grounded == 0 ? film_top : 0)[kPhi];
+  }
+  const std::array<int, 4>& of_node(int node) const {
+    return unknowns_[static_cast<std::size_t>(node)];
+  }
+  int count() const { return count_; }
+  int read() const { return read_; }
+
+ private:
+  int count_ = 0;
+  int read_ = 0;
+  std::vector<std::array<int, 4>> unknowns_;
+};
+
+// Adds the virtual work of one element, sum of rows r' D s over the height, by powers of k.
+void add_element(const LineMesh& line, int element, const Eigen::MatrixXd& D,
+                 const Numbering& numbering, std::array<Eigen::MatrixXd, 3>& by_power) {
+  const int first = element * line.degree();
+  const auto add = [&](const WaveTerm& left, const WaveTerm& right, double factor) {
+    const Eigen::MatrixXd block = factor * line.integral(element, 0, left.dz, right.dz);
+    Eigen::MatrixXd& sum = by_power[static_cast<std::size_t>(left.k_power + right.k_power)];
+    for (int i = 0; i <= line.degree(); ++i) {
+      const int row = numbering.of_node(first + i)[left.field];
+      for (int j = 0; j <= line.degree() && row >= 0; ++j) {
+        const int column = numbering.of_node(first + j)[right.field];
+        if (column >= 0) sum(row, column) += block(i, j);
+      }
+    }
+  };
+  for (Eigen::Index r = 0; r < D.rows(); ++r) {
+    for (Eigen::Index s = 0; s < D.cols(); ++s) {
+      if (D(r, s) == 0.0) continue;
+      for (const WaveTerm& left : wave_rows()[static_cast<std::size_t>(r)]) {
+        for (const WaveTerm& right : wave_rows()[static_cast<std::size_t>(s)]) {
+          add(left, right, D(r, s) * left.factor * right.factor);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void validate(const LayeredFilm& film) {
@@ -80,13 +136,15 @@ void validate(const LayeredFilm& film) {
     const Eigen::MatrixXd form = coupled_form(layer.medium);
     for (Eigen::Index i = 0; i < form.rows(); ++i) {
       for (Eigen::Index j = 0; j < form.cols(); ++j) {
-        require(is_imaginary_row(i) == is_imaginary_row(j) || form(i, j) == 0.0,
-                "a layer couples shear across its thickness to stretching; its axis 3 must stand on "
-                "the film as a twofold axis");
+        require(
+            is_imaginary_row(i) == is_imaginary_row(j) || form(i, j) == 0.0,
+            "a layer couples shear across its thickness to stretching; its axis 3 must stand on "
+            "the film as a twofold axis");
       }
     }
   }
-  if (film.backing) isotropic_moduli_Pa(film.backing->young_modulus_Pa, film.backing->poisson_ratio);
+  if (film.backing)
+    isotropic_moduli_Pa(film.backing->young_modulus_Pa, film.backing->poisson_ratio);
 }
 
 double half_space_compliance_m_Pa(double young_modulus_Pa, double poisson_ratio, double k_1_m) {
@@ -96,68 +154,31 @@ double half_space_compliance_m_Pa(double young_modulus_Pa, double poisson_ratio,
 FilmWaves::FilmWaves(const LayeredFilm& film, double angle_rad, double largest_k_1_m, int degree)
     : backing_(film.backing) {
   validate(film);
-  const FilmLayer& own = film.layers.front();
-  length_m_ = own.thickness_m;
-  stress_Pa_ = own.medium.stiffness_Pa(2, 2);
-  potential_V_ = potential_scale_V(own.medium) * length_m_;
+  const Medium& own = film.layers.front().medium;
+  length_m_ = film.layers.front().thickness_m;
+  stress_Pa_ = own.stiffness_Pa(2, 2);
+  potential_V_ = potential_scale_V(own) * length_m_;
   const LineMesh line(film_breaks(film, largest_k_1_m, length_m_), degree);
-  const int nodes = line.node_count();
-  int film_top = 0;  // node at the film's upper face
-  while (line.nodes()[static_cast<std::size_t>(film_top)] < 1.0 - 1e-9) ++film_top;
-
-  // Unknowns by node, so that the matrix is banded. The potential ends at the film's upper face.
-  const int grounded = film.grounded == FilmFace::kTop ? film_top : 0;
-  std::vector<std::array<int, 4>> unknown(static_cast<std::size_t>(nodes), {-1, -1, -1, -1});
-  int count = 0;
-  for (int node = 0; node < nodes; ++node) {
-    auto& of_node = unknown[static_cast<std::size_t>(node)];
-    for (int field = 0; field < kPhi; ++field) {
-      if (node > 0 || film.backing) of_node[static_cast<std::size_t>(field)] = count++;
-    }
-    if (node <= film_top && node != grounded) of_node[kPhi] = count++;
-  }
-  top_.assign(unknown.back().begin(), unknown.back().begin() + 3);
-  bottom_.assign(unknown.front().begin(), unknown.front().begin() + 3);
-  read_ = unknown[static_cast<std::size_t>(grounded == 0 ? film_top : 0)][kPhi];
-
-  for (Eigen::MatrixXd* part : {&constant_, &linear_, &quadratic_}) part->setZero(count, count);
+  const Numbering numbering(film, line);
+  top_ = numbering.of_node(line.node_count() - 1);
+  bottom_ = numbering.of_node(0);
+  read_ = numbering.read();
+  for (Eigen::MatrixXd& part : by_power_) part.setZero(numbering.count(), numbering.count());
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(9);
   scale.tail(3).setConstant(potential_V_ / length_m_);
   for (int e = 0; e < line.element_count(); ++e) {
-    const auto index = static_cast<std::size_t>(e);
-    const double middle_m = 0.5 * (line.breaks()[index] + line.breaks()[index + 1]) * length_m_;
+    const auto at = static_cast<std::size_t>(e);
+    const double middle_m = 0.5 * (line.breaks()[at] + line.breaks()[at + 1]) * length_m_;
     const Medium medium = rotated_about_z(layer_at(film, middle_m).medium, angle_rad);
-    const Eigen::MatrixXd form =
-        scale.asDiagonal() * coupled_form(medium) * scale.asDiagonal() / stress_Pa_;
-    for (Eigen::Index r = 0; r < 9; ++r) {
-      for (Eigen::Index s = 0; s < 9; ++s) {
-        if (form(r, s) == 0.0) continue;
-        for (const WaveTerm& left : wave_rows()[static_cast<std::size_t>(r)]) {
-          for (const WaveTerm& right : wave_rows()[static_cast<std::size_t>(s)]) {
-            const Eigen::MatrixXd block = form(r, s) * left.factor * right.factor *
-                                          line.integral(e, 0, left.dz, right.dz);
-            const int k_power = left.k_power + right.k_power;
-            Eigen::MatrixXd& part = k_power == 0 ? constant_ : k_power == 1 ? linear_ : quadratic_;
-            for (int i = 0; i <= degree; ++i) {
-              const int row = unknown[static_cast<std::size_t>(e * degree + i)]
-                                     [static_cast<std::size_t>(left.field)];
-              if (row < 0) continue;
-              for (int j = 0; j <= degree; ++j) {
-                const int column = unknown[static_cast<std::size_t>(e * degree + j)]
-                                          [static_cast<std::size_t>(right.field)];
-                if (column >= 0) part(row, column) += block(i, j);
-              }
-            }
-          }
-        }
-      }
-    }
+    add_element(line, e,
+                scale.asDiagonal() * coupled_form(medium) * scale.asDiagonal() / stress_Pa_,
+                numbering, by_power_);
   }
 }
 
 Eigen::MatrixXd FilmWaves::matrix(double k_1_m) const {
   const double k = k_1_m * length_m_;
-  Eigen::MatrixXd sum = constant_ + k * linear_ + k * k * quadratic_;
+  Eigen::MatrixXd sum = by_power_[0] + k * by_power_[1] + k * k * by_power_[2];
   if (backing_) {
     // Half-space under a wave: eq. S2.
     const double nu = backing_->poisson_ratio;

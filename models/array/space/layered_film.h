@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -51,17 +52,16 @@ class FilmWaves {
   Eigen::Vector4d reading(double k_1_m) const;
 
  private:
-  struct Unknown;  // numbering, see the source
   Eigen::MatrixXd matrix(double k_1_m) const;
 
   double length_m_ = 0.0;  // unit of length: the film's thickness
   double stress_Pa_ = 0.0;
   double potential_V_ = 0.0;
   std::optional<Backing> backing_;
-  std::vector<int> top_;     // unknowns a, b, w of the top
-  std::vector<int> bottom_;  // of the bottom; -1 where held
-  int read_ = 0;             // unknown of the potential that is read
-  Eigen::MatrixXd constant_, linear_, quadratic_;  // in powers of k times the unit of length
+  std::array<int, 4> top_{};                 // unknowns a, b, w, phi of the top; -1: none
+  std::array<int, 4> bottom_{};              // of the bottom
+  int read_ = 0;                             // unknown of the potential that is read
+  std::array<Eigen::MatrixXd, 3> by_power_;  // the matrix in powers of k times the unit of length
 };
 
 // Compliance of a half-space for normal loads, w/t_z = 2 (1 - nu^2)/(E k), m/Pa.

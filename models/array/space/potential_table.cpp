@@ -11,11 +11,11 @@
 namespace viscard {
 namespace {
 
-constexpr int kTablePoints = 12;         // per panel
-constexpr double kTablePhase = 4.0;      // largest k times half a panel: J_12(4) = 6e-6
-constexpr int kWavePoints = 8;           // Gauss points per panel of k
-constexpr double kWavePhase = 5.0;       // largest radius times a panel of k
-constexpr double kWaveStep = 0.7;        // panel of k times the thickness of the film
+constexpr int kTablePoints = 12;     // per panel
+constexpr double kTablePhase = 4.0;  // largest k times half a panel: J_12(4) = 6e-6
+constexpr int kWavePoints = 8;       // Gauss points per panel of k
+constexpr double kWavePhase = 5.0;   // largest radius times a panel of k
+constexpr double kWaveStep = 0.7;    // panel of k times the thickness of the film
 
 double thickness_m(const LayeredFilm& film) {
   double sum = 0.0;
@@ -203,8 +203,7 @@ PotentialByLoad PotentialTable::at(double x_m, double y_m, std::size_t reading) 
     const double sine = std::sin(static_cast<double>(2 * j + 1) * angle);
     const std::array<double, kTopLoads> factors = {even, cosine, sine, cosine, sine};
     for (Eigen::Index load = 0; load < kTopLoads; ++load) {
-      potential[load] +=
-          factors[static_cast<std::size_t>(load)] * radial[load * harmonics_ + j];
+      potential[load] += factors[static_cast<std::size_t>(load)] * radial[load * harmonics_ + j];
     }
   }
   return potential;

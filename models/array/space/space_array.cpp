@@ -47,8 +47,7 @@ double largest_diameter_m(const SpaceArray& array) {
 }
 
 double widest_m(const PillarGeometry& pillar) {
-  return pillar.diameter_m +
-         2.0 * std::max({0.0, pillar.foot.width_m, pillar.tip.width_m});
+  return pillar.diameter_m + 2.0 * std::max({0.0, pillar.foot.width_m, pillar.tip.width_m});
 }
 
 }  // namespace
@@ -61,7 +60,8 @@ void validate(const SpaceArray& array) {
     throw SceneMistake("geometry.electrode.radius", "the electrode's radius must be positive");
   }
   double widest = 2.0 * array.electrode_radius_m;
-  for (const PillarClass& one : array.classes) widest = std::max(widest, 1.1 * widest_m(one.geometry));
+  for (const PillarClass& one : array.classes)
+    widest = std::max(widest, 1.1 * widest_m(one.geometry));
   const Neighbours near(array.pillars, widest);
   for (std::size_t i = 0; i < array.pillars.size(); ++i) {
     const PlacedPillar& one = array.pillars[i];
@@ -69,8 +69,9 @@ void validate(const SpaceArray& array) {
       if (j <= i) return;
       const PlacedPillar& other = array.pillars[j];
       const double distance_m = std::hypot(other.x_m - one.x_m, other.y_m - one.y_m);
-      const double width_m = 0.5 * (widest_m(array.classes[static_cast<std::size_t>(one.of_class)].geometry) +
-                                    widest_m(array.classes[static_cast<std::size_t>(other.of_class)].geometry));
+      const double width_m =
+          0.5 * (widest_m(array.classes[static_cast<std::size_t>(one.of_class)].geometry) +
+                 widest_m(array.classes[static_cast<std::size_t>(other.of_class)].geometry));
       const std::string pair = "pillars " + std::to_string(i + 1) + " and " + std::to_string(j + 1);
       if (distance_m < 1.1 * width_m) {
         throw SceneMistake("geometry.spacing",
@@ -149,9 +150,9 @@ Eigen::MatrixXd SpaceResponse::voltages_V(const TopLoads& loads_Pa) const {
   using Key = std::tuple<int, long, long>;
   const double unit_m = 1e-7 * largest_diameter_m(*array_);
   std::map<Key, Eigen::Matrix<double, Eigen::Dynamic, kTopLoads>> kernels;
-  Eigen::MatrixXd voltages = Eigen::MatrixXd::Zero(
-      static_cast<Eigen::Index>(pillars.size()),
-      static_cast<Eigen::Index>(reading_names(array_->electrode).size()));
+  Eigen::MatrixXd voltages =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(pillars.size()),
+                            static_cast<Eigen::Index>(reading_names(array_->electrode).size()));
   for (std::size_t j = 0; j < pillars.size(); ++j) {
     const auto load = loads_Pa.row(static_cast<Eigen::Index>(j));
     if (load.isZero(0.0)) continue;

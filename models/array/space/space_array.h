@@ -64,7 +64,8 @@ class SpaceResponse {
   // V; pillars x readings.
   Eigen::MatrixXd voltages_V(const TopLoads& loads_Pa) const;
   // Readings of a pillar at the offset (x, y) from a loaded one of the class, V/Pa: readings x loads.
-  Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> kernel(int of_class, double x_m, double y_m) const;
+  Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> kernel(int of_class, double x_m,
+                                                          double y_m) const;
 
   const FootForces& foot(int of_class) const { return feet_[static_cast<std::size_t>(of_class)]; }
   int unknowns() const { return unknowns_; }
