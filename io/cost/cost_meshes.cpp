@@ -1,5 +1,6 @@
 #include "io/cost/study_trials.h"
 #include "models/array/plane/simulate_array.h"
+#include "models/array/space/simulate_space.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/mesh/pillar_mesh.h"
 
@@ -34,6 +35,15 @@ CostMeshes meshes_of(const ArrayScene& scene) {
           .step_tolerance = scene.tolerance};
 }
 
+// Each degree of the feet is an accuracy of the film and its waves as well; there are no others.
+CostMeshes meshes_of(const SpaceScene& scene) {
+  return {.diameter_m = scene.diameter_m,
+          .graded = {{3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}},
+          .highest_uniform = 0,
+          .reference_layers = 4,
+          .step_tolerance = scene.tolerance};
+}
+
 Discretisation graded(const PillarScene& scene, int degree, int layers) {
   Discretisation mesh = mesh_sequence(scene.geometry).front();
   mesh.degree = degree;
@@ -49,6 +59,13 @@ Discretisation graded(const ArrayScene& scene, int degree, int layers) {
   return mesh;
 }
 
+Discretisation graded(const SpaceScene& scene, int degree, int) {
+  for (const Discretisation& mesh : space_meshes(scene)) {
+    if (mesh.degree >= degree) return mesh;
+  }
+  return space_meshes(scene).back();
+}
+
 // A film that is left out needs no elements beside the pillar.
 Discretisation without_effect(const PillarScene& without, Discretisation mesh) {
   if (!without.film) mesh.film_elements = 1;
@@ -56,6 +73,10 @@ Discretisation without_effect(const PillarScene& without, Discretisation mesh) {
 }
 
 Discretisation without_effect(const ArrayScene&, Discretisation mesh) {
+  return mesh;
+}
+
+Discretisation without_effect(const SpaceScene&, Discretisation mesh) {
   return mesh;
 }
 
