@@ -1,6 +1,7 @@
 #include "io/cost/study_trials.h"
 #include "models/array/plane/array_geometry.h"
 #include "models/array/plane/simulate_array.h"
+#include "models/array/space/simulate_space.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/mesh/pillar_mesh.h"
@@ -36,6 +37,15 @@ CostMeshes meshes_of(const ArrayScene& scene) {
           .step_tolerance = scene.tolerance};
 }
 
+// Each degree of the feet is an accuracy of the film and its waves as well; there are no others.
+CostMeshes meshes_of(const SpaceScene& scene) {
+  return {.diameter_m = scene.diameter_m,
+          .graded = {{3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}},
+          .highest_uniform = 0,
+          .reference_layers = 4,
+          .step_tolerance = scene.tolerance};
+}
+
 Discretisation graded(const PillarScene& scene, int degree, int layers) {
   Discretisation mesh = mesh_sequence(scene.geometry).front();
   mesh.degree = degree;
@@ -51,6 +61,13 @@ Discretisation graded(const ArrayScene& scene, int degree, int layers) {
   return mesh;
 }
 
+Discretisation graded(const SpaceScene& scene, int degree, int) {
+  for (const Discretisation& mesh : space_meshes(scene)) {
+    if (mesh.degree >= degree) return mesh;
+  }
+  return space_meshes(scene).back();
+}
+
 // A film that is left out needs no elements beside the pillar.
 Discretisation without_effect(const PillarScene& without, Discretisation mesh) {
   if (!without.film) mesh.film_elements = 1;
@@ -58,6 +75,10 @@ Discretisation without_effect(const PillarScene& without, Discretisation mesh) {
 }
 
 Discretisation without_effect(const ArrayScene&, Discretisation mesh) {
+  return mesh;
+}
+
+Discretisation without_effect(const SpaceScene&, Discretisation mesh) {
   return mesh;
 }
 
@@ -93,6 +114,14 @@ double size_of(const ArrayScene& scene, const Discretisation& mesh) {
   if (!lines.gap_x.empty()) pieces += scene.geometry.count - 1;
   if (!lines.edge_x.empty()) pieces += 2;
   return count + end * (pieces + 1);
+}
+
+// The larger systems of an array in the plane are those of one pillar (models/array/space).
+double size_of(const SpaceScene& scene, const Discretisation& mesh) {
+  PillarGeometry pillar;
+  pillar.diameter_m = scene.diameter_m;
+  pillar.length_m = scene.length_m;
+  return 3.0 * pillar_mesh(pillar, mesh).section.node_count();
 }
 
 }  // namespace

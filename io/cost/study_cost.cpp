@@ -24,6 +24,14 @@ double relative_error(const SceneAnswer& answer, const SceneAnswer& reference) {
     const double size = std::max(std::abs(exact.value), exact.scale);
     if (size > 0.0) largest = std::max(largest, std::abs(found->value - exact.value) / size);
   }
+  for (std::size_t m = 0; m < reference.maps.size(); ++m) {
+    const SceneMap& exact = reference.maps[m];
+    if (m >= answer.maps.size() || answer.maps[m].value.size() != exact.value.size()) return 1.0;
+    const double size = size_of(exact);
+    for (std::size_t i = 0; i < exact.value.size() && size > 0.0; ++i) {
+      largest = std::max(largest, std::abs(answer.maps[m].value[i] - exact.value[i]) / size);
+    }
+  }
   for (std::size_t i = 0; i < reference.modes.size(); ++i) {
     if (i >= answer.modes.size()) return 1.0;
     const double exact_Hz = reference.modes[i].frequency_Hz;

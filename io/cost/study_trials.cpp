@@ -55,6 +55,7 @@ std::vector<Trial> mesh_trials(const Scene& scene) {
     mesh.uniform_m = 0.5 * meshes.diameter_m;  // one element across the radius
     trials.push_back({fmt::format("p{}", degree), "all on", scene, mesh});
   }
+  if (meshes.highest_uniform == 0) return trials;
   // A fourth, an eighth and a fortieth of the diameter: 10, 5 and 1 um for pillars of 40 um.
   for (const int degree : {1, 2}) {
     for (const int across : {4, 8, 40}) {

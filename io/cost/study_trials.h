@@ -39,7 +39,7 @@ std::vector<CostTrial> effect_trials_on(const Scene& scene, int degree, int laye
 struct CostMeshes {
   double diameter_m = 0.0;
   std::vector<std::pair<int, int>> graded;  // degrees and layers
-  int highest_uniform = 0;                  // degree of equal elements
+  int highest_uniform = 0;                  // degree of equal elements; 0: graded ones alone
   int uniform_layers = 1;
   int reference_layers = 0;
   double step_tolerance = 0.0;    // of the time steps of the reference

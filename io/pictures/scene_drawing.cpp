@@ -52,6 +52,12 @@ void SceneDrawing::outline(const std::vector<std::pair<double, double>>& corners
   body_ += fmt::format("\" {}/>\n", style);
 }
 
+void SceneDrawing::disc(double x_m, double y_m, double radius_m, const char* style) {
+  body_ += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="{:.2f}" {}/>)"
+                       "\n",
+                       x(x_m), y(y_m), radius_m * scale_, style);
+}
+
 void SceneDrawing::line(double x1_px, double y1_px, double x2_px, double y2_px, const char* style) {
   body_ += fmt::format(R"(<line x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}" {}/>)"
                        "\n",

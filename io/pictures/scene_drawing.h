@@ -8,8 +8,8 @@
 
 namespace viscard {
 
-// A section to scale in SVG, and the parts that drawings of one pillar and of a row share. Lengths
-// in m (z up, z = 0 on the film), placed in pixels.
+// A section, or a view from above, to scale in SVG, and the parts that drawings share. Lengths in m (up
+// is z, with z = 0 on the film, or y), placed in pixels.
 class SceneDrawing {
  public:
   // What lies between these bounds is drawn as large as the page allows, at most `width_px` wide.
@@ -22,6 +22,8 @@ class SceneDrawing {
 
   void box(double from_m, double to_m, double low_m, double high_m, const char* style);
   void outline(const std::vector<std::pair<double, double>>& corners_m, const char* style);
+  void disc(double x_m, double y_m, double radius_m, const char* style);
+  void arrow(double x1_px, double y1_px, double x2_px, double y2_px, bool is_double);
   void line(double x1_px, double y1_px, double x2_px, double y2_px, const char* style);
   void text(double x_px, double y_px, const std::string& words, const char* anchor = "start");
   // Both ends marked; the words above it.
@@ -40,8 +42,6 @@ class SceneDrawing {
   std::string document(const std::string& title) const;
 
  private:
-  void arrow(double x1_px, double y1_px, double x2_px, double y2_px, bool is_double);
-
   double left_m_, high_m_, scale_ = 1.0;
   double left_px_ = 0.0, top_px_ = 0.0, width_px_, height_px_ = 0.0;
   std::string body_;

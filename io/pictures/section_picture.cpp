@@ -1,5 +1,6 @@
 #include "io/pictures/section_picture.h"
 
+#include "io/pictures/colour_scale.h"
 #include "io/plots/plot_svg.h"
 
 #include <fmt/format.h>
@@ -17,24 +18,6 @@ constexpr double kHeight_px = 560.0;
 constexpr double kLeft_px = 30.0, kRight_px = 130.0, kTop_px = 50.0, kBottom_px = 40.0;
 // Largest displacement drawn: of the height, and of the pillar's radius where it does not swing.
 constexpr double kSwing = 0.15, kBulge = 0.4;
-
-// From dark to light for sizes, blue through white to red for signed values.
-// Anchors of viridis: Smith & van der Walt (2015); of the other: Moreland, ISVC (2009) 92.
-std::string colour(double share, bool is_signed) {
-  static const std::vector<std::array<double, 3>> kSize = {
-      {68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}};
-  static const std::vector<std::array<double, 3>> kSigned = {
-      {59, 76, 192}, {141, 176, 254}, {221, 221, 221}, {244, 152, 122}, {180, 4, 38}};
-  const auto& anchors = is_signed ? kSigned : kSize;
-  const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(anchors.size() - 1);
-  const auto i = std::min(static_cast<std::size_t>(at), anchors.size() - 2);
-  const double t = at - static_cast<double>(i);
-  std::array<int, 3> rgb{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    rgb[c] = static_cast<int>(std::lround(anchors[i][c] * (1.0 - t) + anchors[i + 1][c] * t));
-  }
-  return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
-}
 
 // A corner of a quadrilateral as drawn: in the plane of the section, m, and its value.
 struct Corner {
@@ -128,22 +111,13 @@ Range range_of(const Shown& shown) {
 }
 
 std::string scale_bar(const Range& range, const Shown& shown) {
-  std::string text;
-  const double x = kSectionWidth_px - kRight_px + 30.0;
-  constexpr int kSteps = 40;
-  const double height = 0.6 * kHeight_px;
-  for (int i = 0; i < kSteps; ++i) {
-    text += fmt::format(
-        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"16\" height=\"{:.1f}\" fill=\"{}\"/>\n", x,
-        kTop_px + height * (1.0 - (i + 1.0) / kSteps), height / kSteps + 0.5,
-        colour((i + 0.5) / kSteps, shown.is_signed));
-  }
+  std::vector<ColourTick> ticks;
   for (int i = 0; i <= 4; ++i) {
     const double value = range.low + (range.high - range.low) * i / 4.0;
-    text += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{:.3g}</text>\n", x + 22.0,
-                        kTop_px + height * (1.0 - i / 4.0) + 4.0, value);
+    ticks.push_back({i / 4.0, fmt::format("{:.3g}", value)});
   }
-  return text;
+  return colour_bar(kSectionWidth_px - kRight_px + 30.0, kTop_px, 0.6 * kHeight_px, shown.is_signed,
+                    ticks);
 }
 
 std::string svg_of(const Shown& shown) {
@@ -170,7 +144,7 @@ std::string svg_of(const Shown& shown) {
       points += fmt::format("{:.1f},{:.1f} ", left + scale * (c.x_m - low_x),
                             kHeight_px - kBottom_px - scale * (c.z_m - low_z));
     }
-    const std::string ink = colour(range.share(mean), shown.is_signed);
+    const std::string ink = colour_of(range.share(mean), shown.is_signed);
     body += fmt::format("<polygon points=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"0.6\"/>\n",
                         points, ink, ink);
   }

@@ -21,16 +21,30 @@ const std::map<std::string, SceneReader>& readers() {
   return kReaders;
 }
 
+// An array in the plane shares its kind with rows; the model tells them apart.
+bool is_in_space(const toml::node_view<const toml::node>& geometry, const std::string& kind) {
+  if (kind != SpaceScene::kKind) return false;
+  if (geometry["model"].value_or(std::string()) == SpaceScene::kModel) return true;
+  for (const char* const key : {"rows", "columns", "positions"}) {
+    if (!geometry[key]) continue;
+    throw SceneMistake(std::string("geometry.") + key,
+                       "belongs to an array in the plane; say model = \"space\" (a row has a "
+                       "count)");
+  }
+  return false;
+}
+
 // geometry.kind decides how the rest is read. A file that is not TOML goes to the reader of
 // pillars, which reports what is wrong with it.
 SceneReader reader_for(const std::string& text, const std::filesystem::path& path) {
   std::string kind;
-  bool has_count = false;
+  bool is_space = false;
   try {
     const toml::table table = toml::parse(text, path.string());
     const toml::node_view<const toml::node> geometry = table["geometry"];
-    has_count = geometry["count"] || geometry["spacing"];
+    const bool has_count = geometry["count"] || geometry["spacing"];
     kind = geometry["kind"].value_or(std::string(has_count ? "" : PillarScene::kKind));
+    is_space = is_in_space(geometry, kind);
   } catch (const toml::parse_error&) {
     return read_pillar;
   }
@@ -39,6 +53,7 @@ SceneReader reader_for(const std::string& text, const std::filesystem::path& pat
                        "has the count or spacing of a row of pillars; say kind = "
                        "\"array\", or leave them out for a single one");
   }
+  if (is_space) return read_space;
   return choice<SceneReader>("geometry.kind", kind, readers());
 }
 

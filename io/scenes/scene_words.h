@@ -21,11 +21,12 @@ namespace viscard {
 // Reads the fields that `show` shows from an open scene file.
 using FieldReader = std::function<void(const std::function<void(FieldVisitor&)>& show)>;
 
-// Read a scene of one pillar or of a row; data/scenes/pillar_*.toml and array_*.toml are commented
-// examples. Material files are looked for in `folder`. Throw SceneMistake, std::invalid_argument or
+// Read a scene of one pillar, of a row, or of an array in the plane; data/scenes/pillar_*.toml,
+// array_*.toml and space_*.toml are commented examples. Material files are looked for in `folder`. Throw SceneMistake, std::invalid_argument or
 // std::runtime_error for what is wrong.
 void read_pillar(const FieldReader& read, const std::filesystem::path& folder, SceneFile& file);
 void read_row(const FieldReader& read, const std::filesystem::path& folder, SceneFile& file);
+void read_space(const FieldReader& read, const std::filesystem::path& folder, SceneFile& file);
 
 // The value of a word. Throws SceneMistake with the known words, and the nearest, for another.
 template <typename Value>
@@ -50,6 +51,10 @@ void show_printed(FieldVisitor& v, std::vector<PrintedValue>& printed);
 // Every wanted name must be one of the known ones. Throws SceneMistake with the nearest and all
 // that are known.
 void check_wanted(const std::vector<std::string>& wanted, const std::vector<std::string>& known);
+
+// The same for an array in the plane: "mean_voltage" is a map with its largest and smallest value,
+// "mean_voltage_3_4" the pillar in row 3 and column 4.
+void check_space_wanted(const SpaceScene& scene);
 
 // [effects]: name to "auto", "on", "off" or nothing. Throws SceneMistake.
 EffectChoices choices_of(const std::map<std::string, std::string>& effects);

@@ -7,6 +7,7 @@ namespace {
 
 using Pillar = EffectOn<PillarScene>;
 using Row = EffectOn<ArrayScene>;
+using Space = EffectOn<SpaceScene>;  // an array in the plane
 
 }  // namespace
 
@@ -16,62 +17,74 @@ const std::vector<Effect>& effects() {
        "moduli fall with time",
        "a vector per term, and time steps",
        {Pillar{relaxation_estimate, [](PillarScene& scene) { scene.pillar.terms.clear(); }},
-        Row{relaxation_estimate}}},
+        Row{relaxation_estimate}, Space{relaxation_estimate}}},
       {"inertia",
        "mass resists",
        "a mass matrix",
-       {Pillar{inertia_estimate}, Row{inertia_estimate}}},
+       {Pillar{inertia_estimate}, Row{inertia_estimate},
+        Space{[](const SpaceScene&) -> EffectEstimate {
+          return {.reason = "the load is at rest"};
+        }}}},
       {"incompressibility",
        "pressures of their own near nu = 0.5",
        "a projection in every element",
        {Pillar{incompressibility_estimate,
                [](PillarScene& scene) { scene.condense_pressures_from = 0.5; },
                [](PillarScene& scene) { scene.condense_pressures_from = -1.0; }},
-        Row{incompressibility_estimate}},
+        Row{incompressibility_estimate}, Space{incompressibility_estimate}},
        true},
       {"film_compliance",
        "the base yields",
        "the film's elements",
        {Pillar{film_compliance_estimate, leave_out_film},
-        Row{film_compliance_estimate, [](ArrayScene& scene) { scene.feels_film = false; }}}},
+        Row{film_compliance_estimate, [](ArrayScene& scene) { scene.feels_film = false; }},
+        Space{film_compliance_estimate}}},
       {"piezo_coupling",
        "the film's field acts back on its strain",
        "potentials among the displacements",
        {Pillar{piezo_coupling_estimate, leave_out_piezo_coupling},
-        Row{piezo_coupling_estimate, leave_out_piezo_coupling}}},
+        Row{piezo_coupling_estimate, leave_out_piezo_coupling}, Space{piezo_coupling_estimate}}},
       {"leakage",
        "charge leaves the electrode",
        "a time constant",
        {Pillar{leakage_estimate}, Row{[](const ArrayScene&) -> EffectEstimate {
           return {.reason = "open electrodes, before charge leaks"};
+        }},
+        Space{[](const SpaceScene&) -> EffectEstimate {
+          return {.reason = "faces without charge, before any leaks in"};
         }}}},
       {"crosstalk",
        "neighbours load the film",
        "the neighbours",
        {Pillar{[](const PillarScene&) -> EffectEstimate { return {.reason = "a single pillar"}; }},
-        Row{crosstalk_estimate, [](ArrayScene& scene) { scene.feels_neighbours = false; }}}},
+        Row{crosstalk_estimate, [](ArrayScene& scene) { scene.feels_neighbours = false; }},
+        Space{crosstalk_estimate, [](SpaceScene& scene) { scene.feels_neighbours = false; }}}},
       {"three_dimensional",
        "a cylinder instead of a strip",
        "nothing: both are plane sections",
        {Pillar{three_dimensional_estimate}, Row{[](const ArrayScene&) -> EffectEstimate {
           return {.reason = "rows are solved in the plane: strips, not cylinders"};
+        }},
+        Space{[](const SpaceScene&) -> EffectEstimate {
+          return {EffectRole::kNeeded, 1.0, "", 0.0, "cylinders with neighbours on all sides"};
         }}}},
       {"geometric_stiffness",
        "a load softens the pillar sideways",
        "the loaded state and its stress matrix",
        {Pillar{geometric_stiffness_estimate, leave_out_geometric_stiffness},
-        Row{geometric_stiffness_estimate}}},
+        Row{geometric_stiffness_estimate}, Space{geometric_stiffness_estimate}}},
       {"adhesion",
        "neighbours or base stick to the pillar",
        "a formula",
        {Pillar{[](const PillarScene&) -> EffectEstimate {
           return {.reason = "one pillar with nothing to stick to"};
         }},
-        Row{adhesion_estimate}}},
+        Row{adhesion_estimate}, Space{adhesion_estimate}}},
       {"finite_strain",
        "stiffness changes with large strain",
        "a nonlinear solution",
-       {Pillar{finite_strain_estimate}, Row{finite_strain_estimate}}},
+       {Pillar{finite_strain_estimate}, Row{finite_strain_estimate},
+        Space{finite_strain_estimate}}},
       {"contact",
        "a shape presses on the top",
        "unilateral constraints",
@@ -79,6 +92,9 @@ const std::vector<Effect>& effects() {
           return {.reason = "no shape presses on the pillar"};
         }},
         Row{[](const ArrayScene&) -> EffectEstimate {
+          return {.reason = "no shape presses on the pillars"};
+        }},
+        Space{[](const SpaceScene&) -> EffectEstimate {
           return {.reason = "no shape presses on the pillars"};
         }}}},
   };

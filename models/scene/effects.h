@@ -21,7 +21,7 @@ struct Effect {
   const char* name;  // key in a scene's [effects]
   const char* changes;
   const char* cost;
-  std::tuple<EffectOn<PillarScene>, EffectOn<ArrayScene>> on;
+  std::tuple<EffectOn<PillarScene>, EffectOn<ArrayScene>, EffectOn<SpaceScene>> on;
   // True for a choice between kinds of elements with the same answer; studies leave it to the plan.
   bool is_choice_of_elements = false;
 };

@@ -1,6 +1,7 @@
 #include "models/scene/scene.h"
 
 #include "models/array/plane/simulate_array.h"
+#include "models/array/space/simulate_space.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/analyses/creep_buckling.h"
 #include "models/pillar/analyses/simulate_pillar.h"

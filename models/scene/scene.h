@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/array/plane/array_scene.h"
+#include "models/array/space/space_scene.h"
 #include "models/pillar/scene/pillar_scene.h"
 
 #include <string>
@@ -9,10 +10,11 @@
 
 namespace viscard {
 
-// The contents of a scene file: one pillar or a row of pillars. Every kind of scene derives from
-// SceneCommon, and has kKind, its word in a scene file, and kTolerances. A new kind is a further
+// The contents of a scene file: one pillar, a row of pillars, or an array in the plane. Every kind of
+// scene derives from SceneCommon, and has kKind, its word in a scene file, and kTolerances. Rows and
+// arrays in the plane have the same word; geometry.model tells them apart. A new kind is a further
 // alternative here; the compiler then names every place that lacks it.
-using Scene = std::variant<PillarScene, ArrayScene>;
+using Scene = std::variant<PillarScene, ArrayScene, SpaceScene>;
 
 // What all scenes have.
 SceneCommon& common(Scene& scene);
@@ -24,8 +26,8 @@ const ToleranceRange& tolerances_of(const Scene& scene);
 // Throws std::invalid_argument, mostly SceneMistake, naming what is missing or contradictory.
 void validate(const Scene& scene);
 
-// Throws SceneMistake if the load lies beyond buckling (models/pillar/analyses/buckling_limit.h). A
-// row is validated for that.
+// Throws SceneMistake if the load lies beyond buckling (models/pillar/analyses/buckling_limit.h). Rows
+// and arrays are validated for that.
 void refuse_beyond_buckling(const Scene& scene);
 
 // Buckling in creep (models/pillar/analyses/creep_buckling.h): a sentence for the answer, or "";

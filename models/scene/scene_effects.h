@@ -1,6 +1,7 @@
 #pragma once
 
 #include "models/array/plane/array_scene.h"
+#include "models/array/space/space_scene.h"
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/scene/common/effect_estimate.h"
 
@@ -35,5 +36,15 @@ EffectEstimate crosstalk_estimate(const ArrayScene& scene);
 EffectEstimate geometric_stiffness_estimate(const ArrayScene& scene);
 EffectEstimate adhesion_estimate(const ArrayScene& scene);
 EffectEstimate finite_strain_estimate(const ArrayScene& scene);
+
+// An array in the plane (space_effects.cpp).
+EffectEstimate film_compliance_estimate(const SpaceScene& scene);
+EffectEstimate piezo_coupling_estimate(const SpaceScene& scene);
+EffectEstimate relaxation_estimate(const SpaceScene& scene);
+EffectEstimate incompressibility_estimate(const SpaceScene& scene);
+EffectEstimate crosstalk_estimate(const SpaceScene& scene);
+EffectEstimate geometric_stiffness_estimate(const SpaceScene& scene);
+EffectEstimate adhesion_estimate(const SpaceScene& scene);
+EffectEstimate finite_strain_estimate(const SpaceScene& scene);
 
 }  // namespace viscard

@@ -1,6 +1,7 @@
 #include "models/scene/simulate.h"
 
 #include "models/array/plane/simulate_array.h"
+#include "models/array/space/simulate_space.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/simulate_pillar.h"
 #include "models/scene/common/effect_estimate.h"
@@ -22,12 +23,18 @@ SceneAnswer solve(const PillarScene& scene) {
 SceneAnswer solve(const ArrayScene& scene) {
   return simulate_array(scene);
 }
+SceneAnswer solve(const SpaceScene& scene) {
+  return simulate_space(scene);
+}
 
 SceneAnswer solve_on(const PillarScene& scene, const Discretisation& mesh) {
   return pillar_answer_on(scene, mesh);
 }
 SceneAnswer solve_on(const ArrayScene& scene, const Discretisation& mesh) {
   return array_answer_on(scene, mesh);
+}
+SceneAnswer solve_on(const SpaceScene& scene, const Discretisation& mesh) {
+  return space_answer_on(scene, mesh);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "io/basics/atomic_file.h"
 #include "io/cli/scene/answer_pictures.h"
+#include "io/cli/scene/map_output.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -27,15 +28,20 @@ nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s) {
     modes.back()["damping_ratio"] = *m.damping_ratio;
     modes.back()["damping_error"] = m.damping_error;
   }
-  return {{"results", results},
-          {"modes", modes},
-          {"effects", json_from_effects(answer.effects)},
-          {"discretisation",
-           {{"degree", answer.discretisation.degree}, {"layers", answer.discretisation.layers}}},
-          {"notes", answer.notes},
-          {"within_tolerance", answer.within_tolerance},
-          {"unknowns", answer.unknowns},
-          {"wall_s", wall_s}};
+  nlohmann::json object{
+      {"results", results},
+      {"modes", modes},
+      {"effects", json_from_effects(answer.effects)},
+      {"discretisation",
+       {{"degree", answer.discretisation.degree}, {"layers", answer.discretisation.layers}}},
+      {"notes", answer.notes},
+      {"within_tolerance", answer.within_tolerance},
+      {"unknowns", answer.unknowns},
+      {"wall_s", wall_s}};
+  if (answer.maps.empty()) return object;
+  object["maps"] = json_from_maps(answer);
+  object["pillars"] = json_from_pillars(answer.array);
+  return object;
 }
 
 void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out) {
@@ -67,12 +73,14 @@ void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out) {
 
 namespace {
 
-// "centre_voltage" stands for centre_voltage_1, centre_voltage_2, ...
+// "centre_voltage" stands for centre_voltage_1, centre_voltage_2, ...; of an array in the plane for
+// centre_voltage_1_1, ... and the extremes of the map.
 bool is_named(const std::string& result, const std::string& wanted) {
   if (!result.starts_with(wanted)) return false;
   const std::string rest = result.substr(wanted.size());
-  return rest.empty() || (rest.size() > 1 && rest[0] == '_' &&
-                          rest.find_first_not_of("0123456789", 1) == std::string::npos);
+  return rest.empty() || rest == "_largest" || rest == "_smallest" ||
+         (rest.size() > 1 && rest[0] == '_' &&
+          rest.find_first_not_of("0123456789_", 1) == std::string::npos);
 }
 
 }  // namespace
@@ -158,6 +166,8 @@ void write_files(const SceneAnswer& answer, const nlohmann::json& object, const 
   if (!answer.modes.empty()) write("modes.csv", csv_of_modes(answer.modes, command));
   for (const SceneCurve& curve : answer.curves) write(curve.name + ".csv", csv_of(curve, command));
   write_pictures(pictures_of(answer), folder, overwrite);
+  write_maps(answer, folder, command, overwrite);
+  write_pictures(pictures_of_maps(answer), folder, overwrite);
 }
 
 }  // namespace viscard

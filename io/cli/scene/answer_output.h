@@ -29,7 +29,8 @@ void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer);
 void write_pictures(const std::vector<std::pair<std::string, std::string>>& pictures,
                     const std::string& folder, bool overwrite);
 
-// results.json, results.csv and modes.csv, a CSV table and a picture of every curve. Throws
+// results.json, results.csv and modes.csv, a CSV table and a picture of every curve, the maps of an array
+// in the plane (map_output.h). Throws
 // std::runtime_error if a file exists and may not be overwritten.
 void write_files(const SceneAnswer& answer, const nlohmann::json& object, const std::string& folder,
                  const std::string& command, bool overwrite);

@@ -47,14 +47,17 @@ CommandSyntax simulate_syntax() {
   CommandSyntax syntax{
       "viscard simulate SCENE.toml [OPTIONS]",
       "Answers a scene: static, modal, buckling, creep, relaxation, harmonic or transient of one "
-      "pillar, on a rigid base or a film, or voltages, cross-talk and modes of a row of pillars. "
+      "pillar, on a rigid base or a film; voltages, cross-talk and modes of a row of pillars; or "
+      "maps "
+      "of voltages and cross-talk over an array in the plane. "
       "The mesh is refined until the estimated error meets the tolerance.",
       "viscard simulate data/scenes/pillar_modal.toml"};
   add_tolerance_option(syntax.options);
   syntax.options.add_options()(
       "out", po::value<std::string>(),
       "folder for results as JSON and CSV, curves as CSV and pictures; static and modal scenes add "
-      "fields as .vtu for ParaView")("force", "overwrite existing files");
+      "fields as .vtu for ParaView, arrays in the plane pillars.csv and maps as .npy")(
+      "force", "overwrite existing files");
   syntax.positional = {"scene"};
   return syntax;
 }

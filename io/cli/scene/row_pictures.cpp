@@ -160,7 +160,8 @@ Plot plot_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoint>& poi
 
 Pictures pictures_over_pillars(const SceneAnswer& answer) {
   Pictures pictures;
-  if (!answer.curves.empty()) return pictures;  // curves have their own pictures
+  // Curves and maps have their own pictures.
+  if (!answer.curves.empty() || !answer.maps.empty()) return pictures;
   for (const OverPillars& group : grouped(answer.results)) {
     if (!draw(group.name, plot_over_pillars(group), "row", pictures)) return {};
   }

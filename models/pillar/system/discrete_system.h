@@ -38,8 +38,9 @@ class DiscreteSystem {
   SymmetricSparse volume_form(const std::vector<double>& per_region, bool projected) const;
 
   // int value(field) over the part of the horizontal line z = breaks[row] between the columns
-  // [first, last): force per unit traction, m^2.
-  Eigen::VectorXd line_load(int field, int break_row, int first_column, int last_column) const;
+  // [first, last), weighted with x^power: force per unit traction, m^2, for power = 0.
+  Eigen::VectorXd line_load(int field, int break_row, int first_column, int last_column,
+                            int power = 0) const;
 
   // rows(u) at one point (x, z) of the body, which must lie in the element.
   Eigen::VectorXd rows_at(const std::vector<OperatorRow>& rows, const Eigen::VectorXd& solution,

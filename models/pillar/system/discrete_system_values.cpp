@@ -41,7 +41,7 @@ double DiscreteSystem::projected_divergence_at(const Eigen::VectorXd& solution,
 }
 
 Eigen::VectorXd DiscreteSystem::line_load(int field, int break_row, int first_column,
-                                          int last_column) const {
+                                          int last_column, int power) const {
   const int p = section_->degree();
   Eigen::VectorXd load = Eigen::VectorXd::Zero(size());
   const double z = section_->z().breaks()[static_cast<std::size_t>(break_row)];
@@ -49,8 +49,9 @@ Eigen::VectorXd DiscreteSystem::line_load(int field, int break_row, int first_co
     // At a bond both sides have the same width, so the stretch of either region is correct.
     const int below = section_->region(column, break_row - 1);
     const int region = below != Section::kEmpty ? below : section_->region(column, break_row);
-    const double scale = std::pow(section_->stretch_at(region, z).scale, kinematics_.x_power + 1);
-    const Eigen::MatrixXd mass = scale * section_->x().integral(column, kinematics_.x_power, 0, 0);
+    const int x_power = kinematics_.x_power + power;
+    const double scale = std::pow(section_->stretch_at(region, z).scale, x_power + 1);
+    const Eigen::MatrixXd mass = scale * section_->x().integral(column, x_power, 0, 0);
     for (int i = 0; i <= p; ++i) {
       const int node = section_->node(column * p + i, break_row * p);
       if (node < 0) throw std::invalid_argument("a load acts where there is no material");

@@ -100,6 +100,9 @@ void add_left_out(double left_out, SceneAnswer& answer) {
     const double peak = largest_size(curve.value);
     for (double& error : curve.error) error += left_out * peak;
   }
+  for (SceneMap& map : answer.maps) {
+    for (double& error : map.error) error += left_out * size_of(map);
+  }
   answer.largest_relative_error += left_out;
 }
 

@@ -30,6 +30,14 @@ void add_curve(SceneCurve& curve, std::vector<Number>& numbers) {
   }
 }
 
+void add_map(SceneMap& map, std::vector<Number>& numbers) {
+  map.error.assign(map.value.size(), 0.0);
+  const double size = size_of(map);
+  for (std::size_t i = 0; i < map.value.size(); ++i) {
+    numbers.push_back({map.name, map.value[i], size, &map.error[i]});
+  }
+}
+
 std::vector<Number> numbers_of(SceneAnswer& answer) {
   std::vector<Number> numbers;
   for (SceneResult& r : answer.results) {
@@ -44,6 +52,7 @@ std::vector<Number> numbers_of(SceneAnswer& answer) {
     numbers.push_back({m.family + " damping ratio", *m.damping_ratio, 1.0, &m.damping_error});
   }
   for (SceneCurve& curve : answer.curves) add_curve(curve, numbers);
+  for (SceneMap& map : answer.maps) add_map(map, numbers);
   return numbers;
 }
 

@@ -33,4 +33,8 @@ double largest_size(const std::vector<double>& values) {
   return largest;
 }
 
+double size_of(const SceneMap& map) {
+  return std::max(largest_size(map.value), map.scale);
+}
+
 }  // namespace viscard

@@ -3,6 +3,7 @@
 #include "models/pillar/mesh/pillar_mesh.h"
 
 #include <complex>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,11 +57,38 @@ struct SceneCurve {
   bool is_watched = true;       // false: derived from a watched curve, which sets its error
 };
 
+// A pillar of an array in the plane, and the load on its top.
+struct ScenePillar {
+  int row = 1, column = 1;  // from 1
+  double x_m = 0.0, y_m = 0.0, diameter_m = 0.0;
+  double pressure_Pa = 0.0, shear_x_Pa = 0.0, shear_y_Pa = 0.0;
+  bool is_loaded() const { return pressure_Pa != 0.0 || shear_x_Pa != 0.0 || shear_y_Pa != 0.0; }
+};
+
+// The array that the maps of an answer belong to.
+struct SceneArray {
+  int rows = 0, columns = 0;              // places where no pillar stands have no entry below
+  double cell_x_m = 0.0, cell_y_m = 0.0;  // room of one pillar
+  double left_m = 0.0, right_m = 0.0, low_m = 0.0, high_m = 0.0;  // the film
+  std::vector<ScenePillar> pillars;                               // ascending by row, then column
+};
+
+// A quantity that pillars of an array have.
+struct SceneMap {
+  std::string name, unit;
+  std::vector<std::size_t> pillar;  // of each value, as index into SceneArray::pillars
+  std::vector<double> value;
+  std::vector<double> error;  // estimate of each value, in the unit
+  double scale = 0.0;         // errors are relative to the largest magnitude, or to this if larger
+};
+
 struct SceneAnswer {
   std::vector<SceneResult> results;
   std::vector<SceneMode> modes;
   std::vector<SceneEffect> effects;
   std::vector<SceneCurve> curves;
+  SceneArray array;  // without pillars unless there are maps
+  std::vector<SceneMap> maps;
   std::vector<std::string> notes;  // remarks for the reader, plain sentences
   Discretisation discretisation;   // that met the tolerance
   int unknowns = 0;                // of the largest system
@@ -80,5 +108,7 @@ void add_sweep(const std::string& name, const std::string& unit,
 
 // Largest magnitude of the values.
 double largest_size(const std::vector<double>& values);
+// The size that the tolerance of a map refers to.
+double size_of(const SceneMap& map);
 
 }  // namespace viscard

@@ -25,12 +25,20 @@ Discretisation finest_mesh(const ArrayScene& scene) {
   return {.degree = 10, .layers = scene.electrodes.is_equipotential ? 10 : 6, .shaft_elements = 3};
 }
 
+Discretisation finest_mesh(const SpaceScene&) {
+  return {.degree = 9, .layers = 4};
+}
+
 bool moves(const PillarScene& scene) {
   return std::holds_alternative<HarmonicDrive>(scene.drive) ||
          std::holds_alternative<TransientDrive>(scene.drive);
 }
 
 bool moves(const ArrayScene&) {
+  return false;
+}
+
+bool moves(const SpaceScene&) {
   return false;
 }
 

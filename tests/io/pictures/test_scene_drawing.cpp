@@ -1,4 +1,5 @@
 // Drawings of scenes: everything that is there is drawn, and nothing hides the electrodes.
+#include "io/pictures/map_picture.h"
 #include "io/pictures/scene_picture.h"
 #include "tests/io/scenes/scene_text.h"
 #include "tests/support/run_command.h"
@@ -73,7 +74,8 @@ TEST_CASE("the electrode of a pillar is drawn over what stands on it", "[io][sce
 }
 
 TEST_CASE("scene check draws pillars and rows into a file, and overwrites none", "[cli][scene]") {
-  const std::string name = GENERATE(as<std::string>{}, "pillar_sweep.toml", "array_map.toml");
+  const std::string name =
+      GENERATE(as<std::string>{}, "pillar_sweep.toml", "array_map.toml", "space_quadrants.toml");
   const SceneText folder("");
   const std::string svg = folder.path() + ".svg";
   const std::vector<std::string> words = {
@@ -95,4 +97,72 @@ TEST_CASE("a drawing hatches what is held and says what is free", "[io][scene]")
   scene.fixed_bottom = false;
   CHECK(count_of(svg_from_scene(scene, ""), hatch) == 0);
   CHECK(count_of(svg_from_scene(scene, ""), ">free</text>") == 1);
+}
+
+namespace {
+
+SpaceScene array_of(int rows, int columns) {
+  SpaceScene scene;
+  scene.rows = rows;
+  scene.columns = columns;
+  scene.pillars = lattice_places(SpaceLattice::kSquare, rows, columns, 100e-6);
+  scene.pressure_Pa = 1e3;
+  return scene;
+}
+
+SceneArray array_for_map(int rows, int columns) {
+  SceneArray array{.rows = rows, .columns = columns, .cell_x_m = 1e-4, .cell_y_m = 1e-4};
+  for (const SpacePillar& one : lattice_places(SpaceLattice::kSquare, rows, columns, 1e-4)) {
+    array.pillars.push_back({one.row, one.column, one.x_m, one.y_m, 4e-5});
+  }
+  array.left_m = array.low_m = array.pillars.front().x_m - 1e-4;
+  array.right_m = array.high_m = -array.left_m;
+  return array;
+}
+
+}  // namespace
+
+TEST_CASE("a drawing of an array in the plane has its pillars, electrodes and loads from above",
+          "[io][scene]") {
+  SpaceScene scene = array_of(3, 4);
+  scene.loaded = {{2, 3}};
+  scene.electrode = SpaceElectrode::kQuadrants;
+  const std::string svg = svg_from_scene(scene, "array.toml");
+  CHECK(count_of(svg, "fill=\"#bcd4e6\"") == 11);
+  CHECK(count_of(svg, "fill=\"#0072b2\"") == 1);
+  CHECK(count_of(svg, "fill=\"none\" stroke=\"#d55e00\"") == 12);
+  CHECK(svg.find("pressure 1 kPa on 1 pillar (dark) [2, 3]") != std::string::npos);
+  CHECK(svg.find(">200 um</text>") != std::string::npos);  // the length to scale
+  const std::size_t arrows = count_of(svg, kArrow);
+  scene.shear_y_Pa = -50.0;
+  CHECK(count_of(svg_from_scene(scene, ""), kArrow) == arrows + 3);
+  CHECK(count_of(svg_from_scene(array_of(60, 60), ""), "<circle") == 0);  // no room for each
+}
+
+TEST_CASE("a map has a disc for each pillar, or cells if there are many", "[io][scene]") {
+  SceneArray array = array_for_map(3, 3);
+  array.pillars[4].pressure_Pa = 1e3;
+  SceneMap map{"mean_voltage",
+               "V",
+               {0, 1, 2, 3, 5, 6, 7, 8},
+               {-2e-3, -1e-3, 0.0, -1e-3, -1e-3, -1e-3, -1e-3, -1e-3}};
+  const std::string discs = svg_from_map(array, map, "mean & voltage");
+  CHECK(count_of(discs, "<circle") == 9);
+  CHECK(count_of(discs, "fill=\"none\" stroke=\"#000\" stroke-width=\"2\"") == 1);
+  CHECK(discs.find("mean &amp; voltage") != std::string::npos);
+  for (const char* const tick :
+       {">-2</text>", ">-1.5</text>", ">-1</text>", ">-0.5</text>", ">0</text>", ">mV</text>"}) {
+    CAPTURE(tick);
+    CHECK(discs.find(tick) != std::string::npos);
+  }
+  const SceneArray large = array_for_map(30, 30);
+  SceneMap even{"mean_voltage", "V", {}, {}};
+  for (std::size_t i = 0; i < 900; ++i) {
+    even.pillar.push_back(i);
+    even.value.push_back(i < 450 ? 0.0 : 1.0);
+  }
+  const std::string cells = svg_from_map(large, even, "");
+  CHECK(count_of(cells, "<circle") == 0);
+  CHECK(count_of(cells, "<path shape-rendering") == 2);  // one for each colour
+  CHECK(count_of(cells, "M") == 30);                     // a run for each row
 }

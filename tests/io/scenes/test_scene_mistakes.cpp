@@ -59,6 +59,29 @@ load = { pressure = "1 kPa", on = "top", pillars = [4] }
 quantities = ["centre_voltage", "crosstalk_percent"]
 )";
 
+const char* const kSpace = R"(tolerance = 1e-3
+[geometry]
+kind = "array"
+model = "space"
+rows = 8
+columns = 8
+diameter = "40 um"
+length = "120 um"
+spacing = "60 um"
+dead = [[3, 7]]
+classes = [{ pillars = [[1, 1]], length = "110 um" }]
+film = { thickness = "25 um", edge = "150 um", material = "pvdf" }
+electrode = { face = "bottom", kind = "sampled", radius = "20 um" }
+[materials]
+pillar = { E = "1.8 MPa", nu = 0.33, rho = "965 kg/m3" }
+pvdf = { file = "DATA/materials/pvdf_seed.json" }
+[analysis]
+kind = "static"
+load = { pressure = "1 kPa", shear_x = "10 Pa", pillars = [[4, 4]] }
+[want]
+quantities = ["centre_voltage", "crosstalk_percent_4_5"]
+)";
+
 struct Mistake {
   const char *from, *to;
   int line;          // of the file
@@ -189,4 +212,49 @@ TEST_CASE("a contradictory row of pillars is refused by every command with its l
           Mistake{"\"centre_voltage\"", "\"centre_voltag\"", 17, "did you mean 'centre_voltage'"},
           Mistake{"\"centre_voltage\"", "\"electrode_voltage\"", 17, "It has: "},
           Mistake{"\"centre_voltage\"", "\"centre_voltage_9\"", 17, "no pillar 9"}));
+}
+
+TEST_CASE("a contradictory array in the plane is refused by every command with its line",
+          "[cli][scene][array]") {
+  check_refused(
+      kSpace,
+      GENERATE(
+          Mistake{"1e-3", "1e-8", 1, "between 1e-6 and 1"},
+          Mistake{"model = \"space\"\n", "", 4, "say model = \"space\""},
+          Mistake{"\"space\"", "\"spaces\"", 5, "say model = \"space\""},
+          Mistake{"rows = 8", "rows = 0", 5, "whole number from 1 to 1000"},
+          Mistake{"rows = 8\n", "", 2, "needs rows and columns"},
+          Mistake{"columns = 8", "count = 8", 6, "there is no key 'geometry.count'"},
+          Mistake{"columns = 8", "columns = 8\nlattice = \"hexagon\"", 7,
+                  "did you mean 'hexagonal'"},
+          Mistake{"columns = 8", "columns = 8\npositions = \"a.csv\"", 7, "leave out rows"},
+          Mistake{"spacing = \"60 um\"\n", "", 2, "needs the spacing"},
+          Mistake{"spacing = \"60 um\"", "spacing = \"3 um\"", 9, "a tenth of their diameter"},
+          Mistake{"[[3, 7]]", "[[3, 9]]", 10, "no pillar [3, 9]"},
+          Mistake{"[[3, 7]]", "[[0, 7]]", 10, "from 1"},
+          Mistake{"[[3, 7]]", "[3, 7]", 10, "list of pairs"},
+          Mistake{"[[1, 1]]", "[[1, 1], [1, 1]]", 11, "two classes"},
+          Mistake{"pillars = [[1, 1]], ", "", 11, "names no pillars"},
+          Mistake{"length = \"110 um\"", "material = \"soft\"", 14, "materials.soft: needs E"},
+          Mistake{"edge = \"150 um\"", "edge = \"-1 um\"", 12, "edge"},
+          Mistake{"kind = \"sampled\"", "kind = \"equipotential\"", 13, "There are: sampled"},
+          Mistake{"face = \"bottom\"", "face = \"top\"", 13, "read on the bottom of the film"},
+          Mistake{"radius = \"20 um\"", "radius = \"60 um\"", 13, "overlap"},
+          Mistake{"nu = 0.33", "nu = 0.7", 15, "Poisson"},
+          Mistake{"{ file = \"DATA/materials/pvdf_seed.json\" }", "{ E = \"2 GPa\", nu = 0.3 }", 12,
+                  "must be piezoelectric"},
+          Mistake{"kind = \"static\"", "kind = \"modal\"", 18, "cannot be 'modal'"},
+          Mistake{"pressure = \"1 kPa\", shear_x = \"10 Pa\", ", "", 19,
+                  "needs a pressure or a shear"},
+          Mistake{"pressure = \"1 kPa\"", "pressure = \"40 kPa\"", 19, "pillar [4, 4] buckles"},
+          Mistake{"[[4, 4]]", "[[4, 9]]", 19, "columns from 1 to 8"},
+          Mistake{"[[4, 4]]", "[[3, 7]]", 19, "is dead"},
+          Mistake{"[[4, 4]]", "[[4, 4], [4, 4]]", 19, "named twice"},
+          Mistake{"[[4, 4]]", "[[4.5, 4]]", 19, "rows and columns"},
+          Mistake{"\"centre_voltage\"", "\"centre_voltag\"", 21, "did you mean 'centre_voltage'"},
+          Mistake{"\"centre_voltage\"", "\"quadrant_1_voltage\"", 21, "It has: "},
+          Mistake{"percent_4_5", "percent_4", 21, "by its row and column"},
+          Mistake{"percent_4_5", "percent_3_7", 21, "no pillar in row 3 and column 7"},
+          Mistake{"percent_4_5", "percent_4_4", 21, "without load"},
+          Mistake{"[want]", "[effects]\ncrosstalk = \"off\"\n[want]", 21, "cannot be off"}));
 }

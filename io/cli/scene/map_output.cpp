@@ -1,0 +1,117 @@
+#include "io/cli/scene/map_output.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/pictures/map_picture.h"
+#include "io/tables/npy_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace viscard {
+namespace {
+
+// The numbers of a map by pillar, NaN for pillars without one.
+std::vector<double> by_pillar(const SceneArray& array, const SceneMap& map,
+                              const std::vector<double>& numbers) {
+  std::vector<double> all(array.pillars.size(), NAN);
+  for (std::size_t at = 0; at < map.pillar.size() && at < numbers.size(); ++at) {
+    all[map.pillar[at]] = numbers[at];
+  }
+  return all;
+}
+
+std::string column_of(const SceneMap& map) {
+  return map.unit == "%" ? map.name : map.name + "_" + map.unit;
+}
+
+std::string csv_of_pillars(const SceneAnswer& answer, const std::string& command) {
+  std::string text = fmt::format(
+      "# {} (viscard {})\nrow,column,x_m,y_m,pressure_Pa,shear_x_Pa,"
+      "shear_y_Pa",
+      command, VISCARD_VERSION);
+  std::vector<std::pair<std::vector<double>, std::vector<double>>> columns;
+  for (const SceneMap& map : answer.maps) {
+    text += fmt::format(",{0},{0}_error", column_of(map));
+    columns.emplace_back(by_pillar(answer.array, map, map.value),
+                         by_pillar(answer.array, map, map.error));
+  }
+  text += "\n";
+  for (std::size_t i = 0; i < answer.array.pillars.size(); ++i) {
+    const ScenePillar& one = answer.array.pillars[i];
+    text += fmt::format("{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", one.row, one.column, one.x_m,
+                        one.y_m, one.pressure_Pa, one.shear_x_Pa, one.shear_y_Pa);
+    for (const auto& [value, error] : columns) {
+      text += std::isnan(value[i]) ? "," : fmt::format(",{:.9g}", value[i]);
+      text += std::isnan(error[i]) ? "," : fmt::format(",{:.3g}", error[i]);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string npy_of(const SceneArray& array, const SceneMap& map) {
+  const auto rows = static_cast<std::size_t>(array.rows);
+  const auto columns = static_cast<std::size_t>(array.columns);
+  std::vector<double> matrix(rows * columns, NAN);
+  for (std::size_t at = 0; at < map.value.size(); ++at) {
+    const ScenePillar& one = array.pillars[map.pillar[at]];
+    matrix[static_cast<std::size_t>(one.row - 1) * columns +
+           static_cast<std::size_t>(one.column - 1)] = map.value[at];
+  }
+  return npy_from_matrix(matrix, rows, columns);
+}
+
+}  // namespace
+
+nlohmann::json json_from_maps(const SceneAnswer& answer) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const SceneMap& map : answer.maps) {
+    const auto [low, high] = std::minmax_element(map.value.begin(), map.value.end());
+    list.push_back({{"name", map.name},
+                    {"unit", map.unit},
+                    {"largest", *high},
+                    {"smallest", *low},
+                    {"error_estimate", largest_size(map.error)},
+                    {"values", by_pillar(answer.array, map, map.value)}});  // NaN becomes null
+  }
+  return list;
+}
+
+nlohmann::json json_from_pillars(const SceneArray& array) {
+  std::vector<int> row, column;
+  std::vector<double> x_m, y_m;
+  for (const ScenePillar& one : array.pillars) {
+    row.push_back(one.row);
+    column.push_back(one.column);
+    x_m.push_back(one.x_m);
+    y_m.push_back(one.y_m);
+  }
+  return {{"row", row}, {"column", column}, {"x_m", x_m}, {"y_m", y_m}};
+}
+
+void write_maps(const SceneAnswer& answer, const std::string& folder, const std::string& command,
+                bool overwrite) {
+  if (answer.maps.empty()) return;
+  const std::filesystem::path in = folder;
+  write_file(in / "pillars.csv", csv_of_pillars(answer, command), overwrite);
+  for (const SceneMap& map : answer.maps) {
+    write_file(in / (map.name + ".npy"), npy_of(answer.array, map), overwrite);
+  }
+}
+
+Pictures pictures_of_maps(const SceneAnswer& answer) {
+  Pictures pictures;
+  for (const SceneMap& map : answer.maps) {
+    std::string title = map.name;
+    if (const std::size_t at = title.find("_percent"); at != std::string::npos) title.erase(at);
+    std::replace(title.begin(), title.end(), '_', ' ');
+    pictures.emplace_back(map.name, svg_from_map(answer.array, map, title));
+  }
+  return pictures;
+}
+
+}  // namespace viscard

@@ -1,0 +1,225 @@
+#include "io/pictures/map_picture.h"
+
+#include "io/pictures/colour_scale.h"
+#include "io/plots/plot_svg.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+constexpr double kMapWidth_px = 640.0, kMapHeight_px = 620.0;
+constexpr double kMapLeft_px = 52.0, kMapRight_px = 130.0, kAboveMap_px = 58.0, kBelowMap_px = 78.0;
+constexpr int kMostDiscs = 20;  // rows and columns
+constexpr int kColours = 129;   // of cells, which are drawn colour by colour; odd: zero has its own
+
+// The unit of the bar: the largest prefix that leaves 1 before the point.
+struct MapUnit {
+  double per_si = 1.0;
+  std::string text;
+};
+MapUnit map_unit_of(const SceneMap& map) {
+  const double size = largest_size(map.value);
+  if (map.unit != "V" || size >= 1.0 || size == 0.0) return {1.0, map.unit};
+  if (size >= 1e-3) return {1e3, "mV"};
+  if (size >= 1e-6) return {1e6, "uV"};
+  return {1e9, "nV"};
+}
+
+// The values that the ends of the bar stand for.
+struct MapRange {
+  double low = 0.0, high = 0.0;
+  bool is_signed = false;
+  double share(double value) const { return high > low ? (value - low) / (high - low) : 0.5; }
+};
+MapRange map_range_of(const SceneMap& map) {
+  const auto [low, high] = std::minmax_element(map.value.begin(), map.value.end());
+  MapRange range{*low, *high};
+  // Both signs matter where the smaller side is a tenth of the larger one.
+  constexpr double kMatters = 0.1;
+  const double size = largest_size(map.value);
+  range.is_signed = *low<-kMatters * size&& * high> kMatters * size;
+  if (range.is_signed) range.low = -size, range.high = size;
+  return range;
+}
+
+class MapDrawing {
+ public:
+  MapDrawing(const SceneArray& array, const SceneMap& map)
+      : array_(array), map_(map), range_(map_range_of(map)), value_of_(array.pillars.size(), -1) {
+    for (std::size_t at = 0; at < map.pillar.size(); ++at) {
+      value_of_[map.pillar[at]] = static_cast<int>(at);
+    }
+    const double room_x = kMapWidth_px - kMapLeft_px - kMapRight_px;
+    const double room_y = kMapHeight_px - kAboveMap_px - kBelowMap_px;
+    scale_ =
+        std::min(room_x / (array.right_m - array.left_m), room_y / (array.high_m - array.low_m));
+    left_px_ = kMapLeft_px + 0.5 * (room_x - scale_ * (array.right_m - array.left_m));
+  }
+
+  std::string document(const std::string& title) {
+    body_ += fmt::format(
+        R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="#f4efe4" stroke="#7a5c1e"/>)"
+        "\n",
+        x(array_.left_m), y(array_.high_m), scale_ * (array_.right_m - array_.left_m),
+        scale_ * (array_.high_m - array_.low_m));
+    is_grid() ? draw_cells() : draw_discs();
+    draw_numbers();
+    draw_bar();
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+        "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" font-size=\"13\" "
+        "role=\"img\">\n<title>{2}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
+        "<text x=\"12\" y=\"24\" font-size=\"15\">{2}</text>\n{3}"
+        "<text x=\"12\" y=\"{4:.0f}\" fill=\"#444\">{5}</text>\n</svg>\n",
+        kMapWidth_px, kMapHeight_px, escaped_markup(title), body_, kMapHeight_px - 12.0, legend());
+  }
+
+ private:
+  double x(double m) const { return left_px_ + scale_ * (m - array_.left_m); }
+  double y(double m) const { return kAboveMap_px + scale_ * (array_.high_m - m); }
+  // Lists of places have one column; only lattices fill their cells.
+  bool is_grid() const {
+    return array_.columns > 1 && std::max(array_.rows, array_.columns) > kMostDiscs;
+  }
+  // NaN for a pillar that the map has no value of.
+  double value(std::size_t pillar) const {
+    return value_of_[pillar] < 0 ? NAN : map_.value[static_cast<std::size_t>(value_of_[pillar])];
+  }
+
+  void draw_discs() {
+    for (std::size_t i = 0; i < array_.pillars.size(); ++i) {
+      const ScenePillar& one = array_.pillars[i];
+      const bool has_value = value_of_[i] >= 0;
+      const std::string fill =
+          has_value ? colour_of(range_.share(value(i)), range_.is_signed) : "none";
+      has_hollow_ = has_hollow_ || !has_value;
+      const bool is_marked = one.is_loaded() && !all_loaded();
+      body_ += fmt::format(
+          R"(<circle cx="{:.1f}" cy="{:.1f}" r="{:.2f}" fill="{}" stroke="{}" stroke-width="{}"/>)"
+          "\n",
+          x(one.x_m), y(one.y_m), 0.5 * scale_ * one.diameter_m, fill, is_marked ? "#000" : "#888",
+          is_marked ? 2.0 : 0.6);
+    }
+  }
+
+  // Cells of one colour are one path, and neighbours in a row one rectangle.
+  void draw_cells() {
+    std::map<int, std::string> path_of_colour;
+    for (std::size_t i = 0; i < array_.pillars.size();) {
+      const int colour = colour_number(i);
+      std::size_t end = i + 1;
+      while (end < array_.pillars.size() && continues_row(end) && colour_number(end) == colour)
+        ++end;
+      path_of_colour[colour] += cell_path(i, end - 1);
+      i = end;
+    }
+    for (const auto& [colour, path] : path_of_colour) {
+      const std::string fill =
+          colour < 0 ? "#fff" : colour_of((colour + 0.5) / kColours, range_.is_signed);
+      has_hollow_ = has_hollow_ || colour < 0;
+      body_ +=
+          fmt::format("<path shape-rendering=\"crispEdges\" fill=\"{}\" d=\"{}\"/>\n", fill, path);
+    }
+    if (all_loaded()) return;
+    std::string rims;
+    for (std::size_t i = 0; i < array_.pillars.size(); ++i) {
+      if (array_.pillars[i].is_loaded()) rims += cell_path(i, i);
+    }
+    if (rims.empty()) return;
+    body_ +=
+        fmt::format("<path fill=\"none\" stroke=\"#000\" stroke-width=\"1\" d=\"{}\"/>\n", rims);
+  }
+  int colour_number(std::size_t pillar) const {
+    if (value_of_[pillar] < 0) return -1;
+    return std::min(kColours - 1, static_cast<int>(range_.share(value(pillar)) * kColours));
+  }
+  bool continues_row(std::size_t i) const {
+    const ScenePillar &one = array_.pillars[i], &before = array_.pillars[i - 1];
+    return one.row == before.row && one.column == before.column + 1;
+  }
+  std::string cell_path(std::size_t first, std::size_t last) const {
+    const ScenePillar &from = array_.pillars[first], &to = array_.pillars[last];
+    return fmt::format("M{:.2f} {:.2f}h{:.2f}v{:.2f}h{:.2f}z", x(from.x_m - 0.5 * array_.cell_x_m),
+                       y(from.y_m + 0.5 * array_.cell_y_m),
+                       scale_ * (to.x_m - from.x_m + array_.cell_x_m), scale_ * array_.cell_y_m,
+                       -scale_ * (to.x_m - from.x_m + array_.cell_x_m));
+  }
+
+  bool all_loaded() const {
+    return std::all_of(array_.pillars.begin(), array_.pillars.end(),
+                       [](const ScenePillar& one) { return one.is_loaded(); });
+  }
+
+  // Rows on the left and columns below, at most a dozen numbers each.
+  void draw_numbers() {
+    if (array_.columns < 2) return;
+    std::map<int, double> rows, columns;
+    for (const ScenePillar& one : array_.pillars) {
+      rows.emplace(one.row, one.y_m);
+      columns.emplace(one.column, one.x_m);
+    }
+    const auto is_shown = [](int number, int count) {
+      const int step = count <= 12 ? 1 : count <= 20 ? 2 : count <= 60 ? 5 : count <= 120 ? 10 : 50;
+      return number == 1 || number == count || (number % step == 0 && count - number >= step / 2);
+    };
+    for (const auto& [row, y_m] : rows) {
+      if (!is_shown(row, array_.rows)) continue;
+      body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>\n",
+                           x(array_.left_m) - 6.0, y(y_m) + 4.0, row);
+    }
+    const double below_px = y(array_.low_m) + 16.0;
+    for (const auto& [column, x_m] : columns) {
+      if (!is_shown(column, array_.columns)) continue;
+      body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
+                           x(x_m), below_px, column);
+    }
+    body_ +=
+        fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">column (x)</text>\n",
+                    0.5 * (x(array_.left_m) + x(array_.right_m)), below_px + 18.0);
+    body_ += fmt::format(
+        "<text x=\"16\" y=\"{0:.1f}\" text-anchor=\"middle\" transform=\"rotate(-90 16 {0:.1f})\">"
+        "row (y)</text>\n",
+        0.5 * (y(array_.low_m) + y(array_.high_m)));
+  }
+
+  void draw_bar() {
+    const MapUnit unit = map_unit_of(map_);
+    std::vector<ColourTick> ticks;
+    for (const double tick : round_ticks(unit.per_si * range_.low, unit.per_si * range_.high)) {
+      ticks.push_back({range_.share(tick / unit.per_si), fmt::format("{:.6g}", tick)});
+    }
+    const double bar_px = kMapWidth_px - kMapRight_px + 40.0;
+    body_ += colour_bar(bar_px, kAboveMap_px, 0.6 * kMapHeight_px, range_.is_signed, ticks);
+    body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", bar_px, kAboveMap_px - 12.0,
+                         unit.text);
+  }
+
+  std::string legend() const {
+    std::string words = is_grid() ? "one cell for each pillar" : "discs: pillars to scale";
+    if (!all_loaded()) words += "; dark rim: loaded";
+    if (has_hollow_) words += "; empty: no value";
+    return words;
+  }
+
+  const SceneArray& array_;
+  const SceneMap& map_;
+  MapRange range_;
+  std::vector<int> value_of_;  // by pillar; -1: none
+  double scale_ = 1.0, left_px_ = 0.0;
+  bool has_hollow_ = false;
+  std::string body_;
+};
+
+}  // namespace
+
+std::string svg_from_map(const SceneArray& array, const SceneMap& map, const std::string& title) {
+  return MapDrawing(array, map).document(title);
+}
+
+}  // namespace viscard

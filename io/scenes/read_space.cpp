@@ -1,0 +1,275 @@
+#include "io/scenes/pillar_positions.h"
+#include "io/scenes/scene_words.h"
+#include "models/array/space/space_scene.h"
+#include "models/scene/effects.h"
+#include "models/scene/plan.h"
+
+#include <cmath>
+#include <map>
+
+namespace viscard {
+namespace {
+
+using Pairs = std::vector<std::pair<double, double>>;
+
+struct RawClass {
+  Pairs pillars;
+  double diameter_m = 0.0, length_m = 0.0;  // 0: as the usual pillars
+  std::string material;                     // name under [materials]; empty: the usual one
+};
+
+// The values of the file before they are checked.
+struct RawSpace {
+  double tolerance = 1e-3;
+  std::string kind = "array", model, lattice = "square", positions;
+  std::int64_t rows = 0, columns = 0;  // 0: not given
+  double spacing_m = 0.0, diameter_m = 0.0, length_m = 0.0;
+  Pairs dead;
+  std::vector<RawClass> classes;
+  double film_thickness_m = 0.0, film_edge_m = 100e-6;
+  std::string film_material, film_bottom = "fixed", poling = "+z";
+  std::string electrode_face = "bottom", electrode_kind = "sampled";
+  double electrode_radius_m = 0.0;
+  bool quadrants = false;
+  RawMaterial pillar, film;
+  std::map<std::string, RawMaterial> materials;  // of classes, by name
+  double surface_energy_J_m2 = 0.02;
+  std::string analysis = "static", load_on = "top";
+  double pressure_Pa = 0.0, shear_x_Pa = 0.0, shear_y_Pa = 0.0;
+  Pairs loaded;
+  std::map<std::string, std::string> effects;
+  std::vector<std::string> quantities;
+  std::vector<PrintedValue> printed;
+};
+
+constexpr std::int64_t kMostRows = 1000;
+constexpr std::size_t kMostPlaced = 200000;
+
+QuantityField size_of(const char* key, bool is_required = false) {
+  return {.key = key, .unit = "m", .range = Range::kPositive, .is_required = is_required};
+}
+
+void show_class(FieldVisitor& c, RawClass& one) {
+  c.quantity_pairs("pillars", "1", "1", one.pillars);
+  c.quantity(size_of("diameter"), one.diameter_m);
+  c.quantity(size_of("length"), one.length_m);
+  c.text({"material", "soft"}, one.material);
+}
+
+void show_geometry(FieldVisitor& v, RawSpace& s) {
+  v.text({"kind", "array"}, s.kind);
+  v.text({"model", SpaceScene::kModel}, s.model);
+  v.integer("rows", 1, kMostRows, s.rows);
+  v.integer("columns", 1, kMostRows, s.columns);
+  v.text({"lattice", "square"}, s.lattice);
+  v.text({"positions", "pillars.csv"}, s.positions);
+  v.quantity(size_of("spacing"), s.spacing_m);
+  v.quantity(size_of("diameter", true), s.diameter_m);
+  v.quantity(size_of("length", true), s.length_m);
+  v.quantity_pairs("dead", "1", "1", s.dead);
+  v.list(
+      "classes", s.classes.size(), [&](std::size_t n) { s.classes.resize(n); },
+      [&](FieldVisitor& c, std::size_t i) { show_class(c, s.classes[i]); });
+  v.section("film", [&](FieldVisitor& f) {
+    f.quantity(size_of("thickness", true), s.film_thickness_m);
+    f.quantity({.key = "edge", .unit = "m", .range = Range::kNotNegative}, s.film_edge_m);
+    f.text({"material", "pvdf", true}, s.film_material);
+    f.text({"bottom", "fixed"}, s.film_bottom);
+  });
+  v.section("electrode", [&](FieldVisitor& e) {
+    e.text({"face", "bottom"}, s.electrode_face);
+    e.text({"kind", "sampled"}, s.electrode_kind);
+    e.quantity(size_of("radius"), s.electrode_radius_m);
+    e.boolean("quadrants", s.quadrants);
+  });
+  v.text({"poling", "+z"}, s.poling);
+}
+
+void show_materials(FieldVisitor& m, RawSpace& s) {
+  m.section("pillar", [&](FieldVisitor& one) { show_material(one, s.pillar); });
+  m.section(s.film_material.c_str(), [&](FieldVisitor& one) { show_material(one, s.film); });
+  for (const RawClass& one : s.classes) {
+    if (one.material.empty() || one.material == "pillar") continue;
+    m.section(one.material.c_str(),
+              [&](FieldVisitor& f) { show_material(f, s.materials[one.material]); });
+  }
+  m.quantity({.key = "surface_energy", .unit = "J/m2", .range = Range::kPositive},
+             s.surface_energy_J_m2);
+}
+
+void show_space(FieldVisitor& v, RawSpace& s) {
+  v.quantity({.key = "tolerance", .range = Range::kPositive}, s.tolerance);
+  v.section("geometry", [&](FieldVisitor& g) { show_geometry(g, s); });
+  v.section("materials", [&](FieldVisitor& m) { show_materials(m, s); });
+  v.section("analysis", [&](FieldVisitor& a) {
+    a.text({"kind", "static"}, s.analysis);
+    a.section("load", [&](FieldVisitor& l) {
+      l.quantity({.key = "pressure", .unit = "Pa"}, s.pressure_Pa);
+      l.quantity({.key = "shear_x", .unit = "Pa"}, s.shear_x_Pa);
+      l.quantity({.key = "shear_y", .unit = "Pa"}, s.shear_y_Pa);
+      l.text({"on", "top"}, s.load_on);
+      l.quantity_pairs("pillars", "1", "1", s.loaded);
+    });
+  });
+  v.section("effects", [&](FieldVisitor& e) {
+    for (const Effect& effect : effects()) e.text({effect.name, "auto"}, s.effects[effect.name]);
+  });
+  v.section("want", [&](FieldVisitor& w) {
+    w.texts({"quantities", "mean_voltage"}, s.quantities);
+  });
+  show_printed(v, s.printed);
+}
+
+// Rows and columns, whole numbers from 1.
+std::vector<RowColumn> places_of(const std::string& key, const Pairs& pairs) {
+  std::vector<RowColumn> places;
+  for (const auto& [row, column] : pairs) {
+    for (const double number : {row, column}) {
+      if (number != std::floor(number) || number < 1.0 || number > 1e6) {
+        throw SceneMistake(key, "are rows and columns of pillars, such as [[3, 7]], from 1");
+      }
+    }
+    places.emplace_back(static_cast<int>(row), static_cast<int>(column));
+  }
+  return places;
+}
+
+void place_lattice(const RawSpace& raw, SpaceScene& scene) {
+  if (raw.rows == 0 || raw.columns == 0) {
+    throw SceneMistake("geometry",
+                       "needs rows and columns, or positions = \"file.csv\" with columns x and y");
+  }
+  if (!(raw.spacing_m > 0.0)) {
+    throw SceneMistake("geometry", "needs the spacing of the pillars from edge to edge");
+  }
+  const auto lattice = choice<SpaceLattice>(
+      "geometry.lattice", raw.lattice,
+      {{"square", SpaceLattice::kSquare}, {"hexagonal", SpaceLattice::kHexagonal}});
+  scene.rows = static_cast<int>(raw.rows);
+  scene.columns = static_cast<int>(raw.columns);
+  scene.pillars =
+      lattice_places(lattice, scene.rows, scene.columns, raw.diameter_m + raw.spacing_m);
+}
+
+void place_list(const RawSpace& raw, const std::filesystem::path& folder, SpaceScene& scene) {
+  if (raw.rows != 0 || raw.columns != 0 || raw.spacing_m != 0.0) {
+    throw SceneMistake("geometry.positions",
+                       "gives the place of each pillar; leave out rows, columns and spacing");
+  }
+  for (const auto& [x_m, y_m] : read_positions(folder / raw.positions)) {
+    scene.pillars.push_back({static_cast<int>(scene.pillars.size()) + 1, 1, x_m, y_m, 0});
+  }
+  scene.rows = static_cast<int>(scene.pillars.size());
+  scene.columns = 1;
+}
+
+std::size_t standing(const SpaceScene& scene, const std::string& key, RowColumn place) {
+  if (const auto index = index_of(scene, place)) return *index;
+  throw SceneMistake(key, "there is no pillar [" + std::to_string(place.first) + ", " +
+                              std::to_string(place.second) + "] among " +
+                              std::to_string(scene.rows) + " rows and " +
+                              std::to_string(scene.columns) + " columns");
+}
+
+void place_pillars(const RawSpace& raw, const std::filesystem::path& folder, SpaceScene& scene) {
+  raw.positions.empty() ? place_lattice(raw, scene) : place_list(raw, folder, scene);
+  if (scene.pillars.size() > kMostPlaced) {
+    throw SceneMistake("geometry", "has " + std::to_string(scene.pillars.size()) +
+                                       " pillars; at most " + std::to_string(kMostPlaced) +
+                                       " are answered");
+  }
+  std::vector<bool> is_dead(scene.pillars.size(), false);
+  for (const RowColumn& place : places_of("geometry.dead", raw.dead)) {
+    is_dead[standing(scene, "geometry.dead", place)] = true;
+  }
+  std::size_t index = 0;
+  std::erase_if(scene.pillars, [&](const SpacePillar&) { return is_dead[index++]; });
+  if (scene.pillars.empty()) throw SceneMistake("geometry.dead", "leaves no pillar");
+}
+
+void fill_classes(const RawSpace& raw, const std::filesystem::path& folder, SpaceScene& scene) {
+  for (std::size_t i = 0; i < raw.classes.size(); ++i) {
+    const RawClass& one = raw.classes[i];
+    const std::string key = "geometry.classes." + std::to_string(i + 1);
+    if (one.pillars.empty()) {
+      throw SceneMistake(key,
+                         "names no pillars; give their rows and columns, such as pillars = "
+                         "[[1, 1]]");
+    }
+    const auto named = raw.materials.find(one.material);
+    if (named != raw.materials.end() && named->second.file.empty() && !(named->second.E_Pa > 0.0)) {
+      throw SceneMistake("materials." + one.material, "needs E (and nu, rho) or a file");
+    }
+    scene.others.push_back(
+        {one.diameter_m > 0.0 ? one.diameter_m : scene.diameter_m,
+         one.length_m > 0.0 ? one.length_m : scene.length_m,
+         named == raw.materials.end() ? scene.pillar : pillar_material(named->second, folder)});
+    for (const RowColumn& place : places_of(key, one.pillars)) {
+      int& of_class = scene.pillars[standing(scene, key, place)].of_class;
+      if (of_class != 0) {
+        throw SceneMistake(key, "pillar [" + std::to_string(place.first) + ", " +
+                                    std::to_string(place.second) + "] is in two classes");
+      }
+      of_class = static_cast<int>(i) + 1;
+    }
+  }
+}
+
+void fill_electrode(const RawSpace& raw, SpaceScene& scene) {
+  scene.grounded = choice<FilmFace>("geometry.electrode.face", raw.electrode_face,
+                                    {{"bottom", FilmFace::kTop}, {"top", FilmFace::kBottom}});
+  choice<bool>("geometry.electrode.kind", raw.electrode_kind, {{"sampled", true}});
+  scene.electrode = raw.quadrants ? SpaceElectrode::kQuadrants : SpaceElectrode::kSampled;
+  scene.electrode_radius_m = raw.electrode_radius_m;
+}
+
+void fill_analysis(const RawSpace& raw, SpaceScene& scene) {
+  if (raw.analysis != "static") {
+    throw SceneMistake("analysis.kind", "cannot be '" + raw.analysis +
+                                            "': arrays in the plane are answered for loads at "
+                                            "rest, kind = \"static\"; rows (model = "
+                                            "\"plane-stress\") have other analyses too");
+  }
+  choice<bool>("analysis.load.on", raw.load_on, {{"top", true}});
+  scene.pressure_Pa = raw.pressure_Pa;
+  scene.shear_x_Pa = raw.shear_x_Pa;
+  scene.shear_y_Pa = raw.shear_y_Pa;
+  scene.loaded = places_of("analysis.load.pillars", raw.loaded);
+}
+
+SpaceScene scene_from(const RawSpace& raw, const std::filesystem::path& folder) {
+  SpaceScene scene;
+  scene.tolerance = raw.tolerance;
+  scene.diameter_m = raw.diameter_m;
+  scene.length_m = raw.length_m;
+  scene.pillar = pillar_material(raw.pillar, folder);
+  place_pillars(raw, folder, scene);
+  fill_classes(raw, folder, scene);
+  choice<bool>("geometry.film.bottom", raw.film_bottom, {{"fixed", true}});
+  scene.film = film_medium("materials." + raw.film_material, raw.film, folder).medium;
+  if (choice<bool>("geometry.poling", raw.poling, {{"+z", false}, {"-z", true}})) {
+    scene.film = with_reversed_poling(scene.film);
+  }
+  scene.film_thickness_m = raw.film_thickness_m;
+  scene.film_edge_m = raw.film_edge_m;
+  fill_electrode(raw, scene);
+  scene.surface_energy_J_m2 = raw.surface_energy_J_m2;
+  fill_analysis(raw, scene);
+  scene.effects = choices_of(raw.effects);
+  scene.wanted = raw.quantities;
+  return scene;
+}
+
+}  // namespace
+
+void read_space(const FieldReader& read, const std::filesystem::path& folder, SceneFile& file) {
+  RawSpace raw;
+  read([&](FieldVisitor& v) { show_space(v, raw); });
+  file.printed = raw.printed;
+  const SpaceScene scene = scene_from(raw, folder);
+  file.scene = scene;
+  plan_effects(scene);
+  check_space_wanted(scene);
+}
+
+}  // namespace viscard

@@ -1,0 +1,115 @@
+#include "models/array/space/simulate_space.h"
+#include "models/maths/text_of_number.h"
+#include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/mesh/scene_mistake.h"
+
+#include <cmath>
+#include <set>
+#include <string>
+
+namespace viscard {
+namespace {
+
+std::string name_of(RowColumn place) {
+  return "[" + std::to_string(place.first) + ", " + std::to_string(place.second) + "]";
+}
+
+void check_loaded_places(const SpaceScene& scene) {
+  std::set<RowColumn> seen;
+  for (std::size_t i = 0; i < scene.loaded.size(); ++i) {
+    const RowColumn place = scene.loaded[i];
+    const std::string key = "analysis.load.pillars." + std::to_string(i + 1);
+    if (!index_of(scene, place)) {
+      const bool is_outside = place.first < 1 || place.first > scene.rows || place.second < 1 ||
+                              place.second > scene.columns;
+      throw SceneMistake(
+          key, is_outside ? "there is no pillar " + name_of(place) +
+                                "; rows are numbered from 1 to " + std::to_string(scene.rows) +
+                                ", columns from 1 to " + std::to_string(scene.columns)
+                          : "pillar " + name_of(place) + " is dead and bears no load");
+    }
+    if (!seen.insert(place).second) {
+      throw SceneMistake(key, "pillar " + name_of(place) + " is named twice");
+    }
+  }
+}
+
+void check_size(const SpaceScene& scene) {
+  const double loads[] = {scene.pressure_Pa, scene.shear_x_Pa, scene.shear_y_Pa};
+  bool is_finite = true, is_zero = true;
+  for (const double load : loads) {
+    is_finite = is_finite && std::isfinite(load);
+    is_zero = is_zero && load == 0.0;
+  }
+  if (!is_finite || is_zero) {
+    throw SceneMistake("analysis.load",
+                       "needs a pressure or a shear, such as pressure = \"1 kPa\" or shear_x = "
+                       "\"100 Pa\"");
+  }
+}
+
+// Each class that has a loaded pillar must bear the pressure upright.
+void check_buckling(const SpaceScene& scene) {
+  const std::vector<bool> loaded = is_loaded(scene);
+  std::set<int> seen;
+  for (std::size_t i = 0; i < loaded.size(); ++i) {
+    const SpacePillar& pillar = scene.pillars[i];
+    if (!loaded[i] || !seen.insert(pillar.of_class).second) continue;
+    const double critical_Pa = engesser_pressure_Pa(single_pillar(scene, class_of(scene, pillar)));
+    if (scene.pressure_Pa < critical_Pa) continue;
+    throw SceneMistake("analysis.load", "a pressure of " + text_of(scene.pressure_Pa, 5) +
+                                            " Pa is beyond the " + text_of(critical_Pa, 5) +
+                                            " Pa at which pillar " +
+                                            name_of({pillar.row, pillar.column}) +
+                                            " buckles (Euler, Engesser); reduce it, or make the "
+                                            "pillar shorter or thicker");
+  }
+}
+
+void check_film(const SpaceScene& scene) {
+  if (!scene.film.has_permittivity() || !scene.film.is_piezoelectric()) {
+    throw SceneMistake("geometry.film.material",
+                       "an array in the plane is read by its film, which must be piezoelectric; "
+                       "give a material from a file, such as pvdf_seed.json");
+  }
+  if (!(scene.film_thickness_m > 0.0)) {
+    throw SceneMistake("geometry.film.thickness", "the film's thickness must be positive");
+  }
+  if (!(scene.film_edge_m >= 0.0) || !std::isfinite(scene.film_edge_m)) {
+    throw SceneMistake("geometry.film.edge",
+                       "the film beyond the outer pillars must not be "
+                       "negative");
+  }
+  if (scene.grounded == FilmFace::kBottom) {
+    throw SceneMistake("geometry.electrode.face",
+                       "cannot be the top: arrays in the plane are read on the bottom of the film. "
+                       "The potential on the face where the pillars stand has a steep rim at each "
+                       "foot, which the film's waves do not resolve");
+  }
+  const double beyond_m = electrode_radius_m(scene) - 0.5 * scene.diameter_m;
+  if (beyond_m > scene.film_edge_m) {
+    throw SceneMistake("geometry.electrode.radius",
+                       "the outer electrodes reach beyond the film; make them smaller, or the "
+                       "film's edge wider");
+  }
+}
+
+}  // namespace
+
+void validate(const SpaceScene& scene) {
+  check_tolerance(scene.tolerance, SpaceScene::kTolerances);
+  at_key("materials.pillar", [&] { validate(scene.pillar); });
+  for (const SpaceClass& one : scene.others) {
+    at_key("geometry.classes", [&] { validate(one.material); });
+  }
+  check_film(scene);
+  at_key("geometry", [&] { validate(array_of(scene)); });
+  if (!(scene.surface_energy_J_m2 > 0.0)) {
+    throw SceneMistake("materials.surface_energy", "the surface energy must be positive");
+  }
+  check_size(scene);
+  check_loaded_places(scene);
+  check_buckling(scene);
+}
+
+}  // namespace viscard

@@ -1,0 +1,161 @@
+#include "models/array/space/foot_forces.h"
+
+#include "models/maths/require.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace viscard {
+namespace {
+
+// A pillar on a rigid base in one family of motion, solved under one load.
+class HeldPillar {
+ public:
+  HeldPillar(const PillarGeometry& pillar, const Medium& medium, const Discretisation& mesh,
+             Motion motion)
+      : held_(pillar, mesh, {medium, std::nullopt}, options(motion, true)),
+        free_(pillar, mesh, {medium, std::nullopt}, options(motion, false)),
+        stiffness_(free_.stiffness()) {
+    held_.factor(held_.stiffness(), factor_);
+    if (std::isinf(medium.bulk_Pa)) {
+      bulk_ = free_.system().volume_form({kPenaltyOverShear * medium.shear_Pa}, true);
+    }
+  }
+
+  const PillarModel& model() const { return held_; }
+
+  // Work of the field on the top per unit, weighted with (x/R)^power.
+  Eigen::VectorXd top_load(int field, int power) const {
+    const PillarMesh& mesh = held_.mesh();
+    const double radius_m = top_radius_m();
+    return held_.system().line_load(field, mesh.top_row, 0, mesh.pillar_columns, power) /
+           std::pow(radius_m, power);
+  }
+  double top_radius_m() const { return radius_at_m(held_.geometry(), held_.geometry().length_m); }
+
+  struct Answer {
+    Eigen::VectorXd motion;
+    Eigen::VectorXd base_forces;  // of the pillar on its base, on the unknowns of free_
+  };
+  Answer solve(const Eigen::VectorXd& load) const {
+    Answer answer;
+    Eigen::VectorXd source;
+    answer.motion = factor_.solve(load, &source);
+    const Eigen::VectorXd motion = on_free(answer.motion);
+    answer.base_forces = -times(stiffness_, motion);
+    // At nu = 0.5 the pressure is that of the iterated source, not of the motion.
+    if (bulk_.size() > 0) {
+      answer.base_forces -= times(bulk_, on_free(source) - motion);
+    }
+    return answer;
+  }
+
+  std::vector<int> foot_nodes() const {
+    const PillarMesh& mesh = held_.mesh();
+    return nodes_on_break(mesh.section, mesh.bond_row, 0, mesh.pillar_columns);
+  }
+  Eigen::VectorXd of_field(const Eigen::VectorXd& forces, int field) const {
+    const std::vector<int> nodes = foot_nodes();
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const int dof = free_.system().dofs().dof(field, nodes[i]);
+      if (dof >= 0) values[static_cast<Eigen::Index>(i)] = forces[dof];
+    }
+    return values;
+  }
+
+ private:
+  static ModelOptions options(Motion motion, bool fixed_bottom) {
+    ModelOptions options;
+    options.motion = motion;
+    options.fixed_bottom = fixed_bottom;
+    return options;
+  }
+
+  Eigen::VectorXd on_free(const Eigen::VectorXd& held) const {
+    const DofMap& from = held_.system().dofs();
+    const DofMap& to = free_.system().dofs();
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(to.count());
+    for (int node = 0; node < held_.mesh().section.node_count(); ++node) {
+      for (int field = 0; field < from.field_count(); ++field) {
+        const int at = to.dof(field, node);
+        if (at >= 0 && from.dof(field, node) >= 0) values[at] = held[from.dof(field, node)];
+      }
+    }
+    return values;
+  }
+
+  PillarModel held_;
+  PillarModel free_;
+  SymmetricSparse stiffness_;
+  SymmetricSparse bulk_;  // empty below nu = 0.5
+  StiffnessFactor factor_;
+};
+
+FootForces::Sideways sideways_forces(const HeldPillar& pillar, const HeldPillar::Answer& answer) {
+  return {pillar.of_field(answer.base_forces, 0), pillar.of_field(answer.base_forces, 1),
+          pillar.of_field(answer.base_forces, 2)};
+}
+
+}  // namespace
+
+FootForces foot_forces(const PillarGeometry& geometry, const Medium& medium,
+                       const Discretisation& mesh) {
+  require(!geometry.film, "the foot of a pillar is found on a rigid base, without a film");
+  FootForces foot;
+  const HeldPillar axial(geometry, medium, mesh, Motion::kLongitudinal);
+  for (const int node : axial.foot_nodes()) {
+    foot.radius_m.push_back(axial.model().mesh().section.node_x(node));
+  }
+  const Eigen::VectorXd pull = axial.top_load(1, 0);
+  const HeldPillar::Answer pressed = axial.solve(-pull);
+  foot.pressure = {axial.of_field(pressed.base_forces, 0), axial.of_field(pressed.base_forces, 1)};
+  foot.sinking_m_Pa = -pull.dot(pressed.motion) / pull.sum();
+
+  const HeldPillar sideways(geometry, medium, mesh, Motion::kLateral);
+  const Eigen::VectorXd shear = sideways.top_load(1, 0);  // field b carries u_x
+  const Eigen::VectorXd tilt = sideways.top_load(2, 1);
+  const HeldPillar::Answer sheared = sideways.solve(shear);
+  const HeldPillar::Answer tilted = sideways.solve(tilt);
+  foot.shear = sideways_forces(sideways, sheared);
+  foot.tilt = sideways_forces(sideways, tilted);
+  // load.u is the work per area: shear on the mean of u_x, tilt on int u_z x/R dA, which is
+  // pi R^3/4 times the mean tilt.
+  const double R_m = sideways.top_radius_m();
+  const double area_m2 = std::numbers::pi * R_m * R_m;
+  const double moment_m3 = 0.25 * area_m2 * R_m;
+  foot.sideways_by_shear_m_Pa = shear.dot(sheared.motion) / area_m2;
+  foot.sideways_by_tilt_m_Pa = shear.dot(tilted.motion) / area_m2;
+  foot.tilt_by_shear_1_Pa = tilt.dot(sheared.motion) / moment_m3;
+  foot.tilt_by_tilt_1_Pa = tilt.dot(tilted.motion) / moment_m3;
+  foot.unknowns = sideways.model().system().size();
+  return foot;
+}
+
+AxialTransform transform(const FootForces::Axial& forces, const std::vector<double>& radius_m,
+                         double k_1_m) {
+  AxialTransform sum;
+  for (std::size_t i = 0; i < radius_m.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    sum.t_z += forces.z[at] * ::j0(k_1_m * radius_m[i]);
+    sum.tau_x -= forces.r[at] * ::j1(k_1_m * radius_m[i]);
+  }
+  return sum;
+}
+
+SidewaysTransform transform(const FootForces::Sideways& forces, const std::vector<double>& radius_m,
+                            double k_1_m) {
+  double a = 0.0;
+  double b = 0.0;
+  double w = 0.0;
+  for (std::size_t i = 0; i < radius_m.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const double x = k_1_m * radius_m[i];
+    a += forces.a[at] * ::jn(2, x);
+    b += forces.b[at] * ::j0(x);
+    w += forces.w[at] * ::j1(x);
+  }
+  return {b - a, b + a, w};
+}
+
+}  // namespace viscard

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "models/pillar/body/pillar_model.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace viscard {
+
+// Loads on the top of a pillar, each 1 Pa: pressure down, shear along x or y, and a traction
+// t_z = x/R or y/R that tilts it (R the radius of the top).
+enum class TopLoad { kPressure, kShearX, kShearY, kTiltX, kTiltY };
+constexpr int kTopLoads = 5;
+
+// What one pillar on a rigid base hands to it, as forces on the nodes of its foot that do the same
+// work as the traction (N per Pa of load). Sums over the nodes of a force times a smooth function
+// converge twice as fast as stresses, and nothing at the singular rim has to be integrated. The film
+// is three orders stiffer than a pillar, so the rigid base changes voltages by some 1e-5 (eq. S3).
+struct FootForces {
+  std::vector<double> radius_m;
+  struct Axial {  // under pressure: along r and z
+    Eigen::VectorXd r, z;
+  } pressure;
+  struct Sideways {  // conjugate to the fields a, b, w of eq. 12
+    Eigen::VectorXd a, b, w;
+  } shear, tilt;
+  // Motion of the top, m or rad per Pa: sinking under pressure; mean u_x and tilt about y of a
+  // top that stays as plane as its mean, under shear and under the tilting traction.
+  double sinking_m_Pa = 0.0;
+  double sideways_by_shear_m_Pa = 0.0;
+  double sideways_by_tilt_m_Pa = 0.0;
+  double tilt_by_shear_1_Pa = 0.0;
+  double tilt_by_tilt_1_Pa = 0.0;
+  int unknowns = 0;  // of the larger system
+};
+
+// Throws std::invalid_argument for a geometry that PillarModel refuses or that has a film.
+FootForces foot_forces(const PillarGeometry& pillar, const Medium& medium,
+                       const Discretisation& mesh);
+
+// Fourier transforms of the foot's traction at the wave number k, Pa m^2 per Pa (eq. S3). Under
+// pressure it is (tau_x, 0, t_z) at every angle theta of the wave. Under a sideways load along x it is
+// -2 i (along cos theta, -across sin theta, normal cos theta).
+struct AxialTransform {
+  double tau_x = 0.0;
+  double t_z = 0.0;
+};
+struct SidewaysTransform {
+  double along = 0.0;
+  double across = 0.0;
+  double normal = 0.0;
+};
+AxialTransform transform(const FootForces::Axial& forces, const std::vector<double>& radius_m,
+                         double k_1_m);
+SidewaysTransform transform(const FootForces::Sideways& forces, const std::vector<double>& radius_m,
+                            double k_1_m);
+
+}  // namespace viscard

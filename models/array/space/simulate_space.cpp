@@ -1,0 +1,285 @@
+#include "models/array/space/simulate_space.h"
+
+#include "models/maths/text_of_number.h"
+#include "models/pillar/analyses/analysis.h"
+#include "models/pillar/mesh/scene_mistake.h"
+#include "models/scene/common/error_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr double kCrosstalkScale = 10.0;  // %: a tolerance of 1e-3 gives per cents to 0.01 points
+constexpr const char* kCrosstalk = "crosstalk_percent";
+// At least this share of the tolerance is left for what the accuracies reduce.
+constexpr double kShareOfAccuracy = 0.2;
+constexpr const char* kMeanVoltage = "mean_voltage";
+// A pillar that is sheared has no centre or mean voltage of its own. What its neighbours leave there
+// is judged beside this share of the voltage that the load would have as a pressure.
+constexpr double kOfPressed = 0.01;
+
+SpaceAccuracy accuracy_for(const SpaceScene& scene, const SpaceArray& array,
+                           const Discretisation& mesh) {
+  const std::vector<SpaceAccuracy> all = space_accuracies(array);
+  const auto found = std::find_if(all.begin(), all.end(), [&](const SpaceAccuracy& one) {
+    return one.foot.degree >= mesh.degree;
+  });
+  SpaceAccuracy accuracy = found == all.end() ? all.back() : *found;
+  // Electrodes do not overlap: within its own one, a pillar reads itself alone.
+  if (!scene.feels_neighbours) accuracy.potential.reach_m = 2.0 * array.electrode_radius_m;
+  return accuracy;
+}
+
+SceneArray array_of_answer(const SpaceScene& scene, const TopLoads& loads_Pa) {
+  const FilmExtent film = film_extent(scene);
+  SceneArray array{scene.rows, scene.columns};
+  array.left_m = film.left_m;
+  array.right_m = film.right_m;
+  array.low_m = film.low_m;
+  array.high_m = film.high_m;
+  const std::vector<SpaceClass> classes = classes_of(scene);
+  for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
+    const SpacePillar& one = scene.pillars[i];
+    const auto load = loads_Pa.row(static_cast<Eigen::Index>(i));
+    array.pillars.push_back({one.row, one.column, one.x_m, one.y_m,
+                             classes[static_cast<std::size_t>(one.of_class)].diameter_m,
+                             load[static_cast<int>(TopLoad::kPressure)],
+                             load[static_cast<int>(TopLoad::kShearX)],
+                             load[static_cast<int>(TopLoad::kShearY)]});
+  }
+  const std::vector<SpacePillar>& all = scene.pillars;
+  const auto next = std::adjacent_find(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return a.row == b.row && a.column + 1 == b.column;
+  });
+  if (next == all.end()) {  // a list of places has one column
+    array.cell_x_m = array.cell_y_m = smallest_pitch_m(scene);
+    return array;
+  }
+  array.cell_x_m = array.cell_y_m = std::next(next)->x_m - next->x_m;
+  const int rows = all.back().row - all.front().row;
+  if (rows > 0) array.cell_y_m = (all.back().y_m - all.front().y_m) / rows;
+  return array;
+}
+
+// The mean voltage of unloaded pillars over the largest of the loaded ones.
+SceneMap crosstalk_map(const SceneMap& mean, const std::vector<bool>& loaded) {
+  SceneMap map{kCrosstalk, "%", {}, {}, {}, kCrosstalkScale};
+  double largest_V = 0.0;
+  for (std::size_t i = 0; i < loaded.size(); ++i) {
+    if (loaded[i] && std::abs(mean.value[i]) > std::abs(largest_V)) largest_V = mean.value[i];
+  }
+  for (std::size_t i = 0; i < loaded.size(); ++i) {
+    if (loaded[i]) continue;
+    map.pillar.push_back(i);
+    map.value.push_back(100.0 * mean.value[i] / largest_V + 0.0);  // no negative zero
+  }
+  return map;
+}
+
+// Quarters of an electrode are read together, so that the tolerance refers to the largest of the four.
+bool is_quarter(const SceneMap& map) {
+  return map.name.starts_with("quadrant_");
+}
+
+std::vector<SceneMap> maps_of(const SpaceScene& scene, const SpaceResponse& response,
+                              const TopLoads& loads_Pa) {
+  const Eigen::MatrixXd voltages = response.voltages_V(loads_Pa);
+  const double pressed_V =
+      std::abs(response.kernel(0, 0.0, 0.0)(1, static_cast<int>(TopLoad::kPressure))) *
+      loads_Pa.cwiseAbs().maxCoeff();
+  const std::vector<std::string> names = reading_names(scene.electrode);
+  std::vector<SceneMap> maps;
+  SceneMap mean;
+  double largest_quarter_V = 0.0;
+  for (std::size_t r = 0; r < names.size(); ++r) {
+    SceneMap map{names[r] + "_voltage", "V", {}, {}, {}, kOfPressed * pressed_V};
+    for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
+      map.pillar.push_back(i);
+      map.value.push_back(voltages(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(r)));
+    }
+    if (map.name == kMeanVoltage) mean = map;
+    if (is_quarter(map)) largest_quarter_V = std::max(largest_quarter_V, size_of(map));
+    if (asks_for_map(scene, map.name)) maps.push_back(std::move(map));
+  }
+  for (SceneMap& map : maps) {
+    if (is_quarter(map)) map.scale = largest_quarter_V;
+  }
+  if (has_crosstalk(scene) && asks_for_map(scene, kCrosstalk)) {
+    maps.push_back(crosstalk_map(mean, is_loaded(scene)));
+  }
+  return maps;
+}
+
+void add_result(const SceneMap& map, std::size_t at, const std::string& ending,
+                SceneAnswer& answer) {
+  const double error = map.error.empty() ? 0.0 : map.error[at];
+  answer.results.push_back({map.name + ending, map.value[at], map.unit, error, size_of(map), true});
+}
+
+// Results are values of the maps.
+void set_results(const SpaceScene& scene, SceneAnswer& answer) {
+  answer.results.clear();
+  for (const SceneMap& map : answer.maps) {
+    const auto [low, high] = std::minmax_element(map.value.begin(), map.value.end());
+    add_result(map, static_cast<std::size_t>(high - map.value.begin()), "_largest", answer);
+    add_result(map, static_cast<std::size_t>(low - map.value.begin()), "_smallest", answer);
+    const bool is_small = scene.pillars.size() <= kMostNamedPillars;
+    const bool has_named =
+        std::any_of(scene.wanted.begin(), scene.wanted.end(),
+                    [&](const std::string& name) { return name.starts_with(map.name + "_"); });
+    for (std::size_t at = 0; at < map.value.size() && (is_small || has_named); ++at) {
+      const ScenePillar& pillar = answer.array.pillars[map.pillar[at]];
+      const std::string ending =
+          "_" + std::to_string(pillar.row) + "_" + std::to_string(pillar.column);
+      const bool is_named = std::find(scene.wanted.begin(), scene.wanted.end(),
+                                      map.name + ending) != scene.wanted.end();
+      if (is_named || is_small) add_result(map, at, ending, answer);
+    }
+  }
+}
+
+// Parts of the error of a map that no accuracy of the array reduces, in its unit: eq. S7 and S8. A foot's
+// traction that is slightly wrong acts on the neighbours like its load, as a part of the field there.
+double foot_error_of(const SceneMap& map, const SpaceScene& scene) {
+  const double foot = rigid_foot_error(scene);
+  if (map.unit == "V") return foot * size_of(map);
+  const double x = smallest_gap_m(scene) / scene.film_thickness_m;
+  return 200.0 * foot * neighbour_influence(x, scene.film_thickness_m / scene.diameter_m);
+}
+double edge_error_of(const SceneMap& map, double edge) {
+  return edge * (map.unit == "V" ? size_of(map) : 100.0);
+}
+
+// The largest of them relative to what the tolerance refers to.
+double largest_constant_error(const SpaceScene& scene, double largest_edge) {
+  SceneMap voltage{.name = kMeanVoltage, .unit = "V", .scale = 1.0};
+  const double of_voltages = foot_error_of(voltage, scene) + largest_edge;
+  if (!has_crosstalk(scene) || !asks_for_map(scene, kCrosstalk)) return of_voltages;
+  const SceneMap crosstalk{.name = kCrosstalk, .unit = "%", .scale = kCrosstalkScale};
+  return std::max(
+      of_voltages,
+      (foot_error_of(crosstalk, scene) + edge_error_of(crosstalk, largest_edge)) / kCrosstalkScale);
+}
+
+[[noreturn]] void refuse(const SpaceScene& scene, double error, double largest_edge) {
+  const std::string size = " of about " + text_of(error, 2) + ", too much for a tolerance of " +
+                           text_of(scene.tolerance, 2) + "; ask for a larger one, or for a ";
+  if (largest_edge > rigid_foot_error(scene)) {
+    throw SceneMistake(
+        "geometry.film.edge",
+        "the film is solved without its edge, which lies " + micrometres(scene.film_edge_m, 4) +
+            " from the outer pillars. That leaves a relative error" + size + "wider film");
+  }
+  throw SceneMistake("materials",
+                     "the pillars are solved on a rigid base. On this film that leaves a relative "
+                     "error" +
+                         size + "stiffer film");
+}
+
+}  // namespace
+
+bool asks_for_map(const SpaceScene& scene, const std::string& map) {
+  return scene.wanted.empty() ||
+         std::any_of(scene.wanted.begin(), scene.wanted.end(), [&](const std::string& name) {
+           return name == map || name.starts_with(map + "_");
+         });
+}
+
+bool has_crosstalk(const SpaceScene& scene) {
+  const std::vector<bool> loaded = is_loaded(scene);
+  return scene.feels_neighbours && scene.pressure_Pa != 0.0 &&
+         std::find(loaded.begin(), loaded.end(), false) != loaded.end();
+}
+
+std::vector<std::string> result_names(const SpaceScene& scene) {
+  std::vector<std::string> names;
+  for (const std::string& reading : reading_names(scene.electrode)) {
+    names.push_back(reading + "_voltage");
+  }
+  if (has_crosstalk(scene)) names.emplace_back(kCrosstalk);
+  return names;
+}
+
+double neighbour_influence(double x, double thickness_over_diameter) {
+  const double field = 1.4 * thickness_over_diameter * std::exp(-0.5 * std::numbers::pi * x);
+  return std::min(1.0, field + 0.45 * std::exp(-0.9215 * x));
+}
+
+double rigid_foot_error(const SpaceScene& scene) {
+  double stiffest_Pa = 0.0;
+  for (const SpaceClass& one : classes_of(scene)) {
+    stiffest_Pa = std::max(stiffest_Pa, one.material.E0_Pa);
+  }
+  constexpr double kPressed = 0.12, kSheared = 0.2;
+  const bool is_sheared = scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0;
+  return (is_sheared ? kSheared : kPressed) * stiffest_Pa / elasticity_of(scene.film).young_Pa;
+}
+
+std::vector<double> film_edge_errors(const SpaceScene& scene) {
+  const FilmExtent film = film_extent(scene);
+  const std::vector<bool> loaded = is_loaded(scene);
+  const std::vector<SpaceClass> classes = classes_of(scene);
+  std::vector<double> to_edge_m;
+  double nearest_m = HUGE_VAL;  // of the loaded pillars
+  for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
+    const SpacePillar& one = scene.pillars[i];
+    const double radius_m = 0.5 * classes[static_cast<std::size_t>(one.of_class)].diameter_m;
+    to_edge_m.push_back(std::min({one.x_m - film.left_m, film.right_m - one.x_m,
+                                  one.y_m - film.low_m, film.high_m - one.y_m}) -
+                        radius_m);
+    if (loaded[i]) nearest_m = std::min(nearest_m, to_edge_m.back());
+  }
+  for (double& one : to_edge_m) {
+    const double way = (one + nearest_m) / scene.film_thickness_m;
+    one = way < 2.0 ? 2.0 : std::exp(-0.9215 * way);
+  }
+  return to_edge_m;
+}
+
+std::vector<Discretisation> space_meshes(const SpaceScene& scene) {
+  std::vector<Discretisation> meshes;
+  for (const SpaceAccuracy& one : space_accuracies(array_of(scene))) meshes.push_back(one.foot);
+  return meshes;
+}
+
+SceneAnswer space_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
+  const SpaceArray array = array_of(scene);
+  const SpaceAccuracy accuracy = accuracy_for(scene, array, mesh);
+  const SpaceResponse response(array, accuracy);
+  const TopLoads loads_Pa = loads_of(scene);
+  SceneAnswer answer;
+  answer.discretisation = accuracy.foot;
+  answer.unknowns = response.unknowns();
+  answer.array = array_of_answer(scene, loads_Pa);
+  answer.maps = maps_of(scene, response, loads_Pa);
+  set_results(scene, answer);
+  return answer;
+}
+
+SceneAnswer simulate_space(const SpaceScene& scene) {
+  validate(scene);
+  const std::vector<double> edge = film_edge_errors(scene);
+  const double largest_edge = *std::max_element(edge.begin(), edge.end());
+  const double constant = largest_constant_error(scene, largest_edge);
+  if (constant > (1.0 - kShareOfAccuracy) * scene.tolerance) refuse(scene, constant, largest_edge);
+  SceneAnswer answer =
+      answer_within({scene.tolerance - constant, space_meshes(scene), scene.progress},
+                    [&](const Discretisation& mesh) { return space_answer_on(scene, mesh); });
+  for (SceneMap& map : answer.maps) {
+    const double foot = foot_error_of(map, scene);
+    for (std::size_t at = 0; at < map.value.size(); ++at) {
+      map.error[at] += foot + edge_error_of(map, edge[map.pillar[at]]);
+    }
+  }
+  answer.largest_relative_error += constant;
+  set_results(scene, answer);
+  return answer;
+}
+
+}  // namespace viscard

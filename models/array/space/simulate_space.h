@@ -1,0 +1,49 @@
+#pragma once
+
+#include "models/array/space/space_scene.h"
+#include "models/scene/common/scene_answer.h"
+
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// Answers the scene as it stands, on accuracies of rising cost (space_accuracies()), until every value
+// meets the tolerance. The maps, by pillar:
+//   centre_voltage, mean_voltage  of a charge-free face: under the axis, over the electrode's disc
+//   quadrant_1_voltage to _4_     means over the quarters (+,+), (-,+), (-,-), (+,-) of the disc
+//   crosstalk_percent             mean voltage of an unloaded pillar over the largest of a loaded one
+// The results are the largest and the smallest value of each map ("mean_voltage_largest") and the values
+// of single pillars ("mean_voltage_3_4": row 3, column 4): those that the scene wants by name, all of
+// them where there are at most kMostNamedPillars. The error of each value is the change from accuracy
+// to accuracy, plus what a foot on a rigid base leaves out and what the film's edge reflects (eq. S7,
+// S8). Throws std::runtime_error with the reason if the finest accuracy does not meet the tolerance.
+SceneAnswer simulate_space(const SpaceScene& scene);
+constexpr std::size_t kMostNamedPillars = 25;
+
+// The scene with the accuracy that has the degree of this mesh, or the next one; without errors. And the
+// meshes of the feet that simulate_space() goes through.
+SceneAnswer space_answer_on(const SpaceScene& scene, const Discretisation& mesh);
+std::vector<Discretisation> space_meshes(const SpaceScene& scene);
+
+// Throws SceneMistake naming what is missing or contradictory.
+void validate(const SpaceScene& scene);
+
+// The maps that a scene may ask for.
+std::vector<std::string> result_names(const SpaceScene& scene);
+
+// True if the scene asks for a map, or for one of its values.
+bool asks_for_map(const SpaceScene& scene, const std::string& map);
+// True if there are unloaded pillars, and loaded ones have a voltage of their own to compare with.
+bool has_crosstalk(const SpaceScene& scene);
+
+// Relative error of a voltage where the foot stands on a rigid base instead of the film (eq. S7).
+double rigid_foot_error(const SpaceScene& scene);
+// Relative error of each pillar's voltages because the film is solved without end (eq. S8).
+std::vector<double> film_edge_errors(const SpaceScene& scene);
+
+// What a neighbour, or an end of the film, changes in a voltage at most, at a distance x in units of the
+// film's thickness (eq. A4, models/array/plane).
+double neighbour_influence(double x, double thickness_over_diameter);
+
+}  // namespace viscard

@@ -1,0 +1,173 @@
+#include "models/array/space/space_array.h"
+
+#include "models/array/space/neighbours.h"
+#include "models/maths/gauss_legendre.h"
+#include "models/maths/text_of_number.h"
+#include "models/pillar/mesh/scene_mistake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr std::size_t kCentre = 0;  // readings of the tables
+constexpr std::size_t kMean = 1;
+constexpr int kQuadrantPoints = 7;  // Gauss points along the radius and the angle of a quarter
+
+struct WeightedPoint {
+  double x_m, y_m, weight;
+};
+
+// Quadrature of the mean over one quarter of a disc, quadrant 0 to 3.
+std::vector<WeightedPoint> quarter(double radius_m, int quadrant) {
+  const QuadratureRule rule = gauss_legendre(kQuadrantPoints);
+  std::vector<WeightedPoint> points;
+  for (std::size_t i = 0; i < rule.points.size(); ++i) {
+    for (std::size_t j = 0; j < rule.points.size(); ++j) {
+      const double r_m = radius_m * rule.points[i];
+      const double angle = 0.5 * std::numbers::pi * (quadrant + rule.points[j]);
+      points.push_back({r_m * std::cos(angle), r_m * std::sin(angle),
+                        2.0 * rule.points[i] * rule.weights[i] * rule.weights[j]});
+    }
+  }
+  return points;
+}
+
+double largest_diameter_m(const SpaceArray& array) {
+  double largest_m = 0.0;
+  for (const PillarClass& one : array.classes) {
+    largest_m = std::max(largest_m, one.geometry.diameter_m);
+  }
+  return largest_m;
+}
+
+double widest_m(const PillarGeometry& pillar) {
+  return pillar.diameter_m + 2.0 * std::max({0.0, pillar.foot.width_m, pillar.tip.width_m});
+}
+
+}  // namespace
+
+void validate(const SpaceArray& array) {
+  if (array.pillars.empty()) throw SceneMistake("geometry", "the array has no pillars");
+  for (const PillarClass& one : array.classes) validate(one.geometry);
+  validate(array.film);
+  if (!(array.electrode_radius_m > 0.0)) {
+    throw SceneMistake("geometry.electrode.radius", "the electrode's radius must be positive");
+  }
+  double widest = 2.0 * array.electrode_radius_m;
+  for (const PillarClass& one : array.classes)
+    widest = std::max(widest, 1.1 * widest_m(one.geometry));
+  const Neighbours near(array.pillars, widest);
+  for (std::size_t i = 0; i < array.pillars.size(); ++i) {
+    const PlacedPillar& one = array.pillars[i];
+    near.visit(one.x_m, one.y_m, [&](std::size_t j) {
+      if (j <= i) return;
+      const PlacedPillar& other = array.pillars[j];
+      const double distance_m = std::hypot(other.x_m - one.x_m, other.y_m - one.y_m);
+      const double width_m =
+          0.5 * (widest_m(array.classes[static_cast<std::size_t>(one.of_class)].geometry) +
+                 widest_m(array.classes[static_cast<std::size_t>(other.of_class)].geometry));
+      const std::string pair = "pillars " + std::to_string(i + 1) + " and " + std::to_string(j + 1);
+      if (distance_m < 1.1 * width_m) {
+        throw SceneMistake("geometry.spacing",
+                           "the gap between " + pair + " is " + micrometres(distance_m - width_m) +
+                               "; it must be at least a tenth of their diameter, because feet that "
+                               "nearly touch change each other's traction");
+      }
+      if (distance_m < 2.0 * array.electrode_radius_m) {
+        throw SceneMistake("geometry.electrode.radius",
+                           "the electrodes of " + pair + " overlap; make them smaller");
+      }
+    });
+  }
+}
+
+std::vector<std::string> reading_names(SpaceElectrode electrode) {
+  std::vector<std::string> names = {"centre", "mean"};
+  if (electrode == SpaceElectrode::kQuadrants) {
+    for (int q = 1; q <= 4; ++q) names.push_back("quadrant_" + std::to_string(q));
+  }
+  return names;
+}
+
+std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array) {
+  std::vector<SpaceAccuracy> all;
+  const double t_m = array.film.layers.front().thickness_m;
+  const double radius_m = std::max(array.electrode_radius_m, 0.5 * largest_diameter_m(array));
+  for (const auto& [degree, layers] :
+       {std::pair{3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}, {8, 4}, {9, 4}}) {
+    SpaceAccuracy one;
+    one.foot.degree = degree;
+    one.foot.layers = layers;
+    one.foot.shaft_elements = 1;
+    one.potential.film_degree = degree + 4;
+    one.potential.largest_kt = 4.0 + 2.0 * degree;
+    one.potential.harmonics = degree < 5 ? 2 : 3;
+    // What lies beyond decays as exp(-0.92 x/t) (eq. A4).
+    one.potential.reach_m = 2.0 * radius_m + (3.0 + 1.5 * degree) * t_m;
+    all.push_back(one);
+  }
+  return all;
+}
+
+SpaceResponse::SpaceResponse(const SpaceArray& array, const SpaceAccuracy& accuracy)
+    : array_(&array), reach_m_(accuracy.potential.reach_m - array.electrode_radius_m) {
+  for (const PillarClass& one : array.classes) {
+    feet_.push_back(foot_forces(one.geometry, one.medium, accuracy.foot));
+    unknowns_ = std::max(unknowns_, feet_.back().unknowns);
+    tables_.emplace_back(
+        array.film, feet_.back(), accuracy.potential,
+        std::vector<AxialReading>{point_reading(), disc_mean(array.electrode_radius_m)});
+  }
+}
+
+Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> SpaceResponse::kernel(int of_class, double x_m,
+                                                                       double y_m) const {
+  const PotentialTable& table = tables_[static_cast<std::size_t>(of_class)];
+  const bool has_quadrants = array_->electrode == SpaceElectrode::kQuadrants;
+  Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> kernel(has_quadrants ? 6 : 2, kTopLoads);
+  kernel.row(0) = table.at(x_m, y_m, kCentre).transpose();
+  kernel.row(1) = table.at(x_m, y_m, kMean).transpose();
+  for (int quadrant = 0; quadrant < 4 && has_quadrants; ++quadrant) {
+    PotentialByLoad mean = PotentialByLoad::Zero();
+    for (const WeightedPoint& point : quarter(array_->electrode_radius_m, quadrant)) {
+      mean += point.weight * table.at(x_m + point.x_m, y_m + point.y_m, kCentre);
+    }
+    kernel.row(2 + quadrant) = mean.transpose();
+  }
+  return kernel;
+}
+
+Eigen::MatrixXd SpaceResponse::voltages_V(const TopLoads& loads_Pa) const {
+  const std::vector<PlacedPillar>& pillars = array_->pillars;
+  const Neighbours near(pillars, reach_m_);
+  // Equal offsets, which a lattice repeats, are read once.
+  using Key = std::tuple<int, long, long>;
+  const double unit_m = 1e-7 * largest_diameter_m(*array_);
+  std::map<Key, Eigen::Matrix<double, Eigen::Dynamic, kTopLoads>> kernels;
+  Eigen::MatrixXd voltages =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(pillars.size()),
+                            static_cast<Eigen::Index>(reading_names(array_->electrode).size()));
+  for (std::size_t j = 0; j < pillars.size(); ++j) {
+    const auto load = loads_Pa.row(static_cast<Eigen::Index>(j));
+    if (load.isZero(0.0)) continue;
+    near.visit(pillars[j].x_m, pillars[j].y_m, [&](std::size_t i) {
+      const double x_m = pillars[i].x_m - pillars[j].x_m;
+      const double y_m = pillars[i].y_m - pillars[j].y_m;
+      const Key key{pillars[j].of_class, std::lround(x_m / unit_m), std::lround(y_m / unit_m)};
+      auto found = kernels.find(key);
+      if (found == kernels.end()) {
+        found = kernels.emplace(key, kernel(pillars[j].of_class, x_m, y_m)).first;
+      }
+      voltages.row(static_cast<Eigen::Index>(i)) += (found->second * load.transpose()).transpose();
+    });
+  }
+  return voltages;
+}
+
+}  // namespace viscard

@@ -1,0 +1,81 @@
+#pragma once
+
+#include "models/array/space/potential_table.h"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// What is read under each pillar on the face of the film that carries no charge.
+enum class SpaceElectrode {
+  kSampled,    // the potential under the axis, and its mean over the electrode's disc
+  kQuadrants,  // as well its means over the quarters of the disc: 1 (+,+), 2 (-,+), 3 (-,-), 4 (+,-)
+};
+
+// Pillars of one shape and material.
+struct PillarClass {
+  PillarGeometry geometry;  // without a film
+  Medium medium;
+};
+
+struct PlacedPillar {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  int of_class = 0;
+};
+
+// Pillars on one film, anywhere in its plane. Axis 1 of the film is x.
+struct SpaceArray {
+  std::vector<PillarClass> classes;
+  std::vector<PlacedPillar> pillars;
+  LayeredFilm film;
+  SpaceElectrode electrode = SpaceElectrode::kSampled;
+  double electrode_radius_m = 0.0;
+};
+
+// Throws SceneMistake naming what is wrong: no pillars, tops or feet that overlap or nearly touch
+// (gaps below a tenth of the diameter change the traction under a foot), electrodes that overlap.
+void validate(const SpaceArray& array);
+
+// Columns: values of TopLoad, Pa. Rows: pillars.
+using TopLoads = Eigen::Matrix<double, Eigen::Dynamic, kTopLoads>;
+
+// Names of the readings of an electrode: centre, mean, quadrant_1, ...
+std::vector<std::string> reading_names(SpaceElectrode electrode);
+
+// How finely an array is answered: foot_forces.h and potential_table.h.
+struct SpaceAccuracy {
+  Discretisation foot;
+  PotentialAccuracy potential;
+};
+// Accuracies of rising cost, in the order of the foot's degree (3 to 9).
+std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array);
+
+// Readings of each pillar per load on a pillar at each offset: the answer of one array to any loads. The
+// film is linear, and all pillars of a class are alike, so that one table per class answers all.
+class SpaceResponse {
+ public:
+  // The array must outlive the response.
+  SpaceResponse(const SpaceArray& array, const SpaceAccuracy& accuracy);
+
+  // V; pillars x readings.
+  Eigen::MatrixXd voltages_V(const TopLoads& loads_Pa) const;
+  // Readings of a pillar at the offset (x, y) from a loaded one of the class, V/Pa: readings x loads.
+  Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> kernel(int of_class, double x_m,
+                                                          double y_m) const;
+
+  const FootForces& foot(int of_class) const { return feet_[static_cast<std::size_t>(of_class)]; }
+  int unknowns() const { return unknowns_; }
+
+ private:
+  const SpaceArray* array_;
+  double reach_m_ = 0.0;  // between axes
+  std::vector<FootForces> feet_;
+  std::vector<PotentialTable> tables_;
+  int unknowns_ = 0;
+};
+
+}  // namespace viscard

@@ -1,0 +1,142 @@
+#include "models/array/space/simulate_space.h"
+#include "models/pillar/analyses/analysis.h"
+#include "models/pillar/analyses/buckling_limit.h"
+#include "models/scene/scene_effects.h"
+#include "models/sensor/sensor_design.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace viscard {
+namespace {
+
+bool is_sheared(const SpaceScene& scene) {
+  return scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0;
+}
+
+bool is_viscoelastic(const SpaceScene& scene) {
+  return !scene.pillar.terms.empty() ||
+         std::any_of(scene.others.begin(), scene.others.end(),
+                     [](const SpaceClass& one) { return !one.material.terms.empty(); });
+}
+
+// The largest value of an estimate over the classes of pillars.
+template <typename OfClass>
+double largest_over_classes(const SpaceScene& scene, const OfClass& of_class) {
+  double largest = 0.0;
+  for (const SpaceClass& one : classes_of(scene)) largest = std::max(largest, of_class(one));
+  return largest;
+}
+
+// One of the pillars on a wide film.
+PillarScene on_film(const SpaceScene& scene, const SpaceClass& one) {
+  PillarScene single = single_pillar(scene, one);
+  single.film = scene.film;
+  single.geometry.film = FilmGeometry{scene.film_thickness_m, one.diameter_m};
+  return single;
+}
+
+}  // namespace
+
+EffectEstimate film_compliance_estimate(const SpaceScene& scene) {
+  const double share = largest_over_classes(scene, [&](const SpaceClass& one) {
+    const FilmShares shares = film_shares(on_film(scene, one));
+    return kUnevenTraction *
+           (is_sheared(scene) ? std::max(shares.axial, shares.lateral()) : shares.axial);
+  });
+  return {EffectRole::kNeeded, share, "base compliance over pillar's", share,
+          "its potential is asked for"};
+}
+
+EffectEstimate piezo_coupling_estimate(const SpaceScene& scene) {
+  PillarScene one = on_film(scene, classes_of(scene).front());
+  one.electrodes = ElectrodeOptions{scene.grounded, 0.5 * scene.diameter_m};
+  one.wanted = {"electrode_voltage"};
+  EffectEstimate estimate = piezo_coupling_estimate(one);
+  estimate.role = EffectRole::kNeeded;
+  estimate.reason = "its potential is asked for";
+  return estimate;
+}
+
+EffectEstimate relaxation_estimate(const SpaceScene& scene) {
+  if (!is_viscoelastic(scene)) return {.reason = "the material is elastic"};
+  return {.reason = "answers right after loading, with the instantaneous moduli"};
+}
+
+EffectEstimate incompressibility_estimate(const SpaceScene& scene) {
+  const double nu =
+      largest_over_classes(scene, [](const SpaceClass& one) { return one.material.nu; });
+  if (nu < kNearlyIncompressible) {
+    return {.reason = "the mesh error that is watched contains it"};
+  }
+  return {EffectRole::kNeeded, 1.0, "Poisson ratio", nu,
+          "forces on the film would lock without pressures of their own"};
+}
+
+// The amplitudes are those of rows in plane strain (eq. A4), in which a neighbour is a wall without end;
+// tests/models/scene checks that they cover arrays of cylinders with up to six neighbours.
+EffectEstimate crosstalk_estimate(const SpaceScene& scene) {
+  const double gap_m = smallest_gap_m(scene);
+  if (std::isinf(gap_m)) return {.reason = "a single pillar"};
+  const double x = gap_m / scene.film_thickness_m;
+  EffectEstimate estimate{EffectRole::kOptional,
+                          neighbour_influence(x, scene.film_thickness_m / scene.diameter_m),
+                          "gap over film thickness", x, "neighbours load the film"};
+  if (has_crosstalk(scene) && asks_for_map(scene, "crosstalk_percent")) {
+    estimate.role = EffectRole::kNeeded;
+    estimate.reason = "the influence of the neighbours is asked for";
+  } else if (is_sheared(scene)) {
+    estimate.role = EffectRole::kNeeded;
+    estimate.reason = "the shear of a neighbour reads as pressure";
+  }
+  return estimate;
+}
+
+// A straight pillar shortens without it. A pillar that is pressed and sheared bends more than under the
+// shear alone: moment at the foot times tan(u)/u, u = (pi/2) sqrt(p/p_cr), for a cantilever with an axial
+// load: Timoshenko & Gere, Theory of Elastic Stability (1961), 1.3.
+EffectEstimate geometric_stiffness_estimate(const SpaceScene& scene) {
+  if (!(scene.pressure_Pa > 0.0)) return {.reason = "no pressure on the tops"};
+  const double share = largest_over_classes(scene, [&](const SpaceClass& one) {
+    return scene.pressure_Pa / engesser_pressure_Pa(single_pillar(scene, one));
+  });
+  if (!is_sheared(scene)) {
+    return {EffectRole::kAbsent, 0.0, "p/p_cr", share, "straight pillars shorten without it"};
+  }
+  const double u = 0.5 * std::numbers::pi * std::sqrt(std::min(share, 0.99));
+  return {EffectRole::kOutside, std::tan(u) / u - 1.0, "p/p_cr", share,
+          "the pressure bends pillars further that a shear bends; not in the error"};
+}
+
+// Pillars longer than eq. D3 allows stay together once they touch; no analysis follows them there.
+EffectEstimate adhesion_estimate(const SpaceScene& scene) {
+  const double gap_m = smallest_gap_m(scene);
+  if (std::isinf(gap_m)) return {.reason = "a single pillar with nothing to stick to"};
+  const double ratio = largest_over_classes(scene, [&](const SpaceClass& one) {
+    SensorMaterial material;
+    material.young_modulus_Pa = one.material.E0_Pa;
+    material.poisson_ratio = one.material.nu;
+    material.surface_energy_J_m2 = scene.surface_energy_J_m2;
+    return one.length_m / longest_unmatted_m(one.diameter_m, gap_m, material);
+  });
+  if (ratio < 1.0) {
+    return {EffectRole::kAbsent, 0.0, "length over matting length", ratio,
+            "neighbours that touch part again"};
+  }
+  return {EffectRole::kOutside, 1.0, "length over matting length", ratio,
+          "neighbours that once touch stay together (lateral collapse)"};
+}
+
+EffectEstimate finite_strain_estimate(const SpaceScene& scene) {
+  const double shear_Pa = std::hypot(scene.shear_x_Pa, scene.shear_y_Pa);
+  const double strain = largest_over_classes(scene, [&](const SpaceClass& one) {
+    // Bending strain at the foot of a cylinder: 8 tau l/(E d).
+    const double bending_Pa = 8.0 * shear_Pa * one.length_m / one.diameter_m;
+    return (std::abs(scene.pressure_Pa) + bending_Pa) / one.material.E0_Pa;
+  });
+  return {EffectRole::kOutside, 2.3 * strain, "strain", strain,
+          "small strains are assumed; not in the error"};
+}
+
+}  // namespace viscard

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "models/array/space/space_scene.h"
+
+#include <random>
+
+namespace viscard::test {
+
+// An array of one to five by one to five pillars on a square or hexagonal lattice or at random places,
+// with dead ones and up to one class of others: moduli over a decade, films of PVDF or of any coupling
+// up to 0.5 and at least 1000 times as stiff, sampled and quadrant electrodes, pressed,
+// sheared or both, all or some of them; tolerances from 5e-4 to 3e-2.
+SpaceScene random_array(std::mt19937_64& random);
+
+}  // namespace viscard::test

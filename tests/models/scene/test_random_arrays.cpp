@@ -1,0 +1,83 @@
+// Random arrays in the plane: answers within the tolerance, and estimates that cover the true error.
+#include "models/array/space/simulate_space.h"
+#include "models/scene/plan.h"
+#include "models/scene/simulate.h"
+#include "tests/models/scene/random_arrays.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+using namespace viscard;
+using namespace viscard::test;
+
+namespace {
+
+const SceneMap& map_of(const SceneAnswer& answer, const std::string& name) {
+  const auto found = std::find_if(answer.maps.begin(), answer.maps.end(),
+                                  [&](const SceneMap& map) { return map.name == name; });
+  if (found == answer.maps.end()) throw std::runtime_error("no map " + name);
+  return *found;
+}
+
+struct Judged {
+  double over = 0.0;  // largest error over the tolerance
+  bool is_honest = true;
+};
+
+Judged judged(const SpaceScene& scene) {
+  const SceneAnswer planned = simulate(scene);
+  const auto all = std::get<SpaceScene>(plan_effects(with_all_effects_on(scene)).reduced);
+  const SceneAnswer fine = space_answer_on(all, space_meshes(all).back());
+  Judged verdict;
+  for (const SceneMap& map : planned.maps) {
+    const SceneMap& exact = map_of(fine, map.name);
+    for (std::size_t i = 0; i < map.value.size(); ++i) {
+      const double error = std::abs(map.value[i] - exact.value[i]);
+      verdict.over = std::max(verdict.over, error / (scene.tolerance * size_of(exact)));
+      verdict.is_honest =
+          verdict.is_honest && error <= map.error[i] + 0.02 * scene.tolerance * size_of(exact);
+    }
+  }
+  return verdict;
+}
+
+void study_arrays(int count, unsigned long seed) {
+  std::mt19937_64 random(seed);
+  int answered = 0, below = 0, honest = 0;
+  std::ostringstream worst;
+  for (int i = 0; i < count; ++i) {
+    const SpaceScene scene = random_array(random);
+    try {
+      const Judged verdict = judged(scene);
+      ++answered;
+      below += verdict.over <= 1.0 ? 1 : 0;
+      honest += verdict.is_honest ? 1 : 0;
+      if (verdict.over > 1.0 || !verdict.is_honest) {
+        worst << "array " << i << ": error " << verdict.over << " of the tolerance, honest "
+              << verdict.is_honest << "\n";
+      }
+    } catch (const std::exception& error) {
+      worst << "array " << i << " (tolerance " << scene.tolerance << "): " << error.what() << "\n";
+    }
+  }
+  CAPTURE(count, answered, below, honest, worst.str());
+  if (std::getenv("VISCARD_SHOW") != nullptr) WARN(worst.str());
+  CHECK(answered >= 0.9 * count);
+  CHECK(below >= 0.99 * answered);
+  CHECK(honest >= 0.99 * answered);
+}
+
+}  // namespace
+
+TEST_CASE("random arrays meet their tolerance with honest estimates", "[models][array][space]") {
+  study_arrays(5, 1);
+}
+
+TEST_CASE("many random arrays meet their tolerance with honest estimates",
+          "[models][array][space][slow]") {
+  study_arrays(60, 2);
+}
