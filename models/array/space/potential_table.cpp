@@ -11,11 +11,14 @@
 namespace viscard {
 namespace {
 
-constexpr int kTablePoints = 12;     // per panel
-constexpr double kTablePhase = 4.0;  // largest k times half a panel: J_12(4) = 6e-6
-constexpr int kWavePoints = 8;       // Gauss points per panel of k
-constexpr double kWavePhase = 5.0;   // largest radius times a panel of k
-constexpr double kWaveStep = 0.7;    // panel of k times the thickness of the film
+constexpr int kTablePoints = 12;      // per panel
+constexpr double kTablePhase = 4.0;   // largest k times half a panel: J_12(4) = 6e-6
+constexpr int kWavePoints = 8;        // Gauss points per panel of k
+constexpr double kWavePhase = 5.0;    // largest radius times a panel of k
+constexpr double kShortWaves = 16.0;  // times the thickness: faces apart by exp(-16)
+constexpr double kCutFrom = 0.5;      // of the largest k, where cut() begins
+constexpr double kOwnPhase = 4.0;     // radius of the foot times a panel of k, on its own axis
+constexpr double kWaveStep = 0.7;     // panel of k times the thickness of the film
 
 double thickness_m(const LayeredFilm& film) {
   double sum = 0.0;
@@ -54,6 +57,13 @@ void bessel(double x, Eigen::VectorXd& values) {
     values[m] = x > order ? 2.0 * (order - 1.0) / x * values[m - 1] - values[m - 2]
                           : ::jn(static_cast<int>(m), x);
   }
+}
+
+// Share of waves, by their k over the largest, that is left to add_own(): rises smoothly from 0 to 1, so
+// that what neighbours miss of the short waves falls off with the distance faster than any power.
+double cut(double of_largest) {
+  const double s = std::clamp((of_largest - kCutFrom) / (1.0 - kCutFrom), 0.0, 1.0);
+  return s * s * s * s * (35.0 - s * (84.0 - s * (70.0 - 20.0 * s)));
 }
 
 // The film's reading per traction over the angle: sums over l of (x, z) cos(2 l theta) and
@@ -161,7 +171,40 @@ PotentialTable::PotentialTable(const LayeredFilm& film, const FootForces& foot,
     for (std::size_t q = 0; q < rule.points.size(); ++q, ++waves_) {
       const double k_1_m = step_1_m * (panel + rule.points[q]);
       const double weight = rule.weights[q] * step_1_m * k_1_m / (2.0 * std::numbers::pi);
-      add_wave(weight * harmonics_of(directions.at(k_1_m), foot, k_1_m), k_1_m, readings);
+      const double share = accuracy.own_kt > 0.0 ? 1.0 - cut(k_1_m / largest_k_1_m) : 1.0;
+      add_wave(share * weight * harmonics_of(directions.at(k_1_m), foot, k_1_m), k_1_m, readings);
+    }
+  }
+  add_own(film, foot, accuracy, readings);
+}
+
+// Beyond kShortWaves the faces no longer feel each other and the reading goes as 1/k (eq. S6).
+void PotentialTable::add_own(const LayeredFilm& film, const FootForces& foot,
+                             const PotentialAccuracy& accuracy,
+                             const std::vector<AxialReading>& readings) {
+  own_V_.assign(readings.size(), 0.0);
+  const double t_m = thickness_m(film);
+  const double from_1_m = kCutFrom * accuracy.largest_kt / t_m;
+  const double to_1_m = accuracy.own_kt / t_m;
+  if (!(to_1_m > from_1_m)) return;
+  const double short_1_m = std::max(from_1_m, kShortWaves / t_m);
+  const Directions directions(film, accuracy, short_1_m);
+  const AngularReading limit = directions.at(short_1_m);
+  const double widest_m = *std::max_element(foot.radius_m.begin(), foot.radius_m.end());
+  const int panels =
+      static_cast<int>(std::ceil((to_1_m - from_1_m) * std::max(t_m, widest_m) / kOwnPhase));
+  const double step_1_m = (to_1_m - from_1_m) / panels;
+  const QuadratureRule rule = gauss_legendre(kWavePoints);
+  for (int panel = 0; panel < panels; ++panel) {
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const double k_1_m = from_1_m + step_1_m * (panel + rule.points[q]);
+      const AngularReading g = k_1_m < short_1_m ? directions.at(k_1_m) : limit;
+      const double share =
+          std::min(1.0, short_1_m / k_1_m) * cut(k_1_m * t_m / accuracy.largest_kt);
+      const double weight = rule.weights[q] * step_1_m * k_1_m / (2.0 * std::numbers::pi) * share;
+      const AxialTransform pressure = transform(foot.pressure, foot.radius_m, k_1_m);
+      const double amplitude = weight * (g.x[0] * pressure.tau_x + g.z[0] * pressure.t_z);
+      for (std::size_t r = 0; r < readings.size(); ++r) own_V_[r] += amplitude * readings[r](k_1_m);
     }
   }
 }
@@ -206,6 +249,7 @@ PotentialByLoad PotentialTable::at(double x_m, double y_m, std::size_t reading) 
       potential[load] += factors[static_cast<std::size_t>(load)] * radial[load * harmonics_ + j];
     }
   }
+  if (radius_m == 0.0) potential[0] += own_V_.at(reading);
   return potential;
 }
 

@@ -15,6 +15,7 @@ struct PotentialAccuracy {
   int film_degree = 8;       // elements across the film
   double largest_kt = 10.0;  // waves up to this over the thickness of all layers: the bottom face
                              // reads a wave as exp(-k t)
+  double own_kt = 0.0;       // on the load's own axis: waves up to this; 0: no more than elsewhere
   int harmonics = 2;         // L: the film's answer over the angle has the harmonics 0, 2, ... 2 L
   double reach_m = 0.0;      // farthest point from the pillar's axis that is asked for
 };
@@ -42,6 +43,8 @@ class PotentialTable {
   int waves() const { return waves_; }  // wave numbers that were solved in each direction
 
  private:
+  void add_own(const LayeredFilm& film, const FootForces& foot, const PotentialAccuracy& accuracy,
+               const std::vector<AxialReading>& readings);
   void add_wave(const Eigen::MatrixXd& amplitude, double k_1_m,
                 const std::vector<AxialReading>& readings);
 
@@ -52,6 +55,7 @@ class PotentialTable {
   // By reading: Chebyshev points of each panel, one below the other; a column per load (slowest) and
   // harmonic.
   std::vector<Eigen::MatrixXd> values_;
+  std::vector<double> own_V_;  // by reading: what shorter waves add under pressure on its own axis
 };
 
 }  // namespace viscard

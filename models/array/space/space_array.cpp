@@ -1,5 +1,6 @@
 #include "models/array/space/space_array.h"
 
+#include "models/array/space/disc_charge.h"
 #include "models/array/space/neighbours.h"
 #include "models/maths/gauss_legendre.h"
 #include "models/maths/text_of_number.h"
@@ -15,7 +16,7 @@
 namespace viscard {
 namespace {
 
-constexpr std::size_t kCentre = 0;  // readings of the tables
+constexpr std::size_t kCentre = 0;  // readings of the tables; or the electrode alone
 constexpr std::size_t kMean = 1;
 constexpr int kQuadrantPoints = 7;  // Gauss points along the radius and the angle of a quarter
 
@@ -88,6 +89,7 @@ void validate(const SpaceArray& array) {
 }
 
 std::vector<std::string> reading_names(SpaceElectrode electrode) {
+  if (electrode == SpaceElectrode::kEquipotential) return {"electrode"};
   std::vector<std::string> names = {"centre", "mean"};
   if (electrode == SpaceElectrode::kQuadrants) {
     for (int q = 1; q <= 4; ++q) names.push_back("quadrant_" + std::to_string(q));
@@ -108,6 +110,9 @@ std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array) {
     one.potential.film_degree = degree + 4;
     one.potential.largest_kt = 4.0 + 2.0 * degree;
     one.potential.harmonics = degree < 5 ? 2 : 3;
+    // The load's own face reads short waves as 1/k: of the rim's traction k^-1.7 is left (eq. S6).
+    if (array.film.grounded == FilmFace::kBottom)
+      one.potential.own_kt = 5.0 * std::pow(2.0, degree - 1);
     // What lies beyond decays as exp(-0.92 x/t) (eq. A4).
     one.potential.reach_m = 2.0 * radius_m + (3.0 + 1.5 * degree) * t_m;
     all.push_back(one);
@@ -117,12 +122,19 @@ std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array) {
 
 SpaceResponse::SpaceResponse(const SpaceArray& array, const SpaceAccuracy& accuracy)
     : array_(&array), reach_m_(accuracy.potential.reach_m - array.electrode_radius_m) {
+  std::vector<AxialReading> readings = {point_reading(), disc_mean(array.electrode_radius_m)};
+  if (array.electrode == SpaceElectrode::kEquipotential) {
+    const DiscCharge charge(array.film, array.electrode_radius_m, accuracy.foot.degree,
+                            accuracy.potential.film_degree);
+    capacitance_F_ = charge.capacitance_F();
+    readings = {charge.reading()};
+  }
+  const double largest_k_1_m = std::max(accuracy.potential.largest_kt, accuracy.potential.own_kt) /
+                               array.film.layers.front().thickness_m;
   for (const PillarClass& one : array.classes) {
-    feet_.push_back(foot_forces(one.geometry, one.medium, accuracy.foot));
+    feet_.push_back(foot_forces(one.geometry, one.medium, accuracy.foot, largest_k_1_m));
     unknowns_ = std::max(unknowns_, feet_.back().unknowns);
-    tables_.emplace_back(
-        array.film, feet_.back(), accuracy.potential,
-        std::vector<AxialReading>{point_reading(), disc_mean(array.electrode_radius_m)});
+    tables_.emplace_back(array.film, feet_.back(), accuracy.potential, readings);
   }
 }
 
@@ -130,9 +142,10 @@ Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> SpaceResponse::kernel(int of_cl
                                                                        double y_m) const {
   const PotentialTable& table = tables_[static_cast<std::size_t>(of_class)];
   const bool has_quadrants = array_->electrode == SpaceElectrode::kQuadrants;
-  Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> kernel(has_quadrants ? 6 : 2, kTopLoads);
+  Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> kernel(
+      static_cast<Eigen::Index>(reading_names(array_->electrode).size()), kTopLoads);
   kernel.row(0) = table.at(x_m, y_m, kCentre).transpose();
-  kernel.row(1) = table.at(x_m, y_m, kMean).transpose();
+  if (kernel.rows() > 1) kernel.row(1) = table.at(x_m, y_m, kMean).transpose();
   for (int quadrant = 0; quadrant < 4 && has_quadrants; ++quadrant) {
     PotentialByLoad mean = PotentialByLoad::Zero();
     for (const WeightedPoint& point : quarter(array_->electrode_radius_m, quadrant)) {
