@@ -1,6 +1,5 @@
 #include "models/array/space/space_array.h"
 
-#include "models/array/space/disc_charge.h"
 #include "models/array/space/neighbours.h"
 #include "models/maths/gauss_legendre.h"
 #include "models/maths/text_of_number.h"
@@ -10,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -123,18 +123,23 @@ std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array) {
 SpaceResponse::SpaceResponse(const SpaceArray& array, const SpaceAccuracy& accuracy)
     : array_(&array), reach_m_(accuracy.potential.reach_m - array.electrode_radius_m) {
   std::vector<AxialReading> readings = {point_reading(), disc_mean(array.electrode_radius_m)};
+  std::optional<DiscCharge> charge;
   if (array.electrode == SpaceElectrode::kEquipotential) {
-    const DiscCharge charge(array.film, array.electrode_radius_m, accuracy.foot.degree,
-                            accuracy.potential.film_degree);
-    capacitance_F_ = charge.capacitance_F();
-    readings = {charge.reading()};
+    charge.emplace(array.film, array.electrode_radius_m, 2 * (accuracy.potential.harmonics + 1),
+                   accuracy.foot.degree, accuracy.potential.film_degree);
+    capacitance_F_ = charge->capacitance_F();
+    readings = {[&](double k_1_m) { return charge->weight(k_1_m); }};
   }
   const double largest_k_1_m = std::max(accuracy.potential.largest_kt, accuracy.potential.own_kt) /
                                array.film.layers.front().thickness_m;
   for (const PillarClass& one : array.classes) {
     feet_.push_back(foot_forces(one.geometry, one.medium, accuracy.foot, largest_k_1_m));
     unknowns_ = std::max(unknowns_, feet_.back().unknowns);
-    tables_.emplace_back(array.film, feet_.back(), accuracy.potential, readings);
+    const PotentialSpectrum spectrum =
+        potential_spectrum(array.film, feet_.back(), accuracy.potential);
+    std::vector<Eigen::MatrixXd> induced;
+    if (charge) induced = induced_amplitudes(spectrum, array.film, *charge, accuracy.potential);
+    tables_.emplace_back(spectrum, induced, accuracy.potential.reach_m, readings);
   }
 }
 
