@@ -193,4 +193,19 @@ std::vector<Eigen::MatrixXd> induced_amplitudes(const PotentialSpectrum& spectru
   return induced;
 }
 
+double mutual_influence(const LayeredFilm& film, const DiscCharge& charge, double distance_m,
+                        const PotentialAccuracy& accuracy) {
+  const double t_m = film.layers.front().thickness_m;
+  const double largest_k_1_m = std::max(2.0 * accuracy.largest_kt, kShortWaves) / t_m;
+  const ChargePotential potential(film, largest_k_1_m, accuracy.film_degree);
+  double mutual_V_C = 0.0;
+  each_wave(0.0, largest_k_1_m, std::min(kWavePhase / distance_m, kWaveStep / t_m),
+            [&](double k_1_m, double weight) {
+              const double reading = charge.weight(k_1_m);
+              mutual_V_C += weight * (1.0 - cut(k_1_m / largest_k_1_m)) * potential.at(k_1_m) *
+                            reading * reading * ::j0(k_1_m * distance_m);
+            });
+  return mutual_V_C * charge.capacitance_F();
+}
+
 }  // namespace viscard

@@ -47,4 +47,10 @@ std::vector<Eigen::MatrixXd> induced_amplitudes(const PotentialSpectrum& spectru
                                                 const LayeredFilm& film, const DiscCharge& charge,
                                                 const PotentialAccuracy& accuracy);
 
+// Voltage of an open electrode per charge on another one at the distance between their axes, over the
+// voltage of that one: the coefficient of potential p12/p11. Its square is what electrodes without net
+// charge change in each other's readings.
+double mutual_influence(const LayeredFilm& film, const DiscCharge& charge, double distance_m,
+                        const PotentialAccuracy& accuracy);
+
 }  // namespace viscard

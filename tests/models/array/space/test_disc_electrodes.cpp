@@ -65,6 +65,14 @@ TEST_CASE("the capacitance of a disc on the film agrees with axisymmetric elemen
   CHECK(charge.weight(0.0) == Approx(1.0).epsilon(1e-12));
 }
 
+TEST_CASE("electrodes influence each other as charge modes of another program do", "[models]") {
+  const LayeredFilm film = film_of_the_manual();
+  const DiscCharge charge(film, 20e-6, 1, 6, 10);
+  CHECK(mutual_influence(film, charge, 100e-6, {}) == Approx(2.57e-3).epsilon(3e-3));
+  // Far away, as between the plates of a thin capacitor, hardly anything is left.
+  CHECK(std::abs(mutual_influence(film, charge, 400e-6, {})) < 1e-6);
+}
+
 TEST_CASE("an open electrode under the pillar agrees with coupled elements", "[models]") {
   const SpaceArray array = pillars_with_electrodes(film_of_the_manual(), 20e-6);
   const SpaceResponse response(array, space_accuracies(array)[5]);
