@@ -93,9 +93,9 @@ void PotentialTable::add_wave(const Eigen::MatrixXd& amplitude, double k_1_m,
   Eigen::VectorXd J(2 * harmonics_);
   Eigen::RowVectorXd row(kTopLoads * harmonics_);
   for (Eigen::Index at = 0; at < values_.front().rows(); ++at) {
-    const auto panel = static_cast<double>(at / kTablePoints);
+    const Eigen::Index panel = at / kTablePoints;
     const double within = 0.5 * (1.0 + table_point(static_cast<int>(at % kTablePoints)));
-    bessel(k_1_m * panel_m_ * (panel + within), J);
+    bessel(k_1_m * panel_m_ * (static_cast<double>(panel) + within), J);
     for (Eigen::Index load = 0; load < kTopLoads; ++load) {
       for (Eigen::Index j = 0; j < harmonics_; ++j) {
         row[load * harmonics_ + j] = amplitude(j, load) * J[2 * j + (load == 0 ? 0 : 1)];
