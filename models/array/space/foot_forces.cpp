@@ -1,12 +1,55 @@
 #include "models/array/space/foot_forces.h"
 
+#include "models/maths/dense.h"
+#include "models/maths/gauss_legendre.h"
 #include "models/maths/require.h"
+#include "models/pillar/mesh/line_mesh.h"
 
 #include <cmath>
 #include <numbers>
 
 namespace viscard {
 namespace {
+
+// Points across the foot of a pillar, and the forces at them that stand for forces on its nodes.
+class FootPoints {
+ public:
+  FootPoints(const PillarModel& model, double largest_k_1_m) {
+    const PillarMesh& mesh = model.mesh();
+    const LineMesh& line = mesh.section.x();
+    const int p = line.degree();
+    const double scale = bond_radius_m(model.geometry()) /
+                         line.breaks()[static_cast<std::size_t>(mesh.pillar_columns)];
+    const int nodes = mesh.pillar_columns * p + 1;
+    Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(nodes, nodes);
+    std::vector<Eigen::RowVectorXd> rows;
+    for (int column = 0; column < mesh.pillar_columns; ++column) {
+      mass.block(column * p, column * p, p + 1, p + 1) += line.integral(column, 1, 0, 0);
+      const double length = line.length(column);
+      const int count = 2 * p + 4 + static_cast<int>(0.6 * largest_k_1_m * scale * length);
+      const QuadratureRule rule = gauss_legendre(count);
+      for (std::size_t q = 0; q < rule.points.size(); ++q) {
+        const double x = line.breaks()[static_cast<std::size_t>(column)] + length * rule.points[q];
+        radius_m_.push_back(scale * x);
+        Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(nodes);
+        row.segment(column * p, p + 1) =
+            rule.weights[q] * length * x * line.basis_at(column, x).value.row(0);
+        rows.push_back(row);
+      }
+    }
+    Eigen::MatrixXd weights(static_cast<Eigen::Index>(rows.size()), nodes);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      weights.row(static_cast<Eigen::Index>(i)) = rows[i];
+    // Forces f on the nodes are those of the traction M^-1 f in the mesh's own functions.
+    from_nodes_ = Cholesky(mass).solve(Eigen::MatrixXd(weights.transpose())).transpose();
+  }
+  const std::vector<double>& radius_m() const { return radius_m_; }
+  Eigen::VectorXd from_nodes(const Eigen::VectorXd& forces) const { return from_nodes_ * forces; }
+
+ private:
+  std::vector<double> radius_m_;
+  Eigen::MatrixXd from_nodes_;
+};
 
 // A pillar on a rigid base in one family of motion, solved under one load.
 class HeldPillar {
@@ -50,18 +93,18 @@ class HeldPillar {
     return answer;
   }
 
-  std::vector<int> foot_nodes() const {
+  // The base forces along one field as forces at points of the foot (see the header).
+  Eigen::VectorXd at_points(const FootPoints& points, const Eigen::VectorXd& forces,
+                            int field) const {
     const PillarMesh& mesh = held_.mesh();
-    return nodes_on_break(mesh.section, mesh.bond_row, 0, mesh.pillar_columns);
-  }
-  Eigen::VectorXd of_field(const Eigen::VectorXd& forces, int field) const {
-    const std::vector<int> nodes = foot_nodes();
-    Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
+    const std::vector<int> nodes =
+        nodes_on_break(mesh.section, mesh.bond_row, 0, mesh.pillar_columns);
+    Eigen::VectorXd of_nodes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const int dof = free_.system().dofs().dof(field, nodes[i]);
-      if (dof >= 0) values[static_cast<Eigen::Index>(i)] = forces[dof];
+      if (dof >= 0) of_nodes[static_cast<Eigen::Index>(i)] = forces[dof];
     }
-    return values;
+    return points.from_nodes(of_nodes);
   }
 
  private:
@@ -92,24 +135,19 @@ class HeldPillar {
   StiffnessFactor factor_;
 };
 
-FootForces::Sideways sideways_forces(const HeldPillar& pillar, const HeldPillar::Answer& answer) {
-  return {pillar.of_field(answer.base_forces, 0), pillar.of_field(answer.base_forces, 1),
-          pillar.of_field(answer.base_forces, 2)};
-}
-
 }  // namespace
 
 FootForces foot_forces(const PillarGeometry& geometry, const Medium& medium,
-                       const Discretisation& mesh) {
+                       const Discretisation& mesh, double largest_k_1_m) {
   require(!geometry.film, "the foot of a pillar is found on a rigid base, without a film");
   FootForces foot;
   const HeldPillar axial(geometry, medium, mesh, Motion::kLongitudinal);
-  for (const int node : axial.foot_nodes()) {
-    foot.radius_m.push_back(axial.model().mesh().section.node_x(node));
-  }
+  const FootPoints points(axial.model(), largest_k_1_m);
+  foot.radius_m = points.radius_m();
   const Eigen::VectorXd pull = axial.top_load(1, 0);
   const HeldPillar::Answer pressed = axial.solve(-pull);
-  foot.pressure = {axial.of_field(pressed.base_forces, 0), axial.of_field(pressed.base_forces, 1)};
+  foot.pressure = {axial.at_points(points, pressed.base_forces, 0),
+                   axial.at_points(points, pressed.base_forces, 1)};
   foot.sinking_m_Pa = -pull.dot(pressed.motion) / pull.sum();
 
   const HeldPillar sideways(geometry, medium, mesh, Motion::kLateral);
@@ -117,8 +155,13 @@ FootForces foot_forces(const PillarGeometry& geometry, const Medium& medium,
   const Eigen::VectorXd tilt = sideways.top_load(2, 1);
   const HeldPillar::Answer sheared = sideways.solve(shear);
   const HeldPillar::Answer tilted = sideways.solve(tilt);
-  foot.shear = sideways_forces(sideways, sheared);
-  foot.tilt = sideways_forces(sideways, tilted);
+  const auto at_points = [&](const HeldPillar::Answer& answer) -> FootForces::Sideways {
+    return {sideways.at_points(points, answer.base_forces, 0),
+            sideways.at_points(points, answer.base_forces, 1),
+            sideways.at_points(points, answer.base_forces, 2)};
+  };
+  foot.shear = at_points(sheared);
+  foot.tilt = at_points(tilted);
   // load.u is the work per area: shear on the mean of u_x, tilt on int u_z x/R dA, which is
   // pi R^3/4 times the mean tilt.
   const double R_m = sideways.top_radius_m();

@@ -14,10 +14,11 @@ namespace viscard {
 enum class TopLoad { kPressure, kShearX, kShearY, kTiltX, kTiltY };
 constexpr int kTopLoads = 5;
 
-// What one pillar on a rigid base hands to it, as forces on the nodes of its foot that do the same
-// work as the traction (N per Pa of load). Sums over the nodes of a force times a smooth function
-// converge twice as fast as stresses, and nothing at the singular rim has to be integrated. The film
-// is three orders stiffer than a pillar, so the rigid base changes voltages by some 1e-5 (eq. S3).
+// What one pillar on a rigid base hands to it, as forces at points of its foot (N per Pa of load).
+// They are those of the continuous traction that does the same work on every function of the mesh as
+// the reactions of the base. Their work on smooth functions converges twice as fast as stresses, and
+// the singular rim needs no care. The film is three orders stiffer than a pillar, so the rigid base
+// changes voltages by some 1e-5 (eq. S3).
 struct FootForces {
   std::vector<double> radius_m;
   struct Axial {  // under pressure: along r and z
@@ -36,9 +37,10 @@ struct FootForces {
   int unknowns = 0;  // of the larger system
 };
 
-// Throws std::invalid_argument for a geometry that PillarModel refuses or that has a film.
+// With points close enough for waves up to the largest k. Throws std::invalid_argument for a geometry
+// that PillarModel refuses or that has a film.
 FootForces foot_forces(const PillarGeometry& pillar, const Medium& medium,
-                       const Discretisation& mesh);
+                       const Discretisation& mesh, double largest_k_1_m = 0.0);
 
 // Fourier transforms of the foot's traction at the wave number k, Pa m^2 per Pa (eq. S3). Under
 // pressure it is (tau_x, 0, t_z) at every angle theta of the wave. Under a sideways load along x it is

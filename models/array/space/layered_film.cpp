@@ -3,6 +3,7 @@
 #include "models/maths/dense.h"
 #include "models/maths/require.h"
 #include "models/pillar/mesh/line_mesh.h"
+#include "models/pillar/system/rotated_medium.h"
 
 #include <algorithm>
 #include <array>

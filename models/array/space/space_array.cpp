@@ -9,13 +9,14 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 namespace viscard {
 namespace {
 
-constexpr std::size_t kCentre = 0;  // readings of the tables
+constexpr std::size_t kCentre = 0;  // readings of the tables; or the electrode alone
 constexpr std::size_t kMean = 1;
 constexpr int kQuadrantPoints = 7;  // Gauss points along the radius and the angle of a quarter
 
@@ -87,7 +88,30 @@ void validate(const SpaceArray& array) {
   }
 }
 
+double nearest_distance_m(const SpaceArray& array) {
+  double nearest_m = HUGE_VAL;
+  double reach_m = largest_diameter_m(array);
+  // Distances beyond all positions mean that there is no second pillar.
+  double extent_m = reach_m;
+  for (const PlacedPillar& one : array.pillars) {
+    extent_m = std::max(extent_m, 4.0 * std::hypot(one.x_m, one.y_m));
+  }
+  while (std::isinf(nearest_m) && reach_m <= 2.0 * extent_m) {
+    const Neighbours near(array.pillars, reach_m);
+    for (const PlacedPillar& one : array.pillars) {
+      near.visit(one.x_m, one.y_m, [&](std::size_t j) {
+        const PlacedPillar& other = array.pillars[j];
+        const double distance_m = std::hypot(other.x_m - one.x_m, other.y_m - one.y_m);
+        if (distance_m > 0.0) nearest_m = std::min(nearest_m, distance_m);
+      });
+    }
+    reach_m *= 2.0;
+  }
+  return nearest_m;
+}
+
 std::vector<std::string> reading_names(SpaceElectrode electrode) {
+  if (electrode == SpaceElectrode::kEquipotential) return {"electrode"};
   std::vector<std::string> names = {"centre", "mean"};
   if (electrode == SpaceElectrode::kQuadrants) {
     for (int q = 1; q <= 4; ++q) names.push_back("quadrant_" + std::to_string(q));
@@ -108,6 +132,9 @@ std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array) {
     one.potential.film_degree = degree + 4;
     one.potential.largest_kt = 4.0 + 2.0 * degree;
     one.potential.harmonics = degree < 5 ? 2 : 3;
+    // The load's own face reads short waves as 1/k: of the rim's traction k^-1.7 is left (eq. S6).
+    if (array.film.grounded == FilmFace::kBottom)
+      one.potential.own_kt = 5.0 * std::pow(2.0, degree - 1);
     // What lies beyond decays as exp(-0.92 x/t) (eq. A4).
     one.potential.reach_m = 2.0 * radius_m + (3.0 + 1.5 * degree) * t_m;
     all.push_back(one);
@@ -117,12 +144,29 @@ std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array) {
 
 SpaceResponse::SpaceResponse(const SpaceArray& array, const SpaceAccuracy& accuracy)
     : array_(&array), reach_m_(accuracy.potential.reach_m - array.electrode_radius_m) {
+  std::vector<AxialReading> readings = {point_reading(), disc_mean(array.electrode_radius_m)};
+  std::optional<DiscCharge> charge;
+  if (array.electrode == SpaceElectrode::kEquipotential) {
+    charge.emplace(array.film, array.electrode_radius_m, 2 * (accuracy.potential.harmonics + 1),
+                   accuracy.foot.degree, accuracy.potential.film_degree);
+    capacitance_F_ = charge->capacitance_F();
+    const double nearest_m = nearest_distance_m(array);
+    if (nearest_m < reach_m_) {
+      const double influence = mutual_influence(array.film, *charge, nearest_m, accuracy.potential);
+      left_out_by_electrodes_ = influence * influence;
+    }
+    readings = {[&](double k_1_m) { return charge->weight(k_1_m); }};
+  }
+  const double largest_k_1_m = std::max(accuracy.potential.largest_kt, accuracy.potential.own_kt) /
+                               array.film.layers.front().thickness_m;
   for (const PillarClass& one : array.classes) {
-    feet_.push_back(foot_forces(one.geometry, one.medium, accuracy.foot));
+    feet_.push_back(foot_forces(one.geometry, one.medium, accuracy.foot, largest_k_1_m));
     unknowns_ = std::max(unknowns_, feet_.back().unknowns);
-    tables_.emplace_back(
-        array.film, feet_.back(), accuracy.potential,
-        std::vector<AxialReading>{point_reading(), disc_mean(array.electrode_radius_m)});
+    const PotentialSpectrum spectrum =
+        potential_spectrum(array.film, feet_.back(), accuracy.potential);
+    std::vector<Eigen::MatrixXd> induced;
+    if (charge) induced = induced_amplitudes(spectrum, array.film, *charge, accuracy.potential);
+    tables_.emplace_back(spectrum, induced, accuracy.potential.reach_m, readings);
   }
 }
 
@@ -130,9 +174,10 @@ Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> SpaceResponse::kernel(int of_cl
                                                                        double y_m) const {
   const PotentialTable& table = tables_[static_cast<std::size_t>(of_class)];
   const bool has_quadrants = array_->electrode == SpaceElectrode::kQuadrants;
-  Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> kernel(has_quadrants ? 6 : 2, kTopLoads);
+  Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> kernel(
+      static_cast<Eigen::Index>(reading_names(array_->electrode).size()), kTopLoads);
   kernel.row(0) = table.at(x_m, y_m, kCentre).transpose();
-  kernel.row(1) = table.at(x_m, y_m, kMean).transpose();
+  if (kernel.rows() > 1) kernel.row(1) = table.at(x_m, y_m, kMean).transpose();
   for (int quadrant = 0; quadrant < 4 && has_quadrants; ++quadrant) {
     PotentialByLoad mean = PotentialByLoad::Zero();
     for (const WeightedPoint& point : quarter(array_->electrode_radius_m, quadrant)) {

@@ -13,6 +13,7 @@ namespace viscard {
 enum class SpaceElectrode {
   kSampled,    // the potential under the axis, and its mean over the electrode's disc
   kQuadrants,  // as well its means over the quarters of the disc: 1 (+,+), 2 (-,+), 3 (-,-), 4 (+,-)
+  kEquipotential,  // the voltage of an open electrode on the disc
 };
 
 // Pillars of one shape and material.
@@ -43,15 +44,19 @@ void validate(const SpaceArray& array);
 // Columns: values of TopLoad, Pa. Rows: pillars.
 using TopLoads = Eigen::Matrix<double, Eigen::Dynamic, kTopLoads>;
 
-// Names of the readings of an electrode: centre, mean, quadrant_1, ...
+// Names of the readings of an electrode: centre, mean, quadrant_1, ... or electrode.
 std::vector<std::string> reading_names(SpaceElectrode electrode);
+
+// Least distance between the axes of two pillars, m; infinite for a single one.
+double nearest_distance_m(const SpaceArray& array);
 
 // How finely an array is answered: foot_forces.h and potential_table.h.
 struct SpaceAccuracy {
   Discretisation foot;
   PotentialAccuracy potential;
 };
-// Accuracies of rising cost, in the order of the foot's degree (3 to 9).
+// Accuracies of rising cost, in the order of the foot's degree (3 to 9). A face that carries both load and
+// electrode is read by much shorter waves than the one below.
 std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array);
 
 // Readings of each pillar per load on a pillar at each offset: the answer of one array to any loads. The
@@ -68,10 +73,15 @@ class SpaceResponse {
                                                           double y_m) const;
 
   const FootForces& foot(int of_class) const { return feet_[static_cast<std::size_t>(of_class)]; }
+  double capacitance_F() const { return capacitance_F_; }  // of one electrode; 0 if sampled
+  // Square of the influence of the nearest electrode, which equipotential readings leave out (eq. S5).
+  double left_out_by_electrodes() const { return left_out_by_electrodes_; }
   int unknowns() const { return unknowns_; }
 
  private:
   const SpaceArray* array_;
+  double left_out_by_electrodes_ = 0.0;
+  double capacitance_F_ = 0.0;
   double reach_m_ = 0.0;  // between axes
   std::vector<FootForces> feet_;
   std::vector<PotentialTable> tables_;

@@ -1,0 +1,211 @@
+#include "models/array/space/potential_spectrum.h"
+
+#include "models/maths/gauss_legendre.h"
+#include "models/maths/require.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace viscard {
+namespace {
+
+constexpr int kWavePoints = 8;        // Gauss points per panel of k
+constexpr double kWavePhase = 5.0;    // largest radius times a panel of k
+constexpr double kWaveStep = 0.7;     // panel of k times the thickness of the film
+constexpr double kShortWaves = 16.0;  // times the thickness: the faces are apart by exp(-16)
+constexpr double kCutFrom = 0.5;      // of the largest k, where cut() begins
+constexpr double kOwnPhase = 4.0;     // radius of the foot times a panel of k, on its own axis
+
+double thickness_m(const LayeredFilm& film) {
+  double sum = 0.0;
+  for (const FilmLayer& layer : film.layers) sum += layer.thickness_m;
+  return sum;
+}
+
+// Share of waves, by their k over the largest, that is left to add_own(): rises smoothly from 0 to 1, so
+// that what neighbours miss of the short waves falls off with the distance faster than any power.
+double cut(double of_largest) {
+  const double s = std::clamp((of_largest - kCutFrom) / (1.0 - kCutFrom), 0.0, 1.0);
+  return s * s * s * s * (35.0 - s * (84.0 - s * (70.0 - 20.0 * s)));
+}
+
+// The film's reading per traction over the angle: sums over l of (x, z) cos(2 l theta) and
+// y sin(2 l theta), l = 0 to L.
+struct AngularReading {
+  Eigen::VectorXd x, y, z;
+};
+
+// Trigonometric interpolation through theta = j pi/(2 L), j = 0 to L.
+AngularReading angular(const std::vector<Eigen::Vector4d>& at_angles) {
+  const auto L = static_cast<Eigen::Index>(at_angles.size()) - 1;
+  AngularReading sum{Eigen::VectorXd::Zero(L + 2), Eigen::VectorXd::Zero(L + 2),
+                     Eigen::VectorXd::Zero(L + 2)};  // one more, for the products below
+  for (Eigen::Index l = 0; l <= L; ++l) {
+    for (Eigen::Index j = 0; j <= L; ++j) {
+      const double angle = std::numbers::pi * static_cast<double>(l * j) / static_cast<double>(L);
+      const double half_ends = (j == 0 || j == L ? 0.5 : 1.0) * (l == 0 || l == L ? 0.5 : 1.0);
+      const double weight = 2.0 / static_cast<double>(L) * half_ends;
+      const Eigen::Vector4d& value = at_angles[static_cast<std::size_t>(j)];
+      sum.x[l] += weight * std::cos(angle) * value[0];
+      sum.z[l] += weight * std::cos(angle) * value[2];
+      if (l < L) sum.y[l] += 2.0 / static_cast<double>(L) * std::sin(angle) * value[1];
+    }
+  }
+  return sum;
+}
+
+// Factors of cos((2 j + 1) theta) in g cos(theta) (sign = 1), or of the sine in g sin(theta)
+// (sign = -1), for g = sum of even cosines.
+double odd_part(const Eigen::VectorXd& even, Eigen::Index j, double sign) {
+  return (j == 0 ? even[0] : 0.5 * even[j]) + 0.5 * sign * even[j + 1];
+}
+
+// Amplitude of each harmonic of the potential of one wave number, for every load: eq. S4.
+Eigen::MatrixXd harmonics_of(const AngularReading& g, const FootForces& foot, double k_1_m) {
+  const AxialTransform pressure = transform(foot.pressure, foot.radius_m, k_1_m);
+  const SidewaysTransform shear = transform(foot.shear, foot.radius_m, k_1_m);
+  const SidewaysTransform tilt = transform(foot.tilt, foot.radius_m, k_1_m);
+  const Eigen::Index count = g.x.size() - 1;
+  Eigen::MatrixXd amplitude(count, kTopLoads);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const double sign = j % 2 == 0 ? 1.0 : -1.0;  // i^(2 j)
+    // Potential of a sideways load along x (direction = 1) or y (-1); -2 i times i^(2 j + 1).
+    const auto sideways = [&](const SidewaysTransform& t, double direction) {
+      return 2.0 * sign *
+             (odd_part(g.x, j, direction) * t.along + odd_part(g.z, j, direction) * t.normal +
+              0.5 * (g.y[j] - direction * g.y[j + 1]) * t.across);
+    };
+    amplitude.row(j) << sign * (g.x[j] * pressure.tau_x + g.z[j] * pressure.t_z),
+        sideways(shear, 1.0), sideways(shear, -1.0), sideways(tilt, 1.0), sideways(tilt, -1.0);
+  }
+  return amplitude;
+}
+
+// Solves the film under waves of one length in L + 1 directions.
+class Directions {
+ public:
+  Directions(const LayeredFilm& film, const PotentialAccuracy& accuracy, double largest_k_1_m) {
+    for (int j = 0; j <= accuracy.harmonics; ++j) {
+      waves_.emplace_back(film, 0.5 * std::numbers::pi * j / accuracy.harmonics, largest_k_1_m,
+                          accuracy.film_degree);
+    }
+  }
+  AngularReading at(double k_1_m) const {
+    std::vector<Eigen::Vector4d> values;
+    for (const FilmWaves& direction : waves_) values.push_back(direction.reading(k_1_m));
+    return angular(values);
+  }
+
+ private:
+  std::vector<FilmWaves> waves_;
+};
+
+// Calls with(k, weight) for the points of a quadrature of k dk/(2 pi).
+template <typename With>
+void each_wave(double from_1_m, double to_1_m, double longest_1_m, const With& with) {
+  const int panels = static_cast<int>(std::ceil((to_1_m - from_1_m) / longest_1_m));
+  const double step_1_m = (to_1_m - from_1_m) / panels;
+  const QuadratureRule rule = gauss_legendre(kWavePoints);
+  for (int panel = 0; panel < panels; ++panel) {
+    for (std::size_t q = 0; q < rule.points.size(); ++q) {
+      const double k_1_m = from_1_m + step_1_m * (panel + rule.points[q]);
+      with(k_1_m, rule.weights[q] * step_1_m * k_1_m / (2.0 * std::numbers::pi));
+    }
+  }
+}
+
+// Beyond kShortWaves the faces no longer feel each other and the reading goes as 1/k (eq. S6).
+std::vector<PotentialSpectrum::OwnWave> own_waves(const LayeredFilm& film, const FootForces& foot,
+                                                  const PotentialAccuracy& accuracy) {
+  std::vector<PotentialSpectrum::OwnWave> own;
+  const double t_m = thickness_m(film);
+  const double from_1_m = kCutFrom * accuracy.largest_kt / t_m;
+  const double to_1_m = accuracy.own_kt / t_m;
+  if (!(to_1_m > from_1_m)) return own;
+  const double short_1_m = std::max(from_1_m, kShortWaves / t_m);
+  const Directions directions(film, accuracy, short_1_m);
+  const AngularReading limit = directions.at(short_1_m);
+  const double widest_m = *std::max_element(foot.radius_m.begin(), foot.radius_m.end());
+  each_wave(
+      from_1_m, to_1_m, kOwnPhase / std::max(t_m, widest_m), [&](double k_1_m, double weight) {
+        const AngularReading g = k_1_m < short_1_m ? directions.at(k_1_m) : limit;
+        const double share =
+            std::min(1.0, short_1_m / k_1_m) * cut(k_1_m * t_m / accuracy.largest_kt);
+        const AxialTransform pressure = transform(foot.pressure, foot.radius_m, k_1_m);
+        own.push_back({k_1_m, share * weight * (g.x[0] * pressure.tau_x + g.z[0] * pressure.t_z)});
+      });
+  return own;
+}
+
+}  // namespace
+
+PotentialSpectrum potential_spectrum(const LayeredFilm& film, const FootForces& foot,
+                                     const PotentialAccuracy& accuracy) {
+  require_positive("reach of the potential", accuracy.reach_m, "m");
+  PotentialSpectrum spectrum;
+  const double largest_k_1_m = accuracy.largest_kt / thickness_m(film);
+  const Directions directions(film, accuracy, largest_k_1_m);
+  const double longest_1_m =
+      std::min(kWavePhase / accuracy.reach_m, kWaveStep / film.layers.front().thickness_m);
+  each_wave(0.0, largest_k_1_m, longest_1_m, [&](double k_1_m, double weight) {
+    const double share = accuracy.own_kt > 0.0 ? 1.0 - cut(k_1_m / largest_k_1_m) : 1.0;
+    spectrum.waves.push_back(
+        {k_1_m, share * weight, share * weight * harmonics_of(directions.at(k_1_m), foot, k_1_m)});
+  });
+  spectrum.own = own_waves(film, foot, accuracy);
+  return spectrum;
+}
+
+std::vector<Eigen::MatrixXd> induced_amplitudes(const PotentialSpectrum& spectrum,
+                                                const LayeredFilm& film, const DiscCharge& charge,
+                                                const PotentialAccuracy& accuracy) {
+  const Eigen::Index count = spectrum.waves.front().amplitude.rows();
+  const double largest_k_1_m = accuracy.largest_kt / thickness_m(film);
+  const ChargePotential potential(film, largest_k_1_m, accuracy.film_degree);
+  std::vector<double> per_charge;
+  // Charge lies on the face that is read, whichever it is, so its short waves fade out (eq. S6). With
+  // own waves the weights do so already.
+  for (const PotentialSpectrum::Wave& wave : spectrum.waves) {
+    const double share = accuracy.own_kt > 0.0 ? 1.0 : 1.0 - cut(wave.k_1_m / largest_k_1_m);
+    per_charge.push_back(share * wave.weight_1_m2 * potential.at(wave.k_1_m));
+  }
+  std::vector<Eigen::MatrixXd> induced(spectrum.waves.size(),
+                                       Eigen::MatrixXd::Zero(count, kTopLoads));
+  for (int m = 0; m < 2 * count; ++m) {
+    // Even harmonics belong to the pressure, odd ones to the other loads.
+    const Eigen::Index j = m / 2;
+    const Eigen::Index first = m % 2 == 0 ? 0 : 1;
+    const Eigen::Index loads = m % 2 == 0 ? 1 : kTopLoads - 1;
+    Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(charge.modes(), loads);
+    for (const PotentialSpectrum::Wave& wave : spectrum.waves) {
+      moments += charge.transforms(m, wave.k_1_m) * wave.amplitude.row(j).segment(first, loads);
+    }
+    for (const PotentialSpectrum::OwnWave& wave : spectrum.own) {
+      if (m == 0) moments.col(0) += wave.amplitude * charge.transforms(0, wave.k_1_m);
+    }
+    const Eigen::MatrixXd amplitudes = charge.induced(m, moments);
+    for (std::size_t i = 0; i < induced.size(); ++i) {
+      induced[i].row(j).segment(first, loads) =
+          per_charge[i] * charge.transforms(m, spectrum.waves[i].k_1_m).transpose() * amplitudes;
+    }
+  }
+  return induced;
+}
+
+double mutual_influence(const LayeredFilm& film, const DiscCharge& charge, double distance_m,
+                        const PotentialAccuracy& accuracy) {
+  const double t_m = film.layers.front().thickness_m;
+  const double largest_k_1_m = std::max(2.0 * accuracy.largest_kt, kShortWaves) / t_m;
+  const ChargePotential potential(film, largest_k_1_m, accuracy.film_degree);
+  double mutual_V_C = 0.0;
+  each_wave(0.0, largest_k_1_m, std::min(kWavePhase / distance_m, kWaveStep / t_m),
+            [&](double k_1_m, double weight) {
+              const double reading = charge.weight(k_1_m);
+              mutual_V_C += weight * (1.0 - cut(k_1_m / largest_k_1_m)) * potential.at(k_1_m) *
+                            reading * reading * ::j0(k_1_m * distance_m);
+            });
+  return mutual_V_C * charge.capacitance_F();
+}
+
+}  // namespace viscard
