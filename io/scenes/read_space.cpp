@@ -218,8 +218,17 @@ void fill_classes(const RawSpace& raw, const std::filesystem::path& folder, Spac
 void fill_electrode(const RawSpace& raw, SpaceScene& scene) {
   scene.grounded = choice<FilmFace>("geometry.electrode.face", raw.electrode_face,
                                     {{"bottom", FilmFace::kTop}, {"top", FilmFace::kBottom}});
-  choice<bool>("geometry.electrode.kind", raw.electrode_kind, {{"sampled", true}});
-  scene.electrode = raw.quadrants ? SpaceElectrode::kQuadrants : SpaceElectrode::kSampled;
+  scene.electrode = choice<SpaceElectrode>(
+      "geometry.electrode.kind", raw.electrode_kind,
+      {{"sampled", SpaceElectrode::kSampled}, {"equipotential", SpaceElectrode::kEquipotential}});
+  if (raw.quadrants) {
+    if (scene.electrode == SpaceElectrode::kEquipotential) {
+      throw SceneMistake("geometry.electrode.kind",
+                         "quadrants of an array in the plane are read on a charge-free face; say "
+                         "kind = \"sampled\", or leave quadrants out");
+    }
+    scene.electrode = SpaceElectrode::kQuadrants;
+  }
   scene.electrode_radius_m = raw.electrode_radius_m;
 }
 

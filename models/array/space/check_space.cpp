@@ -80,11 +80,12 @@ void check_film(const SpaceScene& scene) {
                        "the film beyond the outer pillars must not be "
                        "negative");
   }
-  if (scene.grounded == FilmFace::kBottom) {
-    throw SceneMistake("geometry.electrode.face",
-                       "cannot be the top: arrays in the plane are read on the bottom of the film. "
-                       "The potential on the face where the pillars stand has a steep rim at each "
-                       "foot, which the film's waves do not resolve");
+  if (scene.grounded == FilmFace::kBottom && scene.electrode != SpaceElectrode::kEquipotential) {
+    throw SceneMistake(
+        "geometry.electrode.face",
+        "cannot be the top here: the potential of a charge-free face has a steep rim at "
+        "each foot that stands on it. Read the bottom, or say kind = "
+        "\"equipotential\"");
   }
   const double beyond_m = electrode_radius_m(scene) - 0.5 * scene.diameter_m;
   if (beyond_m > scene.film_edge_m) {

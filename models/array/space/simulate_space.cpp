@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -19,7 +18,15 @@ constexpr double kCrosstalkScale = 10.0;  // %: a tolerance of 1e-3 gives per ce
 constexpr const char* kCrosstalk = "crosstalk_percent";
 // At least this share of the tolerance is left for what the accuracies reduce.
 constexpr double kShareOfAccuracy = 0.2;
-constexpr const char* kMeanVoltage = "mean_voltage";
+// The reading of one pillar that cross-talk compares: of a disc, in either kind.
+struct DiscReading {
+  const char* map;
+  Eigen::Index row;  // of a kernel
+};
+DiscReading disc_reading(const SpaceScene& scene) {
+  const bool has_electrodes = scene.electrode == SpaceElectrode::kEquipotential;
+  return has_electrodes ? DiscReading{"electrode_voltage", 0} : DiscReading{"mean_voltage", 1};
+}
 // A pillar that is sheared has no centre or mean voltage of its own. What its neighbours leave there
 // is judged beside this share of the voltage that the load would have as a pressure.
 constexpr double kOfPressed = 0.01;
@@ -90,8 +97,9 @@ bool is_quarter(const SceneMap& map) {
 std::vector<SceneMap> maps_of(const SpaceScene& scene, const SpaceResponse& response,
                               const TopLoads& loads_Pa) {
   const Eigen::MatrixXd voltages = response.voltages_V(loads_Pa);
+  const DiscReading disc = disc_reading(scene);
   const double pressed_V =
-      std::abs(response.kernel(0, 0.0, 0.0)(1, static_cast<int>(TopLoad::kPressure))) *
+      std::abs(response.kernel(0, 0.0, 0.0)(disc.row, static_cast<int>(TopLoad::kPressure))) *
       loads_Pa.cwiseAbs().maxCoeff();
   const std::vector<std::string> names = reading_names(scene.electrode);
   std::vector<SceneMap> maps;
@@ -103,7 +111,7 @@ std::vector<SceneMap> maps_of(const SpaceScene& scene, const SpaceResponse& resp
       map.pillar.push_back(i);
       map.value.push_back(voltages(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(r)));
     }
-    if (map.name == kMeanVoltage) mean = map;
+    if (map.name == disc.map) mean = map;
     if (is_quarter(map)) largest_quarter_V = std::max(largest_quarter_V, size_of(map));
     if (asks_for_map(scene, map.name)) maps.push_back(std::move(map));
   }
@@ -148,9 +156,10 @@ void set_results(const SpaceScene& scene, SceneAnswer& answer) {
 // traction that is slightly wrong acts on the neighbours like its load, as a part of the field there.
 double foot_error_of(const SceneMap& map, const SpaceScene& scene) {
   const double foot = rigid_foot_error(scene);
-  if (map.unit == "V") return foot * size_of(map);
+  if (map.unit == "V") return (foot + electrode_error(scene)) * size_of(map);
   const double x = smallest_gap_m(scene) / scene.film_thickness_m;
-  return 200.0 * foot * neighbour_influence(x, scene.film_thickness_m / scene.diameter_m);
+  return 100.0 * electrode_error(scene) +
+         200.0 * foot * neighbour_influence(x, scene.film_thickness_m / scene.diameter_m);
 }
 double edge_error_of(const SceneMap& map, double edge) {
   return edge * (map.unit == "V" ? size_of(map) : 100.0);
@@ -158,7 +167,7 @@ double edge_error_of(const SceneMap& map, double edge) {
 
 // The largest of them relative to what the tolerance refers to.
 double largest_constant_error(const SpaceScene& scene, double largest_edge) {
-  SceneMap voltage{.name = kMeanVoltage, .unit = "V", .scale = 1.0};
+  SceneMap voltage{.name = "", .unit = "V", .scale = 1.0};
   const double of_voltages = foot_error_of(voltage, scene) + largest_edge;
   if (!has_crosstalk(scene) || !asks_for_map(scene, kCrosstalk)) return of_voltages;
   const SceneMap crosstalk{.name = kCrosstalk, .unit = "%", .scale = kCrosstalkScale};
@@ -170,6 +179,13 @@ double largest_constant_error(const SpaceScene& scene, double largest_edge) {
 [[noreturn]] void refuse(const SpaceScene& scene, double error, double largest_edge) {
   const std::string size = " of about " + text_of(error, 2) + ", too much for a tolerance of " +
                            text_of(scene.tolerance, 2) + "; ask for a larger one, or for a ";
+  if (electrode_error(scene) > std::max(largest_edge, rigid_foot_error(scene))) {
+    throw SceneMistake(
+        "geometry.electrode.radius",
+        "the electrodes lie so close that the charges of all influence each other, which "
+        "leaves a relative error" +
+            size + "smaller radius");
+  }
   if (largest_edge > rigid_foot_error(scene)) {
     throw SceneMistake(
         "geometry.film.edge",
@@ -204,42 +220,6 @@ std::vector<std::string> result_names(const SpaceScene& scene) {
   }
   if (has_crosstalk(scene)) names.emplace_back(kCrosstalk);
   return names;
-}
-
-double neighbour_influence(double x, double thickness_over_diameter) {
-  const double field = 1.4 * thickness_over_diameter * std::exp(-0.5 * std::numbers::pi * x);
-  return std::min(1.0, field + 0.45 * std::exp(-0.9215 * x));
-}
-
-double rigid_foot_error(const SpaceScene& scene) {
-  double stiffest_Pa = 0.0;
-  for (const SpaceClass& one : classes_of(scene)) {
-    stiffest_Pa = std::max(stiffest_Pa, one.material.E0_Pa);
-  }
-  constexpr double kPressed = 0.12, kSheared = 0.2;
-  const bool is_sheared = scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0;
-  return (is_sheared ? kSheared : kPressed) * stiffest_Pa / elasticity_of(scene.film).young_Pa;
-}
-
-std::vector<double> film_edge_errors(const SpaceScene& scene) {
-  const FilmExtent film = film_extent(scene);
-  const std::vector<bool> loaded = is_loaded(scene);
-  const std::vector<SpaceClass> classes = classes_of(scene);
-  std::vector<double> to_edge_m;
-  double nearest_m = HUGE_VAL;  // of the loaded pillars
-  for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
-    const SpacePillar& one = scene.pillars[i];
-    const double radius_m = 0.5 * classes[static_cast<std::size_t>(one.of_class)].diameter_m;
-    to_edge_m.push_back(std::min({one.x_m - film.left_m, film.right_m - one.x_m,
-                                  one.y_m - film.low_m, film.high_m - one.y_m}) -
-                        radius_m);
-    if (loaded[i]) nearest_m = std::min(nearest_m, to_edge_m.back());
-  }
-  for (double& one : to_edge_m) {
-    const double way = (one + nearest_m) / scene.film_thickness_m;
-    one = way < 2.0 ? 2.0 : std::exp(-0.9215 * way);
-  }
-  return to_edge_m;
 }
 
 std::vector<Discretisation> space_meshes(const SpaceScene& scene) {

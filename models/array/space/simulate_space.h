@@ -12,12 +12,14 @@ namespace viscard {
 // meets the tolerance. The maps, by pillar:
 //   centre_voltage, mean_voltage  of a charge-free face: under the axis, over the electrode's disc
 //   quadrant_1_voltage to _4_     means over the quarters (+,+), (-,+), (-,-), (+,-) of the disc
-//   crosstalk_percent             mean voltage of an unloaded pillar over the largest of a loaded one
+//   electrode_voltage             of open equipotential electrodes, instead of those above
+//   crosstalk_percent             mean or electrode voltage of an unloaded pillar over the largest of a
+//                                 loaded one
 // The results are the largest and the smallest value of each map ("mean_voltage_largest") and the values
 // of single pillars ("mean_voltage_3_4": row 3, column 4): those that the scene wants by name, all of
 // them where there are at most kMostNamedPillars. The error of each value is the change from accuracy
-// to accuracy, plus what a foot on a rigid base leaves out and what the film's edge reflects (eq. S7,
-// S8). Throws std::runtime_error with the reason if the finest accuracy does not meet the tolerance.
+// to accuracy, plus what a foot on a rigid base leaves out and what the film's edge reflects (eq. S5,
+// S7, S8). Throws std::runtime_error with the reason if the finest accuracy does not meet the tolerance.
 SceneAnswer simulate_space(const SpaceScene& scene);
 constexpr std::size_t kMostNamedPillars = 25;
 
@@ -41,6 +43,9 @@ bool has_crosstalk(const SpaceScene& scene);
 double rigid_foot_error(const SpaceScene& scene);
 // Relative error of each pillar's voltages because the film is solved without end (eq. S8).
 std::vector<double> film_edge_errors(const SpaceScene& scene);
+
+// Relative error of the voltages of equipotential electrodes that influence each other (eq. S5).
+double electrode_error(const SpaceScene& scene);
 
 // What a neighbour, or an end of the film, changes in a voltage at most, at a distance x in units of the
 // film's thickness (eq. A4, models/array/plane).

@@ -88,28 +88,6 @@ void validate(const SpaceArray& array) {
   }
 }
 
-double nearest_distance_m(const SpaceArray& array) {
-  double nearest_m = HUGE_VAL;
-  double reach_m = largest_diameter_m(array);
-  // Distances beyond all positions mean that there is no second pillar.
-  double extent_m = reach_m;
-  for (const PlacedPillar& one : array.pillars) {
-    extent_m = std::max(extent_m, 4.0 * std::hypot(one.x_m, one.y_m));
-  }
-  while (std::isinf(nearest_m) && reach_m <= 2.0 * extent_m) {
-    const Neighbours near(array.pillars, reach_m);
-    for (const PlacedPillar& one : array.pillars) {
-      near.visit(one.x_m, one.y_m, [&](std::size_t j) {
-        const PlacedPillar& other = array.pillars[j];
-        const double distance_m = std::hypot(other.x_m - one.x_m, other.y_m - one.y_m);
-        if (distance_m > 0.0) nearest_m = std::min(nearest_m, distance_m);
-      });
-    }
-    reach_m *= 2.0;
-  }
-  return nearest_m;
-}
-
 std::vector<std::string> reading_names(SpaceElectrode electrode) {
   if (electrode == SpaceElectrode::kEquipotential) return {"electrode"};
   std::vector<std::string> names = {"centre", "mean"};
@@ -150,11 +128,6 @@ SpaceResponse::SpaceResponse(const SpaceArray& array, const SpaceAccuracy& accur
     charge.emplace(array.film, array.electrode_radius_m, 2 * (accuracy.potential.harmonics + 1),
                    accuracy.foot.degree, accuracy.potential.film_degree);
     capacitance_F_ = charge->capacitance_F();
-    const double nearest_m = nearest_distance_m(array);
-    if (nearest_m < reach_m_) {
-      const double influence = mutual_influence(array.film, *charge, nearest_m, accuracy.potential);
-      left_out_by_electrodes_ = influence * influence;
-    }
     readings = {[&](double k_1_m) { return charge->weight(k_1_m); }};
   }
   const double largest_k_1_m = std::max(accuracy.potential.largest_kt, accuracy.potential.own_kt) /

@@ -47,9 +47,6 @@ using TopLoads = Eigen::Matrix<double, Eigen::Dynamic, kTopLoads>;
 // Names of the readings of an electrode: centre, mean, quadrant_1, ... or electrode.
 std::vector<std::string> reading_names(SpaceElectrode electrode);
 
-// Least distance between the axes of two pillars, m; infinite for a single one.
-double nearest_distance_m(const SpaceArray& array);
-
 // How finely an array is answered: foot_forces.h and potential_table.h.
 struct SpaceAccuracy {
   Discretisation foot;
@@ -74,13 +71,10 @@ class SpaceResponse {
 
   const FootForces& foot(int of_class) const { return feet_[static_cast<std::size_t>(of_class)]; }
   double capacitance_F() const { return capacitance_F_; }  // of one electrode; 0 if sampled
-  // Square of the influence of the nearest electrode, which equipotential readings leave out (eq. S5).
-  double left_out_by_electrodes() const { return left_out_by_electrodes_; }
   int unknowns() const { return unknowns_; }
 
  private:
   const SpaceArray* array_;
-  double left_out_by_electrodes_ = 0.0;
   double capacitance_F_ = 0.0;
   double reach_m_ = 0.0;  // between axes
   std::vector<FootForces> feet_;

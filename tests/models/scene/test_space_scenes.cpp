@@ -103,6 +103,32 @@ TEST_CASE("quarters of an electrode read pressure and shear as the reference doe
         Approx(-7.32744).epsilon(5e-4));
 }
 
+// Voltage and neighbours as in tests/models/array/space/test_disc_electrodes.cpp.
+TEST_CASE("equipotential electrodes on either face are a scene", "[models][array][space]") {
+  SpaceScene scene = array_of_the_thesis(1, 3);
+  scene.film = pvdf_of_the_thesis(23e-12, 23e-12, -33e-12);
+  scene.grounded = FilmFace::kBottom;
+  scene.electrode = SpaceElectrode::kEquipotential;
+  scene.pressure_Pa = 1e4;
+  scene.loaded = {{1, 2}};
+  scene.tolerance = 2e-3;
+  const SceneAnswer answer = simulate(scene);
+  CHECK(1e3 * value_at(answer, "electrode_voltage", 1, 2) == Approx(18.1983).epsilon(1e-3));
+  CHECK(value_at(answer, "crosstalk_percent", 1, 1) == Approx(-0.416).margin(0.02));
+  CHECK(value_at(answer, "crosstalk_percent", 1, 3) ==
+        Approx(value_at(answer, "crosstalk_percent", 1, 1)).epsilon(1e-9));
+
+  scene.electrode = SpaceElectrode::kSampled;
+  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("cannot be the top"));
+
+  // Electrodes that almost touch change each other's charge by more than is promised.
+  scene.electrode = SpaceElectrode::kEquipotential;
+  scene.electrode_radius_m = 49e-6;
+  scene.tolerance = 1e-3;
+  CHECK(electrode_error(scene) > 1e-3);
+  CHECK_THROWS_WITH(simulate(scene), Catch::Contains("smaller radius"));
+}
+
 TEST_CASE("an array that is its mirror image reads symmetrically", "[models][array][space]") {
   SpaceScene scene = array_of_the_thesis(3, 4);
   scene.tolerance = 1e-2;

@@ -1,0 +1,59 @@
+// Errors that no accuracy of an array in the plane reduces.
+#include "models/array/space/disc_charge.h"
+#include "models/array/space/potential_spectrum.h"
+#include "models/array/space/simulate_space.h"
+#include "models/pillar/analyses/analysis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace viscard {
+
+double neighbour_influence(double x, double thickness_over_diameter) {
+  const double field = 1.4 * thickness_over_diameter * std::exp(-0.5 * std::numbers::pi * x);
+  return std::min(1.0, field + 0.45 * std::exp(-0.9215 * x));
+}
+
+double rigid_foot_error(const SpaceScene& scene) {
+  double stiffest_Pa = 0.0;
+  for (const SpaceClass& one : classes_of(scene)) {
+    stiffest_Pa = std::max(stiffest_Pa, one.material.E0_Pa);
+  }
+  constexpr double kPressed = 0.12, kSheared = 0.2;
+  const bool is_sheared = scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0;
+  return (is_sheared ? kSheared : kPressed) * stiffest_Pa / elasticity_of(scene.film).young_Pa;
+}
+
+double electrode_error(const SpaceScene& scene) {
+  const double pitch_m = smallest_pitch_m(scene);
+  if (scene.electrode != SpaceElectrode::kEquipotential || scene.pillars.size() < 2) return 0.0;
+  const SpaceArray array = array_of(scene);
+  const PotentialAccuracy accuracy = space_accuracies(array)[1].potential;
+  const DiscCharge charge(array.film, array.electrode_radius_m, 1, 4, accuracy.film_degree);
+  const double influence = mutual_influence(array.film, charge, pitch_m, accuracy);
+  return influence * influence;
+}
+
+std::vector<double> film_edge_errors(const SpaceScene& scene) {
+  const FilmExtent film = film_extent(scene);
+  const std::vector<bool> loaded = is_loaded(scene);
+  const std::vector<SpaceClass> classes = classes_of(scene);
+  std::vector<double> to_edge_m;
+  double nearest_m = HUGE_VAL;  // of the loaded pillars
+  for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
+    const SpacePillar& one = scene.pillars[i];
+    const double radius_m = 0.5 * classes[static_cast<std::size_t>(one.of_class)].diameter_m;
+    to_edge_m.push_back(std::min({one.x_m - film.left_m, film.right_m - one.x_m,
+                                  one.y_m - film.low_m, film.high_m - one.y_m}) -
+                        radius_m);
+    if (loaded[i]) nearest_m = std::min(nearest_m, to_edge_m.back());
+  }
+  for (double& one : to_edge_m) {
+    const double way = (one + nearest_m) / scene.film_thickness_m;
+    one = way < 2.0 ? 2.0 : std::exp(-0.9215 * way);
+  }
+  return to_edge_m;
+}
+
+}  // namespace viscard
