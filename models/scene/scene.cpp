@@ -7,6 +7,29 @@
 #include "models/pillar/analyses/simulate_pillar.h"
 
 namespace viscard {
+namespace {
+
+// One pillar of an array that stays under a pressure.
+std::string note_of_one(PillarScene one, double pressure_Pa) {
+  one.drive = StaticDrive{.pressure_Pa = pressure_Pa};
+  return creep_buckling_note(one);
+}
+
+std::string creep_buckling_note(const ArrayScene& row) {
+  if (row.load != ArrayLoad::kPressure || !std::holds_alternative<RowStatic>(row.drive)) return "";
+  return note_of_one(single_pillar(row), row.load_Pa);
+}
+
+std::string creep_buckling_note(const SpaceScene& array) {
+  for (const SpaceClass& one : classes_of(array)) {
+    const std::string note = note_of_one(single_pillar(array, one), array.pressure_Pa);
+    if (!note.empty()) return note;
+  }
+  return "";
+}
+
+}  // namespace
+
 SceneCommon& common(Scene& scene) {
   return std::visit([](auto& body) -> SceneCommon& { return body; }, scene);
 }
@@ -33,12 +56,7 @@ void refuse_beyond_buckling(const Scene& scene) {
 }
 
 std::string creep_buckling_note(const Scene& scene) {
-  if (const auto* pillar = std::get_if<PillarScene>(&scene)) return creep_buckling_note(*pillar);
-  const auto& row = std::get<ArrayScene>(scene);
-  if (row.load != ArrayLoad::kPressure || !std::holds_alternative<RowStatic>(row.drive)) return "";
-  PillarScene one = single_pillar(row);
-  one.drive = StaticDrive{.pressure_Pa = row.load_Pa};
-  return creep_buckling_note(one);
+  return std::visit([](const auto& body) { return creep_buckling_note(body); }, scene);
 }
 
 void refuse_buckling_in_creep(const Scene& scene) {

@@ -1,5 +1,7 @@
 #include "models/pillar/mesh/film_mesh.h"
 
+#include "models/pillar/mesh/line_mesh.h"
+
 #include <algorithm>
 #include <cmath>
 
