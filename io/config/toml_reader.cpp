@@ -92,8 +92,10 @@ class TomlReader final : public FieldVisitor {
 
   void quantity_pairs(const char* key, const char* first_unit, const char* second_unit,
                       std::vector<std::pair<double, double>>& values) override {
-    const std::string what = std::string("a list of pairs, [[\"1 ") + first_unit + "\", \"2 " +
-                             second_unit + "\"], ...]";
+    const bool are_numbers = std::string(first_unit) == "1" && std::string(second_unit) == "1";
+    const std::string what = are_numbers ? "a list of pairs, [[1, 1], [2, 1], ...]"
+                                         : std::string("a list of pairs, [[\"1 ") + first_unit +
+                                               "\", \"2 " + second_unit + "\"], ...]";
     read_list(key, false, what, values, [&](const toml::node& entry) {
       const toml::array* pair = entry.as_array();
       if (pair == nullptr || pair->size() != 2) fail(entry, key, "expected " + what);
