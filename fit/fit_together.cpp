@@ -169,6 +169,24 @@ void report_window(const std::vector<MaterialTest>& tests, const SpectralModel& 
   add_identifiability_flags(model, fit.state, fit.covariance, window, result);
 }
 
+// Tests of few rows know their own noise badly, and the weights and intervals take it as known. In
+// trials with 1 % noise 66 to 75 % of the intervals of E0 and E_inf held with 10 rows in each of two
+// tests, 80 to 90 % with 20.
+void flag_few_rows(const JointTests& joint, const std::vector<MaterialTest>& tests,
+                   FitResult& result) {
+  constexpr std::size_t kEnough = 40;
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    const auto rows = static_cast<std::size_t>(joint.groups[k].n_samples);
+    if (rows >= kEnough) continue;
+    result.flags.push_back(
+        {"few-rows", 0,
+         "the " + tests[k].name + " has " + std::to_string(rows) +
+             " rows, too few to know its noise: intervals of E0 and E_inf hold the truth less "
+             "often "
+             "than stated (two in three with 10 rows a test). Measure more rows"});
+  }
+}
+
 FitResult fit_as(const std::vector<MaterialTest>& tests, const FitOptions& options) {
   constexpr int kRounds = 3;
   JointTests joint = joint_tests(tests, options);
@@ -199,6 +217,7 @@ FitResult fit_as(const std::vector<MaterialTest>& tests, const FitOptions& optio
     result.n_samples += tests[k].own.n_samples;
   }
   report_window(tests, *joint.model, fit, result);
+  flag_few_rows(joint, tests, result);
   const Eigen::VectorXd used = leverage_by_group(*joint.model, fit.state, joint.groups);
   compare_tests(joint, fit, noise_freedom(joint, used), result);
   return result;

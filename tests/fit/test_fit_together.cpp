@@ -243,28 +243,6 @@ TEST_CASE("a test with slow noise counts with its own memory", "[fit][together]"
   CHECK(coverage.pooled() > 0.88);
 }
 
-TEST_CASE("one test twice weighs as its data together", "[fit][together]") {
-  // Two halves of one record: the answer is that of the record.
-  FitOptions keep;
-  keep.keep_rows = true;
-  const RelaxationData all = relaxation_of(s2(), 1200, 1000.0, 0.01, 7);
-  RelaxationData odd, even;
-  for (std::size_t i = 0; i < all.time_s.size(); ++i) {
-    RelaxationData& half = i % 2 == 0 ? even : odd;
-    half.time_s.push_back(all.time_s[i]);
-    half.value.push_back(all.value[i]);
-  }
-  const FitResult whole = fit_relaxation(all, {});
-  const FitResult halves = fit_together(
-      {{"relaxation 1", fit_relaxation(even, keep)}, {"relaxation 2", fit_relaxation(odd, keep)}},
-      {});
-  REQUIRE(halves.terms.size() == whole.terms.size());
-  CHECK(halves.E_inf_Pa == Approx(whole.E_inf_Pa).epsilon(2e-4));
-  CHECK(std::abs(halves.E0_Pa - whole.E0_Pa) < 0.2 * whole.E0_se_Pa);
-  CHECK(halves.E_inf_se_Pa == Approx(whole.E_inf_se_Pa).epsilon(0.1));
-  CHECK_FALSE(has_flag(halves, "tests-disagree"));
-}
-
 TEST_CASE("several tests refuse what one test alone can have", "[fit][together]") {
   const std::vector<MaterialTest> tests = three_tests(kSolid, 1);
   FitOptions bound;
