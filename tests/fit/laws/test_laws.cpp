@@ -5,6 +5,7 @@
 #include "fit/laws/law_fit.h"
 #include "models/material/retardation_spectrum.h"
 #include "models/material/viscoelastic_models.h"
+#include "tests/fit/laws/law_records.h"
 #include "tests/fit/spectra.h"
 
 #include <catch2/catch.hpp>
@@ -20,14 +21,6 @@ using namespace viscard::test;
 
 namespace {
 
-using Curve = std::function<double(double)>;
-
-FitOptions with_laws() {
-  FitOptions options;
-  options.with_laws = true;
-  return options;
-}
-
 const FittedLaw& law(const FitResult& fit, const std::string& name) {
   const auto found = std::find_if(fit.laws.begin(), fit.laws.end(),
                                   [&](const FittedLaw& one) { return one.name == name; });
@@ -41,27 +34,6 @@ const LawParameter& parameter(const FittedLaw& fitted, const std::string& name) 
   CAPTURE(fitted.name, name);
   REQUIRE(found != fitted.parameters.end());
   return *found;
-}
-
-std::vector<double> log_times(double from, double to, int count) {
-  std::vector<double> times;
-  for (int i = 0; i < count; ++i) times.push_back(from * std::pow(to / from, i / (count - 1.0)));
-  return times;
-}
-
-// The curve with a relative noise.
-std::vector<double> values_of(const Curve& curve, const std::vector<double>& at, double noise,
-                              unsigned seed) {
-  std::mt19937_64 dice(seed);
-  std::normal_distribution<double> normal;
-  std::vector<double> values;
-  for (const double x : at) values.push_back(curve(x) * (1.0 + noise * normal(dice)));
-  return values;
-}
-
-FitResult relaxation_fit(const Curve& curve, double noise = 0.0, unsigned seed = 1) {
-  const std::vector<double> time_s = log_times(1e-2, 1e3, 200);
-  return fit_relaxation({time_s, values_of(curve, time_s, noise, seed), {}}, with_laws());
 }
 
 FitResult creep_fit(const Curve& curve, double noise = 0.0, unsigned seed = 1) {
@@ -261,47 +233,4 @@ TEST_CASE("the intervals of a law's series are those of the law", "[fit]") {
   CHECK(fit.E_inf_se_Pa == Approx(E_inf_se).epsilon(0.05));  // all of E_1 has relaxed at 2.5e5 s
   CHECK(fit.E0_interval_95.low < fit.E0_Pa);
   CHECK(fit.E0_interval_95.high - fit.E0_interval_95.low < 0.5 * fit.E0_Pa);
-}
-
-TEST_CASE("a law does not keep answers and flags of the series", "[fit]") {
-  FitResult fit = relaxation_fit(
-      [](double t) { return 1e6 + 2e6 * std::exp(-std::pow(t / 3.0, 0.5)); }, 0.01, 4);
-  REQUIRE(fit.first);
-  const double time_s = fit.first->time_s;
-  for (const char* name :
-       {"E0-extrapolated", "E0-unknown", "liquid", "solid-or-liquid", "tau-beyond-window"}) {
-    const int term = std::string(name) == "tau-beyond-window" ? 1 : 0;
-    fit.flags.push_back({name, term, "of the series"});
-  }
-  fit.flags.push_back({"rows-left-out", 0, "of the record"});
-  fit.first->modulus_Pa = 9e6;
-  fit.bic_liquid_minus_solid = 1.0;
-  fit.is_trustworthy = false;
-  take_law("kww", fit);
-  const PronySeries series = young_series(material_from_fit(fit, 0.495, 0.0));
-  CHECK(fit.first->modulus_Pa == Approx(relaxation_modulus_Pa(series, time_s)).epsilon(1e-9));
-  CHECK(fit.first->modulus_Pa <= fit.E0_Pa);
-  CHECK_FALSE(fit.bic_liquid_minus_solid);
-  CHECK(fit.is_trustworthy);
-  CHECK(std::none_of(fit.flags.begin(), fit.flags.end(),
-                     [](const MaterialFlag& flag) { return flag.text == "of the series"; }));
-  CHECK(std::any_of(fit.flags.begin(), fit.flags.end(),
-                    [](const MaterialFlag& flag) { return flag.name == "rows-left-out"; }));
-}
-
-TEST_CASE("without being asked for, no law is fitted", "[fit]") {
-  CHECK(fit_relaxation(relaxation_of(s2(), 400, 1000.0, 0.002, 5)).laws.empty());
-}
-
-TEST_CASE("a law with an unknown E0 does not advise fewer terms", "[fit]") {
-  FitResult fit = relaxation_fit(
-      [](double t) { return 1e6 + 2e6 * std::exp(-std::pow(t / 3.0, 0.5)); }, 0.01, 4);
-  for (FittedLaw& one : fit.laws) one.series_covariance *= 1e8;  // as of a record of few rows
-  take_law("kww", fit);
-  const auto flag = std::find_if(fit.flags.begin(), fit.flags.end(),
-                                 [](const MaterialFlag& one) { return one.name == "E0-unknown"; });
-  REQUIRE(flag != fit.flags.end());
-  CHECK(flag->text.find("fewer terms") == std::string::npos);
-  CHECK(flag->text.find("another law") != std::string::npos);
-  CHECK_FALSE(fit.is_trustworthy);
 }
