@@ -21,7 +21,7 @@ const std::map<std::string, SceneReader>& readers() {
   return kReaders;
 }
 
-// An array in the plane shares its kind with rows; the model tells them apart.
+// An array in the plane shares its kind with rows; the model distinguishes them.
 bool is_in_space(const toml::node_view<const toml::node>& geometry, const std::string& kind) {
   if (kind != SpaceScene::kKind) return false;
   if (geometry["model"].value_or(std::string()) == SpaceScene::kModel) return true;

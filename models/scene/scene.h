@@ -12,7 +12,7 @@ namespace viscard {
 
 // The contents of a scene file: one pillar, a row of pillars, or an array in the plane. Every kind of
 // scene derives from SceneCommon, and has kKind, its word in a scene file, and kTolerances. Rows and
-// arrays in the plane have the same word; geometry.model tells them apart. A new kind is a further
+// arrays in the plane have the same word; geometry.model distinguishes them. A new kind is a further
 // alternative here; the compiler then names every place that lacks it.
 using Scene = std::variant<PillarScene, ArrayScene, SpaceScene>;
 

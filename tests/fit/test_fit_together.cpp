@@ -176,7 +176,7 @@ TEST_CASE("three tests of one spectrum: intervals hold it and are shorter than a
   CHECK(shorter_tau < 0.8);
 }
 
-TEST_CASE("a disagreement of 5 % is found and told, and the result is not trusted",
+TEST_CASE("a disagreement of 5 % is found and reported, and the result is not trusted",
           "[fit][together]") {
   for (int seed = 0; seed < 10; ++seed) {
     const std::vector<MaterialTest> tests = three_tests(kSolid, 2000 + seed, 1.05);

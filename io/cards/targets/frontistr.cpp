@@ -92,7 +92,7 @@ std::string frontistr_mesh(const DeckInput& input) {
 }
 
 // In a step of TYPE=VISCO a prescribed displacement is an increment: the first increment of the step
-// adds all of it, whatever the amplitude says (fstr_AddBC.f90). So the ramp is one increment of the
+// adds all of it, and ignores the amplitude (fstr_AddBC.f90). So the ramp is one increment of the
 // first step, and the displacement of the other steps is 0. A force rises linearly over the first
 // step in which it is active and stays in the next ones (fstr_ass_load.f90).
 std::string frontistr_steps(const DeckInput& input) {

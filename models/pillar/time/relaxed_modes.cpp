@@ -228,7 +228,7 @@ void refuse_doubles(const std::vector<Complex>& found) {
       }
       throw std::runtime_error("two damped modes near " +
                                text_of(found[i].imag() / (2.0 * std::numbers::pi), 4) +
-                               " Hz cannot be told apart; ask for fewer modes");
+                               " Hz cannot be distinguished; ask for fewer modes");
     }
   }
 }

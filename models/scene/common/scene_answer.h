@@ -17,7 +17,7 @@ struct SceneResult {
   double error_estimate = 0.0;  // absolute, in the unit
   double scale = 0.0;           // the error is relative to the larger of |value| and this
   bool is_wanted = true;        // false: not asked for, and its error is not watched
-  // Relative error that the solution itself shows, whatever other meshes say; part of the estimate.
+  // Relative error that the solution itself shows without other meshes; part of the estimate.
   double unresolved = 0.0;
 };
 

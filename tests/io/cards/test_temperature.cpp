@@ -36,9 +36,9 @@ TEST_CASE("every card that has a place for a WLF shift contains it, and it reads
     CAPTURE(target.name);
     const Card card = write_card(shifted_material(ShiftLaw::kWlf), target);
     // Where the solver would assume 0 degrees, one of the first lines says what to set.
-    const std::size_t told = card.text.find("SET THE TEMPERATURE of the model: ");
-    CHECK((told != std::string::npos) == (target.takes_wlf && !target.set_temperature.empty()));
-    if (told != std::string::npos) CHECK(told < card.text.find("units: "));
+    const std::size_t found = card.text.find("SET THE TEMPERATURE of the model: ");
+    CHECK((found != std::string::npos) == (target.takes_wlf && !target.set_temperature.empty()));
+    if (found != std::string::npos) CHECK(found < card.text.find("units: "));
     CHECK(temperature_mapping(card) == (target.takes_wlf ? "exact" : "dropped"));
     const ReadCard read = read_card(card.text, target, "");
     REQUIRE(read.material.shift.has_value() == target.takes_wlf);

@@ -103,7 +103,7 @@ TEST_CASE("three tests are fitted together, saved, predicted and written as a ca
   CHECK(card.status == kDone);
 }
 
-TEST_CASE("tests that disagree are told, and their card is refused", "[cli]") {
+TEST_CASE("tests that disagree are reported, and their card is refused", "[cli]") {
   const Tables tables;
   std::ifstream in(tables.creep_);
   std::ostringstream stiffer;
