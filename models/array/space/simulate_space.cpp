@@ -152,41 +152,58 @@ void set_results(const SpaceScene& scene, SceneAnswer& answer) {
   }
 }
 
-// Parts of the error of a map that no accuracy of the array reduces, in its unit: eq. S7 and S8. A foot's
+// Relative errors that no accuracy of the array reduces: eq. S5, S7 and S8.
+struct ConstantErrors {
+  double foot = 0.0;          // of a voltage
+  double electrodes = 0.0;    // of a voltage
+  double neighbour = 0.0;     // share of a load's field at its nearest neighbour
+  std::vector<double> edge;   // by pillar
+  double largest_edge = 0.0;  // of them
+};
+
+ConstantErrors constant_errors(const SpaceScene& scene) {
+  ConstantErrors errors;
+  errors.foot = rigid_foot_error(scene);
+  errors.electrodes = electrode_error(scene);
+  errors.neighbour = neighbour_influence(smallest_gap_m(scene) / scene.film_thickness_m,
+                                         scene.film_thickness_m / scene.diameter_m);
+  errors.edge = film_edge_errors(scene);
+  errors.largest_edge = *std::max_element(errors.edge.begin(), errors.edge.end());
+  return errors;
+}
+
+// The part of a map's error, in its unit, that all pillars have, and that of the film's edge. A foot's
 // traction that is slightly wrong acts on the neighbours like its load, as a part of the field there.
-double foot_error_of(const SceneMap& map, const SpaceScene& scene) {
-  const double foot = rigid_foot_error(scene);
-  if (map.unit == "V") return (foot + electrode_error(scene)) * size_of(map);
-  const double x = smallest_gap_m(scene) / scene.film_thickness_m;
-  return 100.0 * electrode_error(scene) +
-         200.0 * foot * neighbour_influence(x, scene.film_thickness_m / scene.diameter_m);
+double common_error_of(const SceneMap& map, const ConstantErrors& errors) {
+  if (map.unit == "V") return (errors.foot + errors.electrodes) * size_of(map);
+  return 100.0 * errors.electrodes + 200.0 * errors.foot * errors.neighbour;
 }
 double edge_error_of(const SceneMap& map, double edge) {
   return edge * (map.unit == "V" ? size_of(map) : 100.0);
 }
 
 // The largest of them relative to what the tolerance refers to.
-double largest_constant_error(const SpaceScene& scene, double largest_edge) {
+double largest_constant_error(const SpaceScene& scene, const ConstantErrors& errors) {
   SceneMap voltage{.name = "", .unit = "V", .scale = 1.0};
-  const double of_voltages = foot_error_of(voltage, scene) + largest_edge;
+  const double of_voltages = common_error_of(voltage, errors) + errors.largest_edge;
   if (!has_crosstalk(scene) || !asks_for_map(scene, kCrosstalk)) return of_voltages;
   const SceneMap crosstalk{.name = kCrosstalk, .unit = "%", .scale = kCrosstalkScale};
-  return std::max(
-      of_voltages,
-      (foot_error_of(crosstalk, scene) + edge_error_of(crosstalk, largest_edge)) / kCrosstalkScale);
+  return std::max(of_voltages, (common_error_of(crosstalk, errors) +
+                                edge_error_of(crosstalk, errors.largest_edge)) /
+                                   kCrosstalkScale);
 }
 
-[[noreturn]] void refuse(const SpaceScene& scene, double error, double largest_edge) {
+[[noreturn]] void refuse(const SpaceScene& scene, double error, const ConstantErrors& parts) {
   const std::string size = " of about " + text_of(error, 2) + ", too much for a tolerance of " +
                            text_of(scene.tolerance, 2) + "; ask for a larger one, or for a ";
-  if (electrode_error(scene) > std::max(largest_edge, rigid_foot_error(scene))) {
+  if (parts.electrodes > std::max(parts.largest_edge, parts.foot)) {
     throw SceneMistake(
         "geometry.electrode.radius",
         "the electrodes lie so close that the charges of all influence each other, which "
         "leaves a relative error" +
             size + "smaller radius");
   }
-  if (largest_edge > rigid_foot_error(scene)) {
+  if (parts.largest_edge > parts.foot) {
     throw SceneMistake(
         "geometry.film.edge",
         "the film is solved without its edge, which lies " + micrometres(scene.film_edge_m, 4) +
@@ -244,17 +261,16 @@ SceneAnswer space_answer_on(const SpaceScene& scene, const Discretisation& mesh)
 
 SceneAnswer simulate_space(const SpaceScene& scene) {
   validate(scene);
-  const std::vector<double> edge = film_edge_errors(scene);
-  const double largest_edge = *std::max_element(edge.begin(), edge.end());
-  const double constant = largest_constant_error(scene, largest_edge);
-  if (constant > (1.0 - kShareOfAccuracy) * scene.tolerance) refuse(scene, constant, largest_edge);
+  const ConstantErrors parts = constant_errors(scene);
+  const double constant = largest_constant_error(scene, parts);
+  if (constant > (1.0 - kShareOfAccuracy) * scene.tolerance) refuse(scene, constant, parts);
   SceneAnswer answer =
       answer_within({scene.tolerance - constant, space_meshes(scene), scene.progress},
                     [&](const Discretisation& mesh) { return space_answer_on(scene, mesh); });
   for (SceneMap& map : answer.maps) {
-    const double foot = foot_error_of(map, scene);
+    const double of_all = common_error_of(map, parts);
     for (std::size_t at = 0; at < map.value.size(); ++at) {
-      map.error[at] += foot + edge_error_of(map, edge[map.pillar[at]]);
+      map.error[at] += of_all + edge_error_of(map, parts.edge[map.pillar[at]]);
     }
   }
   answer.largest_relative_error += constant;
