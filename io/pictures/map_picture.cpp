@@ -25,10 +25,11 @@ struct MapUnit {
 };
 MapUnit map_unit_of(const SceneMap& map) {
   const double size = largest_size(map.value);
-  if (map.unit != "V" || size >= 1.0 || size == 0.0) return {1.0, map.unit};
-  if (size >= 1e-3) return {1e3, "mV"};
-  if (size >= 1e-6) return {1e6, "uV"};
-  return {1e9, "nV"};
+  if (map.unit == "%" || size >= 1.0 || size == 0.0) return {1.0, map.unit};
+  if (size >= 1e-3) return {1e3, "m" + map.unit};
+  if (size >= 1e-6) return {1e6, "u" + map.unit};
+  if (size >= 1e-9) return {1e9, "n" + map.unit};
+  return {1e12, "p" + map.unit};
 }
 
 // The values that the ends of the bar stand for.

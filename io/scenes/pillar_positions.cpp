@@ -4,6 +4,7 @@
 #include "io/basics/words.h"
 #include "io/tables/csv_table.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <stdexcept>
@@ -24,7 +25,8 @@ std::pair<std::string, std::string> name_and_unit(const CsvColumn& column) {
   return {name, unit};
 }
 
-std::vector<double> lengths_m(const CsvTable& table, const std::string& axis) {
+std::vector<double> lengths_m(const CsvTable& table, const std::string& axis,
+                              const std::string& all = "x and y") {
   std::vector<std::string> headers;
   for (const CsvColumn& column : table.columns) {
     headers.push_back("'" + column.header + "'");
@@ -44,9 +46,27 @@ std::vector<double> lengths_m(const CsvTable& table, const std::string& axis) {
     for (double& value : values) value *= factor;
     return values;
   }
-  throw std::runtime_error(table.file +
-                           ": needs the columns x and y with units, such as 'x [um]'; " +
-                           "it has " + listed(headers));
+  throw std::runtime_error(table.file + ": needs the columns " + all +
+                           " with units, such as 'x [um]'; " + "it has " + listed(headers));
+}
+
+// The values in order, those that agree to 1e-9 of their range once.
+std::vector<double> distinct(std::vector<double> values) {
+  if (values.empty()) return values;
+  std::sort(values.begin(), values.end());
+  const double same = 1e-9 * (values.back() - values.front());
+  values.erase(
+      std::unique(values.begin(), values.end(), [&](double a, double b) { return b - a <= same; }),
+      values.end());
+  return values;
+}
+
+std::size_t nearest(const std::vector<double>& axis, double at) {
+  const auto above = std::lower_bound(axis.begin(), axis.end(), at);
+  if (above == axis.begin()) return 0;
+  if (above == axis.end()) return axis.size() - 1;
+  const auto index = static_cast<std::size_t>(above - axis.begin());
+  return axis[index] - at < at - axis[index - 1] ? index : index - 1;
 }
 
 }  // namespace
@@ -59,6 +79,35 @@ std::vector<std::pair<double, double>> read_positions(const std::filesystem::pat
   for (std::size_t i = 0; i < x_m.size(); ++i) places.emplace_back(x_m[i], y_m[i]);
   if (places.empty()) throw std::runtime_error(table.file + ": holds no pillar");
   return places;
+}
+
+HeightTable read_heights(const std::filesystem::path& path) {
+  const CsvTable file = read_csv(path);
+  const std::string axes = "x, y and z";
+  const std::vector<double> x_m = lengths_m(file, "x", axes);
+  const std::vector<double> y_m = lengths_m(file, "y", axes);
+  const std::vector<double> z_m = lengths_m(file, "z", axes);
+  HeightTable table{distinct(x_m), distinct(y_m), {}};
+  if (table.x_m.size() < 2 || table.y_m.size() < 2) {
+    throw std::runtime_error(file.file + ": needs at least two places along x and along y");
+  }
+  table.height_m.assign(table.x_m.size() * table.y_m.size(), NAN);
+  const double lowest_m = *std::min_element(z_m.begin(), z_m.end());
+  for (std::size_t i = 0; i < z_m.size(); ++i) {
+    double& height_m =
+        table.height_m[nearest(table.y_m, y_m[i]) * table.x_m.size() + nearest(table.x_m, x_m[i])];
+    if (!std::isnan(height_m)) {
+      throw std::runtime_error(file.file + ": row " + std::to_string(i + 1) +
+                               " gives the height of a place that has one already");
+    }
+    height_m = z_m[i] - lowest_m;
+  }
+  if (z_m.size() < table.height_m.size()) {
+    throw std::runtime_error(file.file + ": " + std::to_string(table.x_m.size()) + " x " +
+                             std::to_string(table.y_m.size()) + " places along x and y, but only " +
+                             std::to_string(z_m.size()) + " heights; the grid must be full");
+  }
+  return table;
 }
 
 }  // namespace viscard

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "models/array/contact/rigid_shape.h"
+
 #include <filesystem>
 #include <utility>
 #include <vector>
@@ -9,5 +11,10 @@ namespace viscard {
 // Places of pillars from a table with columns x and y, each with a unit of length in its header ("x
 // [um]", "y (mm)", "x_m"). Throws std::runtime_error naming the file, the column or the line.
 std::vector<std::pair<double, double>> read_positions(const std::filesystem::path& path);
+
+// Heights of a surface from a table with columns x, y and z, each with a unit of length, one row for each
+// place of a rectangular grid in any order. Heights are counted from the lowest. Throws as above, and if
+// a place is missing or given twice.
+HeightTable read_heights(const std::filesystem::path& path);
 
 }  // namespace viscard

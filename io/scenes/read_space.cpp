@@ -1,5 +1,6 @@
 #include "io/scenes/pillar_positions.h"
 #include "io/scenes/scene_words.h"
+#include "io/scenes/shape_section.h"
 #include "models/array/space/space_scene.h"
 #include "models/scene/effects.h"
 #include "models/scene/plan.h"
@@ -37,6 +38,7 @@ struct RawSpace {
   std::string analysis = "static", load_on = "top";
   double pressure_Pa = 0.0, shear_x_Pa = 0.0, shear_y_Pa = 0.0;
   Pairs loaded;
+  RawShape shape;
   std::map<std::string, std::string> effects;
   std::vector<std::string> quantities;
   std::vector<PrintedValue> printed;
@@ -111,6 +113,7 @@ void show_space(FieldVisitor& v, RawSpace& s) {
       l.quantity_pairs("pillars", "1", "1", s.loaded);
     });
   });
+  v.section("shape", [&](FieldVisitor& one) { show_shape(one, s.shape); });
   v.section("effects", [&](FieldVisitor& e) {
     for (const Effect& effect : effects()) e.text({effect.name, "auto"}, s.effects[effect.name]);
   });
@@ -264,6 +267,7 @@ SpaceScene scene_from(const RawSpace& raw, const std::filesystem::path& folder) 
   fill_electrode(raw, scene);
   scene.surface_energy_J_m2 = raw.surface_energy_J_m2;
   fill_analysis(raw, scene);
+  scene.press = press_from(raw.shape, folder);
   scene.effects = choices_of(raw.effects);
   scene.wanted = raw.quantities;
   return scene;

@@ -94,9 +94,7 @@ const std::vector<Effect>& effects() {
         Row{[](const ArrayScene&) -> EffectEstimate {
           return {.reason = "no shape presses on the pillars"};
         }},
-        Space{[](const SpaceScene&) -> EffectEstimate {
-          return {.reason = "no shape presses on the pillars"};
-        }}}},
+        Space{contact_estimate, [](SpaceScene& scene) { scene.feels_contact = false; }}}},
   };
   return kEffects;
 }

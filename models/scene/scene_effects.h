@@ -46,5 +46,6 @@ EffectEstimate crosstalk_estimate(const SpaceScene& scene);
 EffectEstimate geometric_stiffness_estimate(const SpaceScene& scene);
 EffectEstimate adhesion_estimate(const SpaceScene& scene);
 EffectEstimate finite_strain_estimate(const SpaceScene& scene);
+EffectEstimate contact_estimate(const SpaceScene& scene);
 
 }  // namespace viscard

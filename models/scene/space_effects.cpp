@@ -1,4 +1,5 @@
 #include "models/array/space/simulate_space.h"
+#include "models/array/space/space_contact.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/scene/scene_effects.h"
@@ -11,8 +12,9 @@
 namespace viscard {
 namespace {
 
+// A shape turns tops, which bends the pillars as a shear does.
 bool is_sheared(const SpaceScene& scene) {
-  return scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0;
+  return scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0 || scene.press.has_value();
 }
 
 bool is_viscoelastic(const SpaceScene& scene) {
@@ -27,6 +29,11 @@ double largest_over_classes(const SpaceScene& scene, const OfClass& of_class) {
   double largest = 0.0;
   for (const SpaceClass& one : classes_of(scene)) largest = std::max(largest, of_class(one));
   return largest;
+}
+
+// Largest pressure on a top; under a shape that of an elastic foundation.
+double top_pressure_Pa(const SpaceScene& scene) {
+  return scene.press ? foundation_press(scene).largest_Pa : scene.pressure_Pa;
 }
 
 // One of the pillars on a wide film.
@@ -97,15 +104,21 @@ EffectEstimate crosstalk_estimate(const SpaceScene& scene) {
 // shear alone: moment at the foot times tan(u)/u, u = (pi/2) sqrt(p/p_cr), for a cantilever with an axial
 // load: Timoshenko & Gere, Theory of Elastic Stability (1961), 1.3.
 EffectEstimate geometric_stiffness_estimate(const SpaceScene& scene) {
-  if (!(scene.pressure_Pa > 0.0)) return {.reason = "no pressure on the tops"};
+  const double pressure_Pa = top_pressure_Pa(scene);
+  if (!(pressure_Pa > 0.0)) return {.reason = "no pressure on the tops"};
   const double share = largest_over_classes(scene, [&](const SpaceClass& one) {
-    return scene.pressure_Pa / engesser_pressure_Pa(single_pillar(scene, one));
+    return pressure_Pa / engesser_pressure_Pa(single_pillar(scene, one));
   });
   if (!is_sheared(scene)) {
     return {EffectRole::kAbsent, 0.0, "p/p_cr", share, "straight pillars shorten without it"};
   }
   const double u = 0.5 * std::numbers::pi * std::sqrt(std::min(share, 0.99));
-  return {EffectRole::kOutside, std::tan(u) / u - 1.0, "p/p_cr", share,
+  const double more = std::tan(u) / u - 1.0;
+  if (scene.press) {
+    return {EffectRole::kOutside, foundation_press(scene).turn * more, "p/p_cr", share,
+            "the pressure bends pillars further whose tops the shape turns; not in the error"};
+  }
+  return {EffectRole::kOutside, more, "p/p_cr", share,
           "the pressure bends pillars further that a shear bends; not in the error"};
 }
 
@@ -130,13 +143,25 @@ EffectEstimate adhesion_estimate(const SpaceScene& scene) {
 
 EffectEstimate finite_strain_estimate(const SpaceScene& scene) {
   const double shear_Pa = std::hypot(scene.shear_x_Pa, scene.shear_y_Pa);
+  const double pressure_Pa = std::abs(top_pressure_Pa(scene));
   const double strain = largest_over_classes(scene, [&](const SpaceClass& one) {
     // Bending strain at the foot of a cylinder: 8 tau l/(E d).
     const double bending_Pa = 8.0 * shear_Pa * one.length_m / one.diameter_m;
-    return (std::abs(scene.pressure_Pa) + bending_Pa) / one.material.E0_Pa;
+    return (pressure_Pa + bending_Pa) / one.material.E0_Pa;
   });
   return {EffectRole::kOutside, 2.3 * strain, "strain", strain,
           "small strains are assumed; not in the error"};
+}
+
+// A top lifts where the surface stays above it, and about where a turned top would: Saint-Venant's bending
+// and compression are equal at the rim when the overlap vanishes there.
+EffectEstimate contact_estimate(const SpaceScene& scene) {
+  if (!scene.press) return {.reason = "no shape presses on the pillars"};
+  const FoundationPress pressed = foundation_press(scene);
+  EffectEstimate estimate{EffectRole::kOptional, pressed.lift, "largest gap over overlap",
+                          pressed.lift, "tops that the shape does not touch are not pulled"};
+  if (!pressed.covers_all) estimate.role = EffectRole::kNeeded;
+  return estimate;
 }
 
 }  // namespace viscard

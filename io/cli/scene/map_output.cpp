@@ -25,7 +25,10 @@ std::vector<double> by_pillar(const SceneArray& array, const SceneMap& map,
 }
 
 std::string column_of(const SceneMap& map) {
-  return map.unit == "%" ? map.name : map.name + "_" + map.unit;
+  if (map.unit == "%") return map.name;
+  std::string unit = map.unit;
+  std::erase(unit, ' ');  // moment_x_Nm
+  return map.name + "_" + unit;
 }
 
 std::string csv_of_pillars(const SceneAnswer& answer, const std::string& command) {

@@ -1,8 +1,10 @@
 #include "models/array/space/simulate_space.h"
+#include "models/array/space/space_contact.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -45,6 +47,40 @@ void check_size(const SpaceScene& scene) {
     throw SceneMistake("analysis.load",
                        "needs a pressure or a shear, such as pressure = \"1 kPa\" or shear_x = "
                        "\"100 Pa\"");
+  }
+}
+
+void check_press(const SpaceScene& scene) {
+  const ShapePress& press = *scene.press;
+  if (scene.pressure_Pa != 0.0 || scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0 ||
+      !scene.loaded.empty()) {
+    throw SceneMistake("analysis.load", "cannot stand beside a shape, which itself loads the tops");
+  }
+  at_key("shape", [&] { validate(press.shape); });
+  if ((press.depth_m > 0.0) == (press.force_N > 0.0)) {
+    throw SceneMistake(
+        "shape",
+        "needs either a depth, such as depth = \"3 um\", or a force, such as force = "
+        "\"5 mN\"");
+  }
+  double longest_m = 0.0;
+  for (const SpaceClass& one : classes_of(scene)) longest_m = std::max(longest_m, one.length_m);
+  if (press.depth_m > longest_m) {
+    throw SceneMistake("shape.depth",
+                       "is more than the pillars' length of " + micrometres(longest_m));
+  }
+  const FoundationPress pressed = foundation_press(scene);
+  if (press.force_N > 0.0 && !std::isfinite(pressed.depth_m)) {
+    throw SceneMistake("shape", "there is no pillar under the shape; move it with shape.at");
+  }
+  if (press.force_N > 0.0 && pressed.depth_m > 2.0 * longest_m) {
+    throw SceneMistake("shape.force", "would press the pillars flat; they are " +
+                                          micrometres(longest_m) + " long");
+  }
+  if (!scene.feels_contact && !pressed.covers_all) {
+    throw SceneMistake(
+        "effects.contact",
+        "cannot be off: the shape does not cover all tops, which could not follow it");
   }
 }
 
@@ -107,6 +143,10 @@ void validate(const SpaceScene& scene) {
   at_key("geometry", [&] { validate(array_of(scene)); });
   if (!(scene.surface_energy_J_m2 > 0.0)) {
     throw SceneMistake("materials.surface_energy", "the surface energy must be positive");
+  }
+  if (scene.press) {
+    check_press(scene);
+    return;
   }
   check_size(scene);
   check_loaded_places(scene);

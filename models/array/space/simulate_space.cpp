@@ -1,5 +1,6 @@
 #include "models/array/space/simulate_space.h"
 
+#include "models/array/space/contact_maps.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/mesh/scene_mistake.h"
@@ -8,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -127,12 +130,16 @@ std::vector<SceneMap> maps_of(const SpaceScene& scene, const SpaceResponse& resp
 void add_result(const SceneMap& map, std::size_t at, const std::string& ending,
                 SceneAnswer& answer) {
   const double error = map.error.empty() ? 0.0 : map.error[at];
-  answer.results.push_back({map.name + ending, map.value[at], map.unit, error, size_of(map), true});
+  answer.results.push_back(
+      {map.name + ending, map.value[at], map.unit, error, size_of(map), map.is_watched});
 }
 
 // Results are values of the maps.
 void set_results(const SpaceScene& scene, SceneAnswer& answer) {
-  answer.results.clear();
+  std::erase_if(answer.results, [&](const SceneResult& one) {
+    return std::any_of(answer.maps.begin(), answer.maps.end(),
+                       [&](const SceneMap& map) { return one.name.starts_with(map.name + "_"); });
+  });
   for (const SceneMap& map : answer.maps) {
     const auto [low, high] = std::minmax_element(map.value.begin(), map.value.end());
     add_result(map, static_cast<std::size_t>(high - map.value.begin()), "_largest", answer);
@@ -236,6 +243,10 @@ std::vector<std::string> result_names(const SpaceScene& scene) {
     names.push_back(reading + "_voltage");
   }
   if (has_crosstalk(scene)) names.emplace_back(kCrosstalk);
+  if (!scene.press) return names;
+  for (const auto& of_contact : {contact_maps(), contact_results()}) {
+    names.insert(names.end(), of_contact.begin(), of_contact.end());
+  }
   return names;
 }
 
@@ -245,11 +256,13 @@ std::vector<Discretisation> space_meshes(const SpaceScene& scene) {
   return meshes;
 }
 
-SceneAnswer space_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
+namespace {
+
+SceneAnswer voltages_on(const SpaceScene& scene, const TopLoads& loads_Pa,
+                        const Discretisation& mesh) {
   const SpaceArray array = array_of(scene);
   const SpaceAccuracy accuracy = accuracy_for(scene, array, mesh);
   const SpaceResponse response(array, accuracy);
-  const TopLoads loads_Pa = loads_of(scene);
   SceneAnswer answer;
   answer.discretisation = accuracy.foot;
   answer.unknowns = response.unknowns();
@@ -259,22 +272,66 @@ SceneAnswer space_answer_on(const SpaceScene& scene, const Discretisation& mesh)
   return answer;
 }
 
+// What the last refinement of the tops changed in the voltages, as part of their errors.
+void add_change_of_loads(const SpaceScene& scene, const SpaceContact& contact,
+                         SceneAnswer& answer) {
+  if (contact.change_Pa.isZero(0.0)) return;
+  const SceneAnswer change = voltages_on(scene, contact.change_Pa, space_meshes(scene)[1]);
+  for (std::size_t m = 0; m < answer.maps.size(); ++m) {
+    for (std::size_t at = 0; at < answer.maps[m].value.size(); ++at) {
+      answer.maps[m].error[at] += std::abs(change.maps[m].value[at]);
+    }
+  }
+}
+
+// The grids of the tops get a quarter of the tolerance.
+constexpr double kShareOfContact = 0.25;
+
+SpaceContact settled_contact(const SpaceScene& scene) {
+  SpaceContact contact = contact_within(scene, kShareOfContact * scene.tolerance);
+  const double error = contact_error(contact);
+  if (error <= 2.0 * kShareOfContact * scene.tolerance) return contact;
+  throw std::runtime_error("the finest grid of the tops leaves a relative error of about " +
+                           text_of(error, 2) +
+                           " in the forces, where a top is touched in part; ask for a larger "
+                           "tolerance");
+}
+
+}  // namespace
+
+SceneAnswer space_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
+  if (!scene.press) return voltages_on(scene, loads_of(scene), mesh);
+  const SpaceContact contact = contact_on(scene, (mesh.degree - 3) / 2);
+  SceneAnswer answer = voltages_on(scene, contact.loads_Pa, mesh);
+  add_contact(scene, contact, answer);
+  return answer;
+}
+
 SceneAnswer simulate_space(const SpaceScene& scene) {
   validate(scene);
   const ConstantErrors parts = constant_errors(scene);
   const double constant = largest_constant_error(scene, parts);
   if (constant > (1.0 - kShareOfAccuracy) * scene.tolerance) refuse(scene, constant, parts);
+  std::optional<SpaceContact> contact;
+  if (scene.press) contact = settled_contact(scene);
+  const TopLoads loads_Pa = contact ? contact->loads_Pa : loads_of(scene);
+  const double of_contact = contact ? contact_error(*contact) : 0.0;
+  const double left =
+      std::max(scene.tolerance - constant - of_contact, 0.5 * kShareOfAccuracy * scene.tolerance);
   SceneAnswer answer =
-      answer_within({scene.tolerance - constant, space_meshes(scene), scene.progress},
-                    [&](const Discretisation& mesh) { return space_answer_on(scene, mesh); });
+      answer_within({left, space_meshes(scene), scene.progress},
+                    [&](const Discretisation& mesh) { return voltages_on(scene, loads_Pa, mesh); });
+  if (contact) add_change_of_loads(scene, *contact, answer);
   for (SceneMap& map : answer.maps) {
     const double of_all = common_error_of(map, parts);
     for (std::size_t at = 0; at < map.value.size(); ++at) {
       map.error[at] += of_all + edge_error_of(map, parts.edge[map.pillar[at]]);
     }
   }
-  answer.largest_relative_error += constant;
+  answer.largest_relative_error += constant + of_contact;
+  if (contact) add_contact(scene, *contact, answer);
   set_results(scene, answer);
+  if (contact) answer.notes = contact_notes(scene, *contact);
   return answer;
 }
 

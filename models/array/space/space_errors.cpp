@@ -21,7 +21,8 @@ double rigid_foot_error(const SpaceScene& scene) {
     stiffest_Pa = std::max(stiffest_Pa, one.material.E0_Pa);
   }
   constexpr double kPressed = 0.12, kSheared = 0.2;
-  const bool is_sheared = scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0;
+  // A shape turns the tops, which bends the pillars as a shear does.
+  const bool is_sheared = scene.shear_x_Pa != 0.0 || scene.shear_y_Pa != 0.0 || scene.press;
   return (is_sheared ? kSheared : kPressed) * stiffest_Pa / elasticity_of(scene.film).young_Pa;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/array/contact/rigid_shape.h"
 #include "models/array/space/space_array.h"
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/scene/common/scene_common.h"
@@ -37,6 +38,14 @@ struct SpaceClass {
   Material material;
 };
 
+// A rigid shape that presses on the tops without friction: to a depth below the tops of the usual
+// pillars, or with a force. The other one is 0.
+struct ShapePress {
+  RigidShape shape;
+  double depth_m = 0.0;
+  double force_N = 0.0;
+};
+
 // An array of pillars in the plane on one film, loaded at rest, and the accuracy of the answer. The
 // tolerance refers to the largest value of each map (of the four quarters together), and for results in
 // per cent to 10 %.
@@ -59,10 +68,14 @@ struct SpaceScene : SceneCommon {
   double shear_y_Pa = 0.0;
   std::vector<RowColumn> loaded;  // empty: all
 
+  std::optional<ShapePress> press;  // instead of the loads above
+
   double surface_energy_J_m2 = 0.02;  // of the pillars, which may stick together; PDMS
 
   // Set by the plan (models/scene/plan.h): each pillar as if it stood alone.
   bool feels_neighbours = true;
+  // Set by the plan: a shape only pushes. If not, all tops follow it, also where they must be pulled.
+  bool feels_contact = true;
 
   // Word of geometry.kind in a scene file, the same as for a row: geometry.model = "space" selects
   // this kind (io/scenes).

@@ -31,6 +31,7 @@ void add_curve(SceneCurve& curve, std::vector<Number>& numbers) {
 }
 
 void add_map(SceneMap& map, std::vector<Number>& numbers) {
+  if (!map.is_watched) return;
   map.error.assign(map.value.size(), 0.0);
   const double size = size_of(map);
   for (std::size_t i = 0; i < map.value.size(); ++i) {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "io/config/config_fields.h"
+#include "models/array/space/space_scene.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace viscard {
+
+// The section [shape] of a scene before it is checked.
+struct RawShape {
+  std::string kind, friction = "none", file;
+  double radius_m = 0.0, depth_m = 0.0, force_N = 0.0;
+  double angle_rad = 0.0, direction_rad = 0.0;
+  std::vector<double> at_m, tilt_rad;
+};
+
+void show_shape(FieldVisitor& visitor, RawShape& shape);
+
+// Nothing without a kind. Throws SceneMistake naming what is wrong, std::runtime_error for a file.
+std::optional<ShapePress> press_from(const RawShape& raw, const std::filesystem::path& folder);
+
+}  // namespace viscard

@@ -1,0 +1,117 @@
+#include "models/array/contact/press_array.h"
+
+#include "models/maths/require.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace viscard {
+namespace {
+
+double radius_of(const TopContact& contact) {
+  return contact.compliance().radius_m.back();
+}
+
+// The surface stays above the whole top.
+bool is_out_of_reach(const RigidShape& shape, const TouchedPillar& one, double radius_m,
+                     double depth_m) {
+  return least_height_m(shape, one.x_m, one.y_m, radius_m) > depth_m + one.above_m;
+}
+
+// Depth at which the first pillar is touched, from samples of each top.
+double first_touch_m(const std::vector<TouchedPillar>& pillars,
+                     const std::vector<TopContact>& classes, const RigidShape& shape) {
+  double first_m = std::numeric_limits<double>::infinity();
+  for (const TouchedPillar& one : pillars) {
+    const TopCompliance& top = classes[static_cast<std::size_t>(one.of_class)].compliance();
+    for (const double r_m : top.radius_m) {
+      for (int a = 0; a < top.angles; ++a) {
+        const double angle = 2.0 * std::numbers::pi * a / top.angles;
+        const double at_m =
+            height_m(shape, one.x_m + r_m * std::cos(angle), one.y_m + r_m * std::sin(angle));
+        first_m = std::min(first_m, at_m - one.above_m);
+      }
+    }
+  }
+  return first_m;
+}
+
+}  // namespace
+
+PressedArray press_to_depth(const std::vector<TouchedPillar>& pillars,
+                            const std::vector<TopContact>& classes, const RigidShape& shape,
+                            double depth_m, TopBond bond) {
+  PressedArray array;
+  array.depth_m = depth_m;
+  array.tops.reserve(pillars.size());
+  for (const TouchedPillar& one : pillars) {
+    const TopContact& contact = classes[static_cast<std::size_t>(one.of_class)];
+    TopPressure top;
+    const Overlap overlap = [&](double x_m, double y_m) {
+      return depth_m + one.above_m - height_m(shape, one.x_m + x_m, one.y_m + y_m);
+    };
+    if (bond == TopBond::kFollows) {
+      top = contact.follow(overlap);
+    } else if (!is_out_of_reach(shape, one, radius_of(contact), depth_m)) {
+      top = contact.press(overlap);
+    }
+    array.force_N += top.force_N;
+    array.contacts += top.share > 0.0 ? 1 : 0;
+    array.has_partial = array.has_partial || top.is_partial;
+    array.tops.push_back(top);
+  }
+  return array;
+}
+
+PressedArray press_with_force(const std::vector<TouchedPillar>& pillars,
+                              const std::vector<TopContact>& classes, const RigidShape& shape,
+                              double force_N, TopBond bond) {
+  require(force_N > 0.0, "the force on a shape must be positive");
+  double low_m = first_touch_m(pillars, classes, shape);
+  require(std::isfinite(low_m), "there is no pillar under the shape");
+  // One pillar alone would bear the force at this depth.
+  double step_m = 0.0;
+  for (const TopContact& one : classes) {
+    step_m = std::max(step_m, force_N * one.compliance().sinking_m_N());
+  }
+  double low_N = press_to_depth(pillars, classes, shape, low_m, bond).force_N;
+  double high_m = low_m + step_m;
+  PressedArray high = press_to_depth(pillars, classes, shape, high_m, bond);
+  while (high.force_N < force_N) {
+    low_m = high_m;
+    low_N = high.force_N;
+    step_m *= 2.0;
+    high_m += step_m;
+    high = press_to_depth(pillars, classes, shape, high_m, bond);
+  }
+  // Secant between the bounds, halved at the end that stays (Illinois method: Dowell & Jarratt, BIT 11
+  // (1971) 168).
+  double above_N = high.force_N - force_N;
+  double below_N = low_N - force_N;
+  PressedArray best = high;
+  constexpr int kMostSteps = 100;
+  int side = 0;  // of the last point: 1 above, -1 below
+  for (int step = 0; step < kMostSteps && std::abs(best.force_N - force_N) > 1e-13 * force_N;
+       ++step) {
+    const double at_m = (low_m * above_N - high_m * below_N) / (above_N - below_N);
+    if (!(at_m > low_m && at_m < high_m)) break;  // rounding
+    best = press_to_depth(pillars, classes, shape, at_m, bond);
+    const double beyond_N = best.force_N - force_N;
+    if (beyond_N > 0.0) {
+      high_m = at_m;
+      above_N = beyond_N;
+      if (side == 1) below_N *= 0.5;
+      side = 1;
+    } else {
+      low_m = at_m;
+      below_N = beyond_N;
+      if (side == -1) above_N *= 0.5;
+      side = -1;
+    }
+  }
+  return best;
+}
+
+}  // namespace viscard

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "models/array/contact/rigid_shape.h"
+#include "models/array/contact/top_contact.h"
+
+#include <vector>
+
+namespace viscard {
+
+// A pillar that a shape may touch.
+struct TouchedPillar {
+  double x_m = 0.0, y_m = 0.0;
+  double above_m = 0.0;  // how far its top stands above the plane from which depths are counted
+  int of_class = 0;
+};
+
+// All pillars under one shape.
+struct PressedArray {
+  double depth_m = 0.0;
+  double force_N = 0.0;  // of all pillars
+  int contacts = 0;      // pillars that are touched
+  bool has_partial = false;
+  std::vector<TopPressure> tops;
+};
+
+// What a shape does to the tops: it only pushes them, or they follow it everywhere and are pulled too.
+enum class TopBond { kPushed, kFollows };
+
+// Pillars do not feel each other through a film on a rigid base, so that each is pressed alone. `classes`
+// has the contact of each class of pillars.
+PressedArray press_to_depth(const std::vector<TouchedPillar>& pillars,
+                            const std::vector<TopContact>& classes, const RigidShape& shape,
+                            double depth_m, TopBond bond = TopBond::kPushed);
+
+// The depth at which the shape bears the force, to rounding: the force grows with the depth. Throws
+// std::invalid_argument unless the force is positive and there is a pillar under the shape.
+PressedArray press_with_force(const std::vector<TouchedPillar>& pillars,
+                              const std::vector<TopContact>& classes, const RigidShape& shape,
+                              double force_N, TopBond bond = TopBond::kPushed);
+
+}  // namespace viscard

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "models/pillar/mesh/pillar_geometry.h"
+#include "models/pillar/system/medium.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace viscard {
+
+// How finely the top of a pillar is cut: equal elements of degree 2 along the radius, and angles. The
+// number of angles is even.
+struct TopFineness {
+  int elements = 12;
+  int angles = 32;
+};
+
+// How the top of one pillar on a rigid base sinks under normal forces at the points of a polar grid:
+//   u(r_j, theta_a) = sum_m sum_kb S_m(j, k) cos m (theta_a - theta_b) f_kb   (eq. T1)
+// with the last harmonic, angles/2, counted half. The point on the axis has no area and no unknown.
+struct TopCompliance {
+  std::vector<double> radius_m;               // of the rings
+  Eigen::VectorXd ring_area_m2;               // of each; their sum is the area of the top
+  std::vector<Eigen::MatrixXd> harmonic_m_N;  // S_m; m = 0 to angles/2
+  int angles = 0;
+
+  // Sinking under a uniform pressure, m/N; turning about an axis in the top under a traction that grows
+  // with the distance from it, rad/(N m).
+  double sinking_m_N() const;
+  double turning_1_Nm() const;
+  // Adds what the grid or a base that yields leaves out, so that these two become the given ones.
+  void adjust(double sinking_m_N, double turning_1_Nm);
+};
+
+// Throws std::invalid_argument for a geometry with a film, a fillet or a mushroom tip, or a bad grid.
+TopCompliance top_compliance(const PillarGeometry& pillar, const Medium& medium,
+                             const TopFineness& fineness);
+
+}  // namespace viscard

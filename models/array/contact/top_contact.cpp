@@ -1,0 +1,190 @@
+#include "models/array/contact/top_contact.h"
+
+#include "models/maths/dense.h"
+#include "models/maths/gauss_legendre.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+// Far above anything: stands for "no surface here".
+constexpr double kAbove_m = -1.0;
+
+double angle_of(int index, int angles) {
+  return 2.0 * std::numbers::pi * index / angles;
+}
+
+using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
+
+Eigen::MatrixXd masked(const Eigen::MatrixXd& values, const Mask& mask) {
+  return mask.select(values, 0.0);
+}
+
+double dot(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return a.cwiseProduct(b).sum();
+}
+
+}  // namespace
+
+TopContact::TopContact(TopCompliance compliance) : compliance_(std::move(compliance)) {
+  const int angles = compliance_.angles;
+  for (const Eigen::MatrixXd& block : compliance_.harmonic_m_N) {
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(block.rows(), block.cols());
+    stiffness_N_m_.push_back(Cholesky(block).solve(identity));
+  }
+  waves_.resize(angles, angles);
+  for (int column = 0; column < angles; ++column) {
+    const int m = (column + 1) / 2;
+    const bool is_sine = column % 2 == 0 && column > 0;
+    const bool is_single = m == 0 || 2 * m == angles;
+    for (int a = 0; a < angles; ++a) {
+      const double phase = m * angle_of(a, angles);
+      waves_(a, column) = (is_sine ? std::sin(phase) : std::cos(phase)) *
+                          std::sqrt((is_single ? 1.0 : 2.0) / angles);
+    }
+    harmonic_of_.push_back(m);
+  }
+  radius_m_ = compliance_.radius_m.back();
+}
+
+// The compliance is a circulant over the angles: its eigenvalue is angles S_0 or angles/2 S_m.
+Eigen::MatrixXd TopContact::in_harmonics(const Eigen::MatrixXd& values,
+                                         const std::vector<Eigen::MatrixXd>& blocks) const {
+  Eigen::MatrixXd by_wave = values * waves_;
+  for (Eigen::Index column = 0; column < by_wave.cols(); ++column) {
+    const auto m = static_cast<std::size_t>(harmonic_of_[static_cast<std::size_t>(column)]);
+    by_wave.col(column) = (blocks[m] * by_wave.col(column)).eval();
+  }
+  return by_wave;
+}
+
+Eigen::MatrixXd TopContact::motion(const Eigen::MatrixXd& forces_N) const {
+  Eigen::MatrixXd by_wave = in_harmonics(forces_N, compliance_.harmonic_m_N);
+  by_wave *= 0.5 * compliance_.angles;
+  by_wave.col(0) *= 2.0;
+  return by_wave * waves_.transpose();
+}
+
+Eigen::MatrixXd TopContact::forces(const Eigen::MatrixXd& motion_m) const {
+  Eigen::MatrixXd by_wave = in_harmonics(motion_m, stiffness_N_m_);
+  by_wave /= 0.5 * compliance_.angles;
+  by_wave.col(0) /= 2.0;
+  return by_wave * waves_.transpose();
+}
+
+// Conjugate gradients on the points that touch; points that pull are let go, points that overlap are
+// taken in, until neither happens. The energy falls from set to set, so that none comes twice.
+Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
+                                              Eigen::MatrixXd start) const {
+  constexpr int kMostSets = 200, kMostSteps = 2000;
+  constexpr double kResidual = 1e-13;
+  const double size_m = std::max(overlap_m.maxCoeff(), 0.0);
+  Eigen::MatrixXd f = start.cwiseMax(0.0);
+  if (size_m == 0.0) return Eigen::MatrixXd::Zero(f.rows(), f.cols());
+  Mask touches = f.array() > 0.0;
+  if (!touches.any()) touches = overlap_m.array() > 0.0;
+  f = masked(f, touches);
+  for (int set = 0; set < kMostSets; ++set) {
+    Eigen::MatrixXd residual = masked(overlap_m - motion(f), touches);
+    Eigen::MatrixXd direction = residual;
+    double square = dot(residual, residual);
+    const double enough = std::pow(kResidual * size_m, 2) * static_cast<double>(f.size());
+    for (int step = 0; step < kMostSteps && square > enough; ++step) {
+      const Eigen::MatrixXd moved = masked(motion(direction), touches);
+      const double along = square / dot(direction, moved);
+      f += along * direction;
+      residual -= along * moved;
+      const double next = dot(residual, residual);
+      direction = residual + (next / square) * direction;
+      square = next;
+    }
+    const double pull_N = 1e-10 * f.maxCoeff();
+    const Mask pulls = touches && f.array() < -pull_N;
+    const Eigen::MatrixXd left_m = overlap_m - motion(masked(f.cwiseMax(0.0), touches));
+    const Mask overlaps = !touches && left_m.array() > 1e-9 * size_m;
+    if (!pulls.any() && !overlaps.any()) return f.cwiseMax(0.0);
+    touches = (touches && !pulls) || overlaps;
+    f = masked(f.cwiseMax(0.0), touches);
+  }
+  throw std::runtime_error(
+      "the contact of a pillar's top did not settle; change the depth a little");
+}
+
+void TopContact::add_resultants(const Eigen::MatrixXd& forces_N, TopPressure& pressure) const {
+  const int angles = compliance_.angles;
+  const double area_m2 = compliance_.ring_area_m2.sum();
+  for (Eigen::Index ring = 0; ring < forces_N.rows(); ++ring) {
+    const double point_m2 = compliance_.ring_area_m2[ring] / angles;
+    const double r_m = compliance_.radius_m[static_cast<std::size_t>(ring)];
+    for (int a = 0; a < angles; ++a) {
+      const double f = forces_N(ring, a);
+      pressure.force_N += f;
+      pressure.moment_x_Nm += f * r_m * std::cos(angle_of(a, angles));
+      pressure.moment_y_Nm += f * r_m * std::sin(angle_of(a, angles));
+      if (f > 0.0) pressure.share += point_m2 / area_m2;
+      pressure.largest_Pa = std::max(pressure.largest_Pa, f / point_m2);
+    }
+  }
+}
+
+TopPressure TopContact::follow(const Overlap& overlap) const {
+  constexpr int kRings = 10, kAngles = 24;
+  const QuadratureRule rule = gauss_legendre(kRings);
+  double mean_m = 0.0, first_x_m2 = 0.0, first_y_m2 = 0.0;
+  for (std::size_t i = 0; i < rule.points.size(); ++i) {
+    const double r_m = radius_m_ * std::sqrt(rule.points[i]);  // equal areas for equal weights
+    for (int a = 0; a < kAngles; ++a) {
+      const double x_m = r_m * std::cos(angle_of(a, kAngles));
+      const double y_m = r_m * std::sin(angle_of(a, kAngles));
+      const double part_m = rule.weights[i] / kAngles * overlap(x_m, y_m);
+      mean_m += part_m;
+      first_x_m2 += part_m * x_m;
+      first_y_m2 += part_m * y_m;
+    }
+  }
+  TopPressure pressure;
+  pressure.force_N = mean_m / compliance_.sinking_m_N();
+  // The slope of a plane with the same first moments: 4/R^2 times the mean of g x.
+  const double of_slope = 4.0 / (radius_m_ * radius_m_) / compliance_.turning_1_Nm();
+  pressure.moment_x_Nm = of_slope * first_x_m2;
+  pressure.moment_y_Nm = of_slope * first_y_m2;
+  pressure.share = 1.0;
+  return pressure;
+}
+
+TopPressure TopContact::press(const Overlap& overlap) const {
+  const auto rings = static_cast<Eigen::Index>(compliance_.radius_m.size());
+  Eigen::MatrixXd overlap_m(rings, compliance_.angles);
+  for (Eigen::Index ring = 0; ring < rings; ++ring) {
+    const double r_m = compliance_.radius_m[static_cast<std::size_t>(ring)];
+    for (int a = 0; a < compliance_.angles; ++a) {
+      const double angle = angle_of(a, compliance_.angles);
+      overlap_m(ring, a) =
+          std::max(overlap(r_m * std::cos(angle), r_m * std::sin(angle)), kAbove_m);
+    }
+  }
+  if (!(overlap_m.maxCoeff() > 0.0)) return {};
+  const bool may_be_full = overlap_m.minCoeff() > -overlap_m.maxCoeff();
+  const Eigen::MatrixXd everywhere =
+      may_be_full ? forces(overlap_m)
+                  : Eigen::MatrixXd(overlap_m.cwiseMax(0.0) / compliance_.sinking_m_N() /
+                                    static_cast<double>(overlap_m.size()));
+  if (may_be_full && everywhere.minCoeff() >= 0.0) {
+    TopPressure on_grid;
+    add_resultants(everywhere, on_grid);
+    TopPressure pressure = follow(overlap);
+    pressure.largest_Pa = on_grid.largest_Pa;
+    return pressure;
+  }
+  TopPressure pressure;
+  add_resultants(unilateral_forces(overlap_m, everywhere), pressure);
+  pressure.is_partial = true;
+  return pressure;
+}
+
+}  // namespace viscard

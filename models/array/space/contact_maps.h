@@ -1,0 +1,30 @@
+#pragma once
+
+#include "models/array/space/space_contact.h"
+#include "models/scene/common/scene_answer.h"
+
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// Names of the maps and of the single results of a scene with a shape:
+//   pillar_force           N, down
+//   contact_share_percent  of the area of a top
+//   moment_x, moment_y     N m, int p x dA and int p y dA
+//   contact_force          N, of the whole array; contacts; depth, m; largest_pressure, Pa, on one top
+std::vector<std::string> contact_maps();
+std::vector<std::string> contact_results();
+
+// Adds those that the scene wants to an answer that has its array, with the changes from grid to grid as
+// errors.
+void add_contact(const SpaceScene& scene, const SpaceContact& contact, SceneAnswer& answer);
+
+// The largest error of forces and moments of the tops, relative to what the tolerance refers to.
+double contact_error(const SpaceContact& contact);
+
+// What a linear answer without friction does not follow: buckling, large strains and slopes, tops that
+// meet their neighbours.
+std::vector<std::string> contact_notes(const SpaceScene& scene, const SpaceContact& contact);
+
+}  // namespace viscard

@@ -1,0 +1,98 @@
+// The array under its shape as independent columns, before anything is solved.
+#include "models/array/space/space_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+struct Column {
+  double lowest_m = 0.0, highest_m = 0.0, mean_m = 0.0;  // of the surface above its top
+  double area_m2 = 0.0, stiffness_Pa_m = 0.0;
+
+  double force_N(double depth_m) const {
+    return std::max(depth_m - mean_m, 0.0) * stiffness_Pa_m * area_m2;
+  }
+};
+
+Column column_under(const RigidShape& shape, const SpacePillar& one, const SpaceClass& kind,
+                    double above_m) {
+  constexpr int kAngles = 8;
+  const double R_m = 0.5 * kind.diameter_m;
+  const double centre_m = height_m(shape, one.x_m, one.y_m) - above_m;
+  Column column{centre_m, centre_m, 0.5 * centre_m, std::numbers::pi * R_m * R_m,
+                kind.material.E0_Pa / kind.length_m};
+  for (int a = 0; a < kAngles; ++a) {
+    const double angle = 2.0 * std::numbers::pi * a / kAngles;
+    const double rim_m =
+        height_m(shape, one.x_m + R_m * std::cos(angle), one.y_m + R_m * std::sin(angle)) - above_m;
+    column.lowest_m = std::min(column.lowest_m, rim_m);
+    column.highest_m = std::max(column.highest_m, rim_m);
+    column.mean_m += 0.5 * rim_m / kAngles;  // exact for a paraboloid
+  }
+  // Where the surface ends above a top, its covered part counts.
+  if (!std::isfinite(column.mean_m)) column.mean_m = column.lowest_m;
+  return column;
+}
+
+std::vector<Column> columns_under(const SpaceScene& scene) {
+  const std::vector<SpaceClass> classes = classes_of(scene);
+  std::vector<Column> columns;
+  columns.reserve(scene.pillars.size());
+  for (const SpacePillar& one : scene.pillars) {
+    const SpaceClass& kind = classes[static_cast<std::size_t>(one.of_class)];
+    columns.push_back(column_under(scene.press->shape, one, kind, kind.length_m - scene.length_m));
+  }
+  return columns;
+}
+
+// By bisection; infinite if no column lies under the shape.
+double depth_of_force_m(const std::vector<Column>& columns, double force_N) {
+  const auto sum_N = [&](double depth_m) {
+    double sum = 0.0;
+    for (const Column& column : columns) sum += column.force_N(depth_m);
+    return sum;
+  };
+  double low_m = std::numeric_limits<double>::infinity();
+  double softest_N_m = low_m;
+  for (const Column& column : columns) {
+    low_m = std::min(low_m, column.mean_m);
+    softest_N_m = std::min(softest_N_m, column.stiffness_Pa_m * column.area_m2);
+  }
+  if (!std::isfinite(low_m)) return low_m;
+  double high_m = low_m + force_N / softest_N_m;  // one column alone bears it
+  for (int i = 0; i < 60; ++i) {
+    const double middle_m = 0.5 * (low_m + high_m);
+    (sum_N(middle_m) < force_N ? low_m : high_m) = middle_m;
+  }
+  return high_m;
+}
+
+}  // namespace
+
+FoundationPress foundation_press(const SpaceScene& scene) {
+  const std::vector<Column> columns = columns_under(scene);
+  const ShapePress& press = *scene.press;
+  FoundationPress answer;
+  answer.depth_m = press.force_N > 0.0 ? depth_of_force_m(columns, press.force_N) : press.depth_m;
+  double overlap_m = 0.0, lifted_m = 0.0, turned_m = 0.0;
+  for (const Column& column : columns) {
+    answer.covers_all = answer.covers_all && std::isfinite(column.highest_m);
+    answer.largest_Pa =
+        std::max(answer.largest_Pa, column.force_N(answer.depth_m) / column.area_m2);
+    overlap_m = std::max(overlap_m, answer.depth_m - column.lowest_m);
+    lifted_m = std::max(lifted_m, column.highest_m - answer.depth_m);
+    turned_m =
+        std::max(turned_m, 0.5 * (std::min(column.highest_m, answer.depth_m) - column.lowest_m));
+  }
+  if (!(overlap_m > 0.0)) return answer;
+  answer.lift = std::min(lifted_m / overlap_m, 1.0);
+  answer.turn = std::min(turned_m / overlap_m, 1.0);
+  return answer;
+}
+
+}  // namespace viscard

@@ -1,0 +1,168 @@
+#include "models/array/space/space_contact.h"
+
+#include "models/maths/gauss_legendre.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr std::array<TopFineness, kContactGrids> kGrids = {
+    {{6, 16}, {12, 32}, {24, 64}, {48, 128}}};
+// Of the stiffness of a pillar in a graded mesh, and one to compare with.
+constexpr Discretisation kStiffnessMesh{.degree = 6, .layers = 4};
+constexpr Discretisation kCoarserMesh{.degree = 5, .layers = 3};
+// The part of a foot's settling that is not its own: that of its neighbours (1e-3), and what the film's
+// short waves leave (1e-2).
+constexpr double kOfSettling = 0.02;
+
+std::vector<TouchedPillar> touched_pillars(const SpaceScene& scene) {
+  const std::vector<SpaceClass> classes = classes_of(scene);
+  std::vector<TouchedPillar> pillars;
+  pillars.reserve(scene.pillars.size());
+  for (const SpacePillar& one : scene.pillars) {
+    const double length_m = classes[static_cast<std::size_t>(one.of_class)].length_m;
+    pillars.push_back({one.x_m, one.y_m, length_m - scene.length_m, one.of_class});
+  }
+  return pillars;
+}
+
+double disc_m2(double radius_m) {
+  return std::numbers::pi * radius_m * radius_m;
+}
+
+class Presser {
+ public:
+  explicit Presser(const SpaceScene& scene)
+      : scene_(&scene), array_(array_of(scene)), pillars_(touched_pillars(scene)) {
+    for (const PillarClass& one : array_.classes) {
+      const FootForces foot = foot_forces(one.geometry, one.medium, kStiffnessMesh);
+      const double R_m = 0.5 * one.geometry.diameter_m;
+      const double area_m2 = disc_m2(R_m);
+      const double settling_m_Pa = foot_settling_m_Pa(array_.film, foot);
+      const double coarser_m_Pa = foot_forces(one.geometry, one.medium, kCoarserMesh).sinking_m_Pa;
+      sinking_m_N_.push_back((foot.sinking_m_Pa + settling_m_Pa) / area_m2);
+      error_ = std::max(error_,
+                        (std::abs(foot.sinking_m_Pa - coarser_m_Pa) + kOfSettling * settling_m_Pa) /
+                            foot.sinking_m_Pa);
+      turning_1_Nm_.push_back(foot.tilt_by_tilt_1_Pa / (0.25 * area_m2 * R_m));
+      sideways_m_Pa_.push_back(std::abs(foot.sideways_by_tilt_m_Pa));
+    }
+  }
+
+  SpaceContact on(int grid) const {
+    std::vector<TopContact> classes;
+    for (std::size_t i = 0; i < array_.classes.size(); ++i) {
+      const PillarClass& one = array_.classes[i];
+      TopCompliance top =
+          top_compliance(one.geometry, one.medium, kGrids.at(static_cast<std::size_t>(grid)));
+      top.adjust(sinking_m_N_[i], turning_1_Nm_[i]);
+      classes.emplace_back(std::move(top));
+    }
+    const ShapePress& press = *scene_->press;
+    const TopBond bond = scene_->feels_contact ? TopBond::kPushed : TopBond::kFollows;
+    SpaceContact contact;
+    contact.pressed = press.force_N > 0.0
+                          ? press_with_force(pillars_, classes, press.shape, press.force_N, bond)
+                          : press_to_depth(pillars_, classes, press.shape, press.depth_m, bond);
+    set_loads(contact);
+    contact.stiffness_error = error_;
+    return contact;
+  }
+
+ private:
+  void set_loads(SpaceContact& contact) const {
+    const std::vector<TopPressure>& tops = contact.pressed.tops;
+    contact.loads_Pa = TopLoads::Zero(static_cast<Eigen::Index>(tops.size()), kTopLoads);
+    contact.change_Pa = contact.loads_Pa;
+    contact.force_change_N.assign(tops.size(), 0.0);
+    contact.share_change.assign(tops.size(), 0.0);
+    for (std::size_t i = 0; i < tops.size(); ++i) {
+      const auto of_class = static_cast<std::size_t>(pillars_[i].of_class);
+      const double R_m = 0.5 * array_.classes[of_class].geometry.diameter_m;
+      auto load = contact.loads_Pa.row(static_cast<Eigen::Index>(i));
+      load[static_cast<int>(TopLoad::kPressure)] = tops[i].force_N / disc_m2(R_m);
+      // Tilting tractions point up, pressures down.
+      const double of_moment = -1.0 / (0.25 * disc_m2(R_m) * R_m);
+      load[static_cast<int>(TopLoad::kTiltX)] = of_moment * tops[i].moment_x_Nm;
+      load[static_cast<int>(TopLoad::kTiltY)] = of_moment * tops[i].moment_y_Nm;
+      contact.sideways_m.push_back(sideways_m_Pa_[of_class] * std::abs(of_moment) *
+                                   std::hypot(tops[i].moment_x_Nm, tops[i].moment_y_Nm));
+    }
+  }
+
+  const SpaceScene* scene_;
+  SpaceArray array_;
+  std::vector<TouchedPillar> pillars_;
+  double error_ = 0.0;                                              // relative, of the stiffness
+  std::vector<double> sinking_m_N_, turning_1_Nm_, sideways_m_Pa_;  // by class
+};
+
+void compare(const SpaceContact& coarse, SpaceContact& fine) {
+  fine.change_Pa = fine.loads_Pa - coarse.loads_Pa;
+  fine.total_change_N = std::abs(fine.pressed.force_N - coarse.pressed.force_N);
+  fine.depth_change_m = std::abs(fine.pressed.depth_m - coarse.pressed.depth_m);
+  fine.contact_change = std::abs(fine.pressed.contacts - coarse.pressed.contacts);
+  for (std::size_t i = 0; i < fine.pressed.tops.size(); ++i) {
+    const TopPressure& a = coarse.pressed.tops[i];
+    const TopPressure& b = fine.pressed.tops[i];
+    fine.force_change_N[i] = std::abs(b.force_N - a.force_N);
+    fine.share_change[i] = std::abs(b.share - a.share);
+  }
+}
+
+}  // namespace
+
+double SpaceContact::largest_force_N() const {
+  double largest_N = 0.0;
+  for (const TopPressure& top : pressed.tops)
+    largest_N = std::max(largest_N, std::abs(top.force_N));
+  return largest_N;
+}
+
+SpaceContact contact_on(const SpaceScene& scene, int grid) {
+  return Presser(scene).on(std::clamp(grid, 0, kContactGrids - 1));
+}
+
+SpaceContact contact_within(const SpaceScene& scene, double tolerance) {
+  const Presser presser(scene);
+  SpaceContact contact = presser.on(0);
+  for (int grid = 1; grid < kContactGrids; ++grid) {
+    SpaceContact finer = presser.on(grid);
+    compare(contact, finer);
+    contact = std::move(finer);
+    const double largest_Pa = contact.loads_Pa.cwiseAbs().maxCoeff();
+    if (contact.change_Pa.cwiseAbs().maxCoeff() <= tolerance * largest_Pa) break;
+  }
+  return contact;
+}
+
+double foot_settling_m_Pa(const LayeredFilm& film, const FootForces& foot) {
+  constexpr int kAngles = 3;  // 0, 45 and 90 degrees: harmonics 0, 2 and 4 of the angle
+  constexpr double kLargestkR = 24.0;
+  constexpr int kPanels = 24, kPoints = 6, kDegree = 10;
+  const double R_m = foot.radius_m.back();
+  const QuadratureRule rule = gauss_legendre(kPoints);
+  const double step_1_m = kLargestkR / R_m / kPanels;
+  double work_m3_Pa = 0.0;  // twice the work of 1 Pa, by Parseval
+  for (int j = 0; j < kAngles; ++j) {
+    const double share = j == 1 ? 0.5 : 0.25;  // trapezium over a quarter turn
+    const FilmWaves waves(film, 0.25 * std::numbers::pi * j, kLargestkR / R_m, kDegree);
+    for (int panel = 0; panel < kPanels; ++panel) {
+      for (std::size_t q = 0; q < rule.points.size(); ++q) {
+        const double k_1_m = (panel + rule.points[q]) * step_1_m;
+        const AxialTransform t = transform(foot.pressure, foot.radius_m, k_1_m);
+        const Eigen::Vector4d load(t.tau_x, 0.0, t.t_z, 0.0);
+        work_m3_Pa += share * rule.weights[q] * step_1_m * k_1_m / (2.0 * std::numbers::pi) *
+                      load.dot(waves.response(k_1_m) * load);
+      }
+    }
+  }
+  return work_m3_Pa / disc_m2(R_m);
+}
+
+}  // namespace viscard

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "models/array/contact/press_array.h"
+#include "models/array/space/space_scene.h"
+
+#include <vector>
+
+namespace viscard {
+
+// The tops of a scene's array under its shape, as loads on the array, and how far they changed from a
+// grid with elements twice as large.
+struct SpaceContact {
+  PressedArray pressed;
+  TopLoads loads_Pa;  // a pressure and two tilts that have the force and the moments of each top
+  std::vector<double> force_change_N;
+  std::vector<double> share_change;
+  TopLoads change_Pa;
+  std::vector<double> sideways_m;  // how far a tilted top moves
+  double total_change_N = 0.0;
+  double depth_change_m = 0.0;
+  int contact_change = 0;
+  double stiffness_error = 0.0;  // relative, of every force at a depth, or of the depth of a force
+
+  double largest_force_N() const;
+};
+
+// Grids of the tops, each with elements half as large as the one before.
+constexpr int kContactGrids = 4;
+
+// On one of the grids, 0 to kContactGrids - 1; without changes.
+SpaceContact contact_on(const SpaceScene& scene, int grid);
+
+// On grids of rising fineness until no force changes by more than the tolerance times the largest one, or
+// the last one is reached. Tops that are touched everywhere have no error.
+SpaceContact contact_within(const SpaceScene& scene, double tolerance);
+
+// How far the foot of a pillar sinks into the film under a pressure on its top, m/Pa: the work of its
+// traction on the film (eq. S9).
+double foot_settling_m_Pa(const LayeredFilm& film, const FootForces& foot);
+
+// The array as an elastic foundation of columns E A/l, a closed form for estimates before anything is
+// solved.
+struct FoundationPress {
+  double depth_m = 0.0;
+  double largest_Pa = 0.0;  // largest mean pressure on a top
+  // How far a point of any top stays above the surface, and half the rise of the surface over a touched
+  // top, both over the largest overlap; 1 and 0 if the shape touches nothing.
+  double lift = 1.0, turn = 0.0;
+  bool covers_all = true;  // there is a surface above every top
+};
+FoundationPress foundation_press(const SpaceScene& scene);
+
+}  // namespace viscard

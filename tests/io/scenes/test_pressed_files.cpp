@@ -1,0 +1,134 @@
+// The section [shape] of a scene file.
+#include "io/basics/atomic_file.h"
+#include "tests/io/scenes/scene_text.h"
+#include "tests/support/run_command.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+using namespace viscard;
+using namespace viscard::test;
+using Json = nlohmann::json;
+
+namespace {
+
+std::string pressed(const std::string& shape) {
+  return R"(tolerance = 1e-2
+[geometry]
+kind = "array"
+model = "space"
+rows = 3
+columns = 3
+diameter = "40 um"
+length = "120 um"
+spacing = "60 um"
+film = { thickness = "25 um", edge = "200 um", material = "pvdf" }
+electrode = { face = "bottom", kind = "sampled" }
+[materials]
+pillar = { E = "1.8 MPa", nu = 0.33 }
+pvdf = { file = "DATA/materials/pvdf_seed.json" }
+[analysis]
+kind = "static"
+[shape]
+)" + shape;
+}
+
+Json answer_of(const std::string& shape) {
+  const SceneText scene(pressed(shape));
+  const CommandOutcome outcome = run_command({"simulate", scene.path(), "--json"});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == 0);
+  return Json::parse(outcome.out);
+}
+
+std::string refusal_of(const std::string& shape) {
+  const SceneText scene(pressed(shape));
+  const CommandOutcome outcome = run_command({"simulate", scene.path()});
+  CHECK(outcome.status == 1);
+  CHECK(outcome.out.empty());
+  return outcome.err;
+}
+
+double result_of(const Json& answer, const std::string& name) {
+  return answer.at("results").at(name).at("value").get<double>();
+}
+
+}  // namespace
+
+TEST_CASE("shapes of a scene file press with their depth or their force", "[cli][scene][array]") {
+  const Json sphere = answer_of("kind = \"sphere\"\nradius = \"20 mm\"\ndepth = \"2 um\"\n");
+  // k (depth - a^2/(4 R)) under the apex, k = 19.0468 N/m.
+  CHECK(result_of(sphere, "pillar_force_2_2") ==
+        Approx(19.0468 * (2e-6 - 1e-10 / 20e-3 * 1.0)).epsilon(1e-4));
+  CHECK(result_of(sphere, "contacts") == 9.0);
+  const std::string force = std::to_string(1e6 * result_of(sphere, "contact_force"));
+  const Json by_force =
+      answer_of("kind = \"sphere\"\nradius = \"20 mm\"\nforce = \"" + force + " uN\"\n");
+  CHECK(result_of(by_force, "depth") == Approx(2e-6).epsilon(1e-6));
+  // A cylinder along x touches the middle row alone, moved by a pitch the first one.
+  const Json cylinder = answer_of(
+      "kind = \"cylinder\"\nradius = \"1 mm\"\ndepth = \"2 um\"\ndirection = \"90 degree\"\n"
+      "at = [\"0 um\", \"-100 um\"]\n");
+  CHECK(result_of(cylinder, "pillar_force_1_2") > 0.0);
+  CHECK(result_of(cylinder, "pillar_force_1_2") ==
+        Approx(result_of(cylinder, "pillar_force_1_3")).epsilon(1e-9));
+  CHECK(result_of(cylinder, "pillar_force_3_2") == 0.0);
+  // A plane that rises along x by 0.5 degree touches the left column first.
+  const Json plane =
+      answer_of("kind = \"plane\"\ndepth = \"0.5 um\"\ntilt = [\"0.5 degree\", \"0 degree\"]\n");
+  CHECK(result_of(plane, "pillar_force_2_1") > result_of(plane, "pillar_force_2_2"));
+  CHECK(result_of(plane, "pillar_force_2_3") == 0.0);
+  CHECK(result_of(answer_of("kind = \"wedge\"\nangle = \"2 degree\"\ndepth = \"1 um\"\n"),
+                  "contacts") == 3.0);
+}
+
+TEST_CASE("a table of heights presses as the shape that it samples", "[cli][scene][array]") {
+  const auto folder = std::filesystem::temp_directory_path() / "viscard_heights";
+  std::filesystem::create_directories(folder);
+  std::string csv = "x [um],y [um],z [um]\n";
+  for (int i = -40; i <= 40; ++i) {
+    for (int j = -40; j <= 40; ++j) {
+      const double x = 5.0 * i, y = 5.0 * j;
+      csv += std::to_string(x) + "," + std::to_string(y) + "," +
+             std::to_string((x * x + y * y) / 2.0 / 20e3) + "\n";
+    }
+  }
+  const auto path = folder / "heights.csv";
+  write_file(path, csv, true);
+  const Json table =
+      answer_of("kind = \"table\"\nfile = \"" + path.string() + "\"\ndepth = \"2 um\"\n");
+  const Json shape = answer_of("kind = \"paraboloid\"\nradius = \"20 mm\"\ndepth = \"2 um\"\n");
+  for (const char* pillar : {"pillar_force_2_2", "pillar_force_1_1", "pillar_force_2_3"}) {
+    CHECK(result_of(table, pillar) == Approx(result_of(shape, pillar)).epsilon(2e-4));
+  }
+  write_file(path, "x [um],y [um],z [um]\n0,0,0\n0,1,0\n1,0,0\n", true);
+  CHECK_THAT(refusal_of("kind = \"table\"\nfile = \"" + path.string() + "\"\ndepth = \"2 um\"\n"),
+             Catch::Contains("the grid must be full"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("mistakes in a shape name the key and the way out", "[cli][scene][array]") {
+  const auto refuses = [](const std::string& shape, const std::string& words) {
+    INFO(shape);
+    CHECK_THAT(refusal_of(shape), Catch::Contains(words));
+  };
+  refuses("kind = \"ball\"\ndepth = \"1 um\"\n", "shape.kind");
+  refuses("kind = \"sphere\"\ndepth = \"1 um\"\n", "needs a radius");
+  refuses("kind = \"plane\"\nradius = \"1 mm\"\ndepth = \"1 um\"\n", "shape.radius");
+  refuses("kind = \"plane\"\n", "either a depth");
+  refuses("kind = \"plane\"\ndepth = \"1 um\"\nforce = \"1 mN\"\n", "either a depth");
+  refuses("kind = \"plane\"\ndepth = \"-1 um\"\n", "positive");
+  refuses("kind = \"plane\"\ndepth = \"1 um\"\nfriction = \"stick\"\n", "shape.friction");
+  refuses("kind = \"plane\"\ndepth = \"1 um\"\nat = [\"1 um\"]\n", "two values");
+  refuses("kind = \"plane\"\ndepth = \"1 um\"\ntilt = [\"60 degree\", \"0 degree\"]\n",
+          "45 degrees");
+  refuses("kind = \"wedge\"\ndepth = \"1 um\"\n", "angle");
+  refuses("kind = \"table\"\ndepth = \"1 um\"\n", "file");
+  refuses("kind = \"sphere\"\nradius = \"1 mm\"\nforce = \"1 N\"\n", "press the pillars flat");
+  refuses("kind = \"sphere\"\nradius = \"1 mm\"\nforce = \"1 mN\"\nat = [\"5 cm\", \"0 m\"]\n",
+          "no pillar under the shape");
+}
