@@ -1,5 +1,6 @@
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_contact.h"
+#include "models/array/space/space_maps.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/scene/scene_effects.h"

@@ -1,6 +1,6 @@
 #include "models/array/space/contact_maps.h"
 
-#include "models/array/space/simulate_space.h"
+#include "models/array/space/space_maps.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/mesh/scene_mistake.h"

@@ -1,6 +1,7 @@
 #include "models/array/space/simulate_space.h"
 
 #include "models/array/space/contact_maps.h"
+#include "models/array/space/space_maps.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/mesh/scene_mistake.h"
@@ -17,22 +18,8 @@
 namespace viscard {
 namespace {
 
-constexpr double kCrosstalkScale = 10.0;  // %: a tolerance of 1e-3 gives per cents to 0.01 points
-constexpr const char* kCrosstalk = "crosstalk_percent";
 // At least this share of the tolerance is left for what the accuracies reduce.
 constexpr double kShareOfAccuracy = 0.2;
-// The reading of one pillar that cross-talk compares: of a disc, in either kind.
-struct DiscReading {
-  const char* map;
-  Eigen::Index row;  // of a kernel
-};
-DiscReading disc_reading(const SpaceScene& scene) {
-  const bool has_electrodes = scene.electrode == SpaceElectrode::kEquipotential;
-  return has_electrodes ? DiscReading{"electrode_voltage", 0} : DiscReading{"mean_voltage", 1};
-}
-// A pillar that is sheared has no centre or mean voltage of its own. What its neighbours leave there
-// is judged beside this share of the voltage that the load would have as a pressure.
-constexpr double kOfPressed = 0.01;
 
 SpaceAccuracy accuracy_for(const SpaceScene& scene, const SpaceArray& array,
                            const Discretisation& mesh) {
@@ -44,119 +31,6 @@ SpaceAccuracy accuracy_for(const SpaceScene& scene, const SpaceArray& array,
   // Electrodes do not overlap: within its own one, a pillar reads itself alone.
   if (!scene.feels_neighbours) accuracy.potential.reach_m = 2.0 * array.electrode_radius_m;
   return accuracy;
-}
-
-SceneArray array_of_answer(const SpaceScene& scene, const TopLoads& loads_Pa) {
-  const FilmExtent film = film_extent(scene);
-  SceneArray array{scene.rows, scene.columns};
-  array.left_m = film.left_m;
-  array.right_m = film.right_m;
-  array.low_m = film.low_m;
-  array.high_m = film.high_m;
-  const std::vector<SpaceClass> classes = classes_of(scene);
-  for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
-    const SpacePillar& one = scene.pillars[i];
-    const auto load = loads_Pa.row(static_cast<Eigen::Index>(i));
-    array.pillars.push_back({one.row, one.column, one.x_m, one.y_m,
-                             classes[static_cast<std::size_t>(one.of_class)].diameter_m,
-                             load[static_cast<int>(TopLoad::kPressure)],
-                             load[static_cast<int>(TopLoad::kShearX)],
-                             load[static_cast<int>(TopLoad::kShearY)]});
-  }
-  const std::vector<SpacePillar>& all = scene.pillars;
-  const auto next = std::adjacent_find(all.begin(), all.end(), [](const auto& a, const auto& b) {
-    return a.row == b.row && a.column + 1 == b.column;
-  });
-  if (next == all.end()) {  // a list of places has one column
-    array.cell_x_m = array.cell_y_m = smallest_pitch_m(scene);
-    return array;
-  }
-  array.cell_x_m = array.cell_y_m = std::next(next)->x_m - next->x_m;
-  const int rows = all.back().row - all.front().row;
-  if (rows > 0) array.cell_y_m = (all.back().y_m - all.front().y_m) / rows;
-  return array;
-}
-
-// The mean voltage of unloaded pillars over the largest of the loaded ones.
-SceneMap crosstalk_map(const SceneMap& mean, const std::vector<bool>& loaded) {
-  SceneMap map{kCrosstalk, "%", {}, {}, {}, kCrosstalkScale};
-  double largest_V = 0.0;
-  for (std::size_t i = 0; i < loaded.size(); ++i) {
-    if (loaded[i] && std::abs(mean.value[i]) > std::abs(largest_V)) largest_V = mean.value[i];
-  }
-  for (std::size_t i = 0; i < loaded.size(); ++i) {
-    if (loaded[i]) continue;
-    map.pillar.push_back(i);
-    map.value.push_back(100.0 * mean.value[i] / largest_V + 0.0);  // no negative zero
-  }
-  return map;
-}
-
-// Quarters of an electrode are read together, so that the tolerance refers to the largest of the four.
-bool is_quarter(const SceneMap& map) {
-  return map.name.starts_with("quadrant_");
-}
-
-std::vector<SceneMap> maps_of(const SpaceScene& scene, const SpaceResponse& response,
-                              const TopLoads& loads_Pa) {
-  const Eigen::MatrixXd voltages = response.voltages_V(loads_Pa);
-  const DiscReading disc = disc_reading(scene);
-  const double pressed_V =
-      std::abs(response.kernel(0, 0.0, 0.0)(disc.row, static_cast<int>(TopLoad::kPressure))) *
-      loads_Pa.cwiseAbs().maxCoeff();
-  const std::vector<std::string> names = reading_names(scene.electrode);
-  std::vector<SceneMap> maps;
-  SceneMap mean;
-  double largest_quarter_V = 0.0;
-  for (std::size_t r = 0; r < names.size(); ++r) {
-    SceneMap map{names[r] + "_voltage", "V", {}, {}, {}, kOfPressed * pressed_V};
-    for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
-      map.pillar.push_back(i);
-      map.value.push_back(voltages(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(r)));
-    }
-    if (map.name == disc.map) mean = map;
-    if (is_quarter(map)) largest_quarter_V = std::max(largest_quarter_V, size_of(map));
-    if (asks_for_map(scene, map.name)) maps.push_back(std::move(map));
-  }
-  for (SceneMap& map : maps) {
-    if (is_quarter(map)) map.scale = largest_quarter_V;
-  }
-  if (has_crosstalk(scene) && asks_for_map(scene, kCrosstalk)) {
-    maps.push_back(crosstalk_map(mean, is_loaded(scene)));
-  }
-  return maps;
-}
-
-void add_result(const SceneMap& map, std::size_t at, const std::string& ending,
-                SceneAnswer& answer) {
-  const double error = map.error.empty() ? 0.0 : map.error[at];
-  answer.results.push_back(
-      {map.name + ending, map.value[at], map.unit, error, size_of(map), map.is_watched});
-}
-
-// Results are values of the maps.
-void set_results(const SpaceScene& scene, SceneAnswer& answer) {
-  std::erase_if(answer.results, [&](const SceneResult& one) {
-    return std::any_of(answer.maps.begin(), answer.maps.end(),
-                       [&](const SceneMap& map) { return one.name.starts_with(map.name + "_"); });
-  });
-  for (const SceneMap& map : answer.maps) {
-    const auto [low, high] = std::minmax_element(map.value.begin(), map.value.end());
-    add_result(map, static_cast<std::size_t>(high - map.value.begin()), "_largest", answer);
-    add_result(map, static_cast<std::size_t>(low - map.value.begin()), "_smallest", answer);
-    const bool is_small = scene.pillars.size() <= kMostNamedPillars;
-    const bool has_named =
-        std::any_of(scene.wanted.begin(), scene.wanted.end(),
-                    [&](const std::string& name) { return name.starts_with(map.name + "_"); });
-    for (std::size_t at = 0; at < map.value.size() && (is_small || has_named); ++at) {
-      const ScenePillar& pillar = answer.array.pillars[map.pillar[at]];
-      const std::string ending =
-          "_" + std::to_string(pillar.row) + "_" + std::to_string(pillar.column);
-      const bool is_named = std::find(scene.wanted.begin(), scene.wanted.end(),
-                                      map.name + ending) != scene.wanted.end();
-      if (is_named || is_small) add_result(map, at, ending, answer);
-    }
-  }
 }
 
 // Relative errors that no accuracy of the array reduces: eq. S5, S7 and S8.
@@ -185,8 +59,9 @@ double common_error_of(const SceneMap& map, const ConstantErrors& errors) {
   if (map.unit == "V") return (errors.foot + errors.electrodes) * size_of(map);
   return 100.0 * errors.electrodes + 200.0 * errors.foot * errors.neighbour;
 }
-double edge_error_of(const SceneMap& map, double edge) {
-  return edge * (map.unit == "V" ? size_of(map) : 100.0);
+// What the relative error at the film's edge is relative to, in the unit of the map.
+double edge_size_of(const SceneMap& map) {
+  return map.unit == "V" ? size_of(map) : 100.0;
 }
 
 // The largest of them relative to what the tolerance refers to.
@@ -196,7 +71,7 @@ double largest_constant_error(const SpaceScene& scene, const ConstantErrors& err
   if (!has_crosstalk(scene) || !asks_for_map(scene, kCrosstalk)) return of_voltages;
   const SceneMap crosstalk{.name = kCrosstalk, .unit = "%", .scale = kCrosstalkScale};
   return std::max(of_voltages, (common_error_of(crosstalk, errors) +
-                                edge_error_of(crosstalk, errors.largest_edge)) /
+                                errors.largest_edge * edge_size_of(crosstalk)) /
                                    kCrosstalkScale);
 }
 
@@ -223,19 +98,6 @@ double largest_constant_error(const SpaceScene& scene, const ConstantErrors& err
 }
 
 }  // namespace
-
-bool asks_for_map(const SpaceScene& scene, const std::string& map) {
-  return scene.wanted.empty() ||
-         std::any_of(scene.wanted.begin(), scene.wanted.end(), [&](const std::string& name) {
-           return name == map || name.starts_with(map + "_");
-         });
-}
-
-bool has_crosstalk(const SpaceScene& scene) {
-  const std::vector<bool> loaded = is_loaded(scene);
-  return scene.feels_neighbours && scene.pressure_Pa != 0.0 &&
-         std::find(loaded.begin(), loaded.end(), false) != loaded.end();
-}
 
 std::vector<std::string> result_names(const SpaceScene& scene) {
   std::vector<std::string> names;
@@ -324,8 +186,9 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   if (contact) add_change_of_loads(scene, *contact, answer);
   for (SceneMap& map : answer.maps) {
     const double of_all = common_error_of(map, parts);
+    const double edge_size = edge_size_of(map);
     for (std::size_t at = 0; at < map.value.size(); ++at) {
-      map.error[at] += of_all + edge_error_of(map, parts.edge[map.pillar[at]]);
+      map.error[at] += of_all + edge_size * parts.edge[map.pillar[at]];
     }
   }
   answer.largest_relative_error += constant + of_contact;

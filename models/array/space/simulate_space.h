@@ -21,7 +21,6 @@ namespace viscard {
 // to accuracy, plus what a foot on a rigid base leaves out and what the film's edge reflects (eq. S5,
 // S7, S8). Throws std::runtime_error with the reason if the finest accuracy does not meet the tolerance.
 SceneAnswer simulate_space(const SpaceScene& scene);
-constexpr std::size_t kMostNamedPillars = 25;
 
 // The scene with the accuracy that has the degree of this mesh, or the next one; without errors. And the
 // meshes of the feet that simulate_space() goes through.
@@ -33,11 +32,6 @@ void validate(const SpaceScene& scene);
 
 // The maps that a scene may ask for.
 std::vector<std::string> result_names(const SpaceScene& scene);
-
-// True if the scene asks for a map, or for one of its values.
-bool asks_for_map(const SpaceScene& scene, const std::string& map);
-// True if there are unloaded pillars, and loaded ones have a voltage of their own to compare with.
-bool has_crosstalk(const SpaceScene& scene);
 
 // Relative error of a voltage where the foot stands on a rigid base instead of the film (eq. S7).
 double rigid_foot_error(const SpaceScene& scene);

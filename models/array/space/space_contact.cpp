@@ -143,8 +143,8 @@ SpaceContact contact_within(const SpaceScene& scene, double tolerance) {
 
 double foot_settling_m_Pa(const LayeredFilm& film, const FootForces& foot) {
   constexpr int kAngles = 3;  // 0, 45 and 90 degrees: harmonics 0, 2 and 4 of the angle
-  constexpr double kLargestkR = 24.0;
-  constexpr int kPanels = 24, kPoints = 6, kDegree = 10;
+  constexpr double kLargestkR = 16.0;
+  constexpr int kPanels = 8, kPoints = 5, kDegree = 6;
   const double R_m = foot.radius_m.back();
   const QuadratureRule rule = gauss_legendre(kPoints);
   const double step_1_m = kLargestkR / R_m / kPanels;

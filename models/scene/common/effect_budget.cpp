@@ -101,7 +101,8 @@ void add_left_out(double left_out, SceneAnswer& answer) {
     for (double& error : curve.error) error += left_out * peak;
   }
   for (SceneMap& map : answer.maps) {
-    for (double& error : map.error) error += left_out * size_of(map);
+    const double more = left_out * size_of(map);
+    for (double& error : map.error) error += more;
   }
   answer.largest_relative_error += left_out;
 }

@@ -80,7 +80,7 @@ struct SceneMap {
   std::vector<double> value;
   std::vector<double> error;  // estimate of each value, in the unit
   double scale = 0.0;         // errors are relative to the largest magnitude, or to this if larger
-  bool is_watched = true;     // false: its error has another source than the mesh, or does not count
+  bool is_watched = true;  // false: its error has another source than the mesh, or does not count
 };
 
 struct SceneAnswer {
