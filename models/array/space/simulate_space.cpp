@@ -120,6 +120,22 @@ std::vector<Discretisation> space_meshes(const SpaceScene& scene) {
 
 namespace {
 
+// What pillars beyond the reach would add, relative to what the tolerance refers to. No change from
+// accuracy to accuracy shows it where two of them do not reach a pillar.
+double beyond_reach(const SpaceScene& scene, const SpaceResponse& response,
+                    const TopLoads& loads_Pa, const SceneAnswer& answer) {
+  const Eigen::VectorXd beyond_V = response.beyond_reach_V(loads_Pa);
+  const std::vector<std::string> names = reading_names(scene.electrode);
+  double share = 0.0;
+  for (const SceneMap& map : answer.maps) {
+    for (std::size_t r = 0; r < names.size(); ++r) {
+      if (map.name != names[r] + "_voltage" || !(size_of(map) > 0.0)) continue;
+      share = std::max(share, beyond_V[static_cast<Eigen::Index>(r)] / size_of(map));
+    }
+  }
+  return share;
+}
+
 SceneAnswer voltages_on(const SpaceScene& scene, const TopLoads& loads_Pa,
                         const Discretisation& mesh) {
   const SpaceArray array = array_of(scene);
@@ -130,6 +146,7 @@ SceneAnswer voltages_on(const SpaceScene& scene, const TopLoads& loads_Pa,
   answer.unknowns = response.unknowns();
   answer.array = array_of_answer(scene, loads_Pa);
   answer.maps = maps_of(scene, response, loads_Pa);
+  if (scene.feels_neighbours) answer.step_error = beyond_reach(scene, response, loads_Pa, answer);
   set_results(scene, answer);
   return answer;
 }

@@ -188,4 +188,32 @@ Eigen::MatrixXd SpaceResponse::voltages_V(const TopLoads& loads_Pa) const {
   return voltages;
 }
 
+Eigen::VectorXd SpaceResponse::beyond_reach_V(const TopLoads& loads_Pa) const {
+  constexpr int kDirections = 16;
+  const auto readings = static_cast<Eigen::Index>(reading_names(array_->electrode).size());
+  Eigen::VectorXd largest_V = Eigen::VectorXd::Zero(readings);
+  double left_m = HUGE_VAL, right_m = -HUGE_VAL, low_m = HUGE_VAL, high_m = -HUGE_VAL;
+  std::vector<TopLoads> of_class(feet_.size(), TopLoads::Zero(1, kTopLoads));  // largest of each
+  for (std::size_t i = 0; i < array_->pillars.size(); ++i) {
+    const PlacedPillar& one = array_->pillars[i];
+    left_m = std::min(left_m, one.x_m);
+    right_m = std::max(right_m, one.x_m);
+    low_m = std::min(low_m, one.y_m);
+    high_m = std::max(high_m, one.y_m);
+    TopLoads& most = of_class[static_cast<std::size_t>(one.of_class)];
+    most = most.cwiseMax(loads_Pa.row(static_cast<Eigen::Index>(i)).cwiseAbs());
+  }
+  if (std::hypot(right_m - left_m, high_m - low_m) <= reach_m_) return largest_V;
+  for (std::size_t c = 0; c < of_class.size(); ++c) {
+    if (of_class[c].isZero(0.0)) continue;
+    for (int d = 0; d < kDirections; ++d) {
+      const double angle = 2.0 * std::numbers::pi * d / kDirections;
+      const auto at =
+          kernel(static_cast<int>(c), reach_m_ * std::cos(angle), reach_m_ * std::sin(angle));
+      largest_V = largest_V.cwiseMax(at.cwiseAbs() * of_class[c].transpose());
+    }
+  }
+  return largest_V;
+}
+
 }  // namespace viscard

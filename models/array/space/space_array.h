@@ -69,6 +69,10 @@ class SpaceResponse {
   Eigen::Matrix<double, Eigen::Dynamic, kTopLoads> kernel(int of_class, double x_m,
                                                           double y_m) const;
 
+  // At most about what pillars beyond the reach of the accuracy would add to each reading: the largest
+  // reading at that distance, since it decays within a pitch. 0 if no two pillars are so far apart.
+  Eigen::VectorXd beyond_reach_V(const TopLoads& loads_Pa) const;
+
   const FootForces& foot(int of_class) const { return feet_[static_cast<std::size_t>(of_class)]; }
   double capacitance_F() const { return capacitance_F_; }  // of one electrode; 0 if sampled
   int unknowns() const { return unknowns_; }
