@@ -184,6 +184,7 @@ TopPressure TopContact::press(const Overlap& overlap) const {
   TopPressure pressure;
   add_resultants(unilateral_forces(overlap_m, everywhere), pressure);
   pressure.is_partial = true;
+  pressure.share_error = std::sqrt(pressure.share) / static_cast<double>(rings);
   return pressure;
 }
 

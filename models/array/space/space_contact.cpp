@@ -111,7 +111,7 @@ void compare(const SpaceContact& coarse, SpaceContact& fine) {
     const TopPressure& a = coarse.pressed.tops[i];
     const TopPressure& b = fine.pressed.tops[i];
     fine.force_change_N[i] = std::abs(b.force_N - a.force_N);
-    fine.share_change[i] = std::abs(b.share - a.share);
+    fine.share_change[i] = std::abs(b.share - a.share) + b.share_error;
   }
 }
 

@@ -13,7 +13,7 @@ struct SpaceContact {
   PressedArray pressed;
   TopLoads loads_Pa;  // a pressure and two tilts that have the force and the moments of each top
   std::vector<double> force_change_N;
-  std::vector<double> share_change;
+  std::vector<double> share_change;  // and what a grid leaves open
   TopLoads change_Pa;
   std::vector<double> sideways_m;  // how far a tilted top moves
   double total_change_N = 0.0;

@@ -59,7 +59,41 @@ void draw_loads(Draw& draw, SpaceScene& scene) {
   }
 }
 
+// A shape whose tilt over a top lies between nothing and its depth, so that tops are touched in whole, in
+// part and not at all.
+void draw_press(Draw& draw, SpaceScene& scene) {
+  ShapePress press;
+  RigidShape& shape = press.shape;
+  const ShapeKind kinds[] = {ShapeKind::kPlane, ShapeKind::kCylinder, ShapeKind::kSphere,
+                             ShapeKind::kParaboloid, ShapeKind::kWedge};
+  shape.kind = kinds[draw.below(5)];
+  const double critical_Pa = engesser_pressure_Pa(single_pillar(scene, classes_of(scene).front()));
+  press.depth_m = draw.log_uniform(0.01, 0.5) * critical_Pa / scene.pillar.E0_Pa * scene.length_m;
+  const double wide_m = scene.diameter_m + scene.film_thickness_m * draw.log_uniform(0.1, 30.0);
+  shape.radius_m = 0.5 * wide_m * wide_m / press.depth_m;
+  shape.slope = press.depth_m / wide_m;
+  shape.direction_rad = draw.uniform(0.0, 3.0);
+  const double reach_m = scene.pillars.back().x_m;
+  shape.x_m = draw.uniform(-1.0, 1.0) * reach_m;
+  shape.y_m = draw.uniform(-1.0, 1.0) * reach_m;
+  if (shape.kind == ShapeKind::kPlane || draw.chance(0.3)) {
+    shape.tilt_x = draw.uniform(-1.0, 1.0) * press.depth_m / wide_m;
+    shape.tilt_y = draw.uniform(-1.0, 1.0) * press.depth_m / wide_m;
+  }
+  scene.press = press;
+}
+
 }  // namespace
+
+SpaceScene random_pressed_array(std::mt19937_64& random) {
+  SpaceScene scene = random_array(random);
+  scene.pressure_Pa = scene.shear_x_Pa = scene.shear_y_Pa = 0.0;
+  scene.loaded.clear();
+  Draw draw(random);
+  scene.tolerance = draw.log_uniform(2e-3, 3e-2);
+  draw_press(draw, scene);
+  return scene;
+}
 
 SpaceScene random_array(std::mt19937_64& random) {
   Draw draw(random);

@@ -12,4 +12,8 @@ namespace viscard::test {
 // sheared or both, all or some of them; tolerances from 5e-4 to 3e-2.
 SpaceScene random_array(std::mt19937_64& random);
 
+// Such an array under a rigid plane, cylinder, sphere, paraboloid or wedge anywhere over it, inclined or
+// not, to a depth of up to half of what buckles a pillar; tolerances from 2e-3 to 3e-2.
+SpaceScene random_pressed_array(std::mt19937_64& random);
+
 }  // namespace viscard::test

@@ -71,6 +71,54 @@ void study_arrays(int count, unsigned long seed) {
   CHECK(honest >= 0.99 * answered);
 }
 
+// The answer within the tolerance against one within a tenth of it.
+Judged judged_pressed(SpaceScene scene) {
+  const double tolerance = scene.tolerance;
+  const SceneAnswer answer = simulate(scene);
+  scene.tolerance = std::max(0.1 * tolerance, SpaceScene::kTolerances.least);
+  const SceneAnswer fine = simulate(scene);
+  Judged verdict;
+  for (const SceneMap& map : answer.maps) {
+    const SceneMap& exact = map_of(fine, map.name);
+    for (std::size_t i = 0; i < map.value.size() && size_of(exact) > 0.0; ++i) {
+      const double error = std::abs(map.value[i] - exact.value[i]);
+      if (map.is_watched) {
+        verdict.over = std::max(verdict.over, error / (tolerance * size_of(exact)));
+      }
+      const double room = 0.02 * tolerance * size_of(exact);
+      verdict.is_honest = verdict.is_honest && error <= map.error[i] + exact.error[i] + room;
+    }
+  }
+  return verdict;
+}
+
+void study_pressed_arrays(int count, unsigned long seed) {
+  std::mt19937_64 random(seed);
+  int answered = 0, below = 0, honest = 0, refused = 0;
+  std::ostringstream worst;
+  for (int i = 0; i < count; ++i) {
+    const SpaceScene scene = random_pressed_array(random);
+    try {
+      const Judged verdict = judged_pressed(scene);
+      ++answered;
+      below += verdict.over <= 1.0 ? 1 : 0;
+      honest += verdict.is_honest ? 1 : 0;
+      if (verdict.over <= 1.0 && verdict.is_honest) continue;
+      worst << "array " << i << ": error " << verdict.over << " of the tolerance "
+            << scene.tolerance << ", honest " << verdict.is_honest << "\n";
+    } catch (const std::exception& error) {
+      ++refused;
+      worst << "array " << i << " (tolerance " << scene.tolerance << "): " << error.what() << "\n";
+    }
+  }
+  CAPTURE(count, answered, below, honest, refused, worst.str());
+  if (std::getenv("VISCARD_SHOW") != nullptr) WARN(worst.str());
+  // A tenth of the tolerance is more often beyond the finest grid than the tolerance itself.
+  CHECK(answered >= 0.75 * count);
+  CHECK(below >= 0.99 * answered);
+  CHECK(honest >= 0.99 * answered);
+}
+
 }  // namespace
 
 TEST_CASE("random arrays meet their tolerance with honest estimates", "[models][array][space]") {
@@ -80,4 +128,14 @@ TEST_CASE("random arrays meet their tolerance with honest estimates", "[models][
 TEST_CASE("many random arrays meet their tolerance with honest estimates",
           "[models][array][space][slow]") {
   study_arrays(60, 2);
+}
+
+TEST_CASE("random arrays under a shape meet their tolerance with honest estimates",
+          "[models][array][space]") {
+  study_pressed_arrays(4, 3);
+}
+
+TEST_CASE("many random arrays under a shape meet their tolerance with honest estimates",
+          "[models][array][space][slow]") {
+  study_pressed_arrays(60, 4);
 }
