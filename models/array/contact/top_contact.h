@@ -13,7 +13,9 @@ struct TopPressure {
   double force_N = 0.0;      // down
   double moment_x_Nm = 0.0;  // int p x dA: turns the top toward +x
   double moment_y_Nm = 0.0;
-  double share = 0.0;       // of the top's area that is touched
+  double share = 0.0;  // of the top's area that is touched
+  double share_error =
+      0.0;                  // half a ring along the rim of the touched area: points touch or do not
   double largest_Pa = 0.0;  // pressure at a point of the grid
   bool is_partial = false;  // some of the top, but not all, is touched
 };
