@@ -14,8 +14,8 @@ struct TopPressure {
   double moment_x_Nm = 0.0;  // int p x dA: turns the top toward +x
   double moment_y_Nm = 0.0;
   double share = 0.0;  // of the top's area that is touched
-  double share_error =
-      0.0;                  // half a ring along the rim of the touched area: points touch or do not
+  // Of the share: half a ring along the rim of the touched area, whose points touch or do not.
+  double share_error = 0.0;
   double largest_Pa = 0.0;  // pressure at a point of the grid
   bool is_partial = false;  // some of the top, but not all, is touched
 };
