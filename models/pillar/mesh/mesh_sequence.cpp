@@ -41,7 +41,7 @@ std::vector<Discretisation> mesh_sequence(const PillarGeometry& geometry) {
 }
 
 std::vector<Discretisation> stressed_mesh_sequence(const PillarGeometry& geometry) {
-  return meshes_of(geometry, {{4, 1}, {4, 2}, {5, 3}, {6, 4}, {7, 5}, {8, 6}, {9, 7}});
+  return meshes_of(geometry, {{5, 1}, {5, 2}, {5, 3}, {6, 4}, {7, 5}, {8, 6}, {9, 7}});
 }
 
 std::vector<Discretisation> refinements_to(const Discretisation& finest) {
