@@ -105,11 +105,14 @@ double size_of(const ArrayScene& scene, const Discretisation& mesh) {
   };
   const double fields = scene.film.has_permittivity() ? 3.0 : 2.0;
   const double end = fields * nodes(lines.film_z.size());
-  const int under = lines.last_pillar_column - lines.first_pillar_column;
+  const int under = lines.cell.last_pillar_column - lines.cell.first_pillar_column;
   double count = 2.0 * (mesh.degree * under + 1.0) * nodes(lines.pillar_z.size());
   int pieces = scene.geometry.count;
-  for (const auto* piece : {&lines.cell_x, &lines.gap_x, &lines.edge_x}) {
+  for (const auto* piece : {&lines.cell.x, &lines.gap_x, &lines.edge_x}) {
     if (!piece->empty()) count += end * (nodes(piece->size()) + 1.0);
+  }
+  if (lines.ends_differ) {
+    count += end * (nodes(lines.first_cell.x.size()) + nodes(lines.last_cell.x.size()) + 2.0);
   }
   if (!lines.gap_x.empty()) pieces += scene.geometry.count - 1;
   if (!lines.edge_x.empty()) pieces += 2;

@@ -1,8 +1,8 @@
 #include "models/array/plane/array_analysis.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 
 namespace viscard {
@@ -10,52 +10,58 @@ namespace {
 
 constexpr double kPercentScale = 10.0;  // a tolerance of 1e-3 gives per cents to 0.01 points
 
-// The response of one pillar for each of a row, and nothing between them.
-ArrayResponse each_alone(const ArrayResponse& one, int count) {
-  const auto repeated = [&](const Eigen::MatrixXd& value) {
-    return value.size() == 0
-               ? value
-               : Eigen::MatrixXd(value(0, 0) * Eigen::MatrixXd::Identity(count, count));
+// A voltage this much smaller than that of a pillar pressed by as much is zero by symmetry: under a
+// pillar sheared between mirrors. It is no reference for a per cent or for an error.
+constexpr double kNoVoltage = 1e-9;
+
+// One pillar that stands alone for each of a row.
+ArrayAnswer each_alone(const ArrayAnswer& one, const Eigen::VectorXd& load_Pa) {
+  const auto repeated = [&](const Eigen::VectorXd& value) {
+    return value.size() == 0 ? value : Eigen::VectorXd(value[0] * load_Pa);
   };
-  ArrayResponse row;
+  ArrayAnswer row;
   row.centre_V = repeated(one.centre_V);
   row.mean_V = repeated(one.mean_V);
   row.electrode_V = repeated(one.electrode_V);
+  row.electrode_C = repeated(one.electrode_C);
   row.top_m = repeated(one.top_m);
-  row.V_per_C = repeated(one.V_per_C);
   return row;
+}
+
+const Eigen::VectorXd& single_V(const ArrayAnswer& of) {
+  return of.electrode_V.size() > 0 ? of.electrode_V : of.centre_V;
 }
 
 // Static results on one mesh.
 class Statics {
  public:
-  Statics(const ArrayScene& scene, const Discretisation& mesh) : scene_(scene) {
+  Statics(const ArrayScene& scene, const Discretisation& mesh)
+      : scene_(scene),
+        model_(scene.feels_neighbours ? scene.geometry : lone(scene.geometry), scene.electrodes,
+               media_of(scene), mesh) {
     answer_.discretisation = mesh;
-    const ArrayModel model(scene.feels_neighbours ? scene.geometry : lone(scene.geometry),
-                           scene.electrodes, media_of(scene), mesh);
-    answer_.unknowns = model.unknowns();
-    response_ = array_response(model, scene.load);
-    if (!scene.feels_neighbours) response_ = each_alone(response_, scene.geometry.count);
+    answer_.unknowns = model_.unknowns();
     load_Pa_ =
         Eigen::VectorXd::Constant(scene.geometry.count, scene.loaded.empty() ? scene.load_Pa : 0.0);
     for (const int pillar : scene.loaded) load_Pa_[pillar - 1] = scene.load_Pa;
-    // The voltage of a pillar where single numbers are compared.
-    const bool has_electrodes = response_.electrode_V.size() > 0;
-    single_ = has_electrodes ? response_.electrode_V : response_.centre_V;
-    mean_ = has_electrodes ? response_.electrode_V : response_.mean_V;
+    row_ = scene.feels_neighbours
+               ? array_answer(model_, scene.load, load_Pa_)
+               : each_alone(array_answer(model_, scene.load, Eigen::VectorXd::Ones(1)), load_Pa_);
   }
 
   SceneAnswer run() {
-    add_all("centre_voltage", under_load(response_.centre_V), "V");
-    add_all("mean_voltage", under_load(response_.mean_V), "V");
-    add_all("electrode_voltage", under_load(response_.electrode_V), "V");
-    add_all("midway_voltage", under_load(response_.midway_V), "V");
-    if (response_.V_per_C.size() > 0) {  // V = V_open + V_per_C Q = 0
-      add_all("electrode_charge", -response_.V_per_C.lu().solve(under_load(response_.electrode_V)),
-              "C");
+    double charge_C = 0.0;
+    if (single_V(row_).size() > 0) {
+      pressed_V_ = std::abs(own_V_per_Pa(model_, ArrayLoad::kPressure, 0) * scene_.load_Pa);
     }
-    add_all("top_displacement", under_load(response_.top_m), "m");
-    if (single_.size() > 0 && load_Pa_.any() && scene_.feels_neighbours) per_cents();
+    if (row_.electrode_C.size() > 0) charge_C = std::abs(pressed_V_ / own_V_per_C(model_, 0));
+    add_all("centre_voltage", row_.centre_V, "V", pressed_V_);
+    add_all("mean_voltage", row_.mean_V, "V", pressed_V_);
+    add_all("electrode_voltage", row_.electrode_V, "V", pressed_V_);
+    add_all("midway_voltage", row_.midway_V, "V", pressed_V_);
+    add_all("electrode_charge", row_.electrode_C, "C", charge_C);
+    add_all("top_displacement", row_.top_m, "m", 0.0);
+    if (single_V(row_).size() > 0 && load_Pa_.any() && scene_.feels_neighbours) per_cents();
     return std::move(answer_);
   }
 
@@ -64,66 +70,76 @@ class Statics {
     const std::string name = stem + "_" + std::to_string(pillar);
     answer_.results.push_back({name, value, unit, 0.0, scale, asks_for(scene_, name)});
   }
-  void add_all(const std::string& name, const Eigen::VectorXd& values, const char* unit) {
-    const double scale = values.size() == 0 ? 0.0 : values.cwiseAbs().maxCoeff();
+  // `pressed` is the size that values which are zero by symmetry are compared with.
+  void add_all(const std::string& name, const Eigen::VectorXd& values, const char* unit,
+               double pressed) {
+    double scale = values.size() == 0 ? 0.0 : values.cwiseAbs().maxCoeff();
+    if (scale <= kNoVoltage * pressed) scale = pressed;
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       add(name, static_cast<int>(i) + 1, values[i], unit, scale);
     }
   }
-  // Empty for a voltage that the electrodes do not have.
-  Eigen::VectorXd under_load(const Eigen::MatrixXd& per_Pa) const {
-    if (per_Pa.size() == 0) return {};
-    return per_Pa * load_Pa_;
-  }
   bool is_loaded(Eigen::Index pillar) const { return load_Pa_[pillar] != 0.0; }
+
+  // `part` in per cent of `whole`, unless that is zero by symmetry.
+  void add_per_cent(const char* stem, Eigen::Index i, double part, double whole) {
+    if (std::abs(whole) <= kNoVoltage * pressed_V_) {
+      ++without_whole_;
+      return;
+    }
+    add(stem, static_cast<int>(i) + 1, 100.0 * part / whole, "%", kPercentScale);
+  }
 
   void per_cents() {
     const Eigen::Index n = load_Pa_.size();
-    const Eigen::VectorXd V = under_load(single_);
-    const Eigen::VectorXd mean_V = under_load(mean_);
-    const Eigen::VectorXd midway_V = under_load(response_.midway_V);
+    const Eigen::VectorXd& V = single_V(row_);
+    const Eigen::VectorXd& mean_V = row_.mean_V.size() > 0 ? row_.mean_V : V;
+    const Eigen::VectorXd& midway_V = row_.midway_V;
     const auto largest = [](const Eigen::VectorXd& of) {
       Eigen::Index at = 0;
       of.cwiseAbs().maxCoeff(&at);
       return of[at];
     };
     for (Eigen::Index i = 0; i < n; ++i) {
-      const int number = static_cast<int>(i) + 1;
       if (i < midway_V.size() && is_loaded(i) && is_loaded(std::min(i + 1, n - 1))) {
         const double between_V = 0.5 * (V[i] + V[std::min(i + 1, n - 1)]);
-        add("coupling_percent", number, 50.0 * midway_V[i] / between_V, "%", kPercentScale);
+        add_per_cent("coupling_percent", i, 0.5 * midway_V[i], between_V);
       }
       if (!is_loaded(i)) {
-        add("crosstalk_percent", number, 100.0 * mean_V[i] / largest(mean_V), "%", kPercentScale);
-        if (response_.centre_V.size() > 0) {
-          add("crosstalk_centre_percent", number, 100.0 * V[i] / largest(V), "%", kPercentScale);
+        add_per_cent("crosstalk_percent", i, mean_V[i], largest(mean_V));
+        if (row_.centre_V.size() > 0) {
+          add_per_cent("crosstalk_centre_percent", i, V[i], largest(V));
         }
         continue;
       }
-      const double own_V = single_(i, i) * load_Pa_[i];
-      add("neighbours_percent", number, 100.0 * (V[i] / own_V - 1.0), "%", kPercentScale);
-      const std::string deviation = "deviation_percent_" + std::to_string(number);
+      const double own_V = own_V_per_Pa(model_, scene_.load, static_cast<int>(i)) * load_Pa_[i];
+      add_per_cent("neighbours_percent", i, V[i] - own_V, own_V);
+      const std::string deviation = "deviation_percent_" + std::to_string(i + 1);
       if (scene_.wanted.empty() || !asks_for(scene_, deviation)) continue;
-      add("deviation_percent", number, 100.0 * (V[i] / (lone_V() * load_Pa_[i]) - 1.0), "%",
-          kPercentScale);
+      add_per_cent("deviation_percent", i, V[i] - lone_V() * load_Pa_[i], lone_V() * load_Pa_[i]);
     }
+    if (without_whole_ == 0) return;
+    answer_.notes.push_back(
+        std::to_string(without_whole_) +
+        " per cents are left out: the voltage that they refer to is zero by symmetry");
   }
   double lone_V() {
     if (lone_V_ == 0.0) {
       const ArrayModel model(lone(scene_.geometry), scene_.electrodes, media_of(scene_),
                              answer_.discretisation);
-      const ArrayResponse alone = array_response(model, scene_.load);
-      lone_V_ = (alone.electrode_V.size() > 0 ? alone.electrode_V : alone.centre_V)(0, 0);
+      lone_V_ = single_V(array_answer(model, scene_.load, Eigen::VectorXd::Ones(1)))[0];
     }
     return lone_V_;
   }
 
   const ArrayScene& scene_;
+  const ArrayModel model_;
   SceneAnswer answer_;
-  ArrayResponse response_;
+  ArrayAnswer row_;
   Eigen::VectorXd load_Pa_;
-  Eigen::MatrixXd single_, mean_;
   double lone_V_ = 0.0;
+  double pressed_V_ = 0.0;  // of a pillar that is pressed by the load
+  int without_whole_ = 0;
 };
 
 std::vector<std::string> row_static_names(const ArrayScene& scene) {

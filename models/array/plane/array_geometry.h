@@ -49,15 +49,24 @@ struct MeshMark {
 std::vector<double> breaks_between(const std::vector<MeshMark>& marks, double reach_m,
                                    double largest_m, int layers, double ratio);
 
-// The row as a chain of pieces that repeat: [edge] cell [gap cell]... [edge]. The cell stands
-// around its pillar with x = 0 in its middle; gap and edge start at x = 0, and the left edge is the
-// mirror image of the right one. An empty gap or edge does not exist.
+// The film under a pillar and a little beside it, x = 0 under the pillar's middle.
+struct CellMesh {
+  std::vector<double> x;
+  int first_pillar_column = 0;  // the pillar stands on columns [first, last)
+  int last_pillar_column = 0;
+};
+
+// The row as a chain of pieces that repeat: [edge] cell [gap cell]... [edge]. Gap and edge start at
+// x = 0, and the left edge is the mirror image of the right one. An empty gap or edge does not
+// exist. An electrode lies inside its cell, because its one voltage cannot be an unknown of both
+// ends; only where the film ends with it does it reach the cell's end.
 struct ArrayMesh {
-  std::vector<double> cell_x, gap_x, edge_x;
+  CellMesh cell;
+  CellMesh first_cell, last_cell;  // differ from the others if the film ends a little beside them
+  bool ends_differ = false;        // they do
+  std::vector<double> gap_x, edge_x;
   std::vector<double> film_z;    // from -thickness to 0
   std::vector<double> pillar_z;  // from 0 to length
-  int first_pillar_column = 0;   // of the cell's columns
-  int last_pillar_column = 0;    // one past
 };
 // Elements of the shaft are no longer than two diameters over `shaft_elements`.
 ArrayMesh array_mesh(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes,

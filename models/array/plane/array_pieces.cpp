@@ -74,8 +74,8 @@ ModePorts mode_ports(const Section& section, const DiscreteSystem& free, const P
 
 CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media, int degree,
                                  int modes) {
-  const std::vector<double> x(mesh.cell_x.begin() + mesh.first_pillar_column,
-                              mesh.cell_x.begin() + mesh.last_pillar_column + 1);
+  const std::vector<double> x(mesh.cell.x.begin() + mesh.cell.first_pillar_column,
+                              mesh.cell.x.begin() + mesh.cell.last_pillar_column + 1);
   const Section section(LineMesh(x, degree), LineMesh(mesh.pillar_z, degree),
                         [](double, double) { return 0; });
   const DiscreteSystem system(section, whole_plane(), free_dofs(section, false));

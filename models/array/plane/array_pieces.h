@@ -55,22 +55,27 @@ struct CondensedPiece {
   Eigen::MatrixXd matrix;
   int end_size = 0;
   std::vector<bool> end_is_across;  // of the unknowns of an end: displacement along x?
+  // Of both ends: unknowns that the piece does not have, because its electrode reaches the end and
+  // has one voltage, the port's. Their rows are zero, and nothing can be joined there.
+  std::vector<bool> end_is_bare;
   int unknowns = 0;
 
   int port_count() const { return static_cast<int>(matrix.rows()) - 2 * end_size; }
 };
 
 struct FilmPiece {
-  std::vector<double> x_m;  // breaks
+  CellMesh mesh;  // its pillar's columns mean nothing without a pillar
   std::vector<PotentialReading> readings;
-  const CondensedPillar* pillar = nullptr;  // stands on columns [first, last)
-  int first_pillar_column = 0;
-  int last_pillar_column = 0;
+  const CondensedPillar* pillar = nullptr;
   double electrode_half_width_m = 0.0;  // of an equipotential electrode around x = 0; 0: none
 };
 CondensedPiece condensed_film(const FilmPiece& piece, const ArrayMesh& mesh,
                               const ArrayMedia& media, FilmFace grounded, int degree);
 // The piece mirrored across x. Its ports must be symmetric, as readings of the potential are.
 CondensedPiece mirrored(const CondensedPiece& piece);
+// The piece with its port `port` held at a reading of 0, such as an electrode at 0 V: the port now
+// reads the load that this takes. Other ports stay. (One sweep of Gauss and Jordan, or principal
+// pivot transform: Tsatsomeros, Linear Algebra Appl. 307 (2000) 151.)
+CondensedPiece with_port_held(const CondensedPiece& piece, int port);
 
 }  // namespace viscard

@@ -7,6 +7,12 @@
 
 namespace viscard {
 
+// The film under each pillar, with the pillar on it. The outer ones are used if `ends_differ`.
+struct CondensedCells {
+  CondensedPiece inner, first, last;
+  bool ends_differ = false;
+};
+
 // One discretised array: pieces condensed once, joined to a chain. Does not move once made.
 class ArrayModel {
  public:
@@ -20,6 +26,9 @@ class ArrayModel {
   const ArrayGeometry& geometry() const { return geometry_; }
   const CondensedPillar& pillar() const { return pillar_; }
   const ArrayChain& chain() const { return *chain_; }
+  // Readings of all ports under loads on them with every electrode at 0 V; the port of an electrode
+  // reads its load, minus its charge.
+  Eigen::VectorXd readings_at_0_V(const Eigen::VectorXd& loads) const;
 
   // Ports of pillar i (0-based) on the chain.
   int pillar_port(int pillar, int port) const;  // kPressurePort, kShearPort, kFirstModePort + k
@@ -29,6 +38,10 @@ class ArrayModel {
   // Potential of the read face midway between pillar i and its right neighbour (or, for the last
   // pillar before a mirror, at the mirror); -1 if there is none.
   int midway_port(int pillar) const;
+
+  std::size_t cell_place(int pillar) const {  // in the chain
+    return cell_place_[static_cast<std::size_t>(pillar)];
+  }
 
   // Unknowns of all pieces before condensation, repeated pieces counted once, and of the joints.
   int unknowns() const { return unknowns_; }
@@ -41,11 +54,29 @@ class ArrayModel {
   ArrayElectrodes electrodes_;
   bool has_potential_ = false;
   CondensedPillar pillar_;
-  CondensedPiece cell_, gap_, edge_, left_edge_;
+  CondensedCells condensed_cells(const ArrayMesh& mesh, const ArrayMedia& media, int degree);
+  std::unique_ptr<ArrayChain> chain_of(const CondensedCells& cells) const;
+
+  CondensedCells cells_;
+  CondensedPiece gap_, edge_, left_edge_;               // without unknowns: there is none
   std::vector<std::size_t> cell_place_, midway_place_;  // in the chain, by pillar
   std::unique_ptr<ArrayChain> chain_;
   int unknowns_ = 0;
 };
+
+enum class ArrayLoad { kPressure, kShear };  // on the whole top
+
+// All values of a row under loads on its pillars in Pa, as those of ArrayResponse. Takes time and
+// memory that grow with the number of pillars, not with its square.
+struct ArrayAnswer {
+  Eigen::VectorXd centre_V, mean_V, electrode_V, midway_V, top_m;
+  Eigen::VectorXd electrode_C;  // all electrodes at 0 V, per metre
+};
+ArrayAnswer array_answer(const ArrayModel& model, ArrayLoad load, const Eigen::VectorXd& load_Pa);
+// Centre (electrode) voltage of a pillar for 1 Pa on itself alone, beside its neighbours.
+double own_V_per_Pa(const ArrayModel& model, ArrayLoad load, int pillar);
+// Voltage of an equipotential electrode for 1 C on itself alone, all open, per metre.
+double own_V_per_C(const ArrayModel& model, int pillar);
 
 // Responses to unit loads on single pillars: rows are pillars that are read, columns pillars that
 // are loaded (0-based). Every static answer of the array is a sum of columns.
@@ -58,7 +89,6 @@ struct ArrayResponse {
                                 // under shear
   Eigen::MatrixXd V_per_C;      // electrodes: inverse of the capacitance matrix, per metre
 };
-enum class ArrayLoad { kPressure, kShear };  // 1 Pa on the whole top
 ArrayResponse array_response(const ArrayModel& model, ArrayLoad load);
 
 int port_of(ArrayLoad load);  // of a pillar

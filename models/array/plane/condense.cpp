@@ -15,6 +15,7 @@ Split split_of(int size, const std::vector<int>& kept) {
   Split split{std::vector<int>(static_cast<std::size_t>(size), 0), 0};
   std::vector<bool> is_kept(static_cast<std::size_t>(size), false);
   for (std::size_t k = 0; k < kept.size(); ++k) {
+    if (kept[k] < 0) continue;
     is_kept[static_cast<std::size_t>(kept[k])] = true;
     split.place[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
   }

@@ -1,6 +1,7 @@
 #include "models/array/plane/array_pieces.h"
 #include "models/array/plane/plane_system.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -84,7 +85,7 @@ SymmetricSparse with_pillar(const SymmetricSparse& film, const CondensedPillar& 
 
 CondensedPiece condensed_film(const FilmPiece& piece, const ArrayMesh& mesh,
                               const ArrayMedia& media, FilmFace grounded, int degree) {
-  const Section section(LineMesh(piece.x_m, degree), LineMesh(mesh.film_z, degree),
+  const Section section(LineMesh(piece.mesh.x, degree), LineMesh(mesh.film_z, degree),
                         [](double, double) { return 0; });
   const bool is_electric = media.film.has_permittivity();
   const double scale_V = is_electric ? potential_scale_V(media.film) : 1.0;
@@ -103,8 +104,8 @@ CondensedPiece condensed_film(const FilmPiece& piece, const ArrayMesh& mesh,
   if (piece.pillar != nullptr) {
     const std::vector<int> base =
         dofs_on(system,
-                nodes_on_break(section, section.z().element_count(), piece.first_pillar_column,
-                               piece.last_pillar_column),
+                nodes_on_break(section, section.z().element_count(), piece.mesh.first_pillar_column,
+                               piece.mesh.last_pillar_column),
                 2);
     const Eigen::MatrixXd& of = piece.pillar->matrix;
     for (std::size_t i = 0; i < base.size(); ++i) {
@@ -131,6 +132,11 @@ CondensedPiece condensed_film(const FilmPiece& piece, const ArrayMesh& mesh,
   }
   const std::vector<int> right = dofs_on(system, nodes_on_end(section, true), fields);
   kept.insert(kept.end(), right.begin(), right.end());
+  const int of_electrode = film.electrode >= 0 ? system.dofs().tied_dof(film.electrode) : -1;
+  for (int& dof : kept) {
+    result.end_is_bare.push_back(dof == of_electrode);
+    if (dof == of_electrode) dof = -1;
+  }
   result.matrix = condensed(matrix, kept, F, B);
   return result;
 }
@@ -145,7 +151,20 @@ CondensedPiece mirrored(const CondensedPiece& piece) {
     if (i < 2 * n && piece.end_is_across[static_cast<std::size_t>(i % n)]) sign[i] = -1.0;
   }
   mirror.matrix = sign.asDiagonal() * piece.matrix(from, from) * sign.asDiagonal();
+  std::rotate(mirror.end_is_bare.begin(), mirror.end_is_bare.begin() + n, mirror.end_is_bare.end());
   return mirror;
+}
+
+// With readings S_pu u - S_pq q of loads q, r_e = 0 gives q_e = (S_eu u - S_eq q)/S_ee.
+CondensedPiece with_port_held(const CondensedPiece& piece, int port) {
+  CondensedPiece held = piece;
+  const Eigen::Index e = 2 * piece.end_size + port;
+  const Eigen::VectorXd column = piece.matrix.col(e) / piece.matrix(e, e);
+  held.matrix -= column * piece.matrix.row(e);
+  held.matrix.col(e) = column;
+  held.matrix.row(e) = column.transpose();
+  held.matrix(e, e) = -1.0 / piece.matrix(e, e);
+  return held;
 }
 
 }  // namespace viscard

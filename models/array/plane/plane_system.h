@@ -34,7 +34,7 @@ std::vector<int> dofs_on(const DiscreteSystem& system, const std::vector<int>& n
                          int field_count);
 std::vector<int> nodes_on_end(const Section& section, bool right);
 
-// Eliminates all unknowns except those in `kept` from the symmetric matrix [A F; F' B] by partial L
+// Eliminates all unknowns except those in `kept` (-1: none, a row of zeros in the answer) from the symmetric matrix [A F; F' B] by partial L
 // D L^T, and returns the Schur complement S on [kept, columns of F] (README.md, eq. A1). The
 // columns of F are ports: unit loads, and at the same time readings of the displacement they work
 // on. With the right side r on the kept unknowns and amplitudes a on the ports, the equilibrium A u

@@ -39,10 +39,12 @@ struct Analysis {
   bool bends = false;          // the answer is how the pillar bends, under any load
   bool load_stays = false;     // a pressure on the top may stay until the pillar buckles in creep
   bool follows_creep = false;  // up to the time at which it does
+  // A load that swings to and fro: its lowest frequency; null: it does not swing.
+  double (*swings_from_Hz)(const PillarScene& scene) = nullptr;
   HistoryOf history = HistoryOf::kNothing;
   FreeBottom free_bottom = FreeBottom::kRefused;
-  double share_left = ErrorControl::kShareLeft;                 // error_control.h
-  double share_left_under_pressure = ErrorControl::kShareLeft;  // if a pressure acts on the top
+  bool weighs_stress = false;    // uses the geometric stiffness of a stress: kShareLeftOfStress
+  bool weighs_pressure = false;  // does so if a pressure acts on the top
 
   // Throws std::invalid_argument naming what this analysis lacks.
   void (*check)(const PillarScene& scene) = nullptr;

@@ -35,7 +35,7 @@ Analysis buckling_analysis() {
   return {.name = "buckling",
           .drive = BucklingDrive{},
           .bends = true,
-          .share_left = kShareLeftOfStress,
+          .weighs_stress = true,
           .check = check_buckling,
           .result_names = [](const PillarScene&) -> std::vector<std::string> {
             return {"buckling_pressure"};

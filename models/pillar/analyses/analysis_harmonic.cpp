@@ -233,6 +233,10 @@ double harmonic_push_Pa(const PillarScene& scene) {
   return std::abs(harmonic_drive(scene).pressure_Pa);
 }
 
+double lowest_frequency_Hz(const PillarScene& scene) {
+  return harmonic_drive(scene).frequencies_Hz.front();
+}
+
 }  // namespace
 
 Analysis harmonic_analysis() {
@@ -240,6 +244,7 @@ Analysis harmonic_analysis() {
           .drive = HarmonicDrive{},
           .has_inertia = true,
           .relaxes = true,
+          .swings_from_Hz = lowest_frequency_Hz,
           .check = check_harmonic,
           .result_names = harmonic_names,
           .run = run_harmonic,

@@ -2,6 +2,7 @@
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
+#include "models/pillar/analyses/pressed_modes.h"
 #include "models/pillar/body/pillar_model.h"
 #include "models/pillar/body/pillar_modes.h"
 #include "models/pillar/body/section_grid.h"
@@ -45,23 +46,6 @@ std::vector<ModeFamily> mode_families(const PillarScene& scene) {
 int modes_of_family(const PillarScene& scene, const PillarModel& model) {
   const int rigid = scene.fixed_bottom ? 0 : rigid_motion_count(model.options().motion);
   return std::min(modal_drive(scene).modes, model.system().size() - rigid);
-}
-
-// Modes of a strip are computed without load.
-bool is_pressed(const PillarScene& scene) {
-  return modal_drive(scene).pressure_Pa != 0.0 && !scene.plane;
-}
-
-// The model whose stress stiffens or softens the modes, or null without a pressure. A pressure at
-// rest has been there for long: the stress is that of the long-term moduli, unless the pillar
-// buckles before it comes to that.
-std::unique_ptr<PillarModel> pressed_model(const PillarScene& scene, const Discretisation& mesh) {
-  if (!is_pressed(scene)) return nullptr;
-  const double pressure_Pa = modal_drive(scene).pressure_Pa;
-  const PillarScene relaxed = long_term_scene(scene);
-  const bool lasts = pressure_Pa < 0.9 * engesser_pressure_Pa(relaxed);
-  return std::make_unique<PillarModel>(scene.geometry, mesh, media_of(lasts ? relaxed : scene),
-                                       options_of(scene, Motion::kLongitudinal));
 }
 
 std::vector<PillarMode> family_modes(const PillarScene& scene, const PillarModel& model,
@@ -140,6 +124,26 @@ void add_relaxed_modes(const PillarScene& scene, const ModeFamily& family, const
   }
 }
 
+void add_family(const PillarScene& scene, const ModeFamily& family, const PillarModel* axial,
+                SceneAnswer& answer) {
+  const PillarModel model = model_of(scene, family.motion, answer.discretisation);
+  count_unknowns(model, answer);
+  if (!scene.pillar.terms.empty()) {
+    add_relaxed_modes(scene, family, model, axial, answer);
+    return;
+  }
+  for (const PillarMode& mode : family_modes(scene, model, axial)) {
+    const double omega_1_s = 2.0 * std::numbers::pi * mode.frequency_Hz;
+    const SolutionRest rest(model, mode.shape);  // omega^2 is the work of a unit mass norm
+    const double unresolved = 0.5 * missing_share(rest, rest, omega_1_s * omega_1_s);
+    answer.modes.push_back({.family = family.name,
+                            .harmonic = family.harmonic,
+                            .frequency_Hz = mode.frequency_Hz,
+                            .unresolved = unresolved,
+                            .damping_ratio = {}});
+  }
+}
+
 void run_modal(const PillarScene& scene, SceneAnswer& answer) {
   // The n-th mode of a clamped bar has n - 1/2 half waves; with an element for each, even the
   // lowest degrees resolve all of them.
@@ -148,23 +152,11 @@ void run_modal(const PillarScene& scene, SceneAnswer& answer) {
   }
   if (!scene.discretisation) answer.discretisation.grades_top = is_pressed(scene);
   const std::unique_ptr<PillarModel> axial = pressed_model(scene, answer.discretisation);
-  for (const ModeFamily& family : mode_families(scene)) {
-    const PillarModel model = model_of(scene, family.motion, answer.discretisation);
-    count_unknowns(model, answer);
-    if (!scene.pillar.terms.empty()) {
-      add_relaxed_modes(scene, family, model, axial.get(), answer);
-      continue;
-    }
-    for (const PillarMode& mode : family_modes(scene, model, axial.get())) {
-      const double omega_1_s = 2.0 * std::numbers::pi * mode.frequency_Hz;
-      const SolutionRest rest(model, mode.shape);  // omega^2 is the work of a unit mass norm
-      const double unresolved = 0.5 * missing_share(rest, rest, omega_1_s * omega_1_s);
-      answer.modes.push_back({.family = family.name,
-                              .harmonic = family.harmonic,
-                              .frequency_Hz = mode.frequency_Hz,
-                              .unresolved = unresolved,
-                              .damping_ratio = {}});
-    }
+  try {
+    for (const ModeFamily& family : mode_families(scene))
+      add_family(scene, family, axial.get(), answer);
+  } catch (const BeyondBuckling& beyond) {
+    judge_buckling(scene, beyond);
   }
   note_rigid_motions(scene, answer);
 }
@@ -263,7 +255,7 @@ Analysis modal_analysis() {
           .bends = true,
           .load_stays = true,
           .free_bottom = FreeBottom::kFloats,
-          .share_left_under_pressure = kShareLeftOfStress,
+          .weighs_pressure = true,
           .check = check_modal,
           .result_names = modal_names,
           .run = run_modal,

@@ -16,10 +16,10 @@ void check_electrodes(const PillarScene& scene) {
   }
   const double film_m = scene.geometry.film->radius_m;
   const double electrode_m = scene.electrodes->electrode_radius_m;
-  if (electrode_m > film_m * (1.0 + 1e-9)) {
+  if (electrode_m > film_m * (1.0 + kSameLength)) {
     throw SceneMistake("geometry.electrode.radius",
-                       "the electrode's radius of " + micrometres(electrode_m) +
-                           " is wider than the film's of " + micrometres(film_m));
+                       "the electrode's radius of " + micrometres(electrode_m, 12) +
+                           " is wider than the film's of " + micrometres(film_m, 12));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 namespace viscard {
@@ -54,6 +55,7 @@ double staying_pressure_Pa(const PillarScene& scene) {
   if (scene.pillar.terms.empty() || holds_straight(scene) || !scene.fixed_bottom) return 0.0;
   if (is_lateral(scene) || moves_top(scene) || load_place(scene) == LoadPlace::kBase) return 0.0;
   if (analysis.load_stays) return pressure_Pa(scene);
+  if (analysis.swings_from_Hz != nullptr) return std::abs(pressure_Pa(scene));
   double largest_Pa = 0.0;
   if (analysis.history != HistoryOf::kPressure) return largest_Pa;
   for (const HistoryPoint& point : history(scene)) largest_Pa = std::max(largest_Pa, point.value);
@@ -88,19 +90,34 @@ double buckles_at_s(const std::vector<HistoryPoint>& points, double level, doubl
   return kNever;
 }
 
+// The level number `of` of those between the long-term limit and the largest pressure.
+constexpr int kLevels = 200;
+double level_Pa(const FallingLimit& limit, double largest_Pa, int number) {
+  if (number == kLevels) return largest_Pa;
+  const double share = static_cast<double>(number) / kLevels;
+  return (1.0 - share) * limit.long_term_Pa + share * largest_Pa;
+}
+
 // Sets the time at which the pillar buckles within a history, and the level that makes it do so.
 void find_in_history(const std::vector<HistoryPoint>& points, const FallingLimit& limit,
                      CreepBuckling& found) {
   const double largest_Pa = found.pressure_Pa;
-  constexpr int kLevels = 200;
   for (int i = 1; i <= kLevels; ++i) {
-    const double share = static_cast<double>(i) / kLevels;
-    const double level_Pa =
-        i == kLevels ? largest_Pa : (1.0 - share) * limit.long_term_Pa + share * largest_Pa;
-    const double at_s = buckles_at_s(points, level_Pa, limit.bears_s(level_Pa));
+    const double level = level_Pa(limit, largest_Pa, i);
+    const double at_s = buckles_at_s(points, level, limit.bears_s(level));
     if (!(at_s < found.at_s)) continue;
     found.at_s = at_s;
-    found.pressure_Pa = level_Pa;
+    found.pressure_Pa = level;
+  }
+}
+
+// Sets the highest frequency at which the pillar buckles within a half cycle.
+void find_in_cycle(const FallingLimit& limit, CreepBuckling& found) {
+  for (int i = 1; i < kLevels; ++i) {
+    const double level = level_Pa(limit, found.pressure_Pa, i);
+    const double above_rad = 2.0 * std::acos(level / found.pressure_Pa);
+    const double omega_1_s = above_rad / limit.bears_s(level);
+    found.below_Hz = std::max(found.below_Hz, omega_1_s / (2.0 * std::numbers::pi));
   }
 }
 
@@ -133,6 +150,7 @@ std::optional<CreepBuckling> creep_buckling(const PillarScene& scene) {
   found.now_Pa = limit.now_Pa;
   found.long_term_Pa = limit.long_term_Pa;
   if (has_history(scene)) find_in_history(history(scene), limit, found);
+  if (analysis_of(scene).swings_from_Hz != nullptr) find_in_cycle(limit, found);
   found.share = limit.share_at(found.pressure_Pa);
   found.after_s = limit.bears_s(found.pressure_Pa);
   return found;
@@ -142,6 +160,10 @@ std::string creep_buckling_note(const PillarScene& scene) {
   if (analysis_of(scene).found_pressure_Pa != nullptr) return long_term_note(scene);
   const std::optional<CreepBuckling> found = creep_buckling(scene);
   if (!found) return "";
+  if (analysis_of(scene).swings_from_Hz != nullptr) {
+    return clause_of(*found) + "; above about " + text_of(found->below_Hz, 3) +
+           " Hz, as here, the load turns before";
+  }
   if (!has_history(scene)) return clause_of(*found) + "; the answer holds until then";
   return clause_of(*found) + (std::isfinite(found->at_s)
                                   ? ", at about " + text_of(found->at_s, 3) + " s of the history"
@@ -149,14 +171,25 @@ std::string creep_buckling_note(const PillarScene& scene) {
 }
 
 void refuse_buckling_in_creep(const PillarScene& scene) {
-  if (!analysis_of(scene).follows_creep) return;
+  const Analysis& analysis = analysis_of(scene);
+  const bool swings = analysis.swings_from_Hz != nullptr;
+  if (!analysis.follows_creep && !swings) return;
   const std::optional<CreepBuckling> found = creep_buckling(scene);
-  if (!found || !std::isfinite(found->at_s)) return;
+  if (!found) return;
+  const std::string instead =
+      "stay below the long-term buckling pressure, or declare that the pillar is held straight "
+      "(geometric_stiffness = \"off\" under [effects])";
+  if (swings && analysis.swings_from_Hz(scene) < found->below_Hz) {
+    throw SceneMistake("analysis.frequencies",
+                       clause_of(*found) + ". Below about " + text_of(found->below_Hz, 3) +
+                           " Hz it does so within a half cycle of the load. Begin the frequencies "
+                           "above, " +
+                           instead);
+  }
+  if (!std::isfinite(found->at_s)) return;
   throw SceneMistake("analysis.history",
                      clause_of(*found) + ", at about " + text_of(found->at_s, 3) +
-                         " s of the history. End the history before, stay below the long-term "
-                         "buckling pressure, or declare that the pillar is held straight "
-                         "(geometric_stiffness = \"off\" under [effects])");
+                         " s of the history. End the history before, " + instead);
 }
 
 }  // namespace viscard

@@ -24,6 +24,9 @@ struct CreepBuckling {
   double after_s = 0.0;                     // how long the pillar bears it
   // When this happens in a history; infinite if it ends or unloads the pillar before.
   double at_s = std::numeric_limits<double>::infinity();
+  // Of a load that swings: below this frequency it stays above some level for as long as the pillar
+  // bears that level. p cos(w t) is above L for the time 2 acos(L/p)/w in each period.
+  double below_Hz = 0.0;
 };
 
 // Nothing if no pressure stays, or none above the long-term limit, or one beyond the instantaneous
@@ -34,7 +37,8 @@ std::optional<CreepBuckling> creep_buckling(const PillarScene& scene);
 // bears for long; "" if there is nothing to say.
 std::string creep_buckling_note(const PillarScene& scene);
 
-// Throws SceneMistake if a history of creep holds a pressure until the pillar buckles.
+// Throws SceneMistake if a history of creep, or a load that swings, holds a pressure until the pillar
+// buckles.
 void refuse_buckling_in_creep(const PillarScene& scene);
 
 }  // namespace viscard

@@ -19,11 +19,14 @@ SceneAnswer pillar_answer_on(const PillarScene& scene, const Discretisation& mes
 SceneAnswer simulate_pillar(const PillarScene& scene) {
   validate(scene);
   refuse_beyond_buckling(scene);
-  const std::vector<Discretisation> meshes =
-      scene.discretisation ? refinements_to(*scene.discretisation) : mesh_sequence(scene.geometry);
   const Analysis& analysis = analysis_of(scene);
-  const double share_left =
-      pressure_Pa(scene) == 0.0 ? analysis.share_left : analysis.share_left_under_pressure;
+  const bool weighs_stress =
+      analysis.weighs_stress || (analysis.weighs_pressure && pressure_Pa(scene) != 0.0);
+  const std::vector<Discretisation> meshes =
+      scene.discretisation ? refinements_to(*scene.discretisation)
+      : weighs_stress      ? stressed_mesh_sequence(scene.geometry)
+                           : mesh_sequence(scene.geometry);
+  const double share_left = weighs_stress ? kShareLeftOfStress : ErrorControl::kShareLeft;
   SceneAnswer answer =
       answer_within({scene.tolerance, meshes, scene.progress, share_left},
                     [&](const Discretisation& mesh) { return pillar_answer_on(scene, mesh); });

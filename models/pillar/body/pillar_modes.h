@@ -2,6 +2,8 @@
 
 #include "models/pillar/body/pillar_model.h"
 
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace viscard {
@@ -37,12 +39,23 @@ Buckling buckling(const PillarModel& axial, const PillarModel& lateral, int coun
 // pressure on the top of the axial one. Both must have the same mesh.
 SymmetricSparse stress_stiffness_per_Pa(const PillarModel& axial, const PillarModel& model);
 
-// Throws std::runtime_error with the critical pressure if the pillar would buckle.
+// A pressure beyond that at which the pillar buckles on its mesh.
+class BeyondBuckling : public std::runtime_error {
+ public:
+  BeyondBuckling(const std::string& what, double critical_Pa)
+      : std::runtime_error(what), critical_Pa_(critical_Pa) {}
+  double critical_Pa() const { return critical_Pa_; }
+
+ private:
+  double critical_Pa_;
+};
+
+// Throws BeyondBuckling if the pillar would buckle.
 void require_below_buckling(const PillarModel& axial, const PillarModel& lateral,
                             double pressure_Pa);
 
-// Lowest modes of any family of a cylinder under a pressure on the top. Throws std::runtime_error
-// as above if lateral modes are asked for.
+// Lowest modes of any family of a cylinder under a pressure on the top. Throws BeyondBuckling if
+// lateral modes are asked for.
 std::vector<PillarMode> modes_under_pressure(const PillarModel& axial, const PillarModel& model,
                                              double pressure_Pa, int count);
 

@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace viscard {
 
-std::vector<Discretisation> mesh_sequence(const PillarGeometry& geometry) {
+namespace {
+
+struct DegreeAndLayers {
+  int degree, layers;
+};
+
+std::vector<Discretisation> meshes_of(const PillarGeometry& geometry,
+                                      const std::vector<DegreeAndLayers>& all) {
   // Elements of the shaft and of the outer film are at most a few radii long, so that the same
   // degrees resolve long pillars and wide films.
   const double R_m = 0.5 * geometry.diameter_m;
@@ -19,14 +25,23 @@ std::vector<Discretisation> mesh_sequence(const PillarGeometry& geometry) {
     film_elements = std::clamp(static_cast<int>(std::ceil(outside_m / scale_m)), 1, 40);
   }
   std::vector<Discretisation> meshes;
-  for (const auto& [degree, layers] :
-       {std::pair{3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}, {8, 4}, {9, 4}, {10, 5}}) {
+  for (const auto& [degree, layers] : all) {
     meshes.push_back({.degree = degree,
                       .layers = layers,
                       .shaft_elements = shaft_elements,
                       .film_elements = film_elements});
   }
   return meshes;
+}
+
+}  // namespace
+
+std::vector<Discretisation> mesh_sequence(const PillarGeometry& geometry) {
+  return meshes_of(geometry, {{3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}, {8, 4}, {9, 4}, {10, 5}});
+}
+
+std::vector<Discretisation> stressed_mesh_sequence(const PillarGeometry& geometry) {
+  return meshes_of(geometry, {{5, 1}, {5, 2}, {5, 3}, {6, 4}, {7, 5}, {8, 6}, {9, 7}});
 }
 
 std::vector<Discretisation> refinements_to(const Discretisation& finest) {

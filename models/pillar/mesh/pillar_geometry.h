@@ -4,6 +4,9 @@
 
 namespace viscard {
 
+// Lengths of a file that agree to nine digits are meant to be equal; so do meshes take them.
+constexpr double kSameLength = 1e-9;
+
 // A film under the pillar, as a disc whose bottom is held. Without a film the base is rigid.
 struct FilmGeometry {
   double thickness_m = 0.0;

@@ -105,9 +105,6 @@ bool has_flares(const PillarGeometry& g) {
   return g.foot.width_m != 0.0 || g.tip.width_m != 0.0;
 }
 
-// Radii of a file that agree to nine digits are meant to be equal; so does the mesh take them.
-constexpr double kSameLength = 1e-9;
-
 // Lines that every mesh must contain, graded or uniform.
 struct Breaks {
   std::vector<double> x, z;
@@ -183,7 +180,7 @@ void validate(const PillarGeometry& g) {
                            " is smaller than the pillar's of " + micrometres(bond_radius_m(g), 12));
   }
   if (!(g.film->electrode_radius_m >= 0.0 &&
-        g.film->electrode_radius_m <= g.film->radius_m * (1.0 + 1e-9))) {
+        g.film->electrode_radius_m <= g.film->radius_m * (1.0 + kSameLength))) {
     throw SceneMistake("geometry.electrode.radius", "the electrode's radius of " +
                                                         micrometres(g.film->electrode_radius_m) +
                                                         " does not lie on the film");

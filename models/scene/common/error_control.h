@@ -3,12 +3,19 @@
 #include "models/scene/common/scene_answer.h"
 
 #include <functional>
+#include <stdexcept>
 #include <vector>
 
 namespace viscard {
 
 // Everything a scene asks for on one mesh, without mesh errors.
 using MeshAnswer = std::function<SceneAnswer(const Discretisation&)>;
+
+// A mesh on which there is no answer, though there may be one on a finer mesh.
+class MeshTooCoarse : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 struct ErrorControl {
   double tolerance = 1e-3;  // relative, of every result, frequency and point of a curve
@@ -23,7 +30,8 @@ struct ErrorControl {
 // Runs through the meshes until the estimate of every number is within the tolerance: the change
 // from the last mesh, but at least share_left of the change before (two and a half times that if
 // the layers stayed the same), so that a chance agreement of two meshes does not pass, plus the
-// answer's own step error. Throws std::runtime_error with the worst number and its error if the
+// answer's own step error. Passes over meshes that are too coarse, except the finest. Throws
+// std::runtime_error with the worst number and its error if the
 // finest mesh is not enough.
 SceneAnswer answer_within(const ErrorControl& control, const MeshAnswer& answer_on);
 

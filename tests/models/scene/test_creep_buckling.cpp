@@ -117,6 +117,28 @@ TEST_CASE("a history that ends or unloads before is answered, with a word", "[pi
   CHECK_NOTHROW(simulate(straight));
 }
 
+TEST_CASE("a load that swings slowly buckles the pillar in creep within a half cycle",
+          "[pillar][plan]") {
+  const double p_Pa = 2e4;
+  // p cos(w t) stays above L for 2 acos(L/p)/w; the pillar bears L for bears_s(L).
+  double below_Hz = 0.0;
+  for (double level_Pa = 0.5 * kCritical_Pa + 1.0; level_Pa < p_Pa; level_Pa += 10.0) {
+    below_Hz = std::max(below_Hz, std::acos(level_Pa / p_Pa) / (M_PI * bears_s(level_Pa)));
+  }
+  PillarScene scene = relaxing_pillar();
+  const auto swinging = [&](double frequency_Hz, double amplitude_Pa) {
+    scene.drive =
+        HarmonicDrive{.pressure_Pa = amplitude_Pa, .frequencies_Hz = {frequency_Hz, 100.0}};
+    return scene;
+  };
+  CHECK(creep_buckling(swinging(1.0, p_Pa))->below_Hz == Approx(below_Hz).epsilon(0.03));
+  CHECK_THROWS_WITH(simulate(swinging(0.9 * below_Hz, p_Pa)), Catch::Contains("half cycle"));
+  CHECK(has_note(simulate(swinging(1.1 * below_Hz, p_Pa)), "the load turns before"));
+  CHECK_FALSE(has_note(simulate(swinging(0.9 * below_Hz, 1.4e4)), "in creep"));
+  scene.effects["geometric_stiffness"] = EffectChoice::kOff;  // it is held straight
+  CHECK_NOTHROW(simulate(swinging(0.9 * below_Hz, p_Pa)));
+}
+
 TEST_CASE("a row under a pressure at rest says when its pillars buckle in creep", "[array][plan]") {
   ArrayScene row;
   row.pillar = relaxing_pillar().pillar;

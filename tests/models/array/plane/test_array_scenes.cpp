@@ -80,7 +80,26 @@ TEST_CASE("equipotential electrodes: open, shorted and driven answers agree", "[
     V[i] = result_of(answer, "electrode_voltage_" + std::to_string(i + 1)).value;
   }
   CHECK((V + response.V_per_C * Q_C).norm() < 1e-9 * V.norm());
-  CHECK(V[0] == Approx(V[2]).margin(1e-6 * std::abs(V[1])));  // rounding of a deeply graded mesh
+  CHECK(V[0] == Approx(V[2]).margin(1e-9 * std::abs(V[1])));  // rounding of a deeply graded mesh
+}
+
+TEST_CASE("a per cent of a voltage that is zero by symmetry is left out", "[array]") {
+  ArrayScene scene = seed_scene();
+  scene.load = ArrayLoad::kShear;
+  scene.geometry = endless_row(20e-6);
+  scene.tolerance = 1e-2;
+  scene.geometry.count = GENERATE(1, 3);
+  scene.electrodes.is_equipotential = scene.geometry.count == 1;
+  const SceneAnswer answer = simulate_array(scene);
+  // The middle of the row is sheared between mirrors: its voltage is zero, others are not.
+  const std::string middle = std::to_string((scene.geometry.count + 1) / 2);
+  const bool has_per_cent =
+      std::any_of(answer.results.begin(), answer.results.end(),
+                  [&](const SceneResult& r) { return r.name == "neighbours_percent_" + middle; });
+  CHECK_FALSE(has_per_cent);
+  REQUIRE(answer.notes.size() == 1);
+  CHECK_THAT(answer.notes[0], Catch::Contains("zero by symmetry"));
+  CHECK(result_of(answer, "midway_voltage_1").value != 0.0);
 }
 
 TEST_CASE("a row without wanted voltages has no unknowns for them", "[array]") {

@@ -1,5 +1,6 @@
 #include "models/pillar/analyses/simulate_pillar.h"
 #include "models/pillar/scene/pillar_scene.h"
+#include "models/scene/common/error_control.h"
 #include "tests/models/pillar/drive_as.h"
 
 #include <catch2/catch.hpp>
@@ -67,6 +68,62 @@ TEST_CASE("a load beyond buckling is refused with the buckling pressure", "[pill
   CHECK_THROWS_WITH(simulate_pillar(scene), Catch::Contains("buckling pressure"));
   test::as<StaticDrive>(scene).pressure_Pa = 2.8e4;
   CHECK_NOTHROW(simulate_pillar(scene));
+}
+
+TEST_CASE("modes under a pressure near buckling are judged by the pillar, not by a coarse mesh",
+          "[pillar]") {
+  PillarScene scene = pillar_scene();
+  scene.pillar.E0_Pa = 1.88e6;
+  scene.pillar.nu = 0.495;
+  scene.tolerance = 0.2;
+  // Converged by degrees 5 to 6 and 3 to 6 layers; a mesh of degree 3 with one layer buckles at
+  // 30.76 kPa, one of degree 4 at 31.00.
+  constexpr double kPillarBuckles_Pa = 31209.0;
+  scene.drive = ModalDrive{.modes = 1, .pressure_Pa = 30.9e3};
+  const SceneMode lateral = simulate_pillar(scene).modes.front();
+  const double free_Hz = 16280.0 * std::sqrt(1.88 / 1.8);  // between nu = 0.49 and 0.499
+  // Rayleigh's quotient: at least sqrt(1 - p/p_cr), a little more because the shapes differ.
+  const double least_Hz = free_Hz * std::sqrt(1.0 - 30.9e3 / kPillarBuckles_Pa);
+  CHECK(lateral.frequency_Hz + lateral.error_estimate > least_Hz);
+  CHECK(lateral.frequency_Hz - lateral.error_estimate < 1.07 * least_Hz);
+  const auto on_mesh = [&](double pressure_Pa) {
+    scene.drive = ModalDrive{.modes = 1, .pressure_Pa = pressure_Pa};
+    pillar_answer_on(scene, {.degree = 3, .layers = 1});
+  };
+  CHECK_THROWS_AS(on_mesh(31.1e3), MeshTooCoarse);
+  CHECK_THROWS_WITH(on_mesh(31.3e3), Catch::Contains("beyond the buckling pressure"));
+}
+
+TEST_CASE("modes under a pressure at nu near 0.5 take few unknowns", "[pillar]") {
+  PillarScene scene = pillar_scene();
+  scene.pillar.E0_Pa = 1.88e6;
+  scene.pillar.nu = 0.495;
+  scene.drive = ModalDrive{.modes = 3, .pressure_Pa = 25e3};
+  scene.tolerance = 1e-2;
+  const SceneAnswer answer = simulate_pillar(scene);
+  // With degree 6 and 6 layers, degrees 5 to 8 and 4 to 6 layers agree to 1e-5.
+  const double expected_Hz[] = {7793.48, 70685.0, 166096.5, 93371.0, 270653.0, 421115.0};
+  for (std::size_t i = 0; i < 6; ++i) {
+    const SceneMode& mode = answer.modes[i];
+    CHECK(std::abs(mode.frequency_Hz - expected_Hz[i]) <=
+          mode.error_estimate + 1e-5 * expected_Hz[i]);
+  }
+  CHECK(answer.unknowns < 1500);  // 5432 on the meshes of other answers, degree 8
+}
+
+TEST_CASE("buckling under a plate is found beside local modes of the rim at nu = 0.5", "[pillar]") {
+  PillarScene scene = pillar_scene();
+  scene.pillar.E0_Pa = 1.88e6;
+  scene.pillar.nu = 0.5;
+  scene.drive = BucklingDrive{.plate_on_top = true};
+  scene.tolerance = 1e-2;
+  const SceneResult rough = simulate_pillar(scene).results.front();
+  // Engesser's pressure of a beam clamped at both ends whose top may move sideways.
+  CHECK(rough.value == Approx(104.9e3).epsilon(0.05));
+  scene.tolerance = 1e-3;  // refused before: "no buckling load of the whole pillar was found"
+  const SceneAnswer fine = simulate_pillar(scene);
+  CHECK(std::abs(fine.results.front().value - rough.value) <= rough.error_estimate);
+  CHECK(fine.unknowns < 6000);
 }
 
 TEST_CASE("contradictory scenes are refused with the key", "[pillar]") {
