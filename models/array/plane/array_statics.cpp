@@ -6,7 +6,8 @@
 namespace viscard {
 
 ArrayModel::ArrayModel(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes,
-                       const ArrayMedia& media, const Discretisation& discretisation, int modes)
+                       const ArrayMedia& media, const Discretisation& discretisation,
+                       const PillarInertia& inertia)
     : geometry_(geometry), electrodes_(electrodes), has_potential_(media.film.has_permittivity()) {
   if (electrodes.is_equipotential && !has_potential_) {
     throw std::invalid_argument("electrodes need a film with a permittivity");
@@ -14,7 +15,7 @@ ArrayModel::ArrayModel(const ArrayGeometry& geometry, const ArrayElectrodes& ele
   const ArrayMesh mesh = array_mesh(geometry, electrodes, discretisation);
   const int degree = discretisation.degree;
   const double half_width_m = electrode_half_width_m(geometry, electrodes);
-  pillar_ = condensed_pillar(mesh, media, degree, modes);
+  pillar_ = condensed_pillar(mesh, media, degree, inertia);
   unknowns_ = pillar_.unknowns;
   const bool is_open_face = !electrodes.is_equipotential;
   cell_ = piece(
