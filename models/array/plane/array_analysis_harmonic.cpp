@@ -48,7 +48,7 @@ SceneAnswer run_row_harmonic(const ArrayScene& scene, const Discretisation& mesh
   SceneAnswer answer;
   answer.discretisation = mesh;
   const ArrayModel model(scene.geometry, scene.electrodes, media_of(scene), mesh,
-                         modes_for(scene, mesh, highest_Hz));
+                         {.modes = modes_for(scene, mesh, highest_Hz)});
   answer.unknowns = model.unknowns();
   const ArrayTransfer transfer(model, scene.load, loaded_of(scene), scene.pillar);
   answer.step_error = film_error(scene, transfer, highest_Hz);

@@ -19,7 +19,7 @@ SceneAnswer run_row_modal(const ArrayScene& scene, const Discretisation& mesh) {
   const ArrayMedia media = media_of(scene);
   const ArrayModel model(scene.feels_neighbours ? scene.geometry : lone(scene.geometry),
                          scene.electrodes, media, mesh,
-                         inertia_ports_for(row_modal_drive(scene).modes));
+                         {.modes = inertia_ports_for(row_modal_drive(scene).modes)});
   SceneAnswer answer;
   answer.discretisation = mesh;
   answer.unknowns = model.unknowns();

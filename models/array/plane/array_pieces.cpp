@@ -1,12 +1,14 @@
 #include "models/array/plane/array_pieces.h"
 
 #include "models/array/plane/plane_system.h"
+#include "models/maths/dense.h"
 #include "models/pillar/system/krylov_modes.h"
 #include "models/pillar/system/stiffness_factor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -23,57 +25,159 @@ DofMap free_dofs(const Section& section, bool fixed_base) {
   return dofs;
 }
 
-// Inertia loads M phi of the lowest modes on a fixed base, on the unknowns of the free pillar.
-struct ModePorts {
+// Inertia loads M phi of shapes phi on a fixed base, M-orthonormal, on the unknowns of the free
+// pillar.
+struct InertiaPorts {
   Eigen::MatrixXd loads;
   Eigen::VectorXd rad_s;
   std::vector<bool> is_lateral;
 };
 
-ModePorts mode_ports(const Section& section, const DiscreteSystem& free, const PlaneForm& form,
-                     double rho_kg_m3, int count) {
-  const DiscreteSystem held(section, whole_plane(), free_dofs(section, true));
-  const std::vector<Eigen::MatrixXd> density{rho_kg_m3 * Eigen::MatrixXd::Identity(3, 3)};
-  const SymmetricSparse mass = held.form(held.kinematics().displacement, density);
+// The pillar on a fixed base beside the free one.
+struct HeldPillar {
+  HeldPillar(const Section& section, const DiscreteSystem& free_pillar, const PlaneForm& form,
+             double rho_kg_m3)
+      : free(free_pillar), system(section, whole_plane(), free_dofs(section, true)) {
+    const std::vector<Eigen::MatrixXd> density{rho_kg_m3 * Eigen::MatrixXd::Identity(3, 3)};
+    mass = system.form(system.kinematics().displacement, density);
+    free_mass = free.form(free.kinematics().displacement, density);
+    stiffness = stiffness_of(system, form);
+    factor.factor(stiffness);
+    for (int node = 0; node < section.node_count(); ++node) {
+      for (int field = 0; field < 2; ++field) {
+        const int from = system.dofs().dof(field, node);
+        if (from >= 0) in_free.emplace_back(from, free.dofs().dof(field, node));
+      }
+    }
+  }
+
+  // Modes are symmetric or antisymmetric about the axis; only the latter have momentum along x.
+  InertiaPorts ports_of(const Eigen::MatrixXd& shapes, const Eigen::VectorXd& rad_s) const {
+    InertiaPorts ports{Eigen::MatrixXd::Zero(free.size(), shapes.cols()), rad_s, {}};
+    for (const auto& [from, to] : in_free) ports.loads.row(to) = shapes.row(from);
+    ports.loads = (free_mass.selfadjointView<Eigen::Lower>() * ports.loads).eval();
+    for (Eigen::Index shape = 0; shape < shapes.cols(); ++shape) {
+      Eigen::Vector2d momentum = Eigen::Vector2d::Zero();
+      for (int node = 0; node < free.section().node_count(); ++node) {
+        for (int field = 0; field < 2; ++field) {
+          momentum[field] += ports.loads(free.dofs().dof(field, node), shape);
+        }
+      }
+      ports.is_lateral.push_back(std::abs(momentum[kAcross]) > std::abs(momentum[kUp]));
+    }
+    return ports;
+  }
+  // A load on the free pillar without the forces on its base.
+  Eigen::VectorXd held(const Eigen::VectorXd& load) const {
+    Eigen::VectorXd rest(system.size());
+    for (const auto& [to, from] : in_free) rest[to] = load[from];
+    return rest;
+  }
+
+  const DiscreteSystem& free;
+  DiscreteSystem system;
+  SymmetricSparse stiffness, mass, free_mass;
   StiffnessFactor factor;
-  factor.factor(stiffness_of(held, form));
-  const LinearMap B = [&](const Eigen::VectorXd& x) { return times(mass, x); };
+  std::vector<std::pair<int, int>> in_free;  // unknown of the held pillar, of the free one
+};
+
+InertiaPorts mode_ports(const HeldPillar& pillar, int count) {
+  const LinearMap B = [&](const Eigen::VectorXd& x) { return times(pillar.mass, x); };
   const PencilMap op = [&](const Eigen::VectorXd&, const Eigen::VectorXd& Mx) {
-    return factor.solve(Mx);
+    return pillar.factor.solve(Mx);
   };
-  const int wanted = std::min(count, held.size());
-  const EigenPairs pairs = largest_eigenpairs(op, B, held.size(), wanted,
-                                              {.tolerance = 1e-7, .largest_space = 60 + 8 * count});
+  const int size = pillar.system.size();
+  const int wanted = std::min(count, size);
+  const EigenPairs pairs =
+      largest_eigenpairs(op, B, size, wanted, {.tolerance = 1e-7, .largest_space = 60 + 8 * count});
   if (!pairs.converged) {
     throw std::runtime_error("the modes of the pillar on a fixed base did not converge");
   }
-  ModePorts ports{Eigen::MatrixXd::Zero(free.size(), wanted),
-                  pairs.values.cwiseInverse().cwiseSqrt()};
-  for (int node = 0; node < section.node_count(); ++node) {
-    for (int field = 0; field < 2; ++field) {
-      const int from = held.dofs().dof(field, node);
-      if (from >= 0) ports.loads.row(free.dofs().dof(field, node)) = pairs.vectors.row(from);
-    }
-  }
-  const SymmetricSparse free_mass = free.form(free.kinematics().displacement, density);
-  ports.loads = (free_mass.selfadjointView<Eigen::Lower>() * ports.loads).eval();
-  // Modes are symmetric or antisymmetric about the axis; only the latter have momentum along x.
-  for (Eigen::Index mode = 0; mode < wanted; ++mode) {
-    Eigen::Vector2d momentum = Eigen::Vector2d::Zero();
+  return pillar.ports_of(pairs.vectors, pairs.values.cwiseInverse().cwiseSqrt());
+}
+
+// Loads on the held pillar: the one on its top, and the inertia when its base moves along x, along
+// z, or turns.
+std::vector<Eigen::VectorXd> excitations(const HeldPillar& pillar,
+                                         const Eigen::VectorXd& top_load) {
+  const Section& section = pillar.free.section();
+  std::vector<Eigen::VectorXd> loads = {pillar.held(top_load)};
+  for (int motion = 0; motion < 3; ++motion) {
+    Eigen::VectorXd rigid(pillar.free.size());
     for (int node = 0; node < section.node_count(); ++node) {
-      for (int field = 0; field < 2; ++field) {
-        momentum[field] += ports.loads(free.dofs().dof(field, node), mode);
-      }
+      const double across = motion == 0 ? 1.0 : motion == 1 ? 0.0 : section.node_z(node);
+      const double up = motion == 0 ? 0.0 : motion == 1 ? 1.0 : -section.node_x(node);
+      rigid[pillar.free.dofs().dof(kAcross, node)] = across;
+      rigid[pillar.free.dofs().dof(kUp, node)] = up;
     }
-    ports.is_lateral.push_back(std::abs(momentum[kAcross]) > std::abs(momentum[kUp]));
+    loads.push_back(pillar.held(times(pillar.free_mass, rigid)));
   }
-  return ports;
+  return loads;
+}
+
+// M-orthonormal vectors, each the answer K^-1 f to a load. The next load of the chain is M v.
+class InertiaChains {
+ public:
+  InertiaChains(const HeldPillar& pillar, int most)
+      : pillar_(pillar), vectors_(pillar.system.size(), most), inertia_(vectors_) {}
+
+  int found() const { return found_; }
+  bool is_full() const { return found_ == vectors_.cols(); }
+  Eigen::MatrixXd vectors() const { return vectors_.leftCols(found_); }
+  // Answers the load and replaces it by the next one; an empty load ends its chain.
+  void add(Eigen::VectorXd& load) {
+    if (is_full() || load.size() == 0) return;
+    Eigen::VectorXd v = pillar_.factor.solve(load);
+    const double before = std::sqrt(v.dot(times(pillar_.mass, v)));
+    // Twice is enough (Parlett, The Symmetric Eigenvalue Problem, 6.9).
+    for (int pass = 0; pass < 2; ++pass) {
+      v -= vectors_.leftCols(found_) * (inertia_.leftCols(found_).transpose() * v);
+    }
+    const Eigen::VectorXd Mv = times(pillar_.mass, v);
+    const double after = std::sqrt(v.dot(Mv));
+    load.resize(0);
+    if (!(after > 1e-9 * before)) return;
+    vectors_.col(found_) = v / after;
+    inertia_.col(found_) = Mv / after;
+    load = inertia_.col(found_++);
+  }
+
+ private:
+  const HeldPillar& pillar_;
+  Eigen::MatrixXd vectors_, inertia_;
+  int found_ = 0;
+};
+
+// Modes that the load and motions of the base excite: the lowest Ritz pairs of chains (K^-1 M)^j
+// K^-1 f twice as long as wanted, of which a chain of the base has one vector in four. Modes that
+// nothing excites are never found. Lanczos' method, Parlett (above), ch. 13.
+InertiaPorts wave_ports(const HeldPillar& pillar, const Eigen::VectorXd& top_load, int count) {
+  constexpr int kVectorsPerWave = 2;
+  constexpr int kStepsPerVectorOfBase = 4;
+  std::vector<Eigen::VectorXd> next = excitations(pillar, top_load);
+  InertiaChains chains(pillar, std::min(kVectorsPerWave * count, pillar.system.size()));
+  bool goes_on = true;
+  for (int step = 0; goes_on && !chains.is_full(); ++step) {
+    goes_on = false;
+    for (std::size_t k = 0; k < next.size(); ++k) {
+      if (k == 0 || step % kStepsPerVectorOfBase == 0) chains.add(next[k]);
+      goes_on = goes_on || next[k].size() > 0;
+    }
+  }
+  const Eigen::MatrixXd vectors = chains.vectors();
+  Eigen::MatrixXd image(vectors.rows(), vectors.cols());
+  for (Eigen::Index k = 0; k < image.cols(); ++k) {
+    image.col(k) = times(pillar.stiffness, vectors.col(k));
+  }
+  const EigenSystem ritz = symmetric_eigen(vectors.transpose() * image);
+  const int used = std::min(count, chains.found());
+  return pillar.ports_of(vectors * ritz.vectors.leftCols(used), ritz.values.head(used).cwiseSqrt());
 }
 
 }  // namespace
 
 CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media, int degree,
-                                 int modes) {
+                                 const PillarInertia& inertia) {
   const std::vector<double> x(mesh.cell.x.begin() + mesh.cell.first_pillar_column,
                               mesh.cell.x.begin() + mesh.cell.last_pillar_column + 1);
   const Section section(LineMesh(x, degree), LineMesh(mesh.pillar_z, degree),
@@ -86,8 +190,11 @@ CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media,
   Eigen::MatrixXd ports(system.size(), kFirstModePort);
   ports.col(kPressurePort) = -system.line_load(kUp, top, 0, columns);
   ports.col(kShearPort) = system.line_load(kAcross, top, 0, columns);
-  if (modes > 0) {
-    const ModePorts more = mode_ports(section, system, form, media.pillar.rho_kg_m3, modes);
+  if (inertia.modes + inertia.waves > 0) {
+    const HeldPillar held(section, system, form, media.pillar.rho_kg_m3);
+    const InertiaPorts more = inertia.waves > 0
+                                  ? wave_ports(held, ports.col(inertia.load_port), inertia.waves)
+                                  : mode_ports(held, inertia.modes);
     ports.conservativeResize(Eigen::NoChange, kFirstModePort + more.loads.cols());
     ports.rightCols(more.loads.cols()) = more.loads;
     pillar.mode_rad_s = more.rad_s;
@@ -98,6 +205,7 @@ CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media,
   pillar.unknowns = system.size();
   pillar.matrix = condensed(stiffness_of(system, form), base, ports,
                             Eigen::MatrixXd::Zero(ports.cols(), ports.cols()));
+  pillar.shapes = static_cast<int>(ports.cols()) - kFirstModePort;
   return pillar;
 }
 

@@ -22,12 +22,21 @@ constexpr int kPressurePort = 0;
 constexpr int kShearPort = 1;
 constexpr int kFirstModePort = 2;
 
+// The shapes of a pillar on a fixed base that get ports for their inertia: none for statics, its
+// lowest modes, or waves: what a load on its top and motions of its base excite, by weight.
+struct PillarInertia {
+  int modes = 0;
+  int waves = 0;  // more than 0: instead of modes
+  int load_port = kPressurePort;
+};
+
 // One pillar condensed to the nodes of its base: matrix on [base, ports].
 struct CondensedPillar {
   Eigen::MatrixXd matrix;
   int base_size = 0;
   Eigen::VectorXd mode_rad_s;         // angular frequencies of the modes on a fixed base, ascending
   std::vector<bool> mode_is_lateral;  // sideways; the others move along the axis
+  int shapes = 0;                     // with a port for their inertia
   int unknowns = 0;                   // before condensation
 
   int port_count() const { return static_cast<int>(matrix.rows()) - base_size; }
@@ -39,7 +48,7 @@ struct CondensedPillar {
 // `modes`: how many get ports; 0 for statics. At nu = 0.5 in plane strain the bulk modulus is 1e6
 // shear moduli, which moves answers by about 1e-6. Throws std::runtime_error without convergence.
 CondensedPillar condensed_pillar(const ArrayMesh& mesh, const ArrayMedia& media, int degree,
-                                 int modes = 0);
+                                 const PillarInertia& inertia = {});
 
 // Mean of the film's potential over [from, to] on the ungrounded face, or its value at from = to.
 struct PotentialReading {

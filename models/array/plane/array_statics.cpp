@@ -7,14 +7,15 @@
 namespace viscard {
 
 ArrayModel::ArrayModel(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes,
-                       const ArrayMedia& media, const Discretisation& discretisation, int modes)
+                       const ArrayMedia& media, const Discretisation& discretisation,
+                       const PillarInertia& inertia)
     : geometry_(geometry), electrodes_(electrodes), has_potential_(media.film.has_permittivity()) {
   if (electrodes.is_equipotential && !has_potential_) {
     throw std::invalid_argument("electrodes need a film with a permittivity");
   }
   const ArrayMesh mesh = array_mesh(geometry, electrodes, discretisation);
   const int degree = discretisation.degree;
-  pillar_ = condensed_pillar(mesh, media, degree, modes);
+  pillar_ = condensed_pillar(mesh, media, degree, inertia);
   unknowns_ = pillar_.unknowns;
   cells_ = condensed_cells(mesh, media, degree);
   const auto film_only = [&](const std::vector<double>& x_m, double read_m) {

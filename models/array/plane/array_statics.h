@@ -16,10 +16,10 @@ struct CondensedCells {
 // One discretised array: pieces condensed once, joined to a chain. Does not move once made.
 class ArrayModel {
  public:
-  // `modes` of each pillar get inertia ports (array_pieces.h). Throws std::invalid_argument for a
-  // geometry or media that make no sense.
+  // Throws std::invalid_argument for a geometry or media that make no sense.
   ArrayModel(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes,
-             const ArrayMedia& media, const Discretisation& discretisation, int modes = 0);
+             const ArrayMedia& media, const Discretisation& discretisation,
+             const PillarInertia& inertia = {});
   ArrayModel(const ArrayModel&) = delete;
   ArrayModel& operator=(const ArrayModel&) = delete;
 

@@ -35,14 +35,26 @@ Complex transform_of(const std::vector<HistoryPoint>& history, Complex s) {
 }  // namespace
 
 ArrayTransfer::ArrayTransfer(const ArrayModel& model, ArrayLoad load,
-                             const std::vector<int>& loaded, const Material& pillar)
+                             const std::vector<int>& loaded, const Material& pillar,
+                             const ShapesInUse& in_use)
     : pillar_(pillar) {
   const int n = model.geometry().count;
-  const auto modes = static_cast<int>(model.pillar().mode_rad_s.size());
   const int load_port = port_of(load);
+  Eigen::VectorXd amplitude = Eigen::VectorXd::Zero(n);
+  for (const int i : loaded) amplitude[i] = 1.0;
+  std::vector<int> count, first;  // of each pillar's shapes
+  int m = 0;
+  for (int i = 0; i < n; ++i) {
+    first.push_back(m);
+    count.push_back(
+        std::min(model.pillar().shapes, amplitude[i] != 0.0 ? in_use.of_loaded : in_use.of_others));
+    m += count.back();
+  }
   std::vector<int> mode_ports, top_ports, volt_ports;
   for (int i = 0; i < n; ++i) {
-    for (int k = 0; k < modes; ++k) mode_ports.push_back(model.pillar_port(i, kFirstModePort + k));
+    for (int k = 0; k < count[static_cast<std::size_t>(i)]; ++k) {
+      mode_ports.push_back(model.pillar_port(i, kFirstModePort + k));
+    }
     top_ports.push_back(model.pillar_port(i, load_port));
     const int volt = std::max(model.centre_port(i), model.electrode_port(i));
     if (volt >= 0) volt_ports.push_back(volt);
@@ -51,20 +63,18 @@ ArrayTransfer::ArrayTransfer(const ArrayModel& model, ArrayLoad load,
   std::vector<int> columns = mode_ports;
   columns.insert(columns.end(), top_ports.begin(), top_ports.end());
   const Eigen::MatrixXd all = model.chain().compliance(columns);
-  const Eigen::Index m = n * modes;
-  Eigen::VectorXd amplitude = Eigen::VectorXd::Zero(n);
-  for (const int i : loaded) amplitude[i] = 1.0;
 
   // The compliance of a pillar on a fixed base scales with its own modulus; the rest is the film's.
   const Eigen::MatrixXd fixed = model.pillar().fixed_base_compliance();
-  const Eigen::MatrixXd of_mode = fixed.middleRows(kFirstModePort, modes);
+  const Eigen::MatrixXd of_mode = fixed.bottomRows(model.pillar().shapes);
   Eigen::MatrixXd G = all(mode_ports, Eigen::all);
   Eigen::MatrixXd fixed_modes = Eigen::MatrixXd::Zero(m, m);
   Eigen::VectorXd in_fixed = Eigen::VectorXd::Zero(m);
   for (int i = 0; i < n; ++i) {
-    fixed_modes.block(i * modes, i * modes, modes, modes) =
-        of_mode.middleCols(kFirstModePort, modes);
-    in_fixed.segment(i * modes, modes) = amplitude[i] * of_mode.col(load_port);
+    const int at = first[static_cast<std::size_t>(i)];
+    const int own = count[static_cast<std::size_t>(i)];
+    fixed_modes.block(at, at, own, own) = of_mode.block(0, kFirstModePort, own, own);
+    in_fixed.segment(at, own) = amplitude[i] * of_mode.col(load_port).head(own);
   }
   const Eigen::MatrixXd modal = G.leftCols(m);
   const EigenSystem system = symmetric_eigen(0.5 * (modal + modal.transpose()));
@@ -83,7 +93,9 @@ ArrayTransfer::ArrayTransfer(const ArrayModel& model, ArrayLoad load,
   out_film_.resize(outputs, m);
   for (int i = 0; i < n; ++i) {
     static_pillar_[i] = to_m * fixed(load_port, load_port) * amplitude[i];
-    out_pillar_.row(i).segment(i * modes, modes) = to_m * of_mode.col(load_port).transpose();
+    const int own = count[static_cast<std::size_t>(i)];
+    out_pillar_.row(i).segment(first[static_cast<std::size_t>(i)], own) =
+        to_m * of_mode.col(load_port).head(own).transpose();
     static_film_[i] = to_m * all.row(top_ports[static_cast<std::size_t>(i)]).tail(n) * amplitude;
     out_film_.row(i) = to_m * all.row(top_ports[static_cast<std::size_t>(i)]).head(m);
   }

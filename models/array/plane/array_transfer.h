@@ -9,6 +9,12 @@
 
 namespace viscard {
 
+// How many of the shapes with inertia ports (array_pieces.h) are in use: the first ones.
+struct ShapesInUse {
+  int of_loaded = 1 << 20;  // pillars
+  int of_others = 1 << 20;
+};
+
 // Response of the tops and of the film's voltages to a load that varies in time, by the modes of
 // the row (eq. A5). The static term includes the modes that are left out, so only their inertia is
 // missing. Shares of modal energy: Johnson & Kienholz, AIAA J. 20 (1982) 1284; static correction:
@@ -17,7 +23,7 @@ class ArrayTransfer {
  public:
   // The model must have inertia ports. `load` acts with 1 Pa on the given pillars (0-based).
   ArrayTransfer(const ArrayModel& model, ArrayLoad load, const std::vector<int>& loaded,
-                const Material& pillar);
+                const Material& pillar, const ShapesInUse& in_use = {});
 
   int outputs() const { return static_cast<int>(static_pillar_.size()); }  // tops, then voltages
   int voltages() const { return voltages_; }

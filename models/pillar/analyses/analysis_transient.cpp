@@ -93,14 +93,27 @@ double peak_of(const std::vector<double>& values, double tolerance) {
   return *first < 0.0 ? *low : *high;
 }
 
-void add_curve(const std::string& name, const std::string& unit, double tolerance,
+// A curve, its spectrum, its peak and its end. The curve is judged over a period of the first
+// resonance, the spectrum over half the distance between two modes of a rod.
+void add_curve(const std::string& name, const std::string& unit, double tolerance, double first_Hz,
                const std::vector<double>& time_s, const std::vector<double>& values,
                SceneAnswer& answer) {
   const double peak = peak_of(values, tolerance);
-  answer.results.push_back({name + "_peak", peak, unit});
-  answer.results.push_back({name + "_end", values.back(), unit, 0.0, std::abs(peak)});
+  const auto at = std::find(values.begin(), values.end(), peak);
+  const double peak_at_s =
+      at == values.end() ? 0.0 : time_s[static_cast<std::size_t>(at - values.begin())];
+  answer.results.push_back(
+      {.name = name + "_peak", .value = peak, .unit = unit, .curve = name, .x = peak_at_s});
+  answer.results.push_back({.name = name + "_end",
+                            .value = values.back(),
+                            .unit = unit,
+                            .scale = std::abs(peak),
+                            .curve = name,
+                            .x = time_s.back()});
   answer.curves.push_back({name, unit, time_s, values});
+  answer.curves.back().span = 1.0 / first_Hz;
   answer.curves.push_back(spectrum_of(answer.curves.back()));
+  answer.curves.back().span = first_Hz;
 }
 
 // Displacement under the largest load at rest, over the largest that was found.
@@ -191,16 +204,17 @@ void run_transient_analysis(const PillarScene& scene, SceneAnswer& answer) {
   refuse_sudden_load(scene, first_rad_s, reach, tail, static_share);
   answer.step_error = run.converged ? run.error_estimate + reduced.error + tail
                                     : std::numeric_limits<double>::infinity();
+  const double first_Hz = first_rad_s / (2.0 * std::numbers::pi);
   for (std::size_t i = 0; i < body.outputs.size(); ++i) {
     const Eigen::VectorXd row = run.values.row(static_cast<Eigen::Index>(i));
     const std::string name =
         is_base && i == 0 ? "top_displacement_from_base" : body.outputs[i].name;
     const std::vector<double> values(row.begin(), row.end());
-    add_curve(name, body.outputs[i].unit, scene.tolerance, run.time_s, values, answer);
+    add_curve(name, body.outputs[i].unit, scene.tolerance, first_Hz, run.time_s, values, answer);
     if (i == 1 && scene.readout) {
       const ReadoutFilter filter = readout_of(scene, body, answer);
-      add_curve("reading", "V", scene.tolerance, run.time_s, reading_of(filter, run.time_s, values),
-                answer);
+      add_curve("reading", "V", scene.tolerance, first_Hz, run.time_s,
+                reading_of(filter, run.time_s, values), answer);
     }
   }
 }

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -18,43 +20,102 @@ struct Number {
   double size = 0.0;
   double* error = nullptr;
   double unresolved = 0.0;  // relative to the value
+  double left_out = 0.0;    // of a point of a curve
 };
 
-void add_curve(SceneCurve& curve, std::vector<Number>& numbers) {
+// All numbers of an answer, and where those of each curve begin.
+struct Numbers {
+  std::vector<Number> all;
+  std::vector<std::pair<const SceneCurve*, std::size_t>> curves;
+  std::vector<std::pair<const SceneResult*, std::size_t>> read_off;  // results read off a curve
+};
+
+// Largest value at the points within `span` of each point; x ascends.
+std::vector<double> largest_within(const std::vector<double>& x, double span,
+                                   const std::vector<double>& value) {
+  std::vector<double> largest(value.size());
+  std::deque<std::size_t> falling;  // candidates, each larger than those behind it
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    for (; next < value.size() && x[next] <= x[i] + span; ++next) {
+      while (!falling.empty() && value[falling.back()] <= value[next]) falling.pop_back();
+      falling.push_back(next);
+    }
+    while (x[falling.front()] < x[i] - span) falling.pop_front();
+    largest[i] = value[falling.front()];
+  }
+  return largest;
+}
+
+void add_curve(SceneCurve& curve, Numbers& numbers) {
   if (!curve.is_watched) return;
+  numbers.curves.emplace_back(&curve, numbers.all.size());
   curve.error.assign(curve.value.size(), 0.0);
   const double peak = largest_size(curve.value);
+  const std::vector<double> left_out = largest_within(curve.x, curve.span, curve.left_out);
   for (std::size_t i = 0; i < curve.value.size(); ++i) {
     const double size = curve.allowed.empty() ? peak : curve.allowed[i];
-    numbers.push_back({curve.name, curve.value[i], size, &curve.error[i]});
+    numbers.all.push_back({curve.name, curve.value[i], size, &curve.error[i]});
+    if (!left_out.empty()) numbers.all.back().left_out = left_out[i];
   }
 }
 
-void add_map(SceneMap& map, std::vector<Number>& numbers) {
+void add_map(SceneMap& map, Numbers& numbers) {
   if (!map.is_watched) return;
   map.error.assign(map.value.size(), 0.0);
   const double size = size_of(map);
   for (std::size_t i = 0; i < map.value.size(); ++i) {
-    numbers.push_back({map.name, map.value[i], size, &map.error[i]});
+    numbers.all.push_back({map.name, map.value[i], size, &map.error[i]});
   }
 }
 
-std::vector<Number> numbers_of(SceneAnswer& answer) {
-  std::vector<Number> numbers;
+Numbers numbers_of(SceneAnswer& answer) {
+  Numbers numbers;
   for (SceneResult& r : answer.results) {
     if (!r.is_wanted) continue;
-    numbers.push_back(
+    if (!r.curve.empty()) numbers.read_off.emplace_back(&r, numbers.all.size());
+    numbers.all.push_back(
         {r.name, r.value, std::max(std::abs(r.value), r.scale), &r.error_estimate, r.unresolved});
   }
   for (SceneMode& m : answer.modes) {
-    numbers.push_back(
+    numbers.all.push_back(
         {m.family + " frequency", m.frequency_Hz, m.frequency_Hz, &m.error_estimate, m.unresolved});
     if (!m.damping_ratio) continue;
-    numbers.push_back({m.family + " damping ratio", *m.damping_ratio, 1.0, &m.damping_error});
+    numbers.all.push_back({m.family + " damping ratio", *m.damping_ratio, 1.0, &m.damping_error});
   }
   for (SceneCurve& curve : answer.curves) add_curve(curve, numbers);
   for (SceneMap& map : answer.maps) add_map(map, numbers);
   return numbers;
+}
+
+// Raises the change at each point of a curve to the largest one, relative to the size, within the
+// curve's span.
+void spread_over_curves(const Numbers& numbers, std::vector<double>& change) {
+  for (const auto& [curve, first] : numbers.curves) {
+    if (!(curve->span > 0.0)) continue;
+    std::vector<double> relative(curve->x.size(), 0.0);
+    for (std::size_t i = 0; i < relative.size(); ++i) {
+      const double size = numbers.all[first + i].size;
+      if (size > 0.0) relative[i] = change[first + i] / size;
+    }
+    relative = largest_within(curve->x, curve->span, relative);
+    for (std::size_t i = 0; i < relative.size(); ++i) {
+      change[first + i] = std::max(change[first + i], relative[i] * numbers.all[first + i].size);
+    }
+  }
+}
+
+// A result that is read off a curve has at least the error of the curve there.
+void raise_to_curves(const Numbers& numbers) {
+  for (const auto& [result, at] : numbers.read_off) {
+    for (const auto& [curve, first] : numbers.curves) {
+      if (curve->name != result->curve) continue;
+      const auto found = std::lower_bound(curve->x.begin(), curve->x.end(), result->x);
+      const auto i =
+          static_cast<std::size_t>(std::min(found - curve->x.begin(), std::ssize(curve->x) - 1));
+      *numbers.all[at].error = std::max(*numbers.all[at].error, curve->error[i]);
+    }
+  }
 }
 
 // Factor on the remaining share of the last change if the mesh gained no layer at the singular rim.
@@ -80,7 +141,8 @@ class ChangeTracker {
 
   // Sets the errors of `answer` and its largest relative one.
   void compare(SceneAnswer& answer) {
-    const std::vector<Number> numbers = numbers_of(answer);
+    const Numbers parts = numbers_of(answer);
+    const std::vector<Number>& numbers = parts.all;
     const bool comparable = last_.size() == numbers.size();
     std::vector<double> change(numbers.size(), 0.0);
     // A higher degree alone does not show the error that only more layers reduce.
@@ -88,8 +150,11 @@ class ChangeTracker {
         share_left_ * (answer.discretisation.layers > last_layers_ ? 1.0 : kWithoutLayers);
     last_layers_ = answer.discretisation.layers;
     answer.largest_relative_error = comparable ? 0.0 : std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; comparable && i < numbers.size(); ++i) {
+      change[i] = std::abs(numbers[i].value - last_[i]);
+    }
+    spread_over_curves(parts, change);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-      if (comparable) change[i] = std::abs(numbers[i].value - last_[i]);
       if (comparable && last_change_.size() == change.size()) {
         // A change within the step errors of both answers gives no information on the mesh.
         const bool is_noise = change[i] <= 2.0 * answer.step_error * numbers[i].size;
@@ -97,8 +162,12 @@ class ChangeTracker {
         change[i] = std::max(left_over, left * last_change_[i]);
       }
       const double unresolved = numbers[i].unresolved * std::abs(numbers[i].value);
-      const double error = std::max(change[i], unresolved) + answer.step_error * numbers[i].size;
-      *numbers[i].error = error;
+      *numbers[i].error = std::max(change[i], unresolved) + numbers[i].left_out +
+                          answer.step_error * numbers[i].size;
+    }
+    raise_to_curves(parts);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const double error = *numbers[i].error;
       if (comparable && !(error <= answer.largest_relative_error * numbers[i].size)) {
         answer.largest_relative_error = error / numbers[i].size;
         worst_ = numbers[i].name;

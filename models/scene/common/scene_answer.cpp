@@ -27,6 +27,18 @@ void add_sweep(const std::string& name, const std::string& unit,
       {name + "_at_highest", std::abs(sweep.value.back()), unit, 0.0, sweep.allowed.back()});
 }
 
+void set_left_out(std::span<const double> shares, const std::vector<std::vector<double>>& parts,
+                  SceneCurve& curve) {
+  curve.left_out.assign(curve.value.size(), 0.0);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const double factor = shares[k] / (1.0 - shares[k]);
+    for (std::size_t i = 0; i < curve.value.size(); ++i) {
+      const double change = std::abs(curve.value[i] - parts[k][i]);
+      curve.left_out[i] = std::max(curve.left_out[i], factor * change);
+    }
+  }
+}
+
 double largest_size(const std::vector<double>& values) {
   double largest = 0.0;
   for (const double value : values) largest = std::max(largest, std::abs(value));

@@ -5,6 +5,7 @@
 #include <complex>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct SceneResult {
   bool is_wanted = true;        // false: not asked for, and its error is not watched
   // Relative error that the solution itself shows without other meshes; part of the estimate.
   double unresolved = 0.0;
+  std::string curve = {};  // that it is read off; its error is at least the curve's there
+  double x = 0.0;          // where it is read off
 };
 
 struct SceneMode {
@@ -55,6 +58,11 @@ struct SceneCurve {
   std::vector<double> error;    // estimate at each point, in the unit
   std::vector<double> allowed;  // size at each point that the tolerance refers to; empty: the peak
   bool is_watched = true;       // false: derived from a watched curve, which sets its error
+  // Two meshes may agree at a point because their curves cross there, never over this stretch of x:
+  // the error at a point is the largest one within it on either side. 0: each point by itself.
+  double span = 0.0;
+  // What the answer shows by itself that it lacks at each point, in the unit; part of the error.
+  std::vector<double> left_out = {};
 };
 
 // A pillar of an array in the plane, and the load on its top.
@@ -106,6 +114,12 @@ struct Sweep {
 };
 void add_sweep(const std::string& name, const std::string& unit,
                const std::vector<double>& frequencies_Hz, const Sweep& sweep, SceneAnswer& answer);
+
+// Sets what a curve lacks, from those with a share of its modes or basis vectors each. A load with
+// kinks excites what lies beyond N of them as 1/N: what is left out is as much as the second half
+// changed, a third of what the last three quarters did, and so on; the largest of these.
+void set_left_out(std::span<const double> shares, const std::vector<std::vector<double>>& parts,
+                  SceneCurve& curve);
 
 // Largest magnitude of the values.
 double largest_size(const std::vector<double>& values);

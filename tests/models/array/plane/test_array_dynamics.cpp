@@ -43,7 +43,8 @@ ArrayScene row_in_time(const RowDrive& drive) {
 
 struct Row {
   explicit Row(const ArrayGeometry& geometry, int modes = 8)
-      : model(geometry, {}, seed_media(), {.degree = 5, .layers = 2, .shaft_elements = 2}, modes) {}
+      : model(geometry, {}, seed_media(), {.degree = 5, .layers = 2, .shaft_elements = 2},
+              {.modes = modes}) {}
   ArrayModel model;
 };
 

@@ -15,7 +15,7 @@ std::vector<ArrayMode> modes_of(const ArrayGeometry& geometry, int clusters, Pla
                                 bool is_lateral) {
   ArrayMedia media = seed_media(plane);
   const ArrayModel model(geometry, {}, media, {.degree = 6, .layers = 2},
-                         inertia_ports_for(clusters));
+                         {.modes = inertia_ports_for(clusters)});
   std::vector<ArrayMode> modes = array_modes(model, clusters);
   CHECK(film_inertia_error(model, media, modes) < 1e-6);
   std::erase_if(modes, [&](const ArrayMode& m) { return m.is_lateral != is_lateral; });
@@ -67,7 +67,7 @@ TEST_CASE("neighbours at 20 um split the clusters as in an independent code", "[
   ArrayMedia media = seed_media();
   media.film = isotropic_medium(2e9, 0.29, 1780.0);
   const ArrayModel model({.count = 8, .spacing_m = 20e-6, .film_edge_m = 10e-6}, {}, media,
-                         {.degree = 6, .layers = 2}, inertia_ports_for(2));
+                         {.degree = 6, .layers = 2}, {.modes = inertia_ports_for(2)});
   std::vector<ArrayMode> modes = array_modes(model, 2);
   const auto is_axial = std::stable_partition(modes.begin(), modes.end(),
                                               [](const ArrayMode& m) { return m.is_lateral; });
