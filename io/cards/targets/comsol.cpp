@@ -156,12 +156,29 @@ void read_comsol(const std::string& text, ReadCard& card) {
 }
 
 // The parameter names of a branch number, as a Java array: {prefix + "_G1", prefix + "_G2"}.
-std::string java_names(const char* array, const char* number, std::size_t branches) {
+std::string java_names(const char* array, const char* number, std::size_t branches,
+                       const char* factor) {
   std::string out = std::string("    String[] ") + array + " = {";
   for (std::size_t i = 1; i <= branches; ++i) {
-    out += fmt::format("{}prefix + \"_{}{}\"", i == 1 ? "" : ", ", number, i);
+    out += fmt::format("{}prefix + \"_{}{}{}\"", i == 1 ? "" : ", ", number, i, factor);
   }
   return out + "};\n";
+}
+
+// The shift factor as a parameter of the temperature, which the model holds at the reference: the
+// published files show the property shiftFunction of Viscoelasticity, but not the names of all its
+// constants. Temperatures are absolute: COMSOL converts [degC].
+std::string java_shift(const TemperatureShift& shift) {
+  const char* factor =
+      shift.law == ShiftLaw::kWlf
+          ? "\"10^(-\" + prefix + \"_C1*(temperature-\" + prefix + \"_Tref)/(\" + prefix + "
+            "\"_C2+temperature-\" + prefix + \"_Tref))\""
+          : "\"exp(\" + prefix + \"_Q/R_const*(1/temperature-1/\" + prefix + \"_Tref))\"";
+  return fmt::format(
+      "    // In a model with a temperature field use Viscoelasticity > Shift function: {}\n"
+      "    model.param().set(\"temperature\", prefix + \"_Tref\");\n"
+      "    model.param().set(\"aT\", {});\n",
+      shift.law == ShiftLaw::kWlf ? "Williams-Landel-Ferry" : "Arrhenius", factor);
 }
 
 // Calls before the load: parameters, block, material, rollers.
@@ -170,7 +187,7 @@ constexpr const char* kSetup = R"java(    Model model = ModelUtil.create("Model"
     model.param().set("amplitude", "{}");
     model.param().set("rise", "{}[s]");
     model.param().set("E0", "{}[Pa]");
-    model.component().create("comp1", true);
+{}    model.component().create("comp1", true);
     model.component("comp1").geom().create("geom1", 3);
     model.component("comp1").geom("geom1").create("blk1", "Block");
     model.component("comp1").geom("geom1").run();
@@ -226,11 +243,12 @@ std::vector<DeckFile> comsol_deck(const DeckInput& input, const std::string& nam
       "import com.comsol.model.*;\nimport com.comsol.model.util.*;\n\npublic class {} {{\n"
       "  public static Model run() {{\n    String prefix = \"{}\";\n",
       name, input.card.name);
-  out += java_names("moduli", "G", written.terms.size());
-  out += java_names("times", "tau", written.terms.size());
+  out += java_names("moduli", "G", written.terms.size(), "");
+  out += java_names("times", "tau", written.terms.size(), written.shift ? "*aT" : "");
   const char* density =
       "    elastic.set(\"rho_mat\", \"userdef\");\n    elastic.set(\"rho\", prefix + \"_rho\");\n";
   out += fmt::format(kSetup, input.test.amplitude, input.test.ramp_s, written.E0_Pa,
+                     written.shift ? java_shift(*written.shift) : "",
                      written.rho_kg_m3 > 0.0 ? density : "");
   out += input.is_creep() ? kForce : kDisplacement;
   out += fmt::format(

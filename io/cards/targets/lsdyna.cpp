@@ -1,6 +1,13 @@
 // LS-DYNA, *MAT_GENERAL_VISCOELASTIC (076) and *MAT_VISCOELASTIC (006). Sources: Keyword User's
 // Manual R13, vol. II for materials, vol. I for the one-element model (*CONTROL_IMPLICIT_*,
 // *BOUNDARY_*, *DEFINE_CURVE), not run in LS-DYNA. OpenRadioss and PyDYNA readers agree on fields.
+//
+// The shift of 076: vol. II (R13 and R16), *MAT_076, remarks. Time is multiplied by Phi(T) =
+// exp(-A (1/T - 1/TREF)) if B is 0, else by exp(-A (T - TREF)/(B + T - TREF)). PyDYNA names A "the
+// coefficient for the Arrhenius and the WLF shift functions" and says that TREF is positive. With
+// A = E_a/R the first one is 1/a_T: warm material relaxes sooner. The second one with A = C1 ln 10
+// is a_T: warm material would relax later. The two cannot both multiply time, and without LS-DYNA it
+// is unknown which sign A has in the second: no WLF shift is written.
 #include "io/basics/number_text.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/column_fields.h"
@@ -38,9 +45,13 @@ std::string first_fields(const CardNumbers& numbers) {
 std::string write_076(const CardBody& body) {
   const CardNumbers& numbers = body.numbers;
   std::string out = "*MAT_GENERAL_VISCOELASTIC_TITLE\n" + body.name + "\n";
+  if (numbers.shift) {
+    out +=
+        "$ Arrhenius shift: time is multiplied by exp(-A (1/T - 1/TREF)), A = E_a/R, T in K\n"
+        "$ (manual vol. II, *MAT_076, remarks; not run in LS-DYNA: compare one warm run)\n";
+  }
   out += "$      MID        RO      BULK       PCF        EF      TREF         A         B\n";
   out += first_fields(numbers);
-  // Phi(T) = exp(-A (1/T - 1/TREF)) multiplies time if B is 0; T is absolute.
   if (numbers.shift) {
     out += right("", 20) + field(numbers.shift->T_ref_C - kAbsoluteZero_C) +
            field(numbers.shift->activation_J_mol / kGasConstant_J_mol_K) + field(0.0);
@@ -131,7 +142,10 @@ void read_076_shift(const KeywordCards& cards, ReadCard& card) {
   const auto row = columns(line.text, cards.width);
   const double A = cell_number_or_zero(row, 6, line, "A");
   if (cell_number_or_zero(row, 7, line, "B") != 0.0) {
-    card.add("shift-not-read", at_line(line, "B is set: a WLF shift, which is not read here"));
+    card.add("shift-not-read",
+             at_line(line,
+                     "B is set: a WLF shift; the manual leaves the sign of its A open, so it is "
+                     "not read"));
   } else if (A != 0.0) {
     card.numbers.shift =
         TemperatureShift{.law = ShiftLaw::kArrhenius,
@@ -252,30 +266,33 @@ void add_006_mistakes(const CardContext&, std::vector<CardMistake>& list) {
 }  // namespace
 
 CardTarget lsdyna_target() {
-  return {.name = "lsdyna",
-          .code = "LS-DYNA *MAT_GENERAL_VISCOELASTIC (076)",
-          .extension = ".k",
-          .comment = "$",
-          .write = write_076,
-          .read = read_076,
-          .deck = DeckWriter{lsdyna_deck, "ls-dyna_double i={}.k"},
-          .elastic = ElasticForm::kBulkOnly,
-          .at = ModulusAt::kLongTerm,
-          .branch = BranchNumber::kAbsoluteShear,
-          .time = TimeNumber::kBeta,
-          .bulk = BulkRule::kConstantBulk,
-          .states_equilibrium = true,
-          .is_case_sensitive = false,
-          .max_terms = 17,
-          .needs_density = true,
-          .takes_arrhenius = true,
-          .set_temperature = "*LOAD_THERMAL_CONSTANT or another load, in K (0 if not given)",
-          .evidence = Evidence::kParsed,
-          .evidence_note =
-              "independent readers found the numbers; "
-              "18 rows in newer versions (6 in old ones), one of them the equilibrium row beta = 0",
-          .advice =
-              "Numbers are rounded to ten columns. The empty line after the first card is card 2."};
+  return {
+      .name = "lsdyna",
+      .code = "LS-DYNA *MAT_GENERAL_VISCOELASTIC (076)",
+      .extension = ".k",
+      .comment = "$",
+      .write = write_076,
+      .read = read_076,
+      .deck = DeckWriter{lsdyna_deck, "ls-dyna_double i={}.k"},
+      .elastic = ElasticForm::kBulkOnly,
+      .at = ModulusAt::kLongTerm,
+      .branch = BranchNumber::kAbsoluteShear,
+      .time = TimeNumber::kBeta,
+      .bulk = BulkRule::kConstantBulk,
+      .states_equilibrium = true,
+      .is_case_sensitive = false,
+      .max_terms = 17,
+      .needs_density = true,
+      .takes_arrhenius = true,
+      .why_no_wlf = " (the manual of 076 gives WLF and Arrhenius formulas of opposite sign in A)",
+      .temperature = "K",
+      .set_temperature = "*LOAD_THERMAL_CONSTANT or another load, in K (0 if not given)",
+      .evidence = Evidence::kParsed,
+      .evidence_note =
+          "independent readers found the numbers; "
+          "18 rows in newer versions (6 in old ones), one of them the equilibrium row beta = 0",
+      .advice =
+          "Numbers are rounded to ten columns. The empty line after the first card is card 2."};
 }
 
 CardTarget lsdyna006_target() {
@@ -286,6 +303,7 @@ CardTarget lsdyna006_target() {
   target.read = read_006;
   target.add_mistakes = add_006_mistakes;
   target.takes_arrhenius = false;
+  target.why_no_wlf = "";
   target.max_terms = 1;
   target.evidence_note = "independent readers found the numbers";
   target.advice = "GI is the long-term shear modulus here. Numbers are rounded to ten columns.";

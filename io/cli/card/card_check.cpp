@@ -39,7 +39,7 @@ nlohmann::ordered_json json_of(const CardCheck& check, const CardWords& words) {
   nlohmann::ordered_json json;
   json["card"] = words.check;
   json["target"] = check.read.understood.name;
-  json["units"] = check.read.units.name;
+  json["units"] = check.units;
   json["agrees"] = check.agrees;
   json["understood"] = {{"elastic", to_word(check.read.understood.elastic)},
                         {"modulus", to_word(check.read.understood.at)},
@@ -84,7 +84,7 @@ std::string shift_row(const TemperatureShift& shift) {
 
 void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
   const Material& material = check.read.material;
-  out << words.check << ": " << check.read.understood.code << ", units " << check.read.units.name
+  out << words.check << ": " << check.read.understood.code << ", units " << check.units
       << (check.read.units_were_stated || !words.units.empty() ? "" : " (not stated)") << "\n"
       << "understood: " << conventions_in_words(check.read.understood) << "\n";
   if (material.E0_Pa > 0.0) {
@@ -159,8 +159,9 @@ int list_card_targets(const CardWords& words, Streams& streams) {
 int check_card_file(const CardWords& words, Streams& streams) {
   const std::string text = read_file(words.check);
   std::optional<PreparedMaterial> reference;
-  if (!words.material.empty()) reference = prepared_material(words);
-  const CardCheck check = [&] {
+  std::vector<CardFinding> notes;
+  if (!words.material.empty()) reference = stated_material(text, words, notes);
+  CardCheck check = [&] {
     try {
       return check_card(text, card_target(words.target),
                         {.units = words.units, .tolerance = words.tolerance},
@@ -169,6 +170,7 @@ int check_card_file(const CardWords& words, Streams& streams) {
       throw std::runtime_error(words.check + ": " + error.what());
     }
   }();
+  check.findings.insert(check.findings.begin(), notes.begin(), notes.end());
   if (words.json) {
     streams.out << json_of(check, words).dump(2) << "\n";
   } else {

@@ -1,3 +1,4 @@
+#include "io/basics/atomic_file.h"
 #include "io/basics/words.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
@@ -34,7 +35,8 @@ std::vector<std::string> unit_names() {
 void add_options(CommandSyntax& syntax, CardWords& words) {
   auto add = syntax.options.add_options();
   add("for", po::value(&words.target)->value_name("TARGET"),
-      "solver the card is for; --list shows them all");
+      "solver the card is for; --list shows them all. Cards by viscard name theirs, so --check and "
+      "--prove do not need it");
   add("units", po::value(&words.units)->value_name("SYSTEM"),
       "SI (default), mm-t-s, mm-kg-ms, mm-g-ms, um-kg-s or cgs");
   add("out", po::value(&words.out)->value_name("FILE"), "where to write; stdout if not given");
@@ -56,6 +58,8 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       "mixing ratio, when the material is a joint fit: measured, or between measured ones");
   add("extrapolate", po::bool_switch(&words.may_extrapolate),
       "with --ratio: also outside the measured range; the header says so");
+  add("at-temperature", po::value<std::string>()->value_name("T"),
+      "card of one temperature, such as 37 or \"37 degC\": the material's shift moves its times");
   add("bound", po::value(&words.bound)->value_name("END"),
       "lower or upper: the card at that end of the 95 % intervals of E0 and E_inf");
   add("elastic-only", po::value(&words.elastic_only)->value_name("WHEN"),
@@ -82,6 +86,16 @@ void check_words(CardWords& words) {
                     (words.prove.empty() ? 0 : 1) + (words.deck.empty() ? 0 : 1);
   if (modes > 1) throw UsageError("--list, --check, --prove and --deck exclude each other");
   if (words.list) return;
+  const std::string& given_card = words.check.empty() ? words.prove : words.check;
+  if (words.target.empty() && !given_card.empty()) {
+    const CardTarget* target = stated_card_target(read_file(given_card));
+    if (target == nullptr) {
+      throw UsageError(given_card +
+                       " does not name its solver, as cards by viscard do; say --for "
+                       "TARGET ('viscard card --list' shows the targets)");
+    }
+    words.target = target->name;
+  }
   if (words.target.empty()) {
     throw UsageError("--for TARGET is missing; 'viscard card --list' shows the targets");
   }
@@ -121,6 +135,7 @@ int run_card(const Words& words, Streams& streams) {
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   card.material = given(*values, "material").value_or("");
+  card.temperature_C = given_quantity(*values, "at-temperature", "degC");
   card.json = values->count("json") > 0;
   if (const auto terms = given(*values, "terms")) card.terms = number_of_terms(*terms);
   card.command_line = quoted_command_line("card", words);
