@@ -109,6 +109,8 @@ struct CardTarget {
   Evidence evidence = Evidence::kOurs;
   std::string evidence_note;
   std::string advice;  // what the user of this code must do besides pasting the card
+  // Whether an analysis over frequency takes the card, for the table of targets.
+  std::string harmonic = "refused: no analysis over frequency takes it";
 };
 
 // Whether the card has a place for the material's temperature shift; true without a shift.

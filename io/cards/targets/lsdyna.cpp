@@ -1,13 +1,5 @@
-// LS-DYNA, *MAT_GENERAL_VISCOELASTIC (076) and *MAT_VISCOELASTIC (006). Sources: Keyword User's
-// Manual R13, vol. II for materials, vol. I for the one-element model (*CONTROL_IMPLICIT_*,
-// *BOUNDARY_*, *DEFINE_CURVE), not run in LS-DYNA. OpenRadioss and PyDYNA readers agree on fields.
-//
-// The shift of 076: vol. II (R13 and R16), *MAT_076, remarks. Time is multiplied by Phi(T) =
-// exp(-A (1/T - 1/TREF)) if B is 0, else by exp(-A (T - TREF)/(B + T - TREF)). PyDYNA names A "the
-// coefficient for the Arrhenius and the WLF shift functions" and says that TREF is positive. With
-// A = E_a/R the first one is 1/a_T: warm material relaxes sooner. The second one with A = C1 ln 10
-// is a_T: warm material would relax later. The two cannot both multiply time, and without LS-DYNA it
-// is unknown which sign A has in the second: no WLF shift is written.
+// LS-DYNA 076 and 006. Sources: Keyword User's Manual R13, vol. I (one-element model, not run) and II
+// (*MAT_076, remarks; README.md: no WLF). OpenRadioss and PyDYNA readers agree on fields.
 #include "io/basics/number_text.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/column_fields.h"
@@ -47,8 +39,8 @@ std::string write_076(const CardBody& body) {
   std::string out = "*MAT_GENERAL_VISCOELASTIC_TITLE\n" + body.name + "\n";
   if (numbers.shift) {
     out +=
-        "$ Arrhenius shift: time is multiplied by exp(-A (1/T - 1/TREF)), A = E_a/R, T in K\n"
-        "$ (manual vol. II, *MAT_076, remarks; not run in LS-DYNA: compare one warm run)\n";
+        "$ Arrhenius shift (manual, not run: compare one warm run): time is multiplied by\n"
+        "$ exp(-A (1/T - 1/TREF)), A = E_a/R, T in K\n";
   }
   out += "$      MID        RO      BULK       PCF        EF      TREF         A         B\n";
   out += first_fields(numbers);
@@ -82,7 +74,6 @@ struct KeywordCards {
   std::size_t width = 10;
 };
 
-// Reads the title, RO and BULK too.
 KeywordCards material_cards(const std::string& text, const std::string& long_name,
                             const std::string& short_name, ReadCard& card) {
   KeywordCards cards;
@@ -136,16 +127,12 @@ std::size_t read_card_2(const KeywordCards& cards, ReadCard& card) {
   return 2;
 }
 
-// TREF, A, B: an Arrhenius law if B is 0, none if A is 0 too.
 void read_076_shift(const KeywordCards& cards, ReadCard& card) {
   const CardLine& line = cards.lines.front();
   const auto row = columns(line.text, cards.width);
   const double A = cell_number_or_zero(row, 6, line, "A");
   if (cell_number_or_zero(row, 7, line, "B") != 0.0) {
-    card.add("shift-not-read",
-             at_line(line,
-                     "B is set: a WLF shift; the manual leaves the sign of its A open, so it is "
-                     "not read"));
+    card.add("shift-not-read", at_line(line, "B is set: a WLF shift, whose sign of A is unknown"));
   } else if (A != 0.0) {
     card.numbers.shift =
         TemperatureShift{.law = ShiftLaw::kArrhenius,
@@ -197,7 +184,7 @@ void read_006(const std::string& text, ReadCard& card) {
   }
 }
 
-// Size of the increment against time: two points per block, a step between blocks.
+// Size of the increment against time, with a step between blocks.
 std::string increment_rows(const DeckInput& input) {
   std::string out;
   double from_s = 0.0;
@@ -289,10 +276,10 @@ CardTarget lsdyna_target() {
       .set_temperature = "*LOAD_THERMAL_CONSTANT or another load, in K (0 if not given)",
       .evidence = Evidence::kParsed,
       .evidence_note =
-          "independent readers found the numbers; "
-          "18 rows in newer versions (6 in old ones), one of them the equilibrium row beta = 0",
+          "readers found the numbers; 18 rows (6 in old versions), one of them beta = 0",
       .advice =
-          "Numbers are rounded to ten columns. The empty line after the first card is card 2."};
+          "Numbers are rounded to ten columns. The empty line after the first card is card 2.",
+      .harmonic = "refused: no public statement that *FREQUENCY_DOMAIN reads it"};
 }
 
 CardTarget lsdyna006_target() {

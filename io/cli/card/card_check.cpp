@@ -1,6 +1,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/cards/check_card.h"
 #include "io/cards/targets/card_targets.h"
+#include "io/cards/targets/target_table.h"
 #include "io/cli/card/card_words.h"
 
 #include <fmt/format.h>
@@ -135,6 +136,10 @@ int list_card_targets(const CardWords& words, Streams& streams) {
       json["units"].push_back({{"name", system.name}, {"description", system.description}});
     }
     streams.out << json.dump(2) << "\n";
+    return kDone;
+  }
+  if (words.is_long) {
+    streams.out << target_table();
     return kDone;
   }
   streams.out << "target           terms  nu=.5  evidence       solver: conventions\n";

@@ -21,15 +21,16 @@ struct CardWords {
   std::string units;  // empty: not named
   std::string out;
   std::string check, prove, deck;
-  std::string bound;         // "", "lower", "upper"
-  std::string elastic_only;  // "", "instantaneous", "long-term"
+  std::string solver, solver_path;  // of --prove; empty: the one that reads the card, from PATH
+  std::string bound;                // "", "lower", "upper"
+  std::string elastic_only;         // "", "instantaneous", "long-term"
   std::optional<int> terms;
   std::optional<double> clamped_nu;
   std::optional<double> tolerance;
   std::optional<double> ratio;  // of a joint fit
   std::optional<double> temperature_C;
   bool may_extrapolate = false;
-  bool list = false, force = false, json = false, is_reproducible = false;
+  bool list = false, is_long = false, force = false, json = false, is_reproducible = false;
   bool accepts_flags = false, may_approximate = false;
   std::string command_line;
 };

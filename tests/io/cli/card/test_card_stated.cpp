@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 
 using namespace viscard;
 using namespace viscard::test;
@@ -112,4 +114,57 @@ TEST_CASE("--check prints the unit system in which csv and COMSOL numbers stand"
     CHECK(card.run({"--check", path, file}) == kDone);
     CHECK_THAT(card.out, Contains("units mm-t-s"));
   }
+}
+
+TEST_CASE("--prove leaves a certificate beside the card that leads to the raw data",
+          "[cards][cli]") {
+  if (std::system("command -v ccx >/dev/null 2>&1") != 0) {
+    WARN("ccx is not installed; CalculiX is not run");
+    return;
+  }
+  CardCommand command;
+  const std::string raw = command.path("run.csv"), card = command.path("c.inp");
+  write_file(raw, "time_s,force_N\n0,0\n", true);
+  Material material = reference_material();
+  material.terms = {{0.3, 0.3, 0.5}};
+  material.provenance.raw_files = {{raw, sha256_of_file(raw)}};
+  const std::string file = command.save(material);
+  REQUIRE(command.run({file, "--for", "calculix", "--units", "mm-t-s", "--out", card}) == kDone);
+  CHECK(command.run({file, "--prove", card}) == kDone);
+  CHECK_THAT(command.out, Contains("CalculiX 2.") && Contains("the card holds") &&
+                              Contains("1 file of raw data have the sums"));
+  const std::string path = card + ".calculix.proof.json";
+  const auto certificate = nlohmann::json::parse(read_file(path));
+  CHECK(certificate.at("holds") == true);
+  CHECK(certificate.at("solver") == "CalculiX");
+  CHECK(certificate.at("solver_version").get<std::string>().rfind("2.", 0) == 0);
+  CHECK(certificate.at("models")[0].at("text").get<std::string>().find("*VISCO") !=
+        std::string::npos);
+  const auto& chain = certificate.at("chain");
+  CHECK(chain.at("card_sha256") == sha256_of_file(card));
+  CHECK(chain.at("material").at("sha256_now") == sha256_of_file(file));
+  CHECK(chain.at("raw_files")[0].at("sha256_in_card") == sha256_of_file(raw));
+  CHECK(chain.at("complete") == true);
+  // Never replaced unasked, before any solver runs; a changed file breaks the chain.
+  CHECK(command.run({file, "--prove", card}) == kFailed);
+  CHECK_THAT(command.err, Contains("exists already; pass --force"));
+  write_file(raw, "time_s,force_N\n0,1\n", true);
+  CHECK(command.run({file, "--prove", card, "--force"}) == kDone);
+  CHECK_THAT(command.out, Contains("chain: not complete") && Contains("run.csv has changed"));
+  CHECK(nlohmann::json::parse(read_file(path)).at("chain").at("complete") == false);
+}
+
+TEST_CASE("--solver and --solver-path are explained when they do not fit", "[cards][cli]") {
+  CardCommand command;
+  const std::string file = command.save(reference_material()), card = command.path("c.inp");
+  REQUIRE(command.run({file, "--for", "abaqus", "--out", card}) == kDone);
+  CHECK(command.run({"--prove", card}) == kBadWords);
+  CHECK_THAT(command.err, Contains("--solver sfepy"));
+  CHECK(command.run({"--prove", card, "--solver", "abacus"}) == kBadWords);
+  CHECK_THAT(command.err, Contains("there are calculix, febio"));
+  CHECK(command.run({file, "--for", "abaqus", "--solver", "sfepy"}) == kBadWords);
+  CHECK_THAT(command.err, Contains("--prove CARD"));
+  CHECK(command.run({"--prove", card, "--solver", "sfepy", "--solver-path", "/bin/true"}) ==
+        kFailed);
+  CHECK_THAT(command.err, Contains("does not answer as SfePy"));
 }
