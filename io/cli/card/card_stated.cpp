@@ -17,8 +17,6 @@ std::string between(const std::string& text, const std::string& mark, const std:
   return stop == std::string::npos || stop > line ? "" : text.substr(begin, stop - begin);
 }
 
-}  // namespace
-
 // The words of the header are those of card_header.cpp, write_card.cpp and card_material.cpp.
 CardWords with_stated_options(const std::string& card, const CardWords& words,
                               std::vector<std::string>& stated) {
@@ -52,6 +50,8 @@ CardWords with_stated_options(const std::string& card, const CardWords& words,
   }
   return asked;
 }
+
+}  // namespace
 
 PreparedMaterial stated_material(const std::string& card, const CardWords& words,
                                  std::vector<CardFinding>& notes) {
