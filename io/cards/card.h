@@ -51,7 +51,7 @@ struct CardOptions {
 // Writes the card in memory, reads it back and compares before returning it.
 // Throws std::invalid_argument with one line about what to do: unknown unit system, unphysical
 // material, nu = 0.5 where K must be finite, too many terms, a stated bulk relaxation the target
-// has no place for, an Arrhenius shift likewise, flagged terms, no density where the solver needs
+// has no place for, a temperature shift likewise, flagged terms, no density where the solver needs
 // one, numbers that do not fit the columns.
 Card write_card(const Material& material, const CardTarget& target,
                 const CardOptions& options = {});

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <vector>
 
 namespace viscard {
@@ -62,20 +63,29 @@ std::optional<CardFinding> first_difference(const std::string& text, const std::
   const auto differs = [](const std::string& where) {
     return CardFinding{"form-differs", where, false};
   };
+  // A line that viscard writes once and the card has twice was doubled by hand.
+  const auto is_doubled = [&](std::vector<FormLine>::const_iterator line) {
+    return line != found.begin() && line->form == std::prev(line)->form;
+  };
+  const auto doubled = [&](const FormLine& line) {
+    return CardFinding{"doubled-line",
+                       at_line(line.line, "'" + std::string(trimmed(line.line.text)) +
+                                              "' stands in the card twice; delete one of them"),
+                       true};
+  };
   auto at = std::find_if(found.begin(), found.end(),
                          [&](const FormLine& line) { return line.form == wanted.front().form; });
   for (const FormLine& line : wanted) {
     const std::string text_wanted(trimmed(line.line.text));
     if (at == found.end()) return differs("the line '" + text_wanted + "' is missing");
     if (at->form != line.form) {
+      if (is_doubled(at)) return doubled(*at);
       return differs(at_line(at->line, "'" + std::string(trimmed(at->line.text)) +
                                            "' where viscard writes '" + text_wanted + "'"));
     }
     ++at;
   }
-  if (at != found.end() && at->form == wanted.back().form) {
-    return differs(at_line(at->line, "repeats the last line of the card"));
-  }
+  if (at != found.end() && is_doubled(at)) return doubled(*at);
   return std::nullopt;
 }
 
@@ -97,7 +107,9 @@ std::optional<CardFinding> form_difference(const std::string& text, const ReadCa
   const CardBody body{
       card_identifier(read.name), numbers, read.understood, units, read.material, {}};
   auto finding = first_difference(text, read.understood.write(body), read.understood);
-  if (finding) finding->text += "; the numbers are right, but will the solver take this line?";
+  if (finding && !finding->is_mistake) {
+    finding->text += "; the numbers are right, but will the solver take this line?";
+  }
   return finding;
 }
 

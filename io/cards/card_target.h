@@ -97,9 +97,11 @@ struct CardTarget {
   bool numbers_carry_units = false;  // each number states its own unit
   int max_terms = 0;                 // 0: no limit known
   bool takes_incompressible = false;
-  bool needs_density = false;    // the solver refuses or misuses a density of 0
-  bool takes_wlf = false;        // has a place for log10 a_T = -C1 (T - T_ref)/(C2 + T - T_ref)
-  bool takes_arrhenius = false;  // has a place for ln a_T = (E_a/R) (1/T - 1/T_ref)
+  bool needs_density = false;     // the solver refuses or misuses a density of 0
+  bool takes_wlf = false;         // has a place for log10 a_T = -C1 (T - T_ref)/(C2 + T - T_ref)
+  bool takes_arrhenius = false;   // has a place for ln a_T = (E_a/R) (1/T - 1/T_ref)
+  const char* why_no_wlf = "";    // a reason besides "no place for one", for the refusal
+  const char* temperature = "C";  // the unit of temperatures in the card
   // How a model states its temperature, where a shift needs it and the solver would assume another.
   std::string set_temperature = {};
   // A sentence about the time step that this material needs, for solvers of low order.
@@ -107,6 +109,8 @@ struct CardTarget {
   Evidence evidence = Evidence::kOurs;
   std::string evidence_note;
   std::string advice;  // what the user of this code must do besides pasting the card
+  // Whether an analysis over frequency takes the card, for the table of targets.
+  std::string harmonic = "refused: no analysis over frequency takes it";
 };
 
 // Whether the card has a place for the material's temperature shift; true without a shift.

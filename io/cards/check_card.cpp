@@ -103,8 +103,15 @@ std::optional<CardFinding> shift_finding(const ReadCard& read, const Material& r
                            ") and the material none",
                        true};
   }
-  if (!reference.shift || !takes_shift(read.understood, reference)) return std::nullopt;
+  if (!reference.shift) return std::nullopt;
   const TemperatureShift& expected = *reference.shift;
+  if (!takes_shift(read.understood, reference)) {
+    return CardFinding{"shift-not-held",
+                       fmt::format("the material has a shift ({}), which cards for {} cannot hold: "
+                                   "this one holds at {:g} C only",
+                                   in_words(expected), read.understood.code, expected.T_ref_C),
+                       false};
+  }
   if (!read.material.shift) {
     return CardFinding{"shift-missing",
                        fmt::format("the material has a shift ({}) and the card none: it holds at "
@@ -198,7 +205,9 @@ void compare_with_header(const std::string& text, CardCheck& check) {
 
 CardCheck check_table(const std::string& text, const CardTarget& target,
                       const CheckOptions& options, const Material* reference) {
-  CardCheck check{.read = {target, unit_system("SI"), true}};
+  const std::string stated = stated_unit_system(text);
+  CardCheck check{.read = {target, unit_system("SI"), true},
+                  .units = stated.empty() ? "those of the columns" : stated};
   if (reference == nullptr) {
     throw std::invalid_argument(
         "a CSV card holds E(t), not a material; name a material file to compare it with");
@@ -225,6 +234,12 @@ CardCheck check_card(const std::string& text, const CardTarget& target, const Ch
   if (target.table_difference != nullptr) return check_table(text, target, options, reference);
   CardCheck check{.read = read_card(text, target, options.units)};
   check.findings = check.read.findings;
+  check.units = check.read.units.name;
+  // The reader converts numbers that carry their unit to SI; the header states what they are in.
+  const std::string stated = stated_unit_system(text);
+  if (check.read.understood.numbers_carry_units) {
+    check.units = stated.empty() ? "of each number" : stated;
+  }
   if (!check.read.units_were_stated && options.units.empty()) {
     check.findings.push_back(
         {"units-not-stated",
@@ -247,7 +262,7 @@ CardCheck check_card(const std::string& text, const CardTarget& target, const Ch
   if (has_cause) {
     std::erase_if(check.findings, [](const CardFinding& f) { return f.name == "no-solid"; });
   }
-  if (check.findings.empty()) add(form_difference(text, check.read), check);
+  if (!has_mistake(check.findings)) add(form_difference(text, check.read), check);
   check.agrees = !has_mistake(check.findings) &&
                  (!check.E_difference || *check.E_difference <= check.tolerance);
   return check;

@@ -11,6 +11,7 @@ namespace viscard {
 // A card compared with the material it is meant to be.
 struct CardCheck {
   ReadCard read;
+  std::string units = {};                  // of the card: stated in it, named by the user, else SI
   std::vector<CardFinding> findings = {};  // of the reader, and mistakes that explain a difference
   // Largest relative differences over the comparison times: of G(t), of E(t) with the reference
   // under the target's bulk rule, and of E(t) with the reference as it is. Absent without a

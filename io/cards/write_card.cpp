@@ -101,8 +101,7 @@ void refuse_missing_density(const Material& material, const CardTarget& target) 
                               " needs even for slow tests; set rho_kg_m3 in the material file");
 }
 
-// A shift without a place in the card: a WLF law is left out and the header states it, an Arrhenius
-// law is refused unless the user accepts a card of one temperature.
+// A shift without a place in the card is refused, unless the user accepts a card of one temperature.
 void settle_shift(const Material& material, const CardTarget& target, const CardOptions& options,
                   std::vector<FidelityItem>& fidelity) {
   if (!material.shift) return;
@@ -112,19 +111,17 @@ void settle_shift(const Material& material, const CardTarget& target, const Card
       is_wlf ? fmt::format("WLF, C1 = {}, C2 = {} K at {} C", shift.C1, shift.C2_K, shift.T_ref_C)
              : fmt::format("Arrhenius, {} J/mol at {} C", shift.activation_J_mol, shift.T_ref_C);
   if (takes_shift(target, material)) {
-    fidelity.push_back({"temperature", Mapping::kExact, law + "; temperatures in C"});
-    return;
-  }
-  if (is_wlf) {
-    fidelity.push_back(
-        {"temperature", Mapping::kDropped, law + "; no shift is written for this target"});
+    fidelity.push_back({"temperature", Mapping::kExact,
+                        law + fmt::format("; temperatures in the card in {}", target.temperature)});
     return;
   }
   if (!options.may_approximate) {
     throw std::invalid_argument(fmt::format(
-        "the material has an Arrhenius shift ({} J/mol at {} C) and cards for {} have no place for "
-        "one; pass --approximate for a card that holds at {} C only, or choose another target",
-        shift.activation_J_mol, shift.T_ref_C, target.code, shift.T_ref_C));
+        "the material has {} shift ({}) and cards for {} have no place for one{}; name a "
+        "temperature with --at-temperature, for example {:g}, for a card of that temperature, or "
+        "choose another target",
+        is_wlf ? "a WLF" : "an Arrhenius", law.substr(law.find(", ") + 2), target.code,
+        is_wlf ? target.why_no_wlf : "", shift.T_ref_C));
   }
   fidelity.push_back({"temperature", Mapping::kApproximated,
                       law + fmt::format("; the card holds at {} C only", shift.T_ref_C)});

@@ -5,6 +5,7 @@
 #include "io/cards/targets/card_targets.h"
 #include "io/materials/material_file.h"
 #include "models/material/liquid.h"
+#include "models/material/series_band.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -51,6 +52,26 @@ void take_bound(const CardMaterialRequest& request, PreparedMaterial& prepared) 
       request.bound, found.systematic_relative > 0.0 ? ", systematic part included" : "",
       is_between ? "" : "; the shares g are as fitted"));
   material.uncertainty.reset();
+}
+
+// The material at one temperature, without its shift.
+void take_temperature(double temperature_C, PreparedMaterial& prepared) {
+  Material& material = prepared.material;
+  const Material shifted = material_at_temperature(material, temperature_C);
+  const TemperatureShift& shift = *material.shift;
+  const bool is_outside = (shift.T_min_C != 0.0 || shift.T_max_C != 0.0) &&
+                          (temperature_C < shift.T_min_C || temperature_C > shift.T_max_C);
+  prepared.notes.push_back(fmt::format(
+      "temperature: the card holds at {:g} C only; the times are {:.6g} of those at {:g} C{}",
+      temperature_C, std::exp(ln_shift_factor(shift, temperature_C)), shift.T_ref_C,
+      is_outside ? fmt::format(", EXTRAPOLATED from {:g} to {:g} C", shift.T_min_C, shift.T_max_C)
+                 : ""));
+  const double a_T = std::exp(ln_shift_factor(shift, temperature_C));
+  material = shifted;
+  if (!material.uncertainty) return;
+  for (TermUncertainty& term : material.uncertainty->terms) {
+    term.tau_s_95 = {term.tau_s_95.low * a_T, term.tau_s_95.high * a_T};
+  }
 }
 
 void leave_relaxation_out(const CardMaterialRequest& request, PreparedMaterial& prepared) {
@@ -133,6 +154,7 @@ PreparedMaterial prepare_card_material(const CardMaterialRequest& request) {
   if (prepared.material.name.empty()) {
     prepared.material.name = std::filesystem::path(request.material).stem().string();
   }
+  if (request.temperature_C) take_temperature(*request.temperature_C, prepared);
   if (!request.bound.empty()) take_bound(request, prepared);
   if (!request.elastic_only.empty()) leave_relaxation_out(request, prepared);
   reduce_to_target(request, prepared);

@@ -10,12 +10,13 @@ namespace viscard {
 
 // Which material a card is written of.
 struct CardMaterialRequest {
-  std::string material;         // path of a material or joint file
-  std::string target;           // name of the card's target
-  std::string bound;            // "", "lower", "upper": an end of the 95 % interval
-  std::string elastic_only;     // "", "instantaneous", "long-term"
-  std::optional<int> terms;     // at most this many, with may_approximate
-  std::optional<double> ratio;  // of a joint file
+  std::string material;                 // path of a material or joint file
+  std::string target;                   // name of the card's target
+  std::string bound;                    // "", "lower", "upper": an end of the 95 % interval
+  std::string elastic_only;             // "", "instantaneous", "long-term"
+  std::optional<int> terms;             // at most this many, with may_approximate
+  std::optional<double> ratio;          // of a joint file
+  std::optional<double> temperature_C;  // by the material's shift, which the card then lacks
   bool may_extrapolate = false;
   bool may_approximate = false;  // refit the terms to the number that the target takes
 };

@@ -132,7 +132,9 @@ CardTarget abaqus_target() {
           .evidence_note = "public keyword manual; an independent reader found the numbers",
           .advice =
               "Use *VISCO or dynamic steps: *STATIC does not relax. Above nu = .475 use hybrid "
-              "elements (C3D8H, C3D10H)."};
+              "elements (C3D8H, C3D10H).",
+          // Analysis User's Guide, Time Domain Viscoelasticity: the procedures it is active in.
+          .harmonic = "refused: Abaqus ignores TIME=PRONY over frequency"};
 }
 
 }  // namespace viscard

@@ -212,21 +212,23 @@ std::vector<DeckFile> ansys_deck(const DeckInput& input, const std::string& name
 }  // namespace
 
 CardTarget ansys_target() {
-  return {.name = "ansys",
-          .code = "ANSYS MAPDL",
-          .extension = ".mac",
-          .comment = "!",
-          .write = write_ansys,
-          .read = read_ansys,
-          .deck = DeckWriter{ansys_deck, "mapdl -b -i {}.mac"},
-          .is_case_sensitive = false,
-          .max_terms = 100,
-          .takes_wlf = true,
-          .set_temperature = "TUNIF or BF,ALL,TEMP (0 if not given)",
-          .evidence = Evidence::kParsed,
-          .evidence_note = "public command manual; an independent reader found the numbers",
-          .advice =
-              "EX is always instantaneous. Near nu = .5 use SOLID185/186/187 with KEYOPT(6) = 1."};
+  return {
+      .name = "ansys",
+      .code = "ANSYS MAPDL",
+      .extension = ".mac",
+      .comment = "!",
+      .write = write_ansys,
+      .read = read_ansys,
+      .deck = DeckWriter{ansys_deck, "mapdl -b -i {}.mac"},
+      .is_case_sensitive = false,
+      .max_terms = 100,
+      .takes_wlf = true,
+      .set_temperature = "TUNIF or BF,ALL,TEMP (0 if not given)",
+      .evidence = Evidence::kParsed,
+      .evidence_note = "public command manual; an independent reader found the numbers",
+      .advice = "EX is always instantaneous. Near nu = .5 use SOLID185/186/187 with KEYOPT(6) = 1.",
+      // Ansys FAQ, harmonic analyses with viscoelastic materials.
+      .harmonic = "exact in full harmonic analyses, not after a linear perturbation"};
 }
 
 }  // namespace viscard

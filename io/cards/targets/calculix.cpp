@@ -190,7 +190,8 @@ CardTarget calculix_target() {
           .evidence_note = "run by viscard's tests with Debian's ccx",
           .advice =
               "CalculiX has no Prony keyword: one element copy per material, all on the same "
-              "nodes, and *VISCO steps; it integrates to first order in the time step."};
+              "nodes, and *VISCO steps; it integrates to first order in the time step.",
+          .harmonic = "refused: *STEADY STATE DYNAMICS leaves creep out"};
 }
 
 }  // namespace viscard

@@ -26,6 +26,24 @@ const CardTarget& card_target(const std::string& name) {
   throw std::invalid_argument("there is no card target '" + name + "'; there are " + listed(names));
 }
 
+const CardTarget* stated_card_target(const std::string& text) {
+  for (std::size_t at = text.find("viscard "); at != std::string::npos;
+       at = text.find("viscard ", at + 1)) {
+    const std::string line = text.substr(at, text.find('\n', at) - at);
+    const CardTarget* named = nullptr;
+    std::size_t last = 0;  // the name of the material may contain " for " and the name of a solver
+    for (const CardTarget& target : card_targets()) {
+      const std::size_t found = line.rfind(" for " + target.code);
+      if (found == std::string::npos || found < last) continue;
+      const bool is_longer = found > last || target.code.size() > named->code.size();
+      if (named == nullptr || is_longer) named = &target;
+      last = found;
+    }
+    if (named != nullptr) return named;
+  }
+  return nullptr;
+}
+
 const DeckWriter& card_deck(const std::string& name) {
   std::vector<std::string> names;
   for (const CardTarget& target : card_targets()) {

@@ -13,6 +13,9 @@ const std::vector<CardTarget>& card_targets();
 // Throws std::invalid_argument listing the targets.
 const CardTarget& card_target(const std::string& name);
 
+// The target that the header of a card by viscard names, or null.
+const CardTarget* stated_card_target(const std::string& text);
+
 // The one-element model of a target. Throws std::invalid_argument listing the targets with one.
 const DeckWriter& card_deck(const std::string& name);
 

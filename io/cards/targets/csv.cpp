@@ -85,7 +85,8 @@ CardTarget csv_target() {
           .read = refuse_csv,
           .table_difference = csv_difference,
           .takes_incompressible = true,
-          .evidence_note = "read back by viscard; units stand in the column names"};
+          .evidence_note = "read back by viscard; units stand in the column names",
+          .harmonic = "exact: E'(f), E''(f) in its rows"};
 }
 
 }  // namespace viscard

@@ -109,7 +109,8 @@ CardTarget json_target() {
           .takes_incompressible = true,
           .takes_wlf = true,
           .takes_arrhenius = true,
-          .evidence_note = "read back by viscard; units stand beside the numbers"};
+          .evidence_note = "read back by viscard; units stand beside the numbers",
+          .harmonic = "exact: the series itself"};
 }
 
 }  // namespace viscard

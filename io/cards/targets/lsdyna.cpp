@@ -1,6 +1,5 @@
-// LS-DYNA, *MAT_GENERAL_VISCOELASTIC (076) and *MAT_VISCOELASTIC (006). Sources: Keyword User's
-// Manual R13, vol. II for materials, vol. I for the one-element model (*CONTROL_IMPLICIT_*,
-// *BOUNDARY_*, *DEFINE_CURVE), not run in LS-DYNA. OpenRadioss and PyDYNA readers agree on fields.
+// LS-DYNA 076 and 006. Sources: Keyword User's Manual R13, vol. I (one-element model, not run) and II
+// (*MAT_076, remarks; README.md: no WLF). OpenRadioss and PyDYNA readers agree on fields.
 #include "io/basics/number_text.h"
 #include "io/cards/card_lines.h"
 #include "io/cards/column_fields.h"
@@ -38,9 +37,13 @@ std::string first_fields(const CardNumbers& numbers) {
 std::string write_076(const CardBody& body) {
   const CardNumbers& numbers = body.numbers;
   std::string out = "*MAT_GENERAL_VISCOELASTIC_TITLE\n" + body.name + "\n";
+  if (numbers.shift) {
+    out +=
+        "$ Arrhenius shift (manual, not run: compare one warm run): time is multiplied by\n"
+        "$ exp(-A (1/T - 1/TREF)), A = E_a/R, T in K\n";
+  }
   out += "$      MID        RO      BULK       PCF        EF      TREF         A         B\n";
   out += first_fields(numbers);
-  // Phi(T) = exp(-A (1/T - 1/TREF)) multiplies time if B is 0; T is absolute.
   if (numbers.shift) {
     out += right("", 20) + field(numbers.shift->T_ref_C - kAbsoluteZero_C) +
            field(numbers.shift->activation_J_mol / kGasConstant_J_mol_K) + field(0.0);
@@ -71,7 +74,6 @@ struct KeywordCards {
   std::size_t width = 10;
 };
 
-// Reads the title, RO and BULK too.
 KeywordCards material_cards(const std::string& text, const std::string& long_name,
                             const std::string& short_name, ReadCard& card) {
   KeywordCards cards;
@@ -125,13 +127,12 @@ std::size_t read_card_2(const KeywordCards& cards, ReadCard& card) {
   return 2;
 }
 
-// TREF, A, B: an Arrhenius law if B is 0, none if A is 0 too.
 void read_076_shift(const KeywordCards& cards, ReadCard& card) {
   const CardLine& line = cards.lines.front();
   const auto row = columns(line.text, cards.width);
   const double A = cell_number_or_zero(row, 6, line, "A");
   if (cell_number_or_zero(row, 7, line, "B") != 0.0) {
-    card.add("shift-not-read", at_line(line, "B is set: a WLF shift, which is not read here"));
+    card.add("shift-not-read", at_line(line, "B is set: a WLF shift, whose sign of A is unknown"));
   } else if (A != 0.0) {
     card.numbers.shift =
         TemperatureShift{.law = ShiftLaw::kArrhenius,
@@ -183,7 +184,7 @@ void read_006(const std::string& text, ReadCard& card) {
   }
 }
 
-// Size of the increment against time: two points per block, a step between blocks.
+// Size of the increment against time, with a step between blocks.
 std::string increment_rows(const DeckInput& input) {
   std::string out;
   double from_s = 0.0;
@@ -252,30 +253,33 @@ void add_006_mistakes(const CardContext&, std::vector<CardMistake>& list) {
 }  // namespace
 
 CardTarget lsdyna_target() {
-  return {.name = "lsdyna",
-          .code = "LS-DYNA *MAT_GENERAL_VISCOELASTIC (076)",
-          .extension = ".k",
-          .comment = "$",
-          .write = write_076,
-          .read = read_076,
-          .deck = DeckWriter{lsdyna_deck, "ls-dyna_double i={}.k"},
-          .elastic = ElasticForm::kBulkOnly,
-          .at = ModulusAt::kLongTerm,
-          .branch = BranchNumber::kAbsoluteShear,
-          .time = TimeNumber::kBeta,
-          .bulk = BulkRule::kConstantBulk,
-          .states_equilibrium = true,
-          .is_case_sensitive = false,
-          .max_terms = 17,
-          .needs_density = true,
-          .takes_arrhenius = true,
-          .set_temperature = "*LOAD_THERMAL_CONSTANT or another load, in K (0 if not given)",
-          .evidence = Evidence::kParsed,
-          .evidence_note =
-              "independent readers found the numbers; "
-              "18 rows in newer versions (6 in old ones), one of them the equilibrium row beta = 0",
-          .advice =
-              "Numbers are rounded to ten columns. The empty line after the first card is card 2."};
+  return {
+      .name = "lsdyna",
+      .code = "LS-DYNA *MAT_GENERAL_VISCOELASTIC (076)",
+      .extension = ".k",
+      .comment = "$",
+      .write = write_076,
+      .read = read_076,
+      .deck = DeckWriter{lsdyna_deck, "ls-dyna_double i={}.k"},
+      .elastic = ElasticForm::kBulkOnly,
+      .at = ModulusAt::kLongTerm,
+      .branch = BranchNumber::kAbsoluteShear,
+      .time = TimeNumber::kBeta,
+      .bulk = BulkRule::kConstantBulk,
+      .states_equilibrium = true,
+      .is_case_sensitive = false,
+      .max_terms = 17,
+      .needs_density = true,
+      .takes_arrhenius = true,
+      .why_no_wlf = " (the manual of 076 gives WLF and Arrhenius formulas of opposite sign in A)",
+      .temperature = "K",
+      .set_temperature = "*LOAD_THERMAL_CONSTANT or another load, in K (0 if not given)",
+      .evidence = Evidence::kParsed,
+      .evidence_note =
+          "readers found the numbers; 18 rows (6 in old versions), one of them beta = 0",
+      .advice =
+          "Numbers are rounded to ten columns. The empty line after the first card is card 2.",
+      .harmonic = "refused: no public statement that *FREQUENCY_DOMAIN reads it"};
 }
 
 CardTarget lsdyna006_target() {
@@ -286,6 +290,7 @@ CardTarget lsdyna006_target() {
   target.read = read_006;
   target.add_mistakes = add_006_mistakes;
   target.takes_arrhenius = false;
+  target.why_no_wlf = "";
   target.max_terms = 1;
   target.evidence_note = "independent readers found the numbers";
   target.advice = "GI is the long-term shear modulus here. Numbers are rounded to ten columns.";

@@ -215,7 +215,8 @@ CardTarget mfront_target() {
           .states_density = false,
           .evidence = Evidence::kRun,
           .evidence_note = "MTest, ramp and hold: 2e-15",
-          .advice = "mfront --obuild --interface=generic (or aster, abaqus, calculix, ansys ...)."};
+          .advice = "mfront --obuild --interface=generic (or aster, abaqus, calculix, ansys ...).",
+          .harmonic = "refused: a behaviour answers in time only"};
 }
 
 }  // namespace viscard

@@ -1,6 +1,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/cards/check_card.h"
 #include "io/cards/targets/card_targets.h"
+#include "io/cards/targets/target_table.h"
 #include "io/cli/card/card_words.h"
 
 #include <fmt/format.h>
@@ -39,7 +40,7 @@ nlohmann::ordered_json json_of(const CardCheck& check, const CardWords& words) {
   nlohmann::ordered_json json;
   json["card"] = words.check;
   json["target"] = check.read.understood.name;
-  json["units"] = check.read.units.name;
+  json["units"] = check.units;
   json["agrees"] = check.agrees;
   json["understood"] = {{"elastic", to_word(check.read.understood.elastic)},
                         {"modulus", to_word(check.read.understood.at)},
@@ -84,7 +85,7 @@ std::string shift_row(const TemperatureShift& shift) {
 
 void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
   const Material& material = check.read.material;
-  out << words.check << ": " << check.read.understood.code << ", units " << check.read.units.name
+  out << words.check << ": " << check.read.understood.code << ", units " << check.units
       << (check.read.units_were_stated || !words.units.empty() ? "" : " (not stated)") << "\n"
       << "understood: " << conventions_in_words(check.read.understood) << "\n";
   if (material.E0_Pa > 0.0) {
@@ -137,6 +138,10 @@ int list_card_targets(const CardWords& words, Streams& streams) {
     streams.out << json.dump(2) << "\n";
     return kDone;
   }
+  if (words.is_long) {
+    streams.out << target_table();
+    return kDone;
+  }
   streams.out << "target           terms  nu=.5  evidence       solver: conventions\n";
   for (const CardTarget& target : card_targets()) {
     streams.out << fmt::format("{:<16} {:>5}  {:<5}  {:<13}  {}: {}\n", target.name,
@@ -159,8 +164,9 @@ int list_card_targets(const CardWords& words, Streams& streams) {
 int check_card_file(const CardWords& words, Streams& streams) {
   const std::string text = read_file(words.check);
   std::optional<PreparedMaterial> reference;
-  if (!words.material.empty()) reference = prepared_material(words);
-  const CardCheck check = [&] {
+  std::vector<CardFinding> notes;
+  if (!words.material.empty()) reference = stated_material(text, words, notes);
+  CardCheck check = [&] {
     try {
       return check_card(text, card_target(words.target),
                         {.units = words.units, .tolerance = words.tolerance},
@@ -169,6 +175,7 @@ int check_card_file(const CardWords& words, Streams& streams) {
       throw std::runtime_error(words.check + ": " + error.what());
     }
   }();
+  check.findings.insert(check.findings.begin(), notes.begin(), notes.end());
   if (words.json) {
     streams.out << json_of(check, words).dump(2) << "\n";
   } else {

@@ -2,11 +2,13 @@
 #include "io/cards/card.h"
 #include "io/cards/card_numbers.h"
 #include "io/cards/deck.h"
+#include "io/cards/proof/certificate.h"
+#include "io/cards/proof/solvers.h"
 #include "io/cards/read_card.h"
-#include "io/cards/targets/calculix_proof.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cli/card/card_words.h"
 #include "io/cli/words/output_paths.h"
+#include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,54 +19,25 @@
 namespace viscard {
 namespace {
 
-nlohmann::ordered_json json_of(const StepError& error) {
-  return {{"error", error.at_step},
-          {"at_s", error.worst_s},
-          {"extrapolated_error", error.remaining},
-          {"resolved", error.resolved},
-          {"vanishes_with_step", error.vanishes_with_step()}};
-}
-
 std::string row_of(const char* test, const StepError& error) {
   return fmt::format(
-      "  {:<11} {:.2e} at {:g} s; {:.2e} extrapolated to no step (resolves {:.1e})\n", test,
-      error.at_step, error.worst_s, error.remaining, error.resolved);
+      "  {:<11} {:.2e} at {:g} s{}; {:.2e} extrapolated to no step (resolves {:.1e})\n", test,
+      error.at_step, error.worst_s,
+      error.predicted ? fmt::format(" (backward Euler makes {:.2e})", *error.predicted) : "",
+      error.remaining, error.resolved);
 }
 
-nlohmann::ordered_json json_of(const CalculixProof& proof, const std::string& card) {
-  nlohmann::ordered_json json{{"card", card},
-                              {"solver", "CalculiX"},
-                              {"relaxation", json_of(proof.relaxation)},
-                              {"creep", json_of(proof.creep)},
-                              {"end_s", proof.end_s},
-                              {"increments", proof.increments}};
-  json["terms"] = nlohmann::ordered_json::array();
-  for (const TermProof& term : proof.terms) {
-    json["terms"].push_back({{"g", term.g},
-                             {"tau_s", term.tau_s},
-                             {"change_with_tau", term.change},
-                             {"exercised", term.is_exercised}});
-  }
-  json["divergence"] = nullptr;
-  if (const auto& divergence = proof.divergence) {
-    json["divergence"] = {{"test", divergence->test},
-                          {"reached_s", divergence->reached_s},
-                          {"card_blamed", divergence->is_card_blamed}};
-  }
-  json["holds"] = proof.holds();
-  return json;
-}
-
-std::string text_of(const SolverDivergence& divergence) {
+std::string text_of(const SolverDivergence& divergence, const std::string& code) {
   return fmt::format(
-      "  {}: ccx diverged after {:g} s\n{}", divergence.test, divergence.reached_s,
+      "  {}: {} diverged after {:g} s\n{}", divergence.test, code, divergence.reached_s,
       divergence.is_card_blamed
           ? "the card does not hold: the card that viscard writes for this material runs to the "
             "end of the same test\n"
-          : "nothing is proven: the right card of this material diverges too, a limit of ccx\n");
+          : "nothing is proven: the right card of this material diverges too, a limit of the "
+            "solver\n");
 }
 
-std::string terms_of(const CalculixProof& proof) {
+std::string terms_of(const CardProof& proof) {
   std::string out;
   for (std::size_t i = 0; i < proof.terms.size(); ++i) {
     const TermProof& term = proof.terms[i];
@@ -75,44 +48,89 @@ std::string terms_of(const CalculixProof& proof) {
   return out;
 }
 
-std::string verdict_of(const CalculixProof& proof) {
+std::string verdict_of(const CardProof& proof) {
   if (!proof.agrees()) return "the card does not hold: the error stays at smaller steps\n";
   if (!proof.exercises_all_terms()) {
     return "the answers agree, but nothing is proven of the terms that were not exercised: an "
            "error in them would be smaller than what the tests resolve\n";
   }
-  return "the card holds: the error goes with the step, as that of a rule of first order does, and "
+  return "the card holds: the error vanishes with the step, and "
          "every term was exercised\n";
+}
+
+std::string text_of(const CardChain& chain) {
+  if (chain.is_complete()) {
+    return fmt::format(
+        "  chain: card, material file and {} of raw data have the sums that the "
+        "header states\n",
+        counted(chain.raw_files.size(), "file"));
+  }
+  if (chain.material.stated.empty()) return "  chain: the card's header states no sums\n";
+  std::string missing;
+  const auto add = [&](const std::string& what, const ChainLink& link) {
+    if (link.matches()) return;
+    missing += (missing.empty() ? "" : "; ") + what +
+               (link.now.empty() ? " is not here" : " has changed since the card was written");
+  };
+  add("the material file", chain.material);
+  for (const ChainLink& link : chain.raw_files) add(link.path, link);
+  if (chain.raw_files.empty())
+    missing += (missing.empty() ? "" : "; ") + std::string("no raw data");
+  return "  chain: not complete: " + missing + "\n";
+}
+
+void print_proof(const CardWords& words, const FoundSolver& found, const CardProof& proof,
+                 const CardChain& chain, std::ostream& out) {
+  out << fmt::format(
+      "{}: {} {} on one element, {} increments to {:g} s, against the exact answer "
+      "of {}\n",
+      words.prove, found.solver.code, found.version, proof.increments, proof.end_s,
+      words.material.empty() ? "the card as read" : words.material);
+  if (proof.divergence) {
+    out << text_of(*proof.divergence, found.solver.code);
+  } else {
+    out << row_of("relaxation", proof.relaxation) << row_of("creep", proof.creep) << terms_of(proof)
+        << verdict_of(proof);
+  }
+  out << text_of(chain);
+}
+
+// Which solver runs the card; what is not there to choose from is a wrong use.
+const Solver& chosen_solver(const CardWords& words) {
+  try {
+    return solver_for(words.solver, words.target);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
 }
 
 }  // namespace
 
 int prove_card_file(const CardWords& words, Streams& streams) {
-  if (words.target != "calculix") {
-    throw UsageError(
-        "--prove runs cards for calculix only; for other solvers --deck writes a model");
-  }
-  const std::string text = read_file(words.prove);
-  const ReadCard read = read_card(text, card_target("calculix"), words.units);
+  const Solver& solver = chosen_solver(words);
+  const CertificateRequest request{words.prove, read_file(words.prove), words.material,
+                                   words.target};
+  const std::string path =
+      words.out.empty() ? words.prove + "." + solver.name + ".proof.json" : words.out;
+  refuse_existing(path, words.force);
+  const ReadCard read = read_card(request.card_text, card_target(words.target), words.units);
   Material material = read.material;
-  if (!words.material.empty()) material = prepared_material(words).material;
-  material = with_bulk_rule(material, BulkRule::kConstantBulk);
-  const CalculixProof proof = prove_in_calculix(text, material, read.units);
-  if (words.json) {
-    streams.out << json_of(proof, words.prove).dump(2) << "\n";
-  } else {
-    streams.out << fmt::format(
-        "{}: CalculiX on one element, {} increments to {:g} s, against the exact "
-        "answer of {}\n",
-        words.prove, proof.increments, proof.end_s,
-        words.material.empty() ? "the card as read" : words.material);
-    if (proof.divergence) {
-      streams.out << text_of(*proof.divergence);
-    } else {
-      streams.out << row_of("relaxation", proof.relaxation) << row_of("creep", proof.creep)
-                  << terms_of(proof) << verdict_of(proof);
-    }
+  std::vector<CardFinding> notes;
+  if (!words.material.empty()) {
+    material = stated_material(request.card_text, words, notes).material;
   }
+  material = with_bulk_rule(material, read.understood.bulk);
+  const FoundSolver found = find_solver(solver, words.solver_path);
+  const CardProof proof = prove_card(request.card_text, read, material, found);
+  const CardChain chain = chain_of(request);
+  const std::string certificate = certificate_text(request, chain, found, proof);
+  if (words.json) {
+    streams.out << certificate;
+  } else {
+    print_proof(words, found, proof, chain, streams.out);
+  }
+  write_file(path, certificate, words.force);
+  if (!words.json) streams.out << "wrote " << path << "\n";
   return proof.holds() ? kDone : kFailed;
 }
 

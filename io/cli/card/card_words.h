@@ -1,11 +1,13 @@
 #pragma once
 
 #include "io/cards/card.h"
+#include "io/cards/read_card.h"
 #include "io/cli/words/streams.h"
 #include "io/flow/card_material.h"
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -19,14 +21,16 @@ struct CardWords {
   std::string units;  // empty: not named
   std::string out;
   std::string check, prove, deck;
-  std::string bound;         // "", "lower", "upper"
-  std::string elastic_only;  // "", "instantaneous", "long-term"
+  std::string solver, solver_path;  // of --prove; empty: the one that reads the card, from PATH
+  std::string bound;                // "", "lower", "upper"
+  std::string elastic_only;         // "", "instantaneous", "long-term"
   std::optional<int> terms;
   std::optional<double> clamped_nu;
   std::optional<double> tolerance;
   std::optional<double> ratio;  // of a joint fit
+  std::optional<double> temperature_C;
   bool may_extrapolate = false;
-  bool list = false, force = false, json = false, is_reproducible = false;
+  bool list = false, is_long = false, force = false, json = false, is_reproducible = false;
   bool accepts_flags = false, may_approximate = false;
   std::string command_line;
 };
@@ -34,6 +38,10 @@ struct CardWords {
 // The material that the words name; checks that a mixing ratio is given where it is needed. Throws
 // UsageError, and what prepare_card_material() throws.
 PreparedMaterial prepared_material(const CardWords& words);
+// The same, changed as the header of a card by viscard states (fewer terms, a bound, one
+// temperature, nu clamped ...), unless the words ask for something else; a note says so.
+PreparedMaterial stated_material(const std::string& card, const CardWords& words,
+                                 std::vector<CardFinding>& notes);
 CardOptions card_options(const CardWords& words, const PreparedMaterial& prepared);
 
 int list_card_targets(const CardWords& words, Streams& streams);

@@ -68,6 +68,7 @@ PreparedMaterial prepared_material(const CardWords& words) {
                                 .elastic_only = words.elastic_only,
                                 .terms = words.terms,
                                 .ratio = words.ratio,
+                                .temperature_C = words.temperature_C,
                                 .may_extrapolate = words.may_extrapolate,
                                 .may_approximate = words.may_approximate});
 }

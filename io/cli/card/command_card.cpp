@@ -1,3 +1,4 @@
+#include "io/basics/atomic_file.h"
 #include "io/basics/words.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
@@ -34,18 +35,28 @@ std::vector<std::string> unit_names() {
 void add_options(CommandSyntax& syntax, CardWords& words) {
   auto add = syntax.options.add_options();
   add("for", po::value(&words.target)->value_name("TARGET"),
-      "solver the card is for; --list shows them all");
+      "solver the card is for; --list shows them all. Cards by viscard name theirs, so --check and "
+      "--prove do not need it");
   add("units", po::value(&words.units)->value_name("SYSTEM"),
       "SI (default), mm-t-s, mm-kg-ms, mm-g-ms, um-kg-s or cgs");
   add("out", po::value(&words.out)->value_name("FILE"), "where to write; stdout if not given");
   add("list", po::bool_switch(&words.list), "show targets, conventions, limits and evidence");
+  add("long", po::bool_switch(&words.is_long),
+      "with --list: a table of what each target takes exactly, takes approximately, or refuses");
   add("check", po::value(&words.check)->value_name("CARD"),
       "read a card back, say what it means, and compare it with the material if one is named");
   add("tolerance", into(words.tolerance)->value_name("X"),
       "largest relative difference of E(t) that --check accepts; if not given 1e-6, or what the "
       "target's columns can hold");
   add("prove", po::value(&words.prove)->value_name("CARD"),
-      "run a card on one element in its solver (calculix) against the exact answer");
+      "run a card on one element in a solver against the exact answer, and write a certificate "
+      "beside it (CARD.SOLVER.proof.json, or --out)");
+  add("solver", po::value(&words.solver)->value_name("NAME"),
+      "with --prove: calculix, febio, mtest, frontistr, or sfepy and dolfinx, which run the "
+      "numbers "
+      "of any card; if not given the one that reads the card");
+  add("solver-path", po::value(&words.solver_path)->value_name("PATH"),
+      "with --prove: the program, if it is not in PATH");
   add("deck", po::value(&words.deck)->value_name("TEST"),
       "relaxation or creep: write a one-element model with the expected curve beside it");
   add("approximate", po::bool_switch(&words.may_approximate),
@@ -56,6 +67,8 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       "mixing ratio, when the material is a joint fit: measured, or between measured ones");
   add("extrapolate", po::bool_switch(&words.may_extrapolate),
       "with --ratio: also outside the measured range; the header says so");
+  add("at-temperature", po::value<std::string>()->value_name("T"),
+      "card of one temperature, such as 37 or \"37 degC\": the material's shift moves its times");
   add("bound", po::value(&words.bound)->value_name("END"),
       "lower or upper: the card at that end of the 95 % intervals of E0 and E_inf");
   add("elastic-only", po::value(&words.elastic_only)->value_name("WHEN"),
@@ -81,7 +94,18 @@ void check_words(CardWords& words) {
   const int modes = (words.list ? 1 : 0) + (words.check.empty() ? 0 : 1) +
                     (words.prove.empty() ? 0 : 1) + (words.deck.empty() ? 0 : 1);
   if (modes > 1) throw UsageError("--list, --check, --prove and --deck exclude each other");
+  if (words.is_long && !words.list) throw UsageError("--long belongs to --list");
   if (words.list) return;
+  const std::string& given_card = words.check.empty() ? words.prove : words.check;
+  if (words.target.empty() && !given_card.empty()) {
+    const CardTarget* target = stated_card_target(read_file(given_card));
+    if (target == nullptr) {
+      throw UsageError(given_card +
+                       " does not name its solver, as cards by viscard do; say --for "
+                       "TARGET ('viscard card --list' shows the targets)");
+    }
+    words.target = target->name;
+  }
   if (words.target.empty()) {
     throw UsageError("--for TARGET is missing; 'viscard card --list' shows the targets");
   }
@@ -91,6 +115,9 @@ void check_words(CardWords& words) {
   if (!words.deck.empty()) check_word("--deck", words.deck, {"relaxation", "creep"});
   if (!words.elastic_only.empty()) {
     check_word("--elastic-only", words.elastic_only, {"instantaneous", "long-term"});
+  }
+  if (words.prove.empty() && (!words.solver.empty() || !words.solver_path.empty())) {
+    throw UsageError("--solver and --solver-path belong to --prove CARD");
   }
   if (words.terms && !words.may_approximate) {
     throw UsageError("--terms changes the material; say --approximate too");
@@ -121,6 +148,7 @@ int run_card(const Words& words, Streams& streams) {
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   card.material = given(*values, "material").value_or("");
+  card.temperature_C = given_quantity(*values, "at-temperature", "degC");
   card.json = values->count("json") > 0;
   if (const auto terms = given(*values, "terms")) card.terms = number_of_terms(*terms);
   card.command_line = quoted_command_line("card", words);

@@ -145,11 +145,35 @@ TEST_CASE("an edit that no reader sees is reported with its line", "[cards]") {
   CHECK(check.findings[0].text.find("where viscard writes 'type = Compute") != std::string::npos);
   const std::string json = edited(right_card("json"), "\"G0\": 0.62", "\"G0\": 0.72");
   CHECK(findings_of(json, "json") == "form-differs");
-  CHECK(findings_of(right_card("mfront") + "}\n", "mfront") == "form-differs");
+  CHECK(findings_of(right_card("mfront") + "}\n", "mfront") == "doubled-line");
   const std::string csv = right_card("csv");
   const std::size_t row = csv.find('\n', csv.find("time_")) + 1;
   const std::size_t third = csv.find(',', csv.find(',', row) + 1) + 1;
   CHECK(findings_of(std::string(csv).insert(third, "1"), "csv") == "table-differs");
+}
+
+TEST_CASE("a doubled line of any card is a mistake, not a note", "[cards]") {
+  for (const CardTarget& target : card_targets()) {
+    Material material = reference_material();
+    if (target.max_terms == 1) material.terms.resize(1);
+    const std::string text = right_card(target.name.c_str(), material);
+    const std::size_t header = target.comment.empty() ? text.find("\"header\"") : text.size();
+    for (std::size_t at = 0, end = 0; at < header; at = end) {
+      end = text.find('\n', at) + 1;
+      const std::string line = text.substr(at, end - at);
+      const bool is_comment = !target.comment.empty() && line.rfind(target.comment, 0) == 0;
+      if (is_comment || line.find_first_not_of(" \n") == std::string::npos) continue;
+      CAPTURE(target.name, line);
+      bool agrees = false;
+      try {
+        agrees =
+            check_card(text.substr(0, at) + line + text.substr(at), target, {}, &material).agrees;
+      } catch (const std::runtime_error& error) {
+        CHECK_FALSE(std::string(error.what()).empty());
+      }
+      CHECK_FALSE(agrees);
+    }
+  }
 }
 
 TEST_CASE("random edits of a right card are named or harmless", "[cards][slow]") {

@@ -1,12 +1,15 @@
+#include "io/basics/atomic_file.h"
 #include "io/basics/number_text.h"
 #include "io/cards/card.h"
 #include "io/cards/card_numbers.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
+#include "io/cards/targets/target_table.h"
 #include "tests/io/cards/card_materials.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <set>
 #include <type_traits>
 
@@ -30,6 +33,24 @@ void read_made_up(const std::string& text, ReadCard& card) {
 }
 
 }  // namespace
+
+TEST_CASE("the table of the README is the one that the program prints", "[cards]") {
+  const std::string readme = read_file(VISCARD_SOURCE_DIR "/io/cards/README.md");
+  const std::string begin = "<!-- table -->\n", end = "<!-- end of table -->";
+  const std::size_t at = readme.find(begin), stop = readme.find(end);
+  REQUIRE(at != std::string::npos);
+  REQUIRE(stop != std::string::npos);
+  const std::string printed = target_table();
+  INFO("viscard card --list --long");
+  CHECK(readme.substr(at + begin.size(), stop - at - begin.size()) == printed);
+  // A row for each target, and what is known of some without the program.
+  CHECK(std::count(printed.begin(), printed.end(), '\n') ==
+        static_cast<std::ptrdiff_t>(card_targets().size()) + 2);
+  CHECK(printed.find("| febio | exact; 6 terms | assumed exact; stated refused (") !=
+        std::string::npos);
+  CHECK(printed.find("| mfront | exact | exact | refused |") != std::string::npos);
+  CHECK(printed.find("| lsdyna006 | approximate, ") != std::string::npos);
+}
 
 TEST_CASE("a target is written and read by its own functions and never as another", "[cards]") {
   CardTarget made_up = card_target("json");

@@ -1,7 +1,8 @@
 #include "io/cards/card.h"
 #include "io/cards/card_numbers.h"
 #include "io/cards/one_element.h"
-#include "io/cards/targets/calculix_proof.h"
+#include "io/cards/proof/card_proof.h"
+#include "io/cards/proof/solvers.h"
 #include "io/cards/targets/card_targets.h"
 #include "models/material/hereditary.h"
 #include "models/material/retardation_spectrum.h"
@@ -23,7 +24,16 @@ bool has_ccx() {
   return found;
 }
 
-CalculixProof proof_of(const Material& material, const char* units, int steps_per_tau) {
+CardProof prove_in_calculix(const std::string& card_text, const Material& material,
+                            const UnitSystem& units, int steps_per_tau = 40) {
+  const FoundSolver ccx = find_solver(solver_for("calculix", "calculix"), "");
+  ReadCard read{.understood = card_target("calculix"), .units = units};
+  read.name = "PDMS";
+  read.material = material;
+  return prove_card(card_text, read, material, ccx, steps_per_tau);
+}
+
+CardProof proof_of(const Material& material, const char* units, int steps_per_tau) {
   const Material ruled = with_bulk_rule(material, BulkRule::kConstantBulk);
   const Card card = write_card(ruled, card_target("calculix"), {.units = units});
   return prove_in_calculix(card.text, ruled, unit_system(units), steps_per_tau);
@@ -50,7 +60,7 @@ TEST_CASE("the expected curve is the hereditary integral of ramp and hold", "[ca
 
 TEST_CASE("CalculiX returns the exact relaxation and creep of the reference card", "[cards]") {
   if (!has_ccx()) return;
-  const CalculixProof proof = proof_of(reference_material(), "mm-t-s", 40);
+  const CardProof proof = proof_of(reference_material(), "mm-t-s", 40);
   CHECK(proof.relaxation.at_step <= 1e-4);  // first order in the step tau/40
   CHECK(proof.creep.at_step <= 2e-4);
   CHECK(proof.relaxation.remaining <= 3e-6);  // ccx prints seven digits
@@ -77,7 +87,7 @@ TEST_CASE("CalculiX accepts the overlay in different unit systems", "[cards]") {
   for (const char* units : {"SI", "mm-kg-ms", "um-kg-s"}) {  // Pa, GPa and ms, uN and um
     CAPTURE(units);
     const Material material = material_of_terms(3, 0.48);
-    const CalculixProof proof = proof_of(material, units, 10);
+    const CardProof proof = proof_of(material, units, 10);
     CAPTURE(proof.relaxation.worst_s, proof.relaxation.remaining, proof.creep.remaining);
     CHECK(proof.holds());
     // First order: 6e-3 of the sum of g at tau/40, four times that here, of a modulus fallen to
@@ -88,7 +98,7 @@ TEST_CASE("CalculiX accepts the overlay in different unit systems", "[cards]") {
 
 TEST_CASE("CalculiX accepts nine terms over three decades", "[cards][slow]") {
   if (!has_ccx()) return;
-  const CalculixProof proof = proof_of(material_of_terms(9, 0.495), "mm-t-s", 10);
+  const CardProof proof = proof_of(material_of_terms(9, 0.495), "mm-t-s", 10);
   CHECK(proof.relaxation.at_step <= 4.0 * 6e-3 * 0.6 / 0.4);
   CHECK(proof.holds());
   CHECK(proof.end_s > 1.0);
@@ -99,7 +109,7 @@ TEST_CASE("a proof loads terms nine decades apart, and finds a wrong slow one", 
   Material material = reference_material();
   material.nu = 0.45;
   material.terms = {{0.2, 0.0, 1e-4}, {0.3, 0.0, 1e5}};
-  const CalculixProof right = proof_of(material, "mm-t-s", 10);
+  const CardProof right = proof_of(material, "mm-t-s", 10);
   CAPTURE(right.relaxation.remaining, right.relaxation.resolved, right.creep.remaining);
   CHECK(right.holds());
   CHECK(right.end_s >= 1e6);
@@ -109,7 +119,7 @@ TEST_CASE("a proof loads terms nine decades apart, and finds a wrong slow one", 
   Material wrong = material;
   wrong.terms[1].tau_s *= 10.0;
   const Card card = write_card(wrong, card_target("calculix"), {.units = "mm-t-s"});
-  const CalculixProof refused = prove_in_calculix(card.text, material, unit_system("mm-t-s"), 10);
+  const CardProof refused = prove_in_calculix(card.text, material, unit_system("mm-t-s"), 10);
   CHECK_FALSE(refused.agrees());
   CHECK_FALSE(refused.divergence);
 }
@@ -118,7 +128,7 @@ TEST_CASE("a term too small to be seen is reported as not exercised", "[cards]")
   if (!has_ccx()) return;
   Material material = reference_material();
   material.terms.push_back({1e-7, 1e-7, 0.7});
-  const CalculixProof proof = proof_of(material, "mm-t-s", 10);
+  const CardProof proof = proof_of(material, "mm-t-s", 10);
   CHECK(proof.agrees());
   CHECK_FALSE(proof.holds());
   REQUIRE(proof.terms.size() == 3);
@@ -131,7 +141,7 @@ TEST_CASE("a card that CalculiX would leave elastic fails the proof", "[cards]")
   if (!has_ccx()) return;
   const Material material = with_bulk_rule(reference_material(), BulkRule::kConstantBulk);
   const Card card = write_card(material, card_target("abaqus"), {.units = "mm-t-s"});
-  const CalculixProof proof = prove_in_calculix(card.text, material, unit_system("mm-t-s"), 10);
+  const CardProof proof = prove_in_calculix(card.text, material, unit_system("mm-t-s"), 10);
   // E_inf of the rising load is 1/(1 - sum g) - 1 = 2.26e-2 too small, less what still relaxes.
   CHECK(proof.relaxation.at_step > 0.01);
   CHECK_FALSE(proof.holds());
@@ -141,7 +151,7 @@ TEST_CASE("strong relaxation is proven by an error proportional to the step", "[
   if (!has_ccx()) return;
   Material material = reference_material();
   material.terms = {{0.95, 0.95, 2.0}};
-  const CalculixProof right = proof_of(material, "mm-t-s", 40);
+  const CardProof right = proof_of(material, "mm-t-s", 40);
   CAPTURE(right.relaxation.at_step, right.relaxation.remaining, right.creep.remaining);
   CHECK(right.relaxation.at_step > 1e-3);  // at tau/40 the error alone proves nothing
   CHECK(right.holds());
@@ -149,7 +159,7 @@ TEST_CASE("strong relaxation is proven by an error proportional to the step", "[
   wrong.terms[0].tau_s *= 1.01;
   const Card card = write_card(with_bulk_rule(wrong, BulkRule::kConstantBulk),
                                card_target("calculix"), {.units = "mm-t-s"});
-  const CalculixProof refused = prove_in_calculix(
+  const CardProof refused = prove_in_calculix(
       card.text, with_bulk_rule(material, BulkRule::kConstantBulk), unit_system("mm-t-s"));
   CHECK_FALSE(refused.holds());
 }
@@ -160,7 +170,7 @@ TEST_CASE("a card that makes ccx diverge is blamed if the right card does not", 
   std::string text = write_card(material, card_target("calculix"), {.units = "mm-kg-ms"}).text;
   const std::size_t at = text.find("LAW=NORTON\n") + 11;
   text.replace(at, text.find(',', at) - at, "1e12");  // 3e9 times the right rate
-  const CalculixProof proof = prove_in_calculix(text, material, unit_system("mm-kg-ms"), 10);
+  const CardProof proof = prove_in_calculix(text, material, unit_system("mm-kg-ms"), 10);
   REQUIRE(proof.divergence);
   CHECK(proof.divergence->test == "relaxation");
   CHECK(proof.divergence->is_card_blamed);

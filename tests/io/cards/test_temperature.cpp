@@ -34,12 +34,17 @@ TEST_CASE("every card that has a place for a WLF shift contains it, and it reads
   for (const CardTarget& target : card_targets()) {
     if (target.max_terms == 1 || target.name == "csv") continue;
     CAPTURE(target.name);
-    const Card card = write_card(shifted_material(ShiftLaw::kWlf), target);
+    const Material material = shifted_material(ShiftLaw::kWlf);
+    if (!target.takes_wlf) {
+      CHECK_THROWS_WITH(write_card(material, target),
+                        Contains("WLF shift (C1 = 8.86") && Contains("--at-temperature"));
+    }
+    const Card card = write_card(material, target, {.may_approximate = true});
     // Where the solver would assume 0 degrees, one of the first lines says what to set.
     const std::size_t found = card.text.find("SET THE TEMPERATURE of the model: ");
     CHECK((found != std::string::npos) == (target.takes_wlf && !target.set_temperature.empty()));
     if (found != std::string::npos) CHECK(found < card.text.find("units: "));
-    CHECK(temperature_mapping(card) == (target.takes_wlf ? "exact" : "dropped"));
+    CHECK(temperature_mapping(card) == (target.takes_wlf ? "exact" : "approximated"));
     const ReadCard read = read_card(card.text, target, "");
     REQUIRE(read.material.shift.has_value() == target.takes_wlf);
     if (!target.takes_wlf) continue;
@@ -67,7 +72,7 @@ TEST_CASE("an Arrhenius shift is written where the solver has one and refused el
     CAPTURE(target.name);
     if (!target.takes_arrhenius) {
       CHECK_THROWS_WITH(write_card(material, target),
-                        Contains("Arrhenius shift (52000 J/mol") && Contains("--approximate"));
+                        Contains("Arrhenius shift (52000 J/mol") && Contains("--at-temperature"));
       const Card card = write_card(material, target, {.may_approximate = true});
       CHECK(temperature_mapping(card) == "approximated");
       CHECK_THAT(card.text, Contains("the card holds at 23 C only"));
@@ -101,6 +106,26 @@ TEST_CASE("the Arrhenius lines are those of the manuals", "[cards]") {
              Contains("\n!TRS, DEFINITION=ARRHENIUS\n 23, 6254.1624") && Contains(", -273.15\n"));
   CHECK_THAT(text_of("comsol"), Contains("PDMS_Q 52000[J/mol]"));
   CHECK_THAT(text_of("lsdyna"), Contains("    296.15") && Contains("6254.16"));  // K
+  // Both lines that speak of its temperatures count in K.
+  CHECK_THAT(text_of("lsdyna"), Contains("temperatures in the card in K") && Contains(", in K (0"));
+  CHECK_THAT(text_of("lsdyna"), Contains("$ Arrhenius shift: time is multiplied by exp(-A (1/T"));
+  CHECK_THAT(text_of("abaqus"), Contains("temperatures in the card in C"));
+}
+
+TEST_CASE("LS-DYNA takes no WLF shift, because its manual leaves the sign open", "[cards]") {
+  CHECK_THROWS_WITH(write_card(shifted_material(ShiftLaw::kWlf), card_target("lsdyna")),
+                    Contains("opposite sign"));
+}
+
+TEST_CASE("--check mentions a shift that a card cannot hold", "[cards]") {
+  const Material material = shifted_material(ShiftLaw::kWlf);
+  const CardTarget& target = card_target("febio");
+  const Card card = write_card(material, target, {.may_approximate = true});
+  const CardCheck check = check_card(card.text, target, {}, &material);
+  CHECK(check.agrees);
+  REQUIRE_FALSE(check.findings.empty());
+  CHECK(check.findings.front().name == "shift-not-held");
+  CHECK_THAT(check.findings.front().text, Contains("holds at 23 C only"));
 }
 
 TEST_CASE("one-element models with a shift start at its reference temperature", "[cards]") {
@@ -122,4 +147,9 @@ TEST_CASE("one-element models with a shift start at its reference temperature", 
              Contains("\n!INITIAL CONDITION, TYPE=TEMPERATURE\n NALL, 23\n") &&
                  Contains("\n!TEMPERATURE, GRPID=2\n NALL, 23\n") && Contains(" LOAD, 2\n"));
   CHECK_THAT(deck_text("lsdyna", ShiftLaw::kArrhenius), Contains("\n*LOAD_THERMAL_CONSTANT\n"));
+  // COMSOL's times are the card's times the shift factor at the parameter "temperature".
+  const std::string wlf = deck_text("comsol", ShiftLaw::kWlf);
+  CHECK_THAT(wlf, Contains("set(\"temperature\", prefix + \"_Tref\")") &&
+                      Contains("prefix + \"_tau1*aT\"") && Contains("\"10^(-\" + prefix + \"_C1*"));
+  CHECK_THAT(deck_text("comsol", ShiftLaw::kArrhenius), Contains("_Q/R_const*(1/temperature-1/"));
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/cards/unit_system.h"
-#include "models/material/material.h"
+#include "io/cards/proof/solver.h"
+#include "io/cards/read_card.h"
 
 #include <optional>
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace viscard {
 
-// Runs a card in CalculiX (Debian's ccx) on one element and compares with the exact answer. The
-// load rises in every block of a doubled time (one_element.h), so every term is loaded in its own
-// decade, with increments that start again from the size of the block.
+// Runs a card in a solver on one element and compares with the exact answer. Where the solver's test
+// allows, the load rises in every block of a doubled time (one_element.h): then every term is loaded
+// in its own decade, with increments that start again from the size of the block.
 
 // Error of one test, relative to the exact answer, after the first ramp.
 struct StepError {
@@ -19,11 +19,12 @@ struct StepError {
   double worst_s = 0.0;    // time of that error
   double remaining = 0.0;  // after extrapolation of the three steps to zero
   // The smallest error that the test can distinguish from that of the step: the last correction of
-  // the extrapolation, or the digits that ccx prints.
+  // the extrapolation, or what its output and its strain resolve.
   double resolved = 0.0;
+  // What backward Euler makes at the coarsest step, computed without the solver.
+  std::optional<double> predicted;
 
-  // CalculiX integrates to first order, so the error of a right card vanishes with the step. That
-  // of a wrong card remains.
+  // The error of a right card vanishes with the step. That of a wrong card remains.
   bool vanishes_with_step() const { return remaining <= resolved; }
 };
 
@@ -38,16 +39,17 @@ struct SolverDivergence {
   std::string test;  // "relaxation" or "creep"
   double reached_s = 0.0;
   // The same test of the card that viscard writes for this material runs to the end, so the numbers
-  // of the given card are to blame. Otherwise it is a limit of ccx, and nothing is known.
+  // of the given card are to blame. Otherwise it is a limit of the solver, and nothing is known.
   bool is_card_blamed = false;
 };
 
-struct CalculixProof {
+struct CardProof {
   StepError relaxation, creep;
   std::vector<TermProof> terms;
   std::optional<SolverDivergence> divergence;  // if set, the errors above are not filled
   double end_s = 0.0;                          // end of the tests
   int increments = 0;                          // of each test at the coarsest step
+  std::vector<DeckFile> models;                // as run at the coarsest step, by test
 
   bool agrees() const {
     return !divergence && relaxation.vanishes_with_step() && creep.vanishes_with_step();
@@ -56,10 +58,14 @@ struct CalculixProof {
   bool holds() const { return agrees() && exercises_all_terms(); }
 };
 
-// Runs both tests at three steps: steps_per_tau in the shortest relaxation time, twice and four
-// times as many, in temporary folders. `material` is what the card should be, under the target's
-// bulk rule. Throws std::runtime_error if ccx is not installed, stops, or prints nothing.
-CalculixProof prove_in_calculix(const std::string& card_text, const Material& material,
-                                const UnitSystem& units, int steps_per_tau = 40);
+// The error of backward Euler in simple tension at constant Poisson ratio: the largest one relative
+// to the exact answer after the first ramp.
+double backward_euler_error(const Material& material, const ElementTest& test);
+
+// Runs both tests at three steps: steps_per_tau in the shortest relaxation time (0: as many as the
+// solver's test has), twice and four times as many. `material` is what the card should be, under
+// the bulk rule of the card. Throws what run_solver() throws.
+CardProof prove_card(const std::string& card_text, const ReadCard& read, const Material& material,
+                     const FoundSolver& found, int steps_per_tau = 0);
 
 }  // namespace viscard

@@ -1,0 +1,231 @@
+#include "io/cards/proof/card_proof.h"
+
+#include "io/cards/card.h"
+#include "io/cards/card_numbers.h"
+#include "io/cards/one_element.h"
+#include "io/cards/targets/card_targets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+// The value at a time, if the run has an increment there. ccx prints seven digits of the time and
+// takes an elastic step in one increment even if it should take more.
+const SolverSample* sample_at(double time_s, const std::vector<SolverSample>& samples) {
+  const double margin_s = 1e-6 * time_s;
+  const auto at = std::lower_bound(
+      samples.begin(), samples.end(), time_s - margin_s,
+      [](const SolverSample& sample, double limit_s) { return sample.time_s < limit_s; });
+  return at == samples.end() || at->time_s > time_s + margin_s ? nullptr : &*at;
+}
+
+// Richardson extrapolation of steps h, h/2 and h/4: the terms of first, then of second order.
+StepError compare(const SolverRun* runs, const Material& material, const ElementTest& test,
+                  const Solver& solver) {
+  StepError error{.resolved = solver.resolves, .predicted = std::nullopt};
+  if (solver.is_backward_euler) error.predicted = backward_euler_error(material, test);
+  for (const SolverSample& coarse : runs[0].samples) {
+    // The response to the first increments of the ramp is close to zero.
+    if (coarse.time_s < test.ramp_s * (1.0 - 1e-6)) continue;
+    const SolverSample* half = sample_at(coarse.time_s, runs[1].samples);
+    const SolverSample* quarter = sample_at(coarse.time_s, runs[2].samples);
+    if (half == nullptr || quarter == nullptr) {
+      throw std::runtime_error(fmt::format("{} printed no result at {:g} s with a smaller step",
+                                           solver.code, coarse.time_s));
+    }
+    const double expected = exact_response(material, test, coarse.time_s);
+    const double at_step = std::abs(coarse.value / expected - 1.0);
+    if (!(at_step <= error.at_step)) {
+      error.at_step = at_step;
+      error.worst_s = coarse.time_s;
+    }
+    const double first = 2.0 * half->value - coarse.value;
+    const double finer_first = 2.0 * quarter->value - half->value;
+    const double second = (4.0 * finer_first - first) / 3.0;
+    error.resolved = std::max(error.resolved, std::abs((second - finer_first) / expected));
+    const double remaining = std::abs(second / expected - 1.0);
+    if (!(remaining <= error.remaining)) error.remaining = remaining;  // NaN counts as the largest
+  }
+  return error;
+}
+
+// Largest relative change of the answer to a test if the relaxation time of a term were longer.
+double change_with_tau(const Material& material, std::size_t term, const ElementTest& test) {
+  constexpr double kLonger = 1.1;
+  Material changed = material;
+  changed.terms[term].tau_s *= kLonger;
+  double largest = 0.0, from_s = 0.0;
+  for (const TimeBlock& block : test.blocks) {
+    constexpr int kPoints = 4;
+    for (int i = 1; i <= kPoints; ++i) {
+      const double time_s = from_s + (block.end_s - from_s) * i / kPoints;
+      if (time_s < test.ramp_s) continue;
+      const double ratio =
+          exact_response(changed, test, time_s) / exact_response(material, test, time_s);
+      largest = std::max(largest, std::abs(ratio - 1.0));
+    }
+    from_s = block.end_s;
+  }
+  return largest;
+}
+
+void note_terms(const Material& material, const ElementTest& test, const StepError& error,
+                CardProof& proof) {
+  proof.terms.resize(material.terms.size());
+  for (std::size_t i = 0; i < material.terms.size(); ++i) {
+    TermProof& term = proof.terms[i];
+    term.g = material.terms[i].g;
+    term.tau_s = material.terms[i].tau_s;
+    const double change = change_with_tau(material, i, test);
+    term.change = std::max(term.change, change);
+    term.is_exercised = term.is_exercised || change >= 2.0 * error.resolved;
+  }
+}
+
+// What all runs of one proof have in common.
+struct Proving {
+  const std::string& card_text;
+  const ReadCard& read;
+  const Material& material;
+  const FoundSolver& found;
+
+  Card card(const std::string& text) const {
+    return {.name = read.name, .text = text, .written = material};
+  }
+  std::vector<SolverTask> tasks(const Card& of, const std::vector<ElementTest>& tests) const {
+    std::vector<SolverTask> out;
+    for (const ElementTest& test : tests) out.push_back({{of, test, read.units}, read.material});
+    return out;
+  }
+};
+
+constexpr int kSteps = 3;  // each half the one before
+
+// Both tests, each at its three steps.
+std::vector<ElementTest> tests_of(const Proving& proving, int steps_per_tau) {
+  std::vector<ElementTest> out;
+  for (const ElementTestKind kind : {ElementTestKind::kRelaxation, ElementTestKind::kCreep}) {
+    ElementTestOptions options = proving.found.solver.test;
+    options.kind = kind;
+    if (steps_per_tau > 0) options.steps_per_tau = steps_per_tau;
+    ElementTest test = element_test(proving.material, options);
+    for (int i = 0; i < kSteps; ++i) {
+      out.push_back(test);
+      for (TimeBlock& block : test.blocks) block.increments *= 2;
+    }
+  }
+  return out;
+}
+
+// Whether the card that viscard writes for the material runs to the end of the same test.
+bool does_right_card_run(const Proving& proving, const ElementTest& test) {
+  try {
+    const Card right = write_card(
+        proving.material, proving.read.understood,
+        {.units = proving.read.units.name, .may_approximate = true, .accepts_flags = true});
+    const Card card = proving.card(right.text);
+    return !run_solver(proving.found, proving.tasks(card, {test})).front().diverged;
+  } catch (const std::invalid_argument&) {
+    return false;  // no right card exists
+  }
+}
+
+const char* name_of(const ElementTest& test) {
+  return test.kind == ElementTestKind::kCreep ? "creep" : "relaxation";
+}
+
+// The models at the coarsest step, in a folder for each test.
+void note_models(const Proving& proving, const Card& card, const std::vector<ElementTest>& tests,
+                 CardProof& proof) {
+  const std::vector<SolverTask> tasks = proving.tasks(card, tests);
+  const Solver& solver = proving.found.solver;
+  if (solver.runs_together) {
+    proof.models = solver.model(tasks);
+    return;
+  }
+  for (std::size_t i = 0; i < tasks.size(); i += kSteps) {
+    for (DeckFile& file : solver.model({tasks[i]})) {
+      file.name = std::string(name_of(tests[i])) + "/" + file.name;
+      proof.models.push_back(std::move(file));
+    }
+  }
+}
+
+// Stress of a branch s' = e' - s/tau after an increment: (s + de)/(1 + dt/tau).
+struct EulerBranch {
+  double share = 0.0, tau_s = 0.0, stress = 0.0;
+  double weight(double step_s) const { return 1.0 / (1.0 + step_s / tau_s); }
+};
+
+}  // namespace
+
+bool CardProof::exercises_all_terms() const {
+  return std::all_of(terms.begin(), terms.end(),
+                     [](const TermProof& term) { return term.is_exercised; });
+}
+
+double backward_euler_error(const Material& given, const ElementTest& test) {
+  const Material material = with_bulk_rule(given, BulkRule::kConstantPoisson);
+  double lasting = 1.0, strain = 0.0, load = 0.0, from_s = 0.0, worst = 0.0;
+  std::vector<EulerBranch> branches;
+  for (const MaterialTerm& term : material.terms) {
+    branches.push_back({term.g, term.tau_s, 0.0});
+    lasting -= term.g;
+  }
+  for (const TimeBlock& block : test.blocks) {
+    const double step_s = (block.end_s - from_s) / block.increments, load_before = load;
+    for (int i = 1; i <= block.increments; ++i) {
+      load = load_before + (block.load - load_before) * i / block.increments;
+      double stiffness = lasting, known = lasting * strain;
+      for (const EulerBranch& branch : branches) {
+        stiffness += branch.share * branch.weight(step_s);
+        known += branch.share * branch.weight(step_s) * branch.stress;
+      }
+      const bool is_creep = test.kind == ElementTestKind::kCreep;
+      const double rise = is_creep ? (load - known) / stiffness : load - strain;
+      for (EulerBranch& branch : branches) {
+        branch.stress = branch.weight(step_s) * (branch.stress + rise);
+      }
+      strain += rise;
+      const double time_s = from_s + i * step_s;
+      if (time_s < test.ramp_s * (1.0 - 1e-6)) continue;
+      const double value = is_creep ? strain : known + stiffness * rise;
+      worst = std::max(worst, std::abs(value / exact_response(material, test, time_s) - 1.0));
+    }
+    from_s = block.end_s;
+  }
+  return worst;
+}
+
+CardProof prove_card(const std::string& card_text, const ReadCard& read, const Material& material,
+                     const FoundSolver& found, int steps_per_tau) {
+  const Proving proving{card_text, read, material, found};
+  const Card card = proving.card(card_text);
+  const std::vector<ElementTest> tests = tests_of(proving, steps_per_tau);
+  CardProof proof{.end_s = tests.front().end_s()};
+  note_models(proving, card, tests, proof);
+  const std::vector<SolverRun> runs = run_solver(found, proving.tasks(card, tests));
+  proof.increments = static_cast<int>(runs.front().samples.size());
+  if (runs.back().diverged) {
+    const ElementTest& test = tests[runs.size() - 1];
+    const auto& samples = runs.back().samples;
+    proof.divergence = SolverDivergence{.test = name_of(test),
+                                        .reached_s = samples.empty() ? 0.0 : samples.back().time_s,
+                                        .is_card_blamed = does_right_card_run(proving, test)};
+    return proof;
+  }
+  for (std::size_t i = 0; i < tests.size(); i += kSteps) {
+    const StepError error = compare(&runs[i], material, tests[i], found.solver);
+    (tests[i].kind == ElementTestKind::kCreep ? proof.creep : proof.relaxation) = error;
+    note_terms(material, tests[i], error, proof);
+  }
+  return proof;
+}
+
+}  // namespace viscard

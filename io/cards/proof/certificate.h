@@ -1,0 +1,39 @@
+#pragma once
+
+#include "io/cards/proof/card_proof.h"
+
+#include <string>
+
+namespace viscard {
+
+struct CertificateRequest {
+  std::string card_path;
+  std::string card_text;
+  std::string material_path;  // empty: the card was compared with its own numbers
+  std::string target;
+};
+
+// A file that the header of a card states, and whether it is still the same.
+struct ChainLink {
+  std::string path;    // where it was found; else as stated
+  std::string stated;  // SHA-256 in the header
+  std::string now;     // of the file; empty if it is not there
+  bool matches() const { return !now.empty() && now == stated; }
+};
+
+struct CardChain {
+  std::string card_sha256;
+  ChainLink material;  // empty if the header states none
+  std::vector<ChainLink> raw_files;
+  bool is_complete() const;  // material and at least one raw file, all unchanged
+};
+
+// Follows the SHA-256 sums in the header of the card. Files are looked for as stated, then beside
+// the material and the card.
+CardChain chain_of(const CertificateRequest& request);
+
+// JSON: card, solver and its version, deviations, terms, the models as run, the chain.
+std::string certificate_text(const CertificateRequest& request, const CardChain& chain,
+                             const FoundSolver& found, const CardProof& proof);
+
+}  // namespace viscard

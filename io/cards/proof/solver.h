@@ -1,0 +1,68 @@
+#pragma once
+
+#include "io/cards/deck.h"
+#include "io/cards/one_element.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+struct SolverSample {
+  double time_s = 0.0;
+  double value = 0.0;  // response over the amplitude, as exact_response returns it
+};
+
+struct SolverRun {
+  std::vector<SolverSample> samples;  // after every increment, until it diverged
+  bool diverged = false;              // an increment that does not converge, not the syntax
+};
+
+// One test of a card. `input.card.written` is the material that the card should be, `as_read` what
+// its reader found in it.
+struct SolverTask {
+  DeckInput input;
+  const Material& as_read;
+};
+
+// What a program needs to run the one-element model of a card.
+struct Solver {
+  std::string name;                   // as on the command line: "calculix"
+  std::string code;                   // "CalculiX"
+  std::vector<std::string> programs;  // the first of them in PATH is taken
+  std::string install;                // what to do if none is there
+  std::vector<std::string> targets;   // cards it reads; none: it runs the numbers of any card
+  ElementTestOptions test;
+  double resolves = 0.0;  // smallest relative error that its output and its strain show
+  // The branches follow backward Euler, so the error of a step can be computed beforehand.
+  bool is_backward_euler = false;
+  // Of all tests at once if runs_together, else of the only one.
+  std::vector<DeckFile> (*model)(const std::vector<SolverTask>& tasks) = nullptr;
+  // Run one after the other in the folder of the model.
+  std::vector<std::vector<std::string>> (*commands)(const std::string& program) = nullptr;
+  // Of the test of this number, in the units of the card; sign and scale are settled by the caller.
+  std::vector<SolverSample> (*samples)(const std::filesystem::path& folder, const DeckInput& input,
+                                       std::size_t number) = nullptr;
+  bool runs_together = false;   // one start of the program runs all tests
+  bool is_scaled = true;        // samples are forces or stresses and strains; false: in SI
+  const char* divergence = "";  // in the log of an increment that does not converge
+  const char* error = "";       // in the log of a run that failed, whatever its exit status
+  std::vector<std::string> version_words;  // arguments that print the version
+  const char* version_pattern = "";        // regular expression; its group is the version
+};
+
+struct FoundSolver {
+  const Solver& solver;
+  std::string program;  // path
+  std::string version;
+};
+
+// Runs the tests in temporary folders, up to the first that diverges. Throws std::runtime_error with
+// one line if the program is missing, stops, takes longer than ten minutes, or prints nothing.
+std::vector<SolverRun> run_solver(const FoundSolver& found, const std::vector<SolverTask>& tasks);
+
+// What the program prints for these arguments, in at most ten seconds; "" if it cannot be run.
+std::string printed_by(const std::string& program, const std::vector<std::string>& words);
+
+}  // namespace viscard

@@ -1,0 +1,170 @@
+#include "io/cards/targets/card_targets.h"
+#include "tests/io/cards/card_materials.h"
+#include "tests/io/cli/card/card_command.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+using namespace viscard;
+using namespace viscard::test;
+using Catch::Contains;
+
+namespace {
+
+Material wlf_material() {
+  Material material = reference_material();
+  material.T_ref_C = 23.0;
+  material.shift =
+      TemperatureShift{.law = ShiftLaw::kWlf, .T_ref_C = 23.0, .C1 = 8.86, .C2_K = 101.6};
+  return material;
+}
+
+bool has_finding(const nlohmann::json& check, const char* name) {
+  for (const auto& finding : check.at("findings")) {
+    if (finding.at("name") == name) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("a card of one temperature has the times that the shift gives there", "[cards][cli]") {
+  CardCommand card;
+  const Material material = wlf_material();
+  const std::string file = card.save(material), path = card.path("warm.feb");
+  // Refused, with the way out, instead of written without the shift.
+  CHECK(card.run({file, "--for", "febio", "--out", path}) == kFailed);
+  CHECK_THAT(card.err, Contains("WLF shift") && Contains("--at-temperature") && Contains("23"));
+  CHECK_FALSE(std::filesystem::exists(path));
+  REQUIRE(card.run({file, "--for", "febio", "--at-temperature", "40", "--out", path}) == kDone);
+  // log10 a_T = -8.86 * 17/(101.6 + 17) = -1.2699831...; tau_1 = 0.1945 s * 0.0537053
+  CHECK_THAT(read_file(path), Contains("the card holds at 40 C only"));
+  CHECK(card.run({"--check", path, file, "--json"}) == kDone);
+  const auto check = nlohmann::json::parse(card.out);
+  CHECK(check.at("material").at("terms")[0].at("tau_s").get<double>() ==
+        Approx(0.1945 * std::pow(10.0, -8.86 * 17.0 / 118.6)).epsilon(1e-9));
+  CHECK(has_finding(check, "as-stated"));
+  // At the reference temperature the card holds as it is, and the shift is mentioned.
+  const std::string plain = card.path("plain.feb");
+  REQUIRE(card.run({file, "--for", "febio", "--approximate", "--out", plain}) == kDone);
+  CHECK(card.run({"--check", plain, file, "--json"}) == kDone);
+  CHECK(has_finding(nlohmann::json::parse(card.out), "shift-not-held"));
+  CHECK(card.run({card.save(reference_material()), "--for", "febio", "--at-temperature", "40"}) ==
+        kFailed);
+  CHECK_THAT(card.err, Contains("no temperature shift"));
+}
+
+TEST_CASE("--check compares a card of fewer terms with what its header states", "[cards][cli]") {
+  CardCommand card;
+  Material thirty = material_of_terms(30, 0.4);
+  thirty.valid = {1e-3, 1e6, 0.0};
+  const std::string file = card.save(thirty), path = card.path("six.feb");
+  REQUIRE(card.run({file, "--for", "febio", "--approximate", "--out", path}) == kDone);
+  CHECK(card.run({"--check", path, file}) == kDone);
+  CHECK_THAT(card.out, Contains("as-stated") && Contains("30 refitted to 6") && Contains("agrees"));
+  std::string text = read_file(path);  // a wrong number is found all the same
+  text.replace(text.find("<t1>") + 4, 1, text[text.find("<t1>") + 4] == '9' ? "1" : "9");
+  write_file(path, text, true);
+  CHECK(card.run({"--check", path, file}) == kFailed);
+}
+
+TEST_CASE("--check knows clamped ratios, one modulus and a bound from the header", "[cards][cli]") {
+  CardCommand card;
+  Material material = reference_material();
+  material.nu = 0.5;
+  const std::string file = card.save(material), path = card.path("c.k");
+  REQUIRE(card.run({file, "--for", "lsdyna", "--clamp-nu", "0.4995", "--out", path}) == kDone);
+  CHECK(card.run({"--check", path, file}) == kDone);
+  CHECK_THAT(card.out, Contains("nu clamped from 0.5 to 0.4995"));
+  const std::string elastic = card.path("e.inp");
+  REQUIRE(card.run({card.save(reference_material()), "--for", "abaqus", "--elastic-only",
+                    "long-term", "--out", elastic}) == kDone);
+  CHECK(card.run({"--check", elastic, file.c_str()}) == kDone);
+}
+
+TEST_CASE("cards by viscard name their target, so --check needs no --for", "[cards][cli]") {
+  CardCommand card;
+  Material material = reference_material();
+  material.name = "gel for FEBio viscoelastic for COMSOL";  // a name that misleads
+  material.terms.resize(1);
+  const std::string file = card.save(material);
+  for (const CardTarget& target : card_targets()) {
+    CAPTURE(target.name);
+    const std::string path = card.path("x" + target.extension);
+    REQUIRE(card.run({file, "--for", target.name, "--out", path, "--force"}) == kDone);
+    CHECK(card.run({"--check", path, file, "--json"}) == kDone);
+    CHECK(nlohmann::json::parse(card.out).at("target") == target.name);
+  }
+  write_file(card.path("hand.inp"), "*MATERIAL, NAME=A\n*ELASTIC\n1, 0.3\n", true);
+  CHECK(card.run({"--check", card.path("hand.inp")}) == kBadWords);
+  CHECK_THAT(card.err, Contains("--for TARGET"));
+}
+
+TEST_CASE("--check prints the unit system in which csv and COMSOL numbers stand", "[cards][cli]") {
+  CardCommand card;
+  const std::string file = card.save(reference_material());
+  for (const char* target : {"csv", "comsol", "json"}) {
+    CAPTURE(target);
+    const std::string path = card.path(std::string("u.") + target);
+    REQUIRE(card.run({file, "--for", target, "--units", "mm-t-s", "--out", path}) == kDone);
+    CHECK(card.run({"--check", path, file}) == kDone);
+    CHECK_THAT(card.out, Contains("units mm-t-s"));
+  }
+}
+
+TEST_CASE("--prove leaves a certificate beside the card that leads to the raw data",
+          "[cards][cli]") {
+  if (std::system("command -v ccx >/dev/null 2>&1") != 0) {
+    WARN("ccx is not installed; CalculiX is not run");
+    return;
+  }
+  CardCommand command;
+  const std::string raw = command.path("run.csv"), card = command.path("c.inp");
+  write_file(raw, "time_s,force_N\n0,0\n", true);
+  Material material = reference_material();
+  material.terms = {{0.3, 0.3, 0.5}};
+  material.provenance.raw_files = {{raw, sha256_of_file(raw)}};
+  const std::string file = command.save(material);
+  REQUIRE(command.run({file, "--for", "calculix", "--units", "mm-t-s", "--out", card}) == kDone);
+  CHECK(command.run({file, "--prove", card}) == kDone);
+  CHECK_THAT(command.out, Contains("CalculiX 2.") && Contains("the card holds") &&
+                              Contains("1 file of raw data have the sums"));
+  const std::string path = card + ".calculix.proof.json";
+  const auto certificate = nlohmann::json::parse(read_file(path));
+  CHECK(certificate.at("holds") == true);
+  CHECK(certificate.at("solver") == "CalculiX");
+  CHECK(certificate.at("solver_version").get<std::string>().rfind("2.", 0) == 0);
+  CHECK(certificate.at("models")[0].at("text").get<std::string>().find("*VISCO") !=
+        std::string::npos);
+  const auto& chain = certificate.at("chain");
+  CHECK(chain.at("card_sha256") == sha256_of_file(card));
+  CHECK(chain.at("material").at("sha256_now") == sha256_of_file(file));
+  CHECK(chain.at("raw_files")[0].at("sha256_in_card") == sha256_of_file(raw));
+  CHECK(chain.at("complete") == true);
+  // Never replaced unasked, before any solver runs; a changed file breaks the chain.
+  CHECK(command.run({file, "--prove", card}) == kFailed);
+  CHECK_THAT(command.err, Contains("exists already; pass --force"));
+  write_file(raw, "time_s,force_N\n0,1\n", true);
+  CHECK(command.run({file, "--prove", card, "--force"}) == kDone);
+  CHECK_THAT(command.out, Contains("chain: not complete") && Contains("run.csv has changed"));
+  CHECK(nlohmann::json::parse(read_file(path)).at("chain").at("complete") == false);
+}
+
+TEST_CASE("--solver and --solver-path are explained when they do not fit", "[cards][cli]") {
+  CardCommand command;
+  const std::string file = command.save(reference_material()), card = command.path("c.inp");
+  REQUIRE(command.run({file, "--for", "abaqus", "--out", card}) == kDone);
+  CHECK(command.run({"--prove", card}) == kBadWords);
+  CHECK_THAT(command.err, Contains("--solver sfepy"));
+  CHECK(command.run({"--prove", card, "--solver", "abacus"}) == kBadWords);
+  CHECK_THAT(command.err, Contains("there are calculix, febio"));
+  CHECK(command.run({file, "--for", "abaqus", "--solver", "sfepy"}) == kBadWords);
+  CHECK_THAT(command.err, Contains("--prove CARD"));
+  CHECK(command.run({"--prove", card, "--solver", "sfepy", "--solver-path", "/bin/true"}) ==
+        kFailed);
+  CHECK_THAT(command.err, Contains("does not answer as SfePy"));
+}
