@@ -112,4 +112,11 @@ std::optional<CardFinding> form_difference(const std::string& text, const CardTa
   return first_difference(text, target.write(body), target);
 }
 
+std::optional<CardFinding> form_difference(const std::string& text, const CardBody& right) {
+  if (!is_by_viscard(text)) return std::nullopt;
+  auto finding = first_difference(text, right.target.write(right), right.target);
+  if (finding) finding->text += "; the numbers are right, but will the solver take this line?";
+  return finding;
+}
+
 }  // namespace viscard

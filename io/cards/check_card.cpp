@@ -2,6 +2,7 @@
 
 #include "io/cards/card.h"
 #include "io/cards/card_form.h"
+#include "io/cards/card_values.h"
 #include "io/cards/list_differences.h"
 #include "io/cards/material_difference.h"
 
@@ -223,6 +224,7 @@ CardCheck check_table(const std::string& text, const CardTarget& target,
 CardCheck check_card(const std::string& text, const CardTarget& target, const CheckOptions& options,
                      const Material* reference) {
   if (target.table_difference != nullptr) return check_table(text, target, options, reference);
+  if (target.values != nullptr) return check_card_values(text, target, options, reference);
   CardCheck check{.read = read_card(text, target, options.units)};
   check.findings = check.read.findings;
   if (!check.read.units_were_stated && options.units.empty()) {

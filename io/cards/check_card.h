@@ -25,6 +25,7 @@ struct CheckOptions {
   // Of E(t), relative. Default: the larger of 1e-6 and the error that write_card makes when it
   // rounds the reference to the target's columns.
   std::optional<double> tolerance = {};
+  std::optional<FrequencyBand> band = {};  // of a card that does not state its own
 };
 
 // Throws where read_card does. Without a reference it reports only mistakes in the card itself.

@@ -97,7 +97,9 @@ void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
     if (material.shift) out << shift_row(*material.shift);
   }
   if (check.E_difference) {
-    out << fmt::format("largest difference in E(t): {:.2e}", *check.E_difference);
+    const bool is_series = check.read.understood.values == nullptr;
+    out << fmt::format("largest difference {}: {:.2e}", is_series ? "in E(t)" : "of a number",
+                       *check.E_difference);
     if (check.E_difference_with_bulk && *check.E_difference_with_bulk > 2.0 * *check.E_difference &&
         *check.E_difference_with_bulk > 1e-9) {
       out << fmt::format(" ({:.2e} with the material's own bulk rule)",
@@ -163,7 +165,7 @@ int check_card_file(const CardWords& words, Streams& streams) {
   const CardCheck check = [&] {
     try {
       return check_card(text, card_target(words.target),
-                        {.units = words.units, .tolerance = words.tolerance},
+                        {.units = words.units, .tolerance = words.tolerance, .band = words.band},
                         reference ? &reference->material : nullptr);
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(words.check + ": " + error.what());

@@ -25,6 +25,7 @@ struct CardWords {
   std::optional<double> clamped_nu;
   std::optional<double> tolerance;
   std::optional<double> ratio;  // of a joint fit
+  std::optional<FrequencyBand> band;
   bool may_extrapolate = false;
   bool list = false, force = false, json = false, is_reproducible = false;
   bool accepts_flags = false, may_approximate = false;
