@@ -49,7 +49,9 @@ std::vector<FormLine> form_lines(const std::string& text, const CardTarget& targ
   const std::size_t header = target.comment.empty() ? text.find("\"header\"") : std::string::npos;
   for (const CardLine& line : card_lines(text.substr(0, header), comment)) {
     const std::string form = form_of(line.text, target.is_case_sensitive);
-    if (!form.empty()) out.push_back({line, form});
+    if (form.empty()) continue;
+    const std::size_t indent = target.is_indented ? line.text.find_first_not_of(' ') : 0;
+    out.push_back({line, fmt::format("{} {}", indent, form)});
   }
   return out;
 }

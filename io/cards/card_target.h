@@ -116,6 +116,7 @@ struct CardTarget {
 
   // What no card of this target can represent; one of the first lines of the card.
   std::string cannot_represent = {};
+  bool is_indented = false;      // blanks that open a line mean something, as in Python
   std::string first_line = {};   // stands before all comments: "#usda 1.0"
   std::string conventions = {};  // in words, where the four choices above do not describe the card
   // For a card from which no whole material can be read back, a table or a reduction: the numbers

@@ -2,7 +2,7 @@
 
 #include "io/cards/card.h"
 #include "io/cards/card_lines.h"
-#include "io/cards/check_card.h"
+#include "io/cards/read_card.h"
 
 #include <optional>
 #include <string>
@@ -13,6 +13,18 @@ namespace viscard {
 // Cards from which no whole material can be read back (CardTarget::values): tables over frequency,
 // reductions to a band, files of branches alone. All their numbers are compared by name.
 
+// Values of the same name, in their order; a name that one side lacks has no partner.
+struct ValuePair {
+  const CardValue* found = nullptr;
+  const CardValue* expected = nullptr;
+};
+std::vector<ValuePair> paired_values(const std::vector<CardValue>& found,
+                                     const std::vector<CardValue>& expected);
+// Relative; 1 without a partner.
+double value_mismatch(const ValuePair& pair);
+std::string pair_in_words(const ValuePair& pair);
+inline constexpr double kSameValue = 1e-9;  // what writing and reading may change
+
 // The frequencies of a card: those of its table, or the two ends of its band; empty for a target
 // without a band. Throws std::invalid_argument for a band that is none.
 std::vector<double> card_frequencies_Hz(const Material& material, const CardTarget& target,
@@ -21,10 +33,6 @@ std::vector<double> card_frequencies_Hz(const Material& material, const CardTarg
 // Reads the text that the target writes for the body and compares every number. Adds what the card
 // says of its band to the fidelity. Throws std::logic_error if a number differs.
 void read_back_values(const CardBody& body, Card& card);
-
-// As check_card(), for such a card.
-CardCheck check_card_values(const std::string& text, const CardTarget& target,
-                            const CheckOptions& options, const Material* reference);
 
 // The line of a header that states the band, and whether the material's data cover it.
 std::string band_line(const FrequencyBand& band, const Material& material);

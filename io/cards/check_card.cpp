@@ -2,7 +2,6 @@
 
 #include "io/cards/card.h"
 #include "io/cards/card_form.h"
-#include "io/cards/card_values.h"
 #include "io/cards/list_differences.h"
 #include "io/cards/material_difference.h"
 

@@ -32,6 +32,10 @@ struct CheckOptions {
 CardCheck check_card(const std::string& text, const CardTarget& target, const CheckOptions& options,
                      const Material* reference);
 
+// The same for a target with CardTarget::values; its differences are of numbers, not of E(t).
+CardCheck check_card_values(const std::string& text, const CardTarget& target,
+                            const CheckOptions& options, const Material* reference);
+
 // Explains a card that differs from the material it is meant to be. Applies each known mistake to
 // the expected numbers, then each pair, and returns the one or two that reproduce the card:
 // "tau-for-beta", "g-for-G", "plane-strain-modulus" ... Empty if none does.

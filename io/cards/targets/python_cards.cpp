@@ -209,7 +209,8 @@ CardTarget sfepy_target() {
               "prestress(memory.known_stress(dt)) for dw_lin_prestress, then memory.advance.",
           .cannot_represent =
               "large strains, a shift with temperature; strain is taken as linear "
-              "in each step"};
+              "in each step",
+          .is_indented = true};
 }
 
 CardTarget dolfinx_target() {
@@ -227,7 +228,8 @@ CardTarget dolfinx_target() {
               "(--deck) for the loop.",
           .cannot_represent =
               "large strains, a shift with temperature; strain is taken as linear "
-              "in each step"};
+              "in each step",
+          .is_indented = true};
 }
 
 }  // namespace viscard

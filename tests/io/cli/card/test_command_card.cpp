@@ -146,6 +146,10 @@ TEST_CASE("viscard card --band names the band of a card for vibration, which is 
   CHECK(card.err.find("harmonic approximated: E' differs") != std::string::npos);
   CHECK(card.run({material, "--for", "rayleigh", "--check", out}) == kDone);
   CHECK(card.out.find("the card agrees") != std::string::npos);
+  CHECK(card.run({material, "--for", "rayleigh", "--check", out, "--json"}) == kDone);
+  const auto json = nlohmann::json::parse(card.out);
+  CHECK(json.at("material").is_null());
+  CHECK(json.at("values").at(1) == nlohmann::json{{"name", "nu"}, {"value", 0.495}});
   CHECK(card.run({material, "--for", "rayleigh", "--band", "1,10"}) == kDone);
   CHECK(card.out.find("\n# band: 1 to 10 Hz") != std::string::npos);
 }
