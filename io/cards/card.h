@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/material/frequency_band.h"
 #include "models/material/material.h"
 
 #include <optional>
@@ -14,7 +15,8 @@ struct CardTarget;
 enum class Mapping { kExact, kApproximated, kDropped };
 
 struct FidelityItem {
-  std::string item;  // "terms", "bulk", "nu", "density", "numbers", "temperature", "total"
+  std::string
+      item;  // "terms", "bulk", "nu", "density", "numbers", "temperature", "harmonic", "total"
   Mapping mapping = Mapping::kExact;
   std::string text;
 };
@@ -46,6 +48,8 @@ struct CardOptions {
   std::vector<FidelityItem> done_before;  // changes made to the material (terms reduced ...)
   std::optional<Material> original;       // the material before those changes
   std::vector<std::string> notes;         // further header lines
+  // Of a card over a band of frequencies; if not given, that which the material's data support.
+  std::optional<FrequencyBand> band = {};
 };
 
 // Writes the card in memory, reads it back and compares before returning it.

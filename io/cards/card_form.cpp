@@ -50,7 +50,9 @@ std::vector<FormLine> form_lines(const std::string& text, const CardTarget& targ
   const std::size_t header = target.comment.empty() ? text.find("\"header\"") : std::string::npos;
   for (const CardLine& line : card_lines(text.substr(0, header), comment)) {
     const std::string form = form_of(line.text, target.is_case_sensitive);
-    if (!form.empty()) out.push_back({line, form});
+    if (form.empty()) continue;
+    const std::size_t indent = target.is_indented ? line.text.find_first_not_of(' ') : 0;
+    out.push_back({line, fmt::format("{} {}", indent, form)});
   }
   return out;
 }
@@ -122,6 +124,13 @@ std::optional<CardFinding> form_difference(const std::string& text, const CardTa
                       target,         units,
                       reference,      {}};
   return first_difference(text, target.write(body), target);
+}
+
+std::optional<CardFinding> form_difference(const std::string& text, const CardBody& right) {
+  if (!is_by_viscard(text)) return std::nullopt;
+  auto finding = first_difference(text, right.target.write(right), right.target);
+  if (finding) finding->text += "; the numbers are right, but will the solver take this line?";
+  return finding;
 }
 
 }  // namespace viscard

@@ -18,4 +18,7 @@ std::optional<CardFinding> form_difference(const std::string& text, const ReadCa
 std::optional<CardFinding> form_difference(const std::string& text, const CardTarget& target,
                                            const Material& reference);
 
+// The same against the text of a right card; for cards that state no whole material.
+std::optional<CardFinding> form_difference(const std::string& text, const CardBody& right);
+
 }  // namespace viscard

@@ -107,6 +107,9 @@ std::vector<std::string> card_header(const Material& material, const CardTarget&
   std::vector<std::string> lines;
   lines.push_back("viscard " VISCARD_VERSION ": " +
                   (material.name.empty() ? "material" : material.name) + " for " + target.code);
+  if (!target.cannot_represent.empty()) {
+    lines.push_back("CANNOT REPRESENT: " + target.cannot_represent);
+  }
   if (material.shift && takes_shift(target, material) && !target.set_temperature.empty()) {
     lines.push_back(
         fmt::format("SET THE TEMPERATURE of the model: {}, {} C for the times below; "

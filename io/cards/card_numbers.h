@@ -2,6 +2,7 @@
 
 #include "io/cards/card_target.h"
 #include "io/cards/unit_system.h"
+#include "models/material/frequency_band.h"
 
 #include <optional>
 #include <string>
@@ -46,6 +47,10 @@ struct CardBody {
   const UnitSystem& units;
   const Material& material;  // SI, for targets that write tables of E(t)
   std::vector<std::string> header;
+  // Of the rows of a table, or the two ends of the band; empty for a card without one.
+  std::vector<double> frequencies_Hz = {};
+
+  FrequencyBand band() const { return {frequencies_Hz.front(), frequencies_Hz.back()}; }
 };
 
 }  // namespace viscard

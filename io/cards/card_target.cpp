@@ -8,6 +8,7 @@ using enum TimeNumber;
 using enum BulkRule;
 
 std::string conventions_in_words(const CardTarget& target) {
+  if (!target.conventions.empty()) return target.conventions;
   return to_word(target.at) + " " + to_word(target.elastic) + "; branches " +
          to_word(target.branch) + "; time " + to_word(target.time) + "; bulk " +
          to_word(target.bulk);

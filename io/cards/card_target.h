@@ -17,6 +17,12 @@ struct DeckFile;
 struct DeckInput;
 struct ReadCard;
 
+// A number of a card that states no whole material, with its name for messages.
+struct CardValue {
+  std::string name;  // "E", "row 3: loss modulus"
+  double value = 0.0;
+};
+
 // A solver that cards are written for. Four conventions decide whether a card is right: is the
 // elastic number the instantaneous or the long-term one, are branches relative or absolute, is time
 // tau or 1/tau, does the bulk modulus relax. Each solver states them, and the functions that write
@@ -111,7 +117,25 @@ struct CardTarget {
   std::string advice;  // what the user of this code must do besides pasting the card
   // Whether an analysis over frequency takes the card, for the table of targets.
   std::string harmonic = "refused: no analysis over frequency takes it";
+
+  // What no card of this target can represent; one of the first lines of the card.
+  std::string cannot_represent = {};
+  bool is_indented = false;      // blanks that open a line mean something, as in Python
+  std::string first_line = {};   // stands before all comments: "#usda 1.0"
+  std::string conventions = {};  // in words, where the four choices above do not describe the card
+  // For a card from which no whole material can be read back, a table or a reduction: the numbers
+  // that it must state, in the order of its text. `read` fills ReadCard::values with those found.
+  std::vector<CardValue> (*values)(const CardBody& body) = nullptr;
+  // Rows per decade of a table over frequency, 0 for a card of one set of numbers for its band.
+  int rows_per_decade = 0;
+  // How well the numbers describe the material over the band; absent for a card without a band.
+  std::string (*band_note)(const CardBody& body) = nullptr;
 };
+
+// Whether a material can be read back from a card.
+inline bool states_material(const CardTarget& target) {
+  return target.table_difference == nullptr && target.values == nullptr;
+}
 
 // Whether the card has a place for the material's temperature shift; true without a shift.
 bool takes_shift(const CardTarget& target, const Material& material);

@@ -232,6 +232,7 @@ CardCheck check_table(const std::string& text, const CardTarget& target,
 CardCheck check_card(const std::string& text, const CardTarget& target, const CheckOptions& options,
                      const Material* reference) {
   if (target.table_difference != nullptr) return check_table(text, target, options, reference);
+  if (target.values != nullptr) return check_card_values(text, target, options, reference);
   CardCheck check{.read = read_card(text, target, options.units)};
   check.findings = check.read.findings;
   check.units = check.read.units.name;

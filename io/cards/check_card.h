@@ -26,11 +26,16 @@ struct CheckOptions {
   // Of E(t), relative. Default: the larger of 1e-6 and the error that write_card makes when it
   // rounds the reference to the target's columns.
   std::optional<double> tolerance = {};
+  std::optional<FrequencyBand> band = {};  // of a card that does not state its own
 };
 
 // Throws where read_card does. Without a reference it reports only mistakes in the card itself.
 CardCheck check_card(const std::string& text, const CardTarget& target, const CheckOptions& options,
                      const Material* reference);
+
+// The same for a target with CardTarget::values; its differences are of numbers, not of E(t).
+CardCheck check_card_values(const std::string& text, const CardTarget& target,
+                            const CheckOptions& options, const Material* reference);
 
 // Explains a card that differs from the material it is meant to be. Applies each known mistake to
 // the expected numbers, then each pair, and returns the one or two that reproduce the card:

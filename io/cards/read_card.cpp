@@ -41,6 +41,7 @@ ReadCard read_card(const std::string& text, const CardTarget& target, const std:
                                                        : "SI"),
                 .units_were_stated = !stated.empty()};
   target.read(text, card);
+  if (target.values != nullptr) return card;
   drop_empty_branches(card.numbers);
   if (!has_negative_branch(card)) {
     try {

@@ -25,6 +25,8 @@ struct ReadCard {
   CardNumbers numbers = {};
   Material material = {};  // SI; what the solver would simulate
   std::vector<CardFinding> findings = {};
+  std::vector<CardValue> values = {};       // of a target with CardTarget::values
+  std::vector<double> frequencies_Hz = {};  // of its table, or the ends of its band
   // A keyword whose absence makes the elastic modulus the long-term one; "" if it is there.
   std::string missing_keyword;
 

@@ -1,5 +1,6 @@
 #include "io/cards/card.h"
 #include "io/cards/card_header.h"
+#include "io/cards/card_values.h"
 #include "io/cards/material_difference.h"
 #include "io/cards/read_card.h"
 #include "models/material/material.h"
@@ -152,7 +153,7 @@ void state_total(const Material& original, const Material& given, Card& card) {
   const auto n_approximated =
       std::count_if(card.fidelity.begin(), card.fidelity.end(), [](const FidelityItem& item) {
         return item.mapping != Mapping::kExact && item.item != "density" &&
-               item.item != "temperature";
+               item.item != "temperature" && item.item != "harmonic";
       });
   if (n_approximated < 2) return;
   card.fidelity.push_back(
@@ -162,6 +163,12 @@ void state_total(const Material& original, const Material& given, Card& card) {
 
 FidelityItem density_item(const Material& read, const Material& material,
                           const CardTarget& target) {
+  if (!target.states_density && target.values != nullptr) {
+    return {"density", Mapping::kDropped,
+            material.rho_kg_m3 > 0.0
+                ? fmt::format("no place in the card; set {} kg/m3 in the model", material.rho_kg_m3)
+                : "no place in the card, and not given by the material"};
+  }
   if (!target.states_density) {
     return {"density", Mapping::kDropped, "the behaviour has none; its value is a comment"};
   }
@@ -224,17 +231,25 @@ Card write_card(const Material& given, const CardTarget& target, const CardOptio
                 target,
                 units,
                 material,
-                {}};
+                {},
+                card_frequencies_Hz(material, target, options.band)};
   if (target.table_difference != nullptr) {
     card.written = material;
+  } else if (target.values != nullptr) {
+    read_back_values(body, card);
+    card.fidelity.push_back(density_item(card.written, material, target));
   } else {
     read_back(target.write(body), target, units, material, card);
   }
   state_total(options.original.value_or(given), given, card);
   body.header = card_header(material, target, units, options, card.fidelity);
+  if (!body.frequencies_Hz.empty()) {
+    body.header.insert(body.header.begin() + 2, band_line(body.band(), material));
+  }
   const std::string comments = as_comments(body.header, target.comment);
   card.name = body.name;
-  card.text = target.comment.empty() ? target.write(body) : comments + target.write(body);
+  card.text = target.comment.empty() ? target.write(body)
+                                     : target.first_line + comments + target.write(body);
   if (target.companions != nullptr) card.companions = target.companions(body);
   for (CompanionFile& companion : card.companions) companion.text = comments + companion.text;
   return card;

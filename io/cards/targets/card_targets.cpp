@@ -8,11 +8,32 @@ namespace viscard {
 
 const std::vector<CardTarget>& card_targets() {
   static const std::vector<CardTarget> table{
-      abaqus_target(),    ansys_target(),    lsdyna_target(),
-      lsdyna006_target(), febio_target(),    febio_uncoupled_target(),
-      mfront_target(),    calculix_target(), openradioss_target(),
-      comsol_target(),    moose_target(),    frontistr_target(),
-      json_target(),      csv_target(),
+      abaqus_target(),
+      ansys_target(),
+      lsdyna_target(),
+      lsdyna006_target(),
+      febio_target(),
+      febio_uncoupled_target(),
+      mfront_target(),
+      calculix_target(),
+      openradioss_target(),
+      comsol_target(),
+      moose_target(),
+      frontistr_target(),
+      json_target(),
+      csv_target(),
+      // Vibration, then robots and Python.
+      abaqus_frequency_target(),
+      abaqus_table_target(),
+      ansys_table_target(),
+      comsol_table_target(),
+      comsol_branches_target(),
+      rayleigh_target(),
+      sofa_target(),
+      mujoco_target(),
+      physx_target(),
+      dolfinx_target(),
+      sfepy_target(),
   };
   return table;
 }

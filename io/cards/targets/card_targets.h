@@ -34,5 +34,16 @@ CardTarget moose_target();
 CardTarget frontistr_target();
 CardTarget json_target();
 CardTarget csv_target();
+CardTarget abaqus_frequency_target();
+CardTarget abaqus_table_target();
+CardTarget ansys_table_target();
+CardTarget comsol_table_target();
+CardTarget comsol_branches_target();
+CardTarget rayleigh_target();
+CardTarget sofa_target();
+CardTarget mujoco_target();
+CardTarget physx_target();
+CardTarget dolfinx_target();
+CardTarget sfepy_target();
 
 }  // namespace viscard

@@ -27,6 +27,10 @@ nlohmann::ordered_json json_of(const CardTarget& target) {
           {"takes_wlf", target.takes_wlf},
           {"takes_arrhenius", target.takes_arrhenius},
           {"needs_density", target.needs_density},
+          {"conventions", conventions_in_words(target)},
+          {"cannot_represent", target.cannot_represent},
+          {"states_material", states_material(target)},
+          {"has_band", target.band_note != nullptr},
           {"evidence", to_word(target.evidence)},
           {"evidence_note", target.evidence_note},
           {"advice", target.advice}};
@@ -34,6 +38,24 @@ nlohmann::ordered_json json_of(const CardTarget& target) {
 
 nlohmann::ordered_json optional_json(const std::optional<double>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json json_of(const Material& material) {
+  nlohmann::ordered_json out{
+      {"E0_Pa", material.E0_Pa}, {"nu", material.nu}, {"rho_kg_m3", material.rho_kg_m3}};
+  out["terms"] = nlohmann::ordered_json::array();
+  for (const MaterialTerm& term : material.terms) {
+    out["terms"].push_back({{"g", term.g}, {"k", term.k}, {"tau_s", term.tau_s}});
+  }
+  if (const auto& shift = material.shift; shift && shift->law == ShiftLaw::kWlf) {
+    out["shift"] = {
+        {"law", "wlf"}, {"T_ref_C", shift->T_ref_C}, {"C1", shift->C1}, {"C2_K", shift->C2_K}};
+  } else if (shift) {
+    out["shift"] = {{"law", "arrhenius"},
+                    {"T_ref_C", shift->T_ref_C},
+                    {"activation_J_mol", shift->activation_J_mol}};
+  }
+  return out;
 }
 
 nlohmann::ordered_json json_of(const CardCheck& check, const CardWords& words) {
@@ -47,20 +69,13 @@ nlohmann::ordered_json json_of(const CardCheck& check, const CardWords& words) {
                         {"branches", to_word(check.read.understood.branch)},
                         {"time", to_word(check.read.understood.time)},
                         {"bulk", to_word(check.read.understood.bulk)}};
-  const Material& material = check.read.material;
-  auto& out = json["material"];
-  out = {{"E0_Pa", material.E0_Pa}, {"nu", material.nu}, {"rho_kg_m3", material.rho_kg_m3}};
-  out["terms"] = nlohmann::ordered_json::array();
-  for (const MaterialTerm& term : material.terms) {
-    out["terms"].push_back({{"g", term.g}, {"k", term.k}, {"tau_s", term.tau_s}});
-  }
-  if (const auto& shift = material.shift; shift && shift->law == ShiftLaw::kWlf) {
-    out["shift"] = {
-        {"law", "wlf"}, {"T_ref_C", shift->T_ref_C}, {"C1", shift->C1}, {"C2_K", shift->C2_K}};
-  } else if (shift) {
-    out["shift"] = {{"law", "arrhenius"},
-                    {"T_ref_C", shift->T_ref_C},
-                    {"activation_J_mol", shift->activation_J_mol}};
+  json["material"] = json_of(check.read.material);
+  if (check.read.understood.values != nullptr) {
+    json["material"] = nullptr;  // no whole material can be read from such a card
+    json["values"] = nlohmann::ordered_json::array();
+    for (const CardValue& value : check.read.values) {
+      json["values"].push_back({{"name", value.name}, {"value", value.value}});
+    }
   }
   json["tolerance"] = check.tolerance;
   json["E_difference"] = optional_json(check.E_difference);
@@ -83,11 +98,8 @@ std::string shift_row(const TemperatureShift& shift) {
                      shift.T_ref_C);
 }
 
-void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
+void print_numbers(const CardCheck& check, std::ostream& out) {
   const Material& material = check.read.material;
-  out << words.check << ": " << check.read.understood.code << ", units " << check.units
-      << (check.read.units_were_stated || !words.units.empty() ? "" : " (not stated)") << "\n"
-      << "understood: " << conventions_in_words(check.read.understood) << "\n";
   if (material.E0_Pa > 0.0) {
     out << fmt::format("E0 = {:.9g} Pa, nu = {:.9g}, rho = {:.9g} kg/m3\n", material.E0_Pa,
                        material.nu, material.rho_kg_m3);
@@ -97,8 +109,23 @@ void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
     }
     if (material.shift) out << shift_row(*material.shift);
   }
+  constexpr std::size_t kFewValues = 8;  // a reduction, not a table
+  if (check.read.values.size() <= kFewValues) {
+    for (const CardValue& value : check.read.values) {
+      out << fmt::format("  {} = {:.9g}\n", value.name, value.value);
+    }
+  }
+}
+
+void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
+  out << words.check << ": " << check.read.understood.code << ", units " << check.units
+      << (check.read.units_were_stated || !words.units.empty() ? "" : " (not stated)") << "\n"
+      << "understood: " << conventions_in_words(check.read.understood) << "\n";
+  print_numbers(check, out);
   if (check.E_difference) {
-    out << fmt::format("largest difference in E(t): {:.2e}", *check.E_difference);
+    const bool is_series = check.read.understood.values == nullptr;
+    out << fmt::format("largest difference {}: {:.2e}", is_series ? "in E(t)" : "of a number",
+                       *check.E_difference);
     if (check.E_difference_with_bulk && *check.E_difference_with_bulk > 2.0 * *check.E_difference &&
         *check.E_difference_with_bulk > 1e-9) {
       out << fmt::format(" ({:.2e} with the material's own bulk rule)",
@@ -169,7 +196,7 @@ int check_card_file(const CardWords& words, Streams& streams) {
   CardCheck check = [&] {
     try {
       return check_card(text, card_target(words.target),
-                        {.units = words.units, .tolerance = words.tolerance},
+                        {.units = words.units, .tolerance = words.tolerance, .band = words.band},
                         reference ? &reference->material : nullptr);
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(words.check + ": " + error.what());

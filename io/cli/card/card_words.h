@@ -29,6 +29,7 @@ struct CardWords {
   std::optional<double> tolerance;
   std::optional<double> ratio;  // of a joint fit
   std::optional<double> temperature_C;
+  std::optional<FrequencyBand> band;
   bool may_extrapolate = false;
   bool list = false, is_long = false, force = false, json = false, is_reproducible = false;
   bool accepts_flags = false, may_approximate = false;

@@ -80,6 +80,7 @@ CardOptions card_options(const CardWords& words, const PreparedMaterial& prepare
   options.may_approximate = words.may_approximate;
   options.accepts_flags = words.accepts_flags;
   options.clamped_nu = words.clamped_nu;
+  options.band = words.band;
   options.created_at = now_iso8601();
   options.command = words.command_line;
   options.material_sha256 = prepared.sha256;
@@ -117,8 +118,11 @@ int write_card_file(const CardWords& words, Streams& streams) {
     for (const CompanionFile& companion : card.companions) {
       streams.out << " and " << companion_path(words.out, companion.suffix);
     }
-    streams.out << fmt::format(" ({}, read back; E(t) within {:.1e} of the material)\n",
-                               counted(card.written.terms.size(), "term"), card.largest_difference);
+    streams.out << (states_material(card_target(words.target))
+                        ? fmt::format(" ({}, read back; E(t) within {:.1e} of the material)\n",
+                                      counted(card.written.terms.size(), "term"),
+                                      card.largest_difference)
+                        : std::string(" (read back)\n"));
   }
   report_losses(card, streams);
   return kDone;

@@ -7,6 +7,7 @@
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace po = boost::program_options;
 
@@ -73,6 +74,9 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       "lower or upper: the card at that end of the 95 % intervals of E0 and E_inf");
   add("elastic-only", po::value(&words.elastic_only)->value_name("WHEN"),
       "instantaneous or long-term: leave relaxation out");
+  add("band", po::value<std::string>()->value_name("LOW,HIGH"),
+      "frequencies in Hz that a table or reduction for vibration covers, for example 10,1000; if "
+      "not given those that the material's times support");
   add("clamp-nu", into(words.clamped_nu)->value_name("NU"),
       "use this Poisson ratio instead of a larger one");
   add("accept-flags", po::bool_switch(&words.accepts_flags),
@@ -88,6 +92,28 @@ int number_of_terms(const std::string& text) {
     throw UsageError("--terms " + text + " must be a whole number from 1 to 100");
   }
   return static_cast<int>(*terms);
+}
+
+// "10,1000"
+FrequencyBand band_from_text(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  const auto from_Hz = number_from_text(text.substr(0, comma));
+  const auto to_Hz =
+      comma == std::string::npos ? std::nullopt : number_from_text(text.substr(comma + 1));
+  if (!from_Hz || !to_Hz || !(*from_Hz > 0.0) || !(*to_Hz > *from_Hz) || !std::isfinite(*to_Hz)) {
+    throw UsageError("--band " + text + " must be two frequencies in Hz, as in --band 10,1000");
+  }
+  return {*from_Hz, *to_Hz};
+}
+
+void check_band(const CardWords& words) {
+  if (!words.band || card_target(words.target).band_note != nullptr) return;
+  std::vector<std::string> names;
+  for (const CardTarget& target : card_targets()) {
+    if (target.band_note != nullptr) names.push_back(target.name);
+  }
+  throw UsageError("cards for " + words.target + " have no band of frequencies; those for " +
+                   listed(names) + " have");
 }
 
 void check_words(CardWords& words) {
@@ -110,6 +136,7 @@ void check_words(CardWords& words) {
     throw UsageError("--for TARGET is missing; 'viscard card --list' shows the targets");
   }
   check_word("card target", words.target, target_names());
+  check_band(words);
   if (!words.units.empty()) check_word("unit system", words.units, unit_names());
   if (!words.bound.empty()) check_word("--bound", words.bound, {"lower", "upper"});
   if (!words.deck.empty()) check_word("--deck", words.deck, {"relaxation", "creep"});
@@ -151,6 +178,7 @@ int run_card(const Words& words, Streams& streams) {
   card.temperature_C = given_quantity(*values, "at-temperature", "degC");
   card.json = values->count("json") > 0;
   if (const auto terms = given(*values, "terms")) card.terms = number_of_terms(*terms);
+  if (const auto band = given(*values, "band")) card.band = band_from_text(*band);
   card.command_line = quoted_command_line("card", words);
   check_words(card);
   if (card.list) return list_card_targets(card, streams);

@@ -146,6 +146,9 @@ TEST_CASE("an edit that no reader sees is reported with its line", "[cards]") {
   const std::string json = edited(right_card("json"), "\"G0\": 0.62", "\"G0\": 0.72");
   CHECK(findings_of(json, "json") == "form-differs");
   CHECK(findings_of(right_card("mfront") + "}\n", "mfront") == "doubled-line");
+  CHECK(findings_of(edited(right_card("sfepy"), "        self.strain = strain.copy()",
+                           "    self.strain = strain.copy()"),
+                    "sfepy") == "form-differs");
   const std::string csv = right_card("csv");
   const std::size_t row = csv.find('\n', csv.find("time_")) + 1;
   const std::size_t third = csv.find(',', csv.find(',', row) + 1) + 1;

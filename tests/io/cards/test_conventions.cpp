@@ -2,6 +2,7 @@
 #include "io/basics/number_text.h"
 #include "io/cards/card.h"
 #include "io/cards/card_numbers.h"
+#include "io/cards/card_values.h"
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/targets/target_table.h"
@@ -71,7 +72,9 @@ TEST_CASE("a target is written and read by its own functions and never as anothe
     if (target.max_terms == 1) material.terms.resize(1);
     const UnitSystem& units = unit_system("SI");
     const CardNumbers numbers = numbers_from_material(material, target, units);
-    CHECK(bodies.insert(target.write({"PDMS", numbers, target, units, material, {}})).second);
+    const CardBody body{
+        "PDMS", numbers, target, units, material, {}, card_frequencies_Hz(material, target, {})};
+    CHECK(bodies.insert(target.write(body)).second);
   }
 }
 
@@ -103,6 +106,17 @@ TEST_CASE("the four choices of every target are the published ones", "[cards]") 
       {"frontistr", kInstantaneous, kRelative, kTau, kConstantBulk, 0},
       {"json", kInstantaneous, kRelative, kTau, kOwnNumbers, 0},
       {"csv", kInstantaneous, kRelative, kTau, kOwnNumbers, 0},
+      {"abaqus-frequency", kLongTerm, kRelative, kTau, kOwnNumbers, 0},
+      {"abaqus-table", kLongTerm, kRelative, kTau, kOwnNumbers, 0},
+      {"ansys-table", kInstantaneous, kRelative, kTau, kConstantPoisson, 0},
+      {"comsol-table", kInstantaneous, kRelative, kTau, kConstantBulk, 0},
+      {"comsol-branches", kLongTerm, kAbsoluteShear, kTau, kConstantBulk, 0},
+      {"rayleigh", kInstantaneous, kRelative, kTau, kOwnNumbers, 0},
+      {"sofa", kLongTerm, kAbsoluteShear, kTau, kConstantBulk, 2},
+      {"mujoco", kInstantaneous, kRelative, kTau, kOwnNumbers, 0},
+      {"physx", kInstantaneous, kRelative, kTau, kOwnNumbers, 0},
+      {"dolfinx", kInstantaneous, kRelative, kTau, kOwnNumbers, 0},
+      {"sfepy", kInstantaneous, kRelative, kTau, kOwnNumbers, 0},
   };
   REQUIRE(rows.size() == card_targets().size());
   for (std::size_t i = 0; i < rows.size(); ++i) {

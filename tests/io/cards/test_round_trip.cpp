@@ -62,7 +62,7 @@ TEST_CASE("ten columns of LS-DYNA keep E(t) within 2e-6 if the numbers fit the c
 
 TEST_CASE("every target and unit system reads back as it was written", "[cards]") {
   for (const CardTarget& target : card_targets()) {
-    if (target.name == "csv") continue;
+    if (!states_material(target)) continue;  // test_harmonic_cards.cpp
     for (const UnitSystem& units : unit_systems()) {
       for (const int n : {0, 1, 2, 6, 12, 30}) {
         for (const double nu : {0.0, 0.3, 0.4999}) {

@@ -52,6 +52,9 @@ TEST_CASE("viscard card explains every wrong use in one line", "[cards][cli]") {
       {{material, "--for", "lsdyna006"}, kFailed, "--approximate"},
       {{material, "--for", "json", "--deck", "creep", "--out", card.path("d")}, kFailed, "mfront"},
       {{material, "--for", "febio", "--deck", "creep"}, kBadWords, "--out FOLDER"},
+      {{material, "--for", "abaqus", "--band", "1,10"}, kBadWords, "rayleigh"},
+      {{material, "--for", "rayleigh", "--band", "10"}, kBadWords, "--band 10,1000"},
+      {{material, "--for", "rayleigh", "--band", "10,1"}, kBadWords, "--band 10,1000"},
       {{"--prove", material, "--for", "abaqus"}, kBadWords, "--deck"},
       {{"--check", card.path("none.inp"), "--for", "abaqus"}, kFailed, "cannot open"},
       {{"--check", material, "--for", "abaqus"}, kFailed, "no *ELASTIC"},
@@ -79,6 +82,23 @@ TEST_CASE("viscard card --list shows every target, in words and as JSON", "[card
   const auto json = nlohmann::json::parse(card.out);
   CHECK(json.at("targets").size() == card_targets().size());
   CHECK(json.at("units").size() == 6);
+}
+
+TEST_CASE("viscard card --band names the band of a card for vibration, which is checked over it",
+          "[cards][cli]") {
+  CardCommand card;
+  const std::string material = card.save(reference_material()), out = card.path("rayleigh.txt");
+  REQUIRE(card.run({material, "--for", "rayleigh", "--band", "0.1,10", "--out", out}) == kDone);
+  CHECK(card.out.find("(read back)") != std::string::npos);
+  CHECK(card.err.find("harmonic approximated: E' differs") != std::string::npos);
+  CHECK(card.run({material, "--for", "rayleigh", "--check", out}) == kDone);
+  CHECK(card.out.find("the card agrees") != std::string::npos);
+  CHECK(card.run({material, "--for", "rayleigh", "--check", out, "--json"}) == kDone);
+  const auto json = nlohmann::json::parse(card.out);
+  CHECK(json.at("material").is_null());
+  CHECK(json.at("values").at(1) == nlohmann::json{{"name", "nu"}, {"value", 0.495}});
+  CHECK(card.run({material, "--for", "rayleigh", "--band", "1,10"}) == kDone);
+  CHECK(card.out.find("\n# band: 1 to 10 Hz") != std::string::npos);
 }
 
 TEST_CASE("viscard card --approximate reduces, and the error it states holds", "[cards][cli]") {
