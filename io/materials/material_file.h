@@ -38,6 +38,8 @@ std::string json_from_ratio_fit(const RatioFit& fit);
 
 // Throws std::runtime_error naming the file and the key.
 RatioFit read_ratio_fit(const std::filesystem::path& path);
+// The same from text; messages show name in place of the file.
+RatioFit ratio_fit_from_json(const std::string& text, const std::string& name);
 
 // True for a JSON file with the schema of a joint fit; false for any other or missing file.
 bool looks_like_ratio_file(const std::filesystem::path& path);

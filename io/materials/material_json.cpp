@@ -3,6 +3,7 @@
 #include "io/basics/words.h"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
@@ -52,8 +53,11 @@ class Fields {
   void number(const std::string& key, int& value) const {
     if (out_ != nullptr) (*out_)[key] = value;
     if (!has(key)) return;
-    if (!(*in_)[key].is_number_integer()) fail(key, "expected a whole number");
-    value = (*in_)[key].get<int>();
+    try {
+      value = whole_number((*in_)[key]);
+    } catch (const std::runtime_error& error) {
+      fail(key, error.what());
+    }
   }
   void text(const std::string& key, std::string& value, bool is_written = true) const {
     if (out_ != nullptr && is_written) (*out_)[key] = value;
@@ -263,6 +267,16 @@ void show_material(const Fields& file, Material& material) {
 }
 
 }  // namespace
+
+int whole_number(const Json& json) {
+  if (!json.is_number_integer()) throw std::runtime_error("expected a whole number");
+  const auto value = json.get<std::int64_t>();
+  constexpr std::int64_t kMost = 1'000'000'000;
+  if (value < -kMost || value > kMost) {
+    throw std::runtime_error("expected a whole number of at most nine digits");
+  }
+  return static_cast<int>(value);
+}
 
 Json json_from(const Interval& interval) {
   const auto bound = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };

@@ -21,6 +21,9 @@ Json json_from(const Material& material);
 // [low, high]; null for an end without bound, because JSON has no infinity.
 Json json_from(const Interval& interval);
 
+// Throws std::runtime_error unless it is a whole number that an int can hold.
+int whole_number(const Json& json);
+
 // Copies to `fresh` the values in `original` whose keys viscard does not know.
 void carry_unknown_keys(const Json& original, Json& fresh);
 

@@ -52,8 +52,7 @@ MediumFile medium_from(const nlohmann::json& object) {
   const double rho = number_in(object, "rho_kg_m3");
   const Matrix6d stiffness = stiffness_from(object["elastic"]);
   if (!object.contains("charge_C_N")) {
-    file.medium.stiffness_Pa = stiffness;
-    file.medium.rho_kg_m3 = rho;
+    file.medium = elastic_medium(stiffness, rho);
     return file;
   }
   const nlohmann::json& d = object["charge_C_N"];
@@ -79,13 +78,16 @@ MediumFile medium_from(const nlohmann::json& object) {
 }  // namespace
 
 MediumFile read_medium(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
+  return medium_from_json(read_file(path), path.string());
+}
+
+MediumFile medium_from_json(const std::string& text, const std::string& name) {
   try {
     return medium_from(nlohmann::json::parse(text));
   } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(path.string() + ": is not a medium file: " + error.what());
+    throw std::runtime_error(name + ": is not a medium file: " + error.what());
   } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(path.string() + ": " + error.what());
+    throw std::runtime_error(name + ": " + error.what());
   }
 }
 

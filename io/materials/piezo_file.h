@@ -21,5 +21,7 @@ struct MediumFile {
 
 // Throws std::runtime_error naming the file and the key.
 MediumFile read_medium(const std::filesystem::path& path);
+// The same from text; messages show name in place of the file.
+MediumFile medium_from_json(const std::string& text, const std::string& name);
 
 }  // namespace viscard

@@ -3,6 +3,7 @@
 #include "io/materials/material_json.h"
 #include "io/materials/scatter_json.h"
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 #include <utility>
@@ -82,14 +83,22 @@ Json forms_json(const RatioFit& fit) {
 }
 
 int degree_from(const Json& json) {
-  return json.is_string() ? kPerRatio : json.get<int>();
+  if (json == "per-ratio") return kPerRatio;
+  const int degree = whole_number(json);
+  if (degree < 0) throw std::runtime_error("a degree must be \"per-ratio\" or a number from 0");
+  return degree;
+}
+
+RatioVariable variable_from(const Json& json) {
+  for (const auto& [variable, word] : variable_words()) {
+    if (json == word) return variable;
+  }
+  throw std::runtime_error("the variable must be \"ln-ratio\", \"ratio\" or \"crosslinker-share\"");
 }
 
 RatioForm form_from(const Json& json) {
   RatioForm form;
-  for (const auto& [variable, word] : variable_words()) {
-    if (json.at("variable") == word) form.variable = variable;
-  }
+  form.variable = variable_from(json.at("variable"));
   form.E0_degree = degree_from(json.at("E0_degree"));
   form.g_degree = degree_from(json.at("g_degree"));
   form.tau_degree = degree_from(json.at("tau_degree"));
@@ -97,23 +106,48 @@ RatioForm form_from(const Json& json) {
   return form;
 }
 
+// What would make arrays of any size, or none at all. Every parameter has at least one coefficient.
+void check_sizes(const RatioModel& model) {
+  const auto coefficients = static_cast<int>(model.coefficients.size());
+  if (model.n_terms < 0 || model.n_terms > (coefficients - 1) / 2) {
+    throw std::runtime_error("there are fewer coefficients than its terms need");
+  }
+  for (const int degree : {model.form.E0_degree, model.form.g_degree, model.form.tau_degree}) {
+    if (degree >= coefficients) throw std::runtime_error("a degree exceeds the coefficients");
+  }
+  double below = 0.0;
+  for (const double ratio : model.ratios) {
+    if (!(ratio > below)) throw std::runtime_error("the ratios must be positive and ascend");
+    below = ratio;
+  }
+  if (model.ratios.empty()) throw std::runtime_error("there are no ratios");
+  const auto& own = model.own_terms;
+  const bool is_own_right =
+      own.empty() ||
+      (own.size() == model.ratios.size() &&
+       std::all_of(own.begin(), own.end(), [&](int n) { return n >= 0 && n <= model.n_terms; }));
+  if (!is_own_right) {
+    throw std::runtime_error("own_terms must be one number for each ratio, 0 to n_terms");
+  }
+}
+
 RatioModel model_from(const Json& json) {
   RatioModel model;
   model.form = form_from(json.at("form"));
-  model.n_terms = json.at("n_terms").get<int>();
+  model.n_terms = whole_number(json.at("n_terms"));
   model.ratios = json.at("ratios").get<std::vector<double>>();
-  if (json.contains("own_terms")) model.own_terms = json.at("own_terms").get<std::vector<int>>();
+  for (const Json& own : json.value("own_terms", Json::array())) {
+    model.own_terms.push_back(whole_number(own));
+  }
   const auto beta = json.at("coefficients").get<std::vector<double>>();
   const auto rows = json.at("covariance").get<std::vector<std::vector<double>>>();
   const auto size = static_cast<Eigen::Index>(beta.size());
   model.coefficients = Eigen::Map<const Eigen::VectorXd>(beta.data(), size);
-  model.covariance.resize(size, size);
-  const bool has_right_terms =
-      model.n_terms >= 0 &&
-      (model.own_terms.empty() || model.own_terms.size() == model.ratios.size());
-  if (model.ratios.empty() || !has_right_terms || rows.size() != beta.size()) {
+  check_sizes(model);
+  if (rows.size() != beta.size()) {
     throw std::runtime_error("the numbers of coefficients and of covariance rows differ");
   }
+  model.covariance.resize(size, size);
   for (Eigen::Index i = 0; i < size; ++i) {
     const auto& row = rows[static_cast<std::size_t>(i)];
     if (row.size() != beta.size()) throw std::runtime_error("the covariance is not square");
@@ -132,8 +166,8 @@ RatioModel model_from(const Json& json) {
     model.touch_ln_g = touch.at("ln_g").get<double>();
     model.touch_ln_tau = touch.at("ln_tau").get<double>();
   }
-  model.n_specimens = json.at("n_specimens").get<int>();
-  model.n_parameters = json.at("n_parameters").get<int>();
+  model.n_specimens = whole_number(json.at("n_specimens"));
+  model.n_parameters = whole_number(json.at("n_parameters"));
   model.log_likelihood = json.at("log_likelihood").get<double>();
   model.bic = json.at("bic").get<double>();
   if (design_at(model, model.ratios.front()).cols() != size) {
@@ -144,14 +178,14 @@ RatioModel model_from(const Json& json) {
 
 void read_lists(const Json& json, RatioFit& fit) {
   for (const Json& row : json.at("forms")) {
-    fit.forms.push_back({form_from(row.at("form")), row.at("n_parameters").get<int>(),
+    fit.forms.push_back({form_from(row.at("form")), whole_number(row.at("n_parameters")),
                          row.at("log_likelihood").get<double>(), row.at("bic").get<double>()});
   }
   for (const Json& row : json.at("specimens")) {
-    fit.specimens.push_back({row.at("name").get<std::string>(),
-                             row.at("mixing_ratio").get<double>(), row.at("E0_Pa").get<double>(),
-                             row.at("ln_E0_se").get<double>(), row.value("specimen", 0),
-                             row.value("touch", 1)});
+    fit.specimens.push_back(
+        {row.at("name").get<std::string>(), row.at("mixing_ratio").get<double>(),
+         row.at("E0_Pa").get<double>(), row.at("ln_E0_se").get<double>(),
+         whole_number(row.value("specimen", Json(0))), whole_number(row.value("touch", Json(1)))});
   }
   if (json.contains("scatter")) read_scatter(json.at("scatter"), fit.scatter);
   for (const Json& row : json.at("flags")) {
@@ -191,8 +225,11 @@ std::string json_from_ratio_fit(const RatioFit& fit) {
 }
 
 RatioFit read_ratio_fit(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  const Json json = parse_json(read_file(path), name);
+  return ratio_fit_from_json(read_file(path), path.string());
+}
+
+RatioFit ratio_fit_from_json(const std::string& text, const std::string& name) {
+  const Json json = parse_json(text, name);
   if (!json.is_object() || json.value("schema", "") != kSchema) {
     throw std::runtime_error(name + ": schema is not '" + kSchema +
                              "', so this is not a joint fit; make one with viscard fit --joint");
@@ -211,6 +248,10 @@ RatioFit read_ratio_fit(const std::filesystem::path& path) {
     throw std::runtime_error(name +
                              ": 'common' is missing; make the file again with viscard fit --joint");
   fit.common = material_from(json["common"], name);
+  if (!fit.common.terms.empty()) {
+    throw std::runtime_error(name +
+                             ": common.terms: must be empty; the terms are those of the law");
+  }
   return fit;
 }
 

@@ -14,7 +14,7 @@ Json level_json(const ScatterLevel& level) {
 
 ScatterLevel level_from(const Json& json) {
   ScatterLevel level;
-  level.degrees_of_freedom = json.at("degrees_of_freedom").get<int>();
+  level.degrees_of_freedom = whole_number(json.at("degrees_of_freedom"));
   level.note = json.value("note", "");
   if (!is_identified(level)) return level;
   level.deviation = json.at("deviation").get<double>();

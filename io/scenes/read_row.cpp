@@ -6,6 +6,9 @@
 #include "models/scene/effects.h"
 #include "models/scene/plan.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -193,10 +196,22 @@ void check_wanted(const ArrayScene& scene) {
   }
 }
 
-// Sweeps have one number for each result and point.
+// Sweeps have one number for each result and point. All points are planned before the first is
+// answered, and a hundred thousand take a second for that.
 void check_sweep(const ArraySweep& sweep, const ArrayScene& scene) {
-  if (sweep.is_empty() || !analysis_of(scene).relaxes) return;
-  throw SceneMistake("sweep", "sweeps are made of static and modal analyses");
+  if (sweep.is_empty()) return;
+  if (analysis_of(scene).relaxes) {
+    throw SceneMistake("sweep", "sweeps are made of static and modal analyses");
+  }
+  double points = 1.0;
+  for (const auto* list : {&sweep.diameter_m, &sweep.spacing_m, &sweep.thickness_m}) {
+    points *= static_cast<double>(std::max<std::size_t>(list->size(), 1));
+  }
+  constexpr double kMostPoints = 1e5;
+  if (points <= kMostPoints) return;
+  throw SceneMistake("sweep", fmt::format("combines {:.6g} points; at most {:.6g} are answered in "
+                                          "one sweep. Shorten the lists, or make several sweeps",
+                                          points, kMostPoints));
 }
 
 }  // namespace
@@ -208,9 +223,8 @@ void read_row(const FieldReader& read, const std::filesystem::path& folder, Scen
   file.printed = raw.printed;
   const ArrayScene scene = scene_from(raw, folder);
   file.scene = scene;
-  const std::vector<SweepPoint> points = points_of(scene, file.sweep);
   check_sweep(file.sweep, scene);
-  for (const SweepPoint& point : points) plan_effects(point.scene);
+  for (const SweepPoint& point : points_of(scene, file.sweep)) plan_effects(point.scene);
   check_wanted(scene);
 }
 

@@ -57,10 +57,19 @@ SceneReader reader_for(const std::string& text, const std::filesystem::path& pat
   return choice<SceneReader>("geometry.kind", kind, readers());
 }
 
+std::string with_line(const std::string& text, const std::filesystem::path& path,
+                      const SceneMistake& mistake) {
+  const int line = line_of_key(text, mistake.key());
+  return path.string() + ":" + std::to_string(line) + ": " + mistake.key() + ": " + mistake.what();
+}
+
 }  // namespace
 
 SceneFile read_scene(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
+  return scene_from_toml(read_file(path), path);
+}
+
+SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& path) {
   SceneFile file;
   const FieldReader read = [&](const std::function<void(FieldVisitor&)>& show) {
     read_toml_fields(text, path.string(), show);
@@ -68,7 +77,7 @@ SceneFile read_scene(const std::filesystem::path& path) {
   try {
     reader_for(text, path)(read, path.parent_path(), file);
   } catch (const SceneMistake& mistake) {
-    throw std::runtime_error(text_with_line(path, mistake));
+    throw std::runtime_error(with_line(text, path, mistake));
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(path.string() + ": " + error.what());
   }
@@ -76,8 +85,7 @@ SceneFile read_scene(const std::filesystem::path& path) {
 }
 
 std::string text_with_line(const std::filesystem::path& path, const SceneMistake& mistake) {
-  const int line = line_of_key(read_file(path), mistake.key());
-  return path.string() + ":" + std::to_string(line) + ": " + mistake.key() + ": " + mistake.what();
+  return with_line(read_file(path), path, mistake);
 }
 
 }  // namespace viscard

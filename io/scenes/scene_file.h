@@ -37,6 +37,8 @@ struct SceneFile {
 // folder of the scene. Throws std::runtime_error with file:line, key and what is expected, or with
 // the name of a bad material file.
 SceneFile read_scene(const std::filesystem::path& path);
+// The same from text; messages show `path`, whose folder holds the material files.
+SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& path);
 
 // One combination; `label` names what varies: "diameter 40 um, spacing 60 um".
 struct SweepPoint {

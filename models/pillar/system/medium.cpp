@@ -60,21 +60,25 @@ Medium isotropic_medium(double young_modulus_Pa, double poisson_ratio, double rh
   return medium;
 }
 
-Medium piezo_medium(const Matrix6d& stiffness_Pa, const PiezoMatrix& charge_C_N,
-                    const Eigen::Matrix3d& permittivity_stress_F_m, double rho_kg_m3) {
+Medium elastic_medium(const Matrix6d& stiffness_Pa, double rho_kg_m3) {
   require_not_negative("density", rho_kg_m3, "kg/m3");
+  // Cholesky reads only one triangle, so check the symmetry separately.
+  require(stiffness_Pa.allFinite() && stiffness_Pa.isApprox(stiffness_Pa.transpose(), 1e-9) &&
+              Cholesky(stiffness_Pa).is_definite(),
+          "the elastic constants are not symmetric and positive definite");
   Medium medium;
   medium.rho_kg_m3 = rho_kg_m3;
   medium.stiffness_Pa = stiffness_Pa;
+  return medium;
+}
+
+Medium piezo_medium(const Matrix6d& stiffness_Pa, const PiezoMatrix& charge_C_N,
+                    const Eigen::Matrix3d& permittivity_stress_F_m, double rho_kg_m3) {
+  Medium medium = elastic_medium(stiffness_Pa, rho_kg_m3);
   medium.piezo_C_m2 = charge_C_N * stiffness_Pa;
   medium.permittivity_F_m =
       permittivity_stress_F_m - charge_C_N * stiffness_Pa * charge_C_N.transpose();
-  // Cholesky reads only one triangle, so check the symmetry separately.
-  if (!stiffness_Pa.isApprox(stiffness_Pa.transpose(), 1e-9) ||
-      !Cholesky(stiffness_Pa).is_definite()) {
-    throw std::invalid_argument("the elastic constants are not symmetric and positive definite");
-  }
-  if (!Cholesky(medium.permittivity_F_m).is_definite()) {
+  if (!medium.permittivity_F_m.allFinite() || !Cholesky(medium.permittivity_F_m).is_definite()) {
     throw std::invalid_argument(
         "the piezoelectric constants are too large for the permittivity: no stable medium has "
         "them. Check the units of d (C/N) and the relative permittivity");

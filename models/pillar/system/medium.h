@@ -46,6 +46,9 @@ struct Medium {
 // contains only the shear part and bulk_Pa is infinite.
 Medium isotropic_medium(double young_modulus_Pa, double poisson_ratio, double rho_kg_m3);
 
+// Throws std::invalid_argument unless the stiffness is symmetric and positive definite and rho >= 0.
+Medium elastic_medium(const Matrix6d& stiffness_Pa, double rho_kg_m3);
+
 // From stiffness (Pa), charge constants d (C/N) and permittivity at constant stress (F/m): e = d c,
 // eps^S = eps^T - d c d^t. Throws std::invalid_argument if the stiffness or the resulting
 // permittivity is not positive definite (the constants cannot belong to one medium).

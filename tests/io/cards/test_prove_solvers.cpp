@@ -96,8 +96,7 @@ void check_random(const char* solver_name, const std::vector<std::string>& targe
 std::vector<std::string> readable_targets() {
   std::vector<std::string> out;
   for (const CardTarget& target : card_targets()) {
-    const bool is_table = target.table_difference != nullptr;
-    if (!is_table) out.push_back(target.name);
+    if (states_material(target)) out.push_back(target.name);
   }
   return out;
 }

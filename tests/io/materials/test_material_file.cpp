@@ -148,6 +148,32 @@ TEST_CASE("an impossible material file is refused with file and key", "[io][mate
   CHECK(contains(error_text([] { read_material("/nowhere/m.json"); }), "/nowhere/m.json"));
 }
 
+TEST_CASE("a joint file whose numbers cannot belong together is refused with what is wrong",
+          "[io][material][joint]") {
+  const std::string good = read_file(VISCARD_SOURCE_DIR "/tests/fuzz/seeds/fuzz_joint/law");
+  const auto error_with = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+      text.replace(at, from.size(), to);
+    }
+    REQUIRE(text != good);
+    return error_text([&] { ratio_fit_from_json(text, "j.json"); });
+  };
+  CHECK_NOTHROW(ratio_fit_from_json(good, "j.json"));
+  const std::string terms = "\"n_terms\":1";
+  CHECK(contains(error_with(terms, "\"n_terms\":100000000"), "fewer coefficients than"));
+  CHECK(contains(error_with(terms, "\"n_terms\":2e9"), "expected a whole number"));
+  CHECK(contains(error_with(terms, "\"n_terms\":20000000000"), "at most nine digits"));
+  CHECK(contains(error_with(terms, terms + ",\"own_terms\":[-3,1,1]"), "own_terms must be"));
+  CHECK(contains(error_with("\"E0_degree\":1", "\"E0_degree\":-5"), "a degree must be"));
+  CHECK(contains(error_with("\"E0_degree\":1", "\"E0_degree\":7"), "a degree exceeds"));
+  CHECK(contains(error_with("\"ln-ratio\"", "\"banana\""), "the variable must be"));
+  CHECK(contains(error_with("[10.0,13.0,20.0]", "[20.0,13.0,10.0]"), "positive and ascend"));
+  CHECK(contains(error_with("[10.0,13.0,20.0]", "[]"), "there are no ratios"));
+  CHECK(contains(error_with("\"terms\":[]", "\"terms\":[{\"g\":0.5,\"tau_s\":1}]"),
+                 "j.json: common.terms: must be empty"));
+}
+
 TEST_CASE("the seed's materials read, and their comment on the layer holds", "[io][material]") {
   for (const char* name :
        {"pdms_1to10_seed.json", "pdms_1to13_seed.json", "pdms_1to20_seed.json"}) {

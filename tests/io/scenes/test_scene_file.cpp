@@ -102,6 +102,21 @@ TEST_CASE("mistakes in how a pillar is driven are told with their key", "[io]") 
   CHECK_THAT(files.error(c.rest), Catch::Contains(c.expected));
 }
 
+TEST_CASE("a sweep of more points than anybody waits for is refused with its line", "[io]") {
+  const std::string path = VISCARD_SOURCE_DIR "/data/scenes/array_map.toml";
+  std::string text = read_file(path);
+  const auto list_of = [&](const std::string& key, int count) {
+    std::string list = key + " = [20e-6";
+    for (int i = 1; i < count; ++i) list += ", 20e-6";
+    const auto at = text.find("\n" + key + " = ", text.find("[sweep]")) + 1;
+    text.replace(at, text.find('\n', at) - at, list + "]");
+  };
+  list_of("diameter", 320);
+  list_of("spacing", 320);
+  CHECK(test::contains(error_text([&] { scene_from_toml(text, path); }),
+                       "array_map.toml:21: sweep: combines 102400 points; at most 100000"));
+}
+
 TEST_CASE("impossible geometry is refused with the length that is wrong", "[io]") {
   Files files;
   const std::string load =
@@ -135,6 +150,18 @@ TEST_CASE("a medium file is refused with the key that is wrong", "[io]") {
   CHECK_THAT(files.medium_error(elastic + ", \"charge_C_N\": {\"d31\": 1e-9, \"d33\": -3e-9}, "
                                           "\"relative_permittivity\": [12, 12, 12]}"),
              Catch::Contains("permittivity"));
+  const std::string s33 =
+      "\"elastic\": {\"s11\": 1e-9, \"s12\": -3e-10, \"s13\": -3e-10, \"s33\": ";
+  const std::string shears = ", \"s55\": 3e-9, \"s66\": 2.6e-9}}";
+  CHECK(files.medium_error(head + s33 + "1e-9" + shears).empty());
+  for (const char* wrong : {"-1e-9", "0", "1e-10", "1e-310"}) {
+    CAPTURE(wrong);
+    CHECK_THAT(files.medium_error(head + s33 + wrong + shears),
+               Catch::Contains("not symmetric and positive definite"));
+  }
+  CHECK_THAT(files.medium_error("{\"schema\": \"viscard-medium/1\", \"rho_kg_m3\": -5, " + s33 +
+                                "1e-9" + shears),
+             Catch::Contains("density is -5"));
 }
 
 }  // namespace viscard
