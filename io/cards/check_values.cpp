@@ -102,7 +102,9 @@ void compare_values(const std::string& text, const Material& given, const CheckO
   }
   check.findings = check.read.findings;
   if (!wrong.empty()) check.findings.push_back(finding_of(wrong, expected.size()));
-  if (!check.findings.empty()) return;
+  const bool has_mistake = std::any_of(check.findings.begin(), check.findings.end(),
+                                       [](const CardFinding& one) { return one.is_mistake; });
+  if (has_mistake) return;
   // A text that is not as viscard writes these very numbers.
   if (*check.E_difference > kSameValue) return;
   if (const auto form = form_difference(text, body)) check.findings.push_back(*form);

@@ -154,6 +154,7 @@ CardTarget abaqus_frequency_target() {
           .advice =
               "Use *STEADY STATE DYNAMICS, DIRECT (or SUBSPACE PROJECTION); mode-based steps "
               "ignore the damping of the material.",
+          .harmonic = "exact: *STEADY STATE DYNAMICS, DIRECT",
           .cannot_represent =
               "tests in time (*VISCO, *DYNAMIC): card abaqus has the same material "
               "for them"};

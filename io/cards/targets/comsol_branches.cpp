@@ -99,6 +99,7 @@ CardTarget comsol_branches_target() {
           .advice =
               "Viscoelasticity > Generalized Maxwell > Load from File. E, nu (both long-term) "
               "and density as in card comsol.",
+          .harmonic = "exact: Frequency Domain studies take the branches",
           .cannot_represent =
               "E, nu and the density (set the long-term ones in the model), and "
               "relaxation of the bulk modulus",

@@ -50,7 +50,15 @@ std::string amount_in(const FidelityItem& item) {
   return item.text.substr(begin + 1, end - begin - 1);
 }
 
+// Tables over frequency, and one set of numbers for a band, are no material in time.
+bool is_for_a_band(const CardTarget& target) {
+  return target.band_note != nullptr;
+}
+
 std::string linear_cell(const CardTarget& target) {
+  if (is_for_a_band(target)) {
+    return target.rows_per_decade > 0 ? "over frequency alone" : "one modulus for a band";
+  }
   const std::optional<Card> card = card_of(example(target), target, true);
   if (!card) return "refused";
   const FidelityItem* numbers = item_of(*card, "numbers");
@@ -66,6 +74,7 @@ std::string linear_cell(const CardTarget& target) {
 
 // A bulk part that is assumed (k = g), and one that is stated (k = 0.2 g).
 std::string bulk_cell(const CardTarget& target) {
+  if (is_for_a_band(target) && target.rows_per_decade == 0) return "one Poisson ratio";
   Material stated = example(target);
   for (MaterialTerm& term : stated.terms) term.k = 0.2 * term.g;
   stated.provenance.bulk_origin = "measured";
@@ -102,7 +111,12 @@ std::string harmonic_cell(const CardTarget& target) {
   const std::string word = item->mapping == Mapping::kExact          ? "exact"
                            : item->mapping == Mapping::kApproximated ? "approximate"
                                                                      : "refused";
-  return word + (item->text.empty() ? "" : ": " + item->text);
+  std::string text = item->text;
+  // Bars would end a cell.
+  for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at)) {
+    text.erase(at, 1);
+  }
+  return word + (text.empty() ? "" : ": " + text);
 }
 
 std::string density_cell(const CardTarget& target) {

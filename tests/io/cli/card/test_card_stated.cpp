@@ -58,7 +58,7 @@ TEST_CASE("a card of one temperature has the times that the shift gives there", 
   CHECK_THAT(card.err, Contains("no temperature shift"));
 }
 
-TEST_CASE("--check compares a card of fewer terms with what its header states", "[cards][cli]") {
+TEST_CASE("card --check compares a card of fewer terms with what its header states", "[cards][cli]") {
   CardCommand card;
   Material thirty = material_of_terms(30, 0.4);
   thirty.valid = {1e-3, 1e6, 0.0};
@@ -72,7 +72,7 @@ TEST_CASE("--check compares a card of fewer terms with what its header states", 
   CHECK(card.run({"--check", path, file}) == kFailed);
 }
 
-TEST_CASE("--check knows clamped ratios, one modulus and a bound from the header", "[cards][cli]") {
+TEST_CASE("card --check knows clamped ratios, one modulus and a bound from the header", "[cards][cli]") {
   CardCommand card;
   Material material = reference_material();
   material.nu = 0.5;
@@ -104,7 +104,7 @@ TEST_CASE("cards by viscard name their target, so --check needs no --for", "[car
   CHECK_THAT(card.err, Contains("--for TARGET"));
 }
 
-TEST_CASE("--check prints the unit system in which csv and COMSOL numbers stand", "[cards][cli]") {
+TEST_CASE("card --check prints the unit system in which csv and COMSOL numbers stand", "[cards][cli]") {
   CardCommand card;
   const std::string file = card.save(reference_material());
   for (const char* target : {"csv", "comsol", "json"}) {
@@ -116,7 +116,7 @@ TEST_CASE("--check prints the unit system in which csv and COMSOL numbers stand"
   }
 }
 
-TEST_CASE("--prove leaves a certificate beside the card that leads to the raw data",
+TEST_CASE("card --prove leaves a certificate beside the card that leads to the raw data",
           "[cards][cli]") {
   if (std::system("command -v ccx >/dev/null 2>&1") != 0) {
     WARN("ccx is not installed; CalculiX is not run");
@@ -154,7 +154,7 @@ TEST_CASE("--prove leaves a certificate beside the card that leads to the raw da
   CHECK(nlohmann::json::parse(read_file(path)).at("chain").at("complete") == false);
 }
 
-TEST_CASE("--solver and --solver-path are explained when they do not fit", "[cards][cli]") {
+TEST_CASE("card --solver and --solver-path are explained when they do not fit", "[cards][cli]") {
   CardCommand command;
   const std::string file = command.save(reference_material()), card = command.path("c.inp");
   REQUIRE(command.run({file, "--for", "abaqus", "--out", card}) == kDone);
