@@ -48,7 +48,9 @@ CommandSyntax simulate_syntax() {
       "viscard simulate SCENE.toml [OPTIONS]",
       "Answers a scene: static, modal, buckling, creep, relaxation, harmonic or transient of one "
       "pillar, on a rigid base or a film; voltages, cross-talk and modes of a row of pillars; or "
-      "maps of voltages and cross-talk over an array in the plane. "
+      "maps of voltages, cross-talk and contact forces over an array in the plane, under loads or "
+      "a "
+      "rigid shape. "
       "The mesh is refined until the estimated error meets the tolerance.",
       "viscard simulate data/scenes/pillar_modal.toml"};
   add_tolerance_option(syntax.options);

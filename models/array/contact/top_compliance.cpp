@@ -116,7 +116,7 @@ double TopCompliance::sinking_m_N() const {
   return ring_area_m2.dot(harmonic_m_N[0] * ring_area_m2) / (area_m2 * area_m2);
 }
 
-double TopCompliance::turning_1_Nm() const {
+double TopCompliance::turning_rad_Nm() const {
   const Eigen::Map<const Eigen::VectorXd> r(radius_m.data(), ring_area_m2.size());
   const Eigen::VectorXd lever = ring_area_m2.cwiseProduct(r);
   const double moment = 0.5 * lever.dot(r);  // of the traction r cos(theta)
@@ -126,7 +126,7 @@ double TopCompliance::turning_1_Nm() const {
 void TopCompliance::adjust(double sinking, double turning) {
   const Eigen::Map<const Eigen::VectorXd> r(radius_m.data(), ring_area_m2.size());
   harmonic_m_N[0].array() += sinking - sinking_m_N();
-  const double more = turning - turning_1_Nm();
+  const double more = turning - turning_rad_Nm();
   harmonic_m_N[1] += more * (r * r.transpose());
 }
 

@@ -28,9 +28,9 @@ struct TopCompliance {
   // Sinking under a uniform pressure, m/N; turning about an axis in the top under a traction that grows
   // with the distance from it, rad/(N m).
   double sinking_m_N() const;
-  double turning_1_Nm() const;
+  double turning_rad_Nm() const;
   // Adds what the grid or a base that yields leaves out, so that these two become the given ones.
-  void adjust(double sinking_m_N, double turning_1_Nm);
+  void adjust(double sinking_m_N, double turning_rad_Nm);
 };
 
 // Throws std::invalid_argument for a geometry with a film, a fillet or a mushroom tip, or a bad grid.

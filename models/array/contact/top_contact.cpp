@@ -80,7 +80,7 @@ Eigen::MatrixXd TopContact::forces(const Eigen::MatrixXd& motion_m) const {
 // Conjugate gradients on the points that touch; points that pull are let go, points that overlap are
 // taken in, until neither happens. The energy falls from set to set, so that none comes twice.
 Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
-                                              Eigen::MatrixXd start) const {
+                                              const Eigen::MatrixXd& start) const {
   constexpr int kMostSets = 200, kMostSteps = 2000;
   constexpr double kResidual = 1e-13;
   const double size_m = std::max(overlap_m.maxCoeff(), 0.0);
@@ -150,7 +150,7 @@ TopPressure TopContact::follow(const Overlap& overlap) const {
   TopPressure pressure;
   pressure.force_N = mean_m / compliance_.sinking_m_N();
   // The slope of a plane with the same first moments: 4/R^2 times the mean of g x.
-  const double of_slope = 4.0 / (radius_m_ * radius_m_) / compliance_.turning_1_Nm();
+  const double of_slope = 4.0 / (radius_m_ * radius_m_) / compliance_.turning_rad_Nm();
   pressure.moment_x_Nm = of_slope * first_x_m2;
   pressure.moment_y_Nm = of_slope * first_y_m2;
   pressure.share = 1.0;

@@ -40,7 +40,8 @@ class TopContact {
   Eigen::MatrixXd motion(const Eigen::MatrixXd& forces_N) const;
   Eigen::MatrixXd forces(const Eigen::MatrixXd& motion_m) const;
   // Forces that do not pull, where the overlap is reached or less than it (eq. T3). `start` is a guess.
-  Eigen::MatrixXd unilateral_forces(const Eigen::MatrixXd& overlap_m, Eigen::MatrixXd start) const;
+  Eigen::MatrixXd unilateral_forces(const Eigen::MatrixXd& overlap_m,
+                                    const Eigen::MatrixXd& start) const;
 
  private:
   void add_resultants(const Eigen::MatrixXd& forces_N, TopPressure& pressure) const;

@@ -49,7 +49,7 @@ class Presser {
       error_ = std::max(error_,
                         (std::abs(foot.sinking_m_Pa - coarser_m_Pa) + kOfSettling * settling_m_Pa) /
                             foot.sinking_m_Pa);
-      turning_1_Nm_.push_back(foot.tilt_by_tilt_1_Pa / (0.25 * area_m2 * R_m));
+      turning_rad_Nm_.push_back(foot.tilt_by_tilt_1_Pa / (0.25 * area_m2 * R_m));
       sideways_m_Pa_.push_back(std::abs(foot.sideways_by_tilt_m_Pa));
     }
   }
@@ -60,7 +60,7 @@ class Presser {
       const PillarClass& one = array_.classes[i];
       TopCompliance top =
           top_compliance(one.geometry, one.medium, kGrids.at(static_cast<std::size_t>(grid)));
-      top.adjust(sinking_m_N_[i], turning_1_Nm_[i]);
+      top.adjust(sinking_m_N_[i], turning_rad_Nm_[i]);
       classes.emplace_back(std::move(top));
     }
     const ShapePress& press = *scene_->press;
@@ -98,8 +98,8 @@ class Presser {
   const SpaceScene* scene_;
   SpaceArray array_;
   std::vector<TouchedPillar> pillars_;
-  double error_ = 0.0;                                              // relative, of the stiffness
-  std::vector<double> sinking_m_N_, turning_1_Nm_, sideways_m_Pa_;  // by class
+  double error_ = 0.0;                                                // relative, of the stiffness
+  std::vector<double> sinking_m_N_, turning_rad_Nm_, sideways_m_Pa_;  // by class
 };
 
 void compare(const SpaceContact& coarse, SpaceContact& fine) {

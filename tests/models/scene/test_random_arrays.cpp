@@ -132,7 +132,7 @@ TEST_CASE("many random arrays meet their tolerance with honest estimates",
 
 TEST_CASE("random arrays under a shape meet their tolerance with honest estimates",
           "[models][array][space]") {
-  study_pressed_arrays(4, 3);
+  study_pressed_arrays(2, 3);
 }
 
 TEST_CASE("many random arrays under a shape meet their tolerance with honest estimates",

@@ -48,7 +48,7 @@ TEST_CASE("a sphere on a wide flat pillar is one on a bonded layer", "[models][c
 TEST_CASE("a top that is touched everywhere bears the mean overlap", "[models]") {
   const TopContact top = contact_of({.elements = 8, .angles = 24});
   const double k_N_m = 1.0 / top.compliance().sinking_m_N();
-  const double turning_Nm = 1.0 / top.compliance().turning_1_Nm();
+  const double turning_Nm = 1.0 / top.compliance().turning_rad_Nm();
   const double R_m = 3650e-6, depth_m = 10e-6, x0_m = -40e-6, y0_m = 30e-6;
   const TopPressure pressure = top.press([&](double x, double y) {
     return depth_m - (std::pow(x - x0_m, 2) + std::pow(y - y0_m, 2)) / (2.0 * R_m);
