@@ -62,8 +62,9 @@ std::optional<CardFinding> first_difference(const std::string& text, const std::
   const std::vector<FormLine> found = form_lines(text, target),
                               wanted = form_lines(expected, target);
   if (wanted.empty()) return std::nullopt;
-  const auto differs = [](const std::string& where) {
-    return CardFinding{"form-differs", where, false};
+  const auto differs = [&](const std::string& where) {
+    // Such a card is a program: other lines compute something else.
+    return CardFinding{"form-differs", where, target.is_indented};
   };
   // A line that viscard writes once and the card has twice was doubled by hand.
   const auto is_doubled = [&](std::vector<FormLine>::const_iterator line) {
@@ -87,8 +88,11 @@ std::optional<CardFinding> first_difference(const std::string& text, const std::
     }
     ++at;
   }
-  if (at != found.end() && is_doubled(at)) return doubled(*at);
-  return std::nullopt;
+  if (at == found.end()) return std::nullopt;
+  if (is_doubled(at)) return doubled(*at);
+  if (!target.is_indented) return std::nullopt;  // a model may follow the card
+  return differs(at_line(at->line, "'" + std::string(trimmed(at->line.text)) +
+                                       "' is not of the card that viscard writes"));
 }
 
 bool is_by_viscard(const std::string& text) {

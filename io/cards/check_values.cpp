@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace viscard {
 namespace {
@@ -60,6 +61,29 @@ CardFinding finding_of(const std::vector<ValuePair>& wrong, std::size_t n_values
           : is_one           ? "missing-number"
                              : "numbers-differ",
           text, true};
+}
+
+// Rows that a table over frequency has lost: its steps are equal, and its ends are those of its band.
+std::optional<CardFinding> missing_rows(const std::string& text, const ReadCard& read) {
+  const std::vector<double>& at_Hz = read.frequencies_Hz;
+  if (read.understood.rows_per_decade == 0 || at_Hz.empty()) return std::nullopt;
+  const double step = std::pow(10.0, 1.0 / read.understood.rows_per_decade);
+  const auto finding = [](const std::string& where) {
+    return CardFinding{"missing-rows", "the table has no rows " + where, true};
+  };
+  for (std::size_t row = 1; row < at_Hz.size(); ++row) {
+    if (at_Hz[row] <= 1.5 * step * at_Hz[row - 1]) continue;
+    return finding(fmt::format("between {:.4g} and {:.4g} Hz", at_Hz[row - 1], at_Hz[row]));
+  }
+  const auto band = stated_band(text);
+  if (!band) return std::nullopt;
+  if (at_Hz.front() > 1.02 * band->from_Hz) {
+    return finding(fmt::format("from {:.4g} Hz, where its band begins", band->from_Hz));
+  }
+  if (at_Hz.back() < band->to_Hz / 1.02) {
+    return finding(fmt::format("up to {:.4g} Hz, where its band ends", band->to_Hz));
+  }
+  return std::nullopt;
 }
 
 // The material as the target takes it.
@@ -116,6 +140,8 @@ CardCheck check_card_values(const std::string& text, const CardTarget& target,
                             const CheckOptions& options, const Material* reference) {
   CardCheck check{.read = read_card(text, target, options.units)};
   check.tolerance = options.tolerance.value_or(1e-6);
+  check.units = check.read.units.name;
+  if (const auto gap = missing_rows(text, check.read)) check.read.findings.push_back(*gap);
   if (check.read.frequencies_Hz.empty()) {
     if (const auto band = stated_band(text)) {
       check.read.frequencies_Hz = {band->from_Hz, band->to_Hz};

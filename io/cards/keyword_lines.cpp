@@ -141,7 +141,7 @@ void check_static_step(const KeywordBlock& block, const char* wanted, ReadCard& 
            at_line(block.line, std::string("a *STATIC step does not relax; use ") + wanted));
 }
 
-void require(bool is_there, const std::string& what) {
+void require_in_card(bool is_there, const std::string& what) {
   if (!is_there) throw std::runtime_error("the card has no " + what);
 }
 

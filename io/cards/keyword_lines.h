@@ -44,7 +44,7 @@ void read_shift_rows(const KeywordBlock& block, ArrheniusRow form, ReadCard& car
 // A mistake if the block is a *STATIC step; `wanted` is what relaxes instead.
 void check_static_step(const KeywordBlock& block, const char* wanted, ReadCard& card);
 // Throws "the card has no *ELASTIC".
-void require(bool is_there, const std::string& what);
+void require_in_card(bool is_there, const std::string& what);
 
 // At most 20 characters: Abaqus and CalculiX read 20 and drop the rest, including the exponent.
 std::string number_of_20(double value);

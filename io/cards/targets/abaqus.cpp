@@ -74,7 +74,7 @@ void read_abaqus(const std::string& text, ReadCard& card) {
     }
     check_static_step(block, "*VISCO or a dynamic step", card);
   }
-  require(has_elastic, "*ELASTIC");
+  require_in_card(has_elastic, "*ELASTIC");
   if (is_instantaneous || card.numbers.branches.empty()) return;
   card.understood.at = ModulusAt::kLongTerm;
   card.missing_keyword = kMissingKeyword;

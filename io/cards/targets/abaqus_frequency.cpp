@@ -60,7 +60,7 @@ std::vector<CardLine> read_frequency_blocks(const std::string& text, const char*
     }
     rows.insert(rows.end(), block.data.begin(), block.data.end());
   }
-  require(has_elastic, "*ELASTIC");
+  require_in_card(has_elastic, "*ELASTIC");
   return rows;
 }
 
@@ -125,7 +125,7 @@ void read_abaqus_table(const std::string& text, ReadCard& card) {
   const std::vector<CardLine> rows = read_frequency_blocks(text, "TABULAR", card);
   card.values = {{"E", card.numbers.young}, {"nu", card.numbers.poisson}};
   if (card.numbers.density > 0.0) card.values.push_back({"density", card.numbers.density});
-  require(!rows.empty(), "rows below *VISCOELASTIC, FREQUENCY=TABULAR");
+  require_in_card(!rows.empty(), "rows below *VISCOELASTIC, FREQUENCY=TABULAR");
   for (std::size_t row = 0; row < rows.size(); ++row) {
     const auto cell = cells(rows[row].text, ',');
     check_width(rows[row], 5, card);

@@ -103,7 +103,7 @@ void read_calculix(const std::string& text, ReadCard& card) {
     }
     check_static_step(block, "*VISCO", card);
   }
-  require(!parts.empty(), "*MATERIAL");
+  require_in_card(!parts.empty(), "*MATERIAL");
   for (const Part& part : parts) {
     if (part.creeps) card.numbers.branches.push_back({part.young, 0.0, part.creep});
     if (!part.creeps) card.numbers.equilibrium += part.young;

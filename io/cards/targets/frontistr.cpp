@@ -63,7 +63,7 @@ void read_frontistr(const std::string& text, ReadCard& card) {
                at_line(block.line, "needs !SOLUTION, TYPE=NLSTATIC and !STEP, TYPE=VISCO"));
     }
   }
-  require(has_elastic, "!ELASTIC");
+  require_in_card(has_elastic, "!ELASTIC");
   if (is_small_strain) return;
   card.add("finite-strain",
            "the last of !ELASTIC and !VISCOELASTIC lacks INFINITESIMAL: the formulation is total "

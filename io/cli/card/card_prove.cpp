@@ -92,6 +92,11 @@ void print_proof(const CardWords& words, const FoundSolver& found, const CardPro
     out << row_of("relaxation", proof.relaxation) << row_of("creep", proof.creep) << terms_of(proof)
         << verdict_of(proof);
   }
+  if (found.solver.targets.empty()) {
+    out << "  " << found.solver.code
+        << " ran the numbers that were read from the card, not its text; --check compares the "
+           "text\n";
+  }
   out << text_of(chain);
 }
 
@@ -107,6 +112,11 @@ const Solver& chosen_solver(const CardWords& words) {
 }  // namespace
 
 int prove_card_file(const CardWords& words, Streams& streams) {
+  if (!states_material(card_target(words.target))) {
+    throw UsageError("--prove runs a material in time, and a card for " + words.target +
+                     " states numbers over frequency; viscard card MATERIAL.json --check " +
+                     words.prove + " compares them");
+  }
   const Solver& solver = chosen_solver(words);
   const CertificateRequest request{words.prove, read_file(words.prove), words.material,
                                    words.target};

@@ -100,8 +100,13 @@ FrequencyBand band_from_text(const std::string& text) {
   const auto from_Hz = number_from_text(text.substr(0, comma));
   const auto to_Hz =
       comma == std::string::npos ? std::nullopt : number_from_text(text.substr(comma + 1));
-  if (!from_Hz || !to_Hz || !(*from_Hz > 0.0) || !(*to_Hz > *from_Hz) || !std::isfinite(*to_Hz)) {
-    throw UsageError("--band " + text + " must be two frequencies in Hz, as in --band 10,1000");
+  constexpr double kSlowest_Hz = 1e-12, kFastest_Hz = 1e12;
+  if (!from_Hz || !to_Hz || !(*from_Hz >= kSlowest_Hz) || !(*to_Hz > *from_Hz) ||
+      !(*to_Hz <= kFastest_Hz)) {
+    throw UsageError(
+        "--band " + text +
+        " must be two frequencies in Hz between 1e-12 and 1e12, the lower one first, as "
+        "in --band 10,1000");
   }
   return {*from_Hz, *to_Hz};
 }

@@ -58,7 +58,8 @@ TEST_CASE("a card of one temperature has the times that the shift gives there", 
   CHECK_THAT(card.err, Contains("no temperature shift"));
 }
 
-TEST_CASE("card --check compares a card of fewer terms with what its header states", "[cards][cli]") {
+TEST_CASE("card --check compares a card of fewer terms with what its header states",
+          "[cards][cli]") {
   CardCommand card;
   Material thirty = material_of_terms(30, 0.4);
   thirty.valid = {1e-3, 1e6, 0.0};
@@ -72,7 +73,8 @@ TEST_CASE("card --check compares a card of fewer terms with what its header stat
   CHECK(card.run({"--check", path, file}) == kFailed);
 }
 
-TEST_CASE("card --check knows clamped ratios, one modulus and a bound from the header", "[cards][cli]") {
+TEST_CASE("card --check knows clamped ratios, one modulus and a bound from the header",
+          "[cards][cli]") {
   CardCommand card;
   Material material = reference_material();
   material.nu = 0.5;
@@ -104,7 +106,8 @@ TEST_CASE("cards by viscard name their target, so --check needs no --for", "[car
   CHECK_THAT(card.err, Contains("--for TARGET"));
 }
 
-TEST_CASE("card --check prints the unit system in which csv and COMSOL numbers stand", "[cards][cli]") {
+TEST_CASE("card --check prints the unit system in which csv and COMSOL numbers stand",
+          "[cards][cli]") {
   CardCommand card;
   const std::string file = card.save(reference_material());
   for (const char* target : {"csv", "comsol", "json"}) {
