@@ -67,12 +67,15 @@ CardFinding finding_of(const std::vector<ValuePair>& wrong, std::size_t n_values
 std::optional<CardFinding> missing_rows(const std::string& text, const ReadCard& read) {
   const std::vector<double>& at_Hz = read.frequencies_Hz;
   if (read.understood.rows_per_decade == 0 || at_Hz.empty()) return std::nullopt;
-  const double step = std::pow(10.0, 1.0 / read.understood.rows_per_decade);
+  double step = HUGE_VAL;
+  for (std::size_t row = 1; row < at_Hz.size(); ++row) {
+    step = std::min(step, at_Hz[row] / at_Hz[row - 1]);
+  }
   const auto finding = [](const std::string& where) {
     return CardFinding{"missing-rows", "the table has no rows " + where, true};
   };
   for (std::size_t row = 1; row < at_Hz.size(); ++row) {
-    if (at_Hz[row] <= 1.5 * step * at_Hz[row - 1]) continue;
+    if (at_Hz[row] <= std::pow(step, 1.5) * at_Hz[row - 1]) continue;
     return finding(fmt::format("between {:.4g} and {:.4g} Hz", at_Hz[row - 1], at_Hz[row]));
   }
   const auto band = stated_band(text);

@@ -33,6 +33,11 @@ void refuse_strangers(const RawShape& raw, ShapeKind kind) {
     throw SceneMistake("shape.angle",
                        "is the slope of a wedge's flanks; a shape is inclined by tilt");
   }
+  const bool has_direction =
+      kind == ShapeKind::kCylinder || kind == ShapeKind::kWedge || kind == ShapeKind::kEdge;
+  if (raw.direction_rad != 0.0 && !has_direction) {
+    throw SceneMistake("shape.direction", "belongs to a cylinder, a wedge or an edge");
+  }
   if (!raw.file.empty() && kind != ShapeKind::kTable) {
     throw SceneMistake("shape.file", "belongs to kind = \"table\"");
   }
@@ -45,8 +50,11 @@ void fill_kind(const RawShape& raw, const std::filesystem::path& folder, RigidSh
   }
   shape.radius_m = raw.radius_m;
   if (shape.kind == ShapeKind::kWedge) {
-    if (!(raw.angle_rad > 0.0 && raw.angle_rad < 0.5 * std::numbers::pi)) {
+    if (raw.angle_rad == 0.0) {
       throw SceneMistake("shape", "needs the angle of its flanks, such as angle = \"5 degree\"");
+    }
+    if (!(raw.angle_rad < 0.25 * std::numbers::pi)) {
+      throw SceneMistake("shape.angle", "is 45 degrees or more; tops are taken to be nearly level");
     }
     shape.slope = std::tan(raw.angle_rad);
   }

@@ -113,6 +113,10 @@ EffectEstimate geometric_stiffness_estimate(const SpaceScene& scene) {
   if (!is_sheared(scene)) {
     return {EffectRole::kAbsent, 0.0, "p/p_cr", share, "straight pillars shorten without it"};
   }
+  if (share >= 1.0) {
+    return {EffectRole::kOutside, 1.0, "p/p_cr", share,
+            "pillars buckle; the answer is that of pillars that stay straight"};
+  }
   const double u = 0.5 * std::numbers::pi * std::sqrt(std::min(share, 0.99));
   const double more = std::tan(u) / u - 1.0;
   if (scene.press) {

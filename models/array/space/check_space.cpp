@@ -70,12 +70,13 @@ void check_press(const SpaceScene& scene) {
                        "is more than the pillars' length of " + micrometres(longest_m));
   }
   const FoundationPress pressed = foundation_press(scene);
-  if (press.force_N > 0.0 && !std::isfinite(pressed.depth_m)) {
+  if (press.force_N > 0.0 && !(pressed.lowest_m < longest_m)) {
     throw SceneMistake("shape", "there is no pillar under the shape; move it with shape.at");
   }
-  if (press.force_N > 0.0 && pressed.depth_m > 2.0 * longest_m) {
-    throw SceneMistake("shape.force", "would press the pillars flat; they are " +
-                                          micrometres(longest_m) + " long");
+  if (pressed.shortening >= 1.0) {
+    throw SceneMistake(
+        press.force_N > 0.0 ? "shape.force" : "shape.depth",
+        "would press the pillars flat; they are " + micrometres(longest_m) + " long");
   }
   if (!scene.feels_contact && !pressed.covers_all) {
     throw SceneMistake(

@@ -144,6 +144,17 @@ void note_sideways(const SpaceScene& scene, const SpaceContact& contact,
                   micrometres(gap_m, 4) + "; contact of their sides is not followed");
 }
 
+void note_table(const SpaceScene& scene, std::vector<std::string>& notes) {
+  if (scene.press->shape.kind != ShapeKind::kTable) return;
+  const auto outside =
+      std::count_if(scene.pillars.begin(), scene.pillars.end(), [&](const SpacePillar& one) {
+        return !std::isfinite(height_m(scene.press->shape, one.x_m, one.y_m));
+      });
+  if (outside == 0) return;
+  notes.push_back(std::to_string(outside) + " of " + std::to_string(scene.pillars.size()) +
+                  " pillars lie outside the table of heights, where nothing presses on them");
+}
+
 }  // namespace
 
 std::vector<std::string> contact_maps() {
@@ -198,6 +209,7 @@ void add_contact(const SpaceScene& scene, const SpaceContact& contact, SceneAnsw
 
 std::vector<std::string> contact_notes(const SpaceScene& scene, const SpaceContact& contact) {
   std::vector<std::string> notes;
+  note_table(scene, notes);
   if (contact.pressed.contacts == 0) {
     notes.emplace_back("the shape touches no pillar; lower it, or move it over the array");
     return notes;

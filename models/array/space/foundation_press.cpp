@@ -12,7 +12,7 @@ namespace {
 
 struct Column {
   double lowest_m = 0.0, highest_m = 0.0, mean_m = 0.0;  // of the surface above its top
-  double area_m2 = 0.0, stiffness_Pa_m = 0.0;
+  double area_m2 = 0.0, stiffness_Pa_m = 0.0, length_m = 0.0;
 
   double force_N(double depth_m) const {
     return std::max(depth_m - mean_m, 0.0) * stiffness_Pa_m * area_m2;
@@ -24,8 +24,12 @@ Column column_under(const RigidShape& shape, const SpacePillar& one, const Space
   constexpr int kAngles = 8;
   const double R_m = 0.5 * kind.diameter_m;
   const double centre_m = height_m(shape, one.x_m, one.y_m) - above_m;
-  Column column{centre_m, centre_m, 0.5 * centre_m, std::numbers::pi * R_m * R_m,
-                kind.material.E0_Pa / kind.length_m};
+  Column column{centre_m,
+                centre_m,
+                0.5 * centre_m,
+                std::numbers::pi * R_m * R_m,
+                kind.material.E0_Pa / kind.length_m,
+                kind.length_m};
   for (int a = 0; a < kAngles; ++a) {
     const double angle = 2.0 * std::numbers::pi * a / kAngles;
     const double rim_m =
@@ -80,7 +84,11 @@ FoundationPress foundation_press(const SpaceScene& scene) {
   FoundationPress answer;
   answer.depth_m = press.force_N > 0.0 ? depth_of_force_m(columns, press.force_N) : press.depth_m;
   double overlap_m = 0.0, lifted_m = 0.0, turned_m = 0.0;
+  answer.lowest_m = columns.front().lowest_m;
   for (const Column& column : columns) {
+    answer.lowest_m = std::min(answer.lowest_m, column.lowest_m);
+    answer.shortening =
+        std::max(answer.shortening, (answer.depth_m - column.mean_m) / column.length_m);
     answer.covers_all = answer.covers_all && std::isfinite(column.highest_m);
     answer.largest_Pa =
         std::max(answer.largest_Pa, column.force_N(answer.depth_m) / column.area_m2);

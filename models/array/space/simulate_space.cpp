@@ -163,17 +163,19 @@ void add_change_of_loads(const SpaceScene& scene, const SpaceContact& contact,
   }
 }
 
-// The grids of the tops get a quarter of the tolerance.
+// Shares of the tolerance: at which no finer grid of the tops is tried, and what the finest may leave.
 constexpr double kShareOfContact = 0.25;
+constexpr double kMostOfContact = 0.7;
 
 SpaceContact settled_contact(const SpaceScene& scene) {
   SpaceContact contact = contact_within(scene, kShareOfContact * scene.tolerance);
   const double error = contact_error(contact);
-  if (error <= 2.0 * kShareOfContact * scene.tolerance) return contact;
+  if (error <= kMostOfContact * scene.tolerance) return contact;
   throw std::runtime_error("the finest grid of the tops leaves a relative error of about " +
                            text_of(error, 2) +
-                           " in the forces, where a top is touched in part; ask for a larger "
-                           "tolerance");
+                           " in the forces and moments, where a top is touched in part; ask for a "
+                           "tolerance of " +
+                           text_of(1.1 * error / kMostOfContact, 2) + " or more");
 }
 
 }  // namespace

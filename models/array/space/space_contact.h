@@ -43,6 +43,8 @@ double foot_settling_m_Pa(const LayeredFilm& film, const FootForces& foot);
 struct FoundationPress {
   double depth_m = 0.0;
   double largest_Pa = 0.0;  // largest mean pressure on a top
+  double shortening = 0.0;  // of a pillar, the largest over its length
+  double lowest_m = 0.0;    // of the surface over all tops
   // How far a point of any top stays above the surface, and half the rise of the surface over a touched
   // top, both over the largest overlap; 1 and 0 if the shape touches nothing.
   double lift = 1.0, turn = 0.0;

@@ -38,8 +38,8 @@ struct SpaceClass {
   Material material;
 };
 
-// A rigid shape that presses on the tops without friction: to a depth below the tops of the usual
-// pillars, or with a force. The other one is 0.
+// A rigid shape that presses on the tops without friction: its point (x, y) to a depth below the tops
+// of the usual pillars, or with a force. The other one is 0.
 struct ShapePress {
   RigidShape shape;
   double depth_m = 0.0;

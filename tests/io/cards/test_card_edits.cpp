@@ -179,6 +179,24 @@ TEST_CASE("a doubled line of any card is a mistake, not a note", "[cards]") {
   }
 }
 
+TEST_CASE("foreign lines of a Python card and lost rows of a table are mistakes", "[cards]") {
+  for (const char* target : {"sfepy", "dolfinx"}) {
+    INFO(target);
+    CHECK(findings_of(right_card(target) + "G_inf = 7.0\n", target) == "form-differs");
+    CHECK_FALSE(
+        check_card(right_card(target) + "G_inf = 7.0\n", card_target(target), {}, nullptr).agrees);
+  }
+  const std::string table = right_card("abaqus-table");
+  std::size_t first = table.find("TABULAR");
+  for (int row = 0; row < 5; ++row) first = table.find('\n', first + 1);
+  std::size_t last = first;
+  for (int row = 0; row < 3; ++row) last = table.find('\n', last + 1);
+  const std::string gap = table.substr(0, first) + table.substr(last);
+  CHECK_THAT(findings_of(gap, "abaqus-table"), Catch::Contains("missing-rows"));
+  CHECK_THAT(findings_of(table.substr(0, last + 1), "abaqus-table"),
+             Catch::Contains("missing-rows"));
+}
+
 TEST_CASE("random edits of a right card are named or harmless", "[cards][slow]") {
   constexpr int kEdits = 200;
   for (const CardTarget& target : card_targets()) {

@@ -127,6 +127,8 @@ TEST_CASE("mistakes in a shape name the key and the way out", "[cli][scene][arra
   refuses("kind = \"plane\"\ndepth = \"1 um\"\ntilt = [\"60 degree\", \"0 degree\"]\n",
           "45 degrees");
   refuses("kind = \"wedge\"\ndepth = \"1 um\"\n", "angle");
+  refuses("kind = \"wedge\"\nangle = \"60 degree\"\ndepth = \"1 um\"\n", "45 degrees");
+  refuses("kind = \"plane\"\ndirection = \"5 degree\"\ndepth = \"1 um\"\n", "shape.direction");
   refuses("kind = \"table\"\ndepth = \"1 um\"\n", "file");
   refuses("kind = \"sphere\"\nradius = \"1 mm\"\nforce = \"1 N\"\n", "press the pillars flat");
   refuses("kind = \"sphere\"\nradius = \"1 mm\"\nforce = \"1 mN\"\nat = [\"5 cm\", \"0 m\"]\n",
