@@ -47,7 +47,7 @@ struct Solver {
   bool runs_together = false;   // one start of the program runs all tests
   bool is_scaled = true;        // samples are forces or stresses and strains; false: in SI
   const char* divergence = "";  // in the log of an increment that does not converge
-  const char* error = "";       // in the log of a run that failed, whatever its exit status
+  const char* error = "";       // in the log of a run that failed, with any exit status
   std::vector<std::string> version_words;  // arguments that print the version
   const char* version_pattern = "";        // regular expression; its group is the version
 };

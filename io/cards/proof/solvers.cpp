@@ -101,7 +101,7 @@ Solver frontistr_solver() {
               "--solver-path",
           .targets = {"frontistr"},
           .test = frontistr_target().deck->test,
-          // The ramp of relaxation is one increment whatever the step (frontistr.cpp), in which the
+          // The ramp of relaxation is one increment at any step (frontistr.cpp), in which the
           // lateral strain at constant K is not linear: 6e-5 of E at nu = 0.45, and half relaxing.
           .resolves = 1e-4,
           .model = model_of<frontistr_target>,

@@ -102,7 +102,7 @@ std::vector<SpaceAccuracy> space_accuracies(const SpaceArray& array) {
   const double t_m = array.film.layers.front().thickness_m;
   const double radius_m = std::max(array.electrode_radius_m, 0.5 * largest_diameter_m(array));
   for (const auto& [degree, layers] :
-       {std::pair{3, 1}, {4, 2}, {5, 2}, {6, 3}, {7, 3}, {8, 4}, {9, 4}}) {
+       {std::pair{3, 1}, {4, 2}, {5, 3}, {6, 4}, {7, 4}, {8, 5}, {9, 5}}) {
     SpaceAccuracy one;
     one.foot.degree = degree;
     one.foot.layers = layers;

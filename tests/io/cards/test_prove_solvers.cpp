@@ -178,7 +178,7 @@ TEST_CASE("models for FEBio, MTest and FrontISTR run and are read in the solvers
   (void)stand_in(folder.path(), "mfront");
   struct Row {
     const char *target, *program, *version;
-    double limit = 1e-5;  // FrontISTR's ramp is one increment whatever the step
+    double limit = 1e-5;  // FrontISTR's ramp is one increment at any step
   };
   for (const Row& row :
        {Row{"febio", "febio4", "4.9.0"}, Row{"febio-uncoupled", "febio4", "4.9.0"},
