@@ -1,3 +1,4 @@
+#include "io/basics/data_folder.h"
 #include "io/cli/report/report_commands.h"
 #include "io/cli/words/command_line.h"
 #include "io/config/config_file.h"
@@ -193,8 +194,9 @@ CommandSyntax demo_syntax() {
       "viscard demo --out demo"};
   auto add = syntax.options.add_options();
   add("out", po::value<std::string>()->default_value("demo"), "folder for all results");
-  add("data", po::value<std::string>()->default_value(VISCARD_DEMO_DATA),
-      "folder with the rig, test, specimen and truth files");
+  add("data", po::value<std::string>(),
+      "folder with the rig, test, specimen and truth files (otherwise those that came with "
+      "viscard)");
   add("speed", po::value<std::string>()->default_value("50"),
       "speed of the emulated clock relative to real time");
   add("force", "run every step again");
@@ -210,7 +212,8 @@ int run_demo(const Words& words, Streams& streams, const CommandRunner& run_comm
 
   const fs::path out = (*values)["out"].as<std::string>();
   fs::create_directories(out);
-  const fs::path data = (*values)["data"].as<std::string>();
+  const auto own_data = given(*values, "data");
+  const fs::path data = own_data ? fs::path(*own_data) : data_folder() / "demo";
   streams.err << depth_explained(data);
   Demo demo(streams, run_command, out, data, (*values)["speed"].as<std::string>(),
             values->count("force") > 0);
