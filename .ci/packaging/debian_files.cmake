@@ -45,6 +45,7 @@ foreach(component ${CPACK_COMPONENTS_ALL})
     run(strip --strip-debug --remove-section=.comment --enable-deterministic-archives ${archive})
   endforeach()
 
+  run(find ${root} -type d -empty -delete)  # of files that this build did not make
   run(find ${root} -type d -exec chmod 755 {} +)
   run(find ${root} -type f -not -path "*/bin/*" -exec chmod 644 {} +)
   run(find ${root} -exec touch --no-dereference --date=@$ENV{SOURCE_DATE_EPOCH} {} +)
