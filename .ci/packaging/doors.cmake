@@ -8,3 +8,21 @@ set(VISCARD_DOORS
     io/flow/card_material.h io/cards/card.h io/cards/targets/card_targets.h         # solver cards
     io/scenes/scene_file.h models/scene/plan.h models/scene/simulate.h              # scenes
     io/cost/study_cost.h)
+
+# public_headers(SOURCE OUT): these and every header of ours that they include, however deep.
+function(public_headers source out)
+  set(waiting ${VISCARD_DOORS})
+  set(headers "")
+  while(waiting)
+    list(POP_FRONT waiting header)
+    if(header IN_LIST headers)
+      continue()
+    endif()
+    list(APPEND headers ${header})
+    file(STRINGS "${source}/${header}" includes REGEX "^#include \"")
+    list(TRANSFORM includes REPLACE "^#include \"([^\"]+)\".*" "\\1")
+    list(APPEND waiting ${includes})
+  endwhile()
+  list(SORT headers)
+  set(${out} ${headers} PARENT_SCOPE)
+endfunction()

@@ -37,6 +37,7 @@ install(FILES ${completions}/viscard.fish COMPONENT runtime OPTIONAL
 
 # --- development: one archive of all rooms, the headers, and how to find them -----------------------
 get_property(rooms GLOBAL PROPERTY VISCARD_ROOMS)
+list(FILTER rooms EXCLUDE REGEX "^viscard_io_python")  # part of a module of Python alone
 list(TRANSFORM rooms REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE room_objects)
 add_library(viscard_library STATIC ${room_objects})
 set_target_properties(viscard_library PROPERTIES OUTPUT_NAME viscard LINKER_LANGUAGE CXX)
@@ -63,6 +64,16 @@ install(FILES ${CMAKE_BINARY_DIR}/viscardConfig.cmake ${CMAKE_BINARY_DIR}/viscar
 # --- documentation: the pages of the rooms, to which README.md links ---------------------------------
 configure_file(${packaging}/install_documents.cmake.in ${CMAKE_BINARY_DIR}/install_documents.cmake @ONLY)
 install(SCRIPT ${CMAKE_BINARY_DIR}/install_documents.cmake COMPONENT documentation)
+
+find_program(DOXYGEN doxygen)
+if(DOXYGEN)
+  add_custom_target(viscard_api
+    COMMAND ${CMAKE_COMMAND} -DSOURCE=${CMAKE_SOURCE_DIR} -DOUT=${CMAKE_BINARY_DIR}/api -DVERSION=${PROJECT_VERSION}
+            -P ${packaging}/make_api.cmake
+    COMMENT "Documentation of the library's headers" VERBATIM)
+endif()
+install(DIRECTORY ${CMAKE_BINARY_DIR}/api/html/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/api COMPONENT documentation
+        OPTIONAL)
 
 # --- away again ---------------------------------------------------------------------------------------
 add_custom_target(uninstall

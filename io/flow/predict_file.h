@@ -43,6 +43,7 @@ struct Agreement {
   bool is_noise_relative = false;  // of frequency sweeps, whose values span decades
 };
 
+// What a material file does in a test.
 struct PredictedFile {
   std::string path, name;  // of the material
   double systematic_relative = 0.0;
