@@ -7,7 +7,11 @@
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/serve/serve_command.h"
+#include "io/cli/words/json_output.h"
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
 
@@ -31,7 +35,12 @@ int dispatch(const Words& words, Streams& streams) {
     return words.empty() ? kBadWords : kDone;
   }
   if (words[0] == "--version") {
-    streams.out << "viscard " VISCARD_VERSION "\n";
+    if (std::find(words.begin(), words.end(), "--json") != words.end()) {
+      print_json<nlohmann::ordered_json>({"viscard-version/1", {}}, {{"program", "viscard"}},
+                                         streams);
+    } else {
+      streams.out << "viscard " VISCARD_VERSION "\n";
+    }
     return kDone;
   }
   std::vector<std::string> names;
@@ -74,7 +83,7 @@ const std::vector<Command>& commands() {
 
 int run_viscard(const Words& words, Streams& streams) {
   try {
-    return dispatch(words, streams);
+    return with_json_errors(words, streams, [&] { return dispatch(words, streams); });
   } catch (const UsageError& error) {
     streams.err << "viscard: " << error.what() << "\n";
     return kBadWords;

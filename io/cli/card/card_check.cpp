@@ -3,6 +3,7 @@
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/targets/target_table.h"
 #include "io/cli/card/card_words.h"
+#include "io/cli/words/json_output.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -162,7 +163,7 @@ int list_card_targets(const CardWords& words, Streams& streams) {
     for (const UnitSystem& system : unit_systems()) {
       json["units"].push_back({{"name", system.name}, {"description", system.description}});
     }
-    streams.out << json.dump(2) << "\n";
+    print_json({"viscard-card-list/1", {}}, json, streams);
     return kDone;
   }
   if (words.is_long) {
@@ -204,7 +205,9 @@ int check_card_file(const CardWords& words, Streams& streams) {
   }();
   check.findings.insert(check.findings.begin(), notes.begin(), notes.end());
   if (words.json) {
-    streams.out << json_of(check, words).dump(2) << "\n";
+    Words inputs{words.check};
+    if (!words.material.empty()) inputs.push_back(words.material);
+    print_json({"viscard-card-check/1", inputs}, json_of(check, words), streams);
   } else {
     print(check, words, streams.out);
   }

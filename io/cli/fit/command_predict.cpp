@@ -3,6 +3,7 @@
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/fit/predict_output.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "io/flow/predict_file.h"
 
@@ -189,7 +190,9 @@ int run_predict(const Words& words, Streams& streams) {
   if (svg) {
     write_file(*svg, svg_from_plot(plot_of_prediction(predicted), "prediction"), overwrite);
   }
-  if (!print_json(*values, json_from_prediction(predicted), streams)) {
+  const Words inputs = given_words(*values, {"material", "history", "against"});
+  if (!print_json(*values, {"viscard-predict/1", inputs}, json_from_prediction(predicted),
+                  streams)) {
     print_prediction(predicted, streams.out);
   }
   return report_trust(predicted, values->count("accept-flags") > 0, streams.err);

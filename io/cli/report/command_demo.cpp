@@ -1,5 +1,6 @@
 #include "io/cli/report/report_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/json_output.h"
 #include "io/config/config_file.h"
 #include "io/materials/material_file.h"
 #include "rig/run/preflight.h"
@@ -217,7 +218,9 @@ int run_demo(const Words& words, Streams& streams, const CommandRunner& run_comm
   for (const DemoSpecimen& specimen : kSpecimens) demo.run_specimen(specimen);
   const fs::path page = fs::absolute(demo.run_report());
   const std::vector<ScoreRow> rows = demo.scores();
-  if (print_json(*values, json_from_scores(rows, page), streams)) return kDone;
+  if (print_json(*values, {"viscard-demo/1", {data.string()}}, json_from_scores(rows, page),
+                 streams))
+    return kDone;
   if (demo.n_kept() > 0) {
     streams.err << fmt::format(
         "{} results were up to date and kept (--force runs every step again).\n", demo.n_kept());

@@ -2,7 +2,7 @@
 #include "io/cli/rig/capture_words.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
-#include "io/cli/words/json_errors.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "io/flow/capture_setup.h"
 #include "io/flow/command_error.h"
@@ -206,7 +206,9 @@ void print_rest(const std::vector<SeriesStep>& steps, const SeriesResult& result
       << "\n";
 }
 
-int capture(const Words& words, Streams& streams) {
+}  // namespace
+
+int run_capture(const Words& words, Streams& streams) {
   CaptureWords asked;
   CommandSyntax syntax = capture_syntax(asked);
   const auto values = parse_words(syntax, words, streams);
@@ -226,7 +228,12 @@ int capture(const Words& words, Streams& streams) {
                             ? last["error"]
                             : json_from_error(command_error(result.code, result.trouble));
     }
-    streams.out << (steps.size() == 1 ? result.runs.at(0) : series).dump() << "\n";
+    const Words inputs = given_words(*values, {"rig", "test", "specimen", "truth"});
+    if (steps.size() == 1) {
+      print_json({"viscard-capture/1", inputs}, result.runs.at(0), streams, -1);
+    } else {
+      print_json({"viscard-capture-series/1", inputs}, series, streams, -1);
+    }
   }
   if (result.trouble.empty()) return kDone;
   streams.err << "viscard: " << result.trouble << "\n";
@@ -234,12 +241,6 @@ int capture(const Words& words, Streams& streams) {
     print_rest(steps, result, asked, streams.err);
   }
   return kFailed;
-}
-
-}  // namespace
-
-int run_capture(const Words& words, Streams& streams) {
-  return with_json_errors(words, streams, [&] { return capture(words, streams); });
 }
 
 }  // namespace viscard

@@ -1,7 +1,7 @@
 #include "io/cli/rig/overshoot_study.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
-#include "io/cli/words/json_errors.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
 #include "io/config/config_file.h"
 #include "io/flow/check_rig_config.h"
@@ -17,6 +17,7 @@
 
 #include <optional>
 #include <ostream>
+#include <utility>
 
 namespace po = boost::program_options;
 
@@ -24,6 +25,8 @@ namespace viscard {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr int kOneLine = -1;
 
 ordered_json number_or_null(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json(nullptr);
@@ -50,7 +53,8 @@ void list_thermometer(const RigConfig& rig, bool as_json, ordered_json& json, St
               << "\n";
 }
 
-int list_ports(const std::optional<RigConfig>& rig, bool as_json, Streams& streams) {
+int list_ports(const std::optional<RigConfig>& rig, const Words& inputs, bool as_json,
+               Streams& streams) {
   ordered_json rows = ordered_json::array();
   for (const std::string& path : present_ports()) {
     const PortStatus status = port_status(path);
@@ -62,7 +66,7 @@ int list_ports(const std::optional<RigConfig>& rig, bool as_json, Streams& strea
   ordered_json json{{"ports", rows}};
   if (rig) list_thermometer(*rig, as_json, json, streams);
   if (as_json) {
-    streams.out << json.dump() << "\n";
+    print_json({"viscard-rig-list/1", inputs}, std::move(json), streams, kOneLine);
   } else if (rows.empty()) {
     streams.out << "No serial port is present. Plug the stage and the load cell in and switch them "
                    "on; 'dmesg | tail' shows whether the system has recognised them.\n";
@@ -96,10 +100,6 @@ void print_text(const RigCheck& found, std::ostream& out) {
   out << (found.is_usable ? "ready\n" : "not fit for a test yet\n");
 }
 
-void print_json(const RigCheck& found, std::ostream& out) {
-  out << json_from_rig_check(found).dump() << "\n";
-}
-
 int show_overshoot(bool as_json, Streams& streams) {
   Progress progress(streams, "overshoot");
   const std::vector<OvershootRow> rows =
@@ -124,7 +124,10 @@ int show_overshoot(bool as_json, Streams& streams) {
                                row.speed_m_s * 1e3, row.gentle_N, row.expected_N, row.ladder_N,
                                row.reset_N);
   }
-  if (as_json) streams.out << ordered_json{{"limit_N", 1.0}, {"rows", list}}.dump() << "\n";
+  if (as_json) {
+    print_json<ordered_json>({"viscard-rig-overshoot/1", {}}, {{"limit_N", 1.0}, {"rows", list}},
+                             streams, kOneLine);
+  }
   return kDone;
 }
 
@@ -160,14 +163,17 @@ int check_and_print(const po::variables_map& values, bool as_json, Streams& stre
   RigCheck found = check_rig_config(rig, is_emulated, seconds);
   if (values.count("rig") > 0) add_calibration(rig, found);
   if (as_json) {
-    print_json(found, streams.out);
+    print_json({"viscard-rig-check/1", given_words(values, {"rig"})}, json_from_rig_check(found),
+               streams, kOneLine);
   } else {
     print_text(found, streams.out);
   }
   return found.is_usable ? kDone : kFailed;
 }
 
-int list_check_or_study(const Words& words, Streams& streams) {
+}  // namespace
+
+int run_rig(const Words& words, Streams& streams) {
   CommandSyntax syntax = rig_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
@@ -182,7 +188,7 @@ int list_check_or_study(const Words& words, Streams& streams) {
   if (what == "list") {
     std::optional<RigConfig> rig;
     if (values->count("rig") > 0) rig = read_rig((*values)["rig"].as<std::string>());
-    return list_ports(rig, as_json, streams);
+    return list_ports(rig, given_words(*values, {"rig"}), as_json, streams);
   }
   if (what == "overshoot") return show_overshoot(as_json, streams);
   if (what != "check") {
@@ -190,12 +196,6 @@ int list_check_or_study(const Words& words, Streams& streams) {
                      std::string(syntax.usage));
   }
   return check_and_print(*values, as_json, streams);
-}
-
-}  // namespace
-
-int run_rig(const Words& words, Streams& streams) {
-  return with_json_errors(words, streams, [&] { return list_check_or_study(words, streams); });
 }
 
 }  // namespace viscard

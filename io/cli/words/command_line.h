@@ -5,7 +5,6 @@
 #include <boost/program_options.hpp>
 
 #include <optional>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -53,15 +52,6 @@ Value required(const boost::program_options::variables_map& values, const char* 
                const CommandSyntax& syntax) {
   if (const auto value = given<Value>(values, name)) return *value;
   throw UsageError(std::string("which ") + name + "? usage: " + syntax.usage);
-}
-
-// With --json, prints the object and returns true.
-template <typename Json>
-bool print_json(const boost::program_options::variables_map& values, const Json& object,
-                Streams& streams) {
-  if (values.count("json") == 0) return false;
-  streams.out << object.dump(2) << "\n";
-  return true;
 }
 
 // "viscard" and the words, quoted for a shell; output files record it.

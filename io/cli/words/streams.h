@@ -15,6 +15,7 @@ struct Streams {
   std::ostream& out;
   std::ostream& err;
   bool err_is_terminal = false;
+  bool has_printed_json = false;  // --json prints one object; an error after it is only a message
 };
 
 // Exit status of every command.
