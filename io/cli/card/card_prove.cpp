@@ -7,6 +7,7 @@
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cli/card/card_words.h"
+#include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "models/maths/text_of_number.h"
@@ -135,7 +136,7 @@ int prove_card_file(const CardWords& words, Streams& streams) {
   const CardProof proof = prove_card(request.card_text, read, material, found);
   const CardChain chain = chain_of(request);
   const std::string certificate = certificate_text(request, chain, found, proof);
-  if (!words.json) print_proof(words, found, proof, chain, streams.out);
+  if (!words.json) print_proof(words, found, proof, chain, FittedText(streams));
   write_file(path, certificate, words.force);
   if (words.json) {
     Words inputs{words.prove};

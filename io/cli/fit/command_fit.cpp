@@ -2,6 +2,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
@@ -121,6 +122,14 @@ CommandSyntax fit_syntax() {
   add("force", "replace an existing material file");
   syntax.positional = {"file"};
   syntax.last_is_repeatable = true;
+  syntax.choices = {
+      {"kind", {"indentation", "relaxation", "creep", "dma"}},
+      {"noise", {"auto", "white"}},
+      {"crop", {"auto"}},
+      {"vertical-shift", {"auto", "on", "off"}},
+      {"model",
+       {"kww", "springpot", "fractional-maxwell", "fractional-kelvin-voigt", "fractional-zener"}},
+      {"share", {"E0", "g", "tau"}}};
   return syntax;
 }
 
@@ -280,7 +289,7 @@ int run_fit(const Words& words, Streams& streams) {
   progress.clear();
   require_one(outcomes);
   const bool as_json = values->count("json") > 0;
-  if (!as_json) print_as_text(outcomes, streams.out);
+  if (!as_json) print_as_text(outcomes, FittedText(streams));
   if (out) {
     Material material = material_from_fitted(*outcomes.front().fitted, about);
     if (const auto ratio = given<Numbers>(*values, "ratio")) material.mixing_ratio = ratio->front();

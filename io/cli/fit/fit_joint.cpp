@@ -1,6 +1,7 @@
 #include "fit/laws/fit_mixing_ratio.h"
 #include "io/basics/atomic_file.h"
 #include "io/cli/fit/fit_command.h"
+#include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
 #include "io/flow/fit_file.h"
@@ -135,7 +136,7 @@ int run_joint_fit(const JointWords& words, Streams& streams) {
        .note = [&](const std::string& text) { streams.err << "viscard: " << text << "\n"; }});
   progress.clear();
   const std::string text = json_from_ratio_fit(fit);
-  if (!words.json) print(fit, streams.out);
+  if (!words.json) print(fit, FittedText(streams));
   if (!words.out.empty()) write_file(words.out, text, words.overwrite);
   if (words.json) {  // the schema is that of the file
     print_json({"", words.files}, nlohmann::ordered_json::parse(text), streams);

@@ -1,5 +1,6 @@
 #include "io/cli/report/report_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/config/config_file.h"
 #include "io/materials/material_file.h"
@@ -226,8 +227,8 @@ int run_demo(const Words& words, Streams& streams, const CommandRunner& run_comm
         "{} results were up to date and kept (--force runs every step again).\n", demo.n_kept());
   }
   streams.out << "\nTrue values of the emulated rig, and estimates of the fit:\n\n"
-              << table_from_scores(rows) << "\nThe page with all results: " << page.string()
-              << "\n";
+              << fitted(table_from_scores(rows), streams.columns)
+              << "\nThe page with all results: " << page.string() << "\n";
   return kDone;
 }
 

@@ -48,6 +48,10 @@ CommandSyntax report_syntax() {
   add("reproducible", "omit the date, so that the same input gives the same bytes");
   add("force", "overwrite existing files");
   syntax.positional = {"files"};
+  for (const CardTarget& target : card_targets()) syntax.choices["card"].push_back(target.name);
+  for (const UnitSystem& system : unit_systems()) {
+    syntax.choices["units"].emplace_back(system.name);
+  }
   syntax.last_is_repeatable = true;
   return syntax;
 }

@@ -2,6 +2,7 @@
 #include "io/cli/rig/capture_words.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "io/flow/capture_setup.h"
@@ -158,7 +159,7 @@ bool run_step(const SeriesStep& step, const SeriesStep* previous, const CaptureW
     result.runs.back()["specimen"] = setup.specimen.id;
     result.runs.back()["touch"] = step.touch;
   }
-  if (!words.as_json) print_text(outcome, streams.out);
+  if (!words.as_json) print_text(outcome, FittedText(streams));
   if (outcome.run.status == "finished") return true;
   result.trouble = touch_text(step) + outcome.run.reason;
   return false;

@@ -1,6 +1,7 @@
 #include "io/cli/rig/overshoot_study.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
 #include "io/config/config_file.h"
@@ -105,9 +106,11 @@ int show_overshoot(bool as_json, Streams& streams) {
   const std::vector<OvershootRow> rows =
       study_overshoot({}, [&](double fraction) { progress.show(fraction, ""); });
   progress.clear();
+  FittedText fitting(streams);
+  std::ostream& table = fitting;
   if (!as_json) {
-    streams.out << "force beyond a limit of 1 N (N), emulated GRBL, 8.8 N/mm, 80 readings/s\n"
-                   "steps/mm  mm/s2  mm/s  jog cancel  expected  ladder   reset\n";
+    table << "force beyond a limit of 1 N (N), emulated GRBL, 8.8 N/mm, 80 readings/s\n"
+             "steps/mm  mm/s2  mm/s  jog cancel  expected  ladder   reset\n";
   }
   ordered_json list = ordered_json::array();
   for (const OvershootRow& row : rows) {
@@ -119,10 +122,9 @@ int show_overshoot(bool as_json, Streams& streams) {
                     {"ladder_N", row.ladder_N},
                     {"reset_N", row.reset_N}});
     if (as_json) continue;
-    streams.out << fmt::format("{:8.0f} {:6.0f} {:5.1f} {:11.3f} {:9.3f} {:7.3f} {:7.3f}\n",
-                               row.steps_per_m * 1e-3, row.acceleration_m_s2 * 1e3,
-                               row.speed_m_s * 1e3, row.gentle_N, row.expected_N, row.ladder_N,
-                               row.reset_N);
+    table << fmt::format("{:8.0f} {:6.0f} {:5.1f} {:11.3f} {:9.3f} {:7.3f} {:7.3f}\n",
+                         row.steps_per_m * 1e-3, row.acceleration_m_s2 * 1e3, row.speed_m_s * 1e3,
+                         row.gentle_N, row.expected_N, row.ladder_N, row.reset_N);
   }
   if (as_json) {
     print_json<ordered_json>({"viscard-rig-overshoot/1", {}}, {{"limit_N", 1.0}, {"rows", list}},
@@ -146,6 +148,7 @@ CommandSyntax rig_syntax() {
       "seconds", po::value<double>()->default_value(3.0), "how long to listen")(
       "emulate", "check an emulated rig");
   syntax.positional = {"what"};
+  syntax.choices["what"] = {"list", "check", "overshoot"};
   return syntax;
 }
 
@@ -166,7 +169,7 @@ int check_and_print(const po::variables_map& values, bool as_json, Streams& stre
     print_json({"viscard-rig-check/1", given_words(values, {"rig"})}, json_from_rig_check(found),
                streams, kOneLine);
   } else {
-    print_text(found, streams.out);
+    print_text(found, FittedText(streams));
   }
   return found.is_usable ? kDone : kFailed;
 }

@@ -2,6 +2,7 @@
 #include "io/cli/scene/cost_output.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
 #include "io/cost/study_cost.h"
@@ -61,7 +62,7 @@ int run_cost(const Words& words, Streams& streams) {
     const std::string name = std::filesystem::path(path).filename().string();
     write_file(folder / "cost.svg", svg_from_plot(plot_from_study(study, name), "cost"), overwrite);
   }
-  if (!print_json(*values, head, object, streams)) print_study(study, path, streams.out);
+  if (!print_json(*values, head, object, streams)) print_study(study, path, FittedText(streams));
   return kDone;
 }
 

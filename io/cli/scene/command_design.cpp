@@ -3,6 +3,7 @@
 #include "io/cli/scene/answer_pictures.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "models/sensor/sensor_design.h"
 
@@ -74,6 +75,7 @@ CommandSyntax design_syntax(Design& defaults) {
                                "square, hexagonal or plain (square)")(
       "out", po::value<std::string>(), "folder for design.json and pictures of the limits")(
       "force", "overwrite existing files");
+  syntax.choices["lattice"] = {"square", "hexagonal", "plain"};
   return syntax;
 }
 
@@ -185,7 +187,7 @@ int run_design(const Words& words, Streams& streams) {
     }
   }
   if (!print_json(*values, head, object, streams)) {
-    print_design(design, limits, longest, streams.out);
+    print_design(design, limits, longest, FittedText(streams));
   }
   return kDone;
 }

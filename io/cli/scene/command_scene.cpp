@@ -25,6 +25,7 @@ CommandSyntax scene_syntax() {
   syntax.options.add_options()("svg", po::value<std::string>(), "file for the drawing")(
       "force", "overwrite an existing file");
   syntax.positional = {"what", "scene"};
+  syntax.choices["what"] = {"check"};
   return syntax;
 }
 
