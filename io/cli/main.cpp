@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   ::signal(SIGXFSZ,
            SIG_IGN);  // writes beyond a file size limit then fail like writes to a full disk
   std::ios::sync_with_stdio(false);
-  viscard::Streams streams{std::cout, std::cerr, isatty(STDERR_FILENO) == 1};
+  viscard::Streams streams{std::cout, std::cerr, viscard::is_drawable(STDERR_FILENO)};
   const viscard::Words words{argv + 1, argv + argc};
   streams.columns = viscard::columns_of(STDOUT_FILENO);
   streams.is_out_coloured = viscard::is_coloured(words, STDOUT_FILENO);

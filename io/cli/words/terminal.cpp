@@ -30,6 +30,10 @@ std::size_t columns_of(int descriptor) {
   return is_number ? std::max<std::size_t>(std::stoul(columns), kNarrowest) : 0;
 }
 
+bool is_drawable(int descriptor) {
+  return isatty(descriptor) == 1 && variable("TERM") != "dumb";
+}
+
 bool is_coloured(const Words& words, int descriptor) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const bool is_apart = words[i] == "--color" && i + 1 < words.size();
@@ -39,8 +43,7 @@ bool is_coloured(const Words& words, int descriptor) {
     if (when == "always") return true;
     if (when == "never") return false;
   }
-  return isatty(descriptor) == 1 && variable("NO_COLOR").empty() && variable("TERM") != "dumb" &&
-         !variable("TERM").empty();
+  return is_drawable(descriptor) && variable("NO_COLOR").empty() && !variable("TERM").empty();
 }
 
 std::string bold(const std::string& text, bool is_coloured) {

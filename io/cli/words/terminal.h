@@ -10,6 +10,9 @@ namespace viscard {
 // least 40. 0: neither is known.
 std::size_t columns_of(int descriptor);
 
+// Whether a bar may be drawn and redrawn: a terminal that is not "dumb".
+bool is_drawable(int descriptor);
+
 // Whether to colour what goes to a file descriptor. --color always or never decides; with auto, which
 // is the default, it must be a terminal, TERM not "dumb", and NO_COLOR empty or not set
 // (https://no-color.org).
