@@ -3,6 +3,7 @@
 #include "io/cards/card.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cli/card/card_words.h"
+#include "io/cli/words/json_output.h"
 #include "io/materials/material_file.h"
 #include "models/maths/text_of_number.h"
 
@@ -108,7 +109,8 @@ int write_card_file(const CardWords& words, Streams& streams) {
     write_file(words.out, card.text, words.force);
   }
   if (words.json) {
-    streams.out << json_of(card, words, words.out.empty()).dump(2) << "\n";
+    print_json({"viscard-card-write/1", {words.material}}, json_of(card, words, words.out.empty()),
+               streams);
     return kDone;
   }
   if (words.out.empty()) {

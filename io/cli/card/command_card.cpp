@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/words.h"
+#include "io/cards/proof/solvers.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
 #include "io/cli/card/card_words.h"
@@ -177,6 +178,12 @@ int run_card(const Words& words, Streams& streams) {
       "viscard card data/materials/pdms_1to10_seed.json --for abaqus --units mm-t-s"};
   add_options(syntax, card);
   syntax.positional = {"material"};
+  syntax.choices = {{"for", target_names()},
+                    {"units", unit_names()},
+                    {"bound", {"lower", "upper"}},
+                    {"elastic-only", {"instantaneous", "long-term"}},
+                    {"deck", {"relaxation", "creep"}}};
+  for (const Solver& solver : solvers()) syntax.choices["solver"].emplace_back(solver.name);
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   card.material = given(*values, "material").value_or("");

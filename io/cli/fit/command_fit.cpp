@@ -2,6 +2,8 @@
 #include "io/basics/atomic_file.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
 #include "io/flow/command_error.h"
@@ -120,6 +122,14 @@ CommandSyntax fit_syntax() {
   add("force", "replace an existing material file");
   syntax.positional = {"file"};
   syntax.last_is_repeatable = true;
+  syntax.choices = {
+      {"kind", {"indentation", "relaxation", "creep", "dma"}},
+      {"noise", {"auto", "white"}},
+      {"crop", {"auto"}},
+      {"vertical-shift", {"auto", "on", "off"}},
+      {"model",
+       {"kww", "springpot", "fractional-maxwell", "fractional-kelvin-voigt", "fractional-zener"}},
+      {"share", {"E0", "g", "tau"}}};
   return syntax;
 }
 
@@ -140,7 +150,8 @@ int run_joint(const po::variables_map& values, const Words& files, const std::st
 
 // The object of a file that could not be fitted stands in its place among the others.
 nlohmann::ordered_json json_of(const FileOutcome& outcome) {
-  if (outcome.fitted) return json_from_fit(*outcome.fitted);
+  if (outcome.fitted)
+    return with_head({"viscard-fit/1", {outcome.path}}, json_from_fit(*outcome.fitted));
   nlohmann::ordered_json json;
   json["file"] = outcome.path;
   try {
@@ -148,28 +159,29 @@ nlohmann::ordered_json json_of(const FileOutcome& outcome) {
   } catch (const std::exception& error) {
     json["error"] = json_from_error(command_error(error));
   }
-  return json;
+  return with_head({"viscard-fit/1", {outcome.path}}, json);
 }
 
-void print(const std::vector<FileOutcome>& outcomes, bool as_json, std::ostream& out) {
-  if (!as_json) {
-    bool is_first = true;
-    for (const FileOutcome& outcome : outcomes) {
-      if (!outcome.fitted) continue;
-      if (!is_first) out << "\n";
-      is_first = false;
-      print_fit(*outcome.fitted, out);
-    }
-    return;
+void print_as_text(const std::vector<FileOutcome>& outcomes, std::ostream& out) {
+  bool is_first = true;
+  for (const FileOutcome& outcome : outcomes) {
+    if (!outcome.fitted) continue;
+    if (!is_first) out << "\n";
+    is_first = false;
+    print_fit(*outcome.fitted, out);
   }
+}
+
+// One file has its keys at the top, several stand in a list.
+void print_as_json(const std::vector<FileOutcome>& outcomes, const Words& files, Streams& streams) {
   if (outcomes.size() == 1) {
-    out << json_of(outcomes.front()).dump(2) << "\n";
+    print_json({"viscard-fit/1", files}, json_of(outcomes.front()), streams);
     return;
   }
   nlohmann::ordered_json json;
   json["fits"] = nlohmann::ordered_json::array();
   for (const FileOutcome& outcome : outcomes) json["fits"].push_back(json_of(outcome));
-  out << json.dump(2) << "\n";
+  print_json({"viscard-fits/1", files}, json, streams);
 }
 
 // Without a single result the command fails as a whole, with the first reason.
@@ -276,12 +288,14 @@ int run_fit(const Words& words, Streams& streams) {
   }
   progress.clear();
   require_one(outcomes);
-  print(outcomes, values->count("json") > 0, streams.out);
+  const bool as_json = values->count("json") > 0;
+  if (!as_json) print_as_text(outcomes, FittedText(streams));
   if (out) {
     Material material = material_from_fitted(*outcomes.front().fitted, about);
     if (const auto ratio = given<Numbers>(*values, "ratio")) material.mixing_ratio = ratio->front();
     write_file(*out, json_from_material(material), overwrite);
   }
+  if (as_json) print_as_json(outcomes, files, streams);
   return report_defects(outcomes, streams.err);
 }
 

@@ -3,6 +3,8 @@
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/fit/predict_output.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "io/flow/predict_file.h"
 
@@ -62,6 +64,7 @@ CommandSyntax predict_syntax() {
   add("accept-flags", "exit with 0 also if the fit of the material is not to be trusted");
   add("force", "overwrite existing files");
   syntax.positional = {"material"};
+  syntax.choices["test"] = names_of_predicted_tests();
   return syntax;
 }
 
@@ -189,8 +192,10 @@ int run_predict(const Words& words, Streams& streams) {
   if (svg) {
     write_file(*svg, svg_from_plot(plot_of_prediction(predicted), "prediction"), overwrite);
   }
-  if (!print_json(*values, json_from_prediction(predicted), streams)) {
-    print_prediction(predicted, streams.out);
+  const Words inputs = given_words(*values, {"material", "history", "against"});
+  if (!print_json(*values, {"viscard-predict/1", inputs}, json_from_prediction(predicted),
+                  streams)) {
+    print_prediction(predicted, FittedText(streams));
   }
   return report_trust(predicted, values->count("accept-flags") > 0, streams.err);
 }

@@ -1,12 +1,15 @@
 #include "fit/laws/fit_mixing_ratio.h"
 #include "io/basics/atomic_file.h"
 #include "io/cli/fit/fit_command.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
 #include "io/flow/fit_file.h"
 #include "io/materials/material_file.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <ostream>
@@ -132,12 +135,12 @@ int run_joint_fit(const JointWords& words, Streams& streams) {
        .progress = [&](double done, const std::string& file) { progress.show(done, file); },
        .note = [&](const std::string& text) { streams.err << "viscard: " << text << "\n"; }});
   progress.clear();
-  if (words.json) {
-    streams.out << json_from_ratio_fit(fit);
-  } else {
-    print(fit, streams.out);
+  const std::string text = json_from_ratio_fit(fit);
+  if (!words.json) print(fit, FittedText(streams));
+  if (!words.out.empty()) write_file(words.out, text, words.overwrite);
+  if (words.json) {  // the schema is that of the file
+    print_json({"", words.files}, nlohmann::ordered_json::parse(text), streams);
   }
-  if (!words.out.empty()) write_file(words.out, json_from_ratio_fit(fit), words.overwrite);
   return kDone;
 }
 

@@ -2,6 +2,7 @@
 #include "fit/intervals/viscosity.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/flow/flow_json.h"
+#include "models/maths/interval.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -195,9 +196,11 @@ void print_fit(const FittedFile& fitted, std::ostream& out) {
   }
   if (fit.systematic_relative > 0.0) {
     out << fmt::format(
-        "  systematic part, common to all moduli: {:.2g} % (geometry, calibration, frame); "
+        "  systematic part, common to all moduli: +-{:.2g} % at 95 %, standard uncertainty {:.2g} "
+        "% "
+        "(geometry, calibration, frame); "
         "including it, E0 is {} {}\n",
-        100.0 * fit.systematic_relative,
+        100.0 * kNormal95 * fit.systematic_relative, 100.0 * fit.systematic_relative,
         range(combined_95(fit.E0_interval_95, fit.E0_Pa, fit.systematic_relative), shown.factor, 4),
         shown.unit);
   }

@@ -1,6 +1,8 @@
 #include "io/basics/data_folder.h"
 #include "io/cli/report/report_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/config/config_file.h"
 #include "io/materials/material_file.h"
 #include "rig/run/preflight.h"
@@ -220,14 +222,16 @@ int run_demo(const Words& words, Streams& streams, const CommandRunner& run_comm
   for (const DemoSpecimen& specimen : kSpecimens) demo.run_specimen(specimen);
   const fs::path page = fs::absolute(demo.run_report());
   const std::vector<ScoreRow> rows = demo.scores();
-  if (print_json(*values, json_from_scores(rows, page), streams)) return kDone;
+  if (print_json(*values, {"viscard-demo/1", {data.string()}}, json_from_scores(rows, page),
+                 streams))
+    return kDone;
   if (demo.n_kept() > 0) {
     streams.err << fmt::format(
         "{} results were up to date and kept (--force runs every step again).\n", demo.n_kept());
   }
   streams.out << "\nTrue values of the emulated rig, and estimates of the fit:\n\n"
-              << table_from_scores(rows) << "\nThe page with all results: " << page.string()
-              << "\n";
+              << fitted(table_from_scores(rows), streams.columns)
+              << "\nThe page with all results: " << page.string() << "\n";
   return kDone;
 }
 

@@ -1,6 +1,8 @@
 #include "io/cli/scene/answer_output.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cost/effect_savings.h"
 #include "io/scenes/scene_file.h"
 #include "models/scene/plan.h"
@@ -167,7 +169,9 @@ int run_plan(const Words& words, Streams& streams) {
                               {"left_out", plan.left_out},
                               {"savings", json_from_savings(savings)},
                               {"mesh_tolerance", common(plan.reduced).tolerance}};
-  if (!print_json(*values, object, streams)) print_plan(path, scene, plan, savings, streams.out);
+  if (!print_json(*values, {"viscard-plan/1", {path}}, object, streams)) {
+    print_plan(path, scene, plan, savings, FittedText(streams));
+  }
   return kDone;
 }
 

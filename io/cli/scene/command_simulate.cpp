@@ -4,6 +4,8 @@
 #include "io/cli/scene/array_sweep.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
 #include "io/pictures/section_picture.h"
 #include "io/scenes/scene_file.h"
@@ -40,7 +42,9 @@ void write_looks(const Scene& scene, const SceneAnswer& answer, const SweepOutpu
     write_file(in / (grid.name + ".vtu"), vtu_from_grid(grid), output.overwrite);
     write_pictures(pictures_from_grid(grid), output.folder, output.overwrite);
   }
-  write_pictures(pictures_over_pillars(answer), output.folder, output.overwrite);
+  const auto* row = std::get_if<ArrayScene>(&scene);
+  const std::vector<int> loaded = row == nullptr ? std::vector<int>{} : row->loaded;
+  write_pictures(pictures_over_pillars(answer, loaded), output.folder, output.overwrite);
 }
 
 CommandSyntax simulate_syntax() {
@@ -83,16 +87,17 @@ int run_simulate(const Words& words, Streams& streams) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const auto printed = compare_printed(file.printed, answer);
   if (!is_sweep) keep_wanted(common(file.scene).wanted, answer);  // a sweep has kept them by point
-  nlohmann::json object = json_from_answer(answer, wall_s);
+  const JsonHead head{"viscard-simulate/1", {path}};
+  nlohmann::json object = with_head(head, json_from_answer(answer, wall_s));
   if (!printed.empty()) object["printed"] = json_from_comparison(printed);
   if (!folder.empty()) {
     write_files(answer, object, folder, output.command, output.overwrite);
     if (!is_sweep) write_looks(file.scene, answer, output);
   }
-  if (print_json(*values, object, streams)) return kDone;
+  if (print_json(*values, head, object, streams)) return kDone;
   streams.out << path << "\n";
-  print_answer(answer, wall_s, streams.out);
-  print_comparison(printed, streams.out);
+  print_answer(answer, wall_s, FittedText(streams));
+  print_comparison(printed, FittedText(streams));
   return kDone;
 }
 
