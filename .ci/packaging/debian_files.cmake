@@ -36,6 +36,10 @@ foreach(component ${CPACK_COMPONENTS_ALL})
     file(RENAME ${root}/usr/share/zsh/site-functions ${root}/usr/share/zsh/vendor-completions)
   endif()
 
+  file(GLOB pages ${root}/usr/share/man/man*/*.[1-9])
+  foreach(page ${pages})
+    run(sed -i "s# data/# /usr/share/viscard/#g" ${page})  # examples name files of the source tree
+  endforeach()
   file(GLOB pages ${root}/usr/share/man/man*/*.[1-9] ${doc}/changelog ${doc}/changelog.Debian)
   foreach(page ${pages})
     run(gzip -9n ${page})

@@ -16,6 +16,8 @@ foreach(folder demo materials protocols scenes)
 endforeach()
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(DIRECTORY data/pictures DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT runtime)
+install(DIRECTORY io/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime
+        FILES_MATCHING PATTERN "*.schema.json")
 # README.md links to files of these as they stand in the source tree.
 file(RELATIVE_PATH data_from_documents /${CMAKE_INSTALL_DOCDIR}/data /${CMAKE_INSTALL_DATADIR}/viscard)
 foreach(folder demo examples)

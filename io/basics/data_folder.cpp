@@ -24,4 +24,20 @@ fs::path data_folder() {
   return data_folder_beside(fs::read_symlink("/proc/self/exe").parent_path());
 }
 
+std::string example_with_data(const std::string& example) {
+  static const std::string kShort = " data/";
+  if (fs::is_directory("data")) return example;
+  std::string text = example, folder;
+  try {
+    folder = " " + data_folder().string() + "/";
+  } catch (const std::runtime_error&) {
+    return example;
+  }
+  for (std::size_t at = text.find(kShort); at != std::string::npos;
+       at = text.find(kShort, at + 1)) {
+    text.replace(at, kShort.size(), folder);
+  }
+  return text;
+}
+
 }  // namespace viscard

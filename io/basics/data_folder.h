@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace viscard {
 
@@ -12,5 +13,9 @@ std::filesystem::path data_folder();
 
 // The same for a program in the folder `of_program`.
 std::filesystem::path data_folder_beside(const std::filesystem::path& of_program);
+
+// An example of a command that works where it is read: its files of data/ are those of the source tree if
+// there is such a folder in the current one, otherwise those of data_folder(), if it is there.
+std::string example_with_data(const std::string& example);
 
 }  // namespace viscard

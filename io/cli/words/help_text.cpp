@@ -1,5 +1,6 @@
 #include "io/cli/words/help_text.h"
 
+#include "io/basics/data_folder.h"
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/terminal.h"
 
@@ -85,7 +86,8 @@ std::string help_text(const CommandSyntax& syntax, std::size_t columns, bool is_
     text += row_of(option, columns, is_coloured);
   }
   // The example stays one line, so that it can be copied.
-  return text + "\n" + bold("Example:", is_coloured) + " " + syntax.example + "\n";
+  return text + "\n" + bold("Example:", is_coloured) + " " + example_with_data(syntax.example) +
+         "\n";
 }
 
 nlohmann::ordered_json json_from_syntax(const CommandSyntax& syntax) {
