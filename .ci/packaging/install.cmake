@@ -51,6 +51,10 @@ configure_file(${packaging}/install_headers.cmake.in ${CMAKE_BINARY_DIR}/install
 install(SCRIPT ${CMAKE_BINARY_DIR}/install_headers.cmake COMPONENT development)
 install(DIRECTORY data/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT development
         FILES_MATCHING PATTERN "*.cpp" PATTERN "CMakeLists.txt")
+if(TARGET viscard_python)
+  install(DIRECTORY data/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT python
+          FILES_MATCHING PATTERN "*.py")
+endif()
 
 file(RELATIVE_PATH prefix_from_pc /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" prefix_from_pc "${prefix_from_pc}")
