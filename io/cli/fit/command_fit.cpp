@@ -48,7 +48,9 @@ void add_fit_options(po::options_description& options) {
       "Maxwell, Kelvin-Voigt and Zener");
   add("model", po::value<std::string>(),
       "answer with this law: kww, springpot, fractional-maxwell, fractional-kelvin-voigt or "
-      "fractional-zener; its Prony series goes to --out");
+      "fractional-zener; its Prony series goes to --out. At large strain: neo-hooke, "
+      "mooney-rivlin, "
+      "yeoh, ogden-1, ogden-2, ogden-3, arruda-boyce or gent");
   add("bootstrap", po::value<int>(), "intervals from this many resamples of blocks of residuals");
   add("fix", po::value<Words>()->composing(),
       "hold a parameter at a value in SI, such as tau_1=0.2; parameters are E0, E_inf, and E_i, "
@@ -102,7 +104,11 @@ CommandSyntax fit_syntax() {
       "(*.viscap) or tables from any machine. Columns are found by name and unit (force_N, \"Force "
       "[N]\", t (s)). The fit uses the exact loading history and chooses the number of terms "
       "unless it is given. Several tests of one material are fitted together if each states its "
-      "kind: relaxation=a.csv creep=b.csv dma=c.csv indentation=d.csv.";
+      "kind: relaxation=a.csv creep=b.csv dma=c.csv indentation=d.csv. Tests at large strain give "
+      "a law "
+      "of rubber: uniaxial=a.csv compression=b.csv planar=c.csv equibiaxial=d.csv (stretch or "
+      "nominal "
+      "strain, and nominal stress).";
   syntax.example = "viscard fit data/demo/example_relaxation.csv --out material.json";
   add_fit_options(syntax.options);
   add_data_options(syntax.options);
@@ -116,6 +122,13 @@ CommandSyntax fit_syntax() {
   add("own-terms", "with --joint: each mixing ratio keeps its own number of terms");
   add("share", po::value<Words>()->composing(),
       "with --joint: E0, g, tau or one of them (tau_1) is the same at all ratios (repeatable)");
+  add("weight", po::value<std::string>(),
+      "at large strain: equal (default; every stress counts alike) or relative (by its own size)");
+  add("youngs-modulus", po::value<std::string>(),
+      "at large strain: the modulus at rest that the law must have, such as \"1.8 MPa\" or \"1.8 "
+      "MPa "
+      "+- 0.1 MPa\" (95 %)");
+  add("svg", po::value<std::string>(), "at large strain: draw stress against stretch here");
   add("out", po::value<std::string>(), "material file to write (one input file, or several tests)");
   add("force", "replace an existing material file");
   syntax.positional = {"file"};
@@ -204,6 +217,15 @@ int report_defects(const std::vector<FileOutcome>& outcomes, std::ostream& err) 
   return status;
 }
 
+// The tests at large strain that the words name; empty: none.
+std::vector<LargeStrainFile> large_strain_given(const Words& words) {
+  try {
+    return large_strain_from_words(words);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
 // The tests that the words name; empty: plain files.
 std::vector<TestFile> tests_given(const Words& words, const po::variables_map& values) {
   std::vector<TestFile> tests;
@@ -234,6 +256,15 @@ int run_fit(const Words& words, Streams& streams) {
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   auto files = required<Words>(*values, "file", syntax);
+  if (const auto large = large_strain_given(files); !large.empty()) {
+    return run_large_strain(large, *values, streams);
+  }
+  for (const char* option : {"svg", "weight", "youngs-modulus"}) {
+    if (values->count(option) > 0) {
+      throw UsageError(std::string("--") + option +
+                       " is for tests at large strain (uniaxial=FILE); omit it");
+    }
+  }
   const std::vector<TestFile> tests = tests_given(files, *values);
   if (!tests.empty()) files = paths_of(tests);
   const bool is_several = tests.size() > 1;

@@ -2,6 +2,7 @@
 
 #include "io/cli/words/streams.h"
 #include "io/flow/fit_file.h"
+#include "io/flow/large_strain/large_strain_files.h"
 
 #include <boost/program_options/variables_map.hpp>
 
@@ -13,6 +14,11 @@ int run_fit(const Words& words, Streams& streams);
 
 // viscard predict: what a material does in a test, with its band, beside measured values.
 int run_predict(const Words& words, Streams& streams);
+
+// viscard fit of tests at large strain (uniaxial=a.csv planar=b.csv): fits laws of rubber, prints them,
+// and writes --out and --svg. Throws UsageError for options that do not belong to such tests.
+int run_large_strain(const std::vector<LargeStrainFile>& files,
+                     const boost::program_options::variables_map& values, Streams& streams);
 
 // Convert the options of viscard fit. Both throw UsageError for values that are not allowed.
 FitRequest words_from(const boost::program_options::variables_map& values);
