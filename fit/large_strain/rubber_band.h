@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fit/large_strain/fit_large_strain.h"
+#include "fit/large_strain/large_strain_result.h"
 
 namespace viscard {
 

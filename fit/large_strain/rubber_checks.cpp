@@ -1,6 +1,5 @@
 #include "fit/large_strain/rubber_checks.h"
 
-#include "fit/samples/noise_model.h"
 #include "models/maths/text_of_number.h"
 
 #include <algorithm>
@@ -155,9 +154,6 @@ std::vector<RubberTestSummary> summaries_of(const std::vector<LargeStrainTest>& 
   for (const LargeStrainTest& test : tests) {
     const auto [low, high] = std::minmax_element(test.stretch.begin(), test.stretch.end());
     RubberTestSummary one{test.name, test.deformation, test.stretch.size(), *low, *high};
-    constexpr std::size_t kForNoise = 12;
-    if (test.stretch.size() >= kForNoise)
-      one.noise_Pa = sigma_from_differences(test.nominal_stress_Pa);
     double sum = 0.0;
     for (std::size_t i = 0; i < test.stretch.size(); ++i) {
       const double left =

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "fit/large_strain/fit_large_strain.h"
+#include "fit/large_strain/large_strain_data.h"
+#include "fit/large_strain/large_strain_result.h"
 
 namespace viscard {
 

@@ -122,13 +122,7 @@ CommandSyntax fit_syntax() {
   add("own-terms", "with --joint: each mixing ratio keeps its own number of terms");
   add("share", po::value<Words>()->composing(),
       "with --joint: E0, g, tau or one of them (tau_1) is the same at all ratios (repeatable)");
-  add("weight", po::value<std::string>(),
-      "at large strain: equal (default; every stress counts alike) or relative (by its own size)");
-  add("youngs-modulus", po::value<std::string>(),
-      "at large strain: the modulus at rest that the law must have, such as \"1.8 MPa\" or \"1.8 "
-      "MPa "
-      "+- 0.1 MPa\" (95 %)");
-  add("svg", po::value<std::string>(), "at large strain: draw stress against stretch here");
+  add_large_strain_options(syntax.options);
   add("out", po::value<std::string>(), "material file to write (one input file, or several tests)");
   add("force", "replace an existing material file");
   syntax.positional = {"file"};
@@ -217,15 +211,6 @@ int report_defects(const std::vector<FileOutcome>& outcomes, std::ostream& err) 
   return status;
 }
 
-// The tests at large strain that the words name; empty: none.
-std::vector<LargeStrainFile> large_strain_given(const Words& words) {
-  try {
-    return large_strain_from_words(words);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
-  }
-}
-
 // The tests that the words name; empty: plain files.
 std::vector<TestFile> tests_given(const Words& words, const po::variables_map& values) {
   std::vector<TestFile> tests;
@@ -256,14 +241,8 @@ int run_fit(const Words& words, Streams& streams) {
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   auto files = required<Words>(*values, "file", syntax);
-  if (const auto large = large_strain_given(files); !large.empty()) {
+  if (const auto large = large_strain_given(files, *values); !large.empty()) {
     return run_large_strain(large, *values, streams);
-  }
-  for (const char* option : {"svg", "weight", "youngs-modulus"}) {
-    if (values->count(option) > 0) {
-      throw UsageError(std::string("--") + option +
-                       " is for tests at large strain (uniaxial=FILE); omit it");
-    }
   }
   const std::vector<TestFile> tests = tests_given(files, *values);
   if (!tests.empty()) files = paths_of(tests);

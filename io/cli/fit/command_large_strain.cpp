@@ -1,3 +1,4 @@
+#include "fit/large_strain/large_strain_result.h"
 #include "io/basics/atomic_file.h"
 #include "io/basics/units.h"
 #include "io/basics/words.h"
@@ -5,6 +6,9 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/output_paths.h"
 #include "io/flow/input_files.h"
+#include "models/hyperelastic/hyperelastic_law.h"
+#include "models/hyperelastic/law_stability.h"
+#include "models/maths/interval.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -84,13 +88,12 @@ std::string stretches(const StableRange& range) {
 }
 
 void print_tests(const LargeStrainResult& result, std::ostream& out) {
-  out << fmt::format("  {:<16} {:>8} {:>18} {:>14} {:>16}\n", "test", "readings", "stretch",
-                     "noise kPa", "left by law kPa");
+  out << fmt::format("  {:<16} {:>8} {:>18} {:>16}\n", "test", "readings", "stretch",
+                     "left by law kPa");
   for (const RubberTestSummary& test : result.tests) {
-    const std::string noise = test.noise_Pa > 0.0 ? text_of(1e-3 * test.noise_Pa, 3) : "-";
-    out << fmt::format("  {:<16} {:>8} {:>18} {:>14} {:>16.3g}\n", test.name, test.n_readings,
+    out << fmt::format("  {:<16} {:>8} {:>18} {:>16.3g}\n", test.name, test.n_readings,
                        text_of(test.least_stretch, 4) + " to " + text_of(test.largest_stretch, 4),
-                       noise, 1e-3 * test.rms_Pa);
+                       1e-3 * test.rms_Pa);
   }
 }
 
@@ -141,6 +144,33 @@ void print_large_strain(const FittedLargeStrain& fitted, std::ostream& out) {
 }
 
 }  // namespace
+
+void add_large_strain_options(po::options_description& options) {
+  auto add = options.add_options();
+  add("weight", po::value<std::string>(),
+      "at large strain: equal (default; every stress counts alike) or relative (by its own size)");
+  add("youngs-modulus", po::value<std::string>(),
+      "at large strain: the modulus at rest that the law must have, such as \"1.8 MPa\" or \"1.8 "
+      "MPa "
+      "+- 0.1 MPa\" (95 %)");
+  add("svg", po::value<std::string>(), "at large strain: draw stress against stretch here");
+}
+
+std::vector<LargeStrainFile> large_strain_given(const Words& words,
+                                                const po::variables_map& values) {
+  std::vector<LargeStrainFile> files;
+  try {
+    files = large_strain_from_words(words);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  for (const char* option : {"svg", "weight", "youngs-modulus"}) {
+    if (!files.empty() || values.count(option) == 0) continue;
+    throw UsageError(std::string("--") + option +
+                     " is for tests at large strain (uniaxial=FILE); omit it");
+  }
+  return files;
+}
 
 int run_large_strain(const std::vector<LargeStrainFile>& files, const po::variables_map& values,
                      Streams& streams) {

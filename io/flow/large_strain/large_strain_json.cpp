@@ -1,5 +1,10 @@
+#include "fit/intervals/fitted_law.h"
+#include "fit/large_strain/large_strain_result.h"
 #include "io/basics/atomic_file.h"
 #include "io/flow/large_strain/large_strain_files.h"
+#include "models/hyperelastic/law_stability.h"
+#include "models/material/material.h"
+#include "models/maths/interval.h"
 
 #include <nlohmann/json.hpp>
 
@@ -76,7 +81,6 @@ nlohmann::ordered_json json_from_large_strain(const FittedLargeStrain& fitted) {
                              {"sha256", sha256_of_file(fitted.files[i].path)},
                              {"n_readings", test.n_readings},
                              {"stretch", Json::array({test.least_stretch, test.largest_stretch})},
-                             {"noise_Pa", test.noise_Pa},
                              {"rms_Pa", test.rms_Pa}});
   }
   json["flags"] = json_of_flags(result.notes);

@@ -53,6 +53,7 @@ PlotSeries band_of(const FittedRubber& fitted, Deformation deformation, const Pl
 PlotSeries readings_of(const FittedLargeStrain& fitted, Deformation deformation) {
   PlotSeries points;
   points.mark = Mark::kPoints;
+  points.size = 1.5;
   for (const LargeStrainTest& test : fitted.tests) {
     if (test.deformation != deformation) continue;
     for (std::size_t i = 0; i < test.stretch.size(); ++i) {
