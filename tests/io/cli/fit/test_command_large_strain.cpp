@@ -65,6 +65,15 @@ TEST_CASE("three tests at large strain give laws, a file and a picture", "[cli]"
   CHECK(json == nlohmann::json::parse(text_of_file(out)));
 
   CHECK_THAT(with({"--out", out}).err, Contains("exists"));
+
+  const auto card = run_command({"card", out, "--for", "abaqus", "--units", "mm-t-s"});
+  CHECK(card.status == 0);
+  CHECK_THAT(card.out, Contains("*HYPERELASTIC, OGDEN, N=3") &&
+                           Contains("** equibiaxial: stretches 1 to 4.45 measured") &&
+                           Contains("sha256"));
+  const auto other = run_command({"card", out, "--for", "comsol"});
+  CHECK(other.status == 2);
+  CHECK_THAT(other.err, Contains("has no card of rubber"));
 }
 
 TEST_CASE("compression that is counted positive, in percent, gives the modulus at rest", "[cli]") {
