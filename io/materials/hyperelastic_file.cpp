@@ -10,7 +10,7 @@
 namespace viscard {
 namespace {
 
-using Json = nlohmann::json;
+using RubberJson = nlohmann::json;
 
 constexpr const char* kHyperelasticSchema = "viscard-hyperelastic/1";
 
@@ -22,22 +22,22 @@ std::size_t index_in(const Names& names, const std::string& name, const char* wh
   return static_cast<std::size_t>(found - names.begin());
 }
 
-const Json& chosen_law(const Json& json) {
+const RubberJson& chosen_law(const RubberJson& json) {
   const std::string name = json.at("law");
-  for (const Json& law : json.at("laws")) {
+  for (const RubberJson& law : json.at("laws")) {
     if (law.at("name") == name) return law;
   }
   throw std::runtime_error("'laws' has no '" + name + "', which 'law' names");
 }
 
-HyperelasticLaw law_from(const Json& json) {
+HyperelasticLaw law_from(const RubberJson& json) {
   HyperelasticLaw law;
   law.form = hyperelastic_forms()[index_in(hyperelastic_names(), json.at("name"), "law")];
   std::vector<std::string> names = modulus_names(law.form);
   law.moduli_Pa.resize(n_moduli(law.form));
   law.shapes.resize(n_shapes(law.form));
   for (const std::string& name : shape_names(law.form)) names.push_back(name);
-  const Json& parameters = json.at("parameters");
+  const RubberJson& parameters = json.at("parameters");
   if (parameters.size() != names.size()) {
     throw std::runtime_error("'parameters' must be " + std::to_string(names.size()) + " in number");
   }
@@ -53,8 +53,8 @@ HyperelasticLaw law_from(const Json& json) {
   return law;
 }
 
-void add_tests(const Json& json, HyperelasticFile& file) {
-  for (const Json& test : json.at("tests")) {
+void add_tests(const RubberJson& json, HyperelasticFile& file) {
+  for (const RubberJson& test : json.at("tests")) {
     auto& range =
         file.measured[index_in(deformation_names(), test.at("deformation"), "deformation")];
     const double low = test.at("stretch").at(0), high = test.at("stretch").at(1);
@@ -67,18 +67,18 @@ void add_tests(const Json& json, HyperelasticFile& file) {
 }  // namespace
 
 bool looks_like_hyperelastic_file(const std::filesystem::path& path) {
-  const Json json = Json::parse(read_file(path), nullptr, /*allow_exceptions=*/false);
+  const RubberJson json = RubberJson::parse(read_file(path), nullptr, /*allow_exceptions=*/false);
   return json.is_object() && json.contains("schema") && json["schema"] == kHyperelasticSchema;
 }
 
 HyperelasticFile read_hyperelastic(const std::filesystem::path& path) {
   try {
-    const Json json = Json::parse(read_file(path));
-    const Json& law = chosen_law(json);
+    const RubberJson json = RubberJson::parse(read_file(path));
+    const RubberJson& law = chosen_law(json);
     HyperelasticFile file;
     file.law = law_from(law);
     file.is_trustworthy = law.at("trustworthy");
-    for (const Json& flag : law.at("flags")) file.defects.push_back(flag.at("text"));
+    for (const RubberJson& flag : law.at("flags")) file.defects.push_back(flag.at("text"));
     add_tests(json, file);
     return file;
   } catch (const nlohmann::json::exception& error) {

@@ -24,9 +24,9 @@ std::vector<std::string> header_lines(const HyperelasticFile& file, const CardWo
       "viscard card: " + name_of(file.law.form) + " for " + words.target + ", units " +
           unit_system(units).description,
       "elastic at any rate: the law has no relaxation. Young's modulus at rest " +
-          text_of(youngs_modulus_Pa(file.law), 5) + " Pa"};
+          viscard::text_of(youngs_modulus_Pa(file.law), 5) + " Pa"};
   if (words.bulk_Pa) {
-    lines.push_back("bulk modulus " + text_of(*words.bulk_Pa, 5) + " Pa");
+    lines.push_back("bulk modulus " + viscard::text_of(*words.bulk_Pa, 5) + " Pa");
   } else if (words.target == "abaqus" || words.target == "ansys") {
     lines.push_back("incompressible: use hybrid (mixed) elements, or --bulk-modulus");
   } else {
@@ -38,11 +38,11 @@ std::vector<std::string> header_lines(const HyperelasticFile& file, const CardWo
     const StableRange stable = stable_range(file.law, static_cast<Deformation>(d));
     lines.push_back(
         fmt::format("{}: {}; stable {} to {}", deformation_names()[d],
-                    measured ? "stretches " + text_of(measured->low, 4) + " to " +
-                                   text_of(measured->high, 4) + " measured"
+                    measured ? "stretches " + viscard::text_of(measured->low, 4) + " to " +
+                                   viscard::text_of(measured->high, 4) + " measured"
                              : std::string("not measured"),
-                    text_of(stable.low, 3),
-                    text_of(stable.high, 3) + (stable.high_is_open ? " and more" : "")));
+                    viscard::text_of(stable.low, 3),
+                    viscard::text_of(stable.high, 3) + (stable.high_is_open ? " and more" : "")));
   }
   for (const auto& raw : file.raw_files) lines.push_back(raw.file + " sha256 " + raw.sha256);
   return lines;
