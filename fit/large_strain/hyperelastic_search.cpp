@@ -54,6 +54,15 @@ class RubberCost : public ceres::CostFunction {
   const LargeStrainRows& rows_;
 };
 
+// The best moduli for these columns; an infinite rss if they are not finite.
+void solve_moduli(HyperelasticForm form, const LargeStrainRows& rows,
+                  const Eigen::MatrixXd& columns, HyperelasticPoint& point) {
+  if (!columns.allFinite()) return;
+  const std::vector<bool> is_free(static_cast<std::size_t>(n_moduli(form)), is_sign_free(form));
+  point.moduli = least_squares_with_signs(columns, rows.data(), is_free);
+  point.rss = (columns * point.moduli - rows.data()).squaredNorm();
+}
+
 HyperelasticPoint refined(HyperelasticForm form, const LargeStrainRows& rows,
                           const HyperelasticPoint& start) {
   VectorXd theta = theta_of(start);
@@ -107,23 +116,23 @@ std::vector<double> shape_grid(HyperelasticForm form, const LargeStrainRows& row
           1.5,   2.0,   3.0,  4.0,  5.5,  7.0,  9.0,  12.0, 16.0};
 }
 
-// All choices of n ascending values of the grid.
-std::vector<VectorXd> combinations(const std::vector<double>& grid, Index n) {
-  std::vector<VectorXd> all{VectorXd(0)};
-  std::vector<std::size_t> next{0};  // index in the grid after the last value of each
+// The form with one term, whose shape is the first.
+HyperelasticForm one_term(HyperelasticForm form) {
+  return n_shapes(form) > 1 ? HyperelasticForm::kOgden1 : form;
+}
+
+// All choices of n ascending indices below `count`.
+std::vector<std::vector<std::size_t>> combinations(std::size_t count, Index n) {
+  std::vector<std::vector<std::size_t>> all{{}};
   for (Index k = 0; k < n; ++k) {
-    std::vector<VectorXd> longer;
-    std::vector<std::size_t> after;
-    for (std::size_t c = 0; c < all.size(); ++c) {
-      for (std::size_t i = next[c]; i < grid.size(); ++i) {
-        VectorXd shapes(k + 1);
-        shapes << all[c], grid[i];
-        longer.push_back(shapes);
-        after.push_back(i + 1);
+    std::vector<std::vector<std::size_t>> longer;
+    for (const auto& chosen : all) {
+      for (std::size_t i = chosen.empty() ? 0 : chosen.back() + 1; i < count; ++i) {
+        longer.push_back(chosen);
+        longer.back().push_back(i);
       }
     }
     all = std::move(longer);
-    next = std::move(after);
   }
   return all;
 }
@@ -136,9 +145,22 @@ bool is_close(const VectorXd& a, const VectorXd& b) {
 std::vector<HyperelasticPoint> starts_of(HyperelasticForm form, const LargeStrainRows& rows) {
   constexpr std::size_t kFew = 200, kMost = 6;
   const LargeStrainRows few = rows.thinned(kFew);
+  const std::vector<double> grid = shape_grid(form, rows);
+  // A term has one shape of its own, so that its column serves all combinations.
+  std::vector<VectorXd> columns;
+  for (const double shape : grid) {
+    columns.push_back(few.columns(one_term(form), VectorXd::Constant(1, shape), false).values);
+  }
   std::vector<HyperelasticPoint> points;
-  for (const VectorXd& shapes : combinations(shape_grid(form, rows), n_shapes(form))) {
-    HyperelasticPoint point = at_shapes(form, few, shapes);
+  for (const std::vector<std::size_t>& chosen : combinations(grid.size(), n_shapes(form))) {
+    HyperelasticPoint point;
+    point.shapes.resize(n_shapes(form));
+    Eigen::MatrixXd used(few.data().size(), n_shapes(form));
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      point.shapes[static_cast<Index>(k)] = grid[chosen[k]];
+      used.col(static_cast<Index>(k)) = columns[chosen[k]];
+    }
+    solve_moduli(form, few, used, point);
     if (std::isfinite(point.rss)) points.push_back(std::move(point));
   }
   std::sort(points.begin(), points.end(),
@@ -173,11 +195,7 @@ HyperelasticPoint at_shapes(HyperelasticForm form, const LargeStrainRows& rows,
                             const VectorXd& shapes) {
   HyperelasticPoint point;
   point.shapes = shapes;
-  const Eigen::MatrixXd columns = rows.columns(form, shapes, false).values;
-  if (!columns.allFinite()) return point;
-  const std::vector<bool> is_free(static_cast<std::size_t>(n_moduli(form)), is_sign_free(form));
-  point.moduli = least_squares_with_signs(columns, rows.data(), is_free);
-  point.rss = (columns * point.moduli - rows.data()).squaredNorm();
+  solve_moduli(form, rows, rows.columns(form, shapes, false).values, point);
   return point;
 }
 
