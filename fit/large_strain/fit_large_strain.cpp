@@ -172,7 +172,11 @@ void add_criteria(const std::vector<LargeStrainTest>& tests, std::vector<FittedR
   const double n = n_readings / inflation;
   for (FittedRubber& law : laws) {
     const double p = law.n_parameters + 1.0;  // the variance is one more
-    const double fit = n * std::log(std::max(law.rss, 1e-300) / n_readings);
+    // Below this share of the stresses residuals are rounding, and no evidence.
+    constexpr double kRounding = 1e-9;
+    const double of_stress = law.rss / std::pow(std::max(law.rms_relative, 1e-300), 2);
+    const double rss = std::max(law.rss, kRounding * kRounding * of_stress);
+    const double fit = n * std::log(std::max(rss, 1e-300) / n_readings);
     law.bic = fit + p * std::log(n);
     law.aicc = fit + 2.0 * p * (n > p + 1.0 ? n / (n - p - 1.0) : 1e6);
   }

@@ -25,9 +25,9 @@ namespace {
 
 // Options of `viscard fit` that have a meaning at large strain.
 void refuse_other_options(const po::variables_map& values) {
-  static const std::set<std::string> kKnown{"file",  "json",   "out",           "force",
-                                            "model", "column", "sheet",         "weight",
-                                            "svg",   "help",   "youngs-modulus"};
+  static const std::set<std::string> kKnown{"file",   "json",   "out",   "force",
+                                            "model",  "column", "sheet", "cycle",
+                                            "weight", "svg",    "help",  "youngs-modulus"};
   for (const auto& [name, value] : values) {
     if (value.defaulted() || kKnown.count(name) > 0) continue;
     throw UsageError("--" + name + " does not belong to tests at large strain; omit it");
@@ -60,6 +60,16 @@ StressWeight weight_from(const po::variables_map& values) {
   throw UsageError("--weight " + word + " is not known; use equal or relative");
 }
 
+// A number from 1, or "all".
+std::optional<int> cycle_from(const po::variables_map& values) {
+  const auto word = given(values, "cycle");
+  if (!word) return std::nullopt;
+  if (*word == "all") return 0;
+  const auto number = integer_from_text(*word);
+  if (number && *number >= 1 && *number <= 1000000) return static_cast<int>(*number);
+  throw UsageError("--cycle " + *word + " must be a number from 1, or all");
+}
+
 // "1.8 MPa" or "1.8 MPa +- 0.1 MPa".
 std::optional<KnownModulus> modulus_from(const po::variables_map& values) {
   const auto text = given(values, "youngs-modulus");
@@ -87,13 +97,21 @@ std::string stretches(const StableRange& range) {
   return high.empty() ? "from " + low : low + " to " + high;
 }
 
-void print_tests(const LargeStrainResult& result, std::ostream& out) {
+void print_tests(const FittedLargeStrain& fitted, std::ostream& out) {
+  const LargeStrainResult& result = fitted.result;
   out << fmt::format("  {:<16} {:>8} {:>18} {:>16}\n", "test", "readings", "stretch",
                      "left by law kPa");
   for (const RubberTestSummary& test : result.tests) {
     out << fmt::format("  {:<16} {:>8} {:>18} {:>16.3g}\n", test.name, test.n_readings,
                        text_of(test.least_stretch, 4) + " to " + text_of(test.largest_stretch, 4),
                        1e-3 * test.rms_Pa);
+  }
+  for (std::size_t i = 0; i < result.tests.size(); ++i) {
+    const CycleChoice& choice = fitted.cycles[i];
+    if (choice.fitted == 0) continue;
+    out << fmt::format("  {}: the loading of cycle {} of {} is fitted; {} left out (--cycle)\n",
+                       result.tests[i].name, choice.fitted, choice.n_cycles,
+                       counted(choice.n_left_out, "row"));
   }
 }
 
@@ -138,7 +156,7 @@ void print_large_strain(const FittedLargeStrain& fitted, std::ostream& out) {
   for (const LargeStrainTest& test : fitted.tests) n_readings += test.stretch.size();
   out << counted(fitted.tests.size(), "test") << " at large strain, "
       << counted(n_readings, "reading") << "\n";
-  print_tests(fitted.result, out);
+  print_tests(fitted, out);
   print_laws(fitted.result, out);
   print_best(fitted.result, out);
 }
@@ -153,6 +171,10 @@ void add_large_strain_options(po::options_description& options) {
       "at large strain: the modulus at rest that the law must have, such as \"1.8 MPa\" or \"1.8 "
       "MPa "
       "+- 0.1 MPa\" (95 %)");
+  add("cycle", po::value<std::string>(),
+      "at large strain: fit the loading of this cycle of records with unloading (default: the "
+      "last), "
+      "or all rows");
   add("svg", po::value<std::string>(), "at large strain: draw stress against stretch here");
 }
 
@@ -164,7 +186,7 @@ std::vector<LargeStrainFile> large_strain_given(const Words& words,
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-  for (const char* option : {"svg", "weight", "youngs-modulus"}) {
+  for (const char* option : {"svg", "weight", "youngs-modulus", "cycle"}) {
     if (!files.empty() || values.count(option) == 0) continue;
     throw UsageError(std::string("--") + option +
                      " is for tests at large strain (uniaxial=FILE); omit it");
@@ -182,6 +204,7 @@ int run_large_strain(const std::vector<LargeStrainFile>& files, const po::variab
   request.options.forms = forms_from(values);
   request.options.weight = weight_from(values);
   request.options.modulus = modulus_from(values);
+  request.cycle = cycle_from(values);
   const bool overwrite = values.count("force") > 0;
   const auto out = given(values, "out"), svg = given(values, "svg");
   for (const auto& output : {out, svg}) {

@@ -1,7 +1,9 @@
 #include "io/flow/large_strain/large_strain_files.h"
 
+#include "fit/large_strain/load_cycles.h"
 #include "io/tables/column_proposal.h"
 #include "io/tables/csv_table.h"
+#include "models/maths/text_of_number.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -89,6 +91,40 @@ LargeStrainTest test_of_file(const LargeStrainFile& file, const LargeStrainReque
   return test;
 }
 
+// Keeps the loading of one cycle, if the record has unloading.
+CycleChoice choose_cycle(LargeStrainTest& test, const std::string& file,
+                         const std::optional<int>& wanted) {
+  const std::vector<LoadCycle> cycles = load_cycles(test.stretch);
+  const bool is_one_loading =
+      cycles.empty() ||
+      (cycles.size() == 1 && cycles[0].last == cycles[0].peak && cycles[0].first == 0);
+  CycleChoice choice{cycles.size(), 0, 0, softening(test, cycles)};
+  if (wanted && *wanted > static_cast<int>(cycles.size())) {
+    throw std::runtime_error(file + ": has " + counted(cycles.size(), "cycle") +
+                             " of loading, so there is no --cycle " + std::to_string(*wanted));
+  }
+  if (is_one_loading || (wanted && *wanted == 0)) return choice;
+  choice.fitted = wanted ? static_cast<std::size_t>(*wanted) : cycles.size();
+  const std::size_t n_all = test.stretch.size();
+  test = loading_of(test, cycles[choice.fitted - 1]);
+  choice.n_left_out = n_all - test.stretch.size();
+  return choice;
+}
+
+void add_mullins_note(const std::string& name, const CycleChoice& choice,
+                      LargeStrainResult& result) {
+  constexpr double kLeast = 0.05;
+  if (!choice.softening || *choice.softening < kLeast) return;
+  result.notes.push_back({"mullins", 0,
+                          "the " + name + " test softens by " +
+                              text_of(100.0 * *choice.softening, 2) +
+                              " % from its first to its last cycle at equal stretch (Mullins "
+                              "effect): the law is that of " +
+                              (choice.fitted == 0 ? std::string("all rows together")
+                                                  : "cycle " + std::to_string(choice.fitted)) +
+                              "; choose another with --cycle"});
+}
+
 // "uniaxial", "uniaxial 2" ...
 void number_names(std::vector<LargeStrainTest>& tests) {
   for (std::size_t i = tests.size(); i-- > 0;) {
@@ -123,9 +159,13 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
   fitted.files = request.files;
   for (const LargeStrainFile& file : request.files) {
     fitted.tests.push_back(test_of_file(file, request));
+    fitted.cycles.push_back(choose_cycle(fitted.tests.back(), file.path, request.cycle));
   }
   number_names(fitted.tests);
   fitted.result = fit_large_strain(fitted.tests, request.options);
+  for (std::size_t i = 0; i < fitted.tests.size(); ++i) {
+    add_mullins_note(fitted.tests[i].name, fitted.cycles[i], fitted.result);
+  }
   return fitted;
 }
 

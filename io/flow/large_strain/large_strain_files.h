@@ -6,6 +6,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,17 +31,29 @@ struct LargeStrainRequest {
   ColumnMap columns;
   std::string sheet;  // of Excel workbooks
   LargeStrainOptions options;
+  // Of records with unloading: fit the loading of this cycle, from 1; 0: all rows; none: of the last.
+  std::optional<int> cycle;
+};
+
+// What was taken of a record with cycles.
+struct CycleChoice {
+  std::size_t n_cycles = 0, n_left_out = 0;  // rows that are not fitted
+  std::size_t fitted = 0;                    // cycle, from 1; 0: all rows
+  std::optional<double> softening;           // fit/large_strain/load_cycles.h
 };
 
 struct FittedLargeStrain {
   std::vector<LargeStrainFile> files;
-  std::vector<LargeStrainTest> tests;  // one for each file
+  std::vector<LargeStrainTest> tests;  // one for each file, with the fitted rows
+  std::vector<CycleChoice> cycles;     // of each test
   LargeStrainResult result;
 };
 
 // Reads the tables and fits the laws. A table has the stretch (or nominal strain) and the nominal
 // stress: force over area at rest. The strains and stresses of a compression test may be counted
-// positive. Throws std::runtime_error with the name of the file.
+// positive. Of a record with unloading one loading
+// is fitted; softening by more than 5 % gives the note mullins. Throws std::runtime_error with the name
+// of the file.
 FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request);
 
 // The object of `viscard fit --json` and of --out: laws with intervals, tests, flags.

@@ -75,13 +75,19 @@ nlohmann::ordered_json json_from_large_strain(const FittedLargeStrain& fitted) {
   json["tests"] = Json::array();
   for (std::size_t i = 0; i < result.tests.size(); ++i) {
     const RubberTestSummary& test = result.tests[i];
-    json["tests"].push_back({{"name", test.name},
-                             {"deformation", name_of(test.deformation)},
-                             {"file", fitted.files[i].path},
-                             {"sha256", sha256_of_file(fitted.files[i].path)},
-                             {"n_readings", test.n_readings},
-                             {"stretch", Json::array({test.least_stretch, test.largest_stretch})},
-                             {"rms_Pa", test.rms_Pa}});
+    json["tests"].push_back(
+        {{"name", test.name},
+         {"deformation", name_of(test.deformation)},
+         {"file", fitted.files[i].path},
+         {"sha256", sha256_of_file(fitted.files[i].path)},
+         {"n_readings", test.n_readings},
+         {"stretch", Json::array({test.least_stretch, test.largest_stretch})},
+         {"rms_Pa", test.rms_Pa},
+         {"n_cycles", fitted.cycles[i].n_cycles},
+         {"cycle", fitted.cycles[i].fitted},
+         {"n_left_out", fitted.cycles[i].n_left_out},
+         {"softening",
+          fitted.cycles[i].softening ? Json(*fitted.cycles[i].softening) : Json(nullptr)}});
   }
   json["flags"] = json_of_flags(result.notes);
   return json;

@@ -1,4 +1,5 @@
 #include "fit/large_strain/fit_large_strain.h"
+#include "fit/large_strain/load_cycles.h"
 
 #include <catch2/catch.hpp>
 
@@ -219,4 +220,28 @@ TEST_CASE("large strain: bad tests are refused with what to do", "[fit]") {
   bad.nominal_stress_Pa = {0.0, 1e5};
   CHECK_THROWS_WITH(fit_large_strain({bad}), Contains("2 readings"));
   CHECK_THROWS_WITH(fit_large_strain({}), Contains("no test"));
+}
+
+TEST_CASE("large strain: cycles are counted, and softening is seen at equal stretch", "[fit]") {
+  LargeStrainTest test{"uniaxial", Deformation::kUniaxial, {}, {}};
+  // Three cycles to 1.8, 2 and 2; each one softer by 10 %, with a little noise in the stretch.
+  const double peaks[] = {1.8, 2.0, 2.0};
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    for (int i = 0; i <= 40; ++i) {
+      const double share = i <= 20 ? i / 20.0 : (40 - i) / 20.0;
+      const double s = 1.0 + (peaks[cycle] - 1.0) * share + (i % 2 == 0 ? 0.004 : -0.004);
+      test.stretch.push_back(s);
+      test.nominal_stress_Pa.push_back((1.0 - 0.1 * cycle) * 1e5 * (s - 1.0 / (s * s)));
+    }
+  }
+  const std::vector<LoadCycle> cycles = load_cycles(test.stretch);
+  REQUIRE(cycles.size() == 3);
+  CHECK(cycles[0].peak == 20);
+  CHECK(cycles[2].peak == 2 * 41 + 20);
+  CHECK(softening(test, cycles).value() == Approx(0.2).epsilon(1e-2));
+  CHECK(loading_of(test, cycles[1]).stretch.back() == Approx(2.004));
+  // Compression: strains grow away from 1 downwards.
+  CHECK(load_cycles({1.0, 0.9, 0.8, 0.7, 0.8, 0.9, 1.0, 0.8, 0.6}).size() == 2);
+  CHECK(load_cycles({1.0, 1.1, 1.2}).size() == 1);
+  CHECK_FALSE(softening(test, {cycles[0]}).has_value());
 }

@@ -126,3 +126,26 @@ TEST_CASE("a table without stretch or stress is refused with its columns", "[cli
   const auto mixed = folder.write("b.csv", "strain,stress_Pa\n-0.2,1\n0.1,2\n0.3,3\n3,5\n");
   CHECK_THAT(run_command({"fit", "compression=" + mixed}).err, Contains("stretches below 1"));
 }
+
+TEST_CASE("of a record with cycles at large strain one loading is fitted", "[cli]") {
+  const TableFolder folder;
+  std::ostringstream table;
+  table << "stretch,nominal_stress_Pa\n";
+  for (int cycle = 0; cycle < 2; ++cycle) {
+    for (int i = 0; i <= 40; ++i) {
+      const double s = 1.0 + 0.05 * (i <= 20 ? i : 40 - i);
+      table << s << "," << (cycle == 0 ? 2e5 : 1.6e5) * (s - 1.0 / (s * s)) << "\n";
+    }
+  }
+  const std::string word = "uniaxial=" + folder.write("cycles.csv", table.str());
+  const auto run = run_command({"fit", word, "--model", "neo-hooke"});
+  CHECK(run.status == 0);
+  CHECK_THAT(run.out, Contains("the loading of cycle 2 of 2 is fitted; 61 rows left out") &&
+                          Contains("softens by 20 %"));
+  const auto first = nlohmann::json::parse(
+      run_command({"fit", word, "--model", "neo-hooke", "--cycle", "1", "--json"}).out);
+  CHECK(first["laws"][0]["E0_Pa"].get<double>() == Approx(6e5).epsilon(1e-6));
+  CHECK(first["tests"][0]["softening"].get<double>() == Approx(0.2));
+  CHECK_THAT(run_command({"fit", word, "--cycle", "3"}).err, Contains("has 2 cycles of loading"));
+  CHECK(run_command({"fit", word, "--cycle", "0"}).status == 2);
+}
