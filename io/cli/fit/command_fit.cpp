@@ -50,7 +50,9 @@ void add_fit_options(po::options_description& options) {
       "Maxwell, Kelvin-Voigt and Zener");
   add("model", po::value<std::string>(),
       "answer with this law: kww, springpot, fractional-maxwell, fractional-kelvin-voigt or "
-      "fractional-zener; its Prony series goes to --out");
+      "fractional-zener; its Prony series goes to --out. At large strain: neo-hooke, "
+      "mooney-rivlin, "
+      "yeoh, ogden-1, ogden-2, ogden-3, arruda-boyce or gent");
   add("bootstrap", po::value<int>(), "intervals from this many resamples of blocks of residuals");
   add("fix", po::value<Words>()->composing(),
       "hold a parameter at a value in SI, such as tau_1=0.2; parameters are E0, E_inf, and E_i, "
@@ -104,7 +106,11 @@ CommandSyntax fit_syntax() {
       "(*.viscap) or tables from any machine. Columns are found by name and unit (force_N, \"Force "
       "[N]\", t (s)). The fit uses the exact loading history and chooses the number of terms "
       "unless it is given. Several tests of one material are fitted together if each states its "
-      "kind: relaxation=a.csv creep=b.csv dma=c.csv indentation=d.csv.";
+      "kind: relaxation=a.csv creep=b.csv dma=c.csv indentation=d.csv. Tests at large strain give "
+      "a law "
+      "of rubber: uniaxial=a.csv compression=b.csv planar=c.csv equibiaxial=d.csv (stretch or "
+      "nominal "
+      "strain, and nominal stress).";
   syntax.example = "viscard fit data/demo/example_relaxation.csv --out material.json";
   add_fit_options(syntax.options);
   add_data_options(syntax.options);
@@ -118,6 +124,7 @@ CommandSyntax fit_syntax() {
   add("own-terms", "with --joint: each mixing ratio keeps its own number of terms");
   add("share", po::value<Words>()->composing(),
       "with --joint: E0, g, tau or one of them (tau_1) is the same at all ratios (repeatable)");
+  add_large_strain_options(syntax.options);
   add("out", po::value<std::string>(), "material file to write (one input file, or several tests)");
   add("force", "replace an existing material file");
   syntax.positional = {"file"};
@@ -246,6 +253,9 @@ int run_fit(const Words& words, Streams& streams) {
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   auto files = required<Words>(*values, "file", syntax);
+  if (const auto large = large_strain_given(files, *values); !large.empty()) {
+    return run_large_strain(large, *values, streams);
+  }
   const std::vector<TestFile> tests = tests_given(files, *values);
   if (!tests.empty()) files = paths_of(tests);
   const bool is_several = tests.size() > 1;

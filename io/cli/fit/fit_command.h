@@ -2,8 +2,12 @@
 
 #include "io/cli/words/streams.h"
 #include "io/flow/fit_file.h"
+#include "io/flow/large_strain/large_strain_files.h"
 
+#include <boost/program_options/options_description.hpp>
 #include <boost/program_options/variables_map.hpp>
+
+#include <vector>
 
 namespace viscard {
 
@@ -13,6 +17,19 @@ int run_fit(const Words& words, Streams& streams);
 
 // viscard predict: what a material does in a test, with its band, beside measured values.
 int run_predict(const Words& words, Streams& streams);
+
+// The options --weight, --youngs-modulus and --svg.
+void add_large_strain_options(boost::program_options::options_description& options);
+
+// The tests at large strain that the words name; empty: none. Throws UsageError for words that mix
+// them with other files, and for their options without them.
+std::vector<LargeStrainFile> large_strain_given(
+    const Words& words, const boost::program_options::variables_map& values);
+
+// viscard fit of tests at large strain (uniaxial=a.csv planar=b.csv): fits laws of rubber, prints them,
+// and writes --out and --svg. Throws UsageError for options that do not belong to such tests.
+int run_large_strain(const std::vector<LargeStrainFile>& files,
+                     const boost::program_options::variables_map& values, Streams& streams);
 
 // Convert the options of viscard fit. Both throw UsageError for values that are not allowed.
 FitRequest words_from(const boost::program_options::variables_map& values);
