@@ -48,7 +48,7 @@ def plot(results, path):
 
     figure, (curves, moduli) = plt.subplots(1, 2, figsize=(11, 4.5), layout="constrained")
     for number, result in enumerate(results):
-        result.plot(ax=curves, color=plt.cm.viridis(number / len(results)), label="_")
+        result.plot(ax=curves, color=plt.cm.viridis(number / len(results)), label=f"{number + 1}")
         low, high = np.array(result.E0_interval) * 1e-6
         moduli.plot([number + 1] * 2, [low, high], "k-", linewidth=1)
         moduli.plot(number + 1, result.E0_Pa * 1e-6, "o", color=plt.cm.viridis(number / len(results)))
@@ -56,7 +56,7 @@ def plot(results, path):
     moduli.axhline(mean, color="0.6", zorder=0)
     moduli.set(xlabel="specimen", ylabel="E0 (MPa), 95 % interval", title=f"mean {mean:.3f} MPa",
                xticks=range(1, len(results) + 1))
-    curves.get_legend().remove()
+    curves.legend(title="specimen", ncols=2, frameon=False)
     curves.set_title("data and fits")
     figure.savefig(path, dpi=120)
 

@@ -42,7 +42,7 @@ def study():
                 continue
             modes = viscard.simulate(pillar(diameter_um, length_um, {"kind": "modal", "modes": 1}))
             bending = next(m for m in modes.modes if m["family"] == "lateral")
-            voltage = answer.results["mean_voltage"]
+            voltage = answer.results["electrode_voltage"]
             rows.append({"diameter_um": diameter_um, "length_um": length_um, "voltage_mV": 1e3 * voltage.value,
                          "error_mV": 1e3 * voltage.error, "bending_kHz": 1e-3 * bending["frequency_Hz"]})
     return rows

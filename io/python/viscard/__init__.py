@@ -1,7 +1,7 @@
 """viscard: a soft polymer from a load cell to a validated simulation.
 
 >>> result = viscard.fit("data/demo/example_relaxation.csv")
->>> result.material.card("calculix", "mm-N-s-MPa").text.splitlines()[0][:2]
+>>> result.material.card("calculix", "mm-t-s").text.splitlines()[0][:2]
 '**'
 
 Quantities are SI, with the unit in the name (E0_Pa, tau_s). A keyword takes a number in SI or a text with its unit

@@ -27,7 +27,7 @@ def numbers(values, name: str, shape: "tuple[int, ...] | None" = None) -> np.nda
         raise TypeError(f"{name} must hold real numbers, not {array.dtype}")
     if shape is not None and array.shape != shape:
         raise Error(f"{name} has the shape {array.shape}; it must be {shape}", "input")
-    return np.ascontiguousarray(array, dtype=np.float64)
+    return np.asarray(array, dtype=np.float64, order="C")  # keeps a single number without dimension
 
 
 def arguments(values, name: str, unit: str) -> np.ndarray:

@@ -33,7 +33,7 @@ class Card:
 
     Examples
     --------
-    >>> card = viscard.Material(2e6, 0.49, terms=[(0.2, 1.0)]).card("abaqus", "mm-N-s-MPa")
+    >>> card = viscard.Material(2e6, 0.49, terms=[(0.2, 1.0)]).card("abaqus", "mm-t-s")
     >>> "*VISCOELASTIC" in card.text.upper()
     True
     >>> card.largest_difference < 1e-6

@@ -217,8 +217,7 @@ class JointFit:
 
     Examples
     --------
-    >>> names = [f"data/materials/pdms_1to{r}_seed.json" for r in (10, 13, 20)]
-    >>> joint = viscard.fit(names, joint=True)
+    >>> joint = viscard.fit(files, joint=True, ratio=[10, 13, 20])     # files: three tables
     >>> joint.ratios
     array([10., 13., 20.])
     >>> bool(joint.material(20).E0_Pa < joint.material(10).E0_Pa)
@@ -282,7 +281,8 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
     data : path, Capture, Table, dict of arrays, or list of paths
         A list gives a list of results, fitted on all cores. "relaxation=a.csv", "creep=b.csv", ... in a list are
         tests of one material, fitted together into one result. A dict has arrays of shape (rows,) by header with
-        unit: ``{"time_s": t, "modulus_Pa": E}``, ``{"Time [ms]": t, "Force [mN]": F}``.
+        unit: ``{"time_s": t, "modulus_Pa": E}``, ``{"Time [ms]": t, "Force [mN]": F}``; a message about
+        "arrays:7" means row 7, from 1.
     errors : "raise" or "return"
         Of a list: "return" puts the Error of a file that cannot be fitted in the place of its result.
     progress : function of (fraction, step)
@@ -298,7 +298,7 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
     --------
     >>> result = viscard.fit("data/demo/example_relaxation.csv")
     >>> print(f"{result.E0_Pa / 1e6:.2f} MPa")
-    2.27 MPa
+    1.88 MPa
     >>> import numpy as np
     >>> t = np.geomspace(0.01, 100, 400)
     >>> E = 1e6 + 5e5 * np.exp(-t / 2)
@@ -322,7 +322,7 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
 
 
 def _fit_arrays(data, keywords, command, progress):
-    name = data.file if isinstance(data, Table) else "the arrays"
+    name = data.file if isinstance(data, Table) else "arrays"
     numbers = {key: data[key] for key in data if not isinstance(data[key], list)}
     arrays = _arrays.table(numbers, name)
     result = FitResult(_core.fit_arrays(arrays, name, keywords, command, progress)[0])

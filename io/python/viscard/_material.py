@@ -61,7 +61,7 @@ class Material:
         Examples
         --------
         >>> viscard.Material.load("data/materials/pdms_1to10_seed.json").nu
-        0.33
+        0.495
         """
         return cls._of(_core.read_material(path_of(path, "path")))
 
@@ -175,13 +175,13 @@ class Material:
         target : str
             One of `card_targets()`.
         units : str
-            Unit system of the card, such as "SI" or "mm-N-s-MPa".
+            Unit system of the card, such as "SI" or "mm-t-s".
         terms, approximate, accept_flags, clamp_nu, bound, elastic_only, temperature_C, reproducible
             As in ``viscard card --help``.
 
         Examples
         --------
-        >>> print(viscard.Material(2e6, 0.49, terms=[(0.2, 1.0)]).card("febio", "mm-N-s-MPa").n_terms)
+        >>> print(viscard.Material(2e6, 0.49, terms=[(0.2, 1.0)]).card("febio", "mm-t-s").n_terms)
         1
         """
         words = {"terms": terms, "approximate": approximate, "accept_flags": accept_flags,
@@ -270,7 +270,7 @@ def predict(material, *, test: Optional[str] = None, strain: Quantity = None, st
     --------
     >>> found = viscard.predict("data/materials/pdms_1to10_seed.json", test="oscillation", from_=0.1, to=10)
     >>> sorted(found.curves)
-    ['loss_modulus_Pa', 'loss_tangent', 'storage_modulus_Pa']
+    ['loss_modulus_Pa', 'storage_modulus_Pa', 'tan_delta']
     """
     given = dict(locals())
     keywords = {name: value for name, value in given.items() if name != "material" and value is not None}

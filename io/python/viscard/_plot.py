@@ -50,5 +50,6 @@ def plot_fit(result, ax, style):
         name = "storage and loss modulus"
     ax.set_ylabel(f"{name} ({unit})" if unit else name)
     ax.grid(True, which="major", alpha=0.3)
-    ax.legend(frameon=False)
+    if ax.get_legend_handles_labels()[1]:
+        ax.legend(frameon=False)
     return ax

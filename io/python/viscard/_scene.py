@@ -46,7 +46,7 @@ class Field(NamedTuple):
     --------
     >>> answer = viscard.simulate("data/scenes/pillar_press.toml", fields=True)
     >>> field = answer.fields[0]
-    >>> field.values["displacement"]["value"].shape == (field.x_m.size, 3)
+    >>> field.values["displacement_m"]["value"].shape == (field.x_m.size, 3)
     True
     """
 
@@ -84,9 +84,9 @@ class Answer:
     --------
     >>> answer = viscard.simulate("data/scenes/pillar_press.toml")
     >>> sorted(answer.results)
-    ['mean_voltage', 'top_force']
-    >>> f"{answer['mean_voltage'] * 1e3:.0f} mV"
-    '-19 mV'
+    ['electrode_capacitance', 'electrode_charge', 'electrode_voltage', 'top_force', 'top_stiffness']
+    >>> f"{answer['electrode_voltage'] * 1e3:.0f} mV"
+    '29 mV'
     """
 
     def __init__(self, found: Dict[str, Any]) -> None:
@@ -262,8 +262,8 @@ def simulate(scene, *, tol: Optional[float] = None, fields: bool = False, folder
     ...                  "electrode": {"face": "top", "kind": "equipotential", "radius": "20 um"}},
     ...     "materials": {"pillar": pdms, "pvdf": {"file": "data/materials/pvdf_film_manual.json"}},
     ...     "analysis": {"kind": "static", "load": {"displacement": -1e-6, "on": "top"}}})
-    >>> f"{answer['mean_voltage'] * 1e3:.0f} mV"
-    '-19 mV'
+    >>> f"{answer['electrode_voltage'] * 1e3:.0f} mV"
+    '29 mV'
     """
     tolerance = None if tol is None else float(tol)
     return Answer(_with_scene(scene, folder, lambda text, path: _core.simulate(

@@ -76,7 +76,7 @@ def read_table(path, *, column: Texts = None, sheet: str = "") -> Table:
     --------
     >>> table = viscard.read_table("data/demo/example_relaxation.csv")
     >>> table["time_s"][:2]
-    array([0.01      , 0.01034122])
+    array([0.01     , 0.0103912])
     """
     words = [column] if isinstance(column, str) else list(column or [])
     return Table(_core.read_table(path_of(path, "path"), words, sheet))

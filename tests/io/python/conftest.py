@@ -50,6 +50,20 @@ def run(tmp_path_factory, short_test):
     return path
 
 
+@pytest.fixture(scope="session")
+def ratio_files(tmp_path_factory):
+    """Tables of E(t) with E0 = 20 MPa/ratio at the mixing ratios 10, 13 and 20, noise of 0.1 %."""
+    folder, random = tmp_path_factory.mktemp("ratios"), np.random.default_rng(4)
+    time_s, paths = np.geomspace(0.01, 100.0, 300), []
+    for ratio in (10, 13, 20):
+        pdms = viscard.Material(2e7 / ratio, 0.495, terms=[(0.1, 0.5), (0.1, 8.0)])
+        modulus_Pa = pdms.relaxation(time_s) * random.normal(1.0, 1e-3, time_s.size)
+        paths.append(str(folder / f"1to{ratio}.csv"))
+        np.savetxt(paths[-1], np.column_stack([time_s, modulus_Pa]), delimiter=",", header="time_s,modulus_Pa",
+                   comments="")
+    return paths
+
+
 @pytest.fixture
 def relaxation():
     """E(t) = 1 MPa + 0.5 MPa exp(-t/2 s) with noise of 1 kPa: time_s, modulus_Pa."""

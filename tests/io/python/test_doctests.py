@@ -17,8 +17,8 @@ def all_examples():
 
 
 @pytest.mark.parametrize("example", all_examples(), ids=lambda test: test.name)
-def test_example(example, short_test, run):
-    example.globs.update(viscard=viscard, short_test=short_test, run=run)
+def test_example(example, short_test, run, ratio_files):
+    example.globs.update(viscard=viscard, short_test=short_test, run=run, files=ratio_files)
     lines = []
     doctest.DocTestRunner(verbose=False).run(example, out=lines.append)
     assert not lines, "".join(lines)

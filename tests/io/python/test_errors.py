@@ -75,7 +75,7 @@ def test_NaN_in_arrays_names_its_place(relaxation):
     time_s, modulus_Pa = relaxation
     modulus_Pa[6] = np.nan
     text = str(text_of(viscard.fit, {"time_s": time_s, "modulus_Pa": modulus_Pa}))
-    assert "line 7" in text and "modulus_Pa" in text and "nan" in text
+    assert text.startswith("arrays:7: ") and "modulus_Pa" in text and "nan" in text
     material = viscard.Material(1e6, 0.4)
     assert "time_s holds nan" in str(text_of(material.relaxation, [1.0, np.nan]))
     assert "frequency_Hz holds -1" in str(text_of(material.loss, -1.0))

@@ -16,7 +16,7 @@ except KeyboardInterrupt:
     print("interrupted", flush=True)
     raise
 """
-SIMULATE = "viscard.simulate('data/scenes/space_sphere.toml', tol=1e-5)"
+SIMULATE = "viscard.simulate('data/scenes/array_tap.toml')"  # half a minute
 
 
 def interrupted(call, after_s=1.5):
