@@ -49,9 +49,9 @@ def plot(results, path):
     figure, (curves, moduli) = plt.subplots(1, 2, figsize=(11, 4.5), layout="constrained")
     for number, result in enumerate(results):
         result.plot(ax=curves, color=plt.cm.viridis(number / len(results)), label=f"{number + 1}")
-        low, high = np.array(result.E0_interval) * 1e-6
-        moduli.plot([number + 1] * 2, [low, high], "k-", linewidth=1)
-        moduli.plot(number + 1, result.E0_Pa * 1e-6, "o", color=plt.cm.viridis(number / len(results)))
+        E0_MPa, (low, high) = result.E0_Pa * 1e-6, np.array(result.E0_interval) * 1e-6
+        moduli.errorbar(number + 1, E0_MPa, yerr=[[E0_MPa - low], [high - E0_MPa]], fmt=".", capsize=5,
+                        color=plt.cm.viridis(number / len(results)))
     mean = np.mean([result.E0_Pa for result in results]) * 1e-6
     moduli.axhline(mean, color="0.6", zorder=0)
     moduli.set(xlabel="specimen", ylabel="E0 (MPa), 95 % interval", title=f"mean {mean:.3f} MPa",

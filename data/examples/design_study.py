@@ -55,11 +55,11 @@ def plot(rows, path):
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), layout="constrained")
-    for length_um in LENGTHS_UM:
+    for length_um, size in zip(LENGTHS_UM, (13, 9, 5)):  # the voltages of all lengths coincide
         of_length = [row for row in rows if row["length_um"] == length_um]
         x = [row["diameter_um"] for row in of_length]
         axes[0].errorbar(x, np.abs([row["voltage_mV"] for row in of_length]),
-                         yerr=[row["error_mV"] for row in of_length], fmt="o-", label=f"length {length_um} µm")
+                         yerr=[row["error_mV"] for row in of_length], fmt="o-", markersize=size, fillstyle="none", label=f"length {length_um} µm")
         axes[1].plot(x, [row["bending_kHz"] for row in of_length], "o-", label=f"length {length_um} µm")
     axes[0].set(xlabel="diameter (µm)", ylabel="voltage under 10 µN (mV)")
     axes[1].set(xlabel="diameter (µm)", ylabel="first bending mode (kHz)")

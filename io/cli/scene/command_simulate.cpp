@@ -6,6 +6,7 @@
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/progress.h"
 #include "io/flow/scenes/answer_scene.h"
+#include "io/flow/scenes/wanted_results.h"
 #include "io/pictures/section_picture.h"
 #include "io/scenes/scene_file.h"
 #include "models/scene/simulate.h"

@@ -5,7 +5,6 @@
 
 #include <functional>
 #include <string>
-#include <vector>
 
 namespace viscard {
 
@@ -20,9 +19,5 @@ SceneAnswer simulate_file(const Scene& scene, const std::string& path);
 
 // Sets the relative error allowed. Throws std::invalid_argument outside the limits of this kind of scene.
 void set_tolerance(double tolerance, Scene& scene);
-
-// Removes the results that are not wanted, unless the list is empty. A wanted name also stands for
-// the same name with a pillar's number, and the name of a curve for the results from it.
-void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer);
 
 }  // namespace viscard

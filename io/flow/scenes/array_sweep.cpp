@@ -1,7 +1,7 @@
 #include "io/flow/scenes/array_sweep.h"
 
 #include "io/basics/atomic_file.h"
-#include "io/flow/scenes/answer_scene.h"
+#include "io/flow/scenes/wanted_results.h"
 #include "models/scene/simulate.h"
 
 #include <fmt/format.h>

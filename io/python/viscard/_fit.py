@@ -175,7 +175,8 @@ class FitResult:
         return self._text
 
     def plot(self, ax=None, **style):
-        """Data and fit on logarithmic time (or frequency); needs matplotlib. Returns the axes.
+        """Data and fit on logarithmic time (or frequency; of an indentation, on linear time). Needs matplotlib.
+        Returns the axes.
 
         Parameters
         ----------

@@ -44,7 +44,8 @@ def plot_fit(result, ax, style):
         ax.plot(at, curves["loss_measured"] * factor, "x", color=color, alpha=0.35, markersize=4)
         ax.plot(at, curves["loss_fitted"] * factor, "--", color=color, label=f"{label}, loss", **style)
         ax.set_yscale("log")
-    ax.set_xscale("log")
+    if result["kind"] != "indentation":  # which has several motions, each with its own beginning
+        ax.set_xscale("log")
     ax.set_xlabel("frequency (Hz)" if is_sweep else "time (s)")
     if result["kind"] == "dma":
         name = "storage and loss modulus"
