@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 
 import numpy as np
@@ -18,6 +19,19 @@ def path_of(value, name: str) -> str:
 
 def optional_path(value, name: str) -> "str | None":
     return None if value is None else path_of(value, name)
+
+
+def whole(value, name: str, least: int) -> "int | None":
+    """A whole number or None."""
+    if value is None:
+        return None
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} must be a whole number, not {value!r}") from None
+    if number < least:
+        raise Error(f"{name} is {number}; it must be at least {least}", "usage")
+    return number
 
 
 def numbers(values, name: str, shape: "tuple[int, ...] | None" = None) -> np.ndarray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, Callable, Dict, Optional
 
 from . import _core
-from ._arrays import optional_path, path_of
+from ._arrays import optional_path, path_of, whole
 from ._error import Error
 from ._table import Capture, read_capture
 
@@ -80,7 +80,7 @@ def capture(out, *, rig=None, test=None, specimen=None, emulate: bool = False, t
     """
     words = {"rig": optional_path(rig, "rig"), "test": optional_path(test, "test"),
              "specimen": optional_path(specimen, "specimen"), "truth": optional_path(truth, "truth"),
-             "emulate": bool(emulate), "seed": seed, "speed": float(speed), "overwrite": bool(overwrite),
+             "emulate": bool(emulate), "seed": whole(seed, "seed", 0), "speed": float(speed), "overwrite": bool(overwrite),
              "uncalibrated": bool(uncalibrated), "lift": bool(lift), "command": "viscard.capture()"}
     file = path_of(out, "out")
     was_enough = []

@@ -250,6 +250,9 @@ def _paths(data, name: str = "data") -> "list[str]":
         return [data.file]
     if isinstance(data, (str, os.PathLike)):
         return [_arrays.path_of(data, name)]
+    if isinstance(data, np.ndarray) or not hasattr(data, "__iter__"):
+        raise TypeError(f"{name} must be a path, a dict of arrays by header, a Capture or a list of paths, "
+                        f"not {type(data).__name__}")
     return [one.file if isinstance(one, Capture) else _arrays.path_of(one, name) for one in data]
 
 
@@ -312,7 +315,7 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
     if errors not in ("raise", "return"):
         raise Error(f"errors is {errors!r}; use 'raise' or 'return'", "usage")
     command = "viscard.fit(" + ", ".join(f"{k}={v!r}" for k, v in keywords.items() if v is not False) + ")"
-    if isinstance(data, _Mapping):
+    if isinstance(data, _Mapping) or hasattr(data, "keys"):  # a DataFrame of pandas has keys
         return _fit_arrays(data, keywords, command, progress)
     paths = _paths(data)
     if not paths:
@@ -324,7 +327,7 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
 
 def _fit_arrays(data, keywords, command, progress):
     name = data.file if isinstance(data, Table) else "arrays"
-    numbers = {key: data[key] for key in data if not isinstance(data[key], list)}
+    numbers = {key: data[key] for key in data.keys() if not (isinstance(data, Table) and isinstance(data[key], list))}
     arrays = _arrays.table(numbers, name)
     result = FitResult(_core.fit_arrays(arrays, name, keywords, command, progress)[0])
     _warn(result)

@@ -41,7 +41,10 @@ class Material:
 
     def __init__(self, E0_Pa: float, nu: float, *, terms: Sequence[Tuple[float, float]] = (),
                  rho_kg_m3: float = 0.0, name: str = "") -> None:
-        rows = [{"g": float(g), "tau_s": float(tau_s)} for g, tau_s in terms]
+        try:
+            rows = [{"g": float(g), "tau_s": float(tau_s)} for g, tau_s in terms]
+        except (TypeError, ValueError):
+            raise TypeError(f"terms must be a list of (g, tau_s), such as [(0.2, 1.5)], not {terms!r}") from None
         text: Dict[str, Any] = {"schema": "viscard-material/1", "name": name, "E0_Pa": float(E0_Pa),
                                 "nu": float(nu), "terms": rows}
         if rho_kg_m3:
@@ -82,7 +85,7 @@ class Material:
 
     @property
     def name(self) -> str:
-        return self.json["name"]
+        return self.json.get("name", "")
 
     @property
     def E0_Pa(self) -> float:
@@ -184,7 +187,7 @@ class Material:
         >>> print(viscard.Material(2e6, 0.49, terms=[(0.2, 1.0)]).card("febio", "mm-t-s").n_terms)
         1
         """
-        words = {"terms": terms, "approximate": approximate, "accept_flags": accept_flags,
+        words = {"terms": _arrays.whole(terms, "terms", 0), "approximate": approximate, "accept_flags": accept_flags,
                  "clamp_nu": clamp_nu, "bound": bound, "elastic_only": elastic_only,
                  "temperature_C": temperature_C, "reproducible": reproducible}
         return Card(_core.card(self._core, target, units, words))
@@ -198,7 +201,7 @@ class Material:
 
     def __repr__(self) -> str:
         n = len(self.g)
-        return f"<viscard.Material {self.name}: E0 {self.E0_Pa:.4g} Pa, {n} term{'' if n == 1 else 's'}>"
+        return f"<viscard.Material {self.name or 'without a name'}: E0 {self.E0_Pa:.4g} Pa, {n} term{'' if n == 1 else 's'}>"
 
 
 def _from_json(text: str) -> Material:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 from collections.abc import Mapping
 from typing import Any, Callable, Dict, List, NamedTuple, Optional, Union
@@ -231,7 +232,12 @@ def _with_scene(scene, folder, work):
         return work(None, path_of(scene, "scene"))
     with tempfile.TemporaryDirectory(prefix="viscard-") as own:
         name = os.path.join(path_of(folder, "folder") if folder is not None else "", "scene")
-        return work(_scene_toml(scene, own), name)
+        try:
+            return work(_scene_toml(scene, own), name)
+        except Error as error:  # lines are those of our text, which nobody has seen
+            text, message, where = (re.sub(re.escape(name) + r":\d+", "scene", part)
+                                    for part in (str(error), error.message, error.where))
+            raise Error(text, error.code, message, where, error.hint) from None
 
 
 def simulate(scene, *, tol: Optional[float] = None, fields: bool = False, folder=None,

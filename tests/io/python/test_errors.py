@@ -67,6 +67,8 @@ def test_arrays_of_the_wrong_kind(relaxation):
     assert "2 dimensions" in str(text_of(viscard.fit, {"time_s": time_s.reshape(2, -1), "modulus_Pa": modulus_Pa}))
     assert "no rows" in str(text_of(viscard.fit, {}))
     assert "modulus_Pa" in str(text_of(viscard.fit, {"t": time_s, "y": modulus_Pa}))
+    with pytest.raises(TypeError, match="a dict of arrays by header, a Capture or a list of paths, not ndarray"):
+        viscard.fit(np.column_stack([time_s, modulus_Pa]))
     whole = viscard.fit({"time_s": time_s.astype(np.float32), "modulus_Pa": modulus_Pa.astype(int)})
     assert whole.E0 == pytest.approx(1.5e6, rel=0.01)
 
@@ -84,7 +86,11 @@ def test_NaN_in_arrays_names_its_place(relaxation):
 def test_mistakes_in_scenes_name_the_key():
     scene = copy.deepcopy(PRESS)
     scene["geometry"]["diametre"] = scene["geometry"].pop("diameter")
-    assert "diametre" in str(text_of(viscard.simulate, scene))
+    assert str(text_of(viscard.simulate, scene)).startswith("scene: ")
+    scene["geometry"]["diameter"] = "40 apples"
+    del scene["geometry"]["diametre"]
+    error = text_of(viscard.simulate, scene)
+    assert str(error).startswith("scene: geometry.diameter: 'apples'") and error.where == "scene"
     scene = copy.deepcopy(PRESS)
     scene["geometry"]["length"] = float("nan")
     assert "length is nan" in str(text_of(viscard.simulate, scene))
@@ -101,6 +107,7 @@ def test_captures_are_refused_before_they_begin(tmp_path, short_test):
     error = text_of(viscard.capture, tmp_path / "a.viscap")
     assert error.code == "usage" and "emulate=True" in str(error)
     assert "speed must be above 0" in str(text_of(viscard.capture, tmp_path / "a.viscap", emulate=True, speed=0))
+    assert "seed is -1" in str(text_of(viscard.capture, tmp_path / "a.viscap", emulate=True, seed=-1))
     (tmp_path / "b.viscap").write_text("mine")
     error = text_of(viscard.capture, tmp_path / "b.viscap", test=short_test, emulate=True, speed=200)
     assert error.code == "exists" and (tmp_path / "b.viscap").read_text() == "mine"

@@ -84,3 +84,8 @@ def test_unphysical_materials_are_refused():
             viscard.Material(**words)
     with pytest.raises(viscard.Error):
         viscard.Material(1e6, 0.49, terms=[(1.5, 1.0)])
+    with pytest.raises(TypeError, match="terms must be a list of"):
+        viscard.Material(1e6, 0.49, terms=[0.2, 1.0])
+    with pytest.raises(TypeError, match="terms must be a whole number, not 0.5"):
+        viscard.Material(1e6, 0.49).card("abaqus", terms=0.5)
+    assert "without a name" in repr(viscard.Material(1e6, 0.49))
