@@ -59,6 +59,9 @@ struct PredictedFile {
 // Throws std::runtime_error naming the file, std::invalid_argument as predict_test() does.
 PredictedFile predict_file(const PredictFileRequest& request);
 
+// The same for a material in memory; request.material stands for it in messages.
+PredictedFile predict_material(Material material, const PredictFileRequest& request);
+
 // "relaxation", "creep", "recovery", "cycles", "oscillation", "history", in this order.
 const std::vector<std::string>& names_of_predicted_tests();
 

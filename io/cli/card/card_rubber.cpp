@@ -3,7 +3,7 @@
 #include "io/cards/hyperelastic/rubber_card.h"
 #include "io/cards/unit_system.h"
 #include "io/cli/card/card_words.h"
-#include "io/cli/words/output_paths.h"
+#include "io/cli/words/json_output.h"
 #include "io/materials/hyperelastic_file.h"
 #include "models/hyperelastic/law_stability.h"
 #include "models/maths/text_of_number.h"
@@ -99,7 +99,7 @@ int write_rubber_card(const CardWords& words, Streams& streams) {
     json["law"] = name_of(file.law.form);
     json["E0_Pa"] = youngs_modulus_Pa(file.law);
     if (words.out.empty()) json["card"] = text;
-    streams.out << json.dump(2) << "\n";
+    print_json({"viscard-card-rubber/1", {words.material}}, json, streams);
   } else if (words.out.empty()) {
     streams.out << text;
   } else {

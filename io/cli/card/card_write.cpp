@@ -84,14 +84,7 @@ CardOptions card_options(const CardWords& words, const PreparedMaterial& prepare
   options.band = words.band;
   options.created_at = now_iso8601();
   options.command = words.command_line;
-  options.material_sha256 = prepared.sha256;
-  options.notes = prepared.notes;
-  options.original = prepared.original;
-  if (prepared.terms_change) {
-    options.done_before.push_back(
-        {"terms", prepared.are_terms_dropped ? Mapping::kDropped : Mapping::kApproximated,
-         *prepared.terms_change});
-  }
+  state_changes(prepared, options);
   return options;
 }
 

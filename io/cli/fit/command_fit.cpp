@@ -10,6 +10,7 @@
 #include "io/flow/fit_file.h"
 #include "io/flow/flow_json.h"
 #include "io/flow/test_words.h"
+#include "io/flow/words/fit_text.h"
 #include "io/materials/material_file.h"
 
 #include <nlohmann/json.hpp>
@@ -18,6 +19,7 @@
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace po = boost::program_options;
@@ -140,21 +142,6 @@ CommandSyntax fit_syntax() {
   return syntax;
 }
 
-int run_joint(const po::variables_map& values, const Words& files, const std::string& command,
-              Streams& streams) {
-  const JointWords joint{.files = files,
-                         .ratios = given<Numbers>(values, "ratio").value_or(Numbers{}),
-                         .specimen_ids = given<Words>(values, "specimen-id").value_or(Words{}),
-                         .shared = given<Words>(values, "share").value_or(Words{}),
-                         .own_terms = values.count("own-terms") > 0,
-                         .fit = words_from(values),
-                         .material = material_words(values, command),
-                         .out = given(values, "out").value_or(""),
-                         .overwrite = values.count("force") > 0,
-                         .json = values.count("json") > 0};
-  return run_joint_fit(joint, streams);
-}
-
 // The object of a file that could not be fitted stands in its place among the others.
 nlohmann::ordered_json json_of(const FileOutcome& outcome) {
   if (outcome.fitted)
@@ -223,27 +210,12 @@ int report_defects(const std::vector<FileOutcome>& outcomes, std::ostream& err) 
   return status;
 }
 
-// The tests that the words name; empty: plain files.
-std::vector<TestFile> tests_given(const Words& words, const po::variables_map& values) {
-  std::vector<TestFile> tests;
+std::vector<TestFile> tests_given(const Words& words) {
   try {
-    tests = tests_from_words(words);
+    return tests_from_words(words);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-  if (tests.empty()) return tests;
-  for (const char* option : {"kind", "joint"}) {
-    if (values.count(option) == 0) continue;
-    throw UsageError(std::string("--") + option +
-                     " does not belong to tests that state their kind (creep=FILE); omit it");
-  }
-  if (tests.size() == 1) return tests;
-  for (const char* option : {"fix", "bound", "constraints", "profiles", "bootstrap",
-                             "allow-negative", "model", "diagnose", "reference-temperature"}) {
-    if (values.count(option) == 0) continue;
-    throw UsageError(std::string("--") + option + " is for single tests; omit it for several");
-  }
-  return tests;
 }
 
 }  // namespace
@@ -256,45 +228,40 @@ int run_fit(const Words& words, Streams& streams) {
   if (const auto large = large_strain_given(files, *values); !large.empty()) {
     return run_large_strain(large, *values, streams);
   }
-  const std::vector<TestFile> tests = tests_given(files, *values);
-  if (!tests.empty()) files = paths_of(tests);
-  const bool is_several = tests.size() > 1;
+  const FitWords options = fit_words(*values);
   const auto out = given(*values, "out");
-  const bool is_joint = values->count("joint") > 0;
-  for (const char* option : {"share", "specimen-id", "own-terms"}) {
-    if (!is_joint && values->count(option) > 0) {
-      throw UsageError(std::string("--") + option + " needs --joint");
-    }
-  }
-  if (!is_joint && !is_several && values->count("ratio") > 0 && files.size() > 1) {
-    throw UsageError(
-        "--ratio is for one input file; for several, give it once for each with --joint");
-  }
-  if (out && files.size() > 1 && !is_joint && !is_several) {
-    throw UsageError("--out writes the material of one input file, but there are " +
-                     std::to_string(files.size()) + "; fit them one by one, or with --joint");
-  }
-  if (is_joint && values->count("model") > 0) {
-    throw UsageError("--model answers for single files; omit it with --joint");
-  }
+  const std::string command = quoted_command_line("fit", words);
+  std::vector<TestFile> tests;
+  FitRequest request;
+  MaterialRequest about;  // refuses bad words before the fit
+  with_usage_errors([&] {
+    tests = tests_given(files);
+    if (!tests.empty()) files = paths_of(tests);
+    refuse_contradictions(options, tests, files.size(), out.has_value());
+  });
   const bool overwrite = values->count("force") > 0;
   if (out) refuse_existing(*out, overwrite);
-  if (is_joint) return run_joint(*values, files, quoted_command_line("fit", words), streams);
-  FitRequest fit_words = words_from(*values);
-  fit_words.needs_modulus = out.has_value();
-  if (tests.size() == 1) fit_words.kind = tests.front().kind;
-  const MaterialRequest about = material_words(
-      *values, quoted_command_line("fit", words));  // refuses bad words before the fit
+  if (options.joint) {
+    JointRequest joint = with_usage_errors([&] { return joint_request(options, files, command); });
+    return run_joint_fit(std::move(joint), {out.value_or(""), overwrite, values->count("json") > 0},
+                         streams);
+  }
+  with_usage_errors([&] {
+    request = fit_request(options);
+    about = material_request(options, command);
+  });
+  request.needs_modulus = out.has_value();
+  if (tests.size() == 1) request.kind = tests.front().kind;
   Progress progress(streams, "fit");
   const FlowProgress show = [&](double done, const std::string& file) {
     progress.show(done, file);
   };
   std::vector<FileOutcome> outcomes;
-  if (is_several) {
-    const FittedFile fitted = fit_tests(tests, fit_words, show);
+  if (tests.size() > 1) {
+    const FittedFile fitted = fit_tests(tests, request, show);
     outcomes.push_back({fitted.path, fitted, nullptr});
   } else {
-    outcomes = fit_each_file(files, fit_words, show);
+    outcomes = fit_each_file(files, request, show);
   }
   progress.clear();
   require_one(outcomes);
@@ -302,7 +269,7 @@ int run_fit(const Words& words, Streams& streams) {
   if (!as_json) print_as_text(outcomes, FittedText(streams));
   if (out) {
     Material material = material_from_fitted(*outcomes.front().fitted, about);
-    if (const auto ratio = given<Numbers>(*values, "ratio")) material.mixing_ratio = ratio->front();
+    if (!options.ratio.empty()) material.mixing_ratio = options.ratio.front();
     write_file(*out, json_from_material(material), overwrite);
   }
   if (as_json) print_as_json(outcomes, files, streams);

@@ -4,6 +4,8 @@
 #include "io/basics/words.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "io/flow/input_files.h"
 #include "models/hyperelastic/hyperelastic_law.h"
@@ -214,8 +216,9 @@ int run_large_strain(const std::vector<LargeStrainFile>& files, const po::variab
   for (const LargeStrainFile& file : files) paths.push_back(file.path);
   refuse_repeated_files(paths);
   const FittedLargeStrain fitted = fit_large_strain_files(request);
-  if (!print_json(values, json_from_large_strain(fitted), streams)) {
-    print_large_strain(fitted, streams.out);
+  if (!print_json(values, {"viscard-hyperelastic/1", paths}, json_from_large_strain(fitted),
+                  streams)) {
+    print_large_strain(fitted, FittedText(streams));
   }
   if (out) write_file(*out, json_from_large_strain(fitted).dump(2) + "\n", overwrite);
   if (svg) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/cli/scene/array_sweep.h"
+#include "io/flow/scenes/array_sweep.h"
 #include "io/plots/plot.h"
 #include "models/scene/common/scene_answer.h"
 #include "models/sensor/sensor_design.h"

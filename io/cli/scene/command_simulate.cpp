@@ -1,12 +1,14 @@
 #include "io/basics/atomic_file.h"
 #include "io/cli/scene/answer_output.h"
 #include "io/cli/scene/answer_pictures.h"
-#include "io/cli/scene/array_sweep.h"
 #include "io/cli/scene/scene_commands.h"
+#include "io/cli/scene/sweep_run.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
+#include "io/flow/scenes/answer_scene.h"
+#include "io/flow/scenes/wanted_results.h"
 #include "io/pictures/section_picture.h"
 #include "io/scenes/scene_file.h"
 #include "models/scene/simulate.h"
@@ -25,13 +27,7 @@ namespace {
 SceneAnswer answer_of(Scene scene, const std::string& path, Streams& streams) {
   Progress progress(streams, "simulate");
   common(scene).progress = [&](double done) { progress.show(done, ""); };
-  try {
-    return simulate(scene);
-  } catch (const SceneMistake& mistake) {
-    throw std::runtime_error(text_with_line(path, mistake));
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(path + ": " + error.what());
-  }
+  return simulate_file(scene, path);
 }
 
 // Pictures and ParaView files of the solution on the mesh that met the tolerance, and results over

@@ -114,6 +114,8 @@ def check_fit():
     run(["predict", "material.json", "--against", relaxation], "predict")
     run(["fit", "relaxation=relaxation.csv", "creep=creep.csv", "--terms", "3"], "fit")
     run(["fit", "--kind", "dma", "oscillation.csv", "--terms", "3"], "fit")
+    rubber = [f"{kind}={data(f'reference/treloar_{kind}.csv')}" for kind in ("uniaxial", "equibiaxial")]
+    run(["fit", *rubber, "--out", "rubber.json"], "hyperelastic")
 
 
 def check_card():
@@ -121,6 +123,7 @@ def check_card():
     write = ["card", material, "--for", "calculix", "--units", "mm-t-s"]
     run(write, "card-write")
     run([*write, "--out", "card.inp"], "card-write")
+    run(["card", "rubber.json", "--for", "calculix"], "card-rubber")
     run(["card", "--list"], "card-list")
     run(["card", "--check", "card.inp"], "card-check")
     run(["card", material, "--check", "card.inp"], "card-check")

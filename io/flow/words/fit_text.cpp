@@ -1,13 +1,16 @@
+#include "io/flow/words/fit_text.h"
+
 #include "fit/intervals/left_out.h"
 #include "fit/intervals/viscosity.h"
-#include "io/cli/fit/fit_command.h"
 #include "io/flow/flow_json.h"
 #include "models/maths/interval.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <ostream>
 
 namespace viscard {
 namespace {

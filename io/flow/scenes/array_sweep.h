@@ -1,27 +1,16 @@
 #pragma once
 
-#include "io/cli/words/streams.h"
 #include "io/scenes/scene_file.h"
 #include "models/scene/common/scene_answer.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace viscard {
-
-struct SweepOutput {
-  std::string folder;   // empty: nothing is written
-  std::string command;  // recorded in the files
-  bool overwrite = false;
-};
-
-// Solves every point of a sweep over rows of pillars, and writes sweep.csv and its pictures. With a
-// folder it keeps the finished points in sweep.part.csv, so that a sweep that was stopped continues:
-// the points of an earlier run are not computed again. `path` is the scene file.
-SceneAnswer run_sweep(const SceneFile& file, const std::string& path, const SweepOutput& output,
-                      Streams& streams);
 
 // Answers of a sweep, point by point: results that carry the point's label.
 using SweepRow = std::vector<SceneResult>;
@@ -41,6 +30,12 @@ class SweepStore {
   std::filesystem::path path_;
   std::map<std::size_t, SweepRow> done_;
 };
+
+// Solves the points that the store does not hold yet, on all cores, and keeps each in it as it ends.
+// progress: called with the fraction done and the point's label; may be empty. The answer holds each
+// effect as it is at the point where leaving it out costs most.
+SceneAnswer solve_sweep(const SceneFile& file, SweepStore& store,
+                        const std::function<void(double, const std::string&)>& progress);
 
 // One answer of the whole sweep: every result as "name at label", and, with a limit, for each
 // combination of the other parameters the first spacing whose deviation lies below it:

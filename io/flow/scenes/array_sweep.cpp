@@ -1,6 +1,8 @@
-#include "io/cli/scene/array_sweep.h"
+#include "io/flow/scenes/array_sweep.h"
 
 #include "io/basics/atomic_file.h"
+#include "io/flow/scenes/wanted_results.h"
+#include "models/scene/simulate.h"
 
 #include <fmt/format.h>
 
@@ -36,6 +38,15 @@ bool read_line(const std::string& line, std::size_t& point, SweepRow& row) {
     return false;
   }
   return true;
+}
+
+// Points finish in any order: the answer of a sweep holds each effect as it is at the point where
+// leaving it out costs most.
+void keep_largest(const std::vector<SceneEffect>& point, std::vector<SceneEffect>& sum) {
+  if (sum.empty()) sum = point;
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    if (point[i].estimate > sum[i].estimate) sum[i] = point[i];
+  }
 }
 
 }  // namespace
@@ -77,6 +88,34 @@ void SweepStore::add(std::size_t point, const SweepRow& row) {
 
 void SweepStore::remove() {
   if (!path_.empty()) std::filesystem::remove(path_);
+}
+
+SceneAnswer solve_sweep(const SceneFile& file, SweepStore& store,
+                        const std::function<void(double, const std::string&)>& progress) {
+  const auto& scene = std::get<ArrayScene>(file.scene);
+  const std::vector<SweepPoint> points = points_of(scene, file.sweep);
+  std::vector<Scene> left;
+  std::vector<std::size_t> number;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (store.done().count(i) > 0) continue;
+    left.push_back(points[i].scene);
+    number.push_back(i);
+  }
+  SceneAnswer sum;
+  simulate_all(left, [&](std::size_t i, const SceneAnswer& answer) {
+    SceneAnswer kept = answer;
+    keep_wanted(scene.wanted, kept);
+    store.add(number[i], kept.results);
+    if (answer.unknowns > sum.unknowns) {
+      sum.unknowns = answer.unknowns;
+      sum.discretisation = answer.discretisation;
+    }
+    keep_largest(answer.effects, sum.effects);
+    const double done = static_cast<double>(store.done().size());
+    if (progress) progress(done / static_cast<double>(points.size()), points[number[i]].label);
+  });
+  sum.results = joined(file.sweep, points, store.done()).results;
+  return sum;
 }
 
 SceneAnswer joined(const ArraySweep& sweep, const std::vector<SweepPoint>& points,
