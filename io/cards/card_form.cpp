@@ -160,45 +160,59 @@ std::string title_key() {
   return std::string("viscard ") + VISCARD_VERSION;
 }
 
+// Whether the line of a header says what viscard writes: nothing if the header has no such line.
+struct HeaderMatch {
+  const HeaderLine* line = nullptr;
+  bool is_same = false;
+};
+
+HeaderMatch match_of(const HeaderLine& wanted, const std::vector<HeaderLine>& found,
+                     bool has_reference) {
+  // Columns may have rounded the numbers that were read from the card.
+  const double tolerance = has_reference ? 1e-6 : 2e-4;
+  HeaderMatch match;
+  for (const HeaderLine& one : found) {
+    if (one.key != wanted.key) continue;
+    match.line = &one;
+    match.is_same =
+        match.is_same || has_same_words(comparable_text(one, has_reference),
+                                        comparable_text(wanted, has_reference), tolerance);
+  }
+  return match;
+}
+
+// Terms that were refitted or left out are not seen in the material that is compared.
+bool are_terms_changed(const std::vector<HeaderLine>& header) {
+  return std::any_of(header.begin(), header.end(), [](const HeaderLine& line) {
+    const bool is_approximated = line.text.rfind("approximated", 0) == 0;
+    return line.key == "terms" && (is_approximated || line.text.rfind("dropped", 0) == 0);
+  });
+}
+
 // One finding of the first contradiction, one of the first line that is missing.
 std::vector<CardFinding> compare_headers(const std::vector<HeaderLine>& found,
                                          const std::vector<HeaderLine>& wanted,
                                          bool has_reference) {
-  // Columns may have rounded the numbers that were read from the card.
-  const double tolerance = has_reference ? 1e-6 : 2e-4;
-  std::vector<CardFinding> findings;
-  const auto add_first = [&](const char* name, const std::string& text, bool is_mistake) {
-    const bool is_there = std::any_of(findings.begin(), findings.end(),
-                                      [&](const CardFinding& one) { return one.name == name; });
-    if (!is_there) findings.push_back({name, text, is_mistake});
-  };
+  const bool skips_terms = are_terms_changed(found);
+  std::optional<CardFinding> differs, is_missing;
   for (const HeaderLine& line : wanted) {
     if (!has_reference && !follows_from_card(line.key)) continue;
-    const HeaderLine* other = nullptr;
-    bool is_same = false;
-    for (const HeaderLine& one : found) {
-      if (one.key != line.key) continue;
-      other = &one;
-      // Terms that were refitted or left out are not seen in the material that is compared.
-      const bool is_changed =
-          line.key == "terms" || line.key == "total" ? one.text.rfind("exact", 0) != 0 : false;
-      is_same = is_same || is_changed ||
-                has_same_words(comparable_text(one, has_reference),
-                               comparable_text(line, has_reference), tolerance);
-    }
-    if (is_same || (other == nullptr && line.key == "total")) continue;
-    if (other == nullptr) {
-      add_first(
-          "header-incomplete",
-          "the header has no line '" + line.key + "', where viscard writes '" + line.text + "'",
-          false);
-    } else {
-      add_first("header-differs",
-                at_line(other->line, "'" + line.key + "' says '" + other->text +
-                                         "' where viscard writes '" + line.text + "'"),
-                true);
+    if (skips_terms && (line.key == "terms" || line.key == "total")) continue;
+    const HeaderMatch match = match_of(line, found, has_reference);
+    if (match.is_same) continue;
+    const std::string right = "' where viscard writes '" + line.text + "'";
+    if (match.line != nullptr && !differs) {
+      differs = CardFinding{
+          "header-differs",
+          at_line(match.line->line, "'" + line.key + "' says '" + match.line->text + right), true};
+    } else if (match.line == nullptr && !is_missing) {
+      is_missing =
+          CardFinding{"header-incomplete", "the header has no '" + line.key + right, false};
     }
   }
+  std::vector<CardFinding> findings;
+  if (differs) findings.push_back(*differs);
+  if (is_missing) findings.push_back(*is_missing);
   return findings;
 }
 

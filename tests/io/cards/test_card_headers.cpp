@@ -172,6 +172,7 @@ TEST_CASE("the temperature that a header asks for is in the unit of the card", "
   Material material = reference_material();
   material.shift = TemperatureShift{.law = ShiftLaw::kArrhenius, .T_ref_C = 23.0};
   material.shift->activation_J_mol = 50000.0;
+  material.T_ref_C = 23.0;
   CHECK_THAT(write_card(material, card_target("lsdyna"), {}).text,
              Contains("296.15 K for the times below"));
   CHECK_THAT(write_card(material, card_target("abaqus"), {}).text,

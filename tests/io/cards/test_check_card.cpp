@@ -264,7 +264,9 @@ TEST_CASE("numbers typed with fewer digits are reported as rounded, not as a mis
   const std::string right =
       write_card(material, card_target("abaqus"), {.units = "mm-t-s", .is_reproducible = true})
           .text;
-  const std::string text = replaced(right, "\n1.88031234, 0.495", "\n1.8803, 0.495");
+  const std::size_t young = right.find("INSTANTANEOUS\n") + 14;
+  const std::string text =
+      std::string(right).replace(young, right.find(',', young) - young, "1.8803");
   const CardCheck check = check_card(text, card_target("abaqus"), {}, &material);
   CHECK_FALSE(check.agrees);
   REQUIRE(check.findings.size() == 1);
