@@ -34,7 +34,8 @@ struct Card {
   std::string text;
   std::vector<CompanionFile> companions;
   std::vector<FidelityItem> fidelity;
-  Material written;  // what a reader of the card gets, SI
+  std::vector<std::string> warnings;  // lines of the header that say EXTRAPOLATED
+  Material written;                   // what a reader of the card gets, SI
   // Of E(t), relative, over the window: from CardOptions::original, else from the given material.
   double largest_difference = 0.0;
 };

@@ -70,10 +70,15 @@ nlohmann::ordered_json json_of(const CardCheck& check, const CardWords& words) {
                         {"modulus", to_word(check.read.understood.at)},
                         {"branches", to_word(check.read.understood.branch)},
                         {"time", to_word(check.read.understood.time)},
-                        {"bulk", to_word(check.read.understood.bulk)}};
+                        {"bulk", to_word(check.read.understood.bulk)},
+                        {"conventions", conventions_in_words(check.read.understood)}};
   json["material"] = json_of(check.read.material);
   if (check.read.understood.values != nullptr) {
     json["material"] = nullptr;  // no whole material can be read from such a card
+    for (const char* key : {"elastic", "modulus", "branches", "time", "bulk"}) {
+      json["understood"][key] = nullptr;  // words of series; "conventions" describes this card
+    }
+    json["frequencies_Hz"] = check.read.frequencies_Hz;
     json["values"] = nlohmann::ordered_json::array();
     for (const CardValue& value : check.read.values) {
       json["values"].push_back({{"name", value.name}, {"value", value.value}});

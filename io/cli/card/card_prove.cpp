@@ -67,17 +67,8 @@ std::string text_of(const CardChain& chain) {
         "header states\n",
         counted(chain.raw_files.size(), "file"));
   }
-  if (chain.material.stated.empty()) return "  chain: the card's header states no sums\n";
   std::string missing;
-  const auto add = [&](const std::string& what, const ChainLink& link) {
-    if (link.matches()) return;
-    missing += (missing.empty() ? "" : "; ") + what +
-               (link.now.empty() ? " is not here" : " has changed since the card was written");
-  };
-  add("the material file", chain.material);
-  for (const ChainLink& link : chain.raw_files) add(link.path, link);
-  if (chain.raw_files.empty())
-    missing += (missing.empty() ? "" : "; ") + std::string("no raw data");
+  for (const std::string& one : chain.missing()) missing += (missing.empty() ? "" : "; ") + one;
   return "  chain: not complete: " + missing + "\n";
 }
 

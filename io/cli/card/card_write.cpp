@@ -25,6 +25,7 @@ nlohmann::ordered_json json_of(const Card& card, const CardWords& words, bool wi
   json["E0_Pa"] = card.written.E0_Pa;
   json["E_inf_Pa"] = derived_moduli(card.written).E_inf_Pa;
   json["largest_difference"] = card.largest_difference;
+  json["warnings"] = card.warnings;
   json["fidelity"] = nlohmann::ordered_json::array();
   for (const FidelityItem& item : card.fidelity) {
     json["fidelity"].push_back(
@@ -35,6 +36,9 @@ nlohmann::ordered_json json_of(const Card& card, const CardWords& words, bool wi
 }
 
 void report_losses(const Card& card, Streams& streams) {
+  for (const std::string& warning : card.warnings) {
+    streams.err << "viscard: warning: " << warning << "\n";
+  }
   for (const FidelityItem& item : card.fidelity) {
     if (item.mapping == Mapping::kExact) continue;
     streams.err << "viscard: " << item.item << " " << to_word(item.mapping) << ": " << item.text
