@@ -11,6 +11,8 @@
 namespace viscard {
 namespace {
 
+using Cells = Eigen::ArrayXXd;  // a value of each cell of a grid
+
 // Residual of the conjugate gradients over the largest overlap.
 constexpr double kResidual = 1e-11;
 constexpr int kMostIterations = 3000;
@@ -29,6 +31,74 @@ Eigen::MatrixXd heights_m(const LayerPress& press, const LayerGrid& grid, bool i
   }
   return heights;
 }
+
+// Polonsky & Keer, Wear 231 (1999) 206, with the depth given: conjugate gradients on the cells that are
+// pressed; cells that would be pulled are let go, cells that overlap are taken in. A face that follows the
+// shape is solved on all cells that the shape covers.
+class PressureIteration {
+ public:
+  PressureIteration(const GridConvolution& sinking, Cells wanted_m, Cells covered, bool follows)
+      : sinking_(&sinking),
+        wanted_m_(std::move(wanted_m)),
+        covered_(std::move(covered)),
+        follows_(follows),
+        scale_m_(follows ? wanted_m_.abs().maxCoeff() : wanted_m_.maxCoeff()),
+        p_(Cells::Zero(wanted_m_.rows(), wanted_m_.cols())),
+        direction_(p_) {}
+
+  const Cells& pressure() const { return p_; }
+  bool is_out_of_reach() const { return !(scale_m_ > 0.0); }
+
+  void begin(const Eigen::MatrixXd& guess_Pa) {
+    if (guess_Pa.size() > 0) p_ = guess_Pa.array() * covered_;
+    if (!follows_) p_ = p_.max(0.0);
+    // Without a guess, any positive pressure on what overlaps.
+    if (p_.abs().maxCoeff() == 0.0) p_ = (wanted_m_ > 0.0).cast<double>();
+    gap_m_ = sinking_->apply(p_.matrix()).array() - wanted_m_;
+  }
+
+  bool is_done() const {
+    if (!is_same_) return false;
+    const Cells on = touched();
+    const double open_m = follows_ ? 0.0 : -((1.0 - on) * covered_ * gap_m_).minCoeff();
+    return std::max((gap_m_ * on).abs().maxCoeff(), open_m) <= kResidual * scale_m_;
+  }
+
+  void step() {
+    const Cells on = touched();
+    const Cells left = gap_m_ * on;
+    const double square = left.square().sum();
+    const double turn = is_same_ && before_ > 0.0 ? square / before_ : 0.0;
+    direction_ = left + turn * direction_ * on;
+    before_ = square;
+    const Cells moved = sinking_->apply(direction_.matrix()).array();
+    const double curvature = (moved * direction_).sum();
+    const double length = curvature > 0.0 ? (left * direction_).sum() / curvature : 0.0;
+    p_ -= length * direction_;
+    gap_m_ -= length * moved;
+    is_same_ = true;
+    if (!follows_) exchange(on, length);
+  }
+
+ private:
+  Cells touched() const { return follows_ ? covered_ : Cells((p_ > 0.0).cast<double>()); }
+
+  void exchange(const Cells& on, double length) {
+    const Cells taken = (1.0 - on) * covered_ * (gap_m_ < -kResidual * scale_m_).cast<double>();
+    if (p_.minCoeff() >= 0.0 && taken.maxCoeff() == 0.0) return;
+    p_ = p_.max(0.0) - std::abs(length) * taken * gap_m_;
+    gap_m_ = sinking_->apply(p_.matrix()).array() - wanted_m_;
+    is_same_ = taken.maxCoeff() == 0.0;
+  }
+
+  const GridConvolution* sinking_;
+  Cells wanted_m_, covered_;
+  bool follows_;
+  double scale_m_;
+  Cells p_, gap_m_, direction_;
+  double before_ = 1.0;
+  bool is_same_ = false;  // the touched cells did not change in the last step
+};
 
 }  // namespace
 
@@ -49,66 +119,28 @@ LayerContact::LayerContact(const LayerKernel& kernel, LayerPress press, const La
       height_m_(heights_m(press_, grid, is_plane_)),
       sinking_(kernel.sinking_m_Pa(grid.count, grid.cell_m())) {}
 
-// Polonsky & Keer, Wear 231 (1999) 206, with the depth given: conjugate gradients on the cells that are
-// pressed; cells that would be pulled are let go, cells that overlap are taken in.
 LayerPressure LayerContact::to_depth(double depth_m, const Eigen::MatrixXd& guess_Pa) const {
-  using Array = Eigen::ArrayXXd;
-  const Array overlap = depth_m - height_m_.array();
-  const Array covered = (overlap > -std::numeric_limits<double>::infinity()).cast<double>();
-  const Array wanted = (covered > 0.0).select(overlap, 0.0);
+  const Cells overlap_m = depth_m - height_m_.array();
+  const Cells covered = (overlap_m > -std::numeric_limits<double>::infinity()).cast<double>();
+  PressureIteration iteration(sinking_, (covered > 0.0).select(overlap_m, 0.0), covered,
+                              press_.follows);
   LayerPressure answer;
   answer.grid = grid_;
   answer.depth_m = depth_m;
-  Array p =
-      guess_Pa.size() > 0 ? Array(guess_Pa.array()) : Array::Zero(wanted.rows(), wanted.cols());
-  p *= covered;
-  if (!press_.follows) p = p.max(0.0);
-  const double scale_m = press_.follows ? wanted.abs().maxCoeff() : wanted.maxCoeff();
-  const auto touched = [&]() -> Array {
-    return press_.follows ? covered : Array((p > 0.0).cast<double>());
-  };
-  if (!(scale_m > 0.0)) p.setZero();
-  if (scale_m > 0.0) {
-    if (p.abs().maxCoeff() == 0.0) {
-      // Any positive pressure on what overlaps.
-      p = (wanted > 0.0).cast<double>();
-    }
-    Array gap = sinking_.apply(p.matrix()).array() - wanted;
-    Array direction = Array::Zero(p.rows(), p.cols());
-    double before = 1.0;
-    bool is_same = false;  // the touched cells did not change
-    for (;; ++answer.iterations) {
-      const Array on = touched();
-      const Array left = gap * on;
-      const double open = press_.follows ? 0.0 : -((1.0 - on) * covered * gap).minCoeff();
-      if (is_same && std::max(left.abs().maxCoeff(), open) <= kResidual * scale_m) break;
+  if (!iteration.is_out_of_reach()) {
+    iteration.begin(guess_Pa);
+    for (; !iteration.is_done(); ++answer.iterations) {
       if (answer.iterations >= kMostIterations) {
         throw std::runtime_error("the pressure under the shape did not converge in " +
                                  std::to_string(kMostIterations) + " iterations");
       }
-      const double square = left.square().sum();
-      direction = left + (is_same && before > 0.0 ? square / before : 0.0) * direction * on;
-      before = square;
-      const Array moved = sinking_.apply(direction.matrix()).array();
-      const double curvature = (moved * direction).sum();
-      const double step = curvature > 0.0 ? (left * direction).sum() / curvature : 0.0;
-      p -= step * direction;
-      gap -= step * moved;
-      is_same = true;
-      if (press_.follows) continue;
-      const Array pulled = (p < 0.0).cast<double>();
-      const Array taken = ((1.0 - on) * covered * (gap < -kResidual * scale_m).cast<double>());
-      if (pulled.maxCoeff() > 0.0 || taken.maxCoeff() > 0.0) {
-        p = p.max(0.0) - std::abs(step) * taken * gap;
-        gap = sinking_.apply(p.matrix()).array() - wanted;
-        is_same = taken.maxCoeff() == 0.0;
-      }
+      iteration.step();
     }
   }
-  answer.pressure_Pa = p.matrix();
+  answer.pressure_Pa = iteration.pressure().matrix();
   const double cell_m2 = is_plane_ ? grid_.cell_m() : grid_.cell_m() * grid_.cell_m();
-  answer.force_N = p.sum() * cell_m2;
-  answer.contact_m2 = (p != 0.0).cast<double>().sum() * cell_m2;
+  answer.force_N = answer.pressure_Pa.sum() * cell_m2;
+  answer.contact_m2 = (iteration.pressure() != 0.0).cast<double>().sum() * cell_m2;
   return answer;
 }
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -151,38 +152,44 @@ void LayerSolver::set_profiles(const LayerPressure& pressed, SceneAnswer& answer
   if (has_voltage) answer.curves.push_back(std::move(voltage));
 }
 
+// The steepest rise of the shape over the touched cells, and if they reach the shape's end.
+std::pair<double, bool> steepest_rise(const LayerScene& scene, const LayerPressure& pressed) {
+  const LayerGrid& grid = pressed.grid;
+  double steepest = 0.0;
+  bool is_at_end = false;
+  for (Eigen::Index j = 0; j < pressed.pressure_Pa.cols(); ++j) {
+    const double y_m = scene.is_plane() ? 0.0 : grid.place_m(grid.y_m, j);
+    for (Eigen::Index i = 0; i < pressed.pressure_Pa.rows(); ++i) {
+      if (pressed.pressure_Pa(i, j) == 0.0) continue;
+      const double x_m = grid.place_m(grid.x_m, i);
+      const double rise_m = height_m(scene.press.shape, x_m + 0.5 * grid.cell_m(), y_m) -
+                            height_m(scene.press.shape, x_m - 0.5 * grid.cell_m(), y_m);
+      if (std::isfinite(rise_m)) steepest = std::max(steepest, std::abs(rise_m) / grid.cell_m());
+      is_at_end = is_at_end || !std::isfinite(rise_m);
+    }
+  }
+  return {steepest, is_at_end};
+}
+
 std::vector<std::string> LayerSolver::notes() const {
   std::vector<std::string> notes;
   if (last_->force_N == 0.0) {
     notes.emplace_back("the shape does not touch the layer; lower it, or move it with shape.at");
     return notes;
   }
-  const LayerGrid& grid = last_->grid;
   constexpr double kLargestStrain = 0.05, kSteepest = 0.2;
   const double strain = last_->pressure_Pa.maxCoeff() / scene_->pillar.E0_Pa;
   if (strain > kLargestStrain) {
     notes.push_back("large strain: the largest pressure is " + text_of(100.0 * strain, 3) +
                     " % of the layer's modulus; the answer is that of small strains");
   }
-  double steepest = 0.0;
-  bool is_outside = false;
-  const RigidShape& shape = scene_->press.shape;
-  for (Eigen::Index j = 0; j < last_->pressure_Pa.cols(); ++j) {
-    const double y_m = scene_->is_plane() ? 0.0 : grid.place_m(grid.y_m, j);
-    for (Eigen::Index i = 0; i < last_->pressure_Pa.rows(); ++i) {
-      if (last_->pressure_Pa(i, j) == 0.0) continue;
-      const double x_m = grid.place_m(grid.x_m, i);
-      const double rise_m = height_m(shape, x_m + 0.5 * grid.cell_m(), y_m) -
-                            height_m(shape, x_m - 0.5 * grid.cell_m(), y_m);
-      if (std::isfinite(rise_m)) steepest = std::max(steepest, std::abs(rise_m) / grid.cell_m());
-      is_outside = is_outside || !std::isfinite(rise_m);
-    }
-  }
+  const auto [steepest, is_at_end] = steepest_rise(*scene_, *last_);
   if (steepest > kSteepest) {
     notes.push_back("steep shape: its surface rises by " + text_of(steepest, 2) +
                     " where it touches; the face is taken to be nearly level");
   }
-  if (is_outside && shape.kind == ShapeKind::kTable) {
+  const HeightTable& table = scene_->press.shape.table;
+  if (is_at_end && scene_->press.shape.kind == ShapeKind::kTable && !table.is_random) {
     notes.emplace_back("the contact reaches the end of the table of heights, where the shape ends");
   }
   return notes;
