@@ -32,5 +32,7 @@ bool looks_like_hyperelastic_file(const std::filesystem::path& path);
 
 // Throws std::runtime_error naming the file and the key.
 HyperelasticFile read_hyperelastic(const std::filesystem::path& path);
+// The same from text; messages show name in place of the file.
+HyperelasticFile hyperelastic_from_json(const std::string& text, const std::string& name);
 
 }  // namespace viscard

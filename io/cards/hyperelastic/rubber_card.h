@@ -18,6 +18,7 @@ struct RubberCardOptions {
   // None: incompressible for abaqus and ansys (their D or d = 0), and a thousand times the initial
   // shear modulus for the others, which need a number.
   std::optional<double> bulk_Pa;
+  bool accepts_flags = false;  // write a law that is not to be trusted
 };
 
 // The card of a law. Each solver's convention, with its source, stands in rubber_card.cpp and in the

@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,6 +59,9 @@ FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request);
 
 // The object of `viscard fit --json` and of --out: laws with intervals, tests, flags.
 nlohmann::ordered_json json_from_large_strain(const FittedLargeStrain& fitted);
+
+// Prints tests, laws and the parameters of the chosen one.
+void print_large_strain(const FittedLargeStrain& fitted, std::ostream& out);
 
 // Stress against stretch: readings, the chosen law with its 95 % band, dashed where no test measured.
 Plot plot_of_large_strain(const FittedLargeStrain& fitted);
