@@ -72,7 +72,7 @@ class FitResult:
     """
 
     def __init__(self, found: Dict[str, Any]) -> None:
-        self.json: Dict[str, Any] = found["json"]
+        self.json: Dict[str, Any] = _arrays.with_head("viscard-fit/1", found["inputs"], found["json"])
         self.file: str = found["file"]
         self.covariance: np.ndarray = found["covariance"]
         self.covariance_parameters: List[str] = found["covariance_parameters"]
@@ -256,6 +256,12 @@ def _paths(data, name: str = "data") -> "list[str]":
     return [one.file if isinstance(one, Capture) else _arrays.path_of(one, name) for one in data]
 
 
+def _file_of(word: str) -> str:
+    """The file of "creep=a.csv"."""
+    kind, sign, file = word.partition("=")
+    return file if sign and not os.path.exists(word) else word
+
+
 def _warn(result, name: str) -> None:
     if result.is_trustworthy:
         return
@@ -328,7 +334,9 @@ def fit(data, *, kind: Optional[str] = None, terms: Optional[int] = None,
     _refuse_rubber_options(keywords)
     if joint:
         return JointFit(_core.fit_ratios(paths, keywords, command, progress))
-    return _results(data, _core.fit_paths(paths, keywords, command, progress), errors)
+    found = _core.fit_paths(paths, keywords, command, progress)
+    inputs = [[one["file"]] for one in found] if len(found) == len(paths) else [[_file_of(path) for path in paths]]
+    return _results(data, [{"inputs": of_one, **one} for of_one, one in zip(inputs, found)], errors)
 
 
 _RUBBER_ONLY = ("weight", "youngs_modulus", "cycle")
@@ -349,7 +357,7 @@ def _fit_rubber(paths, keywords):
     if isinstance(keywords.get("cycle"), int):
         keywords["cycle"] = str(keywords["cycle"])
     found = _core.fit_rubber(paths, keywords)
-    result = RubberFit(found["json_text"], " + ".join(path.partition("=")[2] for path in paths), found["text"],
+    result = RubberFit(found["json_text"], " + ".join(_file_of(path) for path in paths), found["text"],
                        found["tests"])
     _warn(result, result._name)
     return result
@@ -359,7 +367,8 @@ def _fit_arrays(data, keywords, command, progress):
     name = data.file if isinstance(data, Table) else "arrays"
     numbers = {key: data[key] for key in data.keys() if not (isinstance(data, Table) and isinstance(data[key], list))}
     arrays = _arrays.table(numbers, name)
-    result = FitResult(_core.fit_arrays(arrays, name, keywords, command, progress)[0])
+    found = _core.fit_arrays(arrays, name, keywords, command, progress)[0]
+    result = FitResult({"inputs": [name], **found})
     _warn(result, result.file)
     return result
 

@@ -97,6 +97,8 @@ class RubberFit:
         self._core = _core.rubber_from_json(text, name)  # refuses what is no law
         self._text, self._name, self._summary = text, name, summary
         self.json: Dict[str, Any] = json.loads(text)
+        inputs = [test["file"] for test in self.json["tests"]]
+        self.json = _arrays.with_head(self.json["schema"], inputs, self.json)
         self.tests = tests
         self.law: str = self.json["law"]
         self.laws: Dict[str, Dict[str, Any]] = {law["name"]: law for law in self.json["laws"]}
