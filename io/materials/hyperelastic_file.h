@@ -21,6 +21,7 @@ struct HyperelasticFile {
     double low = 1.0, high = 1.0;
   };
   std::array<std::optional<Range>, 3> measured;
+  // A table that was fitted.
   struct RawFile {
     std::string file, sha256;
   };

@@ -11,6 +11,7 @@ namespace viscard {
 // Solvers that a law of rubber is written for: abaqus, ansys, calculix, febio.
 const std::vector<std::string>& rubber_card_targets();
 
+// Solver, units and what the law does not state.
 struct RubberCardOptions {
   std::string target;
   std::string units = "SI";

@@ -27,6 +27,7 @@ struct LargeStrainFile {
 // beside tests at large strain, and for a test without a file.
 std::vector<LargeStrainFile> large_strain_from_words(const std::vector<std::string>& words);
 
+// What to fit, and how.
 struct LargeStrainRequest {
   std::vector<LargeStrainFile> files;
   ColumnMap columns;
@@ -43,6 +44,7 @@ struct CycleChoice {
   std::optional<double> softening;           // fit/large_strain/load_cycles.h
 };
 
+// Tests and fitted laws.
 struct FittedLargeStrain {
   std::vector<LargeStrainFile> files;
   std::vector<LargeStrainTest> tests;  // one for each file, with the fitted rows

@@ -10,6 +10,7 @@ namespace viscard {
 
 // The options of `viscard fit` that belong to tests at large strain, as a user gives them.
 struct LargeStrainWords {
+  // Not given: the default.
   using Text = std::optional<std::string>;
   Text model, weight, youngs_modulus, cycle, sheet;
   std::vector<std::string> column;
