@@ -4,6 +4,7 @@
 #include "io/cli/card/card_words.h"
 #include "io/cli/words/json_output.h"
 #include "io/materials/hyperelastic_file.h"
+#include "models/hyperelastic/hyperelastic_law.h"
 
 #include <nlohmann/json.hpp>
 
