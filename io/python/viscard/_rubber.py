@@ -94,7 +94,6 @@ class RubberFit:
     """
 
     def __init__(self, text: str, name: str, summary: str, tests: "list[Tuple[np.ndarray, np.ndarray]]") -> None:
-        self._core = _core.rubber_from_json(text, name)  # refuses what is no law
         self._text, self._name, self._summary = text, name, summary
         self.json: Dict[str, Any] = json.loads(text)
         inputs = [test["file"] for test in self.json["tests"]]
@@ -121,7 +120,13 @@ class RubberFit:
                 text = file.read()
         except OSError as failure:
             raise Error(f"{name}: {failure.strerror}", "file", failure.strerror, name) from failure
+        _core.rubber_from_json(text, name)  # refuses what is no law
         return cls(text, name, "", [])
+
+    @property
+    def _law(self):
+        """The compiled law; refused if a fit that is not to be trusted has no stiffness at rest."""
+        return _core.rubber_from_json(self._text, self._name)
 
     def __getitem__(self, key: str) -> Any:
         return self.json[key]
@@ -145,7 +150,7 @@ class RubberFit:
         at = _arrays.numbers(stretch, "stretch")
         if not np.all(at > 0.0):
             raise Error("stretch must be above 0", "input")
-        return _core.rubber_stress(self._core, deformation, at.ravel()).reshape(at.shape)
+        return _core.rubber_stress(self._law, deformation, at.ravel()).reshape(at.shape)
 
     def card(self, target: str, units: str = "SI", *, bulk_modulus_Pa: Optional[float] = None,
              accept_flags: bool = False) -> RubberCard:
@@ -160,7 +165,7 @@ class RubberFit:
         accept_flags : bool
             Write a law that is not to be trusted too.
         """
-        text = _core.rubber_card(self._core, self._name, target, units, bulk_modulus_Pa, accept_flags)
+        text = _core.rubber_card(self._law, self._name, target, units, bulk_modulus_Pa, accept_flags)
         return RubberCard(text, target)
 
     def save(self, path, *, overwrite: bool = False) -> None:

@@ -1,6 +1,7 @@
 """Fits in Python equal those of the command line."""
 import inspect
 import json
+import os
 import re
 import subprocess
 import warnings
@@ -14,7 +15,8 @@ EXAMPLE = "data/demo/example_relaxation.csv"
 
 
 def of_program(program, *words):
-    found = subprocess.run([program, *words], capture_output=True, text=True)
+    # doctest loads readline, which tells child processes a width.
+    found = subprocess.run([program, *words], capture_output=True, text=True, env={**os.environ, "COLUMNS": ""})
     return found.stdout
 
 
