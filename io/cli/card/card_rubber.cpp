@@ -48,6 +48,12 @@ std::vector<std::string> header_lines(const HyperelasticFile& file, const CardWo
   return lines;
 }
 
+std::string comment_mark(const std::string& target) {
+  if (target == "ansys") return "! ";
+  if (target == "lsdyna") return "$ ";
+  return target == "openradioss" || target == "frontistr" ? "# " : "** ";
+}
+
 std::string with_header(const std::vector<std::string>& lines, const std::string& target,
                         const std::string& card) {
   std::string text;
@@ -55,7 +61,7 @@ std::string with_header(const std::vector<std::string>& lines, const std::string
     if (target == "febio") {
       text += "<!-- " + line + " -->\n";
     } else {
-      text += (target == "ansys" ? "! " : "** ") + line + "\n";
+      text += comment_mark(target) + line + "\n";
     }
   }
   return text + card;
@@ -88,6 +94,7 @@ int write_rubber_card(const CardWords& words, Streams& streams) {
   options.target = words.target;
   options.units = words.units.empty() ? "SI" : words.units;
   options.bulk_Pa = words.bulk_Pa;
+  options.density_kg_m3 = words.density_kg_m3;
   const std::string text = with_header(header_lines(file, words, options.units), words.target,
                                        rubber_card(file.law, options));
   if (!words.out.empty()) write_file(words.out, text, words.force);
