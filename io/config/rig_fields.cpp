@@ -54,6 +54,16 @@ void show_thermometer(FieldVisitor& fields, ThermometerConfig& thermometer) {
   fields.quantity({"drift_limit", "K", kPositive}, thermometer.drift_limit_K);
 }
 
+void show_performance(FieldVisitor& fields, RigPerformance& performance) {
+  fields.quantity({"noise", "N", kNotNegative}, performance.noise_N);
+  fields.quantity({"gain_drift", "1/s", kNotNegative}, performance.gain_drift_1_s);
+  fields.quantity({"step", "m", kNotNegative}, performance.step_m);
+  fields.quantity({"acceleration", "m/s2", kPositive}, performance.acceleration_m_s2);
+  fields.quantity({"max_speed", "m/s", kPositive}, performance.max_speed_m_s);
+  fields.quantity({"approach", "s", kNotNegative}, performance.approach_s);
+  fields.quantity({"handling", "s", kNotNegative}, performance.handling_s);
+}
+
 }  // namespace
 
 void show_rig(FieldVisitor& fields, RigConfig& rig) {
@@ -85,6 +95,8 @@ void show_rig(FieldVisitor& fields, RigConfig& rig) {
     inner.quantity({"soft_fraction", "1", kFraction}, rig.safety.soft_fraction);
     inner.quantity({"hard_fraction", "1", kFraction}, rig.safety.hard_fraction);
   });
+  fields.section("performance",
+                 [&](FieldVisitor& inner) { show_performance(inner, rig.performance); });
 }
 
 }  // namespace viscard
