@@ -1,4 +1,5 @@
 #include "io/config/config_show.h"
+#include "io/config/performance_file.h"
 
 #include <stdexcept>
 
@@ -54,6 +55,8 @@ void show_thermometer(FieldVisitor& fields, ThermometerConfig& thermometer) {
   fields.quantity({"drift_limit", "K", kPositive}, thermometer.drift_limit_K);
 }
 
+}  // namespace
+
 void show_performance(FieldVisitor& fields, RigPerformance& performance) {
   fields.quantity({"noise", "N", kNotNegative}, performance.noise_N);
   fields.quantity({"gain_drift", "1/s", kNotNegative}, performance.gain_drift_1_s);
@@ -63,8 +66,6 @@ void show_performance(FieldVisitor& fields, RigPerformance& performance) {
   fields.quantity({"approach", "s", kNotNegative}, performance.approach_s);
   fields.quantity({"handling", "s", kNotNegative}, performance.handling_s);
 }
-
-}  // namespace
 
 void show_rig(FieldVisitor& fields, RigConfig& rig) {
   fields.text({"name", "bench 1"}, rig.name);
@@ -95,8 +96,6 @@ void show_rig(FieldVisitor& fields, RigConfig& rig) {
     inner.quantity({"soft_fraction", "1", kFraction}, rig.safety.soft_fraction);
     inner.quantity({"hard_fraction", "1", kFraction}, rig.safety.hard_fraction);
   });
-  fields.section("performance",
-                 [&](FieldVisitor& inner) { show_performance(inner, rig.performance); });
 }
 
 }  // namespace viscard
