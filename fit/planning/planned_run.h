@@ -15,6 +15,9 @@ struct Bench {
   Specimen specimen;
 };
 
+// Relative standard uncertainty of the load cell's calibration.
+double force_relative_u(const RigConfig& rig);
+
 // What one run of a test will record, before there is one: the readings' times, the moves of the
 // stage, and how long it takes. data.force_N are zeros, because the information of a run does not
 // depend on what is read.

@@ -60,19 +60,6 @@ SpectralState state_of(const StageModel& model, const PronySeries& stage, double
   return state;
 }
 
-// What a fit finds with a wrong frame stiffness or gain, because the stage sees the same.
-void add_systematic_parts(const IndentationData& data, const PronySeries& stage_N_m,
-                          double factor_m, PredictedFit& fit) {
-  const double frame_N_m = data.frame_stiffness_N_m;
-  const auto specimen = [&](double force_factor, double frame_factor) {
-    return scaled(specimen_series(scaled(stage_N_m, force_factor), frame_factor * frame_N_m),
-                  1.0 / factor_m);
-  };
-  fit.softer_frame = specimen(1.0, 1.0 - data.frame_stiffness_relative_u);
-  fit.larger_gain = specimen(1.0 + data.force_relative_u, 1.0);
-  fit.geometry_relative = data.contact ? relative_uncertainty(*data.contact) : 0.0;
-}
-
 // The number behind "g_" of "g_12"; 0: none.
 std::size_t term_number(const std::string& name, const std::string& kind) {
   if (name.rfind(kind, 0) != 0 || name.size() == kind.size()) return 0;
@@ -179,8 +166,22 @@ PredictedFit predicted_fit(const TestPlan& plan, const Bench& bench, const Mater
   predicted.result.gain_drift_relative =
       gain_drift_of_moduli(model, fit, run.data, predicted.result.E0_Pa);
   add_common_uncertainty(predicted.result.gain_drift_relative, predicted.result);
-  add_systematic_parts(run.data, stage, factor_m, predicted);
+  add_systematic_parts(bench, predicted);
   return predicted;
+}
+
+void add_systematic_parts(const Bench& bench, PredictedFit& fit) {
+  const double factor_m = force_per_modulus_and_depth_m(bench.specimen.contact);
+  const double frame_N_m = bench.rig.frame.stiffness_N_m;
+  const PronySeries stage_N_m = stage_series(scaled(fit.series, factor_m), frame_N_m);
+  const auto specimen = [&](double force_factor, double frame_factor) {
+    return scaled(specimen_series(scaled(stage_N_m, force_factor), frame_factor * frame_N_m),
+                  1.0 / factor_m);
+  };
+  fit.softer_frame =
+      specimen(1.0, 1.0 - PredictedFit::kSmallShare * bench.rig.frame.stiffness_relative_u);
+  fit.larger_gain = specimen(1.0 + PredictedFit::kSmallShare * force_relative_u(bench.rig), 1.0);
+  fit.geometry_relative = relative_uncertainty(bench.specimen.contact);
 }
 
 ErrorCauses errors_of(const WantedQuantity& wanted, const PredictedFit& fit) {
@@ -191,8 +192,8 @@ ErrorCauses errors_of(const WantedQuantity& wanted, const PredictedFit& fit) {
   ErrorCauses causes;
   causes.noise = relative_error(wanted, fit.series, fit.covariance);
   causes.gain_drift = change(scaled(fit.series, 1.0 + fit.result.gain_drift_relative));
-  causes.frame = change(fit.softer_frame);
-  causes.calibration = change(fit.larger_gain);
+  causes.frame = change(fit.softer_frame) / PredictedFit::kSmallShare;
+  causes.calibration = change(fit.larger_gain) / PredictedFit::kSmallShare;
   causes.geometry = change(scaled(fit.series, 1.0 + fit.geometry_relative));
   return causes;
 }
