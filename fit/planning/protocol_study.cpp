@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <stdexcept>
 
 namespace viscard {
@@ -30,13 +30,24 @@ double counted(const ErrorCauses& causes, bool is_beyond_reach) {
 // What one run of a plan tells at one guess.
 struct Prediction {
   double total_s = 0.0, peak_force_N = 0.0;
+  double weakest_term = 0.0;
   std::vector<ErrorCauses> errors;
 };
+
+double weakest_term_of(const PredictedFit& fit) {
+  double weakest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < fit.series.terms.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i) + 1;  // of E_i
+    weakest =
+        std::min(weakest, fit.series.terms[i].modulus_Pa / std::sqrt(fit.covariance(row, row)));
+  }
+  return weakest;
+}
 
 Prediction prediction_of(const TestPlan& plan, const Bench& bench, const Material& guess,
                          const std::vector<WantedQuantity>& wanted) {
   const PredictedFit fit = predicted_fit(plan, bench, guess);
-  Prediction prediction{fit.total_s, fit.peak_force_N, {}};
+  Prediction prediction{fit.total_s, fit.peak_force_N, weakest_term_of(fit), {}};
   for (const WantedQuantity& one : wanted) prediction.errors.push_back(errors_of(one, fit));
   return prediction;
 }
@@ -44,6 +55,7 @@ Prediction prediction_of(const TestPlan& plan, const Bench& bench, const Materia
 ProtocolRow row_of(const TestPlan& plan, int touches, const Bench& bench,
                    const Prediction& one_run) {
   ProtocolRow row{.plan = plan, .touches = touches, .peak_force_N = one_run.peak_force_N};
+  row.weakest_term = one_run.weakest_term;
   row.total_s = touches * one_run.total_s + bench.performance.handling_s;
   for (const ErrorCauses& causes : one_run.errors) row.errors.push_back(causes.of_touches(touches));
   return row;
@@ -136,6 +148,7 @@ ProtocolStudy study_protocols(const Bench& bench, const std::vector<WantedQuanti
     throw std::invalid_argument("a study of tests needs a wanted quantity and a guess");
   }
   const std::vector<TestPlan> plans = allowed_plans(options);
+  const std::size_t n_grid = plans.size() - (options.is_given ? 1 : 0);
   std::vector<Prediction> predictions(plans.size());
   for_each_of(options, plans.size(), [&](std::size_t i) {
     predictions[i] = prediction_of(plans[i], bench, options.guesses.front(), wanted);
@@ -144,8 +157,12 @@ ProtocolStudy study_protocols(const Bench& bench, const std::vector<WantedQuanti
     study.is_beyond_reach.push_back(systematic_half_width(predictions.front().errors[i]) >
                                     wanted[i].tolerance);
   }
+  study.loses_terms =
+      std::none_of(predictions.begin(), predictions.begin() + static_cast<std::ptrdiff_t>(n_grid),
+                   [](const Prediction& one) { return one.weakest_term >= kClearTerm; });
   for (std::size_t i = 0; i < plans.size(); ++i) {
-    const bool is_given = options.is_given && i + 1 == plans.size();
+    const bool is_given = i >= n_grid;
+    if (!is_given && !study.loses_terms && predictions[i].weakest_term < kClearTerm) continue;
     for (int touches = 1; touches <= (is_given ? 1 : options.most_touches); ++touches) {
       ProtocolRow row = row_of(plans[i], touches, bench, predictions[i]);
       row.is_given = is_given;

@@ -16,6 +16,9 @@ struct ProtocolRow {
   int touches = 1;
   double total_s = 0.0;  // at the rig
   double peak_force_N = 0.0;
+  // Smallest modulus of a term over its standard error, at the best guess. Below kClearTerm the fit
+  // may not find that term, and then its answer is not the one that is predicted.
+  double weakest_term = 0.0;
   std::vector<ErrorCauses> errors;       // of the wanted quantities in their order, at the guess
   std::vector<double> worst_half_width;  // 95 %, relative: the largest over the doubt in the guess
   // Largest of half-width over tolerance; 1 or less: all that is wanted is met. See ProtocolStudy.
@@ -23,6 +26,10 @@ struct ProtocolRow {
   bool is_given = false;     // the test that the user gave
   bool is_on_front = false;  // no other row takes less time and falls less short
 };
+
+// A term adds two parameters. BIC takes them if the sum of squares over the variance falls by 2 ln n,
+// 18 for 8000 readings, and two standard errors more make that nearly certain.
+inline constexpr double kClearTerm = 6.0;
 
 // Error against time at the rig.
 struct ProtocolStudy {
@@ -32,6 +39,8 @@ struct ProtocolStudy {
   std::vector<bool> is_beyond_reach;
   std::vector<ProtocolRow> rows;  // ascending time: the front, and the given test
   std::size_t n_tried = 0;
+  bool loses_terms =
+      false;  // no test shows all terms of the guess; else rows that do not are left out
   std::optional<std::size_t> advised;  // the quickest row that meets all that is wanted ...
   bool meets_all = false;              // ... or else the one that falls least short
   std::optional<std::size_t>

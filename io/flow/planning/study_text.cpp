@@ -71,6 +71,12 @@ std::vector<std::string> limits_of(const TestStudy& study) {
         protocols.wanted[i].name, part.cause, percent(part.half_width),
         percent(protocols.wanted[i].tolerance), part.remedy, protocols.wanted[i].name));
   }
+  if (protocols.loses_terms) {
+    limits.push_back(
+        "no test shows all terms of the guess clearly: the fit may find fewer, and then its errors "
+        "are "
+        "not those shown");
+  }
   return limits;
 }
 
