@@ -142,7 +142,7 @@ void add_thicker_layer(const FittedRun& run, Ways& ways) {
   Bench thicker = run.bench;
   thicker.specimen.contact.layer_thickness_m *= 2.0;
   const PredictedFit fit = predicted_fit(run.plan, thicker, guess_of(run));
-  ways.add("the same test on a layer of " +
+  ways.add("the same test on a new specimen, a layer of " +
                text_of(1e3 * thicker.specimen.contact.layer_thickness_m, 3) + " mm",
            "viscard capture", fit, minutes_of(thicker, fit.total_s));
 }

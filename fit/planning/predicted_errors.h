@@ -4,6 +4,7 @@
 #include "fit/planning/planned_run.h"
 #include "models/material/material.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct ErrorCauses {
 
   double total() const;
   double half_width_95() const { return kNormal95 * total(); }
+  double without_systematic_95() const { return kNormal95 * std::hypot(noise, gain_drift); }
   ErrorCauses of_touches(int n) const;  // of the mean of n runs on one specimen
 };
 

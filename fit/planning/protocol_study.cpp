@@ -14,17 +14,13 @@ void for_each_of(const ProtocolOptions& options, std::size_t n,
   for (std::size_t i = 0; i < n; ++i) work(i);
 }
 
-double without_systematic(const ErrorCauses& causes) {
-  return kNormal95 * std::hypot(causes.noise, causes.gain_drift);
-}
-
 double systematic_half_width(const ErrorCauses& causes) {
   return kNormal95 * std::hypot(causes.frame, causes.calibration, causes.geometry);
 }
 
 // Half-width that counts against the tolerance.
 double counted(const ErrorCauses& causes, bool is_beyond_reach) {
-  return is_beyond_reach ? without_systematic(causes) : causes.half_width_95();
+  return is_beyond_reach ? causes.without_systematic_95() : causes.half_width_95();
 }
 
 // What one run of a plan tells at one guess.
@@ -72,14 +68,17 @@ void add_guess(const std::vector<ErrorCauses>& errors, const ProtocolStudy& stud
   }
 }
 
+// More time is worth while only for a visible gain.
+constexpr double kBetter = 0.02;
+
 void mark_front(std::vector<ProtocolRow>& rows) {
   std::sort(rows.begin(), rows.end(), [](const ProtocolRow& a, const ProtocolRow& b) {
     return a.total_s != b.total_s ? a.total_s < b.total_s : a.shortfall < b.shortfall;
   });
   double least = std::numeric_limits<double>::infinity();
   for (ProtocolRow& row : rows) {
-    row.is_on_front = row.shortfall < least;
-    least = std::min(least, row.shortfall);
+    row.is_on_front = row.shortfall < (1.0 - kBetter) * least;
+    if (row.is_on_front) least = row.shortfall;
   }
 }
 

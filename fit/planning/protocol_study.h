@@ -24,7 +24,7 @@ struct ProtocolRow {
   // Largest of half-width over tolerance; 1 or less: all that is wanted is met. See ProtocolStudy.
   double shortfall = 0.0;
   bool is_given = false;     // the test that the user gave
-  bool is_on_front = false;  // no other row takes less time and falls less short
+  bool is_on_front = false;  // no other row takes less time and falls as little short (within 2 %)
 };
 
 // A term adds two parameters. BIC takes them if the sum of squares over the variance falls by 2 ln n,
