@@ -110,6 +110,7 @@ double relative_error(const WantedQuantity& wanted, const PronySeries& series,
 }  // namespace
 
 double value_of(const WantedQuantity& wanted, const PronySeries& series) {
+  if (wanted.value) return wanted.value(series);
   const double E0_Pa = instantaneous_modulus_Pa(series);
   if (wanted.name == "E0") return E0_Pa;
   if (wanted.name == "E_inf") return series.equilibrium_modulus_Pa;

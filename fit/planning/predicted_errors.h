@@ -5,6 +5,7 @@
 #include "models/material/material.h"
 
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace viscard {
 struct WantedQuantity {
   std::string name;        // "E0", "E_inf", "sum_g", "E_i", "g_i" or "tau_i" of term i
   double tolerance = 0.0;  // relative half-width of its 95 % interval
+  // Of any other quantity: its value, which must be positive, from the series. It may be called from
+  // several threads.
+  std::function<double(const PronySeries&)> value = {};
 };
 
 // Throws std::invalid_argument that lists the names, or that the series has no such term.

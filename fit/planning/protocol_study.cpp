@@ -90,11 +90,8 @@ void keep_near_front(std::vector<ProtocolRow>& rows) {
   std::vector<ProtocolRow> kept;
   for (const ProtocolRow& row : rows) {
     least = std::min(least, row.shortfall);
-    if (row.is_given || row.is_on_front) {
-      kept.push_back(row);
-    } else if (row.shortfall < kNear * least && row.touches == 1) {
-      kept.push_back(row);
-    }
+    const bool is_near = row.shortfall < kNear * least && row.touches == 1;
+    if (row.is_given || row.is_on_front || is_near) kept.push_back(row);
   }
   rows = std::move(kept);
 }

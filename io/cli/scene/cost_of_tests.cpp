@@ -25,7 +25,8 @@ void add_test_options(po::options_description& options) {
   add("specimen", po::value<std::string>(), "with --rig: specimen.toml");
   add("want", po::value<Words>()->composing(),
       "with --rig: a quantity and the relative half-width of its 95 % interval, such as E0=1% or "
-      "g_2=5%; also E_inf, sum_g, E_i, tau_i (repeatable)");
+      "g_2=5%; also E_inf, sum_g, E_i, tau_i; with a scene one of its results, or voltage "
+      "(repeatable)");
   add("guess", po::value<std::string>(),
       "with --rig: material file of a similar material; its covariance is the doubt in it. "
       "Default: "
@@ -44,6 +45,7 @@ int run_cost_of_tests(const po::variables_map& values, const CommandSyntax& synt
   if (request.want.empty()) throw UsageError("what is wanted? Add for instance --want E0=1%");
   request.test = given(values, "test");
   request.guess = given(values, "guess");
+  request.scene = given(values, "scene");
   request.longest_s = *given_quantity(values, "at-most", "s");
   for (const std::string& text : request.want) {
     try {
@@ -54,7 +56,7 @@ int run_cost_of_tests(const po::variables_map& values, const CommandSyntax& synt
   }
   const TestStudy study = study_tests(request);
   const JsonHead head{"viscard-cost-tests/1",
-                      given_words(values, {"rig", "specimen", "test", "guess"})};
+                      given_words(values, {"rig", "specimen", "test", "guess", "scene"})};
   const nlohmann::ordered_json object = with_head(head, json_from_test_study(study));
   if (const auto out = given(values, "out")) {
     const std::filesystem::path folder = *out;

@@ -4,6 +4,7 @@
 #include "io/basics/units.h"
 #include "io/config/config_file.h"
 #include "io/config/performance_file.h"
+#include "io/flow/planning/scene_quantity.h"
 #include "io/materials/material_file.h"
 #include "rig/run/preflight.h"
 
@@ -57,14 +58,15 @@ TestStudy study_tests(const TestStudyRequest& request) {
   study.bench = {read_rig(request.rig), read_performance(request.rig),
                  read_specimen(request.specimen)};
   const Bench& bench = study.bench;
-  std::vector<WantedQuantity> wanted;
-  for (const std::string& text : request.want) wanted.push_back(wanted_from_text(text));
   study.guess = request.guess ? read_material(*request.guess).material : guess_from(bench.specimen);
   study.guess_text =
       request.guess
           ? *request.guess
           : fmt::format("modulus_guess and relaxation_guess of {}, as terms of 0.2 and 2 s",
                         request.specimen);
+  std::vector<WantedQuantity> wanted;
+  for (const std::string& text : request.want) wanted.push_back(wanted_from_text(text));
+  if (request.scene) take_results_of_scene(*request.scene, study.guess, wanted);
   ProtocolOptions options;
   options.is_given = request.test.has_value();
   if (request.test) options.base = read_test(*request.test);

@@ -13,7 +13,8 @@ struct TestStudyRequest {
   std::string rig, specimen;
   std::optional<std::string> test;   // its approach is kept, and it is compared with the others
   std::optional<std::string> guess;  // material file
-  std::vector<std::string> want;     // "E0=1%"
+  std::optional<std::string> scene;  // whose results may be wanted
+  std::vector<std::string> want;     // "E0=1%", or "voltage=3%" of the scene
   double longest_s = 3600.0;         // at the rig
 };
 
