@@ -83,6 +83,29 @@ TEST_CASE("viscard cost --rig writes the test to use, which reads back", "[cli]"
   }
 }
 
+TEST_CASE("results of a scene have the errors of the moduli that they follow", "[cli]") {
+  const ScratchFolder folder;
+  const std::string scene = (folder / "scene.toml").string();
+  write_file(scene,
+             "tolerance = 1e-2\n[geometry]\ndiameter = \"40 um\"\nlength = \"120 um\"\n"
+             "[materials]\npillar = { E = \"1.8 MPa\", nu = 0.33 }\n"
+             "[analysis]\nkind = \"static\"\nload = { pressure = \"10 kPa\", on = \"top\" }\n",
+             false);
+  const CommandOutcome outcome = run_command(cost_words(
+      {"--scene", scene, "--want", "top_displacement=50%", "--want", "E0=50%", "--json"}));
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.status == 0);
+  const auto study = nlohmann::json::parse(outcome.out);
+  // A static load presses on E0, and the displacement is inversely proportional to it.
+  for (const auto& row : study["rows"]) {
+    const double E0 = row["errors"][1]["half_width_95"].get<double>();
+    CHECK(row["errors"][0]["half_width_95"].get<double>() == Approx(E0).epsilon(0.02));
+  }
+  const CommandOutcome unknown =
+      run_command(cost_words({"--scene", scene, "--want", "voltage=5%"}));
+  CHECK(unknown.err.find("top_displacement") != std::string::npos);
+}
+
 TEST_CASE("viscard cost --rig refuses what it cannot use, and reports why", "[cli]") {
   CHECK(run_command(cost_words({})).status == 2);
   CHECK(run_command(cost_words({"--want", "E0"})).status == 2);
