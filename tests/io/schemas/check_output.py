@@ -127,6 +127,10 @@ def check_card():
     run(["card", "--list"], "card-list")
     run(["card", "--check", "card.inp"], "card-check")
     run(["card", material, "--check", "card.inp"], "card-check")
+    run(["card", material, "--for", "abaqus-table", "--out", "table.inp"], "card-write")
+    run(["card", material, "--check", "table.inp"], "card-check")
+    run(["card", material, "--for", "rayleigh", "--out", "rayleigh.txt"], "card-write")
+    run(["card", material, "--check", "rayleigh.txt"], "card-check")
     run(["card", material, "--for", "calculix", "--deck", "creep", "--out", "deck"], "card-deck")
     run(["card", material, "--prove", "card.inp"], "card-prove")
 

@@ -19,7 +19,7 @@ namespace viscard::test {
 namespace {
 
 ViscoelasticPillar small_pillar(const Material& material) {
-  return {{}, {.degree = 2, .layers = 1, .shaft_elements = 1}, material, TopLoad::kRigidPlate};
+  return {{}, {.degree = 2, .layers = 1, .shaft_elements = 1}, material, TopCondition::kRigidPlate};
 }
 
 Material material_of(std::vector<MaterialTerm> terms) {
