@@ -110,21 +110,6 @@ RigConfig rig_from_toml(const std::string& text, const std::string& name) {
   return config_from_toml<RigConfig>(text, name, unset, show_rig_file, check_rig);
 }
 
-RigPerformance performance_from_toml(const std::string& rig_text, const std::string& name) {
-  RigPerformance performance;
-  RigConfig rig;
-  read_toml_fields(rig_text, name, [&](FieldVisitor& fields) {
-    show_rig(fields, rig);
-    fields.section("performance",
-                   [&](FieldVisitor& inner) { show_performance(inner, performance); });
-  });
-  return performance;
-}
-
-RigPerformance read_performance(const std::filesystem::path& rig_path) {
-  return performance_from_toml(read_file(rig_path), rig_path.string());
-}
-
 TestPlan test_from_toml(const std::string& text, const std::string& name) {
   return config_from_toml<TestPlan>(text, name, {}, show_test, check_test);
 }

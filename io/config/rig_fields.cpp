@@ -1,5 +1,4 @@
 #include "io/config/config_show.h"
-#include "io/config/performance_file.h"
 
 #include <stdexcept>
 
@@ -56,16 +55,6 @@ void show_thermometer(FieldVisitor& fields, ThermometerConfig& thermometer) {
 }
 
 }  // namespace
-
-void show_performance(FieldVisitor& fields, RigPerformance& performance) {
-  fields.quantity({"noise", "N", kNotNegative}, performance.noise_N);
-  fields.quantity({"gain_drift", "1/s", kNotNegative}, performance.gain_drift_1_s);
-  fields.quantity({"step", "m", kNotNegative}, performance.step_m);
-  fields.quantity({"acceleration", "m/s2", kPositive}, performance.acceleration_m_s2);
-  fields.quantity({"max_speed", "m/s", kPositive}, performance.max_speed_m_s);
-  fields.quantity({"approach", "s", kNotNegative}, performance.approach_s);
-  fields.quantity({"handling", "s", kNotNegative}, performance.handling_s);
-}
 
 void show_rig(FieldVisitor& fields, RigConfig& rig) {
   fields.text({"name", "bench 1"}, rig.name);
