@@ -11,6 +11,7 @@ class GridConvolution {
  public:
   // K by offset, from 0 to the size of the grid less one; a single column for a line of points.
   explicit GridConvolution(const Eigen::MatrixXd& kernel);
+  // K * values.
   Eigen::MatrixXd apply(const Eigen::MatrixXd& values) const;
 
  private:

@@ -12,6 +12,7 @@ namespace viscard {
 // lsdyna, openradioss.
 const std::vector<std::string>& rubber_card_targets();
 
+// Solver, units and what the law does not state.
 struct RubberCardOptions {
   std::string target;
   std::string units = "SI";
@@ -20,6 +21,7 @@ struct RubberCardOptions {
   // shear modulus for the others, which need a number.
   std::optional<double> bulk_Pa;
   std::optional<double> density_kg_m3;  // needed by lsdyna and openradioss
+  bool accepts_flags = false;  // write a law that is not to be trusted
 };
 
 // The card of a law. Each solver's convention, with its source, stands in rubber_card.cpp and in the

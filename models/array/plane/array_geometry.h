@@ -35,6 +35,7 @@ struct ArrayElectrodes {
 // Throws SceneMistake naming the wrong length, or electrodes that overlap or leave the film.
 void validate(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes);
 
+// Half the width of an electrode, for the default that of the pillar.
 double electrode_half_width_m(const ArrayGeometry& geometry, const ArrayElectrodes& electrodes);
 // The same pillar alone, on a film so wide that its ends are not felt.
 ArrayGeometry lone(ArrayGeometry geometry);

@@ -21,9 +21,11 @@ constexpr int kTopLoads = 5;
 // changes voltages by some 1e-5 (eq. S3).
 struct FootForces {
   std::vector<double> radius_m;
+  // Forces on the circles of radius_m under pressure.
   struct Axial {  // under pressure: along r and z
     Eigen::VectorXd r, z;
   } pressure;
+  // Forces on the circles of radius_m under sideways loads.
   struct Sideways {  // conjugate to the fields a, b, w of eq. 12
     Eigen::VectorXd a, b, w;
   } shear, tilt;
@@ -47,15 +49,22 @@ FootForces foot_forces(const PillarGeometry& pillar, const Medium& medium,
 // -2 i (along cos theta, -across sin theta, normal cos theta).
 struct AxialTransform {
   double tau_x = 0.0;
+  // Along the axis, Pa m^2 per Pa.
   double t_z = 0.0;
 };
+// The same under a sideways load.
 struct SidewaysTransform {
+  // Parts of the traction, Pa m^2 per Pa.
   double along = 0.0;
+  // As along.
   double across = 0.0;
+  // As along.
   double normal = 0.0;
 };
+// The transform at a wave number of forces on circles of these radii.
 AxialTransform transform(const FootForces::Axial& forces, const std::vector<double>& radius_m,
                          double k_1_m);
+// The same of forces under a sideways load.
 SidewaysTransform transform(const FootForces::Sideways& forces, const std::vector<double>& radius_m,
                             double k_1_m);
 

@@ -11,6 +11,7 @@
 
 namespace viscard {
 
+// One layer of a film.
 struct FilmLayer {
   Medium medium;
   double thickness_m = 0.0;

@@ -24,6 +24,7 @@ struct PotentialAccuracy {
 // (eq. S4): phi(r, alpha) = sum over waves and harmonics of amplitude J_m(k r) cos(m alpha), or
 // sin(m alpha) for loads along y; m = 2 j under pressure, 2 j + 1 under the other loads.
 struct PotentialSpectrum {
+  // The amplitudes at one wave number.
   struct Wave {
     double k_1_m = 0.0;
     double weight_1_m2 = 0.0;   // k dk/(2 pi) of the quadrature
@@ -33,11 +34,12 @@ struct PotentialSpectrum {
   // Shorter waves that only matter on the load's own axis, where pressure alone gives a potential.
   struct OwnWave {
     double k_1_m = 0.0;
-    double amplitude = 0.0;
+    double amplitude = 0.0;  // V/Pa, weight included
   };
   std::vector<OwnWave> own;
 };
 
+// The spectrum of a pillar with these forces at its foot, with waves as short as the accuracy takes.
 PotentialSpectrum potential_spectrum(const LayeredFilm& film, const FootForces& foot,
                                      const PotentialAccuracy& accuracy);
 

@@ -22,6 +22,7 @@ struct PillarClass {
   Medium medium;
 };
 
+// Where a pillar stands, and of which class it is.
 struct PlacedPillar {
   double x_m = 0.0;
   double y_m = 0.0;
@@ -73,6 +74,7 @@ class SpaceResponse {
   // reading at that distance, since it decays within a pitch. 0 if no two pillars are so far apart.
   Eigen::VectorXd beyond_reach_V(const TopLoads& loads_Pa) const;
 
+  // Forces at the feet of the pillars of a class.
   const FootForces& foot(int of_class) const { return feet_[static_cast<std::size_t>(of_class)]; }
   double capacitance_F() const { return capacitance_F_; }  // of one electrode; 0 if sampled
   int unknowns() const { return unknowns_; }

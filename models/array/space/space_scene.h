@@ -24,6 +24,7 @@ struct SpacePillar {
 // Row and column of a pillar, from 1.
 using RowColumn = std::pair<int, int>;
 
+// How the pillars of an array stand.
 enum class SpaceLattice { kSquare, kHexagonal };
 
 // Places around the middle of the array, row by row. The pitch is the distance of nearest axes; in a
@@ -87,8 +88,10 @@ struct SpaceScene : SceneCommon {
 // Index into scene.pillars; nothing if no pillar stands there.
 std::optional<std::size_t> index_of(const SpaceScene& scene, RowColumn place);
 
+// Shape and material of a pillar.
 SpaceClass class_of(const SpaceScene& scene, const SpacePillar& pillar);
 std::vector<SpaceClass> classes_of(const SpaceScene& scene);  // of_class is the index
+// Radius of the electrodes, for the default that of the usual pillars.
 double electrode_radius_m(const SpaceScene& scene);
 
 // The array as it is solved, and its loads: pillars x TopLoad.

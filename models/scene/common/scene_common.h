@@ -24,8 +24,9 @@ bool asks_for(const SceneCommon& scene, const std::string& result);
 
 // The tolerances that a kind of scene supports: from `least` to below 1.
 struct ToleranceRange {
-  double least = 0.0;
+  double least = 0.0;      // relative
   const char* words = "";  // for messages: "1e-9 and 1"
+  // True if scenes support the tolerance.
   bool contains(double tolerance) const { return tolerance >= least && tolerance < 1.0; }
 };
 
