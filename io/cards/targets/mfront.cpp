@@ -152,7 +152,8 @@ void check_program(const std::string& text, const NamedNumbers& named, std::size
     card.add("array-size", "Nt is not the number of relaxation times, " + std::to_string(count));
   }
   for (const char* name : {"E0", "nu0", "g", "k", "tau"}) {
-    const bool is_array = named.at(name).size() > 1;
+    const auto found = named.find(name);
+    const bool is_array = found != named.end() && found->second.size() > 1;
     const std::string mark =
         std::string("@Parameterreal") + name + (is_array ? "\\[Nt\\]=\\{[^{};]*\\};" : "=[^{};]*;");
     if (!first_match(program, mark)) {
