@@ -80,9 +80,8 @@ std::string temperature_of(const Material& material, const FoundSolver& found,
     return row_of(fmt::format("at {:g} C", proof.temperature->at_C).c_str(),
                   proof.temperature->error);
   }
-  return fmt::format(
-      "  temperature: {} ran the numbers of {:g} C alone; the shift is not proven\n",
-      found.solver.code, material.shift->T_ref_C);
+  return fmt::format("  temperature: {} ran the numbers of {:g} C alone; the shift is not proven\n",
+                     found.solver.code, material.shift->T_ref_C);
 }
 
 void print_proof(const CardWords& words, const FoundSolver& found, const Material& material,
