@@ -62,8 +62,8 @@ py::array rubber_stress(const HyperelasticFile& rubber, const std::string& defor
 
 std::string rubber_card_text(const HyperelasticFile& rubber, const std::string& name,
                              const std::string& target, const std::string& units,
-                             std::optional<double> bulk_Pa,
-                             std::optional<double> density_kg_m3, bool accepts_flags) {
+                             std::optional<double> bulk_Pa, std::optional<double> density_kg_m3,
+                             bool accepts_flags) {
   RubberCardOptions options;
   options.target = target;
   options.units = units;
