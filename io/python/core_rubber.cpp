@@ -62,11 +62,13 @@ py::array rubber_stress(const HyperelasticFile& rubber, const std::string& defor
 
 std::string rubber_card_text(const HyperelasticFile& rubber, const std::string& name,
                              const std::string& target, const std::string& units,
-                             std::optional<double> bulk_Pa, bool accepts_flags) {
+                             std::optional<double> bulk_Pa, std::optional<double> density_kg_m3,
+                             bool accepts_flags) {
   RubberCardOptions options;
   options.target = target;
   options.units = units;
   options.bulk_Pa = bulk_Pa;
+  options.density_kg_m3 = density_kg_m3;
   options.accepts_flags = accepts_flags;
   return rubber_file_card(rubber, name, options);
 }

@@ -43,6 +43,12 @@ std::vector<std::string> header_lines(const HyperelasticFile& file,
   return lines;
 }
 
+std::string comment_mark(const std::string& target) {
+  if (target == "ansys") return "! ";
+  if (target == "lsdyna") return "$ ";
+  return target == "openradioss" || target == "frontistr" ? "# " : "** ";
+}
+
 std::string with_header(const std::vector<std::string>& lines, const std::string& target,
                         const std::string& card) {
   std::string text;
@@ -50,7 +56,7 @@ std::string with_header(const std::vector<std::string>& lines, const std::string
     if (target == "febio") {
       text += "<!-- " + line + " -->\n";
     } else {
-      text += (target == "ansys" ? "! " : "** ") + line + "\n";
+      text += comment_mark(target) + line + "\n";
     }
   }
   return text + card;

@@ -35,6 +35,7 @@ int write_rubber_card(const CardWords& words, Streams& streams) {
   options.target = words.target;
   options.units = words.units.empty() ? "SI" : words.units;
   options.bulk_Pa = words.bulk_Pa;
+  options.density_kg_m3 = words.density_kg_m3;
   options.accepts_flags = words.accepts_flags;
   const std::string text = rubber_file_card(file, words.material, options);
   if (!words.out.empty()) write_file(words.out, text, words.force);

@@ -153,8 +153,8 @@ class RubberFit:
         return _core.rubber_stress(self._law, deformation, at.ravel()).reshape(at.shape)
 
     def card(self, target: str, units: str = "SI", *, bulk_modulus_Pa: Optional[float] = None,
-             accept_flags: bool = False) -> RubberCard:
-        """A card for a solver: "abaqus", "ansys", "calculix" or "febio".
+             density_kg_m3: Optional[float] = None, accept_flags: bool = False) -> RubberCard:
+        """A card for a solver: "abaqus", "ansys", "calculix", "febio", "frontistr", "lsdyna" or "openradioss".
 
         Parameters
         ----------
@@ -162,10 +162,13 @@ class RubberFit:
             Names of ``viscard card``.
         bulk_modulus_Pa : float
             Default: incompressible for abaqus and ansys, a thousand times the shear modulus for the others.
+        density_kg_m3 : float
+            LS-DYNA and OpenRadioss need it.
         accept_flags : bool
             Write a law that is not to be trusted too.
         """
-        text = _core.rubber_card(self._law, self._name, target, units, bulk_modulus_Pa, accept_flags)
+        text = _core.rubber_card(self._law, self._name, target, units, bulk_modulus_Pa, density_kg_m3,
+                                 accept_flags)
         return RubberCard(text, target)
 
     def save(self, path, *, overwrite: bool = False) -> None:

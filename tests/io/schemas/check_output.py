@@ -106,7 +106,7 @@ def check_fit():
     if printed and printed["inputs"] != [str(relaxation)]:
         mistakes.append("viscard fit: inputs are not the files as named")
     run(["fit", relaxation, "--profiles", "--diagnose", "--bootstrap", "20"], "fit")
-    run(["fit", "run.viscap"], "fit")
+    run(["fit", "run.viscap", "--want", "E0=1%", "--want", "sum_g=5%"], "fit")
     run(["fit", relaxation, "missing.csv"], "fits", 1)
     material = data("materials/pdms_1to10_seed.json")
     for test in ("relaxation", "creep", "oscillation"):
@@ -147,6 +147,10 @@ def check_scenes():
     run(["design", "--out", "limits"], "design")
     check_object("design.json", pathlib.Path("limits/design.json").read_text(), "viscard-design/1")
     run(["cost", data("scenes/pillar_modal.toml"), "--budget", "1s"], "cost")
+    bench = ["cost", "--rig", data("demo/01_rig.toml"), "--specimen", data("demo/03_pdms_1to10.toml")]
+    bench += ["--at-most", "2min", "--test", data("demo/02_test.toml")]
+    run([*bench, "--want", "E0=1%", "--want", "g_2=5%", "--out", "tests"], "cost-tests")
+    run([*bench, "--want", "E0"], "error", 2)
 
 
 def check_rest():

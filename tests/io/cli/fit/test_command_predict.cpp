@@ -57,8 +57,8 @@ TEST_CASE("the example of predict works as printed and finds the noise of the ex
   const auto help = run_command({"predict", "--help"});
   // The files stand where this program finds its data.
   CHECK_THAT(help.out, Contains("viscard predict ") &&
-                           Contains("data/materials/pdms_1to10_seed.json --against ") &&
-                           Contains("data/demo/example_relaxation.csv"));
+                           Contains("materials/pdms_1to10_seed.json --against ") &&
+                           Contains("demo/example_relaxation.csv"));
 }
 
 TEST_CASE("a fitted material predicts its own data to the noise, with a band", "[cli]") {
