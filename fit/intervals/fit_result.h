@@ -145,7 +145,7 @@ struct FittedTest {
   // its values, the largest departure in its window, and the probability of so much by chance.
   double difference = 0.0, worst = 0.0;
   Interval difference_95;
-  double p_value = 1.0;   // that probability
+  double p_value = 1.0;    // that probability
   int freedom = 0;         // of the test; 0: nothing to compare it with
   bool disagrees = false;  // by more than chance and 0.5 %
   FitCurves curves;

@@ -21,7 +21,7 @@ struct RubberCardOptions {
   // shear modulus for the others, which need a number.
   std::optional<double> bulk_Pa;
   std::optional<double> density_kg_m3;  // needed by lsdyna and openradioss
-  bool accepts_flags = false;  // write a law that is not to be trusted
+  bool accepts_flags = false;           // write a law that is not to be trusted
 };
 
 // The card of a law. Each solver's convention, with its source, stands in rubber_card.cpp and in the
