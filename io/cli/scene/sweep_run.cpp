@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <ostream>
+#include <utility>
 
 namespace viscard {
 namespace {
@@ -71,7 +72,9 @@ SceneAnswer run_sweep(const SceneFile& file, const std::string& path, const Swee
     write_pictures(pictures_over_sweep(file.sweep, points, store.done()), folder, overwrite);
     store.remove();
   }
-  sum.results = joined(file.sweep, points, store.done()).results;
+  SceneAnswer all = joined(file.sweep, points, store.done());
+  sum.results = std::move(all.results);
+  sum.notes = std::move(all.notes);
   return sum;
 }
 

@@ -122,7 +122,8 @@ TransientResult run_to_peaks(const ViscoelasticSystem& small, TransientRequest r
                              const Eigen::MatrixXd& observers, double tolerance) {
   constexpr double kMostWork = 4e9;  // multiplications
   constexpr double kMostTimes = 1e6;
-  const auto states = static_cast<double>(small.mass.rows()) * (2.0 + small.terms.size());
+  const auto states =
+      static_cast<double>(small.mass.rows()) * (2.0 + static_cast<double>(small.terms.size()));
   const double most =
       std::min(kMostTimes, kMostWork / (relaxes_alike(small) ? states : states * states));
   for (;;) {

@@ -7,10 +7,10 @@ namespace viscard {
 namespace {
 
 // The cubic with given values and rates at the ends of [0, h].
-struct Cubic {
+struct HermiteCubic {
   double h, y0, slope, second, third;  // coefficients of powers of x/h
 
-  Cubic(double length, double from, double to, double rate_from, double rate_to)
+  HermiteCubic(double length, double from, double to, double rate_from, double rate_to)
       : h(length),
         y0(from),
         slope(h * rate_from),
@@ -19,24 +19,24 @@ struct Cubic {
   double at(double x) const { return y0 + x * (slope + x * (second + x * third)); }
 };
 
-struct Extreme {
+struct CubicExtreme {
   double value = 0.0, time_s = 0.0;
 };
 
 // Of a stretch between two known times.
-struct Stretch {
-  Extreme low, high;
+struct CubicStretch {
+  CubicExtreme low, high;
   double error = 0.0;
 };
 
-class Motion {
+class SampledMotion {
  public:
-  Motion(const std::vector<double>& time_s, const Eigen::VectorXd& values,
-         const Eigen::VectorXd& rates)
+  SampledMotion(const std::vector<double>& time_s, const Eigen::VectorXd& values,
+                const Eigen::VectorXd& rates)
       : t_(time_s), y_(values), rate_(rates) {}
 
-  std::vector<Stretch> stretches() const {
-    std::vector<Stretch> all;
+  std::vector<CubicStretch> stretches() const {
+    std::vector<CubicStretch> all;
     for (std::size_t i = 0; i + 1 < t_.size(); ++i) {
       if (!(t_[i + 1] > t_[i])) continue;
       all.push_back(extremes(i));
@@ -46,17 +46,17 @@ class Motion {
   }
 
  private:
-  Cubic cubic(std::size_t from, std::size_t to) const {
+  HermiteCubic cubic(std::size_t from, std::size_t to) const {
     const auto a = static_cast<Eigen::Index>(from);
     const auto b = static_cast<Eigen::Index>(to);
     return {t_[to] - t_[from], y_[a], y_[b], rate_[a], rate_[b]};
   }
-  Stretch extremes(std::size_t i) const {
-    const Cubic c = cubic(i, i + 1);
-    const Extreme first{c.y0, t_[i]};
-    Stretch s{first, first};
+  CubicStretch extremes(std::size_t i) const {
+    const HermiteCubic c = cubic(i, i + 1);
+    const CubicExtreme first{c.y0, t_[i]};
+    CubicStretch s{first, first};
     const auto take = [&](double x) {
-      const Extreme one{c.at(x), t_[i] + x * c.h};
+      const CubicExtreme one{c.at(x), t_[i] + x * c.h};
       if (one.value < s.low.value) s.low = one;
       if (one.value > s.high.value) s.high = one;
     };
@@ -74,7 +74,7 @@ class Motion {
   // a^2 b^2 y''''/24. Four times what follows, because y'''' is not the same everywhere.
   double error_over(std::size_t i, std::size_t end) const {
     if (end == 0 || end + 1 == t_.size()) return 0.0;
-    const Cubic over = cubic(end - 1, end + 1);
+    const HermiteCubic over = cubic(end - 1, end + 1);
     const double a = t_[end] - t_[end - 1];
     const double b = t_[end + 1] - t_[end];
     const double h = t_[i + 1] - t_[i];
@@ -92,19 +92,19 @@ class Motion {
 
 MotionPeak peak_of_motion(const std::vector<double>& time_s, const Eigen::VectorXd& values,
                           const Eigen::VectorXd& rates, double tolerance) {
-  const std::vector<Stretch> all = Motion(time_s, values, rates).stretches();
-  const auto size_of = [](const Stretch& s) { return std::max(-s.low.value, s.high.value); };
+  const std::vector<CubicStretch> all = SampledMotion(time_s, values, rates).stretches();
+  const auto size_of = [](const CubicStretch& s) { return std::max(-s.low.value, s.high.value); };
   double size = 0.0;
-  for (const Stretch& s : all) size = std::max(size, size_of(s));
-  const auto first = std::find_if(all.begin(), all.end(), [&](const Stretch& s) {
+  for (const CubicStretch& s : all) size = std::max(size, size_of(s));
+  const auto first = std::find_if(all.begin(), all.end(), [&](const CubicStretch& s) {
     return size_of(s) >= (1.0 - 4.0 * tolerance) * size;
   });
   if (size == 0.0 || first == all.end()) return {};
   const double sign = -first->low.value > first->high.value ? -1.0 : 1.0;
   MotionPeak peak;
   double possible = 0.0;
-  for (const Stretch& s : all) {
-    const Extreme& own = sign < 0.0 ? s.low : s.high;
+  for (const CubicStretch& s : all) {
+    const CubicExtreme& own = sign < 0.0 ? s.low : s.high;
     if (sign * own.value > sign * peak.value) peak = {own.value, own.time_s};
     possible = std::max(possible, sign * own.value + s.error);
   }
