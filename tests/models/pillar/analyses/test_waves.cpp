@@ -108,7 +108,7 @@ TEST_CASE("a peak is that of the motion, not of the outputs", "[pillar]") {
   const double ramp_s = 3e-6;
   test::as<TransientDrive>(scene).history = {
       {0.0, 0.0}, {ramp_s, kPressure_Pa}, {1.0, kPressure_Pa}};
-  test::as<TransientDrive>(scene).outputs = GENERATE(7, 23, 60);
+  test::as<TransientDrive>(scene).outputs = GENERATE(11, 23, 60);
   const auto F = [&](double t) {
     return kPressure_Pa * (t < ramp_s ? 0.5 * t * t / ramp_s : t - 0.5 * ramp_s);
   };
@@ -121,7 +121,7 @@ TEST_CASE("a peak is that of the motion, not of the outputs", "[pillar]") {
   CHECK(peak.error_estimate <= scene.tolerance * std::abs(crest_m));
   const SceneCurve& u = curve_of(answer, "top_displacement");
   CHECK(u.x.size() == static_cast<std::size_t>(test::as<TransientDrive>(scene).outputs) + 1);
-  if (u.x.size() == 8) CHECK(largest(u.value) < 0.97 * std::abs(crest_m));
+  if (u.x.size() == 12) CHECK(largest(u.value) < 0.98 * std::abs(crest_m));
 }
 
 TEST_CASE("a slow load gives the static answer", "[pillar]") {

@@ -15,9 +15,13 @@
 namespace viscard::test {
 namespace {
 
+// What a finer mesh is off by itself: its thin layers cost digits. Torsional frequencies at a Poisson
+// ratio of 0.5 differ from the closed form by 2e-9 there.
+constexpr double kRounding = 5e-9;
+
 // The share of its claim that a number errs by, and its relative error.
 Seen beside(double value, double claim, double exact, double size) {
-  const double error = std::abs(value - exact);
+  const double error = std::max(0.0, std::abs(value - exact) - kRounding * size);
   return {error / size, error / claim};
 }
 
@@ -32,20 +36,21 @@ Seen seen_in(const Results& answer, const Results& fine, const std::string& name
   throw std::runtime_error("there is no result " + name);
 }
 
-SceneAnswer fine_of(const PillarScene& scene) {
+SceneAnswer fine_of(const PillarScene& scene, int degree, int layers) {
   Discretisation mesh = mesh_sequence(scene.geometry).back();
-  mesh.degree = 10;
-  mesh.layers = 7;
+  mesh.degree = degree;
+  mesh.layers = layers;
   return pillar_answer_on(scene, mesh);
 }
 
-Seen result_of(const PillarScene& scene) {
-  return seen_in(simulate_pillar(scene).results, fine_of(scene).results, scene.wanted.front());
+Seen result_of(const PillarScene& scene, int degree = 10, int layers = 7) {
+  return seen_in(simulate_pillar(scene).results, fine_of(scene, degree, layers).results,
+                 scene.wanted.front());
 }
 
 // The worst of all modes.
 Seen modes_of(const PillarScene& scene) {
-  const SceneAnswer answer = simulate_pillar(scene), fine = fine_of(scene);
+  const SceneAnswer answer = simulate_pillar(scene), fine = fine_of(scene, 7, 4);
   Seen worst = 0.0;
   for (std::size_t i = 0; i < answer.modes.size(); ++i) {
     const double exact_Hz = fine.modes.at(i).frequency_Hz;
@@ -58,8 +63,8 @@ Seen modes_of(const PillarScene& scene) {
 }
 
 Seen row_of(const ArrayScene& scene) {
-  Discretisation mesh = array_meshes(scene).back();
-  mesh.layers += 2;
+  Discretisation mesh = array_meshes(scene).at(4);
+  mesh.layers += 1;
   return seen_in(simulate_array(scene).results, array_answer_on(scene, mesh).results,
                  scene.wanted.front() + "_1");
 }
@@ -72,7 +77,7 @@ PillarScene pillar_on_film(double film_over_pillar, double radius_over_pillar, d
   scene.pillar.rho_kg_m3 = 965.0;
   scene.geometry.film = FilmGeometry{25e-6, 20e-6 * radius_over_pillar};
   scene.film = isotropic_medium(1.8e6 * film_over_pillar, 0.29, 1780.0);
-  as<StaticDrive>(scene).pressure_Pa = 1e3;
+  as<StaticDrive>(scene).pressure_Pa = 1.0;  // far below buckling on the softest film
   scene.wanted = {"top_displacement"};
   return scene;
 }
@@ -99,6 +104,14 @@ PillarScene ringing(double film_over_pillar, double nu, double length_over_diame
   return scene;
 }
 
+// On a rigid base. Above the cut-off of its section the modes lie close together.
+PillarScene slender(double nu, double length_over_diameter) {
+  PillarScene scene = ringing(1e3, nu, length_over_diameter);
+  scene.geometry.film.reset();
+  scene.film.reset();
+  return scene;
+}
+
 // Relaxes by half about the first period, in shear alone.
 PillarScene damped(double film_over_pillar) {
   PillarScene scene = ringing(film_over_pillar, 0.33, 3.0);
@@ -107,13 +120,24 @@ PillarScene damped(double film_over_pillar) {
   return scene;
 }
 
-ArrayScene dense_row(double spacing_over_thickness) {
+// A row whose first pillar is pressed.
+ArrayScene row(int count, double spacing_over_thickness, double edge_over_thickness) {
   ArrayScene scene = seed_scene();
-  scene.geometry.count = 3;
+  scene.tolerance = 1e-4;
+  scene.geometry.count = count;
   scene.geometry.spacing_m = spacing_over_thickness * scene.geometry.film_thickness_m;
-  scene.geometry.film_edge_m = 8.0 * scene.geometry.film_thickness_m;
+  scene.geometry.film_edge_m = edge_over_thickness * scene.geometry.film_thickness_m;
   scene.wanted = {"mean_voltage"};
   scene.loaded = {1};
+  return scene;
+}
+
+// The film ends with the outer pillars and their electrodes.
+ArrayScene row_without_edge() {
+  ArrayScene scene = row(3, 0.8, 0.0);
+  scene.tolerance = 1e-3;
+  scene.electrodes.is_equipotential = true;
+  scene.wanted = {"electrode_voltage"};
   return scene;
 }
 
@@ -124,10 +148,10 @@ std::vector<StabilityCase> answer_stability_cases() {
   for (const double contrast : {1e-2, 1.0, 1e3}) {
     cases.push_back(
         {fmt::format("film as wide as the pillar, {:g} times as stiff: displacement", contrast),
-         [=] { return result_of(pillar_on_film(contrast, 1.0, 0.4)); }, 1e-3});
+         [=] { return result_of(pillar_on_film(contrast, 1.0, 0.4)); }, 3e-5});
   }
   cases.push_back({"film as wide as the pillar and its electrode: voltage",
-                   [] { return result_of(sensor(1e3, 1.0, 0.4)); }, 1e-3});
+                   [] { return result_of(sensor(1e3, 1.0, 0.4)); }, 2e-4});
   for (const double contrast : {1e-3, 1e-1}) {
     cases.push_back({fmt::format("film {:g} times as stiff as the pillar: displacement", contrast),
                      [=] { return result_of(pillar_on_film(contrast, 3.0, 0.4)); }, 1e-3});
@@ -138,19 +162,23 @@ std::vector<StabilityCase> answer_stability_cases() {
     cases.push_back({fmt::format("Poisson ratio 0.5, piezoelectric film {:g} times as stiff: "
                                  "voltage",
                                  contrast),
-                     [=] { return result_of(sensor(contrast, 3.0, 0.5)); }, 1e-3});
+                     [=] { return result_of(sensor(contrast, 3.0, 0.5), 8, 6); }, 1e-3});
   }
   for (const double contrast : {1.0, 1e3}) {
     cases.push_back(
         {fmt::format("material that relaxes in shear, film {:g} times as stiff: modes", contrast),
-         [=] { return modes_of(damped(contrast)); }, 1e-3});
+         [=] { return modes_of(damped(contrast)); }, 3e-4});
   }
-  cases.push_back({"close modes: Poisson ratio 0.5, 20 diameters long",
-                   [] { return modes_of(ringing(1e3, 0.5, 20.0)); }, 1e-3});
+  cases.push_back({"close modes: Poisson ratio 0.5, 10 diameters long",
+                   [] { return modes_of(slender(0.5, 10.0)); }, 1e-3});
   for (const double spacing : {0.02, 0.2}) {
     cases.push_back({fmt::format("row with gaps of {:g} film thicknesses: voltage", spacing),
-                     [=] { return row_of(dense_row(spacing)); }, 1e-3});
+                     [=] { return row_of(row(3, spacing, 8.0)); }, 2e-6});
   }
+  cases.push_back(
+      {"row of 1000 pillars: voltage", [] { return row_of(row(1000, 0.8, 8.0)); }, 2e-6});
+  cases.push_back({"row whose film ends with its pillars and electrodes: voltage",
+                   [] { return row_of(row_without_edge()); }, 1e-3});
   return cases;
 }
 
