@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 
 namespace viscard::test {
@@ -62,8 +63,8 @@ Seen modes_of(const PillarScene& scene) {
   return worst;
 }
 
-Seen row_of(const ArrayScene& scene) {
-  Discretisation mesh = array_meshes(scene).at(4);
+Seen row_of(const ArrayScene& scene, std::size_t finer = 4) {
+  Discretisation mesh = array_meshes(scene).at(finer);
   mesh.layers += 1;
   return seen_in(simulate_array(scene).results, array_answer_on(scene, mesh).results,
                  scene.wanted.front() + "_1");
@@ -134,7 +135,7 @@ ArrayScene row(int count, double spacing_over_thickness, double edge_over_thickn
 
 // The film ends with the outer pillars and their electrodes.
 ArrayScene row_without_edge() {
-  ArrayScene scene = row(3, 0.8, 0.0);
+  ArrayScene scene = row(2, 0.8, 0.0);
   scene.tolerance = 1e-3;
   scene.electrodes.is_equipotential = true;
   scene.wanted = {"electrode_voltage"};
@@ -154,7 +155,7 @@ std::vector<StabilityCase> answer_stability_cases() {
                    [] { return result_of(sensor(1e3, 1.0, 0.4)); }, 2e-4});
   for (const double contrast : {1e-3, 1e-1}) {
     cases.push_back({fmt::format("film {:g} times as stiff as the pillar: displacement", contrast),
-                     [=] { return result_of(pillar_on_film(contrast, 3.0, 0.4)); }, 1e-3});
+                     [=] { return result_of(pillar_on_film(contrast, 3.0, 0.4)); }, 8e-4});
   }
   cases.push_back({"film 0.1 times as stiff as the pillar: modes of all families",
                    [] { return modes_of(ringing(0.1, 0.4, 3.0)); }, 1e-3});
@@ -162,7 +163,7 @@ std::vector<StabilityCase> answer_stability_cases() {
     cases.push_back({fmt::format("Poisson ratio 0.5, piezoelectric film {:g} times as stiff: "
                                  "voltage",
                                  contrast),
-                     [=] { return result_of(sensor(contrast, 3.0, 0.5), 8, 6); }, 1e-3});
+                     [=] { return result_of(sensor(contrast, 3.0, 0.5), 8, 6); }, 4e-4});
   }
   for (const double contrast : {1.0, 1e3}) {
     cases.push_back(
@@ -170,7 +171,7 @@ std::vector<StabilityCase> answer_stability_cases() {
          [=] { return modes_of(damped(contrast)); }, 3e-4});
   }
   cases.push_back({"close modes: Poisson ratio 0.5, 10 diameters long",
-                   [] { return modes_of(slender(0.5, 10.0)); }, 1e-3});
+                   [] { return modes_of(slender(0.5, 10.0)); }, 3e-4});
   for (const double spacing : {0.02, 0.2}) {
     cases.push_back({fmt::format("row with gaps of {:g} film thicknesses: voltage", spacing),
                      [=] { return row_of(row(3, spacing, 8.0)); }, 2e-6});
@@ -178,7 +179,7 @@ std::vector<StabilityCase> answer_stability_cases() {
   cases.push_back(
       {"row of 1000 pillars: voltage", [] { return row_of(row(1000, 0.8, 8.0)); }, 2e-6});
   cases.push_back({"row whose film ends with its pillars and electrodes: voltage",
-                   [] { return row_of(row_without_edge()); }, 1e-3});
+                   [] { return row_of(row_without_edge(), 3); }, 3e-6});
   return cases;
 }
 

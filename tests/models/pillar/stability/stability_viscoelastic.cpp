@@ -144,7 +144,7 @@ std::vector<StabilityCase> viscoelastic_stability_cases() {
       {"Kelvin-Voigt limit (instantaneous modulus 1e8 times the last)", kelvin_voigt_error, 9e-7});
   const std::vector<MaterialTerm> soft = {{.2, .2, 1e-9}, {.1, .1, 1e-5}, {.05, .05, 1.0}};
   for (const auto& [f_Hz, bound] :
-       {std::pair{1e-6, 7e-13}, {1.0, 7e-13}, {1e6, 7e-13}, {1e8, 1.5e-8}, {1e9, 5e-4}}) {
+       {std::pair{1e-6, 1e-12}, {1.0, 3e-12}, {1e6, 3e-12}, {1e8, 1.5e-8}, {1e9, 5e-4}}) {
     cases.push_back({fmt::format("oscillation at {:g} Hz, pillar of 40 nm: rod", f_Hz),
                      [=, f_Hz = f_Hz] { return oscillation_error(f_Hz, 40e-9, 1.8e6, soft); },
                      bound});

@@ -52,7 +52,7 @@ std::string table_of(const std::vector<Row>& rows) {
     if (row.of_claim == worst) share = "**" + share + "**";
     // Below 1e-13 is rounding, which differs from machine to machine.
     const std::string error = row.error < 1e-13 ? "< 1e-13" : fmt::format("{:.1e}", row.error);
-    text += fmt::format("| {} | {} | {:.0e} | {} |\n", row.name, error, row.bound, share);
+    text += fmt::format("| {} | {} | {:.1e} | {} |\n", row.name, error, row.bound, share);
   }
   return text + "\n";
 }
