@@ -74,9 +74,13 @@ SceneAnswer finer_answer(const PillarScene& scene, int degree, int layers) {
 
 std::vector<Judged> verdict_on(const PillarScene& scene, const SceneAnswer& answer) {
   const double slack = scene.directional_film ? 0.1 : 0.02;
-  std::vector<Judged> all = judged(answer, finer_answer(scene, 8, 5), slack * scene.tolerance);
+  const int degree = std::max(5, answer.discretisation.degree);
+  const int layers = std::max(2, answer.discretisation.layers);
+  std::vector<Judged> all =
+      judged(answer, finer_answer(scene, degree + 1, layers + 2), slack * scene.tolerance);
   if (worst_of(all) <= 1.0 || scene.directional_film) return all;
-  return judged(answer, finer_answer(scene, 10, 7), slack * scene.tolerance);  // to be sure
+  return judged(answer, finer_answer(scene, degree + 3, layers + 4),
+                slack * scene.tolerance);  // to be sure
 }
 
 struct Study {
