@@ -37,15 +37,11 @@ int modes_for(const ArrayScene& scene, const Discretisation& mesh, double highes
   return count + static_cast<int>(std::ceil(4.0 * waves));
 }
 
-double film_inertia(const ArrayScene& scene, double frequency_Hz) {
+double film_error(const ArrayScene& scene, const ArrayTransfer& transfer, double frequency_Hz) {
   const double speed_m_s = std::sqrt(scene.film.stiffness_Pa(4, 4) / scene.film.rho_kg_m3);
   const double ratio = frequency_Hz * 4.0 * scene.geometry.film_thickness_m / speed_m_s;
-  return ratio * ratio;
-}
-
-double film_error(const ArrayScene& scene, const ArrayTransfer& transfer, double frequency_Hz) {
   const bool is_voltage = transfer.voltages() > 0 && asks_for_voltages(scene);
-  return film_inertia(scene, frequency_Hz) * (is_voltage ? 1.0 : transfer.film_share());
+  return ratio * ratio * (is_voltage ? 1.0 : transfer.film_share());
 }
 
 std::vector<int> loaded_of(const ArrayScene& scene) {

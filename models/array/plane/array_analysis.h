@@ -53,10 +53,8 @@ void check_load(const ArrayScene& scene);
 // rod and of the shear beam below its highest frequency; 0: no such frequency.
 int modes_for(const ArrayScene& scene, const Discretisation& mesh, double highest_Hz);
 
-// (f/f_film)^2, f_film = c_s/(4 t) (eq. A2): the share of its motion that a film without inertia
-// lacks.
-double film_inertia(const ArrayScene& scene, double frequency_Hz);
-// Relative error by it. Voltages come from the film alone; of a top's displacement only a share does.
+// Relative error of a film without inertia: (f/f_film)^2 of its motion, f_film = c_s/(4 t) (eq.
+// A2). Voltages come from the film alone; of a top's displacement only a share does.
 double film_error(const ArrayScene& scene, const ArrayTransfer& transfer, double frequency_Hz);
 
 std::vector<int> loaded_of(const ArrayScene& scene);  // 0-based

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <utility>
 
@@ -143,50 +142,11 @@ double lowest_rad_s(const ArrayScene& scene, const CondensedPillar& pillar) {
   return pillar.mode_rad_s[0];
 }
 
-// The modes in use, the size of elements for them, and the largest error by those left out, relative
-// to the size of its curve.
+// The modes in use and the size of elements for them.
 struct WaveMesh {
   int waves = kFewestWaves;
   double highest_rad_s = 0.0;
-  double left_out = 0.0;
 };
-
-double left_out_of(const SceneAnswer& answer) {
-  double largest = 0.0;
-  for (const SceneCurve& curve : answer.curves) {
-    const double size = curve.allowed.front();
-    if (size > 0.0) largest = std::max(largest, largest_size(curve.left_out) / size);
-  }
-  return largest;
-}
-
-// Gives the error of a film without inertia to each curve in proportion to its own size. What is
-// felt of a load at rest decays in the film with the distance d, as exp(-pi d/(2 t)) for the lowest
-// shear wave; at a frequency that wave decays sqrt(1 - (f/f_film)^2) times as fast (eq. A2), so that
-// the error of a neighbour is larger by pi d/(4 t). Above the tolerance the error stays the whole answer's, which is
-// refused.
-void spread_film_error(const ArrayScene& scene, double ring_Hz, SceneAnswer& answer) {
-  if (answer.step_error > scene.tolerance) return;
-  const ArrayGeometry& g = scene.geometry;
-  const double inertia = film_inertia(scene, ring_Hz);
-  const std::vector<int> loaded = loaded_of(scene);
-  std::size_t next = 0;  // each output has a curve and a spectrum
-  for (Eigen::Index row = 0; next < answer.curves.size(); ++row) {
-    if (!asks_for(scene, name_of(scene, row))) continue;
-    const int pillar = static_cast<int>(row < g.count ? row : row - g.count);
-    int away = g.count;
-    for (const int other : loaded) away = std::min(away, std::abs(other - pillar));
-    const double d_m = away * (g.diameter_m + g.spacing_m);
-    const double felt = 1.0 + std::numbers::pi * d_m / (4.0 * g.film_thickness_m);
-    const double relative = away == 0 ? answer.step_error : inertia * felt;
-    for (const std::size_t end = next + 2; next < end; ++next) {
-      SceneCurve& curve = answer.curves[next];
-      const double error = relative * largest_size(curve.value);
-      for (double& lacking : curve.left_out) lacking += error;
-    }
-  }
-  answer.step_error = 0.0;
-}
 
 SceneAnswer answer_with(const ArrayScene& scene, const Discretisation& mesh, WaveMesh& waves) {
   SceneAnswer answer;
@@ -202,9 +162,17 @@ SceneAnswer answer_with(const ArrayScene& scene, const Discretisation& mesh, Wav
   add_outputs(scene, wave_answers(scene, model),
               lowest_rad_s(scene, model.pillar()) / (2.0 * std::numbers::pi), answer);
   waves.highest_rad_s = rad_s[rad_s.size() - 1];
-  waves.left_out = left_out_of(answer);
-  spread_film_error(scene, ring_rad_s / (2.0 * std::numbers::pi), answer);
   return answer;
+}
+
+// Largest error by modes left out, relative to the size of its curve.
+double left_out_of(const SceneAnswer& answer) {
+  double largest = 0.0;
+  for (const SceneCurve& curve : answer.curves) {
+    const double size = curve.allowed.front();
+    if (size > 0.0) largest = std::max(largest, largest_size(curve.left_out) / size);
+  }
+  return largest;
 }
 
 // As many modes as leave out half of the tolerance, by trials on a coarse mesh: what they leave out
@@ -213,8 +181,9 @@ SceneAnswer answer_with(const ArrayScene& scene, const Discretisation& mesh, Wav
 WaveMesh waves_for(const ArrayScene& scene) {
   WaveMesh found;
   while (true) {
-    answer_with(scene, {.degree = 5, .layers = 1, .shaft_elements = 4}, found);
-    const double excess = found.left_out / (0.5 * scene.tolerance);
+    const SceneAnswer trial =
+        answer_with(scene, {.degree = 5, .layers = 1, .shaft_elements = 4}, found);
+    const double excess = left_out_of(trial) / (0.5 * scene.tolerance);
     if (excess <= 1.0 || found.waves >= kMostWaves) return found;
     found.waves = std::min(
         kMostWaves, static_cast<int>(std::ceil(found.waves * std::clamp(excess, 1.25, 2.0))));

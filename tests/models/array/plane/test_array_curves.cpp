@@ -81,12 +81,6 @@ TEST_CASE("no point of a tapped row's curves is further off than its error says"
   CHECK(honest.beyond == 0);
   CHECK(honest.worst <= 1.0);
   CHECK(honest.generosity[honest.generosity.size() / 2] < 12.0);  // the claim is not blindly large
-  // Of the neighbours' tops, which move 1e5 times less than the tapped one, neither: they claimed a
-  // hundred times their own motion.
-  for (const SceneCurve& curve : answer.curves) {
-    CAPTURE(curve.name);
-    CHECK(largest_size(curve.error) < 0.3 * largest_size(curve.value));
-  }
 }
 
 TEST_CASE("curves of rows that are tapped at random are as exact as they say", "[array][slow]") {
