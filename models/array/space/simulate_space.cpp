@@ -194,7 +194,10 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   const double constant = largest_constant_error(scene, parts);
   if (constant > (1.0 - kShareOfAccuracy) * scene.tolerance) refuse(scene, constant, parts);
   std::optional<SpaceContact> contact;
-  if (scene.press) contact = settled_contact(scene);
+  if (scene.press) {
+    if (scene.progress) scene.progress(0.0, "which tops touch");
+    contact = settled_contact(scene);
+  }
   const TopLoads loads_Pa = contact ? contact->loads_Pa : loads_of(scene);
   const double of_contact = contact ? contact_error(*contact) : 0.0;
   const double left =

@@ -23,6 +23,7 @@ struct SceneResult {
   double unresolved = 0.0;
   std::string curve = {};  // that it is read off; its error is at least the curve's there
   double x = 0.0;          // where it is read off
+  double left_out = 0.0;   // what it lacks on every mesh, in the unit; part of the estimate
 };
 
 // One mode of vibration.

@@ -16,7 +16,8 @@ struct SceneCommon {
   std::vector<std::string> wanted;  // names of results; empty: all
   EffectChoices effects;            // choices that the plan must respect
 
-  std::function<void(double)> progress;  // called with the fraction done; may be empty
+  // Called with the fraction done and what is done next; may be empty.
+  std::function<void(double, const std::string&)> progress;
 };
 
 // True when the scene asks for this result; a scene that names no results asks for all.
