@@ -28,7 +28,8 @@ struct RawSpace {
   Pairs dead;
   std::vector<RawClass> classes;
   double film_thickness_m = 0.0, film_edge_m = 100e-6;
-  std::string film_material, film_bottom = "fixed", poling = "+z";
+  std::string film_material, film_bottom, poling = "+z";  // bottom: as if "fixed"
+  double backing_E_Pa = 0.0, backing_nu = -1.0;           // E = 0: rigid
   std::string electrode_face = "bottom", electrode_kind = "sampled";
   double electrode_radius_m = 0.0;
   bool quadrants = false;
@@ -77,6 +78,10 @@ void show_geometry(FieldVisitor& v, RawSpace& s) {
     f.quantity({.key = "edge", .unit = "m", .range = Range::kNotNegative}, s.film_edge_m);
     f.text({"material", "pvdf", true}, s.film_material);
     f.text({"bottom", "fixed"}, s.film_bottom);
+    f.section_or_word("backing", "rigid", [&](FieldVisitor& b) {
+      b.quantity({.key = "E", .unit = "Pa", .range = Range::kPositive}, s.backing_E_Pa);
+      b.quantity({.key = "nu", .range = Range::kNotNegative}, s.backing_nu);
+    });
   });
   v.section("electrode", [&](FieldVisitor& e) {
     e.text({"face", "bottom"}, s.electrode_face);
@@ -249,6 +254,24 @@ void fill_analysis(const RawSpace& raw, SpaceScene& scene) {
   scene.loaded = places_of("analysis.load.pillars", raw.loaded);
 }
 
+void fill_base(const RawSpace& raw, SpaceScene& scene) {
+  const bool has_backing = raw.backing_E_Pa > 0.0;
+  if (!raw.film_bottom.empty()) {
+    choice<bool>("geometry.film.bottom", raw.film_bottom, {{"fixed", true}});
+    if (has_backing) {
+      throw SceneMistake("geometry.film.bottom",
+                         "is \"fixed\", but film.backing lets it yield; leave one of them out");
+    }
+  }
+  if (!has_backing && raw.backing_nu < 0.0) return;
+  if (!has_backing || raw.backing_nu < 0.0) {
+    throw SceneMistake("geometry.film.backing",
+                       "needs E and nu of the half-space under the film, such as { E = \"4 GPa\", nu = "
+                       "0.38 }, or \"rigid\"");
+  }
+  scene.backing = Backing{raw.backing_E_Pa, raw.backing_nu};
+}
+
 SpaceScene scene_from(const RawSpace& raw, const std::filesystem::path& folder) {
   SpaceScene scene;
   scene.tolerance = raw.tolerance;
@@ -257,7 +280,7 @@ SpaceScene scene_from(const RawSpace& raw, const std::filesystem::path& folder) 
   scene.pillar = pillar_material(raw.pillar, folder);
   place_pillars(raw, folder, scene);
   fill_classes(raw, folder, scene);
-  choice<bool>("geometry.film.bottom", raw.film_bottom, {{"fixed", true}});
+  fill_base(raw, scene);
   scene.film = film_medium("materials." + raw.film_material, raw.film, folder).medium;
   if (choice<bool>("geometry.poling", raw.poling, {{"+z", false}, {"-z", true}})) {
     scene.film = with_reversed_poling(scene.film);
