@@ -126,7 +126,8 @@ class TomlReader final : public FieldVisitor {
     if (node == nullptr || node->is_table()) return section(key, body);
     const auto text = node->value<std::string>();
     if (!node->is_string() || *text != word) {
-      fail(*node, key, std::string("expected \"") + word + "\" or a section [" + prefix_ + key + "]");
+      fail(*node, key,
+           std::string("expected \"") + word + "\" or a section [" + prefix_ + key + "]");
     }
   }
 

@@ -265,9 +265,10 @@ void fill_base(const RawSpace& raw, SpaceScene& scene) {
   }
   if (!has_backing && raw.backing_nu < 0.0) return;
   if (!has_backing || raw.backing_nu < 0.0) {
-    throw SceneMistake("geometry.film.backing",
-                       "needs E and nu of the half-space under the film, such as { E = \"4 GPa\", nu = "
-                       "0.38 }, or \"rigid\"");
+    throw SceneMistake(
+        "geometry.film.backing",
+        "needs E and nu of the half-space under the film, such as { E = \"4 GPa\", nu = "
+        "0.38 }, or \"rigid\"");
   }
   scene.backing = Backing{raw.backing_E_Pa, raw.backing_nu};
 }

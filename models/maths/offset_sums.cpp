@@ -9,9 +9,9 @@
 namespace viscard {
 namespace {
 
-constexpr std::size_t kMostPairs = 500;    // points that are summed one by one
-constexpr Eigen::Index kMostGaps = 8;      // places of a lattice per point
-constexpr double kOnLattice = 1e-6;        // of a step
+constexpr std::size_t kMostPairs = 500;  // points that are summed one by one
+constexpr Eigen::Index kMostGaps = 8;    // places of a lattice per point
+constexpr double kOnLattice = 1e-6;      // of a step
 
 // The smallest step of a set of coordinates, if all are multiples of it away from the first; 0 if not.
 struct Steps {

@@ -47,7 +47,8 @@ const std::vector<Effect>& effects() {
       {"backing",
        "what lies under the film yields",
        "a table to all distances, sums by FFT",
-       {Pillar{[](const PillarScene&) -> EffectEstimate { return {.reason = "the base is rigid"}; }},
+       {Pillar{
+            [](const PillarScene&) -> EffectEstimate { return {.reason = "the base is rigid"}; }},
         Row{[](const ArrayScene&) -> EffectEstimate { return {.reason = "the base is rigid"}; }},
         Space{backing_estimate, [](SpaceScene& scene) { scene.feels_backing = false; }}}},
       {"leakage",

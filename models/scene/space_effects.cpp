@@ -188,7 +188,8 @@ EffectEstimate backing_estimate(const SpaceScene& scene) {
   const FilmWaves on_rigid(held, 0.0, shortest_1_m, kDegree);
   double change = 0.0;
   for (int i = 0; i < kWaves; ++i) {
-    const double k_1_m = shortest_1_m * std::pow(2.0 / (extent_m * shortest_1_m), i / (kWaves - 1.0));
+    const double k_1_m =
+        shortest_1_m * std::pow(2.0 / (extent_m * shortest_1_m), i / (kWaves - 1.0));
     const double rigid = on_rigid.reading(k_1_m)[2];
     change = std::max(change, std::abs(on_backing.reading(k_1_m)[2] / rigid - 1.0));
   }

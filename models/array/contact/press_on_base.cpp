@@ -11,7 +11,8 @@
 namespace viscard {
 namespace {
 
-constexpr double kSettled = 1e-12;  // of the largest force: what the base and the tops may disagree by
+constexpr double kSettled =
+    1e-12;  // of the largest force: what the base and the tops may disagree by
 // A film beside a load rises by less than this share of the overlap.
 constexpr double kRise = 0.1;
 
@@ -125,8 +126,8 @@ PressedArray PressOnBase::to_depth(const std::vector<TopContact>& classes, doubl
   bool is_settled = false;
   for (int i = 0; i < kMostSteps && !is_settled; ++i) {
     const BaseForces missing = tops.forces - forces_;
-    const double largest_N = std::max(tops.forces.col(0).cwiseAbs().maxCoeff(),
-                                      forces_.col(0).cwiseAbs().maxCoeff());
+    const double largest_N =
+        std::max(tops.forces.col(0).cwiseAbs().maxCoeff(), forces_.col(0).cwiseAbs().maxCoeff());
     const double left_N = missing.col(0).cwiseAbs().maxCoeff();
     is_settled = left_N <= kSettled * largest_N;
     if (is_settled) break;
@@ -180,8 +181,8 @@ PressedArray PressOnBase::with_force(const std::vector<TopContact>& classes, dou
     best = to_depth(classes, high_m);
     above_N = best.force_N - force_N;
     step_m = above_N < 0.0 && above_N > below_N
-                 ? std::clamp(-1.2 * above_N * (high_m - low_m) / (above_N - below_N),
-                              0.5 * step_m, 10.0 * step_m)
+                 ? std::clamp(-1.2 * above_N * (high_m - low_m) / (above_N - below_N), 0.5 * step_m,
+                              10.0 * step_m)
                  : 2.0 * step_m;
   }
   int side = 0;

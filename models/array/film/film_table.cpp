@@ -11,8 +11,8 @@
 namespace viscard {
 namespace {
 
-constexpr int kSamplePoints = 12;   // per panel, which doubles k: 3e-8 of exp(-k t) up to k t = 10
-constexpr int kGradedPoints = 8;    // Gauss points per panel of k
+constexpr int kSamplePoints = 12;  // per panel, which doubles k: 3e-8 of exp(-k t) up to k t = 10
+constexpr int kGradedPoints = 8;   // Gauss points per panel of k
 
 // Chebyshev points of the first kind over (-1, 1), and the weights of the polynomial through them.
 double sample_point(int i) {
@@ -42,9 +42,8 @@ double first_break_1_m(const LayeredFilm& film, double far_m) {
   double smallest_1_m = kOfPhase / far_m;
   if (film.backing) {
     const FilmLayer& own = film.layers.front();
-    smallest_1_m =
-        std::min(smallest_1_m, kOfStretch * film.backing->young_modulus_Pa /
-                                   (own.medium.stiffness_Pa(2, 2) * own.thickness_m));
+    smallest_1_m = std::min(smallest_1_m, kOfStretch * film.backing->young_modulus_Pa /
+                                              (own.medium.stiffness_Pa(2, 2) * own.thickness_m));
   }
   return smallest_1_m;
 }

@@ -113,17 +113,19 @@ void check_backing(const SpaceScene& scene) {
     throw SceneMistake("geometry.film.backing.E", "the backing's modulus must be positive");
   }
   if (!(backing.poisson_ratio >= 0.0 && backing.poisson_ratio < 0.5)) {
-    throw SceneMistake("geometry.film.backing.nu",
-                       "the backing's Poisson ratio must lie between 0 and 0.5; say 0.499 for rubber");
+    throw SceneMistake(
+        "geometry.film.backing.nu",
+        "the backing's Poisson ratio must lie between 0 and 0.5; say 0.499 for rubber");
   }
   double softest_Pa = HUGE_VAL;
   for (const SpaceClass& one : classes_of(scene)) {
     softest_Pa = std::min(softest_Pa, one.material.E0_Pa);
   }
   if (backing.young_modulus_Pa < kSoftestBacking * softest_Pa) {
-    throw SceneMistake("geometry.film.backing.E",
-                       "the backing is softer than a tenth of the pillars, on which the film floats; "
-                       "take a stiffer one");
+    throw SceneMistake(
+        "geometry.film.backing.E",
+        "the backing is softer than a tenth of the pillars, on which the film floats; "
+        "take a stiffer one");
   }
   if (scene.press && !scene.feels_contact) {
     throw SceneMistake("effects.contact", "cannot be off on a backing; a shape only pushes there");
@@ -176,10 +178,11 @@ void validate(const SpaceArray& array) {
   for (const PillarClass& one : array.classes)
     widest = std::max(widest, 1.1 * widest_m(one.geometry));
   if (array.film.backing && !OffsetSums::can_sum(sources_of(array))) {
-    throw SceneMistake("geometry.film.backing",
-                       "lets all pillars feel each other, which is answered for lattices (also with "
-                       "dead pillars) of any size and for at most 500 pillars elsewhere; place the "
-                       "pillars on a lattice, or say backing = \"rigid\"");
+    throw SceneMistake(
+        "geometry.film.backing",
+        "lets all pillars feel each other, which is answered for lattices (also with "
+        "dead pillars) of any size and for at most 500 pillars elsewhere; place the "
+        "pillars on a lattice, or say backing = \"rigid\"");
   }
   const Neighbours near(array.pillars, widest);
   for (std::size_t i = 0; i < array.pillars.size(); ++i) {

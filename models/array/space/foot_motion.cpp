@@ -43,13 +43,11 @@ FootMotion::FootMotion(const SpaceArray& array) : array_(&array) {
                        std::max(reach_m, array_diagonal_m(array)));
   for (const PillarClass& one : array.classes) {
     Foot foot;
-    foot.forces =
-        foot_forces(one.geometry, one.medium, kFootMesh, film.largest_k_1_m(), &film);
+    foot.forces = foot_forces(one.geometry, one.medium, kFootMesh, film.largest_k_1_m(), &film);
     const double R_m = 0.5 * one.geometry.diameter_m;
     foot.area_m2 = std::numbers::pi * R_m * R_m;
     foot.lever_m3 = 0.25 * foot.area_m2 * R_m;
-    foot.turning_rad_Nm =
-        own_turning_J_Pa2(film, foot.forces) / (foot.lever_m3 * foot.lever_m3);
+    foot.turning_rad_Nm = own_turning_J_Pa2(film, foot.forces) / (foot.lever_m3 * foot.lever_m3);
     feet_.push_back(std::move(foot));
   }
   const double longest_1_m = std::min(kWavePhase / reach_m, kWaveStep / t_m);
@@ -57,8 +55,8 @@ FootMotion::FootMotion(const SpaceArray& array) : array_(&array) {
     const DirectionReading reading = work_reading(film, moved.forces);
     works_.emplace_back();
     for (const Foot& loaded : feet_) {
-      const PotentialSpectrum spectrum = graded_spectrum(
-          film, reading, loaded.forces, film.largest_k_1_m(), longest_1_m, false);
+      const PotentialSpectrum spectrum =
+          graded_spectrum(film, reading, loaded.forces, film.largest_k_1_m(), longest_1_m, false);
       works_.back().emplace_back(PotentialTable(spectrum, {}, reach_m), film, reading,
                                  loaded.forces);
     }
@@ -68,22 +66,21 @@ FootMotion::FootMotion(const SpaceArray& array) : array_(&array) {
 // The mean over the directions of the work of a tilted foot's traction on its own displacement.
 double FootMotion::own_turning_J_Pa2(const FilmTable& film, const FootForces& foot) const {
   double sum = 0.0;
-  each_graded_wave(
-      film.smallest_k_1_m(), film.largest_k_1_m(), 2.0 / foot.radius_m.back(),
-      [&](double k_1_m, double weight) {
-        const SidewaysTransform t = transform(foot.tilt, foot.radius_m, k_1_m);
-        const std::vector<Eigen::Matrix4d> responses = film.at(k_1_m);
-        const auto last = static_cast<double>(responses.size() - 1);
-        for (std::size_t j = 0; j < responses.size(); ++j) {
-          const bool is_end = j == 0 || j + 1 == responses.size();
-          const double angle = 0.5 * std::numbers::pi * static_cast<double>(j) / last;
-          const Eigen::Vector3d wave(2.0 * t.along * std::cos(angle),
-                                     -2.0 * t.across * std::sin(angle),
-                                     2.0 * t.normal * std::cos(angle));
-          sum += weight * (is_end ? 0.5 : 1.0) / last *
-                 wave.dot(responses[j].topLeftCorner<3, 3>() * wave);
-        }
-      });
+  each_graded_wave(film.smallest_k_1_m(), film.largest_k_1_m(), 2.0 / foot.radius_m.back(),
+                   [&](double k_1_m, double weight) {
+                     const SidewaysTransform t = transform(foot.tilt, foot.radius_m, k_1_m);
+                     const std::vector<Eigen::Matrix4d> responses = film.at(k_1_m);
+                     const auto last = static_cast<double>(responses.size() - 1);
+                     for (std::size_t j = 0; j < responses.size(); ++j) {
+                       const bool is_end = j == 0 || j + 1 == responses.size();
+                       const double angle = 0.5 * std::numbers::pi * static_cast<double>(j) / last;
+                       const Eigen::Vector3d wave(2.0 * t.along * std::cos(angle),
+                                                  -2.0 * t.across * std::sin(angle),
+                                                  2.0 * t.normal * std::cos(angle));
+                       sum += weight * (is_end ? 0.5 : 1.0) / last *
+                              wave.dot(responses[j].topLeftCorner<3, 3>() * wave);
+                     }
+                   });
   return sum;
 }
 
@@ -136,8 +133,7 @@ YieldingBase FootMotion::under(const std::vector<std::size_t>& pillars) const {
   }
   auto sums = std::make_shared<const OffsetSums>(
       points, classes,
-      [this](int of_class, double x_m, double y_m) { return kernel(of_class, x_m, y_m); },
-      mirrors);
+      [this](int of_class, double x_m, double y_m) { return kernel(of_class, x_m, y_m); }, mirrors);
   return [sums, points](const BaseForces& forces) {
     const Eigen::MatrixXd by_class = sums->apply(forces);
     BaseMotions motions(forces.rows(), 3);

@@ -50,10 +50,11 @@ Eigen::MatrixXd film_compliance(const FilmTable& film, const FootTrace& foot) {
           const double share = (is_end ? 0.5 : 1.0) / last;
           const double angle = 0.5 * std::numbers::pi * static_cast<double>(j) / last;
           Eigen::Vector3d along(1.0, 1.0, 1.0);
-          if (!foot.is_axial) along << 2.0 * std::cos(angle), -2.0 * std::sin(angle), 2.0 * std::cos(angle);
+          if (!foot.is_axial)
+            along << 2.0 * std::cos(angle), -2.0 * std::sin(angle), 2.0 * std::cos(angle);
           const Eigen::MatrixXd turned = along.asDiagonal() * waves;
-          compliance += share * weight * turned.transpose() *
-                        responses[j].topLeftCorner<3, 3>() * turned;
+          compliance +=
+              share * weight * turned.transpose() * responses[j].topLeftCorner<3, 3>() * turned;
         }
       });
   return compliance;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "models/array/film/disc_charge.h"
-#include "models/array/space/foot_forces.h"
 #include "models/array/film/layered_film.h"
+#include "models/array/space/foot_forces.h"
 
 #include <Eigen/Core>
 

@@ -65,8 +65,8 @@ PotentialTable::PotentialTable(const PotentialSpectrum& spectrum,
       harmonics_(spectrum.waves.front().amplitude.rows()),
       own_V_(readings.size(), 0.0) {
   const double largest_k_1_m = spectrum.waves.back().k_1_m;
-  const int panels =
-      std::max(1, static_cast<int>(std::ceil(0.5 * largest_k_1_m * (reach_m_ - from_m_) / kTablePhase)));
+  const int panels = std::max(
+      1, static_cast<int>(std::ceil(0.5 * largest_k_1_m * (reach_m_ - from_m_) / kTablePhase)));
   panel_m_ = (reach_m_ - from_m_) / panels;
   values_.assign(readings.size(),
                  Eigen::MatrixXd::Zero(panels * kTablePoints, kTopLoads * harmonics_));

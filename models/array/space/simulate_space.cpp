@@ -84,7 +84,8 @@ std::string stretching_note(const SpaceScene& scene, const BackingEffect& effect
   return "stretching: pillar [" + std::to_string(one.row) + ", " + std::to_string(one.column) +
          "] reads " + text_of(effect.voltage_V, 4) + " V, on a rigid base " +
          text_of(effect.rigid_V, 4) + " V (" + text_of(percent, 3) +
-         " %): on this backing the film reads how it is stretched by all pillars, not the pressure on "
+         " %): on this backing the film reads how it is stretched by all pillars, not the pressure "
+         "on "
          "one; take a stiffer backing";
 }
 
@@ -225,8 +226,8 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   BackingEffect backing;
   if (scene.backing && scene.feels_backing) backing = backing_effect(scene, loads_Pa);
   check_edge(scene, backing, constant);
-  const double left =
-      std::max(scene.tolerance - constant - of_contact - backing.edge, 0.5 * kShareOfAccuracy * scene.tolerance);
+  const double left = std::max(scene.tolerance - constant - of_contact - backing.edge,
+                               0.5 * kShareOfAccuracy * scene.tolerance);
   SceneAnswer answer =
       answer_within({left, space_meshes(scene), scene.progress},
                     [&](const Discretisation& mesh) { return voltages_on(scene, loads_Pa, mesh); });

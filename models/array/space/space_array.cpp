@@ -50,7 +50,8 @@ double largest_diameter_m(const SpaceArray& array) {
 // What a mirrored place does to the readings of a pillar under some of the loads: quarters change
 // places, and loads along the axis turn round.
 std::array<KernelMirror, 2> mirrors_of(Eigen::Index readings, const std::vector<int>& loads) {
-  constexpr std::array<std::array<int, 6>, 2> kQuarters = {{{0, 1, 3, 2, 5, 4}, {0, 1, 5, 4, 3, 2}}};
+  constexpr std::array<std::array<int, 6>, 2> kQuarters = {
+      {{0, 1, 3, 2, 5, 4}, {0, 1, 5, 4, 3, 2}}};
   constexpr std::array<std::array<TopLoad, 2>, 2> kTurned = {
       {{TopLoad::kShearX, TopLoad::kTiltX}, {TopLoad::kShearY, TopLoad::kTiltY}}};
   std::array<KernelMirror, 2> mirrors;

@@ -88,7 +88,8 @@ class SpaceResponse {
 
  private:
   void add_class(const PillarClass& one, const SpaceAccuracy& accuracy, const FilmTable* film,
-                 const std::optional<DiscCharge>& charge, const std::vector<AxialReading>& readings);
+                 const std::optional<DiscCharge>& charge,
+                 const std::vector<AxialReading>& readings);
   Eigen::MatrixXd sums_on_backing_V(const TopLoads& loads_Pa) const;
 
   const SpaceArray* array_;

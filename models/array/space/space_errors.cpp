@@ -79,8 +79,8 @@ BackingEffect backing_effect(const SpaceScene& scene, const TopLoads& loads_Pa) 
   }
   effect.edge *= kOfEdge / largest_V;
   array.film.backing.reset();
-  const Eigen::VectorXd rigid_V = SpaceResponse(array, space_accuracies(array)[1])
-                                      .voltages_V(loads_Pa).col(0);
+  const Eigen::VectorXd rigid_V =
+      SpaceResponse(array, space_accuracies(array)[1]).voltages_V(loads_Pa).col(0);
   effect.pillar = static_cast<std::size_t>(largest);
   effect.voltage_V = voltages_V[largest];
   effect.rigid_V = rigid_V[largest];

@@ -58,7 +58,7 @@ struct SpaceScene : SceneCommon {
 
   Medium film;
   double film_thickness_m = 25e-6;
-  double film_edge_m = 100e-6;  // film beyond the outer pillars' faces
+  double film_edge_m = 100e-6;     // film beyond the outer pillars' faces
   std::optional<Backing> backing;  // an elastic half-space under the film; nothing: rigid
   FilmFace grounded = FilmFace::kTop;
   SpaceElectrode electrode = SpaceElectrode::kSampled;

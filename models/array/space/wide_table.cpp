@@ -7,7 +7,8 @@
 namespace viscard {
 namespace {
 
-constexpr double kFarWaves = 40.0;  // largest k of a table beyond the near one times its least distance
+constexpr double kFarWaves =
+    40.0;  // largest k of a table beyond the near one times its least distance
 
 }  // namespace
 
@@ -23,13 +24,12 @@ PotentialSpectrum graded_spectrum(const FilmTable& film, const DirectionReading&
                                   const FootForces& foot, double largest_1_m, double longest_1_m,
                                   bool fades) {
   PotentialSpectrum spectrum;
-  each_graded_wave(film.smallest_k_1_m(), largest_1_m, longest_1_m,
-                   [&](double k_1_m, double weight_1_m2) {
-                     const double share = fades ? 1.0 - cut(k_1_m / largest_1_m) : 1.0;
-                     spectrum.waves.push_back(
-                         {k_1_m, share * weight_1_m2,
-                          share * weight_1_m2 * harmonics_of(reading(k_1_m), foot, k_1_m)});
-                   });
+  each_graded_wave(
+      film.smallest_k_1_m(), largest_1_m, longest_1_m, [&](double k_1_m, double weight_1_m2) {
+        const double share = fades ? 1.0 - cut(k_1_m / largest_1_m) : 1.0;
+        spectrum.waves.push_back({k_1_m, share * weight_1_m2,
+                                  share * weight_1_m2 * harmonics_of(reading(k_1_m), foot, k_1_m)});
+      });
   return spectrum;
 }
 
@@ -39,8 +39,8 @@ WideTable::WideTable(PotentialTable near, const FilmTable& film, const Direction
   for (double from_m = near_.reach_m(); from_m < film.far_m(); from_m *= 2.0) {
     const double largest_1_m = std::min(film.largest_k_1_m(), kFarWaves / from_m);
     const bool fades = largest_1_m < film.largest_k_1_m();
-    const PotentialSpectrum spectrum = graded_spectrum(film, reading, foot, largest_1_m,
-                                                       kWavePhase / (2.0 * from_m), fades);
+    const PotentialSpectrum spectrum =
+        graded_spectrum(film, reading, foot, largest_1_m, kWavePhase / (2.0 * from_m), fades);
     far_.emplace_back(spectrum, std::vector<Eigen::MatrixXd>{}, 2.0 * from_m, readings, from_m);
   }
 }

@@ -153,3 +153,37 @@ TEST_CASE("a rough surface is the same for the same seed", "[cli][scene][array]"
   CHECK_THAT(refusal_of("kind = \"plane\"\nrms = \"0.25 um\"\ndepth = \"1 um\"\n"),
              Catch::Contains("belongs to kind = \"rough\""));
 }
+
+TEST_CASE("a backing of a scene file is a half-space under the film", "[cli][scene][array]") {
+  const std::string kShape = "kind = \"sphere\"\nradius = \"20 mm\"\ndepth = \"2 um\"\n";
+  const auto on = [&](const std::string& backing) {
+    std::string text = pressed(kShape);
+    text.replace(text.find("edge = \"200 um\""), 15, "edge = \"5 mm\", backing = " + backing);
+    return SceneText(text);
+  };
+  const auto force_on = [&](const std::string& backing) {
+    const SceneText scene = on(backing);
+    const CommandOutcome outcome = run_command({"simulate", scene.path(), "--json"});
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.status == 0);
+    return Json::parse(outcome.out);
+  };
+  const double rigid_N = result_of(force_on("\"rigid\""), "contact_force");
+  CHECK(rigid_N == Approx(result_of(answer_of(kShape), "contact_force")).epsilon(1e-9));
+  const double board_N = result_of(force_on("{ E = \"20 GPa\", nu = 0.3 }"), "contact_force");
+  const Json rubber = force_on("{ E = \"10 MPa\", nu = 0.45 }");
+  CHECK(board_N == Approx(rigid_N).epsilon(1e-3));
+  CHECK(result_of(rubber, "contact_force") < 0.99 * rigid_N);
+  const auto refuses = [&](const std::string& backing, const std::string& words) {
+    const SceneText scene = on(backing);
+    const CommandOutcome outcome = run_command({"simulate", scene.path()});
+    CAPTURE(backing);
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.err, Catch::Contains(words));
+  };
+  refuses("\"soft\"", "geometry.film.backing");
+  refuses("{ E = \"4 GPa\" }", "needs E and nu");
+  refuses("{ E = \"4 GPa\", nu = 0.5 }", "geometry.film.backing.nu");
+  refuses("{ E = \"10 kPa\", nu = 0.3 }", "geometry.film.backing.E");
+  refuses("{ E = \"4 GPa\", nu = 0.3 }, bottom = \"fixed\"", "geometry.film.bottom");
+}
