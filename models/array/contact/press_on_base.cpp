@@ -16,7 +16,7 @@ constexpr double kSettled =
 // A film beside a load rises by less than this share of the overlap.
 constexpr double kRise = 0.1;
 
-double dot(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+double work_of(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.cwiseProduct(b).sum();
 }
 
@@ -97,15 +97,15 @@ Eigen::MatrixXd PressOnBase::step(const Eigen::MatrixXd& stiffness, const BaseFo
   Eigen::MatrixXd residual = root.cwiseProduct(base_(missing));
   Eigen::MatrixXd y = Eigen::MatrixXd::Zero(residual.rows(), 3);
   Eigen::MatrixXd direction = residual;
-  double square = dot(residual, residual);
+  double square = work_of(residual, residual);
   const double enough = tolerance * tolerance * square;
   for (int i = 0; i < kMostSteps && square > enough; ++i) {
     const Eigen::MatrixXd moved =
         direction + root.cwiseProduct(base_(root.cwiseProduct(direction)));
-    const double along = square / dot(direction, moved);
+    const double along = square / work_of(direction, moved);
     y += along * direction;
     residual -= along * moved;
-    const double next = dot(residual, residual);
+    const double next = work_of(residual, residual);
     direction = residual + (next / square) * direction;
     square = next;
   }
@@ -134,11 +134,11 @@ PressedArray PressOnBase::to_depth(const std::vector<TopContact>& classes, doubl
     const double tolerance = std::clamp(left_N / largest_N, 1e-8, 0.05);
     const BaseForces change = step(tops.stiffness, missing, tolerance);
     const BaseMotions moved = base_(change);
-    const double falls = dot(moved, missing);
+    const double falls = work_of(moved, missing);
     double length = 1.0;
     for (int cut = 0; cut < 10; ++cut) {
       Tops next = press(classes, depth_m, base + length * moved);
-      const double rises = dot(moved, forces_ + length * change - next.forces);
+      const double rises = work_of(moved, forces_ + length * change - next.forces);
       tops = std::move(next);
       if (rises <= 0.9 * falls) break;
       length *= std::max(0.1, falls / (falls + rises));
