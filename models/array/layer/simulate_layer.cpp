@@ -1,6 +1,7 @@
 #include "models/array/layer/simulate_layer.h"
 
 #include "models/array/layer/layer_readings.h"
+#include "models/array/layer/layer_transfer.h"
 #include "models/array/layer/layer_window.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/mesh/scene_mistake.h"
@@ -78,6 +79,7 @@ class LayerSolver {
     answer.step_error = waves_.error();
     set_results(pressed, answer);
     set_profiles(pressed, answer);
+    add_transfer(*scene_, waves_, answer);
     last_ = std::move(pressed);
     return answer;
   }
@@ -219,6 +221,8 @@ std::vector<std::string> result_names(const LayerScene& scene) {
                                  kPressureProfile, kVoltageProfile}) {
     names.emplace_back(name);
   }
+  const std::vector<std::string> of_waves = transfer_names(scene);
+  names.insert(names.end(), of_waves.begin(), of_waves.end());
   return names;
 }
 

@@ -131,6 +131,9 @@ std::vector<std::string> result_names(const SpaceScene& scene) {
     names.push_back(reading + "_voltage");
   }
   if (has_crosstalk(scene)) names.emplace_back(kCrosstalk);
+  if (square_pitch_m(scene) > 0.0 && !scene.backing) {
+    names.insert(names.end(), {"voltage_per_pressure", "voltage_per_height"});
+  }
   if (!scene.press) return names;
   for (const auto& of_contact : {contact_maps(), contact_results()}) {
     names.insert(names.end(), of_contact.begin(), of_contact.end());
@@ -174,6 +177,7 @@ SceneAnswer voltages_on(const SpaceScene& scene, const TopLoads& loads_Pa,
   answer.maps = maps_of(scene, response, loads_Pa);
   if (scene.feels_neighbours) answer.step_error = beyond_reach(scene, response, loads_Pa, answer);
   set_results(scene, answer);
+  add_transfer(scene, response, accuracy.potential.reach_m, answer);
   return answer;
 }
 

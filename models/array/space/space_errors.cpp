@@ -63,13 +63,14 @@ BackingEffect backing_effect(const SpaceScene& scene, const TopLoads& loads_Pa) 
   constexpr double kOfEdge = 2.0;
   BackingEffect effect;
   SpaceArray array = array_of(scene);
-  const SpaceAccuracy accuracy = space_accuracies(array)[1];
+  const FilmExtent film = film_extent(scene);
+  SpaceAccuracy accuracy = space_accuracies(array)[1];
+  accuracy.potential.far_m = std::hypot(film.right_m - film.left_m, film.high_m - film.low_m);
   const SpaceResponse response(array, accuracy);
   const Eigen::VectorXd voltages_V = response.voltages_V(loads_Pa).col(0);
   Eigen::Index largest = 0;
   const double largest_V = voltages_V.cwiseAbs().maxCoeff(&largest);
   if (!(largest_V > 0.0)) return effect;
-  const FilmExtent film = film_extent(scene);
   const double x_m = 0.5 * (film.left_m + film.right_m), y_m = 0.5 * (film.low_m + film.high_m);
   for (const double x : {film.left_m, x_m, film.right_m}) {
     for (const double y : {film.low_m, y_m, film.high_m}) {

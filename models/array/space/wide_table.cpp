@@ -8,7 +8,7 @@ namespace viscard {
 namespace {
 
 constexpr double kFarWaves =
-    40.0;  // largest k of a table beyond the near one times its least distance
+    120.0;  // largest k of a table beyond the near one times its least distance
 
 }  // namespace
 

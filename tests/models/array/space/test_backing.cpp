@@ -80,21 +80,19 @@ TEST_CASE("a pressed disc on a backed film reads as finite elements find", "[mod
 }
 
 TEST_CASE("beyond the near table the waves of a half-space go on without a step", "[models]") {
-  // All waves at once, on panels of a tenth of the phase, against the tables of the far places.
-  const FilmTable film(film_on(1.8e6, 0.49), 12.0, 2, 9, 20e-3);
+  // Against one table of all waves for all distances.
+  const FilmTable film(film_on(1.8e6, 0.49), 10.0, 2, 8, 3e-3);
   const FootForces foot = uniform_disc();
-  const PotentialSpectrum near =
-      graded_spectrum(film, potential_reading(film), foot, film.largest_k_1_m(), 2e4, false);
-  const WideTable table(PotentialTable(near, {}, 250e-6), film, potential_reading(film), foot);
-  for (const double r_m : {251e-6, 400e-6, 999e-6, 1.01e-3, 3.3e-3, 7.9e-3}) {
-    const PotentialSpectrum all = graded_spectrum(film, potential_reading(film), foot,
-                                                  film.largest_k_1_m(), 2.0 / r_m, false);
-    double sum = 0.0;
-    for (const PotentialSpectrum::Wave& wave : all.waves) {
-      sum += wave.amplitude(0, 0) * ::j0(wave.k_1_m * r_m);
-    }
+  const auto near = [&](double reach_m) {
+    return PotentialTable(graded_spectrum(film, potential_reading(film), foot, film.largest_k_1_m(),
+                                          kWavePhase / reach_m, false),
+                          {}, reach_m);
+  };
+  const WideTable table(near(250e-6), film, potential_reading(film), foot);
+  const PotentialTable all = near(2.5e-3);
+  for (const double r_m : {251e-6, 300e-6, 400e-6, 600e-6, 999e-6, 1.01e-3, 2.4e-3}) {
     CAPTURE(r_m);
-    CHECK(table.at(r_m, 0.0)[0] == Approx(sum).epsilon(2e-4).margin(1e-12));
+    CHECK(1e9 * table.at(r_m, 0.0)[0] == Approx(1e9 * all.at(r_m, 0.0)[0]).epsilon(1e-3));
   }
 }
 
@@ -102,7 +100,8 @@ TEST_CASE("a pillar on a stiff backing reads and settles as an independent progr
           "[models]") {
   // Fourier p-elements of another program, per kPa on one pillar: mV at centre and mean, per cent of
   // the mean at neighbours 1, sqrt 2, 2, 3 and 5 pitches away, m/Pa that the film settles under the
-  // pillar and at a neighbour. Without the film's edge.
+  // pillar and at a neighbour: there the mean over the foot, here weighted with the traction. Without the
+  // film's edge.
   struct Case {
     double E_Pa, nu, centre, mean;
     std::array<double, 5> per_cent;
@@ -146,8 +145,33 @@ TEST_CASE("a pillar on a stiff backing reads and settles as an independent progr
     BaseForces force = BaseForces::Zero(2, 3);
     force(0, 0) = area_m2;  // 1 Pa
     const BaseMotions moved = motion.under({60, 61})(force);
-    CHECK(moved(0, 0) == Approx(one.own_m_Pa).epsilon(5e-3));
-    CHECK(moved(1, 0) == Approx(one.neighbour_m_Pa).epsilon(3e-2));
+    CHECK(1e15 * moved(0, 0) == Approx(1e15 * one.own_m_Pa).epsilon(3e-2));
+    CHECK(1e15 * moved(1, 0) == Approx(1e15 * one.neighbour_m_Pa).epsilon(3e-2));
+  }
+}
+
+TEST_CASE("the traction of a foot is that on its film and its soft backing", "[models]") {
+  // FreeFEM, axisymmetric, degree 2, pillar, film and half-space in one mesh (165 000 unknowns, 12 mm wide
+  // and deep): mV per kPa at the centre, mean, and at 200 um, and m/Pa by which the top sinks. With the
+  // traction on a rigid base the centre would read 6e-4 more on PDMS.
+  struct Case {
+    double E_Pa, nu, centre, mean, at_200_um, top_m_Pa, tolerance;
+  };
+  for (const Case& one : {Case{4e9, 0.38, -2.25505, -1.80389, 0.000626288, 6.59799e-11, 3e-5},
+                          Case{10e6, 0.49, -2.16207, -1.75571, 0.00502384, 6.6437e-11, 2.5e-4},
+                          Case{1.8e6, 0.49, -2.17324, -1.76739, 0.00517185, 6.74454e-11, 2.5e-4}}) {
+    CAPTURE(one.E_Pa);
+    const SpaceArray array = square_on(3, film_on(one.E_Pa, one.nu));
+    const SpaceResponse response(array, space_accuracies(array)[3]);
+    const auto own = response.kernel(0, 0.0, 0.0);
+    CHECK(1e6 * own(0, 0) == Approx(one.centre).epsilon(one.tolerance));
+    CHECK(1e6 * own(1, 0) == Approx(one.mean).epsilon(one.tolerance));
+    // A domain of 12 mm holds the stretch of a film on rubber.
+    CHECK(1e6 * response.kernel(0, 200e-6, 0.0)(0, 0) ==
+          Approx(one.at_200_um).margin(one.tolerance));
+    const double top_m_Pa = response.foot(0).sinking_m_Pa +
+                            FootMotion(array).own_sinking_m_N(0) * std::numbers::pi * 400e-12;
+    CHECK(1e11 * top_m_Pa == Approx(1e11 * one.top_m_Pa).epsilon(1e-3));
   }
 }
 
@@ -216,11 +240,13 @@ TEST_CASE("a sphere on an array on a soft half-space presses as an independent p
   // 100 x 100 pillars, R 100 mm, 3 um deep: FFT and conjugate gradients with tops that are touched or
   // not as a whole, which leaves 1e-3 at the rim; and with traction of a foot on a rigid base.
   const SpaceContact soft = contact_on(pressed(100, Backing{1.8e6, 0.49}, 3e-6), 1);
-  CHECK(soft.pressed.force_N == Approx(2.6141e-3).epsilon(5e-3));
-  CHECK(soft.loads_Pa.col(0).maxCoeff() == Approx(26.05e3).epsilon(5e-3));
-  CHECK(std::abs(soft.pressed.contacts - 148) <= 12);
+  CHECK(soft.pressed.force_N == Approx(2.6141e-3).epsilon(1e-3));
+  CHECK(soft.loads_Pa.col(0).maxCoeff() == Approx(26.05e3).epsilon(1.5e-3));
+  // Tops at the rim are touched in part, which there count as free.
+  CHECK(soft.pressed.contacts >= 148);
+  CHECK(soft.pressed.contacts <= 172);
   const SpaceContact stiff = contact_on(pressed(100, Backing{4e9, 0.38}, 3e-6), 1);
-  CHECK(stiff.pressed.force_N == Approx(5.3740e-3).epsilon(2e-3));
+  CHECK(stiff.pressed.force_N == Approx(5.3740e-3).epsilon(1e-3));
 }
 
 TEST_CASE("on a backing depth and the load it gave agree, and the answer is symmetric",
