@@ -60,7 +60,7 @@ std::vector<double> film_edge_errors(const SpaceScene& scene) {
 // The film carries stress to its edge that a free edge does not bear. Relieving it changes the voltages by
 // at most about what the film without end reads there, with a factor from finite films (eq. S12).
 BackingEffect backing_effect(const SpaceScene& scene, const TopLoads& loads_Pa) {
-  constexpr double kOfEdge = 2.0;
+  constexpr double kOfEdge = 1.0;
   BackingEffect effect;
   SpaceArray array = array_of(scene);
   const FilmExtent film = film_extent(scene);

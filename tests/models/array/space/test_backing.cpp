@@ -152,21 +152,20 @@ TEST_CASE("a pillar on a stiff backing reads and settles as an independent progr
 
 TEST_CASE("the traction of a foot is that on its film and its soft backing", "[models]") {
   // FreeFEM, axisymmetric, degree 2, pillar, film and half-space in one mesh (165 000 unknowns, 12 mm wide
-  // and deep): mV per kPa at the centre, mean, and at 200 um, and m/Pa by which the top sinks. With the
+  // and deep; on PDMS the film ends at 1.5 mm, because the domain's side would hold a longer one): mV per kPa at the centre, mean, and at 200 um, and m/Pa by which the top sinks. With the
   // traction on a rigid base the centre would read 6e-4 more on PDMS.
   struct Case {
     double E_Pa, nu, centre, mean, at_200_um, top_m_Pa, tolerance;
   };
   for (const Case& one : {Case{4e9, 0.38, -2.25505, -1.80389, 0.000626288, 6.59799e-11, 3e-5},
                           Case{10e6, 0.49, -2.16207, -1.75571, 0.00502384, 6.6437e-11, 2.5e-4},
-                          Case{1.8e6, 0.49, -2.17324, -1.76739, 0.00517185, 6.74454e-11, 2.5e-4}}) {
+                          Case{1.8e6, 0.49, -2.17295, -1.7671, 0.00538616, 6.74456e-11, 5e-5}}) {
     CAPTURE(one.E_Pa);
     const SpaceArray array = square_on(3, film_on(one.E_Pa, one.nu));
     const SpaceResponse response(array, space_accuracies(array)[3]);
     const auto own = response.kernel(0, 0.0, 0.0);
     CHECK(1e6 * own(0, 0) == Approx(one.centre).epsilon(one.tolerance));
     CHECK(1e6 * own(1, 0) == Approx(one.mean).epsilon(one.tolerance));
-    // A domain of 12 mm holds the stretch of a film on rubber.
     CHECK(1e6 * response.kernel(0, 200e-6, 0.0)(0, 0) ==
           Approx(one.at_200_um).margin(one.tolerance));
     const double top_m_Pa = response.foot(0).sinking_m_Pa +
