@@ -167,8 +167,9 @@ TEST_CASE("the traction of a foot is that on its film and its soft backing", "[m
     const auto own = response.kernel(0, 0.0, 0.0);
     CHECK(1e6 * own(0, 0) == Approx(one.centre).epsilon(one.tolerance));
     CHECK(1e6 * own(1, 0) == Approx(one.mean).epsilon(one.tolerance));
+    // The end of the film changes 1e-4 here and 2e-5 under the pillar.
     CHECK(1e6 * response.kernel(0, 200e-6, 0.0)(0, 0) ==
-          Approx(one.at_200_um).margin(one.tolerance));
+          Approx(one.at_200_um).margin(3.0 * one.tolerance));
     const double top_m_Pa = response.foot(0).sinking_m_Pa +
                             FootMotion(array).own_sinking_m_N(0) * std::numbers::pi * 400e-12;
     CHECK(1e11 * top_m_Pa == Approx(1e11 * one.top_m_Pa).epsilon(1e-3));
