@@ -128,20 +128,6 @@ void show_space(FieldVisitor& v, RawSpace& s) {
   show_printed(v, s.printed);
 }
 
-// Rows and columns, whole numbers from 1.
-std::vector<RowColumn> places_of(const std::string& key, const Pairs& pairs) {
-  std::vector<RowColumn> places;
-  for (const auto& [row, column] : pairs) {
-    for (const double number : {row, column}) {
-      if (number != std::floor(number) || number < 1.0 || number > 1e6) {
-        throw SceneMistake(key, "are rows and columns of pillars, such as [[3, 7]], from 1");
-      }
-    }
-    places.emplace_back(static_cast<int>(row), static_cast<int>(column));
-  }
-  return places;
-}
-
 void place_lattice(const RawSpace& raw, SpaceScene& scene) {
   if (raw.rows == 0 || raw.columns == 0) {
     throw SceneMistake("geometry",
@@ -255,22 +241,16 @@ void fill_analysis(const RawSpace& raw, SpaceScene& scene) {
 }
 
 void fill_base(const RawSpace& raw, SpaceScene& scene) {
-  const bool has_backing = raw.backing_E_Pa > 0.0;
-  if (!raw.film_bottom.empty()) {
-    choice<bool>("geometry.film.bottom", raw.film_bottom, {{"fixed", true}});
-    if (has_backing) {
-      throw SceneMistake("geometry.film.bottom",
-                         "is \"fixed\", but film.backing lets it yield; leave one of them out");
-    }
+  const bool has_E = raw.backing_E_Pa > 0.0, has_bottom = !raw.film_bottom.empty();
+  if (has_bottom) choice<bool>("geometry.film.bottom", raw.film_bottom, {{"fixed", true}});
+  if (has_E != (raw.backing_nu >= 0.0)) {
+    throw SceneMistake("geometry.film.backing",
+                       "needs E and nu of the half-space under the film, such as { E = \"4 GPa\", "
+                       "nu = 0.38 }, or \"rigid\"");
   }
-  if (!has_backing && raw.backing_nu < 0.0) return;
-  if (!has_backing || raw.backing_nu < 0.0) {
-    throw SceneMistake(
-        "geometry.film.backing",
-        "needs E and nu of the half-space under the film, such as { E = \"4 GPa\", nu = "
-        "0.38 }, or \"rigid\"");
-  }
-  scene.backing = Backing{raw.backing_E_Pa, raw.backing_nu};
+  if (has_E) scene.backing = Backing{raw.backing_E_Pa, raw.backing_nu};
+  if (!has_E || !has_bottom) return;
+  throw SceneMistake("geometry.film.bottom", "cannot stand beside film.backing; leave one out");
 }
 
 SpaceScene scene_from(const RawSpace& raw, const std::filesystem::path& folder) {
