@@ -9,6 +9,8 @@
 
 namespace viscard {
 
+class FilmTable;
+
 // Loads on the top of a pillar, each 1 Pa: pressure down, shear along x or y, and a traction
 // t_z = x/R or y/R that tilts it (R the radius of the top).
 enum class TopLoad { kPressure, kShearX, kShearY, kTiltX, kTiltY };
@@ -39,10 +41,12 @@ struct FootForces {
   int unknowns = 0;  // of the larger system
 };
 
-// With points close enough for waves up to the largest k. Throws std::invalid_argument for a geometry
-// that PillarModel refuses or that has a film.
+// With points close enough for waves up to the largest k. With a film, the foot's traction is the one on
+// that film and its backing (eq. S11); the motions of the top remain those on a rigid base. Throws
+// std::invalid_argument for a geometry that PillarModel refuses or that has a film.
 FootForces foot_forces(const PillarGeometry& pillar, const Medium& medium,
-                       const Discretisation& mesh, double largest_k_1_m = 0.0);
+                       const Discretisation& mesh, double largest_k_1_m = 0.0,
+                       const FilmTable* on_film = nullptr);
 
 // Fourier transforms of the foot's traction at the wave number k, Pa m^2 per Pa (eq. S3). Under
 // pressure it is (tau_x, 0, t_z) at every angle theta of the wave. Under a sideways load along x it is

@@ -59,7 +59,8 @@ struct SpaceScene : SceneCommon {
 
   Medium film;
   double film_thickness_m = 25e-6;
-  double film_edge_m = 100e-6;  // film beyond the outer pillars' faces
+  double film_edge_m = 100e-6;     // film beyond the outer pillars' faces
+  std::optional<Backing> backing;  // an elastic half-space under the film; nothing: rigid
   FilmFace grounded = FilmFace::kTop;
   SpaceElectrode electrode = SpaceElectrode::kSampled;
   double electrode_radius_m = 0.0;  // 0: that of the usual pillars
@@ -75,6 +76,8 @@ struct SpaceScene : SceneCommon {
 
   // Set by the plan (models/scene/plan.h): each pillar as if it stood alone.
   bool feels_neighbours = true;
+  // Set by the plan: the film lies on its backing instead of a rigid base.
+  bool feels_backing = true;
   // Set by the plan: a shape only pushes. If not, all tops follow it, also where they must be pulled.
   bool feels_contact = true;
 

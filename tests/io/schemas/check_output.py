@@ -138,7 +138,8 @@ def check_card():
 def check_scenes():
     run(["validate", data("materials/pdms_1to10_seed.json")], "validate")
     run(["scene", "check", data("scenes/pillar_sensor.toml")], "scene")
-    for name in ("pillar_modal", "pillar_creep", "pillar_buckling", "array_voltages", "pillar_touch", "space_quadrants"):
+    for name in ("pillar_modal", "pillar_creep", "pillar_buckling", "array_voltages", "pillar_touch", "space_quadrants",
+                 "layer_rough", "space_backing"):
         scene = data(f"scenes/{name}.toml")
         run(["plan", scene], "plan")
         run(["simulate", scene, "--out", name], "simulate")
