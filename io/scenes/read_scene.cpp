@@ -5,6 +5,7 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 
@@ -58,6 +59,15 @@ SceneReader reader_for(const std::string& text, const std::filesystem::path& pat
   return choice<SceneReader>("geometry.kind", kind, readers());
 }
 
+// What the computation does, and points that somebody wants, are as given.
+void refuse_uncertain(const std::string& key) {
+  for (const char* const exact : {"tolerance", "discretisation.", "sweep.", "analysis.frequencies",
+                                  "analysis.end_time", "materials.pillar.ratio"}) {
+    if (key.rfind(exact, 0) != 0) continue;
+    throw std::invalid_argument("has no uncertainty; leave out what stands behind +-");
+  }
+}
+
 std::string with_line(const std::string& text, const std::filesystem::path& path,
                       const SceneMistake& mistake) {
   const int line = line_of_key(text, mistake.key());
@@ -70,10 +80,21 @@ SceneFile read_scene(const std::filesystem::path& path) {
   return scene_from_toml(read_file(path), path);
 }
 
-SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& path) {
+SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& path,
+                          const std::map<std::string, double>& values) {
   SceneFile file;
+  const ChooseValue choose = [&](const std::string& key, const char* unit,
+                                 const UncertainNumber& number) {
+    refuse_uncertain(key);
+    const auto is_it = [&](const UncertainQuantity& one) { return one.key == key; };
+    if (std::none_of(file.uncertain.begin(), file.uncertain.end(), is_it)) {
+      file.uncertain.push_back({key, unit, number});
+    }
+    const auto given = values.find(key);
+    return given == values.end() ? number.value : given->second;
+  };
   const FieldReader read = [&](const std::function<void(FieldVisitor&)>& show) {
-    read_toml_fields(text, path.string(), show);
+    read_toml_fields(text, path.string(), show, choose);
   };
   try {
     reader_for(text, path)(read, path.parent_path(), file);

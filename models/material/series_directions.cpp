@@ -1,0 +1,143 @@
+#include "models/material/series_directions.h"
+
+#include "models/material/series_band.h"
+#include "models/maths/dense.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+SeriesDirection no_direction(std::size_t n_terms) {
+  return {0.0, std::vector<double>(n_terms, 0.0), std::vector<double>(n_terms, 0.0)};
+}
+
+// Adds `amount` to the parameter with that name. Names of other parameters are ignored.
+void add_to(SeriesDirection& direction, const std::string& name, double amount) {
+  if (name == "E_inf_Pa") direction.equilibrium_Pa += amount;
+  for (std::size_t i = 0; i < direction.ln_tau.size(); ++i) {
+    const std::string number = std::to_string(i + 1);
+    if (name == "E_" + number + "_Pa") direction.modulus_Pa[i] += amount;
+    if (name == "ln_tau_" + number) direction.ln_tau[i] += amount;
+  }
+}
+
+void add_covariance(const char* name, const MaterialUncertainty& uncertainty,
+                    const Eigen::MatrixXd& covariance, std::size_t n_terms,
+                    std::vector<MaterialCause>& causes) {
+  std::vector<SeriesDirection> directions =
+      directions_of(uncertainty.covariance_parameters, covariance, n_terms);
+  if (!directions.empty()) causes.push_back({name, std::move(directions)});
+}
+
+}  // namespace
+
+std::vector<SeriesDirection> directions_of(const std::vector<std::string>& names,
+                                           const Eigen::MatrixXd& covariance, std::size_t n_terms) {
+  const Eigen::Index count = covariance.rows();
+  const Eigen::VectorXd deviation = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const double scale = deviation[i] * deviation[j];
+      if (i != j && scale > 0.0) correlation(i, j) = covariance(i, j) / scale;
+    }
+  }
+  const EigenSystem found = symmetric_eigen(correlation);
+  std::vector<SeriesDirection> directions;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    if (!(found.values[k] > 0.0)) continue;
+    SeriesDirection direction = no_direction(n_terms);
+    bool moves = false;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double amount = std::sqrt(found.values[k]) * deviation[i] * found.vectors(i, k);
+      moves = moves || amount != 0.0;
+      add_to(direction, names[static_cast<std::size_t>(i)], amount);
+    }
+    if (moves) directions.push_back(std::move(direction));
+  }
+  return directions;
+}
+
+SeriesDirection common_scale(const PronySeries& series, double relative) {
+  SeriesDirection direction = no_direction(series.terms.size());
+  direction.equilibrium_Pa = relative * series.equilibrium_modulus_Pa;
+  for (std::size_t i = 0; i < series.terms.size(); ++i) {
+    direction.modulus_Pa[i] = relative * series.terms[i].modulus_Pa;
+  }
+  return direction;
+}
+
+PronySeries moved(const PronySeries& series, const SeriesDirection& direction, double step) {
+  PronySeries out = series;
+  out.equilibrium_modulus_Pa =
+      std::max(0.0, series.equilibrium_modulus_Pa + step * direction.equilibrium_Pa);
+  for (std::size_t i = 0; i < out.terms.size(); ++i) {
+    MaxwellTerm& term = out.terms[i];
+    term.modulus_Pa = std::max(0.0, term.modulus_Pa + step * direction.modulus_Pa[i]);
+    term.relaxation_time_s *= std::exp(step * direction.ln_tau[i]);
+  }
+  return out;
+}
+
+MaterialCauses causes_of(const Material& material) {
+  MaterialCauses out;
+  if (!material.uncertainty) return out;
+  const MaterialUncertainty& uncertainty = *material.uncertainty;
+  const std::size_t n_terms = material.terms.size();
+  if (has_band(material)) {
+    const Eigen::MatrixXd& scatter = uncertainty.scatter;
+    const bool has_scatter = scatter.rows() == uncertainty.covariance.rows() && scatter.size() > 0;
+    const double wider = std::pow(uncertainty.widening, 2);
+    const Eigen::MatrixXd fit =
+        has_scatter ? Eigen::MatrixXd(uncertainty.covariance - scatter) : uncertainty.covariance;
+    add_covariance("random part", uncertainty, wider * fit, n_terms, out.causes);
+    if (has_scatter) {
+      add_covariance("scatter between specimens", uncertainty, wider * scatter, n_terms,
+                     out.causes);
+    }
+  } else {
+    out.left_out = has_constant_poisson_ratio(material)
+                       ? "the material states no covariance; only its systematic part counts"
+                       : "shear and bulk of the material relax differently, and its covariance "
+                         "describes E(t) alone; only its systematic part counts";
+  }
+  if (uncertainty.systematic_relative > 0.0) {
+    out.causes.push_back({"systematic part",
+                          {common_scale(young_series(material), uncertainty.systematic_relative)}});
+  }
+  return out;
+}
+
+Material material_at(const Material& material, const std::vector<MaterialCause>& causes,
+                     const Eigen::VectorXd& deviates) {
+  Material out = material;
+  if (!has_constant_poisson_ratio(material)) {  // scaled as a whole, by the systematic part
+    const double E0_Pa = instantaneous_modulus_Pa(young_series(material));
+    Eigen::Index next = 0;
+    for (const MaterialCause& cause : causes) {
+      for (const SeriesDirection& direction : cause.directions) {
+        double change_Pa = direction.equilibrium_Pa;
+        for (const double part_Pa : direction.modulus_Pa) change_Pa += part_Pa;
+        out.E0_Pa *= 1.0 + deviates[next++] * change_Pa / E0_Pa;
+      }
+    }
+    return out;
+  }
+  PronySeries series = young_series(material);
+  Eigen::Index next = 0;
+  for (const MaterialCause& cause : causes) {
+    for (const SeriesDirection& direction : cause.directions) {
+      series = moved(series, direction, deviates[next++]);
+    }
+  }
+  out.E0_Pa = instantaneous_modulus_Pa(series);
+  for (std::size_t i = 0; i < out.terms.size(); ++i) {
+    const double share = series.terms[i].modulus_Pa / out.E0_Pa;
+    out.terms[i] = {share, share, series.terms[i].relaxation_time_s};
+  }
+  return out;
+}
+
+}  // namespace viscard
