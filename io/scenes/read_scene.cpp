@@ -1,7 +1,9 @@
 #include "io/basics/atomic_file.h"
 #include "io/config/config_fields.h"
+#include "io/materials/material_file.h"
 #include "io/scenes/scene_file.h"
 #include "io/scenes/scene_words.h"
+#include "models/material/ratio_causes.h"
 
 #include <toml++/toml.h>
 
@@ -68,6 +70,18 @@ void refuse_uncertain(const std::string& key) {
   }
 }
 
+// Why the material of the pillars is not known exactly. A joint fit states more than its material.
+MaterialCauses material_causes(const std::string& text, const std::filesystem::path& path,
+                               const Scene& scene) {
+  const toml::table table = toml::parse(text, path.string());
+  const char* const key = std::holds_alternative<LayerScene>(scene) ? "layer" : "pillar";
+  const toml::node_view<const toml::node> material = table["materials"][key];
+  const auto ratio = material["ratio"].value<double>();
+  const auto file = material["file"].value<std::string>();
+  if (!ratio || !file) return causes_of(common(scene).pillar);
+  return causes_at_ratio(read_ratio_fit(path.parent_path() / *file), *ratio);
+}
+
 std::string with_line(const std::string& text, const std::filesystem::path& path,
                       const SceneMistake& mistake) {
   const int line = line_of_key(text, mistake.key());
@@ -98,6 +112,8 @@ SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& 
   };
   try {
     reader_for(text, path)(read, path.parent_path(), file);
+    // Those who give values know the causes already.
+    if (values.empty()) file.material_causes = material_causes(text, path, file.scene);
   } catch (const SceneMistake& mistake) {
     throw std::runtime_error(with_line(text, path, mistake));
   } catch (const std::invalid_argument& error) {

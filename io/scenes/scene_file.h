@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/material/series_directions.h"
 #include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/scene.h"
 #include "models/uncertainty/uncertain_number.h"
@@ -40,6 +41,7 @@ struct UncertainQuantity {
 struct SceneFile {
   Scene scene;                               // every uncertain quantity at its value
   std::vector<UncertainQuantity> uncertain;  // in the order they were read
+  MaterialCauses material_causes;            // what the file of the pillars' material states
   ArraySweep sweep;                          // of rows of pillars; otherwise empty
   std::vector<PrintedValue> printed;         // [[printed]]
 };

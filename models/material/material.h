@@ -36,9 +36,6 @@ struct MaterialUncertainty {
   std::vector<TermUncertainty> terms;              // as Material::terms
   std::vector<std::string> covariance_parameters;  // of the rows: "E_inf_Pa", "E_1_Pa", "ln_tau_1"
   Eigen::MatrixXd covariance;                      // square, in the units that the names state
-  Eigen::MatrixXd scatter;  // part of the covariance between specimens; empty: not known apart
-  // 97.5 % quantile of Student's t behind the intervals over that of the normal distribution.
-  double widening = 1.0;
   double systematic_relative = 0.0;  // scales all moduli together: geometry, calibration, frame
 };
 

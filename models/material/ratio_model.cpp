@@ -74,14 +74,13 @@ Eigen::MatrixXd design_with_own_terms(const RatioModel& model, double ratio, Ind
 struct Prediction {
   Eigen::VectorXd theta;
   Eigen::MatrixXd covariance;
-  Eigen::VectorXd scatter;   // variance between specimens in it; 0: unknown
   Eigen::VectorXd quantile;  // of Student's t, for each parameter
 };
 
 Prediction predict(const RatioModel& model, double ratio) {
   const Eigen::MatrixXd design = design_at(model, ratio);
   Prediction out{design * model.coefficients, design * model.covariance * design.transpose(),
-                 Eigen::VectorXd::Zero(design.rows()), Eigen::VectorXd(design.rows())};
+                 Eigen::VectorXd(design.rows())};
   const int n_terms = static_cast<int>(design.rows() / 2);
   for (Index k = 0; k < design.rows(); ++k) {
     const int parameter = static_cast<int>(k);
@@ -89,8 +88,7 @@ Prediction predict(const RatioModel& model, double ratio) {
       out.quantile[k] = kNormal95;
       continue;
     }
-    out.scatter[k] = std::pow(spread_of(model, parameter, n_terms), 2);
-    out.covariance(k, k) += out.scatter[k];
+    out.covariance(k, k) += std::pow(spread_of(model, parameter, n_terms), 2);
     out.quantile[k] = student_t_975(model.n_specimens - n_columns(model, parameter));
   }
   return out;
@@ -130,8 +128,6 @@ MaterialUncertainty uncertainty_of(const Prediction& from, int n_terms, double E
   };
   const Eigen::MatrixXd slopes = slopes_of_moduli(from, n_terms);
   out.covariance = slopes * from.covariance * slopes.transpose();
-  out.scatter = slopes * from.scatter.asDiagonal() * slopes.transpose();
-  out.widening = from.quantile[0] / kNormal95;
   out.E0_Pa_95 = lognormal(0);
   const double worst = from.quantile.maxCoeff();
   const double ln_E_inf_se = std::sqrt(out.covariance(0, 0)) / E_inf_Pa;

@@ -23,14 +23,6 @@ void add_to(SeriesDirection& direction, const std::string& name, double amount) 
   }
 }
 
-void add_covariance(const char* name, const MaterialUncertainty& uncertainty,
-                    const Eigen::MatrixXd& covariance, std::size_t n_terms,
-                    std::vector<MaterialCause>& causes) {
-  std::vector<SeriesDirection> directions =
-      directions_of(uncertainty.covariance_parameters, covariance, n_terms);
-  if (!directions.empty()) causes.push_back({name, std::move(directions)});
-}
-
 }  // namespace
 
 std::vector<SeriesDirection> directions_of(const std::vector<std::string>& names,
@@ -44,10 +36,11 @@ std::vector<SeriesDirection> directions_of(const std::vector<std::string>& names
       if (i != j && scale > 0.0) correlation(i, j) = covariance(i, j) / scale;
     }
   }
+  constexpr double kRounding = 1e-12;  // of a correlation; its eigenvalues add up to its size
   const EigenSystem found = symmetric_eigen(correlation);
   std::vector<SeriesDirection> directions;
   for (Eigen::Index k = 0; k < count; ++k) {
-    if (!(found.values[k] > 0.0)) continue;
+    if (!(found.values[k] > kRounding)) continue;
     SeriesDirection direction = no_direction(n_terms);
     bool moves = false;
     for (Eigen::Index i = 0; i < count; ++i) {
@@ -87,16 +80,9 @@ MaterialCauses causes_of(const Material& material) {
   const MaterialUncertainty& uncertainty = *material.uncertainty;
   const std::size_t n_terms = material.terms.size();
   if (has_band(material)) {
-    const Eigen::MatrixXd& scatter = uncertainty.scatter;
-    const bool has_scatter = scatter.rows() == uncertainty.covariance.rows() && scatter.size() > 0;
-    const double wider = std::pow(uncertainty.widening, 2);
-    const Eigen::MatrixXd fit =
-        has_scatter ? Eigen::MatrixXd(uncertainty.covariance - scatter) : uncertainty.covariance;
-    add_covariance("random part", uncertainty, wider * fit, n_terms, out.causes);
-    if (has_scatter) {
-      add_covariance("scatter between specimens", uncertainty, wider * scatter, n_terms,
-                     out.causes);
-    }
+    std::vector<SeriesDirection> directions =
+        directions_of(uncertainty.covariance_parameters, uncertainty.covariance, n_terms);
+    if (!directions.empty()) out.causes.push_back({kRandomPart, std::move(directions)});
   } else {
     out.left_out = has_constant_poisson_ratio(material)
                        ? "the material states no covariance; only its systematic part counts"

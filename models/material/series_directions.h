@@ -28,10 +28,13 @@ SeriesDirection common_scale(const PronySeries& series, double relative);
 // zero.
 PronySeries moved(const PronySeries& series, const SeriesDirection& direction, double step);
 
+inline constexpr const char* kRandomPart = "random part";
+inline constexpr const char* kSystematicPart = "systematic part";
+
 // Why a material is not known exactly: directions that one cause moves it along, independent of each
 // other and of those of other causes.
 struct MaterialCause {
-  std::string name;  // "random part", "scatter between specimens", "systematic part"
+  std::string name;
   std::vector<SeriesDirection> directions;
 };
 

@@ -52,18 +52,18 @@ void UncertainScene::add_quantities() {
 }
 
 void UncertainScene::add_material() {
-  material_ = causes_of(common(file_.scene).pillar);
+  const MaterialCauses& material = file_.material_causes;
   const std::string word = material_word(file_.scene);
-  for (const MaterialCause& cause : material_.causes) {
+  for (const MaterialCause& cause : material.causes) {
     inputs_.push_back(
         {word + ": " + cause.name, static_cast<Eigen::Index>(cause.directions.size())});
     descriptions_.push_back(
-        cause.name == "systematic part"
+        cause.name == kSystematicPart
             ? fmt::format("all moduli together, standard uncertainty {:.2g} %",
                           100.0 * common(file_.scene).pillar.uncertainty->systematic_relative)
             : "covariance of the moduli and relaxation times");
   }
-  if (!material_.left_out.empty()) notes_.push_back(word + ": " + material_.left_out);
+  if (!material.left_out.empty()) notes_.push_back(word + ": " + material.left_out);
 }
 
 Scene UncertainScene::reduced_at(const Eigen::VectorXd& deviates) const {
@@ -76,7 +76,8 @@ Scene UncertainScene::reduced_at(const Eigen::VectorXd& deviates) const {
   SceneCommon& parts = common(scene);
   parts.tolerance = common(file_.scene).tolerance;
   parts.effects = choices_;
-  parts.pillar = material_at(parts.pillar, material_.causes, deviates.tail(deviates.size() - next));
+  parts.pillar = material_at(parts.pillar, file_.material_causes.causes,
+                             deviates.tail(deviates.size() - next));
   refuse_beyond_buckling(scene);
   return plan_effects(scene).reduced;
 }

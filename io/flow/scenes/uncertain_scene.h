@@ -1,7 +1,6 @@
 #pragma once
 
 #include "io/scenes/scene_file.h"
-#include "models/material/series_directions.h"
 #include "models/uncertainty/linear_propagation.h"
 
 #include <filesystem>
@@ -37,7 +36,6 @@ class UncertainScene {
   std::string text_;
   std::filesystem::path path_;
   EffectChoices choices_;  // the plan's
-  MaterialCauses material_;
   std::vector<UncertainInput> inputs_;
   std::vector<std::string> descriptions_, notes_;
 };
