@@ -1,5 +1,6 @@
 #include "models/uncertainty/sampled_propagation.h"
 
+#include "models/uncertainty/sample_polynomial.h"
 #include "models/uncertainty/sobol_points.h"
 
 #include <algorithm>
@@ -15,10 +16,11 @@ using Eigen::VectorXd;
 
 constexpr Index kReplicates = 8;
 
-// Points and answers of one replicate: two independent samples A and B, and A with one input of B each.
+// One replicate: two independent samples A and B, then A with the first input from B, and so on. One row
+// for each point.
 struct Replicate {
-  MatrixXd points;   // A, B, then A with the first input from B, ...
-  MatrixXd answers;  // one row for each point
+  MatrixXd answers;
+  MatrixXd polynomial;  // fitted to the answers, about its mean
 };
 
 MatrixXd points_of(Index n_points, const std::vector<UncertainInput>& inputs, std::uint64_t seed) {
@@ -38,8 +40,8 @@ MatrixXd points_of(Index n_points, const std::vector<UncertainInput>& inputs, st
   return all;
 }
 
-// Sums over the pairs of points that both have an answer.
-struct PairMoments {
+// Mean over the pairs of points that both have an answer.
+struct PairMean {
   double sum = 0.0;
   Index n = 0;
   void add(double value) {
@@ -50,43 +52,35 @@ struct PairMoments {
   double mean() const { return n > 0 ? sum / static_cast<double>(n) : 0.0; }
 };
 
-// Variance of one result and what each input contributes, of one replicate. `linear` holds the linear
-// answer at the same points about 0.
+// Variance of one result, and what each input contributes alone and with others.
 struct Variances {
   double variance = 0.0;
   std::vector<double> alone, with_others;
 };
 
-Variances variances_of(const VectorXd& answer, const VectorXd& linear, double center,
-                       Index n_points, const std::vector<double>& linear_variance) {
-  const auto y = [&](Index block, Index i) { return answer[block * n_points + i] - center; };
-  const auto l = [&](Index block, Index i) { return linear[block * n_points + i]; };
-  double whole = 0.0;
-  for (const double part : linear_variance) whole += part;
-  PairMoments mean;
-  for (Index i = 0; i < n_points; ++i) {
-    mean.add(y(0, i) - l(0, i));
-    mean.add(y(1, i) - l(1, i));
-  }
-  const double offset = mean.mean();
-  const auto z = [&](Index block, Index i) { return y(block, i) - offset; };
-  PairMoments excess;
-  for (Index block : {0, 1}) {
+// Of one replicate, with a polynomial whose variances are known as control variate. `answer` and
+// `polynomial` hold both at the points of the replicate, each about its mean.
+Variances variances_of(const VectorXd& answer, const VectorXd& polynomial, Index n_points,
+                       const Variances& known) {
+  const auto y = [&](Index block, Index i) { return answer[block * n_points + i]; };
+  const auto l = [&](Index block, Index i) { return polynomial[block * n_points + i]; };
+  PairMean excess;
+  for (const Index block : {0, 1}) {
     for (Index i = 0; i < n_points; ++i) {
-      excess.add(z(block, i) * z(block, i) - l(block, i) * l(block, i));
+      excess.add(y(block, i) * y(block, i) - l(block, i) * l(block, i));
     }
   }
-  Variances out{whole + excess.mean(), {}, {}};
-  for (std::size_t g = 0; g < linear_variance.size(); ++g) {
+  Variances out{known.variance + excess.mean(), known.alone, known.with_others};
+  for (std::size_t g = 0; g < known.alone.size(); ++g) {
     const auto mixed = static_cast<Index>(g + 2);
-    PairMoments alone, with_others;
+    PairMean alone, with_others;
     for (Index i = 0; i < n_points; ++i) {
-      alone.add(z(1, i) * z(mixed, i) - l(1, i) * l(mixed, i));
+      alone.add(y(1, i) * (y(mixed, i) - y(0, i)) - l(1, i) * (l(mixed, i) - l(0, i)));
       with_others.add(0.5 *
-                      (std::pow(z(0, i) - z(mixed, i), 2) - std::pow(l(0, i) - l(mixed, i), 2)));
+                      (std::pow(y(0, i) - y(mixed, i), 2) - std::pow(l(0, i) - l(mixed, i), 2)));
     }
-    out.alone.push_back(linear_variance[g] + alone.mean());
-    out.with_others.push_back(linear_variance[g] + with_others.mean());
+    out.alone[g] += alone.mean();
+    out.with_others[g] += with_others.mean();
   }
   return out;
 }
@@ -122,19 +116,36 @@ void summarise(const std::vector<Replicate>& replicates, Index result, Index n_p
   for (const double value : all) out.mean += value / static_cast<double>(all.size());
 }
 
-void find_shares(const std::vector<Replicate>& replicates, const LinearAnswer& linear, Index result,
-                 const std::vector<double>& linear_variance, Index n_points, SampledResult& out) {
+// What the polynomial itself gives.
+Variances known_variances(const SamplePolynomial& polynomial, Index result, std::size_t n_inputs) {
+  Variances known{0.0, std::vector<double>(n_inputs, 0.0), std::vector<double>(n_inputs, 0.0)};
+  for (std::size_t k = 0; k < polynomial.terms.size(); ++k) {
+    const PolynomialTerm& term = polynomial.terms[k];
+    const double square = std::pow(polynomial.coefficients(static_cast<Index>(k), result), 2);
+    known.variance += square;
+    known.with_others[term.first_input] += square;
+    if (term.first_input == term.second_input) {
+      known.alone[term.first_input] += square;
+    } else {
+      known.with_others[term.second_input] += square;
+    }
+  }
+  return known;
+}
+
+void find_shares(const std::vector<Replicate>& replicates, const SamplePolynomial& polynomial,
+                 Index result, std::size_t n_inputs, Index n_points, SampledResult& out) {
+  const Variances known = known_variances(polynomial, result, n_inputs);
   std::vector<Variances> found;
   std::vector<double> variance;
   for (const Replicate& one : replicates) {
-    const VectorXd about_0 = one.points * linear.slope.row(result).transpose();
-    found.push_back(variances_of(one.answers.col(result), about_0, linear.value[result], n_points,
-                                 linear_variance));
+    const VectorXd about_mean = one.answers.col(result).array() - polynomial.mean[result];
+    found.push_back(variances_of(about_mean, one.polynomial.col(result), n_points, known));
     variance.push_back(found.back().variance);
   }
   const double whole = mean_and_error(variance).mean;
   out.deviation = std::sqrt(std::max(0.0, whole));
-  for (std::size_t g = 0; g < linear_variance.size(); ++g) {
+  for (std::size_t g = 0; g < n_inputs; ++g) {
     std::vector<double> alone, with_others;
     for (const Variances& one : found) {
       alone.push_back(whole > 0.0 ? one.alone[g] / whole : 0.0);
@@ -148,15 +159,16 @@ void find_shares(const std::vector<Replicate>& replicates, const LinearAnswer& l
 }  // namespace
 
 SampledAnswer sampled_answer(const BatchFunction& function,
-                             const std::vector<UncertainInput>& inputs, const LinearAnswer& linear,
+                             const std::vector<UncertainInput>& inputs,
                              const SamplingOptions& options) {
   constexpr Index kFewest = 8;  // points of a replicate, in A and in B
   const auto blocks = static_cast<Index>(inputs.size() + 2);
   const Index n_points =
       std::max(kFewest, static_cast<Index>(options.n_answers) / (blocks * kReplicates));
-  MatrixXd points(n_points * blocks * kReplicates, count_deviates(inputs));
+  const Index of_one = n_points * blocks;
+  MatrixXd points(of_one * kReplicates, count_deviates(inputs));
   for (Index k = 0; k < kReplicates; ++k) {
-    points.middleRows(k * n_points * blocks, n_points * blocks) =
+    points.middleRows(k * of_one, of_one) =
         points_of(n_points, inputs, options.seed + static_cast<std::uint64_t>(k));
   }
   const MatrixXd answers = function(points);
@@ -166,22 +178,17 @@ SampledAnswer sampled_answer(const BatchFunction& function,
   if (2 * out.n_failed > out.n_answers) {
     throw std::runtime_error("more than half of the points have no answer");
   }
+  const SamplePolynomial polynomial = fitted_polynomial(points, answers, inputs);
+  const MatrixXd smooth = values_of(polynomial, points);
   std::vector<Replicate> replicates;
   for (Index k = 0; k < kReplicates; ++k) {
-    const Index from = k * n_points * blocks;
     replicates.push_back(
-        {points.middleRows(from, n_points * blocks), answers.middleRows(from, n_points * blocks)});
+        {answers.middleRows(k * of_one, of_one), smooth.middleRows(k * of_one, of_one)});
   }
-  const std::vector<Index> first = first_deviates(inputs);
   for (Index r = 0; r < answers.cols(); ++r) {
-    std::vector<double> linear_variance;
-    for (std::size_t g = 0; g < inputs.size(); ++g) {
-      linear_variance.push_back(
-          linear.slope.row(r).segment(first[g], inputs[g].n_deviates).squaredNorm());
-    }
     SampledResult result;
     summarise(replicates, r, n_points, result);
-    find_shares(replicates, linear, r, linear_variance, n_points, result);
+    find_shares(replicates, polynomial, r, inputs.size(), n_points, result);
     out.results.push_back(std::move(result));
   }
   return out;

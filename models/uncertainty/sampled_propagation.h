@@ -33,12 +33,12 @@ struct SampledAnswer {
 };
 
 // Variance shares and intervals from a Sobol' sequence, in 8 replicates with shifts of their own. First
-// order and total indices as Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, table 2, and Jansen,
-// Comput. Phys. Commun. 117 (1999) 35, take them, with the linear answer, whose indices are known, as
-// control variate: only what it lacks is sampled. Throws std::runtime_error if more than half of the
-// points have no answer.
+// order indices as Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, table 2 (b), and total ones as
+// Jansen, Comput. Phys. Commun. 117 (1999) 35, take them, with a polynomial of degree 2 fitted to the
+// samples, whose indices are known, as control variate: only what it lacks is sampled. Throws
+// std::runtime_error if more than half of the points have no answer.
 SampledAnswer sampled_answer(const BatchFunction& function,
-                             const std::vector<UncertainInput>& inputs, const LinearAnswer& linear,
+                             const std::vector<UncertainInput>& inputs,
                              const SamplingOptions& options);
 
 }  // namespace viscard

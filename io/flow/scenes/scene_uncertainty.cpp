@@ -2,6 +2,7 @@
 
 #include "io/basics/parallel.h"
 #include "io/flow/scenes/named_values.h"
+#include "models/maths/dense.h"
 #include "models/scene/simulate.h"
 #include "models/uncertainty/sampled_propagation.h"
 
@@ -107,23 +108,37 @@ std::vector<Discretisation> coarser_meshes(const Scene& scene, const Discretisat
   return meshes;
 }
 
-// Largest difference of the deviations on two meshes at the ends of the linear answer's intervals,
-// relative to the standard uncertainty.
-double mesh_error_of(const MatrixXd& coarse, const VectorXd& coarse_value,
-                     const LinearAnswer& linear) {
+// Answers on a coarser mesh, corrected to first order for the answer's own mesh.
+struct CoarseAnswers {
+  VectorXd value;       // with every input at its value
+  MatrixXd correction;  // deviates x results, to be added to the deviations
+  double error =
+      0.0;  // of the deviations that remains at the ends, relative to standard uncertainty
+};
+
+CoarseAnswers compare_meshes(const MatrixXd& coarse_at_ends, const VectorXd& value,
+                             const LinearAnswer& linear) {
+  CoarseAnswers out{value, MatrixXd::Zero(linear.ends.cols(), value.size())};
   const VectorXd deviation = standard_uncertainty(linear);
-  double worst = 0.0;
-  for (Index r = 0; r < deviation.size(); ++r) {
-    if (!(deviation[r] > 0.0)) continue;
-    for (Index i = 0; i < coarse.rows(); ++i) {
-      const double own = linear.at_ends(i, r) - linear.value[r];
-      const double found = coarse(i, r) - coarse_value[r];
-      if (!std::isfinite(own) && !std::isfinite(found)) continue;
-      const double error = std::abs(found - own) / deviation[r];
-      worst = std::isfinite(error) ? std::max(worst, error) : HUGE_VAL;
-    }
+  std::vector<Index> rows;
+  for (Index i = 0; i < coarse_at_ends.rows(); ++i) {
+    if (coarse_at_ends.row(i).allFinite() && linear.at_ends.row(i).allFinite()) rows.push_back(i);
   }
-  return worst;
+  MatrixXd at(static_cast<Index>(rows.size()), linear.ends.cols());
+  MatrixXd missing(static_cast<Index>(rows.size()), value.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto row = static_cast<Index>(k);
+    at.row(row) = linear.ends.row(rows[k]);
+    missing.row(row) = (linear.at_ends.row(rows[k]) - linear.value.transpose()) -
+                       (coarse_at_ends.row(rows[k]) - value.transpose());
+  }
+  for (Index r = 0; r < value.size(); ++r) {
+    if (!(deviation[r] > 0.0) || rows.empty()) continue;
+    out.correction.col(r) = PivotedQr(at).solve(VectorXd(missing.col(r)));
+    const VectorXd rest = missing.col(r) - at * out.correction.col(r);
+    out.error = std::max(out.error, rest.cwiseAbs().maxCoeff() / deviation[r]);
+  }
+  return out;
 }
 
 // The plan: sampling is needed unless the linear answer is within the tolerance.
@@ -193,23 +208,24 @@ void sample(const UncertainScene& scene, const std::vector<NamedValue>& values,
             SceneUncertainty& out) {
   constexpr double kMeshError = 0.01;  // of the standard uncertainty
   constexpr std::size_t kUsualSamples = 4000;
+  const Index n_deviates = linear.ends.cols();
   for (const Discretisation& mesh : coarser_meshes(scene.file().scene, out.mesh)) {
     const AnswersOnMesh function(scene, values, mesh, count);
-    VectorXd value = linear.value;
-    double error = 0.0;
+    CoarseAnswers coarse{linear.value, MatrixXd::Zero(n_deviates, linear.value.size())};
     if (mesh.degree != out.mesh.degree || mesh.layers != out.mesh.layers) {
-      value = function(MatrixXd::Zero(1, linear.ends.cols())).row(0).transpose();
-      error = mesh_error_of(function(linear.ends), value, linear);
+      const VectorXd value = function(MatrixXd::Zero(1, n_deviates)).row(0).transpose();
+      coarse = compare_meshes(function(linear.ends), value, linear);
       out.n_answers += static_cast<std::size_t>(linear.ends.rows()) + 1;
-      if (!(error <= kMeshError)) continue;
+      if (!(coarse.error <= kMeshError) || !value.allFinite()) continue;
     }
-    LinearAnswer about = linear;  // a control variate, so it needs no slopes of this mesh
-    about.value = value;
-    take_samples(sampled_answer(function, out.inputs, about,
+    const BatchFunction corrected = [&](const MatrixXd& deviates) {
+      return MatrixXd(function(deviates) + deviates * coarse.correction);
+    };
+    take_samples(sampled_answer(corrected, out.inputs,
                                 {.n_answers = options.n_samples.value_or(kUsualSamples)}),
-                 value, out);
+                 coarse.value, out);
     out.mesh = mesh;
-    out.mesh_error = error;
+    out.mesh_error = coarse.error;
     return;
   }
 }
