@@ -58,10 +58,15 @@ class FieldVisitor {
 
 using ShowFields = std::function<void(FieldVisitor&)>;
 
-// Returns the value to take for a quantity that is not known exactly. `key` is "geometry.diameter", or
-// "shape.at.2" for the second entry of a list.
-using ChooseValue =
-    std::function<double(const std::string& key, const char* unit, const UncertainNumber& number)>;
+// A quantity that is not known exactly, as it stands in a file.
+struct UncertainField {
+  std::string key;   // "geometry.diameter", or "shape.at.2" for the second entry of a list
+  std::string text;  // "40 um +- 1 um"
+  std::string unit;  // SI
+  UncertainNumber number;
+};
+// Returns the value to take for it.
+using ChooseValue = std::function<double(const UncertainField& field)>;
 
 // Throws std::runtime_error with file, line, key and the expected value; messages show name in
 // place of the file. Quantities that are not known exactly are refused without `choose`.

@@ -153,7 +153,7 @@ class TomlReader final : public FieldVisitor {
       if (field.word != nullptr && *text == field.word) return field.word_value;
       try {
         if (const auto uncertain = uncertain_from_text(*text, field.unit)) {
-          written = chosen(*uncertain, field, place);
+          written = chosen({prefix_ + field.key + place, *text, field.unit, *uncertain});
         } else {
           written = quantity_from_text(*text, field.unit);
         }
@@ -170,12 +170,11 @@ class TomlReader final : public FieldVisitor {
     return written / field.written_per_value;
   }
 
-  double chosen(const UncertainNumber& number, const QuantityField& field,
-                const std::string& place) const {
+  double chosen(const UncertainField& field) const {
     if (!choose_) {
       throw std::invalid_argument("is read exactly here; leave out what stands behind +-");
     }
-    return choose_(prefix_ + field.key + place, field.unit, number);
+    return choose_(field);
   }
 
   static std::string expected(const QuantityField& field) {

@@ -97,15 +97,14 @@ SceneFile read_scene(const std::filesystem::path& path) {
 SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& path,
                           const std::map<std::string, double>& values) {
   SceneFile file;
-  const ChooseValue choose = [&](const std::string& key, const char* unit,
-                                 const UncertainNumber& number) {
-    refuse_uncertain(key);
-    const auto is_it = [&](const UncertainQuantity& one) { return one.key == key; };
+  const ChooseValue choose = [&](const UncertainField& field) {
+    refuse_uncertain(field.key);
+    const auto is_it = [&](const UncertainField& one) { return one.key == field.key; };
     if (std::none_of(file.uncertain.begin(), file.uncertain.end(), is_it)) {
-      file.uncertain.push_back({key, unit, number});
+      file.uncertain.push_back(field);
     }
-    const auto given = values.find(key);
-    return given == values.end() ? number.value : given->second;
+    const auto given = values.find(field.key);
+    return given == values.end() ? field.number.value : given->second;
   };
   const FieldReader read = [&](const std::function<void(FieldVisitor&)>& show) {
     read_toml_fields(text, path.string(), show, choose);

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "io/config/config_fields.h"
 #include "models/material/series_directions.h"
 #include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/scene.h"
-#include "models/uncertainty/uncertain_number.h"
 
 #include <filesystem>
 #include <map>
@@ -30,20 +30,13 @@ struct PrintedValue {
   std::string note;   // why our value differs
 };
 
-// A quantity of a scene that is not known exactly: "40 um +- 1 um".
-struct UncertainQuantity {
-  std::string key;   // "geometry.diameter"
-  std::string unit;  // SI
-  UncertainNumber number;
-};
-
 // What stands in a scene file.
 struct SceneFile {
-  Scene scene;                               // every uncertain quantity at its value
-  std::vector<UncertainQuantity> uncertain;  // in the order they were read
-  MaterialCauses material_causes;            // what the file of the pillars' material states
-  ArraySweep sweep;                          // of rows of pillars; otherwise empty
-  std::vector<PrintedValue> printed;         // [[printed]]
+  Scene scene;                            // every uncertain quantity at its value
+  std::vector<UncertainField> uncertain;  // in the order they were read
+  MaterialCauses material_causes;         // what the file of the pillars' material states
+  ArraySweep sweep;                       // of rows of pillars; otherwise empty
+  std::vector<PrintedValue> printed;      // [[printed]]
 };
 
 // Scene files are TOML; data/scenes/ holds commented examples. Material files are looked for in the

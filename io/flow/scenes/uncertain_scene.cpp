@@ -1,6 +1,8 @@
 #include "io/flow/scenes/uncertain_scene.h"
 
+#include "models/material/series_directions.h"
 #include "models/scene/plan.h"
+#include "models/uncertainty/uncertain_number.h"
 
 #include <fmt/format.h>
 
@@ -43,11 +45,9 @@ UncertainScene::UncertainScene(SceneFile file, std::string text, std::filesystem
 }
 
 void UncertainScene::add_quantities() {
-  for (const UncertainQuantity& one : file_.uncertain) {
+  for (const UncertainField& one : file_.uncertain) {
     inputs_.push_back({one.key, 1, one.number.spread == Spread::kUniform});
-    const std::string unit = one.unit == "1" ? "" : " " + one.unit;
-    descriptions_.push_back(fmt::format("{:.6g}{} +- {:.3g}{}, {}", one.number.value, unit,
-                                        one.number.half_width, unit, name_of(one.number.spread)));
+    descriptions_.push_back(one.text);
   }
 }
 
@@ -69,7 +69,7 @@ void UncertainScene::add_material() {
 Scene UncertainScene::reduced_at(const Eigen::VectorXd& deviates) const {
   std::map<std::string, double> values;
   Eigen::Index next = 0;
-  for (const UncertainQuantity& one : file_.uncertain) {
+  for (const UncertainField& one : file_.uncertain) {
     values[one.key] = value_at(one.number, deviates[next++]);
   }
   Scene scene = scene_from_toml(text_, path_, values).scene;

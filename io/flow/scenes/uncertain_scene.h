@@ -20,7 +20,7 @@ class UncertainScene {
 
   const SceneFile& file() const { return file_; }
   const std::vector<UncertainInput>& inputs() const { return inputs_; }
-  // What an input is in words: "4e-05 m +- 1e-06, normal".
+  // What an input is in words: "40 um +- 1 um".
   const std::vector<std::string>& descriptions() const { return descriptions_; }
   const std::vector<std::string>& notes() const { return notes_; }
 
