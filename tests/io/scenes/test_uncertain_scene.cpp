@@ -1,7 +1,9 @@
 #include "io/basics/atomic_file.h"
 #include "io/config/quantity_text.h"
+#include "io/flow/scenes/named_values.h"
 #include "io/flow/scenes/scene_uncertainty.h"
 #include "models/scene/simulate.h"
+#include "models/uncertainty/sobol_points.h"
 #include "tests/io/scenes/scene_text.h"
 #include "tests/support/run_command.h"
 
@@ -42,22 +44,15 @@ load = { pressure = "10 kPa +- 1 %", on = "top" }
 quantities = ["top_displacement"]
 )";
 
-struct Answered {
-  UncertainScene scene;
-  SceneAnswer answer;
-  SceneUncertainty uncertainty;
-};
-
-Answered answered(const std::string& path, const UncertaintyOptions& options = {}) {
+SceneUncertainty uncertainty_in(const std::string& path, const UncertaintyOptions& options = {}) {
   const SceneFile file = read_scene(path);
-  UncertainScene scene(file, read_file(path), path);
+  const UncertainScene scene(file, read_file(path), path);
   SceneAnswer answer = simulate(file.scene);
   const auto is_unwanted = [&](const SceneResult& r) {
     return !asks_for(common(file.scene), r.name);
   };
   std::erase_if(answer.results, is_unwanted);
-  SceneUncertainty uncertainty = scene_uncertainty(scene, answer, options);
-  return {std::move(scene), std::move(answer), std::move(uncertainty)};
+  return scene_uncertainty(scene, answer, options);
 }
 
 const ResultUncertainty& result_named(const SceneUncertainty& all, const std::string& name) {
@@ -120,7 +115,7 @@ TEST_CASE("a scene with +- is answered at its values, and a tolerance has no unc
 TEST_CASE("frequencies take half of the relative uncertainty of modulus and density each",
           "[io][scenes][uncertainty]") {
   const SceneText text(kModes);
-  const SceneUncertainty found = answered(text.path()).uncertainty;
+  const SceneUncertainty found = uncertainty_in(text.path());
   CHECK_FALSE(found.is_sampled);
   for (const ResultUncertainty& mode : found.results) {
     CAPTURE(mode.name);
@@ -137,24 +132,26 @@ TEST_CASE("frequencies take half of the relative uncertainty of modulus and dens
 TEST_CASE("derivatives of the solver agree with Richardson's extrapolation",
           "[io][scenes][uncertainty][gradient]") {
   const SceneText text(
-      replaced(kPressed, "PILLAR", "{ E = \"1.8 MPa +- 5 %\", nu = \"0.4 +- 0.02\", rho = 965 }"));
-  std::string with_length = read_file(text.path());
-  with_length = replaced(with_length, "\"120 um\"", "\"120 um +- 2 um\"");
-  const SceneText longer(with_length);
-  const Answered found = answered(longer.path());
-  const ResultUncertainty& moved = result_named(found.uncertainty, "top_displacement");
-  const auto n = static_cast<Eigen::Index>(found.uncertainty.inputs.size());
+      replaced(replaced(kPressed, "PILLAR", "{ E = \"1.8 MPa +- 5 %\", nu = \"0.4 +- 0.02\" }"),
+               "\"120 um\"", "\"120 um +- 2 um\""));
+  const UncertainScene scene(read_scene(text.path()), read_file(text.path()), text.path());
+  const auto at = [&](const VectorXd& deviates) {
+    return value_of(answer_on(scene.reduced_at(deviates), {.degree = 4, .layers = 2}),
+                    "top_displacement");
+  };
+  const auto all_at = [&](const Eigen::MatrixXd& points) {
+    Eigen::MatrixXd answers(points.rows(), 1);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) answers(i, 0) = at(points.row(i));
+    return answers;
+  };
+  const LinearAnswer linear = linear_answer(all_at, scene.inputs());
+  const auto n = static_cast<Eigen::Index>(scene.inputs().size());
   REQUIRE(n == 4);
   for (Eigen::Index d = 0; d < n; ++d) {
-    const auto at = [&](double deviate) {
-      VectorXd deviates = VectorXd::Zero(n);
-      deviates[d] = deviate;
-      return value_of(answer_on(found.scene.reduced_at(deviates), found.answer.discretisation),
-                      "top_displacement");
-    };
     std::vector<double> row;  // of Richardson's table, from the largest step on
     for (const double step : {0.8, 0.4, 0.2, 0.1}) {
-      row.push_back((at(step) - at(-step)) / (2.0 * step));
+      const VectorXd moved = step * VectorXd::Unit(n, d);
+      row.push_back((at(moved) - at(-moved)) / (2.0 * step));
     }
     for (double power = 4.0; row.size() > 1; power *= 4.0) {
       for (std::size_t i = 0; i + 1 < row.size(); ++i) {
@@ -162,34 +159,20 @@ TEST_CASE("derivatives of the solver agree with Richardson's extrapolation",
       }
       row.pop_back();
     }
-    const double ours = moved.causes[static_cast<std::size_t>(d)].share;
-    // Shares are those of the linear answer, whose squares are the slopes'.
-    CAPTURE(d, row[0], found.uncertainty.reason);
-    if (found.uncertainty.is_sampled) continue;
-    CHECK(std::sqrt(ours) * moved.standard_uncertainty == Approx(std::abs(row[0])).epsilon(1e-5));
+    CAPTURE(scene.inputs()[static_cast<std::size_t>(d)].name);
+    CHECK(linear.slope(0, d) == Approx(row[0]).epsilon(1e-5));
+    CHECK(linear.slope_error(0, d) < 1e-5 * std::abs(row[0]));
   }
-  const LinearAnswer linear = linear_answer(
-      [&](const Eigen::MatrixXd& points) {
-        Eigen::MatrixXd answers(points.rows(), 1);
-        for (Eigen::Index i = 0; i < points.rows(); ++i) {
-          answers(i, 0) = value_of(
-              answer_on(found.scene.reduced_at(points.row(i)), found.answer.discretisation),
-              "top_displacement");
-        }
-        return answers;
-      },
-      found.uncertainty.inputs);
   // u = p L f/E: exact derivatives by the pressure and by the modulus, at equal shape.
   const double z = 1.959963984540054;
-  const double u_m = linear.value[0];
-  const auto input = [&](const char* name) {
-    const auto& all = found.uncertainty.inputs;
+  const auto slope_by = [&](const char* name) {
+    const auto& all = scene.inputs();
     const auto it = std::find_if(all.begin(), all.end(),
                                  [&](const UncertainInput& i) { return i.name == name; });
-    return it - all.begin();
+    return linear.slope(0, it - all.begin());
   };
-  CHECK(linear.slope(0, input("analysis.load.pressure")) == Approx(u_m * 0.01 / z).epsilon(1e-5));
-  CHECK(linear.slope(0, input("materials.pillar.E")) == Approx(-u_m * 0.05 / z).epsilon(1e-5));
+  CHECK(slope_by("analysis.load.pressure") == Approx(linear.value[0] * 0.01 / z).epsilon(1e-5));
+  CHECK(slope_by("materials.pillar.E") == Approx(-linear.value[0] * 0.05 / z).epsilon(1e-5));
 }
 
 TEST_CASE("a material file brings its covariance and its systematic part",
@@ -204,7 +187,7 @@ TEST_CASE("a material file brings its covariance and its systematic part",
       "systematic_relative": 0.02, "covariance_parameters": ["E_inf_Pa", "E_1_Pa", "ln_tau_1"],
       "covariance": [[4e8, -1e8, 0], [-1e8, 1e8, 0], [0, 0, 0.01]]}})",
              false);
-  const SceneUncertainty found = answered(text.path()).uncertainty;
+  const SceneUncertainty found = uncertainty_in(text.path());
   const ResultUncertainty& moved = result_named(found, "top_displacement");
   REQUIRE(found.inputs.size() == 3);
   CHECK(found.inputs[0].name == "analysis.load.pressure");
@@ -221,6 +204,50 @@ TEST_CASE("a material file brings its covariance and its systematic part",
   CHECK(moved.causes[0].share == Approx(pressure / whole).margin(2e-3));
   CHECK(moved.causes[1].share == Approx(random / whole).margin(2e-3));
   CHECK(moved.causes[2].share == Approx(systematic / whole).margin(2e-3));
+}
+
+// Shares by plain differences of independent samples, with no control variate (Jansen, 1999).
+TEST_CASE("variance shares agree with a brute-force study of 1e4 points",
+          "[io][scenes][uncertainty][slow]") {
+  const char* const uncertain =
+      "{ E = \"1.8 MPa +- 20 % lognormal\", nu = \"0.4 +- 0.05 uniform\", rho = \"965 kg/m3 +- 5 "
+      "%\" }";
+  const std::string pressed =
+      replaced(replaced(kPressed, "PILLAR", uncertain), "\"120 um\"", "\"120 um +- 8 um uniform\"");
+  const std::string modal =
+      replaced(replaced(kModes, "{ E = \"1.8 MPa +- 2 %\", nu = 0.33, rho = \"965 kg/m3 +- 2 %\" }",
+                        uncertain),
+               "\"40 um\"", "\"40 um +- 3 um\"");
+  const SceneText text(GENERATE_COPY(pressed, modal));
+  const SceneUncertainty found = uncertainty_in(text.path(), {.n_samples = 2000});
+  REQUIRE(found.is_sampled);
+  const UncertainScene scene(read_scene(text.path()), read_file(text.path()), text.path());
+  const std::string name = found.results.front().name;
+  const auto value = [&](const VectorXd& deviates) {
+    const auto all =
+        named_values(answer_on(scene.reduced_at(deviates), {.degree = 3, .layers = 1}));
+    return all.front().value;
+  };
+  const auto n = static_cast<Eigen::Index>(scene.inputs().size());
+  constexpr Eigen::Index kPoints = 10000;
+  const Eigen::MatrixXd cube = sobol_points(kPoints, 2 * n);
+  const Eigen::MatrixXd a = deviates_from(cube.leftCols(n), scene.inputs());
+  const Eigen::MatrixXd b = deviates_from(cube.rightCols(n), scene.inputs());
+  VectorXd at_b(kPoints), squares = VectorXd::Zero(n);
+  for (Eigen::Index i = 0; i < kPoints; ++i) {
+    at_b[i] = value(b.row(i));
+    for (Eigen::Index g = 0; g < n; ++g) {
+      VectorXd mixed = a.row(i);
+      mixed[g] = b(i, g);
+      squares[g] += 0.5 * std::pow(at_b[i] - value(mixed), 2) / static_cast<double>(kPoints);
+    }
+  }
+  const double variance = (at_b.array() - at_b.mean()).square().mean();
+  for (Eigen::Index g = 0; g < n; ++g) {
+    CAPTURE(name, scene.inputs()[static_cast<std::size_t>(g)].name);
+    CHECK(found.results.front().causes[static_cast<std::size_t>(g)].share ==
+          Approx(1.0 - squares[g] / variance).margin(0.02));
+  }
 }
 
 TEST_CASE("a scene without anything uncertain, or with a sweep, is refused",
