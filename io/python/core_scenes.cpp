@@ -1,7 +1,9 @@
+#include "io/basics/atomic_file.h"
 #include "io/basics/units.h"
 #include "io/cost/effect_savings.h"
 #include "io/cost/study_cost.h"
 #include "io/flow/scenes/answer_scene.h"
+#include "io/flow/scenes/scene_uncertainty.h"
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
@@ -142,14 +144,47 @@ py::list fields_list(std::vector<SectionGrid> grids) {
   return out;
 }
 
+// None if nobody asked.
+py::object uncertainty_object(const std::optional<SceneUncertainty>& found) {
+  if (!found) return py::none();
+  py::dict out, inputs, results;
+  for (std::size_t i = 0; i < found->inputs.size(); ++i) {
+    inputs[py::str(found->inputs[i].name)] = found->descriptions[i];
+  }
+  for (const ResultUncertainty& result : found->results) {
+    py::dict one, shares, errors;
+    for (std::size_t i = 0; i < result.causes.size(); ++i) {
+      shares[py::str(found->inputs[i].name)] = result.causes[i].share;
+      errors[py::str(found->inputs[i].name)] = result.causes[i].standard_error;
+    }
+    one["value"] = result.value;
+    one["unit"] = result.unit;
+    one["interval_95"] = py::make_tuple(result.interval_95.low, result.interval_95.high);
+    one["standard_uncertainty"] = result.standard_uncertainty;
+    one["numerical_error"] = result.numerical_error;
+    one["shares"] = shares;
+    one["share_errors"] = errors;
+    results[py::str(result.name)] = one;
+  }
+  out["method"] = found->is_sampled ? "sobol" : "linear";
+  out["reason"] = found->reason;
+  out["inputs"] = inputs;
+  out["results"] = results;
+  out["answers"] = found->n_answers;
+  out["failed"] = found->n_failed;
+  out["notes"] = found->notes;
+  return out;
+}
+
 struct SceneOutcome {
   SceneAnswer answer;
+  std::optional<SceneUncertainty> uncertainty;
   std::vector<SectionGrid> fields;
 };
 
 py::dict simulate_scene(const std::optional<std::string>& text, const std::string& path,
-                        std::optional<double> tolerance, bool with_fields,
-                        const py::object& progress) {
+                        std::optional<double> tolerance, bool with_fields, bool with_uncertainty,
+                        std::optional<std::size_t> samples, const py::object& progress) {
   SceneOutcome found = in_background({.progress = progress}, [=](Job& job) {
     const SceneFile file = scene_of(text, path, tolerance);
     SceneOutcome outcome;
@@ -157,6 +192,13 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
         file, path, [&](double done, const std::string& point) { job.report(done, point); });
     if (with_fields && file.sweep.is_empty()) {
       outcome.fields = solution_fields(file.scene, outcome.answer.discretisation);
+    }
+    if (with_uncertainty) {
+      const UncertainScene scene(file, text ? *text : read_file(path), path);
+      outcome.uncertainty = scene_uncertainty(scene, outcome.answer,
+                                              {.n_samples = samples, .progress = [&](double done) {
+                                                 job.report(done, "uncertainty");
+                                               }});
     }
     return outcome;
   });
@@ -177,6 +219,7 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
   out["within_tolerance"] = answer.within_tolerance;
   out["unknowns"] = answer.unknowns;
   out["fields"] = fields_list(std::move(found.fields));
+  out["uncertainty"] = uncertainty_object(found.uncertainty);
   return out;
 }
 
