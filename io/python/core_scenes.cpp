@@ -7,6 +7,7 @@
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
+#include "io/python/uncertainty_values.h"
 #include "io/python/values.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
@@ -141,38 +142,6 @@ py::list fields_list(std::vector<SectionGrid> grids) {
     one["z_m"] = array_of(std::move(grid.z_m));
     out.append(one);
   }
-  return out;
-}
-
-// None if nobody asked.
-py::object uncertainty_object(const std::optional<SceneUncertainty>& found) {
-  if (!found) return py::none();
-  py::dict out, inputs, results;
-  for (std::size_t i = 0; i < found->inputs.size(); ++i) {
-    inputs[py::str(found->inputs[i].name)] = found->descriptions[i];
-  }
-  for (const ResultUncertainty& result : found->results) {
-    py::dict one, shares, errors;
-    for (std::size_t i = 0; i < result.causes.size(); ++i) {
-      shares[py::str(found->inputs[i].name)] = result.causes[i].share;
-      errors[py::str(found->inputs[i].name)] = result.causes[i].standard_error;
-    }
-    one["value"] = result.value;
-    one["unit"] = result.unit;
-    one["interval_95"] = py::make_tuple(result.interval_95.low, result.interval_95.high);
-    one["standard_uncertainty"] = result.standard_uncertainty;
-    one["numerical_error"] = result.numerical_error;
-    one["shares"] = shares;
-    one["share_errors"] = errors;
-    results[py::str(result.name)] = one;
-  }
-  out["method"] = found->is_sampled ? "sobol" : "linear";
-  out["reason"] = found->reason;
-  out["inputs"] = inputs;
-  out["results"] = results;
-  out["answers"] = found->n_answers;
-  out["failed"] = found->n_failed;
-  out["notes"] = found->notes;
   return out;
 }
 
