@@ -161,7 +161,7 @@ TEST_CASE("derivatives of the solver agree with Richardson's extrapolation",
     }
     CAPTURE(scene.inputs()[static_cast<std::size_t>(d)].name);
     CHECK(linear.slope(0, d) == Approx(row[0]).epsilon(1e-5));
-    CHECK(linear.slope_error(0, d) < 1e-5 * std::abs(row[0]));
+    CHECK(linear.slope_error(0, d) < 1e-5 * linear.slope.norm());
   }
   // u = p L f/E: exact derivatives by the pressure and by the modulus, at equal shape.
   const double z = 1.959963984540054;
