@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/config/config_fields.h"
-#include "models/material/series_directions.h"
+#include "models/material/material_causes.h"
 #include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/scene.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "models/material/material_causes.h"
 #include "models/material/ratio_model.h"
-#include "models/material/series_directions.h"
 
 namespace viscard {
 

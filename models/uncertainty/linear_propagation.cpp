@@ -151,16 +151,6 @@ void find_disagreement(const BatchFunction& function, const std::vector<bool>& a
 
 }  // namespace
 
-Index count_deviates(const std::vector<UncertainInput>& inputs) {
-  return first_deviates(inputs).back();
-}
-
-std::vector<Index> first_deviates(const std::vector<UncertainInput>& inputs) {
-  std::vector<Index> first{0};
-  for (const UncertainInput& input : inputs) first.push_back(first.back() + input.n_deviates);
-  return first;
-}
-
 LinearAnswer linear_answer(const BatchFunction& function, const std::vector<UncertainInput>& inputs,
                            double tolerance) {
   const Index count = count_deviates(inputs);

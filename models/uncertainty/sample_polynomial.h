@@ -1,6 +1,6 @@
 #pragma once
 
-#include "models/uncertainty/linear_propagation.h"
+#include "models/uncertainty/uncertain_input.h"
 
 #include <Eigen/Core>
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "models/uncertainty/linear_propagation.h"
+#include "models/maths/interval.h"
+#include "models/uncertainty/uncertain_input.h"
 
 #include <cstdint>
 #include <vector>

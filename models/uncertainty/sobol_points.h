@@ -1,7 +1,7 @@
 #pragma once
 
 #include "models/maths/interval.h"
-#include "models/uncertainty/linear_propagation.h"
+#include "models/uncertainty/uncertain_input.h"
 
 #include <Eigen/Core>
 

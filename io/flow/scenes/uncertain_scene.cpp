@@ -1,6 +1,6 @@
 #include "io/flow/scenes/uncertain_scene.h"
 
-#include "models/material/series_directions.h"
+#include "models/material/material_causes.h"
 #include "models/scene/plan.h"
 #include "models/uncertainty/uncertain_number.h"
 
