@@ -107,6 +107,8 @@ const std::vector<Command>& commands() {
        run_simulate},
       {"design", "compute closed-form limits of a pillar sensor and its admissible region",
        run_design},
+      {"sweep", "answer a scene at many values of its parameters, to be stopped and continued",
+       run_sweep_command},
       {"cost", "measure what accuracy costs: error against time over meshes and effects", run_cost},
       {"report", "write one page about captures, tables and materials", run_report},
       {"demo", "run all steps on the emulated rig",

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "models/uncertainty/uncertain_number.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -61,9 +63,20 @@ class FieldVisitor {
 
 using ShowFields = std::function<void(FieldVisitor&)>;
 
+// A quantity that is not known exactly, as it stands in a file.
+struct UncertainField {
+  std::string key;   // "geometry.diameter", or "shape.at.2" for the second entry of a list
+  std::string text;  // "40 um +- 1 um"
+  std::string unit;  // SI
+  UncertainNumber number;
+};
+// Returns the value to take for it.
+using ChooseValue = std::function<double(const UncertainField& field)>;
+
 // Throws std::runtime_error with file, line, key and the expected value; messages show name in
-// place of the file.
-void read_toml_fields(const std::string& text, const std::string& name, const ShowFields& show);
+// place of the file. Quantities that are not known exactly are refused without `choose`.
+void read_toml_fields(const std::string& text, const std::string& name, const ShowFields& show,
+                      const ChooseValue& choose = {});
 
 std::string toml_from_fields(const ShowFields& show);
 

@@ -1,7 +1,7 @@
 #include "io/basics/number_text.h"
-#include "io/basics/units.h"
 #include "io/basics/words.h"
 #include "io/config/config_fields.h"
+#include "io/config/quantity_text.h"
 
 #include <toml++/toml.h>
 
@@ -26,26 +26,15 @@ bool is_in(Range range, double value) {
   return value >= 0.0 && (range != Range::kFraction || value <= 1.0);
 }
 
-// A number in quotes needs a unit, because the user may have meant any.
-double si_with_unit(const std::string& text, const char* unit) {
-  const double value = si_from_text(text, unit);
-  const bool has_unit = text.find_first_not_of("0123456789+-.eE \t") != std::string::npos;
-  if (!has_unit && std::string(unit) != "1") {
-    throw std::invalid_argument("\"" + text + "\" has no unit; write it with one, such as \"" +
-                                text + " " + unit + "\", or without the quotes if it is in " +
-                                unit);
-  }
-  return value;
-}
-
 class TomlReader final : public FieldVisitor {
  public:
-  TomlReader(const toml::table& table, std::string file, std::string prefix)
-      : table_(table), file_(std::move(file)), prefix_(std::move(prefix)) {}
+  TomlReader(const toml::table& table, std::string file, std::string prefix,
+             const ChooseValue& choose)
+      : table_(table), file_(std::move(file)), prefix_(std::move(prefix)), choose_(choose) {}
 
   void quantity(const QuantityField& field, double& value) override {
     const toml::node* node = find(field.key, field.is_required, expected(field));
-    if (node != nullptr) value = quantity_at(*node, field);
+    if (node != nullptr) value = quantity_at(*node, field, "");
   }
 
   void text(const TextField& field, std::string& value) override {
@@ -83,11 +72,12 @@ class TomlReader final : public FieldVisitor {
 
   void texts(const TextField& field, std::vector<std::string>& values) override {
     const std::string what = std::string("a list of texts, such as [\"") + field.example + "\"]";
-    read_list(field.key, field.is_required, what, values, [&](const toml::node& entry) {
-      const auto text = entry.value_exact<std::string>();
-      if (!text) fail(entry, field.key, "expected " + what);
-      return *text;
-    });
+    read_list(field.key, field.is_required, what, values,
+              [&](const toml::node& entry, const std::string&) {
+                const auto text = entry.value_exact<std::string>();
+                if (!text) fail(entry, field.key, "expected " + what);
+                return *text;
+              });
   }
 
   void quantity_pairs(const char* key, const char* first_unit, const char* second_unit,
@@ -96,17 +86,19 @@ class TomlReader final : public FieldVisitor {
     const std::string what = are_numbers ? "a list of pairs, [[1, 1], [2, 1], ...]"
                                          : std::string("a list of pairs, [[\"1 ") + first_unit +
                                                "\", \"2 " + second_unit + "\"], ...]";
-    read_list(key, false, what, values, [&](const toml::node& entry) {
+    read_list(key, false, what, values, [&](const toml::node& entry, const std::string& place) {
       const toml::array* pair = entry.as_array();
       if (pair == nullptr || pair->size() != 2) fail(entry, key, "expected " + what);
-      return std::pair(quantity_at(*pair->get(0), {key, first_unit}),
-                       quantity_at(*pair->get(1), {key, second_unit}));
+      return std::pair(quantity_at(*pair->get(0), {key, first_unit}, place + ".1"),
+                       quantity_at(*pair->get(1), {key, second_unit}, place + ".2"));
     });
   }
 
   void quantities(const QuantityField& field, std::vector<double>& values) override {
     read_list(field.key, field.is_required, "a list, each entry " + expected(field), values,
-              [&](const toml::node& entry) { return quantity_at(entry, field); });
+              [&](const toml::node& entry, const std::string& place) {
+                return quantity_at(entry, field, place);
+              });
   }
 
   void section(const char* key, const std::function<void(FieldVisitor&)>& body) override {
@@ -115,7 +107,8 @@ class TomlReader final : public FieldVisitor {
     if (node != nullptr && !node->is_table()) {
       fail(*node, key, std::string("expected a section [") + prefix_ + key + "]");
     }
-    TomlReader inner(node != nullptr ? *node->as_table() : kEmpty, file_, prefix_ + key + ".");
+    TomlReader inner(node != nullptr ? *node->as_table() : kEmpty, file_, prefix_ + key + ".",
+                     choose_);
     body(inner);
     inner.refuse_unknown_keys();
   }
@@ -141,7 +134,7 @@ class TomlReader final : public FieldVisitor {
     for (std::size_t i = 0; i < entries->size(); ++i) {
       const toml::table* entry = entries->get(i)->as_table();
       if (entry == nullptr) fail(*entries->get(i), key, "expected a list of tables");
-      TomlReader inner(*entry, file_, prefix_ + key + "[" + std::to_string(i + 1) + "].");
+      TomlReader inner(*entry, file_, prefix_ + key + "[" + std::to_string(i + 1) + "].", choose_);
       body(inner, i);
       inner.refuse_unknown_keys();
     }
@@ -159,7 +152,9 @@ class TomlReader final : public FieldVisitor {
   }
 
  private:
-  double quantity_at(const toml::node& node, const QuantityField& field) const {
+  // `place`: ".2" of the second entry of a list.
+  double quantity_at(const toml::node& node, const QuantityField& field,
+                     const std::string& place) const {
     double written = 0.0;
     if (const auto number = node.value_exact<double>()) {
       written = *number;
@@ -168,7 +163,11 @@ class TomlReader final : public FieldVisitor {
     } else if (const auto text = node.value_exact<std::string>()) {
       if (field.word != nullptr && *text == field.word) return field.word_value;
       try {
-        written = si_with_unit(*text, field.unit);
+        if (const auto uncertain = uncertain_from_text(*text, field.unit)) {
+          written = chosen({prefix_ + field.key + place, *text, field.unit, *uncertain});
+        } else {
+          written = quantity_from_text(*text, field.unit);
+        }
       } catch (const std::invalid_argument& error) {
         fail(node, field.key, error.what());
       }
@@ -180,6 +179,13 @@ class TomlReader final : public FieldVisitor {
            "is " + text_from_number(written) + "; expected " + text_of(field.range));
     }
     return written / field.written_per_value;
+  }
+
+  double chosen(const UncertainField& field) const {
+    if (!choose_) {
+      throw std::invalid_argument("is read exactly here; leave out what stands behind +-");
+    }
+    return choose_(field);
   }
 
   static std::string expected(const QuantityField& field) {
@@ -208,7 +214,9 @@ class TomlReader final : public FieldVisitor {
     if (node == nullptr) return;
     if (node->as_array() == nullptr) fail(*node, key, "expected " + what);
     values.clear();
-    for (const toml::node& entry : *node->as_array()) values.push_back(read_entry(entry));
+    for (const toml::node& entry : *node->as_array()) {
+      values.push_back(read_entry(entry, "." + std::to_string(values.size() + 1)));
+    }
   }
 
   std::string where(const toml::node& node) const {
@@ -222,13 +230,15 @@ class TomlReader final : public FieldVisitor {
   const toml::table& table_;
   std::string file_;
   std::string prefix_;  // "stage."
+  const ChooseValue& choose_;
   std::vector<std::string> known_;
   std::string missing_;  // message about the first required key that is missing
 };
 
 }  // namespace
 
-void read_toml_fields(const std::string& text, const std::string& name, const ShowFields& show) {
+void read_toml_fields(const std::string& text, const std::string& name, const ShowFields& show,
+                      const ChooseValue& choose) {
   toml::table table;
   try {
     table = toml::parse(text, name);
@@ -236,7 +246,7 @@ void read_toml_fields(const std::string& text, const std::string& name, const Sh
     throw std::runtime_error(name + ":" + std::to_string(error.source().begin.line) +
                              ": not TOML: " + std::string(error.description()));
   }
-  TomlReader reader(table, name, "");
+  TomlReader reader(table, name, "", choose);
   show(reader);
   reader.refuse_unknown_keys();
 }

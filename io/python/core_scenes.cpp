@@ -1,10 +1,13 @@
+#include "io/basics/atomic_file.h"
 #include "io/basics/units.h"
 #include "io/cost/effect_savings.h"
 #include "io/cost/study_cost.h"
 #include "io/flow/scenes/answer_scene.h"
+#include "io/flow/scenes/scene_uncertainty.h"
 #include "io/python/job.h"
 #include "io/python/keywords.h"
 #include "io/python/parts.h"
+#include "io/python/uncertainty_values.h"
 #include "io/python/values.h"
 #include "models/scene/plan.h"
 #include "models/scene/simulate.h"
@@ -144,12 +147,13 @@ py::list fields_list(std::vector<SectionGrid> grids) {
 
 struct SceneOutcome {
   SceneAnswer answer;
+  std::optional<SceneUncertainty> uncertainty;
   std::vector<SectionGrid> fields;
 };
 
 py::dict simulate_scene(const std::optional<std::string>& text, const std::string& path,
-                        std::optional<double> tolerance, bool with_fields,
-                        const py::object& progress) {
+                        std::optional<double> tolerance, bool with_fields, bool with_uncertainty,
+                        std::optional<std::size_t> samples, const py::object& progress) {
   SceneOutcome found = in_background({.progress = progress}, [=](Job& job) {
     const SceneFile file = scene_of(text, path, tolerance);
     SceneOutcome outcome;
@@ -157,6 +161,13 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
         file, path, [&](double done, const std::string& point) { job.report(done, point); });
     if (with_fields && file.sweep.is_empty()) {
       outcome.fields = solution_fields(file.scene, outcome.answer.discretisation);
+    }
+    if (with_uncertainty) {
+      const UncertainScene scene(file, text ? *text : read_file(path), path);
+      outcome.uncertainty = scene_uncertainty(scene, outcome.answer,
+                                              {.n_samples = samples, .progress = [&](double done) {
+                                                 job.report(done, "uncertainty");
+                                               }});
     }
     return outcome;
   });
@@ -177,6 +188,7 @@ py::dict simulate_scene(const std::optional<std::string>& text, const std::strin
   out["within_tolerance"] = answer.within_tolerance;
   out["unknowns"] = answer.unknowns;
   out["fields"] = fields_list(std::move(found.fields));
+  out["uncertainty"] = uncertainty_object(found.uncertainty);
   return out;
 }
 

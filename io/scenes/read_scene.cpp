@@ -1,10 +1,13 @@
 #include "io/basics/atomic_file.h"
 #include "io/config/config_fields.h"
+#include "io/materials/material_file.h"
 #include "io/scenes/scene_file.h"
 #include "io/scenes/scene_words.h"
+#include "models/material/ratio_causes.h"
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 
@@ -58,6 +61,27 @@ SceneReader reader_for(const std::string& text, const std::filesystem::path& pat
   return choice<SceneReader>("geometry.kind", kind, readers());
 }
 
+// What the computation does, and points that somebody wants, are as given.
+void refuse_uncertain(const std::string& key) {
+  for (const char* const exact : {"tolerance", "discretisation.", "sweep.", "analysis.frequencies",
+                                  "analysis.end_time", "materials.pillar.ratio"}) {
+    if (key.rfind(exact, 0) != 0) continue;
+    throw std::invalid_argument("has no uncertainty; leave out what stands behind +-");
+  }
+}
+
+// Why the material of the pillars is not known exactly. A joint fit states more than its material.
+MaterialCauses material_causes(const std::string& text, const std::filesystem::path& path,
+                               const Scene& scene) {
+  const toml::table table = toml::parse(text, path.string());
+  const char* const key = std::holds_alternative<LayerScene>(scene) ? "layer" : "pillar";
+  const toml::node_view<const toml::node> material = table["materials"][key];
+  const auto ratio = material["ratio"].value<double>();
+  const auto file = material["file"].value<std::string>();
+  if (!ratio || !file) return causes_of(common(scene).pillar);
+  return causes_at_ratio(read_ratio_fit(path.parent_path() / *file), *ratio);
+}
+
 std::string with_line(const std::string& text, const std::filesystem::path& path,
                       const SceneMistake& mistake) {
   const int line = line_of_key(text, mistake.key());
@@ -70,13 +94,25 @@ SceneFile read_scene(const std::filesystem::path& path) {
   return scene_from_toml(read_file(path), path);
 }
 
-SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& path) {
+SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& path,
+                          const std::map<std::string, double>& values) {
   SceneFile file;
+  const ChooseValue choose = [&](const UncertainField& field) {
+    refuse_uncertain(field.key);
+    const auto is_it = [&](const UncertainField& one) { return one.key == field.key; };
+    if (std::none_of(file.uncertain.begin(), file.uncertain.end(), is_it)) {
+      file.uncertain.push_back(field);
+    }
+    const auto given = values.find(field.key);
+    return given == values.end() ? field.number.value : given->second;
+  };
   const FieldReader read = [&](const std::function<void(FieldVisitor&)>& show) {
-    read_toml_fields(text, path.string(), show);
+    read_toml_fields(text, path.string(), show, choose);
   };
   try {
     reader_for(text, path)(read, path.parent_path(), file);
+    // Those who give values know the causes already.
+    if (values.empty()) file.material_causes = material_causes(text, path, file.scene);
   } catch (const SceneMistake& mistake) {
     throw std::runtime_error(with_line(text, path, mistake));
   } catch (const std::invalid_argument& error) {

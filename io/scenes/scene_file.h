@@ -1,9 +1,12 @@
 #pragma once
 
+#include "io/config/config_fields.h"
+#include "models/material/material_causes.h"
 #include "models/pillar/mesh/scene_mistake.h"
 #include "models/scene/scene.h"
 
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -29,17 +32,21 @@ struct PrintedValue {
 
 // What stands in a scene file.
 struct SceneFile {
-  Scene scene;
-  ArraySweep sweep;                   // of rows of pillars; otherwise empty
-  std::vector<PrintedValue> printed;  // [[printed]]
+  Scene scene;                            // every uncertain quantity at its value
+  std::vector<UncertainField> uncertain;  // in the order they were read
+  MaterialCauses material_causes;         // what the file of the pillars' material states
+  ArraySweep sweep;                       // of rows of pillars; otherwise empty
+  std::vector<PrintedValue> printed;      // [[printed]]
 };
 
 // Scene files are TOML; data/scenes/ holds commented examples. Material files are looked for in the
 // folder of the scene. Throws std::runtime_error with file:line, key and what is expected, or with
 // the name of a bad material file.
 SceneFile read_scene(const std::filesystem::path& path);
-// The same from text; messages show `path`, whose folder holds the material files.
-SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& path);
+// The same from text; messages show `path`, whose folder holds the material files. Uncertain quantities
+// named in `values` take these values (SI).
+SceneFile scene_from_toml(const std::string& text, const std::filesystem::path& path,
+                          const std::map<std::string, double>& values = {});
 
 // One combination; `label` names what varies: "diameter 40 um, spacing 60 um".
 struct SweepPoint {

@@ -9,6 +9,7 @@ namespace viscard {
 
 void show_material(FieldVisitor& v, RawMaterial& m) {
   v.text({"file", "pdms_1to10_seed.json"}, m.file);
+  v.quantity({.key = "ratio", .range = Range::kPositive}, m.ratio);
   v.quantity({.key = "E", .unit = "Pa", .range = Range::kPositive}, m.E_Pa);
   v.quantity({.key = "nu"}, m.nu);
   v.quantity({.key = "rho", .unit = "kg/m3", .range = Range::kPositive}, m.rho_kg_m3);
@@ -74,7 +75,15 @@ MediumFile film_medium(const std::string& key, const RawMaterial& raw,
 
 Material pillar_material(const RawMaterial& raw, const std::filesystem::path& folder) {
   if (!raw.file.empty()) {
-    Material material = read_material(folder / raw.file).material;
+    const bool is_joint = looks_like_ratio_file(folder / raw.file);
+    if (is_joint != (raw.ratio > 0.0)) {
+      throw SceneMistake("materials.pillar",
+                         is_joint ? "the file is a joint fit over mixing ratios; name one, such as "
+                                    "ratio = 10 (parts of base to one of curing agent)"
+                                  : "the file holds one material, so ratio has no meaning");
+    }
+    Material material = is_joint ? material_at_ratio(read_ratio_fit(folder / raw.file), raw.ratio)
+                                 : read_material(folder / raw.file).material;
     refuse_liquid(material, raw.file);
     return material;
   }

@@ -41,9 +41,11 @@ Value choice(const std::string& key, const std::string& word,
       key, "cannot be '" + word + "'" + did_you_mean(word, known) + " There are: " + listed(known));
 }
 
-// A material as it stands in a scene: a file, or an elastic one in place.
+// A material as it stands in a scene: a file, or an elastic one in place. A joint fit needs a mixing
+// ratio.
 struct RawMaterial {
   std::string file;
+  double ratio = 0.0;
   double E_Pa = 0.0, nu = 0.0, rho_kg_m3 = 0.0;
 };
 void show_material(FieldVisitor& v, RawMaterial& material);

@@ -3,11 +3,13 @@
 #include "io/cli/scene/answer_pictures.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/scene/sweep_run.h"
+#include "io/cli/scene/uncertainty_output.h"
 #include "io/cli/words/command_line.h"
 #include "io/cli/words/fitted_text.h"
 #include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
 #include "io/flow/scenes/answer_scene.h"
+#include "io/flow/scenes/scene_uncertainty.h"
 #include "io/flow/scenes/wanted_results.h"
 #include "io/pictures/section_picture.h"
 #include "io/scenes/scene_file.h"
@@ -48,6 +50,26 @@ void write_looks(const Scene& scene, const SceneAnswer& answer, const SweepOutpu
   write_pictures(pictures_over_pillars(answer, loaded), output.folder, output.overwrite);
 }
 
+// The uncertainty of an answer, if it is asked for.
+std::optional<SceneUncertainty> uncertainty_of(const po::variables_map& values,
+                                               const SceneFile& file, const std::string& path,
+                                               const SceneAnswer& answer, Streams& streams) {
+  const auto n_samples = given<std::size_t>(values, "samples");
+  if (values.count("uncertainty") == 0) {
+    if (n_samples) throw UsageError("--samples belongs to --uncertainty; give both");
+    return std::nullopt;
+  }
+  constexpr std::size_t kFewest = 100, kMost = 10'000'000;
+  if (n_samples && (*n_samples < kFewest || *n_samples > kMost)) {
+    throw UsageError("--samples must be a number from 100 to 10000000");
+  }
+  Progress progress(streams, "uncertainty");
+  const UncertainScene scene(file, read_file(path), path);
+  return scene_uncertainty(scene, answer, {.n_samples = n_samples, .progress = [&](double done) {
+                                             progress.show(done, "");
+                                           }});
+}
+
 CommandSyntax simulate_syntax() {
   CommandSyntax syntax{
       "viscard simulate SCENE.toml [OPTIONS]",
@@ -63,7 +85,12 @@ CommandSyntax simulate_syntax() {
       "out", po::value<std::string>(),
       "folder for results as JSON and CSV, curves as CSV and pictures; static and modal scenes add "
       "fields as .vtu for ParaView, arrays in the plane pillars.csv and maps as .npy")(
-      "force", "overwrite existing files");
+      "uncertainty",
+      "95 % intervals of the results, and which inputs make how much of their variance: quantities "
+      "such as \"40 um +- 1 um\" (also: uniform, lognormal) and what material files state")(
+      "samples", po::value<std::size_t>(),
+      "with --uncertainty: sample with about so many answers, also where the linear answer would "
+      "do; default: 4000 where it would not")("force", "overwrite existing files");
   syntax.positional = {"scene"};
   return syntax;
 }
@@ -88,17 +115,21 @@ int run_simulate(const Words& words, Streams& streams) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const auto printed = compare_printed(file.printed, answer);
   if (!is_sweep) keep_wanted(common(file.scene).wanted, answer);  // a sweep has kept them by point
+  const auto uncertainty = uncertainty_of(*values, file, path, answer, streams);
   const JsonHead head{"viscard-simulate/1", {path}};
   nlohmann::json object = with_head(head, json_from_answer(answer, wall_s));
   if (!printed.empty()) object["printed"] = json_from_comparison(printed);
+  if (uncertainty) object["uncertainty"] = json_from_uncertainty(*uncertainty);
   if (!folder.empty()) {
     write_files(answer, object, folder, output.command, output.overwrite);
     if (!is_sweep) write_looks(file.scene, answer, output, streams);
+    if (uncertainty) write_uncertainty(*uncertainty, folder, output.command, output.overwrite);
   }
   if (print_json(*values, head, object, streams)) return kDone;
   streams.out << path << "\n";
   print_answer(answer, wall_s, FittedText(streams));
   print_comparison(printed, FittedText(streams));
+  if (uncertainty) print_uncertainty(*uncertainty, FittedText(streams));
   return kDone;
 }
 

@@ -1,45 +1,25 @@
 #include "io/basics/units.h"
 #include "io/basics/words.h"
 #include "io/cli/scene/answer_output.h"
+#include "io/flow/scenes/named_values.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <stdexcept>
 
 namespace viscard {
-namespace {
-
-struct Named {
-  std::string name;
-  double value;
-  std::string unit;
-};
-
-std::vector<Named> named_values(const SceneAnswer& answer) {
-  std::vector<Named> all;
-  for (const SceneResult& r : answer.results) all.push_back({r.name, r.value, r.unit});
-  std::map<std::string, int> count;
-  for (const SceneMode& m : answer.modes) {
-    all.push_back({fmt::format("{} {}", m.family, ++count[m.family]), m.frequency_Hz, "Hz"});
-  }
-  return all;
-}
-
-}  // namespace
-
 std::vector<PrintedComparison> compare_printed(const std::vector<PrintedValue>& printed,
                                                const SceneAnswer& answer) {
-  const std::vector<Named> all = named_values(answer);
+  const std::vector<NamedValue> all = named_values(answer);
   std::vector<std::string> known;
-  for (const Named& one : all) known.push_back(one.name);
+  for (const NamedValue& one : all) known.push_back(one.name);
   std::vector<PrintedComparison> rows;
   for (const PrintedValue& p : printed) {
     const auto ours =
-        std::find_if(all.begin(), all.end(), [&](const Named& n) { return n.name == p.name; });
+        std::find_if(all.begin(), all.end(), [&](const NamedValue& n) { return n.name == p.name; });
     if (ours == all.end()) {
       throw std::runtime_error("[[printed]]: the answer has no '" + p.name + "'" +
                                did_you_mean(p.name, known, ""));

@@ -18,6 +18,8 @@ int run_scene(const Words& words, Streams& streams);
 int run_plan(const Words& words, Streams& streams);
 // viscard simulate: solves a scene file (io/scenes/scene_file.h) with error estimates.
 int run_simulate(const Words& words, Streams& streams);
+// viscard sweep: a scene at many values of its parameters, kept in an SQLite file.
+int run_sweep_command(const Words& words, Streams& streams);
 // viscard design: closed-form limits of a pillar sensor, the longest admissible pillar, and
 // pictures of the admissible region.
 int run_design(const Words& words, Streams& streams);

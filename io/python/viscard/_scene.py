@@ -77,6 +77,10 @@ class Answer:
         With ``simulate(..., fields=True)``, of static and modal scenes of one pillar.
     effects : list of dict
         What the plan left out, and why.
+    uncertainty : dict or None
+        With ``simulate(..., uncertainty=True)``: "method" ("linear" or "sobol") and its "reason", "inputs"
+        {name: text}, "results" {name: {"value", "unit", "interval_95", "standard_uncertainty", "numerical_error",
+        "shares" {input: share of the variance}, "share_errors"}}, "answers", "failed", "notes".
     notes : list of str
     within_tolerance : bool
     unknowns : int
@@ -100,6 +104,7 @@ class Answer:
         self.fields = [Field(f["name"], f["harmonic"], f["x_m"], f["z_m"], f["quads"], f["values"])
                        for f in found["fields"]]
         self.effects: List[Dict[str, Any]] = found["effects"]
+        self.uncertainty: Optional[Dict[str, Any]] = found["uncertainty"]
         self.notes: List[str] = found["notes"]
         self.within_tolerance: bool = found["within_tolerance"]
         self.unknowns: int = found["unknowns"]
@@ -240,8 +245,8 @@ def _with_scene(scene, folder, work):
             raise Error(text, error.code, message, where, error.hint) from None
 
 
-def simulate(scene, *, tol: Optional[float] = None, fields: bool = False, folder=None,
-             progress: Progress = None) -> Answer:
+def simulate(scene, *, tol: Optional[float] = None, fields: bool = False, uncertainty: bool = False,
+             samples: Optional[int] = None, folder=None, progress: Progress = None) -> Answer:
     """Answer a scene; the mesh is refined until the estimated error meets the tolerance.
 
     The GIL is released. Ctrl-C raises KeyboardInterrupt at once; the mesh that is being solved ends in the background.
@@ -255,6 +260,11 @@ def simulate(scene, *, tol: Optional[float] = None, fields: bool = False, folder
         Relative error allowed, instead of the scene's.
     fields : bool
         Add the solution on the section (it is solved once more).
+    uncertainty : bool
+        Add 95 % intervals of the results and the share of each input in their variance: quantities such as
+        "40 um +- 1 um" and what material files state.
+    samples : int
+        With uncertainty: sample with about so many answers, also where the linear answer would do.
     folder : path
         Of a dict: where files that it names are looked for; default: the working folder.
     progress : function of (fraction, point)
@@ -270,10 +280,17 @@ def simulate(scene, *, tol: Optional[float] = None, fields: bool = False, folder
     ...     "analysis": {"kind": "static", "load": {"displacement": -1e-6, "on": "top"}}})
     >>> f"{answer['electrode_voltage'] * 1e3:.0f} mV"
     '29 mV'
+    >>> pillar = {"geometry": {"diameter": "40 um", "length": "120 um"}, "analysis": {"kind": "modal", "modes": 1},
+    ...           "materials": {"pillar": {"E": "1.8 MPa +- 2 %", "nu": 0.33, "rho": "965 kg/m3 +- 4 %"}}}
+    >>> torsion = viscard.simulate(pillar, uncertainty=True).uncertainty["results"]["torsion 1"]
+    >>> {name: round(share, 3) for name, share in torsion["shares"].items()}
+    {'materials.pillar.E': 0.2, 'materials.pillar.rho': 0.8}
     """
+    if samples is not None and not uncertainty:
+        raise Error("samples belongs to uncertainty=True; give both", "usage")
     tolerance = None if tol is None else float(tol)
     return Answer(_with_scene(scene, folder, lambda text, path: _core.simulate(
-        text, path, tolerance, bool(fields), progress)))
+        text, path, tolerance, bool(fields), bool(uncertainty), None if samples is None else int(samples), progress)))
 
 
 def plan(scene, *, tol: Optional[float] = None, folder=None) -> Plan:

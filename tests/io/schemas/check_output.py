@@ -145,6 +145,8 @@ def check_scenes():
         run(["simulate", scene, "--out", name], "simulate")
         check_object(f"{name}/results.json", pathlib.Path(name, "results.json").read_text(), "viscard-simulate/1")
     run(["simulate", data("seed/table_7_1_modes.toml")], "simulate")
+    run(["simulate", data("scenes/pillar_uncertain.toml"), "--uncertainty", "--samples", "200"], "simulate")
+    run(["sweep", data("studies/pillar.toml"), "--out", "study.sqlite"], "sweep")
     run(["design", "--out", "limits"], "design")
     check_object("design.json", pathlib.Path("limits/design.json").read_text(), "viscard-design/1")
     run(["cost", data("scenes/pillar_modal.toml"), "--budget", "1s"], "cost")

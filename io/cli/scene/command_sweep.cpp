@@ -1,0 +1,108 @@
+#include "io/basics/atomic_file.h"
+#include "io/cli/scene/scene_commands.h"
+#include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
+#include "io/cli/words/output_paths.h"
+#include "io/cli/words/progress.h"
+#include "io/flow/sweep/run_study.h"
+#include "io/scenes/scene_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <ostream>
+
+namespace po = boost::program_options;
+
+namespace viscard {
+namespace {
+
+CommandSyntax sweep_syntax() {
+  CommandSyntax syntax{
+      "viscard sweep STUDY.toml [OPTIONS]",
+      "Answers a scene at many values of its parameters, on all cores: every combination of lists "
+      "and "
+      "ranges, or points of a Sobol' sequence. Each point is kept as it ends, so that a sweep that "
+      "was "
+      "stopped, also by kill -9, continues where it was. Parts of a sweep may run on other "
+      "machines "
+      "(--shard) and be merged.",
+      "viscard sweep data/studies/pillar.toml --out study.sqlite --csv study.csv"};
+  syntax.options.add_options()("out", po::value<std::string>(),
+                               "SQLite file of the points; default: the study's name with .sqlite, "
+                               "in this folder")("csv", po::value<std::string>(),
+                                                 "write the points as a table, too")(
+      "shard", po::value<std::string>(), "answer one part of the points only, such as 3/64")(
+      "merge", po::value<std::vector<std::string>>()->composing(),
+      "take over the points of another part (repeat it for several); nothing is answered then")(
+      "force", "overwrite an existing table");
+  syntax.positional = {"study"};
+  return syntax;
+}
+
+std::string words_of(const StudyOutcome& outcome, const std::string& file, std::int64_t merged,
+                     std::int64_t n_done) {
+  std::string text = fmt::format("{}: {} of {} points are done", file, n_done, outcome.n_points);
+  if (merged > 0) text += fmt::format(", {} taken over now", merged);
+  if (outcome.n_answered > 0) text += fmt::format(", {} answered now", outcome.n_answered);
+  if (outcome.n_failed > 0) {
+    text += fmt::format("; {} of these have no answer (column failure says why)", outcome.n_failed);
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+int run_sweep_command(const Words& words, Streams& streams) {
+  CommandSyntax syntax = sweep_syntax();
+  const auto values = parse_words(syntax, words, streams);
+  if (!values) return kDone;
+  const auto path = required(*values, "study", syntax);
+  StudyShard shard;
+  if (const auto text = given(*values, "shard")) {
+    try {
+      shard = shard_from(*text);
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(error.what());
+    }
+  }
+  const auto parts = given<std::vector<std::string>>(*values, "merge");
+  if (parts && values->count("shard") > 0) {
+    throw UsageError("--merge takes over points and answers none; leave --shard out");
+  }
+  const auto table = given(*values, "csv");
+  if (table) refuse_existing(*table, values->count("force") > 0);
+  const Study study = read_study(path);
+  // A mistake in the study or its scene is reported here, not once for each point.
+  scene_from_toml(scene_text_with(study, values_at(study, 0)), study.scene_path);
+  const std::string file =
+      given(*values, "out").value_or(std::filesystem::path(path).stem().string() + ".sqlite");
+  StudyStore store(file, study);
+  StudyOutcome outcome{.n_points = count_points(study)};
+  std::int64_t merged = 0;
+  if (parts) {
+    for (const std::string& part : *parts) merged += store.merge(part, study);
+  } else {
+    Progress progress(streams, "sweep");
+    outcome = run_study(study, shard, store, [&](double done) { progress.show(done, ""); });
+  }
+  if (table) write_file(*table, csv_from_study(store, study), values->count("force") > 0);
+  const auto n_done = static_cast<std::int64_t>(store.done().size());
+  const JsonHead head{"viscard-sweep/1", {path}};
+  const nlohmann::json object{{"file", file},
+                              {"points", outcome.n_points},
+                              {"done", n_done},
+                              {"answered", outcome.n_answered},
+                              {"failed", outcome.n_failed},
+                              {"merged", merged}};
+  const int status =
+      outcome.n_answered > 0 && outcome.n_failed == outcome.n_answered ? kFailed : kDone;
+  if (print_json(*values, head, object, streams)) return status;
+  FittedText text(streams);
+  static_cast<std::ostream&>(text) << words_of(outcome, file, merged, n_done);
+  return status;
+}
+
+}  // namespace viscard

@@ -1,0 +1,159 @@
+#include "io/cli/scene/uncertainty_output.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/pictures/share_picture.h"
+#include "models/maths/text_of_number.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+
+namespace viscard {
+namespace {
+
+// Share of the variance that inputs cause only together.
+double jointly(const ResultUncertainty& result) {
+  double rest = result.standard_uncertainty > 0.0 ? 1.0 : 0.0;
+  for (const CauseShare& cause : result.causes) rest -= cause.share;
+  return rest;
+}
+
+const char* method_of(const SceneUncertainty& uncertainty) {
+  return uncertainty.is_sampled ? "sobol" : "linear";
+}
+
+nlohmann::json json_of(const ResultUncertainty& result, const SceneUncertainty& all) {
+  nlohmann::json causes = nlohmann::json::array();
+  for (std::size_t i = 0; i < result.causes.size(); ++i) {
+    const CauseShare& cause = result.causes[i];
+    causes.push_back({{"input", all.inputs[i].name},
+                      {"share", cause.share},
+                      {"share_with_others", cause.with_others},
+                      {"share_standard_error", cause.standard_error}});
+  }
+  return {{"name", result.name},
+          {"unit", result.unit},
+          {"value", result.value},
+          {"interval_95", {result.interval_95.low, result.interval_95.high}},
+          {"interval_end_error", result.end_error},
+          {"standard_uncertainty", result.standard_uncertainty},
+          {"numerical_error", result.numerical_error},
+          {"linear_disagreement", result.linear_disagreement},
+          {"causes", causes},
+          {"share_jointly", jointly(result)}};
+}
+
+std::string interval_words(const ResultUncertainty& result) {
+  return fmt::format("{} to {} {}", text_of(result.interval_95.low, 4),
+                     text_of(result.interval_95.high, 4), result.unit == "1" ? "" : result.unit);
+}
+
+std::string csv_of(const SceneUncertainty& uncertainty, const std::string& command) {
+  std::string text = fmt::format(
+      "# {} (viscard {})\nresult,unit,value,low_95,high_95,standard_uncertainty,numerical_error,"
+      "input,share,share_with_others,share_standard_error\n",
+      command, VISCARD_VERSION);
+  for (const ResultUncertainty& r : uncertainty.results) {
+    for (std::size_t i = 0; i < r.causes.size(); ++i) {
+      const CauseShare& cause = r.causes[i];
+      text += fmt::format("{},{},{:.9g},{:.9g},{:.9g},{:.6g},{:.3g},{},{:.5f},{:.5f},{:.2g}\n",
+                          r.name, r.unit, r.value, r.interval_95.low, r.interval_95.high,
+                          r.standard_uncertainty, r.numerical_error, uncertainty.inputs[i].name,
+                          cause.share, cause.with_others, cause.standard_error);
+    }
+  }
+  return text;
+}
+
+std::string picture_of(const SceneUncertainty& uncertainty) {
+  std::vector<std::string> parts;
+  for (const UncertainInput& input : uncertainty.inputs) parts.push_back(input.name);
+  std::vector<ShareBar> bars;
+  bool has_rest = false;
+  for (const ResultUncertainty& result : uncertainty.results) {
+    if (!(result.standard_uncertainty > 0.0)) continue;
+    ShareBar bar{result.name, interval_words(result), {}};
+    for (const CauseShare& cause : result.causes) bar.shares.push_back(cause.share);
+    has_rest = has_rest || jointly(result) > 0.005;
+    bars.push_back(std::move(bar));
+  }
+  return svg_from_shares(parts, has_rest ? "several inputs together" : "", bars,
+                         "Which inputs make how much of the variance (95 % intervals beside)");
+}
+
+void print_result(const ResultUncertainty& result, const SceneUncertainty& all, std::ostream& out) {
+  constexpr double kSmallest = 0.005;  // of the shares that are printed
+  out << fmt::format("  {:<28} {}, standard uncertainty {}, numerical error {:.1e}\n", result.name,
+                     interval_words(result), text_of(result.standard_uncertainty, 3),
+                     result.numerical_error);
+  std::vector<std::size_t> order(result.causes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return result.causes[a].share > result.causes[b].share;
+  });
+  for (const std::size_t i : order) {
+    if (result.causes[i].share < kSmallest) continue;
+    out << fmt::format("    {:>5.1f} %  {}  ({})\n", 100.0 * result.causes[i].share,
+                       all.inputs[i].name, all.descriptions[i]);
+  }
+  if (jointly(result) < kSmallest) return;
+  out << fmt::format("    {:>5.1f} %  several inputs together\n", 100.0 * jointly(result));
+}
+
+}  // namespace
+
+nlohmann::json json_from_uncertainty(const SceneUncertainty& uncertainty) {
+  nlohmann::json inputs = nlohmann::json::array(), results = nlohmann::json::array();
+  for (std::size_t i = 0; i < uncertainty.inputs.size(); ++i) {
+    inputs.push_back({{"name", uncertainty.inputs[i].name}, {"text", uncertainty.descriptions[i]}});
+  }
+  for (const ResultUncertainty& one : uncertainty.results) {
+    results.push_back(json_of(one, uncertainty));
+  }
+  return {{"method", method_of(uncertainty)},
+          {"reason", uncertainty.reason},
+          {"inputs", inputs},
+          {"results", results},
+          {"answers", uncertainty.n_answers},
+          {"failed", uncertainty.n_failed},
+          {"derivative_error", uncertainty.slope_error},
+          {"mesh",
+           {{"degree", uncertainty.mesh.degree},
+            {"layers", uncertainty.mesh.layers},
+            {"error", uncertainty.mesh_error}}},
+          {"notes", uncertainty.notes}};
+}
+
+void print_uncertainty(const SceneUncertainty& uncertainty, std::ostream& out) {
+  out << fmt::format("\nuncertainty: 95 % intervals from {} ({}), {}\n",
+                     counted(uncertainty.inputs.size(), "input"),
+                     uncertainty.is_sampled ? "Sobol' sequence" : "linear",
+                     counted(uncertainty.n_answers, "answer"));
+  for (const ResultUncertainty& result : uncertainty.results) {
+    print_result(result, uncertainty, out);
+  }
+  out << "  " << uncertainty.reason << "\n";
+  if (uncertainty.is_sampled) {
+    out << fmt::format(
+        "  sampled with degree {}, {} at the rim; deviations there differ by {:.1e} of the "
+        "standard "
+        "uncertainty\n",
+        uncertainty.mesh.degree,
+        counted(static_cast<std::size_t>(uncertainty.mesh.layers), "layer"),
+        uncertainty.mesh_error);
+  }
+  for (const std::string& note : uncertainty.notes) out << "  note: " << note << "\n";
+}
+
+void write_uncertainty(const SceneUncertainty& uncertainty, const std::string& folder,
+                       const std::string& command, bool overwrite) {
+  const std::filesystem::path in = folder;
+  write_file(in / "uncertainty.csv", csv_of(uncertainty, command), overwrite);
+  write_file(in / "uncertainty.svg", picture_of(uncertainty), overwrite);
+}
+
+}  // namespace viscard

@@ -1,0 +1,279 @@
+#include "io/flow/scenes/scene_uncertainty.h"
+
+#include "io/basics/parallel.h"
+#include "io/flow/scenes/named_values.h"
+#include "models/maths/dense.h"
+#include "models/scene/simulate.h"
+#include "models/uncertainty/sampled_propagation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kNoAnswer = std::numeric_limits<double>::quiet_NaN();
+
+// Counts the answers for the progress, from several threads.
+class AnswerCount {
+ public:
+  AnswerCount(const std::function<void(double)>& progress) : progress_(progress) {}
+  void expect(std::size_t more) { expected_ += more; }
+  void add_one() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++done_;
+    if (progress_) {
+      progress_(std::min(1.0, static_cast<double>(done_) / static_cast<double>(expected_)));
+    }
+  }
+  // Keeps the first reason why a point has no answer.
+  void keep_reason(const std::string& why) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (why_.empty()) why_ = why;
+  }
+  const std::string& why() const { return why_; }
+
+ private:
+  const std::function<void(double)>& progress_;
+  std::mutex mutex_;
+  std::size_t done_ = 0, expected_ = 0;
+  std::string why_;
+};
+
+// The answers of a scene on one mesh, so that they vary smoothly with the inputs.
+class AnswersOnMesh {
+ public:
+  AnswersOnMesh(const UncertainScene& scene, const std::vector<NamedValue>& wanted,
+                const Discretisation& mesh, AnswerCount& count)
+      : scene_(scene), wanted_(wanted), mesh_(mesh), count_(count) {}
+
+  MatrixXd operator()(const MatrixXd& deviates) const {
+    count_.expect(static_cast<std::size_t>(deviates.rows()));
+    MatrixXd answers(deviates.rows(), static_cast<Index>(wanted_.size()));
+    for_each_in_parallel(static_cast<std::size_t>(deviates.rows()), [&](std::size_t i) {
+      const auto row = static_cast<Index>(i);
+      answers.row(row) = answer_at(deviates.row(row)).transpose();
+      count_.add_one();
+    });
+    return answers;
+  }
+
+ private:
+  VectorXd answer_at(const VectorXd& deviates) const {
+    VectorXd row = VectorXd::Constant(static_cast<Index>(wanted_.size()), kNoAnswer);
+    try {
+      const auto found = named_values(answer_on(scene_.reduced_at(deviates), mesh_));
+      for (std::size_t r = 0; r < wanted_.size(); ++r) {
+        const auto it = std::find_if(found.begin(), found.end(), [&](const NamedValue& one) {
+          return one.name == wanted_[r].name;
+        });
+        if (it != found.end()) row[static_cast<Index>(r)] = it->value;
+      }
+    } catch (const std::exception& error) {
+      count_.keep_reason(error.what());
+    }
+    return row;
+  }
+
+  const UncertainScene& scene_;
+  const std::vector<NamedValue>& wanted_;
+  const Discretisation& mesh_;
+  AnswerCount& count_;
+};
+
+// Coarser meshes of one pillar, cheapest first, that may serve for samples; the last is `finest`.
+std::vector<Discretisation> coarser_meshes(const Scene& scene, const Discretisation& finest) {
+  std::vector<Discretisation> meshes;
+  const auto* pillar = std::get_if<PillarScene>(&scene);
+  if (pillar != nullptr && !pillar->discretisation) {
+    for (const auto& [degree, layers] : {std::pair(3, 1), {4, 2}, {5, 2}, {6, 3}}) {
+      if (degree >= finest.degree) continue;
+      Discretisation mesh = finest;
+      mesh.degree = degree;
+      mesh.layers = std::min(layers, finest.layers);
+      meshes.push_back(mesh);
+    }
+  }
+  meshes.push_back(finest);
+  return meshes;
+}
+
+// Answers on a coarser mesh, corrected to first order for the answer's own mesh.
+struct CoarseAnswers {
+  VectorXd value;       // with every input at its value
+  MatrixXd correction;  // deviates x results, to be added to the deviations
+  double error =
+      0.0;  // of the deviations that remains at the ends, relative to standard uncertainty
+};
+
+CoarseAnswers compare_meshes(const MatrixXd& coarse_at_ends, const VectorXd& value,
+                             const LinearAnswer& linear) {
+  CoarseAnswers out{value, MatrixXd::Zero(linear.ends.cols(), value.size())};
+  const VectorXd deviation = standard_uncertainty(linear);
+  std::vector<Index> rows;
+  for (Index i = 0; i < coarse_at_ends.rows(); ++i) {
+    if (coarse_at_ends.row(i).allFinite() && linear.at_ends.row(i).allFinite()) rows.push_back(i);
+  }
+  MatrixXd at(static_cast<Index>(rows.size()), linear.ends.cols());
+  MatrixXd missing(static_cast<Index>(rows.size()), value.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto row = static_cast<Index>(k);
+    at.row(row) = linear.ends.row(rows[k]);
+    missing.row(row) = (linear.at_ends.row(rows[k]) - linear.value.transpose()) -
+                       (coarse_at_ends.row(rows[k]) - value.transpose());
+  }
+  for (Index r = 0; r < value.size(); ++r) {
+    if (!(deviation[r] > 0.0) || rows.empty()) continue;
+    out.correction.col(r) = PivotedQr(at).solve(VectorXd(missing.col(r)));
+    const VectorXd rest = missing.col(r) - at * out.correction.col(r);
+    out.error = std::max(out.error, rest.cwiseAbs().maxCoeff() / deviation[r]);
+  }
+  return out;
+}
+
+// The plan: sampling is needed unless the linear answer is within the tolerance.
+bool is_linear_enough(const LinearAnswer& linear, const std::vector<NamedValue>& values,
+                      double tolerance, std::string& reason) {
+  double worst = 0.0;
+  std::string name;
+  for (std::size_t r = 0; r < values.size(); ++r) {
+    const double error =
+        linear.disagreement[static_cast<Index>(r)] / std::max(std::abs(values[r].value), 1e-300);
+    if (error > 0.0 && !(error <= worst)) {
+      worst = error;
+      name = values[r].name;
+    }
+  }
+  const bool is_enough = worst <= tolerance;
+  reason = std::isfinite(worst)
+               ? fmt::format(
+                     "the linear answer differs from the scene's own by up to {:.2g} of the "
+                     "value{} at the ends of the intervals; the tolerance is {:.2g}",
+                     worst, name.empty() ? "" : " (" + name + ")", tolerance)
+               : "the scene has no answer at some end of the intervals";
+  return is_enough;
+}
+
+void take_linear(const LinearAnswer& linear, SceneUncertainty& out) {
+  const VectorXd deviation = standard_uncertainty(linear);
+  const MatrixXd shares = variance_shares(linear, out.inputs);
+  const std::vector<Interval> intervals = intervals_95(linear, out.inputs);
+  for (std::size_t r = 0; r < out.results.size(); ++r) {
+    ResultUncertainty& result = out.results[r];
+    const auto row = static_cast<Index>(r);
+    const double offset = result.value - linear.value[row];
+    result.standard_uncertainty = deviation[row];
+    result.interval_95 = {intervals[r].low + offset, intervals[r].high + offset};
+    result.linear_disagreement = linear.disagreement[row];
+    for (Index g = 0; g < shares.cols(); ++g) {
+      result.causes.push_back({shares(row, g), shares(row, g), 0.0});
+    }
+    if (!(deviation[row] > 0.0)) continue;
+    out.slope_error =
+        std::max(out.slope_error, linear.slope_error.row(row).maxCoeff() / deviation[row]);
+  }
+}
+
+void take_samples(const SampledAnswer& sampled, const VectorXd& value_on_mesh,
+                  SceneUncertainty& out) {
+  for (std::size_t r = 0; r < out.results.size(); ++r) {
+    ResultUncertainty& result = out.results[r];
+    const SampledResult& found = sampled.results[r];
+    const double offset = result.value - value_on_mesh[static_cast<Index>(r)];
+    result.standard_uncertainty = found.deviation;
+    result.interval_95 = {found.interval_95.low + offset, found.interval_95.high + offset};
+    result.end_error = found.end_error;
+    result.causes.clear();
+    for (const VarianceShare& share : found.shares) {
+      result.causes.push_back({share.alone, share.with_others, share.standard_error});
+    }
+  }
+  out.n_answers += sampled.n_answers;
+  out.n_failed = sampled.n_failed;
+}
+
+// Samples on the cheapest mesh whose deviations are those of the answer's mesh.
+void sample(const UncertainScene& scene, const std::vector<NamedValue>& values,
+            const LinearAnswer& linear, const UncertaintyOptions& options, AnswerCount& count,
+            SceneUncertainty& out) {
+  constexpr double kMeshError = 0.01;  // of the standard uncertainty
+  constexpr std::size_t kUsualSamples = 4000;
+  const Index n_deviates = linear.ends.cols();
+  for (const Discretisation& mesh : coarser_meshes(scene.file().scene, out.mesh)) {
+    const AnswersOnMesh function(scene, values, mesh, count);
+    CoarseAnswers coarse{linear.value, MatrixXd::Zero(n_deviates, linear.value.size())};
+    if (mesh.degree != out.mesh.degree || mesh.layers != out.mesh.layers) {
+      const VectorXd value = function(MatrixXd::Zero(1, n_deviates)).row(0).transpose();
+      coarse = compare_meshes(function(linear.ends), value, linear);
+      out.n_answers += static_cast<std::size_t>(linear.ends.rows()) + 1;
+      if (!(coarse.error <= kMeshError) || !value.allFinite()) continue;
+    }
+    const BatchFunction corrected = [&](const MatrixXd& deviates) {
+      return MatrixXd(function(deviates) + deviates * coarse.correction);
+    };
+    take_samples(sampled_answer(corrected, out.inputs,
+                                {.n_answers = options.n_samples.value_or(kUsualSamples)}),
+                 coarse.value, out);
+    out.mesh = mesh;
+    out.mesh_error = coarse.error;
+    return;
+  }
+}
+
+SceneUncertainty uncertainty_of(const UncertainScene& scene, const SceneAnswer& answer,
+                                const UncertaintyOptions& options, AnswerCount& count) {
+  const std::vector<NamedValue> values = named_values(answer);
+  SceneUncertainty out{.inputs = scene.inputs(), .descriptions = scene.descriptions()};
+  out.mesh = answer.discretisation;
+  out.notes = scene.notes();
+  for (const NamedValue& one : values) {
+    out.results.push_back({.name = one.name,
+                           .unit = one.unit,
+                           .value = one.value,
+                           .numerical_error = one.error_estimate});
+  }
+  const LinearAnswer linear =
+      linear_answer(AnswersOnMesh(scene, values, answer.discretisation, count), out.inputs);
+  out.n_answers = linear.n_answers;
+  take_linear(linear, out);
+  const double tolerance = common(scene.file().scene).tolerance;
+  const bool is_enough = is_linear_enough(linear, values, tolerance, out.reason);
+  if (is_enough && !options.n_samples) return out;
+  out.is_sampled = true;
+  if (is_enough) out.reason += "; it was sampled because samples were asked for";
+  sample(scene, values, linear, options, count, out);
+  return out;
+}
+
+}  // namespace
+
+SceneUncertainty scene_uncertainty(const UncertainScene& scene, const SceneAnswer& answer,
+                                   const UncertaintyOptions& options) {
+  AnswerCount count(options.progress);
+  try {
+    SceneUncertainty out = uncertainty_of(scene, answer, options, count);
+    if (out.n_failed > 0) {
+      out.notes.push_back(
+          fmt::format("{} of {} samples have no answer and are left out, such as: {}", out.n_failed,
+                      out.n_answers, count.why()));
+    }
+    return out;
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(std::string(error.what()) +
+                             (count.why().empty() ? "" : ": " + count.why()));
+  }
+}
+
+}  // namespace viscard

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "io/flow/scenes/uncertain_scene.h"
+#include "models/maths/interval.h"
+#include "models/scene/common/scene_answer.h"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// Share of one input in the variance of one result.
+struct CauseShare {
+  double share = 0.0;           // of this input alone
+  double with_others = 0.0;     // and jointly with other inputs
+  double standard_error = 0.0;  // of a sampled share
+};
+
+// What the inputs of a scene do to one result. The error of the computation stands beside it.
+struct ResultUncertainty {
+  std::string name, unit;
+  double value = 0.0;
+  double numerical_error = 0.0;  // of the answer, in the unit
+  double standard_uncertainty = 0.0;
+  Interval interval_95;
+  double end_error = 0.0;  // standard error of the ends of a sampled interval
+  double linear_disagreement =
+      0.0;                         // of the linear answer at the ends of the interval, in the unit
+  std::vector<CauseShare> causes;  // one for each input
+};
+
+struct SceneUncertainty {
+  std::vector<UncertainInput> inputs;
+  std::vector<std::string> descriptions;  // of the inputs
+  std::vector<ResultUncertainty> results;
+  bool is_sampled = false;
+  std::string reason;  // why it is sampled, or why it is not
+  std::size_t n_answers = 0, n_failed = 0;
+  Discretisation mesh;       // that was sampled on
+  double mesh_error = 0.0;   // of deviations on it, relative to the standard uncertainty
+  double slope_error = 0.0;  // largest, likewise
+  std::vector<std::string> notes;
+};
+
+struct UncertaintyOptions {
+  std::optional<std::size_t> n_samples;  // sampled with so many answers; otherwise the plan decides
+  std::function<void(double)> progress;  // called with the fraction done; may be empty
+};
+
+// Intervals of the results of an answer and their causes. Linear in the inputs where that differs from
+// the scene's own answers by less than the tolerance, sampled on a Sobol' sequence otherwise. `answer` is
+// that of the scene. Throws std::runtime_error naming the file.
+SceneUncertainty scene_uncertainty(const UncertainScene& scene, const SceneAnswer& answer,
+                                   const UncertaintyOptions& options);
+
+}  // namespace viscard

@@ -1,0 +1,85 @@
+#include "io/flow/scenes/uncertain_scene.h"
+
+#include "models/material/material_causes.h"
+#include "models/scene/plan.h"
+#include "models/uncertainty/uncertain_number.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+// What the plan has chosen for the scene as it is.
+EffectChoices chosen_effects(const Scene& scene) {
+  EffectChoices choices = common(scene).effects;
+  for (const SceneEffect& effect : plan_effects(scene).effects) {
+    if (effect.is_choice) choices[effect.name] = effect.on ? EffectChoice::kOn : EffectChoice::kOff;
+  }
+  return choices;
+}
+
+const char* material_word(const Scene& scene) {
+  return std::holds_alternative<LayerScene>(scene) ? "materials.layer" : "materials.pillar";
+}
+
+}  // namespace
+
+UncertainScene::UncertainScene(SceneFile file, std::string text, std::filesystem::path path)
+    : file_(std::move(file)), text_(std::move(text)), path_(std::move(path)) {
+  if (!file_.sweep.is_empty()) {
+    throw std::runtime_error(path_.string() +
+                             ": a scene with a [sweep] has no uncertainty; leave the sweep out");
+  }
+  add_quantities();
+  add_material();
+  if (inputs_.empty()) {
+    throw std::runtime_error(path_.string() +
+                             ": nothing is uncertain. Write a quantity as \"40 um +- 1 um\", or "
+                             "name a material file that "
+                             "viscard fit has written");
+  }
+  choices_ = chosen_effects(file_.scene);
+}
+
+void UncertainScene::add_quantities() {
+  for (const UncertainField& one : file_.uncertain) {
+    inputs_.push_back({one.key, 1, one.number.spread == Spread::kUniform});
+    descriptions_.push_back(one.text);
+  }
+}
+
+void UncertainScene::add_material() {
+  const MaterialCauses& material = file_.material_causes;
+  const std::string word = material_word(file_.scene);
+  for (const MaterialCause& cause : material.causes) {
+    inputs_.push_back(
+        {word + ": " + cause.name, static_cast<Eigen::Index>(cause.directions.size())});
+    descriptions_.push_back(
+        cause.name == kSystematicPart
+            ? fmt::format("all moduli together, standard uncertainty {:.2g} %",
+                          100.0 * common(file_.scene).pillar.uncertainty->systematic_relative)
+            : "covariance of the moduli and relaxation times");
+  }
+  if (!material.left_out.empty()) notes_.push_back(word + ": " + material.left_out);
+}
+
+Scene UncertainScene::reduced_at(const Eigen::VectorXd& deviates) const {
+  std::map<std::string, double> values;
+  Eigen::Index next = 0;
+  for (const UncertainField& one : file_.uncertain) {
+    values[one.key] = value_at(one.number, deviates[next++]);
+  }
+  Scene scene = scene_from_toml(text_, path_, values).scene;
+  SceneCommon& parts = common(scene);
+  parts.tolerance = common(file_.scene).tolerance;
+  parts.effects = choices_;
+  parts.pillar = material_at(parts.pillar, file_.material_causes.causes,
+                             deviates.tail(deviates.size() - next));
+  refuse_beyond_buckling(scene);
+  return plan_effects(scene).reduced;
+}
+
+}  // namespace viscard

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "io/scenes/scene_file.h"
+#include "models/uncertainty/linear_propagation.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// What is not known exactly about a scene: its uncertain quantities, and what the file of its pillars'
+// material states. Each input is one cause; causes are independent of each other.
+class UncertainScene {
+ public:
+  // `text` stands in the file `path`; `file` is what was read from it. The tolerance is that of `file`.
+  // Throws std::runtime_error if the file holds a sweep or nothing uncertain.
+  UncertainScene(SceneFile file, std::string text, std::filesystem::path path);
+
+  const SceneFile& file() const { return file_; }
+  const std::vector<UncertainInput>& inputs() const { return inputs_; }
+  // What an input is in words: "40 um +- 1 um".
+  const std::vector<std::string>& descriptions() const { return descriptions_; }
+  const std::vector<std::string>& notes() const { return notes_; }
+
+  // The scene at standard deviates, which its plan reduces with the effects of `file`'s scene, whatever
+  // their estimates are there. Throws as scene_from_toml() and plan_effects() do.
+  Scene reduced_at(const Eigen::VectorXd& deviates) const;
+
+ private:
+  void add_quantities();
+  void add_material();
+
+  SceneFile file_;
+  std::string text_;
+  std::filesystem::path path_;
+  EffectChoices choices_;  // the plan's
+  std::vector<UncertainInput> inputs_;
+  std::vector<std::string> descriptions_, notes_;
+};
+
+}  // namespace viscard

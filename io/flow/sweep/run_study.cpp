@@ -1,0 +1,67 @@
+#include "io/flow/sweep/run_study.h"
+
+#include "io/basics/parallel.h"
+#include "io/flow/scenes/answer_scene.h"
+#include "io/scenes/scene_file.h"
+
+#include <charconv>
+#include <mutex>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+StudyPoint answered(const Study& study, std::int64_t number) {
+  StudyPoint point{.point = number, .values = values_at(study, number)};
+  try {
+    const SceneFile file = scene_from_toml(scene_text_with(study, point.values), study.scene_path);
+    point.results = named_values(answer_scene(file, study.scene_path.string(), {}));
+  } catch (const std::exception& error) {
+    point.failure = error.what();
+  }
+  return point;
+}
+
+}  // namespace
+
+StudyShard shard_from(const std::string& text) {
+  StudyShard shard;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, shard.index);
+  const bool has_slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+  const auto second =
+      has_slash ? std::from_chars(first.ptr + 1, end, shard.count) : std::from_chars_result{};
+  if (!has_slash || second.ec != std::errc() || second.ptr != end || shard.index < 1 ||
+      shard.count < shard.index) {
+    throw std::invalid_argument("--shard is '" + text +
+                                "'; write it like 3/64, from 1/64 to 64/64");
+  }
+  return shard;
+}
+
+StudyOutcome run_study(const Study& study, const StudyShard& shard, StudyStore& store,
+                       const std::function<void(double)>& progress) {
+  StudyOutcome outcome{.n_points = count_points(study)};
+  const std::set<std::int64_t> done = store.done();
+  std::vector<std::int64_t> open;
+  for (std::int64_t point = shard.index - 1; point < outcome.n_points; point += shard.count) {
+    if (done.count(point) > 0) {
+      ++outcome.n_before;
+    } else {
+      open.push_back(point);
+    }
+  }
+  std::mutex mutex;
+  for_each_in_parallel(open.size(), [&](std::size_t i) {
+    const StudyPoint point = answered(study, open[i]);
+    const std::lock_guard<std::mutex> lock(mutex);
+    store.add(point);
+    ++outcome.n_answered;
+    if (!point.failure.empty()) ++outcome.n_failed;
+    if (progress)
+      progress(static_cast<double>(outcome.n_answered) / static_cast<double>(open.size()));
+  });
+  return outcome;
+}
+
+}  // namespace viscard

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "io/flow/sweep/study_store.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace viscard {
+
+// Part of a study that one machine answers: the points whose number leaves `index` - 1 when divided by
+// `count`.
+struct StudyShard {
+  std::int64_t index = 1, count = 1;
+};
+// "3/64". Throws std::invalid_argument for anything else.
+StudyShard shard_from(const std::string& text);
+
+struct StudyOutcome {
+  std::int64_t n_points = 0;    // of the study
+  std::int64_t n_answered = 0;  // now
+  std::int64_t n_before = 0;    // of this shard, done before
+  std::int64_t n_failed = 0;    // of those answered now
+};
+
+// Answers the points of the shard that the store does not hold yet, on all cores, and keeps each as it
+// ends. A point without an answer is kept with the reason. progress: called with the fraction done; may
+// be empty.
+StudyOutcome run_study(const Study& study, const StudyShard& shard, StudyStore& store,
+                       const std::function<void(double)>& progress);
+
+}  // namespace viscard

@@ -1,0 +1,210 @@
+#include "io/flow/sweep/study.h"
+
+#include "io/basics/atomic_file.h"
+#include "io/basics/number_text.h"
+#include "io/config/config_fields.h"
+#include "models/maths/text_of_number.h"
+#include "models/uncertainty/sobol_points.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+constexpr double kMostPoints = 1e7;
+
+// "40 um" as number and unit.
+struct NumberAndUnit {
+  double number = 0.0;
+  std::string unit;
+};
+
+std::optional<NumberAndUnit> split(const std::string& text) {
+  const std::string_view all = trimmed(text);
+  NumberAndUnit out;
+  const auto [end, error] = std::from_chars(all.data(), all.data() + all.size(), out.number);
+  if (error != std::errc() || !std::isfinite(out.number)) return std::nullopt;
+  out.unit = std::string(trimmed({end, static_cast<std::size_t>(all.data() + all.size() - end)}));
+  return out;
+}
+
+std::string joined(double number, const std::string& unit) {
+  return text_from_number(number) + (unit.empty() ? "" : " " + unit);
+}
+
+[[noreturn]] void refuse(const Study& study, const StudyParameter& parameter,
+                         const std::string& why) {
+  throw std::runtime_error(study.path.string() + ": parameter '" + parameter.key + "' " + why);
+}
+
+// The value at a share of the range, 0 to 1.
+std::string value_in_range(const StudyParameter& parameter, double share) {
+  const NumberAndUnit from = *split(parameter.from), to = *split(parameter.to);
+  const double number = parameter.spacing == "log"
+                            ? from.number * std::pow(to.number / from.number, share)
+                            : from.number + share * (to.number - from.number);
+  return joined(number, from.unit);
+}
+
+void check_range(const Study& study, const StudyParameter& parameter) {
+  const auto from = split(parameter.from), to = split(parameter.to);
+  if (!from || !to || from->unit != to->unit) {
+    refuse(
+        study, parameter,
+        "needs values = [...], or from and to with the same unit, such as from = \"30 um\", to = "
+        "\"50 um\"");
+  }
+  if (parameter.spacing != "linear" && parameter.spacing != "log") {
+    refuse(study, parameter, "has a spacing that is neither \"linear\" nor \"log\"");
+  }
+  if (parameter.spacing == "log" && !(from->number * to->number > 0.0)) {
+    refuse(study, parameter, "has a range with 0, which has no spacing \"log\"");
+  }
+  if (study.n_points == 0 && parameter.count < 2) {
+    refuse(study, parameter, "needs a count of at least 2 in a grid");
+  }
+}
+
+void check(const Study& study) {
+  if (study.parameters.empty()) {
+    throw std::runtime_error(study.path.string() + ": there is no [[parameter]]");
+  }
+  std::set<std::string> keys;
+  for (const StudyParameter& parameter : study.parameters) {
+    if (!keys.insert(parameter.key).second) refuse(study, parameter, "is given twice");
+    if (parameter.values.empty()) check_range(study, parameter);
+  }
+  double points = 1.0;
+  for (const StudyParameter& parameter : study.parameters) {
+    points *= static_cast<double>(parameter.values.empty() ? parameter.count
+                                                           : std::ssize(parameter.values));
+  }
+  if (study.n_points == 0 && points > kMostPoints) {
+    throw std::runtime_error(
+        fmt::format("{}: combines {:.6g} points; at most {:.6g} are answered in one study. Give "
+                    "fewer values, or points = N for a Sobol' sequence",
+                    study.path.string(), points, kMostPoints));
+  }
+}
+
+std::string value_at(const StudyParameter& parameter, std::int64_t index) {
+  if (!parameter.values.empty()) return parameter.values[static_cast<std::size_t>(index)];
+  return value_in_range(parameter,
+                        static_cast<double>(index) / static_cast<double>(parameter.count - 1));
+}
+
+std::int64_t size_of(const StudyParameter& parameter) {
+  return parameter.values.empty() ? parameter.count : std::ssize(parameter.values);
+}
+
+// Sets a key such as "geometry.film.thickness".
+void set_key(toml::table& root, const std::string& key, const std::string& value) {
+  toml::table* table = &root;
+  std::size_t begin = 0;
+  for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', begin)) {
+    const std::string section = key.substr(begin, dot - begin);
+    toml::table* const inner = (*table)[section].as_table();
+    if (inner == nullptr) {
+      throw std::runtime_error("the scene has no section '" + key.substr(0, dot) +
+                               "' for the parameter '" + key + "'");
+    }
+    table = inner;
+    begin = dot + 1;
+  }
+  const auto number = split(value);
+  if (number && number->unit.empty()) {
+    table->insert_or_assign(key.substr(begin), number->number);
+  } else {
+    table->insert_or_assign(key.substr(begin), value);
+  }
+}
+
+}  // namespace
+
+Study read_study(const std::filesystem::path& path) {
+  Study study{.path = path};
+  std::string scene;
+  read_toml_fields(read_file(path), path.string(), [&](FieldVisitor& v) {
+    v.text({"scene", "pillar_sensor.toml", true}, scene);
+    v.integer("points", 1, static_cast<std::int64_t>(kMostPoints), study.n_points);
+    v.list(
+        "parameter", study.parameters.size(), [&](std::size_t n) { study.parameters.resize(n); },
+        [&](FieldVisitor& p, std::size_t i) {
+          StudyParameter& parameter = study.parameters[i];
+          p.text({"key", "geometry.diameter", true}, parameter.key);
+          p.texts({"values", "40 um"}, parameter.values);
+          p.text({"from", "30 um"}, parameter.from);
+          p.text({"to", "50 um"}, parameter.to);
+          p.integer("count", 2, static_cast<std::int64_t>(kMostPoints), parameter.count);
+          p.text({"spacing", "log"}, parameter.spacing);
+        });
+  });
+  study.scene_path = path.parent_path() / scene;
+  study.scene_text = read_file(study.scene_path);
+  check(study);
+  if (study.n_points > 0) {
+    const Eigen::MatrixXd points =
+        sobol_points(study.n_points, static_cast<Eigen::Index>(study.parameters.size()));
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      study.sobol.emplace_back(points.row(i).begin(), points.row(i).end());
+    }
+  }
+  return study;
+}
+
+std::int64_t count_points(const Study& study) {
+  if (study.n_points > 0) return study.n_points;
+  std::int64_t count = 1;
+  for (const StudyParameter& parameter : study.parameters) count *= size_of(parameter);
+  return count;
+}
+
+StudyValues values_at(const Study& study, std::int64_t point) {
+  StudyValues values(study.parameters.size());
+  for (std::size_t k = study.parameters.size(); k-- > 0;) {
+    const StudyParameter& parameter = study.parameters[k];
+    values[k].first = parameter.key;
+    if (study.n_points == 0) {
+      values[k].second = value_at(parameter, point % size_of(parameter));
+      point /= size_of(parameter);
+      continue;
+    }
+    const double share = study.sobol[static_cast<std::size_t>(point)][k];
+    if (parameter.values.empty()) {
+      values[k].second = value_in_range(parameter, share);
+    } else {
+      const auto n = static_cast<double>(parameter.values.size());
+      values[k].second = parameter.values[static_cast<std::size_t>(share * n)];
+    }
+  }
+  return values;
+}
+
+std::string scene_text_with(const Study& study, const StudyValues& values) {
+  toml::table table;
+  try {
+    table = toml::parse(study.scene_text, study.scene_path.string());
+  } catch (const toml::parse_error& error) {
+    throw std::runtime_error(study.scene_path.string() + ":" +
+                             std::to_string(error.source().begin.line) +
+                             ": not TOML: " + std::string(error.description()));
+  }
+  for (const auto& [key, value] : values) set_key(table, key, value);
+  std::ostringstream text;
+  text << table << "\n";
+  return text.str();
+}
+
+std::string fingerprint(const Study& study) {
+  return "viscard " VISCARD_VERSION " study " + sha256_of_file(study.path) + " scene " +
+         sha256_of_file(study.scene_path);
+}
+
+}  // namespace viscard

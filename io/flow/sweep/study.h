@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace viscard {
+
+// A parameter of a study: the values that a key of the scene takes.
+struct StudyParameter {
+  std::string key;                  // "geometry.diameter"
+  std::vector<std::string> values;  // as they stand in a scene: "40 um", "0.33", "off"
+  // Or a range, with the same unit at both ends.
+  std::string from, to;
+  std::int64_t count = 0;          // of a grid
+  std::string spacing = "linear";  // or "log"
+};
+
+// What a study file says. Without n_points every combination of the values is a point, the first
+// parameter slowest; with it Sobol' points in the ranges.
+struct Study {
+  std::filesystem::path path, scene_path;
+  std::string scene_text;
+  std::vector<StudyParameter> parameters;
+  std::int64_t n_points = 0;               // of a Sobol' sequence; 0: a grid
+  std::vector<std::vector<double>> sobol;  // shares of the ranges, 0 to 1, by point
+};
+
+// Studies are TOML:
+//   scene = "pillar_sensor.toml"          # beside the study
+//   points = 1000                         # leave it out for a grid
+//   [[parameter]]
+//   key = "geometry.diameter"
+//   values = ["30 um", "40 um"]           # or from, to and (in a grid) count; spacing = "log"
+// Throws std::runtime_error with file, line and what is expected.
+Study read_study(const std::filesystem::path& path);
+
+std::int64_t count_points(const Study& study);
+
+// Keys and values of a point, counted from 0.
+using StudyValues = std::vector<std::pair<std::string, std::string>>;
+StudyValues values_at(const Study& study, std::int64_t point);
+
+// The text of the scene with these values. Throws std::runtime_error if a key lies in no section of it.
+std::string scene_text_with(const Study& study, const StudyValues& values);
+
+// Changes with everything that answers depend on: study, scene, version of viscard.
+std::string fingerprint(const Study& study);
+
+}  // namespace viscard
