@@ -29,6 +29,34 @@ double dot(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.cwiseProduct(b).sum();
 }
 
+// Which of the points that pull or overlap change sides: all, as long as their number has fallen within
+// the last sets, otherwise the last one alone. All at once may go round in a circle; one by one ends.
+// Judice & Pires, Computers & Operations Research 21 (1994) 587 (block pivoting); Murty's rule.
+class Exchange {
+ public:
+  Mask next(const Mask& wrong) {
+    const Eigen::Index count = wrong.count();
+    if (fewest_ == 0 || count < fewest_) {
+      fewest_ = count;
+      left_ = kChances;
+      return wrong;
+    }
+    if (left_-- > 0) return wrong;
+    Mask last = Mask::Constant(wrong.rows(), wrong.cols(), false);
+    for (Eigen::Index i = wrong.size() - 1; i >= 0; --i) {
+      if (!wrong.data()[i]) continue;
+      last.data()[i] = true;
+      break;
+    }
+    return last;
+  }
+
+ private:
+  static constexpr int kChances = 10;
+  Eigen::Index fewest_ = 0;
+  int left_ = kChances;
+};
+
 }  // namespace
 
 TopContact::TopContact(TopCompliance compliance) : compliance_(std::move(compliance)) {
@@ -78,10 +106,10 @@ Eigen::MatrixXd TopContact::forces(const Eigen::MatrixXd& motion_m) const {
 }
 
 // Conjugate gradients on the points that touch; points that pull are let go, points that overlap are
-// taken in, until neither happens. The energy falls from set to set, so that none comes twice.
+// taken in, until neither happens.
 Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
                                               const Eigen::MatrixXd& start) const {
-  constexpr int kMostSets = 200, kMostSteps = 2000;
+  constexpr int kMostSets = 2000, kMostSteps = 2000;
   constexpr double kResidual = 1e-13;
   const double size_m = std::max(overlap_m.maxCoeff(), 0.0);
   Eigen::MatrixXd f = start.cwiseMax(0.0);
@@ -89,6 +117,7 @@ Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
   Mask touches = f.array() > 0.0;
   if (!touches.any()) touches = overlap_m.array() > 0.0;
   f = masked(f, touches);
+  Exchange exchange;
   for (int set = 0; set < kMostSets; ++set) {
     Eigen::MatrixXd residual = masked(overlap_m - motion(f), touches);
     Eigen::MatrixXd direction = residual;
@@ -107,8 +136,10 @@ Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
     const Mask pulls = touches && f.array() < -pull_N;
     const Eigen::MatrixXd left_m = overlap_m - motion(masked(f.cwiseMax(0.0), touches));
     const Mask overlaps = !touches && left_m.array() > 1e-9 * size_m;
-    if (!pulls.any() && !overlaps.any()) return f.cwiseMax(0.0);
-    touches = (touches && !pulls) || overlaps;
+    const Mask wrong = pulls || overlaps;
+    if (!wrong.any()) return f.cwiseMax(0.0);
+    const Mask changes = exchange.next(wrong);
+    touches = (touches && !changes) || (overlaps && changes);
     f = masked(f.cwiseMax(0.0), touches);
   }
   throw std::runtime_error(

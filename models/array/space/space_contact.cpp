@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <utility>
 
@@ -49,12 +50,13 @@ class Presser {
       error_ = std::max(error_,
                         (std::abs(foot.sinking_m_Pa - coarser_m_Pa) + kOfSettling * settling_m_Pa) /
                             foot.sinking_m_Pa);
+      settling_share_ = std::max(settling_share_, settling_m_Pa / foot.sinking_m_Pa);
       turning_rad_Nm_.push_back(foot.tilt_by_tilt_1_Pa / (0.25 * area_m2 * R_m));
       sideways_m_Pa_.push_back(std::abs(foot.sideways_by_tilt_m_Pa));
     }
   }
 
-  SpaceContact on(int grid) const {
+  std::vector<TopContact> classes_on(int grid) const {
     std::vector<TopContact> classes;
     for (std::size_t i = 0; i < array_.classes.size(); ++i) {
       const PillarClass& one = array_.classes[i];
@@ -63,7 +65,12 @@ class Presser {
       top.adjust(sinking_m_N_[i], turning_rad_Nm_[i]);
       classes.emplace_back(std::move(top));
     }
-    const ShapePress& press = *scene_->press;
+    return classes;
+  }
+
+  SpaceContact on(int grid) const { return pressed(classes_on(grid), *scene_->press); }
+
+  SpaceContact pressed(const std::vector<TopContact>& classes, const ShapePress& press) const {
     const TopBond bond = scene_->feels_contact ? TopBond::kPushed : TopBond::kFollows;
     SpaceContact contact;
     contact.pressed = press.force_N > 0.0
@@ -71,6 +78,7 @@ class Presser {
                           : press_to_depth(pillars_, classes, press.shape, press.depth_m, bond);
     set_loads(contact);
     contact.stiffness_error = error_;
+    contact.settling_share = settling_share_;
     return contact;
   }
 
@@ -98,7 +106,8 @@ class Presser {
   const SpaceScene* scene_;
   SpaceArray array_;
   std::vector<TouchedPillar> pillars_;
-  double error_ = 0.0;                                                // relative, of the stiffness
+  double error_ = 0.0;  // relative, of the stiffness
+  double settling_share_ = 0.0;
   std::vector<double> sinking_m_N_, turning_rad_Nm_, sideways_m_Pa_;  // by class
 };
 
@@ -126,6 +135,18 @@ double SpaceContact::largest_force_N() const {
 
 SpaceContact contact_on(const SpaceScene& scene, int grid) {
   return Presser(scene).on(std::clamp(grid, 0, kContactGrids - 1));
+}
+
+std::function<SpaceContact(double)> contact_at_depths(const SpaceScene& scene, int grid) {
+  struct Tops {
+    Presser presser;
+    std::vector<TopContact> classes;
+  };
+  const auto presser = Presser(scene);
+  const auto tops = std::make_shared<const Tops>(Tops{presser, presser.classes_on(grid)});
+  return [tops, shape = scene.press->shape](double depth_m) {
+    return tops->presser.pressed(tops->classes, {.shape = shape, .depth_m = depth_m});
+  };
 }
 
 SpaceContact contact_within(const SpaceScene& scene, double tolerance) {

@@ -3,6 +3,7 @@
 #include "models/array/contact/press_array.h"
 #include "models/array/space/space_scene.h"
 
+#include <functional>
 #include <vector>
 
 namespace viscard {
@@ -20,6 +21,7 @@ struct SpaceContact {
   double depth_change_m = 0.0;
   int contact_change = 0;
   double stiffness_error = 0.0;  // relative, of every force at a depth, or of the depth of a force
+  double settling_share = 0.0;   // of the film in the way of a pressed top
 
   double largest_force_N() const;
 };
@@ -29,6 +31,9 @@ constexpr int kContactGrids = 4;
 
 // On one of the grids, 0 to kContactGrids - 1; without changes.
 SpaceContact contact_on(const SpaceScene& scene, int grid);
+
+// The same at any depth, for many of them. The scene must outlive the function.
+std::function<SpaceContact(double depth_m)> contact_at_depths(const SpaceScene& scene, int grid);
 
 // On grids of rising fineness until no force changes by more than the tolerance times the largest one, or
 // the last one is reached. Tops that are touched everywhere have no error.

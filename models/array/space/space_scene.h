@@ -2,6 +2,7 @@
 
 #include "models/array/contact/rigid_shape.h"
 #include "models/array/space/space_array.h"
+#include "models/array/space/touch_drive.h"
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/scene/common/scene_common.h"
 
@@ -69,6 +70,7 @@ struct SpaceScene : SceneCommon {
   std::vector<RowColumn> loaded;  // empty: all
 
   std::optional<ShapePress> press;  // instead of the loads above
+  std::optional<SpaceTouch> touch;  // of the press in time; see press_in_time(), touch_course.h
 
   double surface_energy_J_m2 = 0.02;  // of the pillars, which may stick together; PDMS
 

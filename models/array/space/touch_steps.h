@@ -1,0 +1,33 @@
+#pragma once
+
+#include "models/array/space/space_scene.h"
+
+#include <vector>
+
+namespace viscard {
+
+// The time steps of a shape's history, between which elastic loads are taken as linear.
+struct TouchSample {
+  double time_s = 0.0;
+  double value = 0.0;    // of the history, m or N
+  double elastic = 0.0;  // depth, or the force that presses elastic pillars as deep (eq. S11)
+  bool is_new = false;   // halves a step of the samples with half as many steps
+};
+
+// Blocks that double in length after each corner of the history, from a quarter of the fastest time of the
+// material and the readout on, with the same number of steps each. A jump has two samples.
+std::vector<TouchSample> touch_samples(const SpaceScene& scene, int steps);
+
+double largest_value(const std::vector<TouchSample>& samples);  // elastic
+
+// Loads that are linear between the samples, relaxed (eq. 5, exact for any steps).
+std::vector<TopLoads> relaxed(const std::vector<MaterialTerm>& terms,
+                              const std::vector<TouchSample>& samples,
+                              const std::vector<TopLoads>& elastic);
+
+// What half as many steps would change in the reading of a voltage that goes as the force, relative to its
+// largest; 0 without a readout.
+double change_of_reading(const SpaceScene& scene, const std::vector<TouchSample>& samples,
+                         const std::vector<double>& force_N);
+
+}  // namespace viscard
