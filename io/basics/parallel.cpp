@@ -15,6 +15,9 @@ void for_each_in_parallel(std::size_t n, const std::function<void(std::size_t)>&
     for (std::size_t i = next++; i < n; i = next++) {
       try {
         work(i);
+      } catch (const Interrupted&) {
+        failures[i] = std::current_exception();
+        next = n;
       } catch (...) {
         failures[i] = std::current_exception();
       }

@@ -2,11 +2,19 @@
 
 #include <cstddef>
 #include <functional>
+#include <stdexcept>
 
 namespace viscard {
 
+// Somebody asked to end the work, by throwing this from a progress callback.
+class Interrupted : public std::runtime_error {
+ public:
+  Interrupted() : std::runtime_error("the work was interrupted") {}
+};
+
 // Calls work(i) for i = 0 ... n - 1 on all cores and waits for all of them. If some calls throw,
-// the exception of the smallest i is rethrown once all have ended.
+// the exception of the smallest i is rethrown once all have ended. After Interrupted no further call
+// begins.
 void for_each_in_parallel(std::size_t n, const std::function<void(std::size_t)>& work);
 
 }  // namespace viscard

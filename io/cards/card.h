@@ -14,6 +14,7 @@ struct CardTarget;
 // How one part of the material was written.
 enum class Mapping { kExact, kApproximated, kDropped };
 
+// How exactly one part of the material is in the card.
 struct FidelityItem {
   std::string
       item;  // "terms", "bulk", "nu", "density", "numbers", "temperature", "harmonic", "total"
@@ -21,21 +22,25 @@ struct FidelityItem {
   std::string text;
 };
 
+// A file that the card reads, beside it.
 struct CompanionFile {
   std::string suffix;  // replaces the card's extension: "_relaxation.txt"
   std::string text;
 };
 
+// The text for a solver, and how exactly it states the material.
 struct Card {
   std::string name;  // of the material in the text
   std::string text;
   std::vector<CompanionFile> companions;
   std::vector<FidelityItem> fidelity;
-  Material written;  // what a reader of the card gets, SI
+  std::vector<std::string> warnings;  // lines of the header that say EXTRAPOLATED
+  Material written;                   // what a reader of the card gets, SI
   // Of E(t), relative, over the window: from CardOptions::original, else from the given material.
   double largest_difference = 0.0;
 };
 
+// Units of a card, and what may be done to the material.
 struct CardOptions {
   std::string units = "SI";
   bool is_reproducible = false;      // no date and no command line: byte-identical output
@@ -60,6 +65,7 @@ struct CardOptions {
 Card write_card(const Material& material, const CardTarget& target,
                 const CardOptions& options = {});
 
+// "exact", "approximated", "dropped".
 inline std::string to_word(Mapping mapping) {
   if (mapping == Mapping::kExact) return "exact";
   return mapping == Mapping::kApproximated ? "approximated" : "dropped";

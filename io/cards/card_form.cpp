@@ -1,13 +1,17 @@
 #include "io/cards/card_form.h"
 
+#include "io/cards/card.h"
 #include "io/cards/card_header.h"
 #include "io/cards/card_lines.h"
+#include "io/cards/list_differences.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <iterator>
+#include <sstream>
+#include <stdexcept>
 #include <vector>
 
 namespace viscard {
@@ -95,6 +99,123 @@ std::optional<CardFinding> first_difference(const std::string& text, const std::
                                        "' is not of the card that viscard writes"));
 }
 
+struct HeaderLine {
+  CardLine line;
+  std::string key, text;  // "units", "mm-t-s (...)"
+};
+
+// The lines in comments; of a JSON card those of its list "header".
+std::vector<HeaderLine> header_lines(const std::string& text, const CardTarget& target) {
+  const bool is_json = target.comment.empty();
+  const std::size_t from = is_json ? std::min(text.find("\"header\""), text.size()) : 0;
+  const auto lines_before =
+      std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(from), '\n');
+  std::vector<HeaderLine> out;
+  for (CardLine& line : card_lines(text.substr(from), "\n")) {
+    line.number += static_cast<int>(lines_before);
+    std::string words(trimmed(line.text));
+    if (!is_json && words.rfind(target.comment, 0) != 0) continue;
+    words.erase(0, is_json ? 1 : target.comment.size());
+    const std::string end = is_json ? "\"" : target.comment == "<!--" ? "-->" : "";
+    if (!end.empty()) words = words.substr(0, words.rfind(end));
+    const std::size_t colon = words.find(": "), equals = words.find(" = ");
+    const std::size_t at = std::min(colon, equals);
+    const std::size_t begin = at == std::string::npos ? words.size() : words.find(' ', at + 1);
+    out.push_back({line, std::string(trimmed(words.substr(0, at))),
+                   std::string(trimmed(words.substr(begin)))});
+  }
+  return out;
+}
+
+// Equal but for numbers that differ by no more than the tolerance.
+bool has_same_words(const std::string& one, const std::string& other, double tolerance) {
+  std::istringstream a(one), b(other);
+  std::string of_a, of_b;
+  while (true) {
+    const bool has_a = static_cast<bool>(a >> of_a), has_b = static_cast<bool>(b >> of_b);
+    if (!has_a || !has_b) return has_a == has_b;
+    if (of_a == of_b) continue;
+    const auto x = number_from_text(of_a), y = number_from_text(of_b);
+    if (!x || !y || relative_mismatch(*x, *y) > tolerance) return false;
+  }
+}
+
+// What a header says of the target, whatever the material is called: "... for Abaqus". Where nu is
+// from is known only with the material.
+std::string comparable_text(const HeaderLine& line, bool has_reference) {
+  const bool is_title = line.key.rfind("viscard ", 0) == 0;
+  const std::size_t at = line.text.rfind(" for ");
+  if (is_title && at != std::string::npos) return line.text.substr(at);
+  return line.key == "K0" && !has_reference ? line.text.substr(0, line.text.find(" (")) : line.text;
+}
+
+// Without the material only what the numbers of the card determine.
+bool follows_from_card(const std::string& key) {
+  return key.rfind("viscard ", 0) == 0 || key == "CANNOT REPRESENT" || key == "units" ||
+         key == "conventions" || key == "E0 (instantaneous)" || key == "K0" ||
+         key.rfind("SET THE TEMPERATURE", 0) == 0;
+}
+
+std::string title_key() {
+  return std::string("viscard ") + VISCARD_VERSION;
+}
+
+// Whether the line of a header says what viscard writes: nothing if the header has no such line.
+struct HeaderMatch {
+  const HeaderLine* line = nullptr;
+  bool is_same = false;
+};
+
+HeaderMatch match_of(const HeaderLine& wanted, const std::vector<HeaderLine>& found,
+                     bool has_reference) {
+  // Columns may have rounded the numbers that were read from the card.
+  const double tolerance = has_reference ? 1e-6 : 2e-4;
+  HeaderMatch match;
+  for (const HeaderLine& one : found) {
+    if (one.key != wanted.key) continue;
+    match.line = &one;
+    match.is_same =
+        match.is_same || has_same_words(comparable_text(one, has_reference),
+                                        comparable_text(wanted, has_reference), tolerance);
+  }
+  return match;
+}
+
+// Terms that were refitted or left out are not seen in the material that is compared.
+bool are_terms_changed(const std::vector<HeaderLine>& header) {
+  return std::any_of(header.begin(), header.end(), [](const HeaderLine& line) {
+    const bool is_approximated = line.text.rfind("approximated", 0) == 0;
+    return line.key == "terms" && (is_approximated || line.text.rfind("dropped", 0) == 0);
+  });
+}
+
+// One finding of the first contradiction, one of the first line that is missing.
+std::vector<CardFinding> compare_headers(const std::vector<HeaderLine>& found,
+                                         const std::vector<HeaderLine>& wanted,
+                                         bool has_reference) {
+  const bool skips_terms = are_terms_changed(found);
+  std::optional<CardFinding> differs, is_missing;
+  for (const HeaderLine& line : wanted) {
+    if (!has_reference && !follows_from_card(line.key)) continue;
+    if (skips_terms && (line.key == "terms" || line.key == "total")) continue;
+    const HeaderMatch match = match_of(line, found, has_reference);
+    if (match.is_same) continue;
+    const std::string right = "' where viscard writes '" + line.text + "'";
+    if (match.line != nullptr && !differs) {
+      differs = CardFinding{
+          "header-differs",
+          at_line(match.line->line, "'" + line.key + "' says '" + match.line->text + right), true};
+    } else if (match.line == nullptr && !is_missing) {
+      is_missing =
+          CardFinding{"header-incomplete", "the header has no '" + line.key + right, false};
+    }
+  }
+  std::vector<CardFinding> findings;
+  if (differs) findings.push_back(*differs);
+  if (is_missing) findings.push_back(*is_missing);
+  return findings;
+}
+
 bool is_by_viscard(const std::string& text) {
   return text.find("viscard ") != std::string::npos &&
          text.find("conventions: ") != std::string::npos;
@@ -135,6 +256,30 @@ std::optional<CardFinding> form_difference(const std::string& text, const CardBo
   auto finding = first_difference(text, right.target.write(right), right.target);
   if (finding) finding->text += "; the numbers are right, but will the solver take this line?";
   return finding;
+}
+
+std::vector<CardFinding> header_differences(const std::string& text, const ReadCard& read,
+                                            const CardTarget& target, const Material* reference) {
+  const std::vector<HeaderLine> found = header_lines(text, target);
+  const bool is_of_this_version = std::any_of(
+      found.begin(), found.end(), [](const HeaderLine& line) { return line.key == title_key(); });
+  if (!is_by_viscard(text) || !is_of_this_version) return {};
+  const std::string stated = stated_unit_system(text);
+  CardOptions options{.units = stated.empty() ? read.units.name : stated,
+                      .is_reproducible = true,
+                      .may_approximate = true,
+                      .accepts_flags = true};
+  if (target.band_note != nullptr && !read.frequencies_Hz.empty()) {
+    options.band = FrequencyBand{read.frequencies_Hz.front(), read.frequencies_Hz.back()};
+  }
+  try {
+    const bool is_of_target = read.understood.name == target.name;
+    const Card right = write_card(reference == nullptr ? read.material : *reference,
+                                  is_of_target ? target : read.understood, options);
+    return compare_headers(found, header_lines(right.text, target), reference != nullptr);
+  } catch (const std::invalid_argument&) {
+    return {};  // the target does not take this material at all
+  }
 }
 
 }  // namespace viscard

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -20,5 +21,12 @@ std::optional<CardFinding> form_difference(const std::string& text, const CardTa
 
 // The same against the text of a right card; for cards that state no whole material.
 std::optional<CardFinding> form_difference(const std::string& text, const CardBody& right);
+
+// Lines of a header by this version of viscard that contradict the card or the material: the target,
+// units, conventions and moduli, and with a reference its conditions (validity, temperature,
+// intervals, flags) and what was approximated ("header-differs", a mistake). A line that is missing
+// is a note ("header-incomplete"). `target` is that of the reader, before the text changed it.
+std::vector<CardFinding> header_differences(const std::string& text, const ReadCard& read,
+                                            const CardTarget& target, const Material* reference);
 
 }  // namespace viscard

@@ -110,11 +110,13 @@ std::vector<std::string> card_header(const Material& material, const CardTarget&
   if (!target.cannot_represent.empty()) {
     lines.push_back("CANNOT REPRESENT: " + target.cannot_represent);
   }
+  const bool is_in_K = target.temperature == std::string("K");
   if (material.shift && takes_shift(target, material) && !target.set_temperature.empty()) {
-    lines.push_back(
-        fmt::format("SET THE TEMPERATURE of the model: {}, {} C for the times below; "
-                    "without it the solver shifts them",
-                    target.set_temperature, material.shift->T_ref_C));
+    lines.push_back(fmt::format(
+        "SET THE TEMPERATURE of the model: {}, {:.10g} {} for the times below; "
+        "without it the solver shifts them",
+        target.set_temperature, material.shift->T_ref_C - (is_in_K ? kAbsoluteZero_C : 0.0),
+        target.temperature));
   }
   lines.push_back(std::string("units: ") + units.name + " (" + units.description + ")");
   lines.push_back("conventions: " + conventions_in_words(target));

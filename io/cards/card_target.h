@@ -130,6 +130,8 @@ struct CardTarget {
   int rows_per_decade = 0;
   // How well the numbers describe the material over the band; absent for a card without a band.
   std::string (*band_note)(const CardBody& body) = nullptr;
+  // Why no card is written for the band unless the user accepts any error; "" if one is.
+  std::string (*band_refusal)(const CardBody& body) = nullptr;
 };
 
 // Whether a material can be read back from a card.

@@ -147,6 +147,10 @@ void add(const std::optional<CardFinding>& finding, CardCheck& check) {
   if (finding) check.findings.push_back(*finding);
 }
 
+void add_all(const std::vector<CardFinding>& more, CardCheck& check) {
+  check.findings.insert(check.findings.end(), more.begin(), more.end());
+}
+
 void compare(const Material& reference, CardCheck& check) {
   const bool is_solid = !check.read.material.terms.empty() || check.read.numbers.branches.empty();
   const std::vector<double> times_s = comparison_times_s(reference);
@@ -167,7 +171,7 @@ void compare(const Material& reference, CardCheck& check) {
   }
   // One cause that explains all numbers is reported instead of one finding for each number.
   const std::vector<CardFinding> causes = explain_difference(check.read, reference);
-  check.findings.insert(check.findings.end(), causes.begin(), causes.end());
+  add_all(causes, check);
   if (has_mistake(causes)) return;
   add(bulk, check);
   add(density, check);
@@ -177,7 +181,7 @@ void compare(const Material& reference, CardCheck& check) {
                             check.read.understood, check.read.units);
   const std::vector<CardFinding> listed =
       listed_differences(check.read.numbers, expected, check.read.understood);
-  check.findings.insert(check.findings.end(), listed.begin(), listed.end());
+  add_all(listed, check);
   if (!listed.empty()) return;
   check.findings.push_back(
       {"differs", "the card is of another material, or wrong in a way not known here", true});
@@ -223,6 +227,9 @@ CardCheck check_table(const std::string& text, const CardTarget& target,
     check.agrees = false;
   } else if (!check.agrees) {
     check.findings.push_back({"differs", "the table is of another material", true});
+  } else {
+    add_all(header_differences(text, check.read, target, reference), check);
+    check.agrees = !has_mistake(check.findings);
   }
   return check;
 }
@@ -263,7 +270,10 @@ CardCheck check_card(const std::string& text, const CardTarget& target, const Ch
   if (has_cause) {
     std::erase_if(check.findings, [](const CardFinding& f) { return f.name == "no-solid"; });
   }
-  if (!has_mistake(check.findings)) add(form_difference(text, check.read), check);
+  if (!has_mistake(check.findings)) {
+    add(form_difference(text, check.read), check);
+    add_all(header_differences(text, check.read, target, reference), check);
+  }
   check.agrees = !has_mistake(check.findings) &&
                  (!check.E_difference || *check.E_difference <= check.tolerance);
   return check;

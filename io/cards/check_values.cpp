@@ -135,6 +135,25 @@ void compare_values(const std::string& text, const Material& given, const CheckO
   // A text that is not as viscard writes these very numbers.
   if (*check.E_difference > kSameValue) return;
   if (const auto form = form_difference(text, body)) check.findings.push_back(*form);
+  const std::vector<CardFinding> header =
+      header_differences(text, check.read, check.read.understood, &given);
+  check.findings.insert(check.findings.end(), header.begin(), header.end());
+}
+
+// A band that the user names beside the one that the card has.
+void compare_band(const CheckOptions& options, ReadCard& read) {
+  if (!options.band || read.frequencies_Hz.empty()) return;
+  const double from_Hz = read.frequencies_Hz.front(), to_Hz = read.frequencies_Hz.back();
+  constexpr double kSameBand = 1e-3;
+  if (relative_mismatch(from_Hz, options.band->from_Hz) <= kSameBand &&
+      relative_mismatch(to_Hz, options.band->to_Hz) <= kSameBand) {
+    return;
+  }
+  read.add(
+      "band-differs",
+      fmt::format("the card is for {:g} to {:g} Hz, and --band names {:g} to {:g} Hz; the card "
+                  "was compared over its own band",
+                  from_Hz, to_Hz, options.band->from_Hz, options.band->to_Hz));
 }
 
 }  // namespace
@@ -150,6 +169,7 @@ CardCheck check_card_values(const std::string& text, const CardTarget& target,
       check.read.frequencies_Hz = {band->from_Hz, band->to_Hz};
     }
   }
+  compare_band(options, check.read);
   if (reference != nullptr) {
     compare_values(text, *reference, options, check);
   } else {

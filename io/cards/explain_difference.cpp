@@ -9,13 +9,6 @@
 namespace viscard {
 namespace {
 
-std::vector<CardBranch> by_time(std::vector<CardBranch> branches) {
-  std::sort(branches.begin(), branches.end(), [](const CardBranch& a, const CardBranch& b) {
-    return a.time != b.time ? a.time < b.time : a.shear < b.shear;
-  });
-  return branches;
-}
-
 double branch_mismatch(const CardNumbers& one, const CardNumbers& other, const CardTarget& target) {
   if (one.branches.size() != other.branches.size()) return 1.0;
   double worst = 0.0;
@@ -50,6 +43,8 @@ double mismatch(const CardNumbers& one, const CardNumbers& other, const CardTarg
 bool are_terms_swapped(const CardNumbers& found, const CardNumbers& expected,
                        const CardTarget& target) {
   if (found.branches.size() != expected.branches.size()) return false;
+  // With their own partners the numbers are right to three digits: nothing has changed places.
+  if (branch_mismatch(found, expected, target) <= kHandTyped) return false;
   CardNumbers paired = expected;
   std::vector<CardBranch> by_share = found.branches;
   const auto less = [](const CardBranch& a, const CardBranch& b) { return a.shear < b.shear; };
@@ -128,6 +123,8 @@ std::vector<CardFinding> explain_difference(const ReadCard& read, const Material
   const Best one = best_explanation(list, false, read.numbers, expected, context.target);
   if (explains(one)) return findings_of(one);
   if (plain <= kHandTyped) {
+    auto edited = edited_digits(read.numbers, expected, context.target);
+    if (!edited.empty()) return edited;
     return {
         {"rounded",
          "the numbers are the material's, with fewer digits; --tolerance accepts the difference",

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 namespace viscard {
@@ -53,35 +54,35 @@ Unpaired unpaired(const CardNumbers& found, const CardNumbers& expected, const C
   return rest;
 }
 
-void note_if_off(const char* what, double found, double expected, std::vector<Difference>& out) {
-  if (relative_mismatch(found, expected) > kHandTyped) out.push_back({what, found, expected});
-}
-
 // The numbers outside the branches.
 std::vector<Difference> elastic_differences(const CardNumbers& found, const CardNumbers& expected,
-                                            const CardTarget& target) {
+                                            const CardTarget& target,
+                                            double tolerance = kHandTyped) {
   std::vector<Difference> out;
+  const auto note_if_off = [&](const char* what, double a, double b) {
+    if (relative_mismatch(a, b) > tolerance) out.push_back({what, a, b});
+  };
   using enum ElasticForm;
   const ElasticForm form = target.elastic;
-  if (form == kYoungPoisson) note_if_off("E", found.young, expected.young, out);
+  if (form == kYoungPoisson) note_if_off("E", found.young, expected.young);
   if (form == kYoungPoisson || form == kPoissonOnly) {
-    note_if_off("nu", found.poisson, expected.poisson, out);
+    note_if_off("nu", found.poisson, expected.poisson);
   }
-  if (form == kBulkShear || form == kBulkOnly) note_if_off("K", found.bulk, expected.bulk, out);
-  if (form == kBulkShear) note_if_off("G", found.shear, expected.shear, out);
+  if (form == kBulkShear || form == kBulkOnly) note_if_off("K", found.bulk, expected.bulk);
+  if (form == kBulkShear) note_if_off("G", found.shear, expected.shear);
   if (target.states_equilibrium) {
-    note_if_off("the share that never relaxes", found.equilibrium, expected.equilibrium, out);
+    note_if_off("the share that never relaxes", found.equilibrium, expected.equilibrium);
   }
   if (found.density > 0.0 && expected.density > 0.0) {
-    note_if_off("the density", found.density, expected.density, out);
+    note_if_off("the density", found.density, expected.density);
   }
   return out;
 }
 
 void compare_branch(const CardBranch& found, const CardBranch& expected, const CardTarget& target,
-                    std::vector<Difference>& out) {
+                    std::vector<Difference>& out, double tolerance = kHandTyped) {
   const auto add = [&](const char* word, double a, double b) {
-    if (relative_mismatch(a, b) <= kHandTyped) return;
+    if (relative_mismatch(a, b) <= tolerance) return;
     out.push_back({fmt::format("{} of the term {} = {:g}, {} = {:g}", word, share_word(target),
                                expected.shear, time_word(target), expected.time),
                    a, b});
@@ -92,8 +93,41 @@ void compare_branch(const CardBranch& found, const CardBranch& expected, const C
 }
 
 std::string difference_in_words(const Difference& difference) {
-  return fmt::format("{} is {:g} where {:g} is expected", difference.what, difference.found,
-                     difference.expected);
+  // Six digits, or as many as show the difference.
+  const bool is_small = relative_mismatch(difference.found, difference.expected) < 1e-4;
+  return fmt::format("{} is {:.{}g} where {:.{}g} is expected", difference.what, difference.found,
+                     is_small ? 12 : 6, difference.expected, is_small ? 12 : 6);
+}
+
+// How many digits of a number are not trailing zeros, of fourteen; and the place of the last one.
+struct WrittenDigits {
+  int count = 0;
+  double last_place = 0.0;
+};
+
+WrittenDigits written_digits(double value) {
+  const std::string text = fmt::format("{:.13e}", std::abs(value));
+  const std::size_t exponent = text.find('e'), last = text.find_last_not_of('0', exponent - 1);
+  const int count = last <= 1 ? 1 : static_cast<int>(last);  // one is the decimal point
+  const double power = std::strtod(text.c_str() + exponent + 1, nullptr);
+  return {count, std::pow(10.0, power - count + 1)};
+}
+
+// Whether a number is the other one with fewer digits, rounded or cut off.
+bool is_rounding_of(double found, double expected) {
+  if (relative_mismatch(found, expected) <= 1e-12) return true;
+  const WrittenDigits digits = written_digits(found);
+  return digits.count < written_digits(expected).count &&
+         std::abs(found - expected) <= 1.001 * digits.last_place;
+}
+
+std::string differences_in_words(const std::vector<Difference>& all, std::string text = "") {
+  constexpr std::size_t kInWords = 4;
+  for (std::size_t i = 0; i < std::min(kInWords, all.size()); ++i) {
+    text += (text.empty() ? "" : "; ") + difference_in_words(all[i]);
+  }
+  if (all.size() > kInWords) text += fmt::format("; and {} more", all.size() - kInWords);
+  return text;
 }
 
 // A whole power of ten of at least ten, or its inverse.
@@ -118,6 +152,13 @@ std::vector<CardFinding> one_row_too_few(const CardNumbers& found, const CardNum
 }
 
 }  // namespace
+
+std::vector<CardBranch> by_time(std::vector<CardBranch> branches) {
+  std::sort(branches.begin(), branches.end(), [](const CardBranch& a, const CardBranch& b) {
+    return a.time != b.time ? a.time < b.time : a.shear < b.shear;
+  });
+  return branches;
+}
 
 double relative_mismatch(double a, double b) {
   if (a == b) return 0.0;
@@ -163,6 +204,22 @@ std::vector<CardFinding> single_difference(const CardNumbers& found, const CardN
   return {{"one-number", difference_in_words(one) + "; all others are right", true}};
 }
 
+std::vector<CardFinding> edited_digits(const CardNumbers& found, const CardNumbers& expected,
+                                       const CardTarget& target) {
+  constexpr double kSame = 1e-12;
+  std::vector<Difference> all = elastic_differences(found, expected, target, kSame);
+  const std::vector<CardBranch> ours = by_time(found.branches), wanted = by_time(expected.branches);
+  for (std::size_t i = 0; i < std::min(ours.size(), wanted.size()); ++i) {
+    compare_branch(ours[i], wanted[i], target, all, kSame);
+  }
+  std::erase_if(all, [](const Difference& one) {
+    const bool has_own_finding = one.what == "nu" || one.what == "the density";
+    return has_own_finding || is_rounding_of(one.found, one.expected);
+  });
+  if (all.empty()) return {};
+  return {{all.size() == 1 ? "one-number" : "numbers-differ", differences_in_words(all), true}};
+}
+
 std::vector<CardFinding> listed_differences(const CardNumbers& found, const CardNumbers& expected,
                                             const CardTarget& target) {
   std::vector<Difference> all = elastic_differences(found, expected, target);
@@ -175,11 +232,7 @@ std::vector<CardFinding> listed_differences(const CardNumbers& found, const Card
   for (std::size_t i = 0; i < std::min(rest.found.size(), rest.expected.size()); ++i) {
     compare_branch(rest.found[i], rest.expected[i], target, all);
   }
-  constexpr std::size_t kInWords = 4;
-  for (std::size_t i = 0; i < std::min(kInWords, all.size()); ++i) {
-    text += (text.empty() ? "" : "; ") + difference_in_words(all[i]);
-  }
-  if (all.size() > kInWords) text += fmt::format("; and {} more", all.size() - kInWords);
+  text = differences_in_words(all, text);
   if (text.empty()) return {};
   return {{"numbers-differ", text, true}};
 }

@@ -7,6 +7,8 @@
 
 namespace viscard {
 
+std::vector<CardBranch> by_time(std::vector<CardBranch> branches);
+
 // Largest relative difference of two numbers; 1 if one of them is not finite.
 double relative_mismatch(double a, double b);
 
@@ -16,6 +18,11 @@ double relative_mismatch(double a, double b);
 // findings.
 std::vector<CardFinding> single_difference(const CardNumbers& found, const CardNumbers& expected,
                                            const CardTarget& target);
+
+// Numbers that differ by less than kHandTyped and are no rounding of the expected ones to fewer
+// digits: "one-number" or "numbers-differ". Empty if all are.
+std::vector<CardFinding> edited_digits(const CardNumbers& found, const CardNumbers& expected,
+                                       const CardTarget& target);
 
 // "numbers-differ" with all numbers that differ, the first few in words. Empty if none does.
 std::vector<CardFinding> listed_differences(const CardNumbers& found, const CardNumbers& expected,

@@ -1,6 +1,7 @@
 #include "io/cards/named_values.h"
 
 #include "io/basics/patterns.h"
+#include "io/cards/read_card.h"
 
 #include <fmt/format.h>
 
@@ -24,6 +25,15 @@ CardLine line_of(const std::string& text, std::size_t at) {
   const auto newlines =
       std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
   return {static_cast<int>(newlines) + 1, ""};
+}
+
+void check_single_element(const std::string& text, const std::string& pattern, const char* name,
+                          ReadCard& card) {
+  const std::vector<Match> all = all_matches(text, pattern);
+  if (all.size() < 2) return;
+  card.add("second-element", at_line(line_of(text, all[1].at[0]),
+                                     std::string(name) + " stands in the card " +
+                                         std::to_string(all.size()) + " times; keep one"));
 }
 
 NamedNumbers named_lists(const std::string& text, const std::string& pattern) {

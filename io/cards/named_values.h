@@ -10,11 +10,17 @@
 
 namespace viscard {
 
+struct ReadCard;
+
 // Named values in program-like texts: MFront, MOOSE, FEBio. Readers throw std::runtime_error.
 
 // The line of a place in the text, for messages.
 CardLine line_of(const std::string& text, std::size_t at);
 std::string without_line_comments(const std::string& text, const std::string& comment);
+
+// A second match of the pattern is a mistake, "second-element": the solver takes one of them, or both.
+void check_single_element(const std::string& text, const std::string& pattern, const char* name,
+                          ReadCard& card);
 
 using NamedNumbers = std::map<std::string, std::vector<double>>;
 

@@ -48,7 +48,7 @@ ElementTest element_test(const Material& material, const ElementTestOptions& opt
     shortest_s = i == 0 ? tau_s : std::min(shortest_s, tau_s);
     longest_s = i == 0 ? tau_s : std::max(longest_s, tau_s);
   }
-  test.ramp_s = 0.5 * shortest_s;
+  test.ramp_s = options.ramp_in_tau * shortest_s;
   const int ramp_steps = std::max(1, options.steps_per_tau / 2);
   if (options.most_equal_increments > 0) {
     add_equal_increments(options, ramp_steps, 10.0 * longest_s, test);

@@ -31,14 +31,15 @@ struct ElementTest {
 struct ElementTestOptions {
   ElementTestKind kind = ElementTestKind::kRelaxation;
   double amplitude = 1e-6;
-  int steps_per_tau = 40;  // in the shortest relaxation time
-  bool rises = false;      // every block adds the load of the ramp instead of holding it
+  int steps_per_tau = 40;    // in the shortest relaxation time
+  double ramp_in_tau = 0.5;  // length of the ramp in the shortest relaxation time
+  bool rises = false;        // every block adds the load of the ramp instead of holding it
   // All increments are of one length, and the ramp is longer if the test would need more of them
   // than this; 0: increments grow with time.
   int most_equal_increments = 0;
 };
 
-// Ramp of half the shortest relaxation time, then hold or rise to ten times the longest; increments
+// Ramp of a part of the shortest relaxation time, then hold or rise to ten times the longest; increments
 // grow with time. A material without terms is held for 1 s.
 ElementTest element_test(const Material& material, const ElementTestOptions& options);
 

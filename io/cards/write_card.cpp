@@ -161,6 +161,12 @@ void state_total(const Material& original, const Material& given, Card& card) {
        fmt::format("{:.1e} in E(t), all of the above together", card.largest_difference)});
 }
 
+void refuse_band(const CardBody& body, const CardOptions& options) {
+  if (body.target.band_refusal == nullptr || options.may_approximate) return;
+  const std::string why = body.target.band_refusal(body);
+  if (!why.empty()) throw std::invalid_argument(why);
+}
+
 FidelityItem density_item(const Material& read, const Material& material,
                           const CardTarget& target) {
   if (!target.states_density && target.values != nullptr) {
@@ -236,6 +242,7 @@ Card write_card(const Material& given, const CardTarget& target, const CardOptio
   if (target.table_difference != nullptr) {
     card.written = material;
   } else if (target.values != nullptr) {
+    refuse_band(body, options);
     read_back_values(body, card);
     card.fidelity.push_back(density_item(card.written, material, target));
   } else {
@@ -245,6 +252,9 @@ Card write_card(const Material& given, const CardTarget& target, const CardOptio
   body.header = card_header(material, target, units, options, card.fidelity);
   if (!body.frequencies_Hz.empty()) {
     body.header.insert(body.header.begin() + 2, band_line(body.band(), material));
+  }
+  for (const std::string& line : body.header) {
+    if (line.find("EXTRAPOLATED") != std::string::npos) card.warnings.push_back(line);
   }
   const std::string comments = as_comments(body.header, target.comment);
   card.name = body.name;

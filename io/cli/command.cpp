@@ -3,43 +3,86 @@
 #include "io/basics/words.h"
 #include "io/cli/card/card_words.h"
 #include "io/cli/fit/fit_command.h"
+#include "io/cli/help/documents.h"
 #include "io/cli/report/report_commands.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/serve/serve_command.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
+#include "io/cli/words/terminal.h"
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
+#include <sstream>
 
 namespace viscard {
 namespace {
 
-void print_overview(std::ostream& out) {
-  out << "viscard " VISCARD_VERSION
-         ": a soft polymer from a load cell to a validated simulation\n\n"
-         "usage: viscard COMMAND [OPTIONS]      (details: viscard COMMAND --help)\n\n";
+std::string overview(const Streams& streams) {
+  const bool is_coloured = streams.is_out_coloured;
+  std::string text = "viscard " VISCARD_VERSION
+                     ": a soft polymer from a load cell to a validated simulation\n\n"
+                     "usage: viscard COMMAND [OPTIONS]      (details: viscard help COMMAND)\n\n";
   for (const Command& command : commands()) {
-    out << "  " << command.name << std::string(12 - std::string(command.name).size(), ' ')
-        << command.summary << "\n";
+    const std::string name = command.name;
+    text += "  " + bold(name, is_coloured) + std::string(12 - name.size(), ' ') + command.summary +
+            "\n";
   }
-  out << "\nExample: viscard demo --out demo\n";
+  text += "\n" + bold("Where to begin", is_coloured) +
+          ", without a rig and without data:\n"
+          "  viscard demo --out demo  runs all steps on an emulated rig and writes a page\n"
+          "  viscard help fit         explains a command, with an example that works as printed\n"
+          "\nExample: viscard demo --out demo\n";
+  return fitted(text, streams.columns);
+}
+
+Words command_names() {
+  Words names;
+  for (const Command& command : commands()) names.emplace_back(command.name);
+  return names;
+}
+
+// Every command hands over its table of options in the place of its help.
+CommandDocuments ask_documents() {
+  CommandDocuments documents;
+  for (const Command& command : commands()) {
+    std::ostringstream nothing;
+    Streams streams{nothing, nothing};
+    streams.on_help = [&](const CommandSyntax& syntax) {
+      documents.push_back({command.name, command.summary, syntax});
+    };
+    command.run({"--help"}, streams);
+  }
+  return documents;
 }
 
 int dispatch(const Words& words, Streams& streams) {
-  if (words.empty() || words[0] == "help" || words[0] == "--help" || words[0] == "-h") {
-    print_overview(words.empty() ? streams.err : streams.out);
-    return words.empty() ? kBadWords : kDone;
+  if (words.empty()) {
+    streams.err << overview(streams);
+    return kBadWords;
+  }
+  if (words[0] == "--help" || words[0] == "-h") {
+    Words others{words.begin() + 1, words.end()};
+    return run_help(others, streams, command_names(), ask_documents, overview(streams));
   }
   if (words[0] == "--version") {
-    streams.out << "viscard " VISCARD_VERSION "\n";
+    if (std::find(words.begin(), words.end(), "--json") != words.end()) {
+      print_json<nlohmann::ordered_json>({"viscard-version/1", {}}, {{"program", "viscard"}},
+                                         streams);
+    } else {
+      streams.out << "viscard " VISCARD_VERSION "\n";
+    }
     return kDone;
   }
-  std::vector<std::string> names;
   for (const Command& command : commands()) {
     if (words[0] == command.name) return command.run({words.begin() + 1, words.end()}, streams);
-    names.emplace_back(command.name);
   }
-  throw UsageError("there is no command '" + words[0] + "'" + did_you_mean(words[0], names, "") +
+  throw UsageError("there is no command '" + words[0] + "'" +
+                   did_you_mean(words[0], command_names(), "") +
                    " 'viscard --help' lists the commands");
 }
 
@@ -68,22 +111,31 @@ const std::vector<Command>& commands() {
       {"report", "write one page about captures, tables and materials", run_report},
       {"demo", "run all steps on the emulated rig",
        [](const Words& words, Streams& streams) { return run_demo(words, streams, run_viscard); }},
+      {"help", "explain a command; with --man as a manual page",
+       [](const Words& words, Streams& streams) {
+         return run_help(words, streams, command_names(), ask_documents, overview(streams));
+       }},
+      {"completion", "print the completion script of bash, zsh or fish",
+       [](const Words& words, Streams& streams) {
+         return run_completion(words, streams, ask_documents);
+       }},
   };
   return table;
 }
 
 int run_viscard(const Words& words, Streams& streams) {
+  const std::string who = bold_red("viscard:", streams.is_err_coloured) + " ";
   try {
-    return dispatch(words, streams);
+    return with_json_errors(words, streams, [&] { return dispatch(words, streams); });
   } catch (const UsageError& error) {
-    streams.err << "viscard: " << error.what() << "\n";
+    streams.err << who << error.what() << "\n";
     return kBadWords;
   } catch (const std::filesystem::filesystem_error& error) {
-    streams.err << "viscard: '" << error.path1().string() << "': " << error.code().message()
+    streams.err << who << "'" << error.path1().string() << "': " << error.code().message()
                 << "; choose another place\n";
     return kFailed;
   } catch (const std::exception& error) {
-    streams.err << "viscard: " << error.what() << "\n";
+    streams.err << who << error.what() << "\n";
     return kFailed;
   }
 }

@@ -1,4 +1,5 @@
 #include "io/cli/command.h"
+#include "io/cli/words/terminal.h"
 
 #include <signal.h>
 #include <unistd.h>
@@ -9,8 +10,12 @@ int main(int argc, char** argv) {
   ::signal(SIGXFSZ,
            SIG_IGN);  // writes beyond a file size limit then fail like writes to a full disk
   std::ios::sync_with_stdio(false);
-  viscard::Streams streams{std::cout, std::cerr, isatty(STDERR_FILENO) == 1};
-  const int status = viscard::run_viscard({argv + 1, argv + argc}, streams);
+  viscard::Streams streams{std::cout, std::cerr, viscard::is_drawable(STDERR_FILENO)};
+  const viscard::Words words{argv + 1, argv + argc};
+  streams.columns = viscard::columns_of(STDOUT_FILENO);
+  streams.is_out_coloured = viscard::is_coloured(words, STDOUT_FILENO);
+  streams.is_err_coloured = viscard::is_coloured(words, STDERR_FILENO);
+  const int status = viscard::run_viscard(words, streams);
   std::cout.flush();
   if (!std::cout && status == viscard::kDone) {
     std::cerr << "viscard: standard output could not be written; check for a full disk or a closed "

@@ -1,4 +1,5 @@
 #include "io/cost/study_trials.h"
+#include "models/array/layer/simulate_layer.h"
 #include "models/array/plane/array_geometry.h"
 #include "models/array/plane/simulate_array.h"
 #include "models/array/space/simulate_space.h"
@@ -46,6 +47,15 @@ CostMeshes meshes_of(const SpaceScene& scene) {
           .step_tolerance = scene.tolerance};
 }
 
+// Grids of a layer are known by their degree alone (layer_meshes()).
+CostMeshes meshes_of(const LayerScene& scene) {
+  return {.diameter_m = 2.0 * scene.electrode_radius_m,
+          .graded = {{3, 1}, {4, 2}, {5, 3}, {6, 4}},
+          .highest_uniform = 0,
+          .reference_layers = 5,
+          .step_tolerance = scene.tolerance};
+}
+
 Discretisation graded(const PillarScene& scene, int degree, int layers) {
   Discretisation mesh = mesh_sequence(scene.geometry).front();
   mesh.degree = degree;
@@ -68,6 +78,14 @@ Discretisation graded(const SpaceScene& scene, int degree, int) {
   return space_meshes(scene).back();
 }
 
+Discretisation graded(const LayerScene& scene, int degree, int) {
+  const std::vector<Discretisation> meshes = layer_meshes(scene);
+  for (const Discretisation& mesh : meshes) {
+    if (mesh.degree >= degree) return mesh;
+  }
+  return meshes.back();
+}
+
 // A film that is left out needs no elements beside the pillar.
 Discretisation without_effect(const PillarScene& without, Discretisation mesh) {
   if (!without.film) mesh.film_elements = 1;
@@ -79,6 +97,10 @@ Discretisation without_effect(const ArrayScene&, Discretisation mesh) {
 }
 
 Discretisation without_effect(const SpaceScene&, Discretisation mesh) {
+  return mesh;
+}
+
+Discretisation without_effect(const LayerScene&, Discretisation mesh) {
   return mesh;
 }
 
@@ -125,6 +147,12 @@ double size_of(const SpaceScene& scene, const Discretisation& mesh) {
   pillar.diameter_m = scene.diameter_m;
   pillar.length_m = scene.length_m;
   return 3.0 * pillar_mesh(pillar, mesh).section.node_count();
+}
+
+// Cells of the grid.
+double size_of(const LayerScene& scene, const Discretisation& mesh) {
+  const double across = cells_across(scene, mesh);
+  return scene.is_plane() ? across : across * across;
 }
 
 }  // namespace

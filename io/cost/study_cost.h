@@ -33,6 +33,7 @@ struct PredictedRow {
   double unknowns = 0.0, cpu_s = 0.0, memory_B = 0.0;
 };
 
+// Which row to take for one tolerance.
 struct CostAdvice {
   double tolerance = 0.0;
   std::string text;  // one line, also if no row is accurate enough
@@ -46,6 +47,7 @@ struct CostLaw {
   double exponent = 0.0;
 };
 
+// Error against time over discretisations.
 struct CostStudy {
   std::vector<CostRow> rows;
   std::vector<PredictedRow> predicted;
@@ -60,6 +62,7 @@ struct CostStudy {
   CostMachine machine;
 };
 
+// How long a study may take.
 struct CostOptions {
   double budget_s = 60.0;                                    // of wall time
   int repeats = 3;                                           // of rows that take less than 0.3 s

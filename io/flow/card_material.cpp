@@ -2,6 +2,7 @@
 
 #include "fit/reduce_terms.h"
 #include "io/basics/atomic_file.h"
+#include "io/cards/card.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/materials/material_file.h"
 #include "models/material/liquid.h"
@@ -138,6 +139,16 @@ void take_ratio(const CardMaterialRequest& request, PreparedMaterial& prepared) 
   }
 }
 
+void take_changes(const CardMaterialRequest& request, PreparedMaterial& prepared) {
+  if (prepared.material.name.empty()) {
+    prepared.material.name = std::filesystem::path(request.material).stem().string();
+  }
+  if (request.temperature_C) take_temperature(*request.temperature_C, prepared);
+  if (!request.bound.empty()) take_bound(request, prepared);
+  if (!request.elastic_only.empty()) leave_relaxation_out(request, prepared);
+  reduce_to_target(request, prepared);
+}
+
 }  // namespace
 
 PreparedMaterial prepare_card_material(const CardMaterialRequest& request) {
@@ -151,14 +162,27 @@ PreparedMaterial prepare_card_material(const CardMaterialRequest& request) {
     refuse_liquid(prepared.material, request.material);
   }
   prepared.sha256 = sha256_of_file(request.material);
-  if (prepared.material.name.empty()) {
-    prepared.material.name = std::filesystem::path(request.material).stem().string();
-  }
-  if (request.temperature_C) take_temperature(*request.temperature_C, prepared);
-  if (!request.bound.empty()) take_bound(request, prepared);
-  if (!request.elastic_only.empty()) leave_relaxation_out(request, prepared);
-  reduce_to_target(request, prepared);
+  take_changes(request, prepared);
   return prepared;
+}
+
+PreparedMaterial prepare_card_material(const Material& material,
+                                       const CardMaterialRequest& request) {
+  PreparedMaterial prepared;
+  prepared.material = material;
+  refuse_liquid(material, request.material);
+  take_changes(request, prepared);
+  return prepared;
+}
+
+void state_changes(const PreparedMaterial& prepared, CardOptions& options) {
+  options.material_sha256 = prepared.sha256;
+  options.notes = prepared.notes;
+  options.original = prepared.original;
+  if (!prepared.terms_change) return;
+  options.done_before.push_back(
+      {"terms", prepared.are_terms_dropped ? Mapping::kDropped : Mapping::kApproximated,
+       *prepared.terms_change});
 }
 
 }  // namespace viscard

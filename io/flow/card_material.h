@@ -8,6 +8,8 @@
 
 namespace viscard {
 
+struct CardOptions;
+
 // Which material a card is written of.
 struct CardMaterialRequest {
   std::string material;                 // path of a material or joint file
@@ -34,5 +36,12 @@ struct PreparedMaterial {
 // Throws std::runtime_error naming the file, std::invalid_argument if a joint file has no ratio or
 // a material file has one.
 PreparedMaterial prepare_card_material(const CardMaterialRequest& request);
+
+// The same for a material in memory; request.material stands for it in messages.
+PreparedMaterial prepare_card_material(const Material& material,
+                                       const CardMaterialRequest& request);
+
+// What a card states of these changes.
+void state_changes(const PreparedMaterial& prepared, CardOptions& options);
 
 }  // namespace viscard

@@ -95,15 +95,14 @@ void take_laws(const FitRequest& request, bool is_capture, FittedFile& fitted) {
   fitted.model = request.model;
 }
 
-}  // namespace
-
-FittedFile fit_file(const std::string& path, const FitRequest& request) {
-  const bool is_capture = looks_like_capture(path);
-  // Readers name the file in their messages; the fit does not know it.
+// Fits what `fit` reads. Readers name the file in their messages; the fit does not know it.
+template <typename Fit>
+FittedFile fit_named(const std::string& path, const FitRequest& request, bool is_capture,
+                     const Fit& fit) {
   try {
     FitRequest wanted = request;
     wanted.options.with_laws = request.diagnose || !request.model.empty();
-    FittedFile fitted = is_capture ? fit_capture(path, wanted) : fit_table(path, wanted);
+    FittedFile fitted = fit(wanted);
     fitted.path = path;
     if (request.diagnose) fitted.fractional = diagnose_fractional(fitted.result);
     take_laws(request, is_capture, fitted);
@@ -113,6 +112,23 @@ FittedFile fit_file(const std::string& path, const FitRequest& request) {
     if (text.find(path) != std::string::npos) throw;
     throw std::runtime_error(path + ": " + text);
   }
+}
+
+}  // namespace
+
+FittedFile fit_file(const std::string& path, const FitRequest& request) {
+  const bool is_capture = looks_like_capture(path);
+  return fit_named(path, request, is_capture, [&](const FitRequest& wanted) {
+    return is_capture ? fit_capture(path, wanted) : fit_table(path, wanted);
+  });
+}
+
+FittedFile fit_values(const CsvTable& table, const FitRequest& request) {
+  return fit_named(table.file, request, false, [&](const FitRequest& wanted) {
+    FittedFile fitted = fit_csv(table, wanted);
+    fitted.is_in_memory = true;
+    return fitted;
+  });
 }
 
 }  // namespace viscard

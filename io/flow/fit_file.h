@@ -15,6 +15,9 @@ namespace viscard {
 // Reads a capture or a table and fits it. Throws std::runtime_error naming the file.
 FittedFile fit_file(const std::string& path, const FitRequest& request);
 
+// The same for a table in memory. Its `file` stands for it in messages; no file of that name is read.
+FittedFile fit_values(const CsvTable& table, const FitRequest& request);
+
 // Called with the fraction done and the name of the step that was finished last; may be empty.
 using FlowProgress = std::function<void(double fraction, const std::string& step)>;
 
@@ -48,7 +51,7 @@ struct MaterialRequest {
 };
 
 // Makes the material of one fitted capture or table, with its name, validity window and provenance
-// (including the SHA-256 of the raw file). Throws std::invalid_argument if the fit gave
+// (including the SHA-256 of the raw file, unless it was a table in memory). Throws std::invalid_argument if the fit gave
 // stiffnesses, std::runtime_error if the raw file cannot be read.
 Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& request);
 

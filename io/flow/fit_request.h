@@ -47,6 +47,7 @@ struct FitRequest {
 // The fit of one file, with the specimen that the file or the options describe.
 struct FittedFile {
   std::string path;
+  bool is_in_memory = false;  // the path is a name and no file
   FitResult result;
   Specimen specimen;        // empty for a table without --specimen
   std::string specimen_id;  // of the capture, or of the table's column "specimen"; empty: not known

@@ -65,7 +65,7 @@ Material material_from_fitted(const FittedFile& fitted, const MaterialRequest& r
   material.provenance.created_at = request.created_at;
   material.provenance.command = request.command;
   std::vector<std::string> files = paths_of(fitted.tests);
-  if (files.empty()) files.push_back(fitted.path);
+  if (files.empty() && !fitted.is_in_memory) files.push_back(fitted.path);
   for (const std::string& file : files) {
     material.provenance.raw_files.push_back({file, sha256_of_file(file)});
   }

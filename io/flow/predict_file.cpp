@@ -198,9 +198,12 @@ std::vector<std::string> notes_about(const Material& material, const PredictedFi
 }  // namespace
 
 PredictedFile predict_file(const PredictFileRequest& request) {
+  return predict_material(read_material(request.material).material, request);
+}
+
+PredictedFile predict_material(Material material, const PredictFileRequest& request) {
   PredictedFile out;
   out.path = request.material;
-  Material material = read_material(request.material).material;
   out.name = material.name.empty() ? std::filesystem::path(request.material).stem().string()
                                    : material.name;
   if (request.temperature_C) material = material_at_temperature(material, *request.temperature_C);

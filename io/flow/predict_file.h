@@ -43,6 +43,7 @@ struct Agreement {
   bool is_noise_relative = false;  // of frequency sweeps, whose values span decades
 };
 
+// What a material file does in a test.
 struct PredictedFile {
   std::string path, name;  // of the material
   double systematic_relative = 0.0;
@@ -57,6 +58,9 @@ struct PredictedFile {
 
 // Throws std::runtime_error naming the file, std::invalid_argument as predict_test() does.
 PredictedFile predict_file(const PredictFileRequest& request);
+
+// The same for a material in memory; request.material stands for it in messages.
+PredictedFile predict_material(Material material, const PredictFileRequest& request);
 
 // "relaxation", "creep", "recovery", "cycles", "oscillation", "history", in this order.
 const std::vector<std::string>& names_of_predicted_tests();

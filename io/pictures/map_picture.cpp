@@ -18,20 +18,6 @@ constexpr double kMapLeft_px = 52.0, kMapRight_px = 130.0, kAboveMap_px = 58.0, 
 constexpr int kMostDiscs = 20;  // rows and columns
 constexpr int kColours = 129;   // of cells, which are drawn colour by colour; odd: zero has its own
 
-// The unit of the bar: the largest prefix that leaves 1 before the point.
-struct MapUnit {
-  double per_si = 1.0;
-  std::string text;
-};
-MapUnit map_unit_of(const SceneMap& map) {
-  const double size = largest_size(map.value);
-  if (map.unit == "%" || size >= 1.0 || size == 0.0) return {1.0, map.unit};
-  if (size >= 1e-3) return {1e3, "m" + map.unit};
-  if (size >= 1e-6) return {1e6, "u" + map.unit};
-  if (size >= 1e-9) return {1e9, "n" + map.unit};
-  return {1e12, "p" + map.unit};
-}
-
 // The values that the ends of the bar stand for.
 struct MapRange {
   double low = 0.0, high = 0.0;
@@ -190,7 +176,7 @@ class MapDrawing {
   }
 
   void draw_bar() {
-    const MapUnit unit = map_unit_of(map_);
+    const BarUnit unit = bar_unit(map_.unit, largest_size(map_.value));
     std::vector<ColourTick> ticks;
     for (const double tick : round_ticks(unit.per_si * range_.low, unit.per_si * range_.high)) {
       ticks.push_back({range_.share(tick / unit.per_si), fmt::format("{:.6g}", tick)});

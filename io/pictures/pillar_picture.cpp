@@ -36,11 +36,18 @@ void draw_electrodes(SceneDrawing& d, const PillarScene& scene) {
   const double R = scene.electrodes->electrode_radius_m;
   const FilmFace grounded = scene.electrodes->grounded;
   d.ground(-film.radius_m, film.radius_m, film.thickness_m, grounded);
-  if (R > 0.0) {
-    d.electrode(-R, R, film.thickness_m,
-                grounded == FilmFace::kTop ? FilmFace::kBottom : FilmFace::kTop);
+  const FilmFace face = grounded == FilmFace::kTop ? FilmFace::kBottom : FilmFace::kTop;
+  const bool is_divided = scene.electrodes->quadrants && R > 0.0;
+  if (is_divided) {
+    constexpr double kGap = 0.05;  // of the radius, so that the parts can be told apart
+    d.electrode(-R, -kGap * R, film.thickness_m, face);
+    d.electrode(kGap * R, R, film.thickness_m, face);
+    d.quarters(d.width_px() - 70.0, 70.0);
+  } else if (R > 0.0) {
+    d.electrode(-R, R, film.thickness_m, face);
   }
-  d.legend((R > 0.0 ? "orange: electrode, radius " + micrometres(R)
+  const std::string what = is_divided ? "electrode in quarters" : "electrode";
+  d.legend((R > 0.0 ? "orange: " + what + ", radius " + micrometres(R)
                     : std::string("the other face is free of charge and read")) +
            "; dashed: ground");
 }

@@ -99,6 +99,16 @@ void SceneDrawing::electrode(double from_m, double to_m, double thickness_m, Fil
   box(from_m, to_m, low_m, low_m + high_m, R"(fill="#d55e00")");
 }
 
+void SceneDrawing::quarters(double x_px, double y_px) {
+  constexpr double kRadius_px = 22.0;
+  body_ += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"#d55e00\"/>\n",
+                       x_px, y_px, kRadius_px);
+  const char* const gap = R"(stroke="#fff" stroke-width="3")";
+  line(x_px - kRadius_px, y_px, x_px + kRadius_px, y_px, gap);
+  line(x_px, y_px - kRadius_px, x_px, y_px + kRadius_px, gap);
+  text(x_px, y_px + kRadius_px + 18.0, "from above", "middle");
+}
+
 void SceneDrawing::ground(double from_m, double to_m, double thickness_m, FilmFace face) {
   const double z_m = face == FilmFace::kTop ? 0.0 : -thickness_m;
   line(x(from_m), y(z_m), x(to_m), y(z_m),

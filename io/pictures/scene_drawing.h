@@ -33,6 +33,8 @@ class SceneDrawing {
   void held(double from_m, double to_m, double z_m);
   // Over what stands on it: a band within the film along one of its faces.
   void electrode(double from_m, double to_m, double thickness_m, FilmFace face);
+  // Seen from above, as large as the page has room for beside a section.
+  void quarters(double x_px, double y_px);
   void ground(double from_m, double to_m, double thickness_m, FilmFace face);
   // On the top of a pillar, toward it or sideways.
   void load_arrows(double middle_m, double half_m, double top_m, bool is_sideways);

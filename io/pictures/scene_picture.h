@@ -15,5 +15,10 @@ std::string svg_from_scene(const PillarScene& scene, const std::string& title);
 std::string svg_from_scene(const ArrayScene& scene, const std::string& title);
 // An array in the plane as seen from above: film, pillars, those that bear the load, a length to scale.
 std::string svg_from_scene(const SpaceScene& scene, const std::string& title);
+// A layer as a section through the middle of the shape, with its electrodes.
+std::string svg_from_scene(const LayerScene& scene, const std::string& title);
+
+// "a rigid sphere of radius 3650 um pressed 10 um deep"
+std::string words_of_press(const ShapePress& press);
 
 }  // namespace viscard

@@ -25,7 +25,7 @@ struct Corner {
 };
 
 struct Shown {
-  std::string title;
+  std::string title, unit;
   bool is_signed = false;
   std::vector<std::array<Corner, 4>> quads;
   std::string note;
@@ -44,11 +44,9 @@ double largest_drawn_m(const SectionGrid& grid) {
   return grid.harmonic == 1 ? swing_m : std::min(swing_m, kBulge * radius_m);
 }
 
-// "static_stress_zz_Pa" -> "static stress zz (Pa)"
+// "static_stress_zz_Pa" -> "static stress zz"; the unit stands at the bar.
 std::string title_of(std::string name, const std::string& unit) {
-  if (unit != "1" && name.ends_with("_" + unit)) {
-    name = name.substr(0, name.size() - unit.size() - 1) + " (" + unit + ")";
-  }
+  if (unit != "1" && name.ends_with("_" + unit)) name.resize(name.size() - unit.size() - 1);
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
@@ -56,7 +54,7 @@ std::string title_of(std::string name, const std::string& unit) {
 // Both halves of the section, moved by factor times the displacement (if it is one).
 Shown shown_of(const SectionGrid& grid, const SectionField& field) {
   const std::string name = field.unit == "1" ? field.name : grid.name + "_" + field.name;
-  Shown shown{title_of(name, field.unit), !field.is_vector, {}, {}};
+  Shown shown{title_of(name, field.unit), field.unit, !field.is_vector, {}, {}};
   double largest = 0.0;
   for (std::size_t i = 0; i < field.value.size(); ++i) {
     const auto u = displacement_at(grid, field, i, 0.0);
@@ -111,13 +109,15 @@ Range range_of(const Shown& shown) {
 }
 
 std::string scale_bar(const Range& range, const Shown& shown) {
+  const BarUnit unit = bar_unit(shown.unit, std::max(std::abs(range.low), std::abs(range.high)));
   std::vector<ColourTick> ticks;
-  for (int i = 0; i <= 4; ++i) {
-    const double value = range.low + (range.high - range.low) * i / 4.0;
-    ticks.push_back({i / 4.0, fmt::format("{:.3g}", value)});
+  for (const double tick : round_ticks(unit.per_si * range.low, unit.per_si * range.high)) {
+    ticks.push_back({range.share(tick / unit.per_si), fmt::format("{:.6g}", tick)});
   }
-  return colour_bar(kSectionWidth_px - kRight_px + 30.0, kTop_px, 0.6 * kHeight_px, shown.is_signed,
-                    ticks);
+  const double bar_px = kSectionWidth_px - kRight_px + 30.0;
+  return colour_bar(bar_px, kTop_px, 0.6 * kHeight_px, shown.is_signed, ticks) +
+         fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", bar_px, kTop_px - 12.0,
+                     unit.text);
 }
 
 std::string svg_of(const Shown& shown) {

@@ -86,15 +86,6 @@ std::string words_of_array(const SpaceScene& scene) {
                              micrometres(scene.film_edge_m));
 }
 
-std::string words_of_press(const ShapePress& press) {
-  const char* const names[] = {"plane", "cylinder", "sphere", "paraboloid",
-                               "wedge", "edge",     "table"};
-  std::string words = fmt::format("a rigid {}", names[static_cast<int>(press.shape.kind)]);
-  if (press.shape.radius_m > 0.0) words += " of radius " + micrometres(press.shape.radius_m);
-  if (press.force_N > 0.0) return words + fmt::format(" pressed with {:.4g} N", press.force_N);
-  return words + " pressed " + micrometres(press.depth_m) + " deep";
-}
-
 std::string words_of_loads(const SpaceScene& scene) {
   if (scene.press) return words_of_press(*scene.press);
   std::string words;
@@ -116,6 +107,17 @@ std::string words_of_loads(const SpaceScene& scene) {
 }
 
 }  // namespace
+
+std::string words_of_press(const ShapePress& press) {
+  const char* const names[] = {"plane", "cylinder", "sphere", "paraboloid",
+                               "wedge", "edge",     "table"};
+  const char* const name =
+      press.shape.table.is_random ? "rough surface" : names[static_cast<int>(press.shape.kind)];
+  std::string words = fmt::format("a rigid {}", name);
+  if (press.shape.radius_m > 0.0) words += " of radius " + micrometres(press.shape.radius_m);
+  if (press.force_N > 0.0) return words + fmt::format(" pressed with {:.4g} N", press.force_N);
+  return words + " pressed " + micrometres(press.depth_m) + " deep";
+}
 
 std::string svg_from_scene(const SpaceScene& scene, const std::string& title) {
   const FilmExtent film = film_extent(scene);

@@ -93,7 +93,7 @@ HtmlTable summary_table(const std::vector<SpecimenEstimates>& estimates) {
   columns.push_back({with_unit(fmt::format("<i>{}</i><sub>0</sub>", symbol), unit.text)});
   columns.push_back({with_unit(fmt::format("<i>{}</i><sub>∞</sub>", symbol), unit.text)});
   columns.insert(columns.end(),
-                 {{with_unit("Relaxes by", "%")}, {"Terms"}, {with_unit("Systematic", "%")}});
+                 {{with_unit("Relaxes by", "%")}, {"Terms"}, {with_unit("Systematic, 95 %", "%")}});
   if (has_two_point) columns.push_back({with_unit("Two-point modulus", unit.text)});
   columns.push_back({"Flags"});
   HtmlTable table(columns);

@@ -17,7 +17,8 @@ using SceneReader = void (*)(const FieldReader& read, const std::filesystem::pat
 // By geometry.kind.
 const std::map<std::string, SceneReader>& readers() {
   static const std::map<std::string, SceneReader> kReaders = {{PillarScene::kKind, read_pillar},
-                                                              {ArrayScene::kKind, read_row}};
+                                                              {ArrayScene::kKind, read_row},
+                                                              {LayerScene::kKind, read_layer}};
   return kReaders;
 }
 

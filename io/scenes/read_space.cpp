@@ -265,7 +265,8 @@ SpaceScene scene_from(const RawSpace& raw, const std::filesystem::path& folder) 
   fill_electrode(raw, scene);
   scene.surface_energy_J_m2 = raw.surface_energy_J_m2;
   fill_load(raw, scene);
-  scene.press = press_from(raw.shape, folder);
+  const FilmExtent film = film_extent(scene);
+  scene.press = press_from(raw.shape, folder, {film.left_m, film.right_m, film.low_m, film.high_m});
   fill_touch(raw.analysis, raw.drive, scene);
   scene.effects = choices_of(raw.effects);
   scene.wanted = raw.quantities;

@@ -16,6 +16,7 @@ struct ArraySweep {
   double length_over_diameter = 0.0;  // 0: the scene's length at every diameter
   // The first spacing whose deviation lies below this is reported; 0: none.
   double limit_percent = 0.0;
+  // True if no value varies.
   bool is_empty() const { return diameter_m.empty() && spacing_m.empty() && thickness_m.empty(); }
 };
 

@@ -21,12 +21,13 @@ namespace viscard {
 // Reads the fields that `show` shows from an open scene file.
 using FieldReader = std::function<void(const std::function<void(FieldVisitor&)>& show)>;
 
-// Read a scene of one pillar, of a row, or of an array in the plane; data/scenes/pillar_*.toml,
-// array_*.toml and space_*.toml are commented examples. Material files are looked for in `folder`. Throw SceneMistake, std::invalid_argument or
+// Read a scene of one pillar, of a row, of an array in the plane, or of a layer; data/scenes/pillar_*.toml,
+// array_*.toml, space_*.toml and layer_*.toml are commented examples. Material files are looked for in `folder`. Throw SceneMistake, std::invalid_argument or
 // std::runtime_error for what is wrong.
 void read_pillar(const FieldReader& read, const std::filesystem::path& folder, SceneFile& file);
 void read_row(const FieldReader& read, const std::filesystem::path& folder, SceneFile& file);
 void read_space(const FieldReader& read, const std::filesystem::path& folder, SceneFile& file);
+void read_layer(const FieldReader& read, const std::filesystem::path& folder, SceneFile& file);
 
 // The value of a word. Throws SceneMistake with the known words, and the nearest, for another.
 template <typename Value>

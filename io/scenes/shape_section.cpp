@@ -11,6 +11,8 @@
 namespace viscard {
 namespace {
 
+constexpr const char* kRough = "rough";
+
 bool is_round(ShapeKind kind) {
   return kind == ShapeKind::kCylinder || kind == ShapeKind::kSphere ||
          kind == ShapeKind::kParaboloid;
@@ -38,12 +40,42 @@ void refuse_strangers(const RawShape& raw, ShapeKind kind) {
   if (raw.direction_rad != 0.0 && !has_direction) {
     throw SceneMistake("shape.direction", "belongs to a cylinder, a wedge or an edge");
   }
+  const bool has_roughness = raw.rms_m > 0.0 || raw.correlation_length_m > 0.0 || raw.seed != 0;
+  if (has_roughness && raw.kind != kRough) {
+    throw SceneMistake(raw.rms_m > 0.0                  ? "shape.rms"
+                       : raw.correlation_length_m > 0.0 ? "shape.correlation_length"
+                                                        : "shape.seed",
+                       "belongs to kind = \"rough\"");
+  }
+  if (!raw.file.empty() && raw.kind == kRough) {
+    throw SceneMistake("shape.file", "belongs to kind = \"table\"");
+  }
   if (!raw.file.empty() && kind != ShapeKind::kTable) {
     throw SceneMistake("shape.file", "belongs to kind = \"table\"");
   }
 }
 
-void fill_kind(const RawShape& raw, const std::filesystem::path& folder, RigidShape& shape) {
+// Random heights stand in for a table, around the point `at`.
+void fill_rough(const RawShape& raw, const RoughExtent& touchable, RigidShape& shape) {
+  if (!(raw.rms_m > 0.0) || !(raw.correlation_length_m > 0.0)) {
+    throw SceneMistake("shape",
+                       "is rough, which needs rms and correlation_length, such as rms = "
+                       "\"0.25 um\", correlation_length = \"75 um\"");
+  }
+  const RoughSurface surface{raw.rms_m, raw.correlation_length_m,
+                             static_cast<std::uint64_t>(raw.seed)};
+  const RoughExtent around{touchable.low_x_m - shape.x_m, touchable.high_x_m - shape.x_m,
+                           touchable.low_y_m - shape.y_m, touchable.high_y_m - shape.y_m};
+  if (rough_places(surface, around) > kMostRoughPlaces) {
+    throw SceneMistake("shape.correlation_length",
+                       "is too small: the surface over all that it may touch would need more than "
+                       "four million heights, a sixteenth of this length apart");
+  }
+  shape.table = rough_heights(surface, around);
+}
+
+void fill_kind(const RawShape& raw, const std::filesystem::path& folder,
+               const RoughExtent& touchable, RigidShape& shape) {
   refuse_strangers(raw, shape.kind);
   if (is_round(shape.kind) && !(raw.radius_m > 0.0)) {
     throw SceneMistake("shape", "needs a radius, such as radius = \"100 mm\"");
@@ -58,6 +90,7 @@ void fill_kind(const RawShape& raw, const std::filesystem::path& folder, RigidSh
     }
     shape.slope = std::tan(raw.angle_rad);
   }
+  if (raw.kind == kRough) return fill_rough(raw, touchable, shape);
   if (shape.kind != ShapeKind::kTable) return;
   if (raw.file.empty()) {
     throw SceneMistake("shape", "needs file = \"heights.csv\" with columns x, y and z");
@@ -78,9 +111,14 @@ void show_shape(FieldVisitor& v, RawShape& s) {
   v.quantity({.key = "direction", .unit = "rad"}, s.direction_rad);
   v.quantity({.key = "angle", .unit = "rad", .range = Range::kPositive}, s.angle_rad);
   v.text({"file", "heights.csv"}, s.file);
+  v.quantity({.key = "rms", .unit = "m", .range = Range::kPositive}, s.rms_m);
+  v.quantity({.key = "correlation_length", .unit = "m", .range = Range::kPositive},
+             s.correlation_length_m);
+  v.integer("seed", 0, 1'000'000'000, s.seed);
 }
 
-std::optional<ShapePress> press_from(const RawShape& raw, const std::filesystem::path& folder) {
+std::optional<ShapePress> press_from(const RawShape& raw, const std::filesystem::path& folder,
+                                     const RoughExtent& touchable) {
   const bool is_empty = raw.depth_m == 0.0 && raw.force_N == 0.0 && raw.radius_m == 0.0;
   if (raw.kind.empty() && is_empty) return {};
   ShapePress press;
@@ -92,10 +130,11 @@ std::optional<ShapePress> press_from(const RawShape& raw, const std::filesystem:
                                   {"paraboloid", ShapeKind::kParaboloid},
                                   {"wedge", ShapeKind::kWedge},
                                   {"edge", ShapeKind::kEdge},
-                                  {"table", ShapeKind::kTable}});
+                                  {"table", ShapeKind::kTable},
+                                  {kRough, ShapeKind::kTable}});
   choice<bool>("shape.friction", raw.friction, {{"none", false}});
-  fill_kind(raw, folder, shape);
   std::tie(shape.x_m, shape.y_m) = pair_of("at", raw.at_m);
+  fill_kind(raw, folder, touchable, shape);
   const auto [tilt_x, tilt_y] = pair_of("tilt", raw.tilt_rad);
   constexpr double kSteepest = 0.25 * std::numbers::pi;
   if (std::abs(tilt_x) > kSteepest || std::abs(tilt_y) > kSteepest) {

@@ -11,7 +11,7 @@ namespace viscard {
 namespace {
 
 constexpr double kRadiansPerTurn = 2.0 * std::numbers::pi;
-constexpr int kSamples = 401;  // of a band, for least squares and largest deviations
+constexpr int kSamples = 401;  // of a band, for integrals and largest deviations; odd
 
 LossDeviation largest_deviation(const std::vector<double>& band_Hz,
                                 const std::vector<double>& loss_factors,
@@ -24,7 +24,14 @@ LossDeviation largest_deviation(const std::vector<double>& band_Hz,
   return largest;
 }
 
-// Sums of the normal equations of eta = a/x + b x, x being omega over its value in mid-band.
+// Weights of Simpson's rule over an odd number of equidistant samples, their mean being one.
+double simpson_weight(std::size_t sample, std::size_t count) {
+  const double part = sample == 0 || sample + 1 == count ? 1.0 : sample % 2 == 1 ? 4.0 : 2.0;
+  return part / 3.0 * static_cast<double>(count) / static_cast<double>(count - 1);
+}
+
+// Integrals of the normal equations of eta = a/x + b x over log f, x being omega over its value in
+// mid-band.
 struct RayleighSums {
   double inverse = 0.0, cross = 0.0, square = 0.0;  // of 1/x^2, of 1, of x^2
   double eta_over_x = 0.0, eta_x = 0.0, eta = 0.0;
@@ -35,12 +42,13 @@ RayleighSums rayleigh_sums(const std::vector<double>& band_Hz,
   RayleighSums sums;
   for (std::size_t i = 0; i < band_Hz.size(); ++i) {
     const double x = band_Hz[i] / middle_Hz, eta = loss_factors[i];
-    sums.inverse += 1.0 / (x * x);
-    sums.cross += 1.0;
-    sums.square += x * x;
-    sums.eta_over_x += eta / x;
-    sums.eta_x += eta * x;
-    sums.eta += eta;
+    const double weight = simpson_weight(i, band_Hz.size());
+    sums.inverse += weight / (x * x);
+    sums.cross += weight;
+    sums.square += weight * x * x;
+    sums.eta_over_x += weight * eta / x;
+    sums.eta_x += weight * eta * x;
+    sums.eta += weight * eta;
   }
   return sums;
 }
@@ -131,6 +139,7 @@ BandReduction reduce_to_band(const Material& material, const FrequencyBand& band
   const auto [low, high] = std::minmax_element(storage_Pa.begin(), storage_Pa.end());
   out.young_Pa = 2.0 * *low * *high / (*low + *high);
   out.storage_change = (*high - *low) / (*high + *low);
+  out.storage_ratio = *high / *low;
   const double middle_Hz = std::sqrt(band.from_Hz * band.to_Hz);
   out.poisson = poisson_ratio(material, dynamic_moduli(material, middle_Hz));
   fit_rayleigh(rayleigh_sums(band_Hz, loss_factors, middle_Hz), kRadiansPerTurn * middle_Hz, out);

@@ -41,12 +41,13 @@ struct LossDeviation {
 // What a code with constant moduli can take of a material over a band. A structure with stiffness
 // matrix K and damping matrix C = alpha M + beta K has the damping ratio alpha/(2 omega) + beta
 // omega/2 at omega (Clough and Penzien, Dynamics of Structures, 2nd ed. (1993), section 12-5), which
-// is half its loss factor. alpha and beta >= 0 are those of least squares over frequencies of equal
-// distance on the logarithmic axis.
+// is half its loss factor. alpha and beta >= 0 are those of least squares over the band, integrated
+// over the logarithm of the frequency.
 struct BandReduction {
   double young_Pa = 0.0;        // between the ends of E'(f): equally far from both, relatively
   double poisson = 0.0;         // of the storage moduli in the middle of the band
   double storage_change = 0.0;  // largest relative difference of young_Pa from E'(f)
+  double storage_ratio = 1.0;   // largest over smallest E'(f)
   double loss_factor = 0.0;     // constant, least squares
   double alpha_1_s = 0.0, beta_s = 0.0;
   double beta_alone_s = 0.0;  // of C = beta K

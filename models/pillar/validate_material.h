@@ -20,6 +20,7 @@ struct ValidationCurve {
   int steps = 0;                       // time steps taken, all levels together
 };
 
+// Relaxation and creep beside the exact curves.
 struct ValidationResult {
   ValidationCurve relaxation;  // shortening of strain * length held from t = 0
   ValidationCurve creep;       // pressure held from t = 0
@@ -33,6 +34,7 @@ struct ValidationResult {
   std::vector<std::string> notes;  // remarks for the reader, plain sentences
 };
 
+// The pillar, its loads and its mesh.
 struct ValidateOptions {
   PillarGeometry geometry;  // 40 um x 120 um on a fixed base
   Discretisation discretisation;

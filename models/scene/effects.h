@@ -4,6 +4,7 @@
 #include "models/scene/scene.h"
 
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 namespace viscard {
@@ -26,9 +27,16 @@ struct Effect {
   bool is_choice_of_elements = false;
 };
 
+// The effects on a layer, most of which have no part in it, stand apart (layer_effects.cpp).
+const EffectOn<LayerScene>& effect_on_layer(const Effect& effect);
+
 template <typename Body>
 const EffectOn<Body>& effect_on(const Effect& effect) {
-  return std::get<EffectOn<Body>>(effect.on);
+  if constexpr (std::is_same_v<Body, LayerScene>) {
+    return effect_on_layer(effect);
+  } else {
+    return std::get<EffectOn<Body>>(effect.on);
+  }
 }
 
 const std::vector<Effect>& effects();  // all, in the order they are printed

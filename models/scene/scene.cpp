@@ -1,5 +1,6 @@
 #include "models/scene/scene.h"
 
+#include "models/array/layer/simulate_layer.h"
 #include "models/array/plane/simulate_array.h"
 #include "models/array/space/simulate_space.h"
 #include "models/pillar/analyses/buckling_limit.h"
@@ -25,6 +26,11 @@ std::string creep_buckling_note(const SpaceScene& array) {
     const std::string note = note_of_one(single_pillar(array, one), array.pressure_Pa);
     if (!note.empty()) return note;
   }
+  return "";
+}
+
+// A layer does not buckle.
+std::string creep_buckling_note(const LayerScene&) {
   return "";
 }
 

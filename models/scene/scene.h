@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/array/layer/layer_scene.h"
 #include "models/array/plane/array_scene.h"
 #include "models/array/space/space_scene.h"
 #include "models/pillar/scene/pillar_scene.h"
@@ -10,17 +11,17 @@
 
 namespace viscard {
 
-// The contents of a scene file: one pillar, a row of pillars, or an array in the plane. Every kind of
+// The contents of a scene file: one pillar, a row of pillars, an array in the plane, or a layer. Every kind of
 // scene derives from SceneCommon, and has kKind, its word in a scene file, and kTolerances. Rows and
 // arrays in the plane have the same word; geometry.model distinguishes them. A new kind is a further
 // alternative here; the compiler then names every place that lacks it.
-using Scene = std::variant<PillarScene, ArrayScene, SpaceScene>;
+using Scene = std::variant<PillarScene, ArrayScene, SpaceScene, LayerScene>;
 
 // What all scenes have.
 SceneCommon& common(Scene& scene);
 const SceneCommon& common(const Scene& scene);
 
-const char* kind_of(const Scene& scene);  // "pillar", "array"
+const char* kind_of(const Scene& scene);  // "pillar", "array", "layer"
 const ToleranceRange& tolerances_of(const Scene& scene);
 
 // Throws std::invalid_argument, mostly SceneMistake, naming what is missing or contradictory.

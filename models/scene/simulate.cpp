@@ -1,5 +1,6 @@
 #include "models/scene/simulate.h"
 
+#include "models/array/layer/simulate_layer.h"
 #include "models/array/plane/simulate_array.h"
 #include "models/array/space/simulate_space.h"
 #include "models/pillar/analyses/analysis.h"
@@ -26,6 +27,9 @@ SceneAnswer solve(const ArrayScene& scene) {
 SceneAnswer solve(const SpaceScene& scene) {
   return simulate_space(scene);
 }
+SceneAnswer solve(const LayerScene& scene) {
+  return simulate_layer(scene);
+}
 
 SceneAnswer solve_on(const PillarScene& scene, const Discretisation& mesh) {
   return pillar_answer_on(scene, mesh);
@@ -35,6 +39,9 @@ SceneAnswer solve_on(const ArrayScene& scene, const Discretisation& mesh) {
 }
 SceneAnswer solve_on(const SpaceScene& scene, const Discretisation& mesh) {
   return space_answer_on(scene, mesh);
+}
+SceneAnswer solve_on(const LayerScene& scene, const Discretisation& mesh) {
+  return layer_answer_on(scene, mesh);
 }
 
 }  // namespace

@@ -115,6 +115,7 @@ Definitions definitions_in(const std::string& source_text) {
     if (statement.is_unnamed || statement.end != '{' || begins_type(statement.text)) continue;
     // Loops with clones for processors cannot stand in an unnamed namespace (fit/samples/wide_loops.h).
     if (statement.text.find("VISCARD_WIDE_LOOP") != std::string::npos) continue;
+    if (statement.text.find("PYBIND11_MODULE") != std::string::npos) continue;  // Python finds it
     const std::string name = called_name(statement.text);
     const std::size_t scope = name.find("::");
     if (scope == std::string::npos) {

@@ -25,11 +25,22 @@ const SolverSample* sample_at(double time_s, const std::vector<SolverSample>& sa
   return at == samples.end() || at->time_s > time_s + margin_s ? nullptr : &*at;
 }
 
+constexpr int kSteps = 3;  // each half the one before
+
+// A solver may stop in the middle with exit status 0; what it printed before would prove nothing.
+void require_whole_run(const SolverRun& run, const ElementTest& test, const Solver& solver) {
+  if (sample_at(test.end_s(), run.samples) != nullptr) return;
+  throw std::runtime_error(
+      fmt::format("{} stopped at {:g} s of {:g} s; run the model of --deck to see why", solver.code,
+                  run.samples.empty() ? 0.0 : run.samples.back().time_s, test.end_s()));
+}
+
 // Richardson extrapolation of steps h, h/2 and h/4: the terms of first, then of second order.
 StepError compare(const SolverRun* runs, const Material& material, const ElementTest& test,
                   const Solver& solver) {
   StepError error{.resolved = solver.resolves, .predicted = std::nullopt};
   if (solver.is_backward_euler) error.predicted = backward_euler_error(material, test);
+  for (int i = 0; i < kSteps; ++i) require_whole_run(runs[i], test, solver);
   for (const SolverSample& coarse : runs[0].samples) {
     // The response to the first increments of the ramp is close to zero.
     if (coarse.time_s < test.ramp_s * (1.0 - 1e-6)) continue;
@@ -104,8 +115,6 @@ struct Proving {
     return out;
   }
 };
-
-constexpr int kSteps = 3;  // each half the one before
 
 // Both tests, each at its three steps.
 std::vector<ElementTest> tests_of(const Proving& proving, int steps_per_tau) {

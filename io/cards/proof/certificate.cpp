@@ -37,6 +37,7 @@ Json json_of(const CardChain& chain) {
   json["raw_files"] = Json::array();
   for (const ChainLink& link : chain.raw_files) json["raw_files"].push_back(json_of(link));
   json["complete"] = chain.is_complete();
+  json["missing"] = chain.missing();
   return json;
 }
 
@@ -77,6 +78,35 @@ bool CardChain::is_complete() const {
   return material.matches() && !raw_files.empty() &&
          std::all_of(raw_files.begin(), raw_files.end(),
                      [](const ChainLink& link) { return link.matches(); });
+}
+
+std::vector<std::string> CardChain::missing() const {
+  if (material.stated.empty()) {
+    return {
+        "the card's header states no sums; write the card with viscard card MATERIAL.json --for "
+        "TARGET --out FILE"};
+  }
+  std::vector<std::string> out;
+  if (material.path.empty()) {
+    out.emplace_back(
+        "no material file was named; repeat with viscard card MATERIAL.json --prove CARD");
+  } else if (material.now.empty()) {
+    out.push_back(material.path + ", the material file, is not here");
+  } else if (!material.matches()) {
+    out.push_back(material.path + " has changed since the card was written; write the card again");
+  }
+  for (const ChainLink& link : raw_files) {
+    if (link.matches()) continue;
+    out.push_back(link.path + (link.now.empty()
+                                   ? " is not here; put it beside the material file"
+                                   : " has changed since the card was written; fit it again"));
+  }
+  if (raw_files.empty()) {
+    out.emplace_back(
+        "the material names no raw data: it was typed in or fitted without them; viscard fit "
+        "writes a material file that names them");
+  }
+  return out;
 }
 
 CardChain chain_of(const CertificateRequest& request) {

@@ -3,6 +3,7 @@
 #include "io/cards/proof/card_proof.h"
 
 #include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -26,6 +27,8 @@ struct CardChain {
   ChainLink material;  // empty if the header states none
   std::vector<ChainLink> raw_files;
   bool is_complete() const;  // material and at least one raw file, all unchanged
+  // What the chain lacks, and what to do about it, one sentence each; empty if it is complete.
+  std::vector<std::string> missing() const;
 };
 
 // Follows the SHA-256 sums in the header of the card. Files are looked for as stated, then beside

@@ -36,11 +36,15 @@ std::string write_ansys(const CardBody& body) {
     out += prony_table("BULK", branches, &CardBranch::bulk);
   }
   // MAPDL multiplies time by A = 1/a_T, log10 A = C1 (T - Tref)/(C2 + T - Tref): the usual
-  // constants keep their sign.
+  // constants keep their sign. No text of the maker with this formula was found in public.
   if (numbers.shift) {
     std::string row = wlf_row(*numbers.shift);
     std::erase(row, ' ');
-    out += "TB,SHIFT,1,1,3,WLF\nTBDATA,1," + row;
+    out +=
+        "! WLF (formula not verified: compare one warm run): time is multiplied by A,\n"
+        "! log10 A = C1 (T - Tref)/(C2 + T - Tref)\n"
+        "TB,SHIFT,1,1,3,WLF\nTBDATA,1," +
+        row;
   }
   return out;
 }

@@ -23,8 +23,25 @@ std::string in_words(const LossDeviation& deviation) {
 }
 
 std::string storage_note(const BandReduction& reduced) {
-  return fmt::format("E' differs from the constant E by up to {:.1e} over the band",
-                     reduced.storage_change);
+  return fmt::format(
+      "E' differs from the constant E by up to {:.1e} over the band, where it grows "
+      "{:.3g} times",
+      reduced.storage_change, reduced.storage_ratio);
+}
+
+// One modulus that is off by half says nothing about the material any more.
+constexpr double kWorstStorageChange = 0.5;
+
+std::string band_refusal(const CardBody& body) {
+  const BandReduction reduced = reduce_to_band(body.material, body.band());
+  if (reduced.storage_change <= kWorstStorageChange) return "";
+  return fmt::format(
+      "from {:g} to {:g} Hz the storage modulus of this material grows {:.3g} times, so one "
+      "Young's "
+      "modulus is up to {:.3g} % wrong; name a narrower --band, choose a target that takes the "
+      "whole series or a table, or pass --approximate to write it all the same",
+      body.band().from_Hz, body.band().to_Hz, reduced.storage_ratio,
+      100.0 * reduced.storage_change);
 }
 
 // E, nu and the density.
@@ -91,14 +108,16 @@ std::string write_mujoco(const CardBody& body) {
                      value_of(values, "E"), value_of(values, "nu"), value_of(values, "damping"));
 }
 
-// The names of an attribute and of its value. Throws if one is there twice.
+// The names of an attribute and of its value.
 struct AttributeName {
   const char* attribute;
   const char* value;
 };
 
-void add_attribute(const NamedNumbers& named, const AttributeName& name, ReadCard& card) {
+void add_attribute(const std::string& text, const NamedNumbers& named, const AttributeName& name,
+                   ReadCard& card) {
   if (named.count(name.attribute) == 0) return;
+  check_single_element(text, std::string("\\b") + name.attribute + "\\s*=", name.attribute, card);
   card.values.push_back({name.value, one_of(named, name.attribute)});
 }
 
@@ -107,11 +126,12 @@ void read_mujoco(const std::string& commented, ReadCard& card) {
   for (const CardLine& line : card_lines(commented, "<!--")) text += line.text + "\n";
   const auto element = first_match(text, "<elasticity\\b([^<>]*)/?>");
   if (!element) throw std::runtime_error("the card has no <elasticity .../>");
+  check_single_element(text, "<elasticity\\b", "<elasticity .../>", card);
   const NamedNumbers named =
       named_lists(element->group[1], "\\b(young|poisson|damping)\\s*=\\s*(\"[^\"]*\"|'[^']*')");
   for (const AttributeName& name :
        {AttributeName{"young", "E"}, {"poisson", "nu"}, {"damping", "damping"}}) {
-    add_attribute(named, name, card);
+    add_attribute(element->group[1], named, name, card);
   }
 }
 
@@ -149,12 +169,13 @@ void read_physx(const std::string& commented, ReadCard& card) {
   const auto name = first_match(text, "def\\s+Material\\s+\"(\\w+)\"");
   if (!name) throw std::runtime_error("the card has no def Material \"name\"");
   card.name = name->group[1];
+  check_single_element(text, "def\\s+Material\\b", "def Material", card);
   const NamedNumbers named = named_lists(text, "(\\w+)\\s*=\\s*([-+.\\deE]+)\\s*(?:\\n|$)");
   for (const AttributeName& attribute : {AttributeName{"youngsModulus", "E"},
                                          {"poissonsRatio", "nu"},
                                          {"density", "density"},
                                          {"elasticityDamping", "damping"}}) {
-    add_attribute(named, attribute, card);
+    add_attribute(text, named, attribute, card);
   }
   if (named.count("dampingScale") > 0 && one_of(named, "dampingScale") != 1.0) {
     card.add("damping-scale", "dampingScale is not 1: the damping is scaled down");
@@ -194,7 +215,8 @@ CardTarget rayleigh_target() {
               "constant E and nu of the storage moduli; loss factor of K (1 + i eta), or "
               "C = alpha M + beta K by least squares over the band",
           .values = rayleigh_values,
-          .band_note = rayleigh_note};
+          .band_note = rayleigh_note,
+          .band_refusal = band_refusal};
 }
 
 CardTarget mujoco_target() {
@@ -217,7 +239,8 @@ CardTarget mujoco_target() {
               "constant E and nu of the storage moduli; damping is beta in units of time, "
               "the damping matrix is beta times the stiffness",
           .values = beta_values,
-          .band_note = beta_note};
+          .band_note = beta_note,
+          .band_refusal = band_refusal};
 }
 
 CardTarget physx_target() {
@@ -242,7 +265,8 @@ CardTarget physx_target() {
               "constant E and nu of the storage moduli; elasticityDamping is beta in s, "
               "the stress of a strain rate is beta times that of the strain",
           .values = beta_values,
-          .band_note = beta_note};
+          .band_note = beta_note,
+          .band_refusal = band_refusal};
 }
 
 }  // namespace viscard

@@ -57,6 +57,9 @@ void read_sofa(const std::string& commented, ReadCard& card) {
   for (const CardLine& line : card_lines(commented, "<!--")) text += line.text + "\n";
   const auto field = first_match(text, "<TetrahedronViscoelasticityFEMForceField\\b([^<>]*)/?>");
   if (!field) throw std::runtime_error("the card has no TetrahedronViscoelasticityFEMForceField");
+  check_single_element(text, "<TetrahedronViscoelasticityFEMForceField\\b",
+                       "TetrahedronViscoelasticityFEMForceField", card);
+  check_single_element(text, "\\bmassDensity\\s*=", "massDensity", card);
   const std::string& attributes = field->group[1];
   const auto model = first_match(attributes, "\\bmaterialName\\s*=\\s*[\"'](\\w*)[\"']");
   if (!model) throw std::runtime_error("the force field has no materialName");

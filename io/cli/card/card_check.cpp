@@ -3,6 +3,8 @@
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/targets/target_table.h"
 #include "io/cli/card/card_words.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -68,10 +70,15 @@ nlohmann::ordered_json json_of(const CardCheck& check, const CardWords& words) {
                         {"modulus", to_word(check.read.understood.at)},
                         {"branches", to_word(check.read.understood.branch)},
                         {"time", to_word(check.read.understood.time)},
-                        {"bulk", to_word(check.read.understood.bulk)}};
+                        {"bulk", to_word(check.read.understood.bulk)},
+                        {"conventions", conventions_in_words(check.read.understood)}};
   json["material"] = json_of(check.read.material);
   if (check.read.understood.values != nullptr) {
     json["material"] = nullptr;  // no whole material can be read from such a card
+    for (const char* key : {"elastic", "modulus", "branches", "time", "bulk"}) {
+      json["understood"][key] = nullptr;  // words of series; "conventions" describes this card
+    }
+    json["frequencies_Hz"] = check.read.frequencies_Hz;
     json["values"] = nlohmann::ordered_json::array();
     for (const CardValue& value : check.read.values) {
       json["values"].push_back({{"name", value.name}, {"value", value.value}});
@@ -151,6 +158,25 @@ void print(const CardCheck& check, const CardWords& words, std::ostream& out) {
   }
 }
 
+void print_list(std::ostream& out) {
+  out << "target           terms  nu=.5  evidence       solver: conventions\n";
+  for (const CardTarget& target : card_targets()) {
+    out << fmt::format("{:<16} {:>5}  {:<5}  {:<13}  {}: {}\n", target.name,
+                       target.max_terms > 0 ? std::to_string(target.max_terms) : "any",
+                       target.takes_incompressible ? "yes" : "no", to_word(target.evidence),
+                       target.code, conventions_in_words(target));
+  }
+  out << "\nevidence: run = the solver returned the exact answer; parsed = independent "
+         "readers found the\nnumbers; source = its open source, not run; documentation = "
+         "its manual, not run\n\nunits: ";
+  const char* between = "";
+  for (const UnitSystem& system : unit_systems()) {
+    out << between << system.name << " (" << system.description << ")";
+    between = "; ";
+  }
+  out << "\n";
+}
+
 }  // namespace
 
 int list_card_targets(const CardWords& words, Streams& streams) {
@@ -162,29 +188,14 @@ int list_card_targets(const CardWords& words, Streams& streams) {
     for (const UnitSystem& system : unit_systems()) {
       json["units"].push_back({{"name", system.name}, {"description", system.description}});
     }
-    streams.out << json.dump(2) << "\n";
+    print_json({"viscard-card-list/1", {}}, json, streams);
     return kDone;
   }
   if (words.is_long) {
-    streams.out << target_table();
+    streams.out << fitted(target_table(), streams.columns);
     return kDone;
   }
-  streams.out << "target           terms  nu=.5  evidence       solver: conventions\n";
-  for (const CardTarget& target : card_targets()) {
-    streams.out << fmt::format("{:<16} {:>5}  {:<5}  {:<13}  {}: {}\n", target.name,
-                               target.max_terms > 0 ? std::to_string(target.max_terms) : "any",
-                               target.takes_incompressible ? "yes" : "no", to_word(target.evidence),
-                               target.code, conventions_in_words(target));
-  }
-  streams.out << "\nevidence: run = the solver returned the exact answer; parsed = independent "
-                 "readers found the\nnumbers; source = its open source, not run; documentation = "
-                 "its manual, not run\n\nunits: ";
-  const char* between = "";
-  for (const UnitSystem& system : unit_systems()) {
-    streams.out << between << system.name << " (" << system.description << ")";
-    between = "; ";
-  }
-  streams.out << "\n";
+  print_list(FittedText(streams));
   return kDone;
 }
 
@@ -204,9 +215,11 @@ int check_card_file(const CardWords& words, Streams& streams) {
   }();
   check.findings.insert(check.findings.begin(), notes.begin(), notes.end());
   if (words.json) {
-    streams.out << json_of(check, words).dump(2) << "\n";
+    Words inputs{words.check};
+    if (!words.material.empty()) inputs.push_back(words.material);
+    print_json({"viscard-card-check/1", inputs}, json_of(check, words), streams);
   } else {
-    print(check, words, streams.out);
+    print(check, words, FittedText(streams));
   }
   return check.agrees ? kDone : kFailed;
 }

@@ -7,6 +7,8 @@
 #include "io/cards/read_card.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cli/card/card_words.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "models/maths/text_of_number.h"
 
@@ -65,17 +67,8 @@ std::string text_of(const CardChain& chain) {
         "header states\n",
         counted(chain.raw_files.size(), "file"));
   }
-  if (chain.material.stated.empty()) return "  chain: the card's header states no sums\n";
   std::string missing;
-  const auto add = [&](const std::string& what, const ChainLink& link) {
-    if (link.matches()) return;
-    missing += (missing.empty() ? "" : "; ") + what +
-               (link.now.empty() ? " is not here" : " has changed since the card was written");
-  };
-  add("the material file", chain.material);
-  for (const ChainLink& link : chain.raw_files) add(link.path, link);
-  if (chain.raw_files.empty())
-    missing += (missing.empty() ? "" : "; ") + std::string("no raw data");
+  for (const std::string& one : chain.missing()) missing += (missing.empty() ? "" : "; ") + one;
   return "  chain: not complete: " + missing + "\n";
 }
 
@@ -134,12 +127,14 @@ int prove_card_file(const CardWords& words, Streams& streams) {
   const CardProof proof = prove_card(request.card_text, read, material, found);
   const CardChain chain = chain_of(request);
   const std::string certificate = certificate_text(request, chain, found, proof);
-  if (words.json) {
-    streams.out << certificate;
-  } else {
-    print_proof(words, found, proof, chain, streams.out);
-  }
+  if (!words.json) print_proof(words, found, proof, chain, FittedText(streams));
   write_file(path, certificate, words.force);
+  if (words.json) {
+    Words inputs{words.prove};
+    if (!words.material.empty()) inputs.push_back(words.material);
+    print_json({"viscard-card-prove/1", inputs}, nlohmann::ordered_json::parse(certificate),
+               streams);
+  }
   if (!words.json) streams.out << "wrote " << path << "\n";
   return proof.holds() ? kDone : kFailed;
 }
@@ -164,8 +159,8 @@ int write_deck_files(const CardWords& words, Streams& streams) {
     files.push_back((folder / file.name).string());
   }
   if (words.json) {
-    streams.out << nlohmann::ordered_json{{"files", files}, {"run", deck.how_to_run}}.dump(2)
-                << "\n";
+    print_json<nlohmann::ordered_json>({"viscard-card-deck/1", {words.material}},
+                                       {{"files", files}, {"run", deck.how_to_run}}, streams);
     return kDone;
   }
   for (const auto& file : files) streams.out << "wrote " << file.get<std::string>() << "\n";

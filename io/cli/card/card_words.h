@@ -29,6 +29,7 @@ struct CardWords {
   std::optional<double> tolerance;
   std::optional<double> ratio;  // of a joint fit
   std::optional<double> temperature_C;
+  std::optional<double> bulk_Pa;  // of a law of rubber
   std::optional<FrequencyBand> band;
   bool may_extrapolate = false;
   bool list = false, is_long = false, force = false, json = false, is_reproducible = false;
@@ -46,6 +47,9 @@ PreparedMaterial stated_material(const std::string& card, const CardWords& words
 CardOptions card_options(const CardWords& words, const PreparedMaterial& prepared);
 
 int list_card_targets(const CardWords& words, Streams& streams);
+// True if the words ask for the card of a law of rubber (io/cards/hyperelastic).
+bool is_rubber(const CardWords& words);
+int write_rubber_card(const CardWords& words, Streams& streams);
 int write_card_file(const CardWords& words, Streams& streams);
 int check_card_file(const CardWords& words, Streams& streams);
 int prove_card_file(const CardWords& words, Streams& streams);

@@ -3,6 +3,7 @@
 #include "io/cards/card.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cli/card/card_words.h"
+#include "io/cli/words/json_output.h"
 #include "io/materials/material_file.h"
 #include "models/maths/text_of_number.h"
 
@@ -24,6 +25,7 @@ nlohmann::ordered_json json_of(const Card& card, const CardWords& words, bool wi
   json["E0_Pa"] = card.written.E0_Pa;
   json["E_inf_Pa"] = derived_moduli(card.written).E_inf_Pa;
   json["largest_difference"] = card.largest_difference;
+  json["warnings"] = card.warnings;
   json["fidelity"] = nlohmann::ordered_json::array();
   for (const FidelityItem& item : card.fidelity) {
     json["fidelity"].push_back(
@@ -34,6 +36,9 @@ nlohmann::ordered_json json_of(const Card& card, const CardWords& words, bool wi
 }
 
 void report_losses(const Card& card, Streams& streams) {
+  for (const std::string& warning : card.warnings) {
+    streams.err << "viscard: warning: " << warning << "\n";
+  }
   for (const FidelityItem& item : card.fidelity) {
     if (item.mapping == Mapping::kExact) continue;
     streams.err << "viscard: " << item.item << " " << to_word(item.mapping) << ": " << item.text
@@ -83,14 +88,7 @@ CardOptions card_options(const CardWords& words, const PreparedMaterial& prepare
   options.band = words.band;
   options.created_at = now_iso8601();
   options.command = words.command_line;
-  options.material_sha256 = prepared.sha256;
-  options.notes = prepared.notes;
-  options.original = prepared.original;
-  if (prepared.terms_change) {
-    options.done_before.push_back(
-        {"terms", prepared.are_terms_dropped ? Mapping::kDropped : Mapping::kApproximated,
-         *prepared.terms_change});
-  }
+  state_changes(prepared, options);
   return options;
 }
 
@@ -108,7 +106,8 @@ int write_card_file(const CardWords& words, Streams& streams) {
     write_file(words.out, card.text, words.force);
   }
   if (words.json) {
-    streams.out << json_of(card, words, words.out.empty()).dump(2) << "\n";
+    print_json({"viscard-card-write/1", {words.material}}, json_of(card, words, words.out.empty()),
+               streams);
     return kDone;
   }
   if (words.out.empty()) {

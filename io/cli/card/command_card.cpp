@@ -1,5 +1,6 @@
 #include "io/basics/atomic_file.h"
 #include "io/basics/words.h"
+#include "io/cards/proof/solvers.h"
 #include "io/cards/targets/card_targets.h"
 #include "io/cards/unit_system.h"
 #include "io/cli/card/card_words.h"
@@ -70,6 +71,8 @@ void add_options(CommandSyntax& syntax, CardWords& words) {
       "with --ratio: also outside the measured range; the header says so");
   add("at-temperature", po::value<std::string>()->value_name("T"),
       "card of one temperature, such as 37 or \"37 degC\": the material's shift moves its times");
+  add("bulk-modulus", po::value<std::string>()->value_name("K"),
+      "of a law of rubber, such as \"2 GPa\"; without it incompressible where the solver can be");
   add("bound", po::value(&words.bound)->value_name("END"),
       "lower or upper: the card at that end of the 95 % intervals of E0 and E_inf");
   add("elastic-only", po::value(&words.elastic_only)->value_name("WHEN"),
@@ -177,10 +180,17 @@ int run_card(const Words& words, Streams& streams) {
       "viscard card data/materials/pdms_1to10_seed.json --for abaqus --units mm-t-s"};
   add_options(syntax, card);
   syntax.positional = {"material"};
+  syntax.choices = {{"for", target_names()},
+                    {"units", unit_names()},
+                    {"bound", {"lower", "upper"}},
+                    {"elastic-only", {"instantaneous", "long-term"}},
+                    {"deck", {"relaxation", "creep"}}};
+  for (const Solver& solver : solvers()) syntax.choices["solver"].emplace_back(solver.name);
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   card.material = given(*values, "material").value_or("");
   card.temperature_C = given_quantity(*values, "at-temperature", "degC");
+  card.bulk_Pa = given_quantity(*values, "bulk-modulus", "Pa");
   card.json = values->count("json") > 0;
   if (const auto terms = given(*values, "terms")) card.terms = number_of_terms(*terms);
   if (const auto band = given(*values, "band")) card.band = band_from_text(*band);
@@ -190,6 +200,8 @@ int run_card(const Words& words, Streams& streams) {
   if (!card.check.empty()) return check_card_file(card, streams);
   if (!card.prove.empty()) return prove_card_file(card, streams);
   if (!card.deck.empty()) return write_deck_files(card, streams);
+  if (is_rubber(card)) return write_rubber_card(card, streams);
+  if (card.bulk_Pa) throw UsageError("--bulk-modulus is for laws of rubber; omit it");
   return write_card_file(card, streams);
 }
 

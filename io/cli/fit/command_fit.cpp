@@ -2,12 +2,15 @@
 #include "io/basics/atomic_file.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
 #include "io/flow/command_error.h"
 #include "io/flow/fit_file.h"
 #include "io/flow/flow_json.h"
 #include "io/flow/test_words.h"
+#include "io/flow/words/fit_text.h"
 #include "io/materials/material_file.h"
 
 #include <nlohmann/json.hpp>
@@ -16,6 +19,7 @@
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace po = boost::program_options;
@@ -48,7 +52,9 @@ void add_fit_options(po::options_description& options) {
       "Maxwell, Kelvin-Voigt and Zener");
   add("model", po::value<std::string>(),
       "answer with this law: kww, springpot, fractional-maxwell, fractional-kelvin-voigt or "
-      "fractional-zener; its Prony series goes to --out");
+      "fractional-zener; its Prony series goes to --out. At large strain: neo-hooke, "
+      "mooney-rivlin, "
+      "yeoh, ogden-1, ogden-2, ogden-3, arruda-boyce or gent");
   add("bootstrap", po::value<int>(), "intervals from this many resamples of blocks of residuals");
   add("fix", po::value<Words>()->composing(),
       "hold a parameter at a value in SI, such as tau_1=0.2; parameters are E0, E_inf, and E_i, "
@@ -102,7 +108,11 @@ CommandSyntax fit_syntax() {
       "(*.viscap) or tables from any machine. Columns are found by name and unit (force_N, \"Force "
       "[N]\", t (s)). The fit uses the exact loading history and chooses the number of terms "
       "unless it is given. Several tests of one material are fitted together if each states its "
-      "kind: relaxation=a.csv creep=b.csv dma=c.csv indentation=d.csv.";
+      "kind: relaxation=a.csv creep=b.csv dma=c.csv indentation=d.csv. Tests at large strain give "
+      "a law "
+      "of rubber: uniaxial=a.csv compression=b.csv planar=c.csv equibiaxial=d.csv (stretch or "
+      "nominal "
+      "strain, and nominal stress).";
   syntax.example = "viscard fit data/demo/example_relaxation.csv --out material.json";
   add_fit_options(syntax.options);
   add_data_options(syntax.options);
@@ -116,31 +126,26 @@ CommandSyntax fit_syntax() {
   add("own-terms", "with --joint: each mixing ratio keeps its own number of terms");
   add("share", po::value<Words>()->composing(),
       "with --joint: E0, g, tau or one of them (tau_1) is the same at all ratios (repeatable)");
+  add_large_strain_options(syntax.options);
   add("out", po::value<std::string>(), "material file to write (one input file, or several tests)");
   add("force", "replace an existing material file");
   syntax.positional = {"file"};
   syntax.last_is_repeatable = true;
+  syntax.choices = {
+      {"kind", {"indentation", "relaxation", "creep", "dma"}},
+      {"noise", {"auto", "white"}},
+      {"crop", {"auto"}},
+      {"vertical-shift", {"auto", "on", "off"}},
+      {"model",
+       {"kww", "springpot", "fractional-maxwell", "fractional-kelvin-voigt", "fractional-zener"}},
+      {"share", {"E0", "g", "tau"}}};
   return syntax;
-}
-
-int run_joint(const po::variables_map& values, const Words& files, const std::string& command,
-              Streams& streams) {
-  const JointWords joint{.files = files,
-                         .ratios = given<Numbers>(values, "ratio").value_or(Numbers{}),
-                         .specimen_ids = given<Words>(values, "specimen-id").value_or(Words{}),
-                         .shared = given<Words>(values, "share").value_or(Words{}),
-                         .own_terms = values.count("own-terms") > 0,
-                         .fit = words_from(values),
-                         .material = material_words(values, command),
-                         .out = given(values, "out").value_or(""),
-                         .overwrite = values.count("force") > 0,
-                         .json = values.count("json") > 0};
-  return run_joint_fit(joint, streams);
 }
 
 // The object of a file that could not be fitted stands in its place among the others.
 nlohmann::ordered_json json_of(const FileOutcome& outcome) {
-  if (outcome.fitted) return json_from_fit(*outcome.fitted);
+  if (outcome.fitted)
+    return with_head({"viscard-fit/1", {outcome.path}}, json_from_fit(*outcome.fitted));
   nlohmann::ordered_json json;
   json["file"] = outcome.path;
   try {
@@ -148,28 +153,29 @@ nlohmann::ordered_json json_of(const FileOutcome& outcome) {
   } catch (const std::exception& error) {
     json["error"] = json_from_error(command_error(error));
   }
-  return json;
+  return with_head({"viscard-fit/1", {outcome.path}}, json);
 }
 
-void print(const std::vector<FileOutcome>& outcomes, bool as_json, std::ostream& out) {
-  if (!as_json) {
-    bool is_first = true;
-    for (const FileOutcome& outcome : outcomes) {
-      if (!outcome.fitted) continue;
-      if (!is_first) out << "\n";
-      is_first = false;
-      print_fit(*outcome.fitted, out);
-    }
-    return;
+void print_as_text(const std::vector<FileOutcome>& outcomes, std::ostream& out) {
+  bool is_first = true;
+  for (const FileOutcome& outcome : outcomes) {
+    if (!outcome.fitted) continue;
+    if (!is_first) out << "\n";
+    is_first = false;
+    print_fit(*outcome.fitted, out);
   }
+}
+
+// One file has its keys at the top, several stand in a list.
+void print_as_json(const std::vector<FileOutcome>& outcomes, const Words& files, Streams& streams) {
   if (outcomes.size() == 1) {
-    out << json_of(outcomes.front()).dump(2) << "\n";
+    print_json({"viscard-fit/1", files}, json_of(outcomes.front()), streams);
     return;
   }
   nlohmann::ordered_json json;
   json["fits"] = nlohmann::ordered_json::array();
   for (const FileOutcome& outcome : outcomes) json["fits"].push_back(json_of(outcome));
-  out << json.dump(2) << "\n";
+  print_json({"viscard-fits/1", files}, json, streams);
 }
 
 // Without a single result the command fails as a whole, with the first reason.
@@ -204,27 +210,12 @@ int report_defects(const std::vector<FileOutcome>& outcomes, std::ostream& err) 
   return status;
 }
 
-// The tests that the words name; empty: plain files.
-std::vector<TestFile> tests_given(const Words& words, const po::variables_map& values) {
-  std::vector<TestFile> tests;
+std::vector<TestFile> tests_given(const Words& words) {
   try {
-    tests = tests_from_words(words);
+    return tests_from_words(words);
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }
-  if (tests.empty()) return tests;
-  for (const char* option : {"kind", "joint"}) {
-    if (values.count(option) == 0) continue;
-    throw UsageError(std::string("--") + option +
-                     " does not belong to tests that state their kind (creep=FILE); omit it");
-  }
-  if (tests.size() == 1) return tests;
-  for (const char* option : {"fix", "bound", "constraints", "profiles", "bootstrap",
-                             "allow-negative", "model", "diagnose", "reference-temperature"}) {
-    if (values.count(option) == 0) continue;
-    throw UsageError(std::string("--") + option + " is for single tests; omit it for several");
-  }
-  return tests;
 }
 
 }  // namespace
@@ -234,54 +225,54 @@ int run_fit(const Words& words, Streams& streams) {
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
   auto files = required<Words>(*values, "file", syntax);
-  const std::vector<TestFile> tests = tests_given(files, *values);
-  if (!tests.empty()) files = paths_of(tests);
-  const bool is_several = tests.size() > 1;
+  if (const auto large = large_strain_given(files, *values); !large.empty()) {
+    return run_large_strain(large, *values, streams);
+  }
+  const FitWords options = fit_words(*values);
   const auto out = given(*values, "out");
-  const bool is_joint = values->count("joint") > 0;
-  for (const char* option : {"share", "specimen-id", "own-terms"}) {
-    if (!is_joint && values->count(option) > 0) {
-      throw UsageError(std::string("--") + option + " needs --joint");
-    }
-  }
-  if (!is_joint && !is_several && values->count("ratio") > 0 && files.size() > 1) {
-    throw UsageError(
-        "--ratio is for one input file; for several, give it once for each with --joint");
-  }
-  if (out && files.size() > 1 && !is_joint && !is_several) {
-    throw UsageError("--out writes the material of one input file, but there are " +
-                     std::to_string(files.size()) + "; fit them one by one, or with --joint");
-  }
-  if (is_joint && values->count("model") > 0) {
-    throw UsageError("--model answers for single files; omit it with --joint");
-  }
+  const std::string command = quoted_command_line("fit", words);
+  std::vector<TestFile> tests;
+  FitRequest request;
+  MaterialRequest about;  // refuses bad words before the fit
+  with_usage_errors([&] {
+    tests = tests_given(files);
+    if (!tests.empty()) files = paths_of(tests);
+    refuse_contradictions(options, tests, files.size(), out.has_value());
+  });
   const bool overwrite = values->count("force") > 0;
   if (out) refuse_existing(*out, overwrite);
-  if (is_joint) return run_joint(*values, files, quoted_command_line("fit", words), streams);
-  FitRequest fit_words = words_from(*values);
-  fit_words.needs_modulus = out.has_value();
-  if (tests.size() == 1) fit_words.kind = tests.front().kind;
-  const MaterialRequest about = material_words(
-      *values, quoted_command_line("fit", words));  // refuses bad words before the fit
+  if (options.joint) {
+    JointRequest joint = with_usage_errors([&] { return joint_request(options, files, command); });
+    return run_joint_fit(std::move(joint), {out.value_or(""), overwrite, values->count("json") > 0},
+                         streams);
+  }
+  with_usage_errors([&] {
+    request = fit_request(options);
+    about = material_request(options, command);
+  });
+  request.needs_modulus = out.has_value();
+  if (tests.size() == 1) request.kind = tests.front().kind;
   Progress progress(streams, "fit");
   const FlowProgress show = [&](double done, const std::string& file) {
     progress.show(done, file);
   };
   std::vector<FileOutcome> outcomes;
-  if (is_several) {
-    const FittedFile fitted = fit_tests(tests, fit_words, show);
+  if (tests.size() > 1) {
+    const FittedFile fitted = fit_tests(tests, request, show);
     outcomes.push_back({fitted.path, fitted, nullptr});
   } else {
-    outcomes = fit_each_file(files, fit_words, show);
+    outcomes = fit_each_file(files, request, show);
   }
   progress.clear();
   require_one(outcomes);
-  print(outcomes, values->count("json") > 0, streams.out);
+  const bool as_json = values->count("json") > 0;
+  if (!as_json) print_as_text(outcomes, FittedText(streams));
   if (out) {
     Material material = material_from_fitted(*outcomes.front().fitted, about);
-    if (const auto ratio = given<Numbers>(*values, "ratio")) material.mixing_ratio = ratio->front();
+    if (!options.ratio.empty()) material.mixing_ratio = options.ratio.front();
     write_file(*out, json_from_material(material), overwrite);
   }
+  if (as_json) print_as_json(outcomes, files, streams);
   return report_defects(outcomes, streams.err);
 }
 

@@ -1,15 +1,17 @@
 #include "io/basics/atomic_file.h"
-#include "io/basics/words.h"
 #include "io/cli/fit/fit_command.h"
 #include "io/cli/fit/predict_output.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "io/flow/predict_file.h"
+#include "io/flow/words/predict_words.h"
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <ostream>
+#include <utility>
 
 namespace po = boost::program_options;
 
@@ -62,97 +64,31 @@ CommandSyntax predict_syntax() {
   add("accept-flags", "exit with 0 also if the fit of the material is not to be trusted");
   add("force", "overwrite existing files");
   syntax.positional = {"material"};
+  syntax.choices["test"] = names_of_predicted_tests();
   return syntax;
 }
 
-std::optional<PredictedTest> test_from(const po::variables_map& values) {
-  const auto word = given(values, "test");
-  if (!word) return std::nullopt;
-  const std::vector<std::string>& names = names_of_predicted_tests();
-  const auto found = std::find(names.begin(), names.end(), *word);
-  if (found != names.end()) return static_cast<PredictedTest>(found - names.begin());
-  throw UsageError("--test " + *word + " is not known" + did_you_mean(*word, names) + " Use " +
-                   listed(names));
-}
-
-// A quantity that has to be positive if it is given.
-std::optional<double> positive(const po::variables_map& values, const char* name,
-                               const char* unit) {
-  const auto value = given_quantity(values, name, unit);
-  if (value && !(*value > 0.0)) {
-    throw UsageError(std::string("--") + name + " must be positive, such as \"1 " + unit + "\"");
-  }
-  return value;
-}
-
-PredictionRequest prediction_words(const po::variables_map& values, bool is_sweep) {
-  PredictionRequest words;
-  words.strain = given_quantity(values, "strain", "1");
-  words.stress_Pa = given_quantity(values, "stress", "Pa");
-  if (words.strain && words.stress_Pa) {
-    throw UsageError("--strain and --stress exclude each other: one of them is the input");
-  }
-  words.ramp_s = positive(values, "ramp", "s").value_or(0.0);
-  words.hold_s = positive(values, "hold", "s");
-  words.recovery_s = positive(values, "recovery", "s");
-  words.period_s = *positive(values, "period", "s");
-  words.n_cycles = values["cycles"].as<int>();
-  words.from = positive(values, "from", is_sweep ? "Hz" : "s");
-  words.to = positive(values, "to", is_sweep ? "Hz" : "s");
-  words.points = values["points"].as<int>();
-  if (words.n_cycles < 1 || words.n_cycles > 10000) {
-    throw UsageError("--cycles must lie between 1 and 10000");
-  }
-  if (words.points < 2 || words.points > 100000) {
-    throw UsageError("--points must lie between 2 and 100000");
-  }
+PredictWords predict_words(const po::variables_map& values) {
+  PredictWords words;
+  const std::pair<const char*, PredictWords::Text*> texts[] = {{"test", &words.test},
+                                                               {"strain", &words.strain},
+                                                               {"stress", &words.stress},
+                                                               {"ramp", &words.ramp},
+                                                               {"hold", &words.hold},
+                                                               {"recovery", &words.recovery},
+                                                               {"period", &words.period},
+                                                               {"from", &words.from},
+                                                               {"to", &words.to},
+                                                               {"history", &words.history},
+                                                               {"driven-by", &words.driven_by},
+                                                               {"against", &words.against},
+                                                               {"time-zero", &words.time_zero},
+                                                               {"temperature", &words.temperature}};
+  for (const auto& [name, text] : texts) *text = given(values, name);
+  words.cycles = given<int>(values, "cycles");
+  words.points = given<int>(values, "points");
+  words.column = given<Words>(values, "column").value_or(Words{});
   return words;
-}
-
-// Options that contradict the test.
-void check_test(const PredictFileRequest& request) {
-  if (!request.test) return;
-  const PredictedTest test = *request.test;
-  const std::string& name = names_of_predicted_tests()[static_cast<std::size_t>(test)];
-  const bool is_creep = test == PredictedTest::kCreep || test == PredictedTest::kRecovery;
-  if (request.prediction.strain && is_creep) {
-    throw UsageError("--strain does not belong to --test " + name +
-                     ", which holds a stress; give --stress");
-  }
-  if (request.prediction.stress_Pa && test == PredictedTest::kRelaxation) {
-    throw UsageError(
-        "--stress does not belong to --test relaxation, which holds a strain; give "
-        "--strain, or --test creep");
-  }
-  if (test == PredictedTest::kHistory && request.history.empty() && request.against.empty()) {
-    throw UsageError("--test history needs --history TABLE");
-  }
-  if (test != PredictedTest::kHistory && !request.history.empty()) {
-    throw UsageError("--history is a test of its own; omit --test " + name);
-  }
-}
-
-PredictFileRequest predict_words(const po::variables_map& values, const CommandSyntax& syntax) {
-  PredictFileRequest request;
-  request.material = required(values, "material", syntax);
-  request.test = test_from(values);
-  request.history = given(values, "history").value_or("");
-  request.against = given(values, "against").value_or("");
-  const std::string driver = given(values, "driven-by").value_or("strain");
-  if (driver != "strain" && driver != "stress") {
-    throw UsageError("--driven-by " + driver + " is not known; use strain or stress");
-  }
-  request.is_driven_by_stress = driver == "stress";
-  try {
-    request.columns = column_map_from_words(given<Words>(values, "column").value_or(Words{}));
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());
-  }
-  request.time_zero_s = *given_quantity(values, "time-zero", "s");
-  request.temperature_C = given_quantity(values, "temperature", "degC");
-  request.prediction = prediction_words(values, request.test == PredictedTest::kOscillation);
-  check_test(request);
-  return request;
 }
 
 // Prints one line if the material is not to be trusted and returns the exit status.
@@ -175,7 +111,9 @@ int run_predict(const Words& words, Streams& streams) {
   CommandSyntax syntax = predict_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
-  const PredictFileRequest request = predict_words(*values, syntax);
+  const std::string path = required(*values, "material", syntax);
+  const PredictFileRequest request =
+      with_usage_errors([&] { return predict_request(predict_words(*values), path); });
   const bool overwrite = values->count("force") > 0;
   const auto csv = given(*values, "csv"), svg = given(*values, "svg");
   for (const auto& output : {csv, svg}) {
@@ -189,8 +127,10 @@ int run_predict(const Words& words, Streams& streams) {
   if (svg) {
     write_file(*svg, svg_from_plot(plot_of_prediction(predicted), "prediction"), overwrite);
   }
-  if (!print_json(*values, json_from_prediction(predicted), streams)) {
-    print_prediction(predicted, streams.out);
+  const Words inputs = given_words(*values, {"material", "history", "against"});
+  if (!print_json(*values, {"viscard-predict/1", inputs}, json_from_prediction(predicted),
+                  streams)) {
+    print_prediction(predicted, FittedText(streams));
   }
   return report_trust(predicted, values->count("accept-flags") > 0, streams.err);
 }

@@ -2,8 +2,14 @@
 
 #include "io/cli/words/streams.h"
 #include "io/flow/fit_file.h"
+#include "io/flow/large_strain/large_strain_files.h"
+#include "io/flow/words/fit_words.h"
 
+#include <boost/program_options/options_description.hpp>
 #include <boost/program_options/variables_map.hpp>
+
+#include <string>
+#include <vector>
 
 namespace viscard {
 
@@ -14,29 +20,39 @@ int run_fit(const Words& words, Streams& streams);
 // viscard predict: what a material does in a test, with its band, beside measured values.
 int run_predict(const Words& words, Streams& streams);
 
-// Convert the options of viscard fit. Both throw UsageError for values that are not allowed.
-FitRequest words_from(const boost::program_options::variables_map& values);
-// command: the whole command line, for the provenance of the material.
-MaterialRequest material_words(const boost::program_options::variables_map& values,
-                               const std::string& command);
+// The options --weight, --youngs-modulus and --svg.
+void add_large_strain_options(boost::program_options::options_description& options);
 
-// Prints the fit as text: moduli with intervals, the table of orders, flags.
-void print_fit(const FittedFile& fitted, std::ostream& out);
+// The tests at large strain that the words name; empty: none. Throws UsageError for words that mix
+// them with other files, and for their options without them.
+std::vector<LargeStrainFile> large_strain_given(
+    const Words& words, const boost::program_options::variables_map& values);
 
-// The options of `viscard fit --joint`.
-struct JointWords {
-  Words files;                 // captures, tables, material files
-  std::vector<double> ratios;  // --ratio, one for each file; empty: from the files
-  Words specimen_ids;          // --specimen-id, one for each file; empty: from the files
-  Words shared;                // --share: E0, g, tau
-  bool own_terms = false;
-  FitRequest fit;
-  MaterialRequest material;
-  std::string out;
+// viscard fit of tests at large strain (uniaxial=a.csv planar=b.csv): fits laws of rubber, prints them,
+// and writes --out and --svg. Throws UsageError for options that do not belong to such tests.
+int run_large_strain(const std::vector<LargeStrainFile>& files,
+                     const boost::program_options::variables_map& values, Streams& streams);
+
+// The options of viscard fit among the values.
+FitWords fit_words(const boost::program_options::variables_map& values);
+
+// Where the result of a joint fit goes.
+struct FitOutput {
+  std::string file;  // empty: none
   bool overwrite = false, json = false;
 };
 
 // Fits all captures and tables with the same number of terms, then the law in the mixing ratio.
-int run_joint_fit(const JointWords& words, Streams& streams);
+int run_joint_fit(JointRequest request, const FitOutput& output, Streams& streams);
+
+// Does the work; a mistake in the options becomes a UsageError.
+template <typename Work>
+auto with_usage_errors(const Work& work) {
+  try {
+    return work();
+  } catch (const OptionError& error) {
+    throw UsageError(error.what());
+  }
+}
 
 }  // namespace viscard

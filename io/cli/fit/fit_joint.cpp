@@ -1,12 +1,15 @@
 #include "fit/laws/fit_mixing_ratio.h"
 #include "io/basics/atomic_file.h"
 #include "io/cli/fit/fit_command.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
 #include "io/flow/fit_file.h"
 #include "io/materials/material_file.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <ostream>
@@ -92,52 +95,18 @@ void print(const RatioFit& fit, std::ostream& out) {
 
 }  // namespace
 
-int run_joint_fit(const JointWords& words, Streams& streams) {
-  if (!words.ratios.empty() && words.ratios.size() != words.files.size()) {
-    throw UsageError(
-        fmt::format("there are {} and {} --ratio; give one for each file, in their order",
-                    counted(words.files.size(), "file"), words.ratios.size()));
-  }
-  if (!words.specimen_ids.empty() && words.specimen_ids.size() != words.files.size()) {
-    throw UsageError(
-        fmt::format("there are {} and {} --specimen-id; give one for each file, in their order",
-                    counted(words.files.size(), "file"), words.specimen_ids.size()));
-  }
-  if (words.own_terms && words.fit.options.n_terms) {
-    throw UsageError("--terms gives all ratios the same number of terms; omit it or --own-terms");
-  }
-  MixingOptions options{.own_terms = words.own_terms};
-  for (const std::string& name : words.shared) {
-    if (name == "E0") {
-      options.share_E0 = true;
-    } else if (name == "g") {
-      options.share_g = true;
-    } else if (name == "tau") {
-      options.share_times = true;
-    } else if (name.rfind("g_", 0) == 0 || name.rfind("tau_", 0) == 0) {
-      options.shared.push_back(name);
-    } else {
-      throw UsageError("--share " + name +
-                       " is not known; use E0, g, tau, or g_i and tau_i of single terms");
-    }
-  }
+int run_joint_fit(JointRequest request, const FitOutput& output, Streams& streams) {
   Progress progress(streams, "fit");
-  const RatioFit fit = fit_jointly(
-      {.files = words.files,
-       .ratios = words.ratios,
-       .specimen_ids = words.specimen_ids,
-       .fit = words.fit,
-       .material = words.material,
-       .options = options,
-       .progress = [&](double done, const std::string& file) { progress.show(done, file); },
-       .note = [&](const std::string& text) { streams.err << "viscard: " << text << "\n"; }});
+  request.progress = [&](double done, const std::string& file) { progress.show(done, file); };
+  request.note = [&](const std::string& text) { streams.err << "viscard: " << text << "\n"; };
+  const RatioFit fit = fit_jointly(request);
   progress.clear();
-  if (words.json) {
-    streams.out << json_from_ratio_fit(fit);
-  } else {
-    print(fit, streams.out);
+  const std::string text = json_from_ratio_fit(fit);
+  if (!output.json) print(fit, FittedText(streams));
+  if (!output.file.empty()) write_file(output.file, text, output.overwrite);
+  if (output.json) {  // the schema is that of the file
+    print_json({"", request.files}, nlohmann::ordered_json::parse(text), streams);
   }
-  if (!words.out.empty()) write_file(words.out, json_from_ratio_fit(fit), words.overwrite);
   return kDone;
 }
 

@@ -1,6 +1,7 @@
 #include "io/cli/fit/predict_output.h"
 
 #include "io/report/report_numbers.h"
+#include "models/maths/interval.h"
 #include "models/maths/text_of_number.h"
 
 #include <fmt/format.h>
@@ -169,8 +170,8 @@ void print_prediction(const PredictedFile& predicted, std::ostream& out) {
                        counted(prediction.at.size(), "point"));
   }
   if (predicted.has_band && predicted.systematic_relative > 0.0) {
-    out << fmt::format("  the band includes {:.2g} % that all moduli have in common\n",
-                       100.0 * predicted.systematic_relative);
+    out << fmt::format("  the band includes +-{:.2g} % that all moduli have in common\n",
+                       100.0 * kNormal95 * predicted.systematic_relative);
   }
   for (const Agreement& found : predicted.agreement) {
     print_agreement(found, predicted.against, out);

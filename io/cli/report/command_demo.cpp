@@ -1,5 +1,8 @@
+#include "io/basics/data_folder.h"
 #include "io/cli/report/report_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/config/config_file.h"
 #include "io/materials/material_file.h"
 #include "rig/run/preflight.h"
@@ -193,8 +196,9 @@ CommandSyntax demo_syntax() {
       "viscard demo --out demo"};
   auto add = syntax.options.add_options();
   add("out", po::value<std::string>()->default_value("demo"), "folder for all results");
-  add("data", po::value<std::string>()->default_value(VISCARD_DEMO_DATA),
-      "folder with the rig, test, specimen and truth files");
+  add("data", po::value<std::string>(),
+      "folder with the rig, test, specimen and truth files (otherwise those that came with "
+      "viscard)");
   add("speed", po::value<std::string>()->default_value("50"),
       "speed of the emulated clock relative to real time");
   add("force", "run every step again");
@@ -210,21 +214,24 @@ int run_demo(const Words& words, Streams& streams, const CommandRunner& run_comm
 
   const fs::path out = (*values)["out"].as<std::string>();
   fs::create_directories(out);
-  const fs::path data = (*values)["data"].as<std::string>();
+  const auto own_data = given(*values, "data");
+  const fs::path data = own_data ? fs::path(*own_data) : data_folder() / "demo";
   streams.err << depth_explained(data);
   Demo demo(streams, run_command, out, data, (*values)["speed"].as<std::string>(),
             values->count("force") > 0);
   for (const DemoSpecimen& specimen : kSpecimens) demo.run_specimen(specimen);
   const fs::path page = fs::absolute(demo.run_report());
   const std::vector<ScoreRow> rows = demo.scores();
-  if (print_json(*values, json_from_scores(rows, page), streams)) return kDone;
+  if (print_json(*values, {"viscard-demo/1", {data.string()}}, json_from_scores(rows, page),
+                 streams))
+    return kDone;
   if (demo.n_kept() > 0) {
     streams.err << fmt::format(
         "{} results were up to date and kept (--force runs every step again).\n", demo.n_kept());
   }
   streams.out << "\nTrue values of the emulated rig, and estimates of the fit:\n\n"
-              << table_from_scores(rows) << "\nThe page with all results: " << page.string()
-              << "\n";
+              << fitted(table_from_scores(rows), streams.columns)
+              << "\nThe page with all results: " << page.string() << "\n";
   return kDone;
 }
 

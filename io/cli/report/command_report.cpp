@@ -4,6 +4,7 @@
 #include "io/cards/unit_system.h"
 #include "io/cli/report/report_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
 #include "io/flow/fit_file.h"
@@ -47,6 +48,10 @@ CommandSyntax report_syntax() {
   add("reproducible", "omit the date, so that the same input gives the same bytes");
   add("force", "overwrite existing files");
   syntax.positional = {"files"};
+  for (const CardTarget& target : card_targets()) syntax.choices["card"].push_back(target.name);
+  for (const UnitSystem& system : unit_systems()) {
+    syntax.choices["units"].emplace_back(system.name);
+  }
   syntax.last_is_repeatable = true;
   return syntax;
 }
@@ -183,7 +188,8 @@ int run_report(const Words& words, Streams& streams) {
                               {"figures", rendered.pictures.size()},
                               {"pictures", pictures},
                               {"defects", defects}};
-  if (!print_json(*values, object, streams)) {
+  if (!print_json(*values, {"viscard-report/1", given_words(*values, {"files", "truth"})}, object,
+                  streams)) {
     streams.out << fmt::format(
         "{}: {}, {}, {} kB\n", page.string(), counted(input.specimens.size(), "specimen"),
         counted(rendered.pictures.size(), "figure"), rendered.html.size() / 1024);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace viscard {
@@ -48,6 +49,11 @@ std::string table_from_scores(const std::vector<ScoreRow>& rows) {
                          row.is_inside ? "yes" : "NO");
     last = row.specimen;
   }
+  const auto n_inside =
+      std::count_if(rows.begin(), rows.end(), [](const ScoreRow& row) { return row.is_inside; });
+  table += fmt::format(
+      "\n{} of {} intervals hold the truth. By their meaning, about one in twenty does not.\n",
+      n_inside, rows.size());
   return table;
 }
 

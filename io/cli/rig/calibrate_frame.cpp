@@ -4,6 +4,7 @@
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "io/cli/rig/calibrate_words.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/stop_on_signal.h"
 #include "io/tables/column_map.h"
 #include "io/tables/csv_table.h"
@@ -116,7 +117,7 @@ void print(const FrameStiffnessFit& fit, const CalibrateWords& words, Streams& s
                                          {"stiffness_interval_95", {fit.low_N_m, fit.high_N_m}},
                                          {"curvature_m", fit.curvature_m},
                                          {"n_points", fit.n_points}};
-    streams.out << json.dump() << "\n";
+    print_json({"viscard-calibrate-frame/1", inputs_of(words)}, json, streams, -1);
     return;
   }
   streams.out << fmt::format("stiffness   {:.4g} N/mm, {:.4g} to {:.4g} (k = 2)\n",

@@ -3,6 +3,8 @@
 #include "io/capture/capture_file.h"
 #include "io/capture/capture_header.h"
 #include "io/cli/rig/calibrate_words.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/stop_on_signal.h"
 #include "io/tables/column_map.h"
 #include "io/tables/csv_table.h"
@@ -244,9 +246,10 @@ int calibrate_load_cell(const CalibrateWords& words, Streams& streams) {
   const CalibrationRecord record = record_from(fit, words, capacity_N);
   write_file(words.out_file, toml_from_calibration(record), words.overwrite);
   if (words.as_json) {
-    streams.out << json_from(fit, record, words.out_file).dump() << "\n";
+    print_json({"viscard-calibrate/1", inputs_of(words)}, json_from(fit, record, words.out_file),
+               streams, -1);
   } else {
-    print_text(fit, record, words.out_file, streams.out);
+    print_text(fit, record, words.out_file, FittedText(streams));
   }
   return kDone;
 }

@@ -19,4 +19,12 @@ EmulatedTruth calibrate_truth(const CalibrateWords& words) {
   return words.truth_file ? read_truth(*words.truth_file) : demo_truth(10.0, 1);
 }
 
+Words inputs_of(const CalibrateWords& words) {
+  Words inputs;
+  for (const auto* file : {&words.rig_file, &words.data_file, &words.truth_file}) {
+    if (*file) inputs.push_back(**file);
+  }
+  return inputs;
+}
+
 }  // namespace viscard

@@ -43,5 +43,7 @@ int calibrate_frame(const CalibrateWords& words, Streams& streams);
 // Configuration and truth of the emulated rig for these words.
 RigConfig calibrate_rig(const CalibrateWords& words);
 EmulatedTruth calibrate_truth(const CalibrateWords& words);
+// The files that the words name.
+Words inputs_of(const CalibrateWords& words);
 
 }  // namespace viscard

@@ -3,7 +3,7 @@
 #include "io/cli/rig/calibrate_words.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
-#include "io/cli/words/json_errors.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "models/maths/text_of_number.h"
 
@@ -128,7 +128,9 @@ void check_words(const CalibrateWords& words) {
   refuse_existing(words.out_file, words.overwrite);
 }
 
-int calibrate(const Words& words, Streams& streams) {
+}  // namespace
+
+int run_calibrate(const Words& words, Streams& streams) {
   CalibrateWords asked;
   CommandSyntax syntax = calibrate_syntax(asked);
   const auto values = parse_words(syntax, words, streams);
@@ -137,12 +139,6 @@ int calibrate(const Words& words, Streams& streams) {
   check_words(asked);
   return asked.is_compliance ? calibrate_frame(asked, streams)
                              : calibrate_load_cell(asked, streams);
-}
-
-}  // namespace
-
-int run_calibrate(const Words& words, Streams& streams) {
-  return with_json_errors(words, streams, [&] { return calibrate(words, streams); });
 }
 
 }  // namespace viscard

@@ -2,7 +2,8 @@
 #include "io/cli/rig/capture_words.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
-#include "io/cli/words/json_errors.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 #include "io/flow/capture_setup.h"
 #include "io/flow/command_error.h"
@@ -158,7 +159,7 @@ bool run_step(const SeriesStep& step, const SeriesStep* previous, const CaptureW
     result.runs.back()["specimen"] = setup.specimen.id;
     result.runs.back()["touch"] = step.touch;
   }
-  if (!words.as_json) print_text(outcome, streams.out);
+  if (!words.as_json) print_text(outcome, FittedText(streams));
   if (outcome.run.status == "finished") return true;
   result.trouble = touch_text(step) + outcome.run.reason;
   return false;
@@ -206,7 +207,9 @@ void print_rest(const std::vector<SeriesStep>& steps, const SeriesResult& result
       << "\n";
 }
 
-int capture(const Words& words, Streams& streams) {
+}  // namespace
+
+int run_capture(const Words& words, Streams& streams) {
   CaptureWords asked;
   CommandSyntax syntax = capture_syntax(asked);
   const auto values = parse_words(syntax, words, streams);
@@ -226,7 +229,12 @@ int capture(const Words& words, Streams& streams) {
                             ? last["error"]
                             : json_from_error(command_error(result.code, result.trouble));
     }
-    streams.out << (steps.size() == 1 ? result.runs.at(0) : series).dump() << "\n";
+    const Words inputs = given_words(*values, {"rig", "test", "specimen", "truth"});
+    if (steps.size() == 1) {
+      print_json({"viscard-capture/1", inputs}, result.runs.at(0), streams, -1);
+    } else {
+      print_json({"viscard-capture-series/1", inputs}, series, streams, -1);
+    }
   }
   if (result.trouble.empty()) return kDone;
   streams.err << "viscard: " << result.trouble << "\n";
@@ -234,12 +242,6 @@ int capture(const Words& words, Streams& streams) {
     print_rest(steps, result, asked, streams.err);
   }
   return kFailed;
-}
-
-}  // namespace
-
-int run_capture(const Words& words, Streams& streams) {
-  return with_json_errors(words, streams, [&] { return capture(words, streams); });
 }
 
 }  // namespace viscard

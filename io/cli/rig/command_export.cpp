@@ -4,7 +4,7 @@
 #include "io/capture/capture_file.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
-#include "io/cli/words/json_errors.h"
+#include "io/cli/words/json_output.h"
 #include "io/flow/command_error.h"
 #include "io/flow/table_from_capture.h"
 #include "models/maths/text_of_number.h"
@@ -68,8 +68,7 @@ int verify(const std::string& capture, bool is_json, Streams& streams) {
       object["error"] =
           json_from_error({"damaged", check.faults.front(), capture, "use another copy of it"});
     }
-    streams.out << object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
-                << "\n";
+    print_json({"viscard-export-verify/1", {capture}}, object, streams);
   } else if (check.faults.empty()) {
     streams.out << capture << ": "
                 << (check.is_checked
@@ -86,7 +85,9 @@ int verify(const std::string& capture, bool is_json, Streams& streams) {
   return kFailed;
 }
 
-int export_capture(const Words& words, Streams& streams) {
+}  // namespace
+
+int run_export(const Words& words, Streams& streams) {
   CommandSyntax syntax = export_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
@@ -115,19 +116,13 @@ int export_capture(const Words& words, Streams& streams) {
   } else if (!is_json) {
     streams.out << table;
   }
-  if (is_json) streams.out << summary.dump(2) << "\n";
+  if (is_json) print_json({"viscard-export/1", {capture}}, summary, streams);
   if (run.status != "finished") {
     streams.err << "viscard: " << capture << " is "
                 << (run.status == "running" ? "still being written" : "of an interrupted run")
                 << "; all that was committed is exported\n";
   }
   return kDone;
-}
-
-}  // namespace
-
-int run_export(const Words& words, Streams& streams) {
-  return with_json_errors(words, streams, [&] { return export_capture(words, streams); });
 }
 
 }  // namespace viscard

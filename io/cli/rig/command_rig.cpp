@@ -1,7 +1,8 @@
 #include "io/cli/rig/overshoot_study.h"
 #include "io/cli/rig/rig_commands.h"
 #include "io/cli/words/command_line.h"
-#include "io/cli/words/json_errors.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
 #include "io/config/config_file.h"
 #include "io/flow/check_rig_config.h"
@@ -17,6 +18,7 @@
 
 #include <optional>
 #include <ostream>
+#include <utility>
 
 namespace po = boost::program_options;
 
@@ -24,6 +26,8 @@ namespace viscard {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr int kOneLine = -1;
 
 ordered_json number_or_null(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json(nullptr);
@@ -50,7 +54,8 @@ void list_thermometer(const RigConfig& rig, bool as_json, ordered_json& json, St
               << "\n";
 }
 
-int list_ports(const std::optional<RigConfig>& rig, bool as_json, Streams& streams) {
+int list_ports(const std::optional<RigConfig>& rig, const Words& inputs, bool as_json,
+               Streams& streams) {
   ordered_json rows = ordered_json::array();
   for (const std::string& path : present_ports()) {
     const PortStatus status = port_status(path);
@@ -62,7 +67,7 @@ int list_ports(const std::optional<RigConfig>& rig, bool as_json, Streams& strea
   ordered_json json{{"ports", rows}};
   if (rig) list_thermometer(*rig, as_json, json, streams);
   if (as_json) {
-    streams.out << json.dump() << "\n";
+    print_json({"viscard-rig-list/1", inputs}, std::move(json), streams, kOneLine);
   } else if (rows.empty()) {
     streams.out << "No serial port is present. Plug the stage and the load cell in and switch them "
                    "on; 'dmesg | tail' shows whether the system has recognised them.\n";
@@ -96,18 +101,16 @@ void print_text(const RigCheck& found, std::ostream& out) {
   out << (found.is_usable ? "ready\n" : "not fit for a test yet\n");
 }
 
-void print_json(const RigCheck& found, std::ostream& out) {
-  out << json_from_rig_check(found).dump() << "\n";
-}
-
 int show_overshoot(bool as_json, Streams& streams) {
   Progress progress(streams, "overshoot");
   const std::vector<OvershootRow> rows =
       study_overshoot({}, [&](double fraction) { progress.show(fraction, ""); });
   progress.clear();
+  FittedText fitting(streams);
+  std::ostream& table = fitting;
   if (!as_json) {
-    streams.out << "force beyond a limit of 1 N (N), emulated GRBL, 8.8 N/mm, 80 readings/s\n"
-                   "steps/mm  mm/s2  mm/s  jog cancel  expected  ladder   reset\n";
+    table << "force beyond a limit of 1 N (N), emulated GRBL, 8.8 N/mm, 80 readings/s\n"
+             "steps/mm  mm/s2  mm/s  jog cancel  expected  ladder   reset\n";
   }
   ordered_json list = ordered_json::array();
   for (const OvershootRow& row : rows) {
@@ -119,12 +122,14 @@ int show_overshoot(bool as_json, Streams& streams) {
                     {"ladder_N", row.ladder_N},
                     {"reset_N", row.reset_N}});
     if (as_json) continue;
-    streams.out << fmt::format("{:8.0f} {:6.0f} {:5.1f} {:11.3f} {:9.3f} {:7.3f} {:7.3f}\n",
-                               row.steps_per_m * 1e-3, row.acceleration_m_s2 * 1e3,
-                               row.speed_m_s * 1e3, row.gentle_N, row.expected_N, row.ladder_N,
-                               row.reset_N);
+    table << fmt::format("{:8.0f} {:6.0f} {:5.1f} {:11.3f} {:9.3f} {:7.3f} {:7.3f}\n",
+                         row.steps_per_m * 1e-3, row.acceleration_m_s2 * 1e3, row.speed_m_s * 1e3,
+                         row.gentle_N, row.expected_N, row.ladder_N, row.reset_N);
   }
-  if (as_json) streams.out << ordered_json{{"limit_N", 1.0}, {"rows", list}}.dump() << "\n";
+  if (as_json) {
+    print_json<ordered_json>({"viscard-rig-overshoot/1", {}}, {{"limit_N", 1.0}, {"rows", list}},
+                             streams, kOneLine);
+  }
   return kDone;
 }
 
@@ -143,6 +148,7 @@ CommandSyntax rig_syntax() {
       "seconds", po::value<double>()->default_value(3.0), "how long to listen")(
       "emulate", "check an emulated rig");
   syntax.positional = {"what"};
+  syntax.choices["what"] = {"list", "check", "overshoot"};
   return syntax;
 }
 
@@ -160,14 +166,17 @@ int check_and_print(const po::variables_map& values, bool as_json, Streams& stre
   RigCheck found = check_rig_config(rig, is_emulated, seconds);
   if (values.count("rig") > 0) add_calibration(rig, found);
   if (as_json) {
-    print_json(found, streams.out);
+    print_json({"viscard-rig-check/1", given_words(values, {"rig"})}, json_from_rig_check(found),
+               streams, kOneLine);
   } else {
-    print_text(found, streams.out);
+    print_text(found, FittedText(streams));
   }
   return found.is_usable ? kDone : kFailed;
 }
 
-int list_check_or_study(const Words& words, Streams& streams) {
+}  // namespace
+
+int run_rig(const Words& words, Streams& streams) {
   CommandSyntax syntax = rig_syntax();
   const auto values = parse_words(syntax, words, streams);
   if (!values) return kDone;
@@ -182,7 +191,7 @@ int list_check_or_study(const Words& words, Streams& streams) {
   if (what == "list") {
     std::optional<RigConfig> rig;
     if (values->count("rig") > 0) rig = read_rig((*values)["rig"].as<std::string>());
-    return list_ports(rig, as_json, streams);
+    return list_ports(rig, given_words(*values, {"rig"}), as_json, streams);
   }
   if (what == "overshoot") return show_overshoot(as_json, streams);
   if (what != "check") {
@@ -190,12 +199,6 @@ int list_check_or_study(const Words& words, Streams& streams) {
                      std::string(syntax.usage));
   }
   return check_and_print(*values, as_json, streams);
-}
-
-}  // namespace
-
-int run_rig(const Words& words, Streams& streams) {
-  return with_json_errors(words, streams, [&] { return list_check_or_study(words, streams); });
 }
 
 }  // namespace viscard

@@ -14,10 +14,19 @@ constexpr std::size_t kSparkWidth = 24;
 constexpr int kWidth_px = 960, kHeight_px = 420, kMargin_px = 56;
 
 constexpr const char* kStyle =
-    "body{font:16px/1.5 system-ui,sans-serif;margin:2rem auto;max-width:62rem;color:#222}"
-    "svg{width:100%;height:auto;background:#fafafa}"
-    "dl{display:flex;gap:2.5rem;margin:0 0 1rem}dt{color:#666;font-size:.8rem}"
-    "dd{margin:0;font-size:1.5rem;font-variant-numeric:tabular-nums}";
+    ":root{color-scheme:light dark;--ink:#222;--soft:#666;--page:#fff;--wash:#fafafa;--line:#ddd;"
+    "--force:#0072b2;--limit:#d55e00}"
+    "body{font:16px/1.5 system-ui,sans-serif;margin:2rem auto;padding:0 1rem;max-width:62rem;"
+    "color:var(--ink);background:var(--page)}"
+    "svg{width:100%;height:auto;background:var(--wash)}svg text{fill:var(--ink)}"
+    "dl{display:flex;flex-wrap:wrap;gap:.5rem 2.5rem;margin:0 0 1rem}"
+    "dt{color:var(--soft);font-size:.8rem}"
+    "dd{margin:0;font-size:1.5rem;font-variant-numeric:tabular-nums}"
+    "@media(prefers-color-scheme:dark){:root{--ink:#e3e7eb;--soft:#a2acb6;--page:#141414;"
+    "--wash:#1c2126;--line:#3a424b;--force:#56b4e9;--limit:#ff9d62}}"
+    // Letters of the drawing keep a size that can be read; the drawing scrolls.
+    "@media(max-width:40rem){h1{font-size:1.3rem;overflow-wrap:anywhere}dd{font-size:1.2rem}"
+    ".plot{overflow-x:auto}.plot svg{width:44rem}}";
 
 struct Scale {
   double low = 0.0, high = 1.0;
@@ -45,7 +54,7 @@ std::string ticks(const Scale& x, const Scale& y) {
   for (double f = std::ceil(y.low / dy) * dy; f <= y.high; f += dy) {
     const double shown = std::abs(f) < 1e-9 * dy ? 0.0 : f;
     svg += fmt::format(
-        "<line x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}' stroke='#ddd'/>"
+        "<line x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}' stroke='var(--line)'/>"
         "<text x='{3}' y='{4:.1f}' text-anchor='end'>{5:g}</text>",
         kMargin_px, kWidth_px - 10, y.px(f), kMargin_px - 8, y.px(f) + 5, shown);
   }
@@ -61,21 +70,22 @@ std::string curve(const LiveHistory& history, double limit_N) {
   const Scale x{t.front(), t.back(), 1.0 * kMargin_px, kWidth_px - 10.0};
   const Scale y{*least - margin, *most + margin, 1.0 * kHeight_px - kMargin_px, 10.0};
   std::string svg = fmt::format(
-      "<svg viewBox='0 0 {} {}' role='img' aria-label='force against time' font-size='14'>",
+      "<div class='plot'><svg viewBox='0 0 {} {}' role='img' aria-label='force against time' "
+      "font-size='14'>",
       kWidth_px, kHeight_px);
   svg += ticks(x, y);
   if (limit_N < y.high) {
-    svg += fmt::format("<line x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}' stroke='#d55e00'/>",
+    svg += fmt::format("<line x1='{0}' x2='{1}' y1='{2:.1f}' y2='{2:.1f}' stroke='var(--limit)'/>",
                        kMargin_px, kWidth_px - 10, y.px(limit_N));
   }
-  svg += "<polyline fill='none' stroke='#0072b2' stroke-width='1.5' points='";
+  svg += "<polyline fill='none' stroke='var(--force)' stroke-width='1.5' points='";
   for (std::size_t i = 0; i < t.size(); ++i) {
     svg += fmt::format("{:.1f},{:.1f} ", x.px(t[i]), y.px(f[i]));
   }
   return svg + fmt::format(
                    "'/><text x='{}' y='{}' text-anchor='middle'>time (s)</text>"
                    "<text x='12' y='{}' transform='rotate(-90 12 {})' "
-                   "text-anchor='middle'>force (N)</text></svg>",
+                   "text-anchor='middle'>force (N)</text></svg></div>",
                    kWidth_px / 2, kHeight_px - 12, kHeight_px / 2, kHeight_px / 2);
 }
 
@@ -124,7 +134,9 @@ std::string line_from_live(const RunProgress& now, const LiveHistory& history, d
 std::string page_from_live(const RunProgress& now, const LiveHistory& history, double capacity_N,
                            double limit_N, const std::string& title, bool is_over) {
   const std::string name = escaped_markup(title);
-  std::string page = "<!doctype html><html lang='en'><head><meta charset='utf-8'>";
+  std::string page =
+      "<!doctype html><html lang='en'><head><meta charset='utf-8'>"
+      "<meta name='viewport' content='width=device-width, initial-scale=1'>";
   if (!is_over) page += "<meta http-equiv='refresh' content='1'>";
   page += fmt::format("<title>{}</title><style>{}</style></head><body><h1>{}</h1><dl>", name,
                       kStyle, name);

@@ -21,10 +21,6 @@ nlohmann::json json_from_answer(const SceneAnswer& answer, double wall_s);
 nlohmann::json json_from_effects(const std::vector<SceneEffect>& effects);
 void print_answer(const SceneAnswer& answer, double wall_s, std::ostream& out);
 
-// Removes the results that are not wanted, unless the list is empty. A wanted name also stands for
-// the same name with a pillar's number, and the name of a curve for the results from it.
-void keep_wanted(const std::vector<std::string>& wanted, SceneAnswer& answer);
-
 // Writes pictures, name and SVG each.
 void write_pictures(const std::vector<std::pair<std::string, std::string>>& pictures,
                     const std::string& folder, bool overwrite);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/cli/scene/array_sweep.h"
+#include "io/flow/scenes/array_sweep.h"
 #include "io/plots/plot.h"
 #include "models/scene/common/scene_answer.h"
 #include "models/sensor/sensor_design.h"
@@ -20,7 +20,7 @@ Pictures pictures_of(const SceneAnswer& answer);
 
 // A result that every pillar of a row has ("centre_voltage_1", "centre_voltage_2", ...) over the
 // pillars, with its error. If they differ by decades, its magnitude on a logarithmic axis.
-Pictures pictures_over_pillars(const SceneAnswer& answer);
+Pictures pictures_over_pillars(const SceneAnswer& answer, const std::vector<int>& loaded);
 
 // Each result of a sweep over the parameter with the most values, one line for each combination of
 // the others, with the limit on the deviation if the sweep has one.

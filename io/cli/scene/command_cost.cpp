@@ -2,6 +2,8 @@
 #include "io/cli/scene/cost_output.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
 #include "io/cost/study_cost.h"
 #include "io/plots/plot.h"
@@ -48,7 +50,8 @@ int run_cost(const Words& words, Streams& streams) {
     options.progress = [&](double done, const std::string& name) { progress.show(done, name); };
     study = with_lines_of(path, [&] { return study_cost(scene, options); });
   }
-  const nlohmann::json object = json_from_study(study);
+  const JsonHead head{"viscard-cost/1", {path}};
+  const nlohmann::json object = with_head(head, json_from_study(study));
   if (const auto out = given(*values, "out")) {
     const std::filesystem::path folder = *out;
     const bool overwrite = values->count("force") > 0;
@@ -59,7 +62,7 @@ int run_cost(const Words& words, Streams& streams) {
     const std::string name = std::filesystem::path(path).filename().string();
     write_file(folder / "cost.svg", svg_from_plot(plot_from_study(study, name), "cost"), overwrite);
   }
-  if (!print_json(*values, object, streams)) print_study(study, path, streams.out);
+  if (!print_json(*values, head, object, streams)) print_study(study, path, FittedText(streams));
   return kDone;
 }
 

@@ -3,6 +3,8 @@
 #include "io/cli/scene/answer_pictures.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "models/sensor/sensor_design.h"
 
 #include <fmt/format.h>
@@ -73,6 +75,7 @@ CommandSyntax design_syntax(Design& defaults) {
                                "square, hexagonal or plain (square)")(
       "out", po::value<std::string>(), "folder for design.json and pictures of the limits")(
       "force", "overwrite existing files");
+  syntax.choices["lattice"] = {"square", "hexagonal", "plain"};
   return syntax;
 }
 
@@ -169,7 +172,8 @@ int run_design(const Words& words, Streams& streams) {
   const std::vector<DesignLimit> limits = design_limits(g, design.material, design.requirements);
   const LongestPillar longest =
       longest_pillar(g.diameter_m, g.spacing_m, design.material, design.requirements);
-  nlohmann::json object = json_from_design(design, limits, longest);
+  const JsonHead head{"viscard-design/1", {}};
+  const nlohmann::json object = with_head(head, json_from_design(design, limits, longest));
   if (const auto out = given(*values, "out")) {
     const std::filesystem::path folder = *out;
     const bool overwrite = values->count("force") > 0;
@@ -182,7 +186,9 @@ int run_design(const Words& words, Streams& streams) {
       write_file(folder / (name + ".svg"), svg_from_plot(plot, "design-" + name) + "\n", overwrite);
     }
   }
-  if (!print_json(*values, object, streams)) print_design(design, limits, longest, streams.out);
+  if (!print_json(*values, head, object, streams)) {
+    print_design(design, limits, longest, FittedText(streams));
+  }
   return kDone;
 }
 

@@ -1,7 +1,10 @@
 #include "io/cli/scene/answer_output.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cost/effect_savings.h"
+#include "io/flow/scenes/answer_scene.h"
 #include "io/scenes/scene_file.h"
 #include "models/scene/plan.h"
 
@@ -141,11 +144,11 @@ void add_tolerance_option(po::options_description& options) {
 void apply_tolerance(const po::variables_map& values, Scene& scene) {
   const auto tolerance = given<double>(values, "tol");
   if (!tolerance) return;
-  const ToleranceRange& range = tolerances_of(scene);
-  if (!range.contains(*tolerance)) {
-    throw UsageError(std::string("--tol must lie between ") + range.words);
+  try {
+    set_tolerance(*tolerance, scene);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
   }
-  common(scene).tolerance = *tolerance;
 }
 
 int run_plan(const Words& words, Streams& streams) {
@@ -167,7 +170,9 @@ int run_plan(const Words& words, Streams& streams) {
                               {"left_out", plan.left_out},
                               {"savings", json_from_savings(savings)},
                               {"mesh_tolerance", common(plan.reduced).tolerance}};
-  if (!print_json(*values, object, streams)) print_plan(path, scene, plan, savings, streams.out);
+  if (!print_json(*values, {"viscard-plan/1", {path}}, object, streams)) {
+    print_plan(path, scene, plan, savings, FittedText(streams));
+  }
   return kDone;
 }
 

@@ -1,6 +1,7 @@
 #include "io/basics/atomic_file.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/json_output.h"
 #include "io/pictures/scene_picture.h"
 #include "io/scenes/scene_file.h"
 #include "models/scene/plan.h"
@@ -24,6 +25,7 @@ CommandSyntax scene_syntax() {
   syntax.options.add_options()("svg", po::value<std::string>(), "file for the drawing")(
       "force", "overwrite an existing file");
   syntax.positional = {"what", "scene"};
+  syntax.choices["what"] = {"check"};
   return syntax;
 }
 
@@ -44,7 +46,7 @@ int run_scene(const Words& words, Streams& streams) {
   const std::string drawing = svg_from_scene(scene, name);
   if (const auto svg = given(*values, "svg")) write_file(*svg, drawing, values->count("force") > 0);
   const nlohmann::json object{{"scene", path}, {"kind", kind_of(scene)}, {"ok", true}};
-  if (!print_json(*values, object, streams)) {
+  if (!print_json(*values, {"viscard-scene/1", {path}}, object, streams)) {
     streams.out << path << ": nothing contradicts itself\n";
   }
   return kDone;

@@ -1,10 +1,14 @@
 #include "io/basics/atomic_file.h"
 #include "io/cli/scene/answer_output.h"
 #include "io/cli/scene/answer_pictures.h"
-#include "io/cli/scene/array_sweep.h"
 #include "io/cli/scene/scene_commands.h"
+#include "io/cli/scene/sweep_run.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
+#include "io/flow/scenes/answer_scene.h"
+#include "io/flow/scenes/wanted_results.h"
 #include "io/pictures/section_picture.h"
 #include "io/scenes/scene_file.h"
 #include "models/scene/simulate.h"
@@ -23,13 +27,7 @@ namespace {
 SceneAnswer answer_of(Scene scene, const std::string& path, Streams& streams) {
   Progress progress(streams, "simulate");
   common(scene).progress = [&](double done) { progress.show(done, ""); };
-  try {
-    return simulate(scene);
-  } catch (const SceneMistake& mistake) {
-    throw std::runtime_error(text_with_line(path, mistake));
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(path + ": " + error.what());
-  }
+  return simulate_file(scene, path);
 }
 
 // Pictures and ParaView files of the solution on the mesh that met the tolerance, and results over
@@ -40,7 +38,9 @@ void write_looks(const Scene& scene, const SceneAnswer& answer, const SweepOutpu
     write_file(in / (grid.name + ".vtu"), vtu_from_grid(grid), output.overwrite);
     write_pictures(pictures_from_grid(grid), output.folder, output.overwrite);
   }
-  write_pictures(pictures_over_pillars(answer), output.folder, output.overwrite);
+  const auto* row = std::get_if<ArrayScene>(&scene);
+  const std::vector<int> loaded = row == nullptr ? std::vector<int>{} : row->loaded;
+  write_pictures(pictures_over_pillars(answer, loaded), output.folder, output.overwrite);
 }
 
 CommandSyntax simulate_syntax() {
@@ -83,16 +83,17 @@ int run_simulate(const Words& words, Streams& streams) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const auto printed = compare_printed(file.printed, answer);
   if (!is_sweep) keep_wanted(common(file.scene).wanted, answer);  // a sweep has kept them by point
-  nlohmann::json object = json_from_answer(answer, wall_s);
+  const JsonHead head{"viscard-simulate/1", {path}};
+  nlohmann::json object = with_head(head, json_from_answer(answer, wall_s));
   if (!printed.empty()) object["printed"] = json_from_comparison(printed);
   if (!folder.empty()) {
     write_files(answer, object, folder, output.command, output.overwrite);
     if (!is_sweep) write_looks(file.scene, answer, output);
   }
-  if (print_json(*values, object, streams)) return kDone;
+  if (print_json(*values, head, object, streams)) return kDone;
   streams.out << path << "\n";
-  print_answer(answer, wall_s, streams.out);
-  print_comparison(printed, streams.out);
+  print_answer(answer, wall_s, FittedText(streams));
+  print_comparison(printed, FittedText(streams));
   return kDone;
 }
 

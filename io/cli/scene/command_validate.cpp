@@ -1,6 +1,8 @@
 #include "io/basics/atomic_file.h"
 #include "io/cli/scene/scene_commands.h"
 #include "io/cli/words/command_line.h"
+#include "io/cli/words/fitted_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/progress.h"
 #include "io/materials/material_file.h"
 #include "models/material/liquid.h"
@@ -111,8 +113,9 @@ int run_validate(const Words& words, Streams& streams) {
   };
   write("csv", result.relaxation, "stress_Pa");
   write("creep-csv", result.creep, "displacement_m");
-  if (!print_json(*values, json_from_result(result, name), streams)) {
-    print_result(result, name, streams.out);
+  if (!print_json(*values, {"viscard-validate/1", {path}}, json_from_result(result, name),
+                  streams)) {
+    print_result(result, name, FittedText(streams));
   }
   if (result.passed) return kDone;
   streams.err << fmt::format(

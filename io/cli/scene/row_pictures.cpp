@@ -53,7 +53,8 @@ std::vector<OverPillars> grouped(const std::vector<SceneResult>& results) {
   return groups;
 }
 
-Plot plot_over_pillars(const OverPillars& group) {
+// `loaded`: numbers of the pillars under a load; each is marked if they are not all.
+Plot plot_over_pillars(const OverPillars& group, const std::vector<int>& loaded) {
   const bool is_log = spans_decades(group.value);
   // Logarithmic axes stay in the base unit; linear ones get a prefix.
   const ShownUnit unit = is_log ? ShownUnit{1.0, group.unit} : shown_unit(group.unit, group.value);
@@ -70,7 +71,16 @@ Plot plot_over_pillars(const OverPillars& group) {
       .label = "pillar", .min = group.pillar.front() - 1.0, .max = group.pillar.back() + 1.0};
   panel.y = {.label = (is_log ? "size of " : "") + labelled(group.name, unit.text),
              .is_log = is_log};
+  const auto [low, high] = std::minmax_element(dots.y.begin(), dots.y.end());
+  PlotSeries mark{.label = loaded.size() > 1 ? "loaded pillars" : "loaded pillar",
+                  .ink = Ink::kVermillion,
+                  .is_dashed = true};
+  for (const int pillar : loaded) {
+    mark.x.insert(mark.x.end(), {static_cast<double>(pillar), static_cast<double>(pillar), NAN});
+    mark.y.insert(mark.y.end(), {*low, *high, NAN});  // NAN separates the lines
+  }
   panel.series.push_back(std::move(dots));
+  if (!mark.x.empty()) panel.series.push_back(std::move(mark));
   Plot plot;
   plot.title = words_of(group.name);
   plot.description = plot.title + " of each pillar of the row, with its estimated error";
@@ -158,12 +168,12 @@ Plot plot_over_sweep(const ArraySweep& sweep, const std::vector<SweepPoint>& poi
 
 }  // namespace
 
-Pictures pictures_over_pillars(const SceneAnswer& answer) {
+Pictures pictures_over_pillars(const SceneAnswer& answer, const std::vector<int>& loaded) {
   Pictures pictures;
   // Curves and maps have their own pictures.
   if (!answer.curves.empty() || !answer.maps.empty()) return pictures;
   for (const OverPillars& group : grouped(answer.results)) {
-    if (!draw(group.name, plot_over_pillars(group), "row", pictures)) return {};
+    if (!draw(group.name, plot_over_pillars(group, loaded), "row", pictures)) return {};
   }
   return pictures;
 }

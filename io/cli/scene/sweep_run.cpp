@@ -1,10 +1,11 @@
+#include "io/cli/scene/sweep_run.h"
+
 #include "io/basics/atomic_file.h"
 #include "io/cli/scene/answer_output.h"
 #include "io/cli/scene/answer_pictures.h"
-#include "io/cli/scene/array_sweep.h"
 #include "io/cli/words/output_paths.h"
 #include "io/cli/words/progress.h"
-#include "models/scene/simulate.h"
+#include "io/flow/scenes/array_sweep.h"
 
 #include <fmt/format.h>
 
@@ -18,15 +19,6 @@ namespace {
 std::string key_of(const ArrayScene& scene, const std::string& path) {
   return fmt::format("sweep {} tolerance {:.9g} viscard {}", sha256_of_file(path), scene.tolerance,
                      VISCARD_VERSION);
-}
-
-// Points finish in any order: the answer of a sweep holds each effect as it is at the point where
-// leaving it out costs most.
-void keep_largest(const std::vector<SceneEffect>& point, std::vector<SceneEffect>& sum) {
-  if (sum.empty()) sum = point;
-  for (std::size_t i = 0; i < sum.size(); ++i) {
-    if (point[i].estimate > sum[i].estimate) sum[i] = point[i];
-  }
 }
 
 }  // namespace
@@ -44,34 +36,15 @@ SceneAnswer run_sweep(const SceneFile& file, const std::string& path, const Swee
     streams.err << fmt::format("continuing: {} of {} points are done\n", store.done().size(),
                                points.size());
   }
-  std::vector<Scene> left;
-  std::vector<std::size_t> number;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (store.done().count(i) > 0) continue;
-    left.push_back(points[i].scene);
-    number.push_back(i);
-  }
-  SceneAnswer sum;
   Progress progress(streams, "sweep");
-  simulate_all(left, [&](std::size_t i, const SceneAnswer& answer) {
-    SceneAnswer kept = answer;
-    keep_wanted(scene.wanted, kept);
-    store.add(number[i], kept.results);
-    if (answer.unknowns > sum.unknowns) {
-      sum.unknowns = answer.unknowns;
-      sum.discretisation = answer.discretisation;
-    }
-    keep_largest(answer.effects, sum.effects);
-    progress.show(static_cast<double>(store.done().size()) / static_cast<double>(points.size()),
-                  points[number[i]].label);
-  });
+  const SceneAnswer sum = solve_sweep(
+      file, store, [&](double done, const std::string& label) { progress.show(done, label); });
   progress.clear();
   if (!folder.empty()) {
     write_file(table, csv_from_sweep(points, store.done(), output.command), overwrite);
     write_pictures(pictures_over_sweep(file.sweep, points, store.done()), folder, overwrite);
     store.remove();
   }
-  sum.results = joined(file.sweep, points, store.done()).results;
   return sum;
 }
 

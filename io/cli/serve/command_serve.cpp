@@ -1,6 +1,6 @@
 #include "io/cli/serve/serve_command.h"
 #include "io/cli/words/command_line.h"
-#include "io/cli/words/json_errors.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/stop_on_signal.h"
 #include "io/flow/capture_setup.h"
 #include "io/serve/rig_server.h"
@@ -62,7 +62,9 @@ void check_options(const ServeOptions& options) {
   }
 }
 
-int serve(const Words& words, Streams& streams) {
+}  // namespace
+
+int run_serve(const Words& words, Streams& streams) {
   ServeOptions options;
   CommandSyntax syntax = serve_syntax(options);
   const auto values = parse_words(syntax, words, streams);
@@ -75,7 +77,7 @@ int serve(const Words& words, Streams& streams) {
   RigServer server(options);
   const nlohmann::ordered_json about = {
       {"address", server.address()}, {"port", server.port()}, {"folder", folder}};
-  if (!print_json(*values, about, streams)) {
+  if (!print_json(*values, {"viscard-serve/1", given_words(*values, {"rig"})}, about, streams)) {
     streams.out << "Open in a browser on this machine: " << server.address() << "\n";
     streams.err << "Ctrl-C ends it; a run is then stopped and the punch lifted\n";
   }
@@ -88,12 +90,6 @@ int serve(const Words& words, Streams& streams) {
   if (run.outcome && run.outcome->status == "finished") return kDone;
   streams.err << "viscard: " << (run.outcome ? run.outcome->reason : run.trouble) << "\n";
   return kFailed;
-}
-
-}  // namespace
-
-int run_serve(const Words& words, Streams& streams) {
-  return with_json_errors(words, streams, [&] { return serve(words, streams); });
 }
 
 }  // namespace viscard

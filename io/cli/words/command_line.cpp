@@ -2,10 +2,13 @@
 
 #include "io/basics/units.h"
 #include "io/basics/words.h"
+#include "io/cli/words/help_text.h"
+#include "io/cli/words/json_output.h"
 #include "io/cli/words/output_paths.h"
 
+#include <nlohmann/json.hpp>
+
 #include <ostream>
-#include <sstream>
 
 namespace po = boost::program_options;
 
@@ -24,27 +27,31 @@ std::vector<std::string> option_names(const po::options_description& options) {
                    " Usage: " + usage);
 }
 
-// The words of a text in lines of at most 96 characters, as wide as the table of options.
-std::string wrapped(const std::string& text) {
-  constexpr std::size_t kColumns = 96;
-  std::istringstream words(text);
-  std::string lines, word;
-  std::size_t used = 0;
-  while (words >> word) {
-    const bool fits = used + 1 + word.size() <= kColumns;
-    if (used > 0) lines += fits ? ' ' : '\n';
-    used = (used > 0 && fits ? used + 1 : 0) + word.size();
-    lines += word;
-  }
-  return lines;
+void add_common_options(CommandSyntax& syntax) {
+  syntax.options.add_options()("json", "print one machine-readable object on stdout, nothing else")(
+      "color", po::value<std::string>()->default_value("auto")->value_name("WHEN"),
+      "auto, always or never; auto colours a terminal unless NO_COLOR is set or TERM is dumb")(
+      "help,h", "print this");
+  syntax.choices["color"] = {"auto", "always", "never"};
+}
+
+void check_color(const std::string& when) {
+  if (when == "auto" || when == "always" || when == "never") return;
+  throw UsageError("--color cannot be '" + when + "'; there are: auto, always, never");
+}
+
+// --help, or its object with --json, or the receiver of the syntax.
+void show_help(const CommandSyntax& syntax, bool as_json, Streams& streams) {
+  if (streams.on_help) return streams.on_help(syntax);
+  if (as_json) return print_json({"viscard-help/1", {}}, json_from_syntax(syntax), streams);
+  streams.out << help_text(syntax, streams.columns, streams.is_out_coloured);
 }
 
 }  // namespace
 
 std::optional<po::variables_map> parse_words(CommandSyntax& syntax, const Words& words,
                                              Streams& streams) {
-  syntax.options.add_options()("json", "print one machine-readable object on stdout, nothing else")(
-      "help,h", "print this");
+  add_common_options(syntax);
   po::options_description all;
   all.add(syntax.options);
   po::options_description hidden;
@@ -76,11 +83,10 @@ std::optional<po::variables_map> parse_words(CommandSyntax& syntax, const Words&
     throw UsageError(std::string(error.what()) + "; usage: " + syntax.usage);
   }
   if (values.count("help") > 0) {
-    streams.out << "usage: " << syntax.usage << "\n\n"
-                << wrapped(syntax.description) << "\n\n"
-                << syntax.options << "\nExample: " << syntax.example << "\n";
+    show_help(syntax, values.count("json") > 0, streams);
     return std::nullopt;
   }
+  check_color(values["color"].as<std::string>());
   check_output_paths(values);
   po::notify(values);
   return values;

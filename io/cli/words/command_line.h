@@ -4,8 +4,8 @@
 
 #include <boost/program_options.hpp>
 
+#include <map>
 #include <optional>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -20,10 +20,12 @@ struct CommandSyntax {
   // Names of positional words in order; a repeatable last one takes all remaining words.
   std::vector<std::string> positional;
   bool last_is_repeatable = false;
+  // The values that an option or a positional word may have, for help and completion.
+  std::map<std::string, std::vector<std::string>> choices;
 };
 
-// Parses the words. If --help is among them, prints the help and returns nothing. Adds --help and
-// --json to every command. Throws UsageError for an unknown option (with the nearest known one), a
+// Parses the words. If --help is among them, prints the help and returns nothing. Adds --json, --color
+// and --help to every command. Throws UsageError for an unknown option (with the nearest known one), a
 // missing value or a value that cannot be read, and what check_output_paths() throws if an output
 // would replace an input.
 std::optional<boost::program_options::variables_map> parse_words(CommandSyntax& syntax,
@@ -53,15 +55,6 @@ Value required(const boost::program_options::variables_map& values, const char* 
                const CommandSyntax& syntax) {
   if (const auto value = given<Value>(values, name)) return *value;
   throw UsageError(std::string("which ") + name + "? usage: " + syntax.usage);
-}
-
-// With --json, prints the object and returns true.
-template <typename Json>
-bool print_json(const boost::program_options::variables_map& values, const Json& object,
-                Streams& streams) {
-  if (values.count("json") == 0) return false;
-  streams.out << object.dump(2) << "\n";
-  return true;
 }
 
 // "viscard" and the words, quoted for a shell; output files record it.

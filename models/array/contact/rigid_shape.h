@@ -18,6 +18,7 @@ enum class ShapeKind {
 struct HeightTable {
   std::vector<double> x_m, y_m;  // ascending, at least two of each
   std::vector<double> height_m;
+  bool is_random = false;  // drawn by rough_heights()
 };
 
 // A rigid surface above the plane x, y, turned downward. Its height is counted from the point `at`:

@@ -171,9 +171,9 @@ FilmWaves::FilmWaves(const LayeredFilm& film, double angle_rad, double largest_k
     const auto at = static_cast<std::size_t>(e);
     const double middle_m = 0.5 * (line.breaks()[at] + line.breaks()[at + 1]) * length_m_;
     const Medium medium = rotated_about_z(layer_at(film, middle_m).medium, angle_rad);
-    add_element(line, e,
-                scale.asDiagonal() * coupled_form(medium) * scale.asDiagonal() / stress_Pa_,
-                numbering, by_power_);
+    const Eigen::MatrixXd form = material_form(medium, true, film.is_plane_stress);
+    add_element(line, e, scale.asDiagonal() * form * scale.asDiagonal() / stress_Pa_, numbering,
+                by_power_);
   }
 }
 

@@ -29,6 +29,8 @@ struct LayeredFilm {
   std::vector<FilmLayer> layers;
   FilmFace grounded = FilmFace::kTop;
   std::optional<Backing> backing;
+  // A strip that is free to widen across the waves (no stress along y), instead of one that cannot.
+  bool is_plane_stress = false;
 };
 
 // Throws std::invalid_argument for a stack without layers, a thickness or constant that is not

@@ -2,6 +2,11 @@
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/body/pillar_modes.h"
+#include "models/pillar/body/section_grid.h"
+
+#include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace viscard {
 namespace {
@@ -15,6 +20,30 @@ void run_buckling(const PillarScene& scene, SceneAnswer& answer) {
   const PillarModel lateral = model_of(scene, Motion::kLateral, answer.discretisation);
   count_unknowns(lateral, answer);
   answer.results.push_back({"buckling_pressure", buckling(axial, lateral).pressure_Pa, "Pa"});
+}
+
+// The shape in which the pillar buckles. Its slowest vibration tends to it as the pressure tends to
+// the buckling pressure, where (K - p K_sigma) x = omega^2 M x with omega = 0 is the buckling problem.
+// Empty if modes at the rim of the bond hide it on this mesh.
+std::vector<SectionGrid> buckling_fields(const PillarScene& scene, const Discretisation& mesh) {
+  const PillarModel axial = model_of(scene, Motion::kLongitudinal, mesh);
+  const PillarModel lateral = model_of(scene, Motion::kLateral, mesh);
+  constexpr double kShare = 0.999;
+  std::vector<PillarMode> modes;
+  try {
+    const double pressure_Pa = kShare * buckling(axial, lateral).pressure_Pa;
+    modes = modes_under_pressure(axial, lateral, pressure_Pa, 1);
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+  Sampling at = sampling_of(lateral);
+  at.grid.name = "buckling";
+  at.grid.harmonic = 1;
+  SectionField shape = displacement_field(lateral, at, "buckling_shape", modes.at(0).shape);
+  shape.unit = "1";
+  normalise(at.grid.harmonic, shape);
+  at.grid.fields.push_back(std::move(shape));
+  return {at.grid};
 }
 
 // A plate halves the free length above the foot, so that the turn of the foot counts twice.
@@ -42,6 +71,7 @@ Analysis buckling_analysis() {
           },
           .run = run_buckling,
           .found_pressure_Pa = engesser_pressure_Pa,
+          .fields = buckling_fields,
           .film_compliance = buckling_film_compliance,
           .geometric_stiffness = buckling_geometric_stiffness};
 }

@@ -259,12 +259,36 @@ TEST_CASE("other ways to write the same card are read", "[cards]") {
 }
 
 TEST_CASE("numbers typed with fewer digits are reported as rounded, not as a mistake", "[cards]") {
-  const Material material = reference_material();
-  const std::string text = replaced(card_text("abaqus"), "1.88, 0.495", "1.8803, 0.495");
+  Material material = reference_material();
+  material.E0_Pa = 1.88031234e6;
+  const std::string right =
+      write_card(material, card_target("abaqus"), {.units = "mm-t-s", .is_reproducible = true})
+          .text;
+  const std::size_t young = right.find("INSTANTANEOUS\n") + 14;
+  const std::string text =
+      std::string(right).replace(young, right.find(',', young) - young, "1.8803");
   const CardCheck check = check_card(text, card_target("abaqus"), {}, &material);
   CHECK_FALSE(check.agrees);
   REQUIRE(check.findings.size() == 1);
   CHECK(check.findings[0].name == "rounded");
   CHECK_FALSE(check.findings[0].is_mistake);
   CHECK(check_card(text, card_target("abaqus"), {.tolerance = 1e-3}, &material).agrees);
+}
+
+TEST_CASE("one digit of a number is named with both values, not as terms that were swapped",
+          "[cards]") {
+  for (const std::size_t n : {std::size_t{1}, std::size_t{2}}) {
+    Material material = reference_material();
+    material.terms.erase(material.terms.begin(),
+                         material.terms.end() - static_cast<std::ptrdiff_t>(n));
+    const std::string text =
+        replaced(write_card(material, card_target("abaqus"), {.units = "mm-t-s"}).text, ", 2.403\n",
+                 ", 2.404\n");
+    const CardCheck check = check_card(text, card_target("abaqus"), {}, &material);
+    CAPTURE(n);
+    CHECK_FALSE(check.agrees);
+    REQUIRE(check.findings.size() == 1);
+    CHECK(check.findings[0].name == "one-number");
+    CHECK(check.findings[0].text.find("is 2.404 where 2.403 is expected") != std::string::npos);
+  }
 }

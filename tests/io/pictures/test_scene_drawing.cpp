@@ -71,6 +71,11 @@ TEST_CASE("the electrode of a pillar is drawn over what stands on it", "[io][sce
   const std::size_t upright = count_of(svg, kArrow);
   scene.drive = StaticDrive{.direction = LoadDirection::kLateral, .pressure_Pa = 1e4};
   CHECK(count_of(svg_from_scene(scene, ""), kArrow) < upright);  // one arrow sideways
+  // Quarters: two parts in the section, and all of them from above.
+  scene.electrodes->quadrants = true;
+  const std::string quarters = svg_from_scene(scene, "");
+  CHECK(count_of(quarters, kElectrodeFill) == 3);
+  CHECK(quarters.find("electrode in quarters") != std::string::npos);
 }
 
 TEST_CASE("scene check draws pillars and rows into a file, and overwrites none", "[cli][scene]") {

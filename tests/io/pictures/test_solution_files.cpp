@@ -157,12 +157,44 @@ TEST_CASE("a .vtu file has as many points and cells as it says, and corners that
   for (const double type : array_of(vtu, "types")) CHECK(type == (is_strip ? 9.0 : 12.0));
 }
 
+// A clamped-free column buckles as 1 - cos(pi z/(2 L)) (Timoshenko & Gere, Theory of Elastic
+// Stability, 2.1); shear and the foot change the shape of one that is ten times longer than wide little.
+TEST_CASE("a buckling scene has a picture of Euler's shape", "[pillar][io]") {
+  PillarScene scene = pressed_pillar();
+  scene.drive = BucklingDrive{};
+  scene.geometry.length_m = 10.0 * scene.geometry.diameter_m;
+  const auto grids = solution_fields(scene, kMesh);
+  REQUIRE(grids.size() == 1);
+  const SectionGrid& grid = grids.front();
+  const SectionField& shape = field_of(grid, "buckling_shape");
+  double sign = 0.0, tip = 0.0;
+  for (std::size_t i = 0; i < grid.z_m.size(); ++i) {
+    const double u = displacement_at(grid, shape, i, 0.0)[0];
+    if (std::abs(u) > tip) tip = std::abs(u), sign = u > 0.0 ? 1.0 : -1.0;
+  }
+  CHECK(tip == Approx(1.0).epsilon(0.01));
+  int points = 0;
+  for (std::size_t i = 0; i < grid.z_m.size(); ++i) {
+    if (grid.x_m[i] > 1e-9) continue;  // on the axis
+    const double z = grid.z_m[i] / scene.geometry.length_m;
+    const double euler = 1.0 - std::cos(0.5 * std::numbers::pi * z);
+    CHECK(sign * displacement_at(grid, shape, i, 0.0)[0] == Approx(euler).margin(0.02));
+    ++points;
+  }
+  CHECK(points > 10);
+  const auto pictures = pictures_from_grid(grid);
+  REQUIRE(pictures.size() == 1);
+  CHECK(pictures.front().first == "buckling_shape");
+}
+
 TEST_CASE("every field has a picture with its name, scale and unit", "[pillar][io]") {
   const SectionGrid grid = solution_fields(sensor(), kMesh).front();
   const auto pictures = pictures_from_grid(grid);
   REQUIRE(pictures.size() == 3);
   CHECK(pictures[2].first == "static_potential_V");
-  CHECK_THAT(pictures[2].second, Catch::Contains("static potential (V)"));
+  CHECK_THAT(pictures[2].second, Catch::Contains(">static potential</text>"));
+  CHECK_THAT(pictures[1].second, Catch::Contains(">kPa</text>"));  // plain numbers beside the bar
+  CHECK_THAT(pictures[2].second, Catch::Contains(">mV</text>"));
   CHECK_THAT(pictures[0].second, Catch::Contains("displacement drawn"));
   for (const auto& [name, svg] : pictures) {
     CHECK(svg.find("nan") == std::string::npos);

@@ -134,3 +134,22 @@ TEST_CASE("mistakes in a shape name the key and the way out", "[cli][scene][arra
   refuses("kind = \"sphere\"\nradius = \"1 mm\"\nforce = \"1 mN\"\nat = [\"5 cm\", \"0 m\"]\n",
           "no pillar under the shape");
 }
+
+TEST_CASE("a rough surface is the same for the same seed", "[cli][scene][array]") {
+  const auto rough = [](int seed, const std::string& rest = "") {
+    return "kind = \"rough\"\nrms = \"0.25 um\"\ncorrelation_length = \"75 um\"\ndepth = \"3 um\"\n"
+           "seed = " +
+           std::to_string(seed) + "\n" + rest;
+  };
+  const double force_N = result_of(answer_of(rough(1)), "contact_force");
+  // Nine pillars under a depth of 3 um with 12 heights of rms over it: k 3 um each, within 3 rms.
+  CHECK(force_N == Approx(9.0 * 19.0468 * 3e-6).epsilon(0.25));
+  CHECK(result_of(answer_of(rough(1)), "contact_force") == force_N);
+  CHECK(result_of(answer_of(rough(2)), "contact_force") != force_N);
+  CHECK_THAT(refusal_of("kind = \"rough\"\ndepth = \"1 um\"\n"), Catch::Contains("rms"));
+  CHECK_THAT(refusal_of("kind = \"rough\"\nrms = \"0.25 um\"\ncorrelation_length = \"10 nm\"\n"
+                        "depth = \"1 um\"\n"),
+             Catch::Contains("shape.correlation_length"));
+  CHECK_THAT(refusal_of("kind = \"plane\"\nrms = \"0.25 um\"\ndepth = \"1 um\"\n"),
+             Catch::Contains("belongs to kind = \"rough\""));
+}

@@ -73,6 +73,31 @@ TEST_CASE("Rayleigh coefficients are the least squares of the loss factor over t
   CHECK(reduced.poisson == Approx(0.4).epsilon(1e-12));
 }
 
+TEST_CASE("Rayleigh coefficients are those of the integral over the logarithm of the frequency",
+          "[material]") {
+  // Midpoint rule with 1e5 points: (1/x^2, 1; 1, x^2) (a, b) = (eta/x, eta x).
+  const Material material = wide_material();
+  const double middle_Hz = 50.0;
+  double inverse = 0.0, square = 0.0, over = 0.0, times = 0.0, plain = 0.0;
+  constexpr int kPoints = 100000;
+  for (int i = 0; i < kPoints; ++i) {
+    const double f = 5.0 * std::pow(100.0, (i + 0.5) / kPoints), x = f / middle_Hz;
+    const auto exact = shear_Pa(material, f);
+    const double eta = exact.imag() / exact.real();
+    inverse += 1.0 / (x * x) / kPoints;
+    square += x * x / kPoints;
+    over += eta / x / kPoints;
+    times += eta * x / kPoints;
+    plain += eta / kPoints;
+  }
+  const double w = 2.0 * kPi * middle_Hz, determinant = inverse * square - 1.0;
+  const BandReduction reduced = reduce_to_band(material, {5.0, 500.0});
+  CHECK(reduced.alpha_1_s == Approx(w * (over * square - times) / determinant).epsilon(1e-7));
+  CHECK(reduced.beta_s == Approx((times * inverse - over) / determinant / w).epsilon(1e-7));
+  CHECK(reduced.beta_alone_s == Approx(times / square / w).epsilon(1e-7));
+  CHECK(reduced.loss_factor == Approx(plain).epsilon(1e-7));
+}
+
 TEST_CASE("far below and above the relaxation a reduction has its closed limit", "[material]") {
   Material material;
   material.E0_Pa = 1.88e6;

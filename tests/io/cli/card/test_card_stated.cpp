@@ -148,6 +148,10 @@ TEST_CASE("card --prove leaves a certificate beside the card that leads to the r
   CHECK(chain.at("material").at("sha256_now") == sha256_of_file(file));
   CHECK(chain.at("raw_files")[0].at("sha256_in_card") == sha256_of_file(raw));
   CHECK(chain.at("complete") == true);
+  // Without the material file the chain says what is missing and what to do.
+  CHECK(command.run({"--prove", card, "--force"}) == kDone);
+  CHECK_THAT(command.out, Contains("no material file was named; repeat with viscard card"));
+  CHECK(nlohmann::json::parse(read_file(path)).at("chain").at("missing").size() == 1);
   // Never replaced unasked, before any solver runs; a changed file breaks the chain.
   CHECK(command.run({file, "--prove", card}) == kFailed);
   CHECK_THAT(command.err, Contains("exists already; pass --force"));

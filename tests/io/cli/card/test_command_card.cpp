@@ -97,6 +97,17 @@ TEST_CASE("viscard card --band names the band of a card for vibration, which is 
   const auto json = nlohmann::json::parse(card.out);
   CHECK(json.at("material").is_null());
   CHECK(json.at("values").at(1) == nlohmann::json{{"name", "nu"}, {"value", 0.495}});
+  CHECK(json.at("understood").at("branches").is_null());  // it has none
+  CHECK_THAT(json.at("understood").at("conventions").get<std::string>(),
+             Catch::Contains("C = alpha M + beta K"));
+  CHECK(json.at("frequencies_Hz") == nlohmann::json{0.1, 10.0});
+  CHECK(card.run({material, "--for", "rayleigh", "--check", out, "--band", "1,10"}) == kFailed);
+  CHECK(card.out.find("mistake band-differs") != std::string::npos);
+  REQUIRE(card.run({material, "--for", "rayleigh", "--band", "10,1000", "--json"}) == kDone);
+  CHECK_THAT(nlohmann::json::parse(card.out).at("warnings").at(0).get<std::string>(),
+             Catch::Contains("EXTRAPOLATED"));
+  CHECK(card.run({material, "--for", "rayleigh", "--band", "10,1000"}) == kDone);
+  CHECK_THAT(card.err, Catch::Contains("warning: band: 10 to 1000 Hz; EXTRAPOLATED"));
   CHECK(card.run({material, "--for", "rayleigh", "--band", "1,10"}) == kDone);
   CHECK(card.out.find("\n# band: 1 to 10 Hz") != std::string::npos);
 }

@@ -1,7 +1,7 @@
 // Wording of what `viscard fit` prints about odd tables.
 #include "fit/intervals/left_out.h"
 #include "fit/intervals/slow_noise.h"
-#include "io/cli/fit/fit_command.h"
+#include "io/flow/words/fit_text.h"
 #include "tests/io/cli/fit/table_folder.h"
 #include "tests/support/run_command.h"
 

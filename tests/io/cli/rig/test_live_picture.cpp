@@ -54,7 +54,9 @@ TEST_CASE("the live page reloads until the run is over and escapes its text", "[
   CHECK(contains(page, "http-equiv='refresh'"));
   CHECK(contains(page, "a &amp; b"));
   CHECK(contains(page, "&lt;b&gt;"));
-  CHECK(contains(page, "#d55e00"));  // the limit lies within the picture
+  CHECK(contains(page, "stroke='var(--limit)'"));  // the limit lies within the picture
+  CHECK(contains(page, "prefers-color-scheme:dark"));
+  CHECK(contains(page, "name='viewport'"));
 }
 
 }  // namespace viscard

@@ -1,5 +1,5 @@
 #include "io/basics/atomic_file.h"
-#include "io/cli/scene/array_sweep.h"
+#include "io/flow/scenes/array_sweep.h"
 #include "models/scene/plan.h"
 #include "tests/io/scenes/scene_text.h"
 #include "tests/support/run_command.h"

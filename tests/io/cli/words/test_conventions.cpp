@@ -49,10 +49,14 @@ TEST_CASE("without a command the overview goes to stderr and the status is 2", "
   CHECK(nothing.status == kBadWords);
   CHECK(nothing.out.empty());
   CHECK(contains(nothing.err, "usage: viscard COMMAND"));
+  CHECK(contains(nothing.err, "viscard demo --out demo"));  // where to begin
 }
 
 TEST_CASE("the version is one line", "[cli]") {
   CHECK(run_command({"--version"}).out == "viscard " VISCARD_VERSION "\n");
+  const auto json = nlohmann::json::parse(run_command({"--version", "--json"}).out);
+  CHECK(json.at("schema") == "viscard-version/1");
+  CHECK(json.at("version") == VISCARD_VERSION);
 }
 
 TEST_CASE("a misspelt command gives one line with the nearest command, and status 2", "[cli]") {
@@ -125,14 +129,12 @@ TEST_CASE("a command that fails prints no result on stdout, and with --json at m
     const auto outcome = run_command({name, "--json", "/nowhere/no-such-file"});
     CHECK(outcome.status != kDone);
     CHECK(is_one_line(outcome.err));
-    if (name == "rig" || name == "calibrate" || name == "export" || name == "serve") {
-      const auto json = nlohmann::json::parse(outcome.out);
-      CHECK(json.size() == 1);
-      CHECK(json.at("error").at("code").is_string());
-      CHECK(json.at("error").at("message").is_string());
-    } else {
-      CHECK(outcome.out.empty());
-    }
+    const auto json = nlohmann::json::parse(outcome.out);
+    CHECK(json.size() == 3);
+    CHECK(json.at("schema") == "viscard-error/1");
+    CHECK(json.at("version") == VISCARD_VERSION);
+    CHECK(json.at("error").at("code").is_string());
+    CHECK(json.at("error").at("message").is_string());
   }
 }
 

@@ -1,4 +1,4 @@
-// What the commands at the rig print with --json when they fail.
+// What the commands print with --json when they fail.
 #include "io/basics/atomic_file.h"
 #include "io/flow/command_error.h"
 #include "tests/support/run_command.h"
@@ -34,8 +34,8 @@ json error_of(const std::vector<std::string>& words, int status = kFailed) {
 }  // namespace
 
 TEST_CASE("a wrong command line has the code usage and names the option", "[cli]") {
-  for (const char* command : {"capture", "rig", "calibrate", "export", "serve"}) {
-    const json error = error_of({command, "--oust", "x", "--json"}, kBadWords);
+  for (const Command& command : commands()) {
+    const json error = error_of({command.name, "--oust", "x", "--json"}, kBadWords);
     CHECK(error["code"] == "usage");
     CHECK(error["where"] == "--oust");
   }

@@ -1,0 +1,64 @@
+# Debian packages by CPack, one of each component: ./run package. debian_files.cmake finishes their files.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/packages)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+# Whoever makes packages for others states whom to write to, as with all Debian tools.
+set(maker "The viscard authors")
+set(address viscard@viscard.invalid)
+if(DEFINED ENV{DEBFULLNAME})
+  set(maker "$ENV{DEBFULLNAME}")
+endif()
+if(DEFINED ENV{DEBEMAIL})
+  set(address "$ENV{DEBEMAIL}")
+endif()
+set(CPACK_PACKAGE_CONTACT "${maker} <${address}>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own first line
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_PRE_BUILD_SCRIPTS ${packaging}/debian_files.cmake)
+set(CPACK_COMPONENTS_ALL runtime development documentation)
+
+# debian_package(COMPONENT NAME SECTION SYNOPSIS PARAGRAPH)
+function(debian_package component name section synopsis paragraph)
+  string(TOUPPER ${component} upper)
+  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name} PARENT_SCOPE)
+  set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section} PARENT_SCOPE)
+  set(CPACK_COMPONENT_${upper}_DESCRIPTION "${synopsis}\n${paragraph}" PARENT_SCOPE)
+endfunction()
+
+set(about "viscard drives an indentation rig, fits Young's modulus and a Prony series\n\
+with honest intervals, writes material cards for other solvers, and answers\n\
+scenes of pillar sensors with error estimates.")
+debian_package(runtime viscard science "soft polymers from a load cell to a validated simulation"
+  "${about}\n.\nThis package has the program, its man pages, a demo and example scenes.")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+# Every page of results has plots, which gnuplot draws.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "gnuplot-nox | gnuplot-x11 | gnuplot-qt")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "viscard-doc, paraview")
+
+debian_package(development libviscard-dev libdevel "library of viscard for C++ programs"
+  "${about}\n.\nThis package has the static library, its headers and an example, for CMake and\npkg-config.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS  # what viscardConfig.cmake and viscard.pc ask for
+    "libboost-program-options-dev, libceres-dev, libcpp-httplib-dev, libeigen3-dev, libfmt-dev, libgoogle-glog-dev,\
+ libpugixml-dev, libserial-dev, libsqlite3-dev, libssl-dev, libtomlplusplus-dev, libudunits2-dev, libzip-dev,\
+ nlohmann-json3-dev, pkg-config")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "viscard-doc")
+
+debian_package(documentation viscard-doc doc "documentation of viscard"
+  "${about}\n.\nThis package has equations, file formats and recipes, a page for each folder of\nthe source, and the documentation of the library's headers.")
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
+
+# io/python installs its module as component python if it is built.
+if(TARGET viscard_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  debian_package(python python3-viscard python "viscard for Python programs"
+    "${about}\n.\nThis package has the Python module, whose arrays are those of numpy.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, viscard-doc")
+endif()
+include(CPack)

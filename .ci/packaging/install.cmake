@@ -1,0 +1,89 @@
+# What `cmake --install` puts where, in four components: runtime, development, documentation and, from
+# io/python, python. ./run package makes a Debian package of each.
+include(CMakePackageConfigHelpers)
+set(packaging ${CMAKE_CURRENT_LIST_DIR})
+
+# A program in the build folder finds its data as an installed one does, by its own place.
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/share)
+file(CREATE_LINK ${CMAKE_SOURCE_DIR}/data ${CMAKE_BINARY_DIR}/share/viscard SYMBOLIC)
+
+# --- runtime: the program, its data, man pages, completions ---------------------------------------
+install(TARGETS viscard RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
+# Addresses of functions of other libraries are written once, at the start, and read-only from then on.
+target_link_options(viscard PRIVATE -Wl,-z,relro -Wl,-z,now)
+foreach(folder demo materials protocols scenes)
+  install(DIRECTORY data/${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime)
+endforeach()
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+install(DIRECTORY data/pictures DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT runtime)
+install(DIRECTORY io/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT runtime
+        FILES_MATCHING PATTERN "*.schema.json")
+# README.md links to files of these as they stand in the source tree.
+file(RELATIVE_PATH data_from_documents /${CMAKE_INSTALL_DOCDIR}/data /${CMAKE_INSTALL_DATADIR}/viscard)
+foreach(folder demo examples)
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/links)
+  file(CREATE_LINK ${data_from_documents}/${folder} ${CMAKE_BINARY_DIR}/links/${folder} SYMBOLIC)
+endforeach()
+install(FILES ${CMAKE_BINARY_DIR}/links/demo DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT runtime)
+install(FILES ${CMAKE_BINARY_DIR}/links/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT development)
+# Made by the program itself, where they are made.
+install(DIRECTORY ${CMAKE_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime
+        OPTIONAL FILES_MATCHING PATTERN "*.1")
+set(completions ${CMAKE_BINARY_DIR}/completions)
+install(FILES ${completions}/viscard.bash RENAME viscard COMPONENT runtime OPTIONAL
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${completions}/_viscard COMPONENT runtime OPTIONAL
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+install(FILES ${completions}/viscard.fish COMPONENT runtime OPTIONAL
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+
+# --- development: one archive of all rooms, the headers, and how to find them -----------------------
+get_property(rooms GLOBAL PROPERTY VISCARD_ROOMS)
+list(FILTER rooms EXCLUDE REGEX "^viscard_io_python")  # part of a module of Python alone
+list(TRANSFORM rooms REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE room_objects)
+add_library(viscard_library STATIC ${room_objects})
+set_target_properties(viscard_library PROPERTIES OUTPUT_NAME viscard LINKER_LANGUAGE CXX)
+install(TARGETS viscard_library ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+
+set(headers_destination ${CMAKE_INSTALL_INCLUDEDIR}/viscard)
+set(documents_destination ${CMAKE_INSTALL_DOCDIR})
+configure_file(${packaging}/install_headers.cmake.in ${CMAKE_BINARY_DIR}/install_headers.cmake @ONLY)
+install(SCRIPT ${CMAKE_BINARY_DIR}/install_headers.cmake COMPONENT development)
+install(DIRECTORY data/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT development
+        FILES_MATCHING PATTERN "*.cpp" PATTERN "CMakeLists.txt")
+if(TARGET viscard_python)
+  install(DIRECTORY data/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/viscard COMPONENT python
+          FILES_MATCHING PATTERN "*.py")
+endif()
+
+file(RELATIVE_PATH prefix_from_pc /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" prefix_from_pc "${prefix_from_pc}")
+configure_file(${packaging}/viscard.pc.in ${CMAKE_BINARY_DIR}/viscard.pc @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/viscard.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+        COMPONENT development)
+configure_package_config_file(${packaging}/viscardConfig.cmake.in ${CMAKE_BINARY_DIR}/viscardConfig.cmake
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/viscard PATH_VARS CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_LIBDIR)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/viscardConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/viscardConfig.cmake ${CMAKE_BINARY_DIR}/viscardConfigVersion.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/viscard COMPONENT development)
+
+# --- documentation: the pages of the rooms, to which README.md links ---------------------------------
+configure_file(${packaging}/install_documents.cmake.in ${CMAKE_BINARY_DIR}/install_documents.cmake @ONLY)
+install(SCRIPT ${CMAKE_BINARY_DIR}/install_documents.cmake COMPONENT documentation)
+
+find_program(DOXYGEN doxygen)
+if(DOXYGEN)
+  add_custom_target(viscard_api
+    COMMAND ${CMAKE_COMMAND} -DSOURCE=${CMAKE_SOURCE_DIR} -DOUT=${CMAKE_BINARY_DIR}/api -DVERSION=${PROJECT_VERSION}
+            -P ${packaging}/make_api.cmake
+    COMMENT "Documentation of the library's headers" VERBATIM)
+endif()
+install(DIRECTORY ${CMAKE_BINARY_DIR}/api/html/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/api COMPONENT documentation
+        OPTIONAL)
+
+# --- away again ---------------------------------------------------------------------------------------
+add_custom_target(uninstall
+  COMMAND ${CMAKE_COMMAND} -DMANIFEST=${CMAKE_BINARY_DIR}/install_manifest.txt -P ${packaging}/uninstall.cmake
+  USES_TERMINAL VERBATIM)
+
+include(${packaging}/debian.cmake)

@@ -1,0 +1,215 @@
+#include "fit/large_strain/fit_large_strain.h"
+
+#include "fit/large_strain/hyperelastic_search.h"
+#include "fit/large_strain/rubber_checks.h"
+#include "fit/samples/noise_model.h"
+#include "models/maths/dense.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// Factor on variances by the memory of the residuals along each test.
+double inflation_of(const std::vector<LargeStrainTest>& tests, const VectorXd& residual) {
+  double largest = 1.0;
+  Index first = 0;
+  for (const LargeStrainTest& test : tests) {
+    const auto count = static_cast<Index>(test.stretch.size());
+    largest = std::max(largest, autoregression(residual.segment(first, count)).inflation());
+    first += count;
+  }
+  return largest;
+}
+
+// Parameters that are held where they ended: a modulus at zero with its shape, a shape at its bound.
+std::vector<Index> free_parameters(HyperelasticForm form, const LargeStrainRows& rows,
+                                   const HyperelasticPoint& point) {
+  const ShapeBounds bounds = shape_bounds(form, rows);
+  constexpr double kTouch = 1e-6;
+  const Index n = n_moduli(form);
+  std::vector<Index> free;
+  for (Index j = 0; j < n; ++j) {
+    if (is_sign_free(form) || point.moduli[j] > 0.0) free.push_back(j);
+  }
+  for (Index k = 0; k < n_shapes(form); ++k) {
+    const double at = point.shapes[k];
+    const bool is_inside = at > bounds.low + kTouch * std::abs(bounds.low) &&
+                           at < bounds.high - kTouch * std::abs(bounds.high);
+    if (is_inside && point.moduli[std::min(k, n - 1)] != 0.0) free.push_back(n + k);
+  }
+  return free;
+}
+
+// Inverse of J^T J over the free parameters, zero elsewhere.
+Eigen::MatrixXd inverse_normal(const Eigen::MatrixXd& slopes, const std::vector<Index>& free) {
+  Eigen::MatrixXd used(slopes.rows(), static_cast<Index>(free.size()));
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    used.col(static_cast<Index>(i)) = slopes.col(free[i]);
+  }
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(slopes.cols(), slopes.cols());
+  if (free.empty()) return all;
+  const VectorXd length = used.colwise().norm().cwiseMax(1e-300);
+  const Eigen::MatrixXd pseudo = pseudo_inverse(used * length.cwiseInverse().asDiagonal());
+  const Eigen::MatrixXd inverse = pseudo * pseudo.transpose();
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    for (std::size_t j = 0; j < free.size(); ++j) {
+      const auto a = static_cast<Index>(i), b = static_cast<Index>(j);
+      all(free[i], free[j]) = inverse(a, b) / (length[a] * length[b]);
+    }
+  }
+  return all;
+}
+
+void add_parameters(FittedRubber& fitted) {
+  std::vector<std::string> names = modulus_names(fitted.law.form);
+  for (const std::string& name : shape_names(fitted.law.form)) names.push_back(name);
+  VectorXd values(fitted.covariance.rows());
+  values << fitted.law.moduli_Pa, fitted.law.shapes;
+  for (Index i = 0; i < values.size(); ++i) {
+    const double se = std::sqrt(fitted.covariance(i, i));
+    fitted.parameters.push_back({names[static_cast<std::size_t>(i)],
+                                 values[i],
+                                 se,
+                                 {values[i] - kNormal95 * se, values[i] + kNormal95 * se}});
+  }
+}
+
+// Young's modulus at rest depends on the moduli, and on the shape of arruda-boyce.
+void add_modulus(FittedRubber& fitted) {
+  const HyperelasticLaw& law = fitted.law;
+  fitted.E0_Pa = youngs_modulus_Pa(law);
+  VectorXd slope = VectorXd::Zero(fitted.covariance.rows());
+  slope.head(law.moduli_Pa.size()) = youngs_columns(law.form, law.shapes);
+  for (Index k = 0; k < law.shapes.size(); ++k) {
+    const double step = 1e-6 * std::max(1.0, std::abs(law.shapes[k]));
+    HyperelasticLaw up = law, down = law;
+    up.shapes[k] += step;
+    down.shapes[k] -= step;
+    slope[law.moduli_Pa.size() + k] =
+        (youngs_modulus_Pa(up) - youngs_modulus_Pa(down)) / (2.0 * step);
+  }
+  fitted.E0_se_Pa = std::sqrt(std::max(0.0, slope.dot(fitted.covariance * slope)));
+  const double half = kNormal95 * fitted.E0_se_Pa;
+  fitted.E0_interval_95 = {fitted.E0_Pa - half, fitted.E0_Pa + half};
+}
+
+// Sum of squared residuals and stresses, in Pa^2.
+void add_residuals(const std::vector<LargeStrainTest>& tests, FittedRubber& fitted) {
+  double of_stress = 0.0;
+  for (const LargeStrainTest& test : tests) {
+    for (std::size_t i = 0; i < test.stretch.size(); ++i) {
+      const double measured = test.nominal_stress_Pa[i];
+      const double left =
+          measured - nominal_stress_Pa(fitted.law, test.deformation, test.stretch[i]);
+      fitted.rss += left * left;
+      of_stress += measured * measured;
+    }
+  }
+  fitted.rms_relative = std::sqrt(fitted.rss / of_stress);
+}
+
+// Weighted residuals of the readings, without the row of a known modulus.
+VectorXd residuals_of(HyperelasticForm form, const LargeStrainRows& rows,
+                      const HyperelasticPoint& point) {
+  const auto columns = rows.columns(form, point.shapes, false);
+  return (columns.values * point.moduli - rows.data()).head(rows.n_readings());
+}
+
+// The best point. A modulus that is known with an error counts by the scatter of the readings about
+// the law that has it exactly, with the memory of that scatter.
+HyperelasticPoint point_of_form(HyperelasticForm form, LargeStrainRows& rows,
+                                const std::vector<LargeStrainTest>& tests,
+                                const LargeStrainOptions& options) {
+  HyperelasticPoint point = best_point(form, rows);
+  if (!options.modulus || !(options.modulus->se_Pa > 0.0)) return point;
+  const VectorXd residual = residuals_of(form, rows, point);
+  const double variance = residual.squaredNorm() / static_cast<double>(residual.size());
+  rows.set_scatter(std::sqrt(variance * inflation_of(tests, residual)));
+  return best_point(form, rows);
+}
+
+FittedRubber fit_form(HyperelasticForm form, LargeStrainRows rows,
+                      const std::vector<LargeStrainTest>& tests,
+                      const LargeStrainOptions& options) {
+  const HyperelasticPoint point = point_of_form(form, rows, tests, options);
+  const double scale_Pa = rows.stress_scale_Pa();
+  FittedRubber fitted;
+  fitted.law = {form, scale_Pa * point.moduli, point.shapes};
+  const Eigen::MatrixXd slopes = jacobian(form, rows, point);
+  const auto columns = rows.columns(form, point.shapes, false);
+  const VectorXd residual = (columns.values * point.moduli - rows.data()).head(rows.n_readings());
+  fitted.inflation = inflation_of(tests, residual);
+  const std::vector<Index> free = free_parameters(form, rows, point);
+  fitted.n_parameters = static_cast<int>(n_moduli(form) + n_shapes(form));
+  const double freedom = static_cast<double>(rows.data().size()) - fitted.n_parameters;
+  const double variance = freedom > 0.0 ? residual.squaredNorm() / freedom : 0.0;
+  fitted.covariance = variance * fitted.inflation * inverse_normal(slopes, free);
+  const Index n = n_moduli(form);
+  fitted.covariance.topRows(n) *= scale_Pa;
+  fitted.covariance.leftCols(n) *= scale_Pa;
+  add_parameters(fitted);
+  add_modulus(fitted);
+  add_residuals(tests, fitted);
+  for (std::size_t d = 0; d < fitted.stable.size(); ++d) {
+    fitted.stable[d] = stable_range(fitted.law, static_cast<Deformation>(d));
+  }
+  add_rubber_flags(tests, options, point.is_converged,
+                   static_cast<int>(free.size()) < fitted.n_parameters, fitted);
+  return fitted;
+}
+
+// The criteria count readings that are independent of each other: the least inflation is that of the
+// law that leaves the least structure in its residuals.
+void add_criteria(const std::vector<LargeStrainTest>& tests, std::vector<FittedRubber>& laws) {
+  double n_readings = 0.0, inflation = laws.front().inflation;
+  for (const LargeStrainTest& test : tests) n_readings += static_cast<double>(test.stretch.size());
+  for (const FittedRubber& law : laws) inflation = std::min(inflation, law.inflation);
+  const double n = n_readings / inflation;
+  for (FittedRubber& law : laws) {
+    const double p = law.n_parameters + 1.0;  // the variance is one more
+    // Below this share of the stresses residuals are rounding, and no evidence.
+    constexpr double kRounding = 1e-9;
+    const double of_stress = law.rss / std::pow(std::max(law.rms_relative, 1e-300), 2);
+    const double rss = std::max(law.rss, kRounding * kRounding * of_stress);
+    const double fit = n * std::log(std::max(rss, 1e-300) / n_readings);
+    law.bic = fit + p * std::log(n);
+    law.aicc = fit + 2.0 * p * (n > p + 1.0 ? n / (n - p - 1.0) : 1e6);
+  }
+}
+
+std::size_t choice(const std::vector<FittedRubber>& laws) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < laws.size(); ++i) {
+    const bool is_better = laws[i].bic < laws[best].bic;
+    if (laws[i].is_trustworthy != laws[best].is_trustworthy) {
+      if (laws[i].is_trustworthy) best = i;
+    } else if (is_better) {
+      best = i;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+LargeStrainResult fit_large_strain(const std::vector<LargeStrainTest>& tests,
+                                   const LargeStrainOptions& options) {
+  check_large_strain(tests, options);
+  const LargeStrainRows rows(tests, options);
+  LargeStrainResult result;
+  for (const HyperelasticForm form : options.forms) {
+    result.laws.push_back(fit_form(form, rows, tests, options));
+  }
+  add_criteria(tests, result.laws);
+  result.chosen = choice(result.laws);
+  result.tests = summaries_of(tests, result.best().law);
+  result.notes = notes_of(tests);
+  return result;
+}
+
+}  // namespace viscard

@@ -1,0 +1,87 @@
+#include "fit/large_strain/load_cycles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscard {
+namespace {
+
+// Indices of the extremes of a series, in order, each further than `least` from the one before.
+std::vector<std::size_t> turning_points(const std::vector<double>& values, double least) {
+  std::vector<std::size_t> points{0};
+  std::size_t extreme = 0;
+  int direction = 0;  // of the branch after the last point; 0: not known yet
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double from_last = values[i] - values[points.back()];
+    if (direction == 0) {
+      if (std::abs(from_last) <= least) continue;
+      direction = from_last > 0.0 ? 1 : -1;
+      extreme = i;
+    } else if (direction * (values[i] - values[extreme]) >= 0.0) {
+      extreme = i;
+    } else if (direction * (values[extreme] - values[i]) > least) {
+      points.push_back(extreme);
+      direction = -direction;
+      extreme = i;
+    }
+  }
+  if (direction != 0) points.push_back(extreme);
+  return points;
+}
+
+// The stress while loading at a strain, by linear interpolation; nothing outside the branch.
+std::optional<double> loading_stress(const LargeStrainTest& test, const LoadCycle& cycle,
+                                     double strain) {
+  for (std::size_t i = cycle.first + 1; i <= cycle.peak; ++i) {
+    const double before = std::abs(std::log(test.stretch[i - 1]));
+    const double after = std::abs(std::log(test.stretch[i]));
+    if (before > strain || after < strain || !(after > before)) continue;
+    const double share = (strain - before) / (after - before);
+    return test.nominal_stress_Pa[i - 1] +
+           share * (test.nominal_stress_Pa[i] - test.nominal_stress_Pa[i - 1]);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<LoadCycle> load_cycles(const std::vector<double>& stretch) {
+  if (stretch.size() < 2) return {};
+  std::vector<double> strain;
+  for (const double s : stretch) strain.push_back(std::abs(std::log(s)));
+  const auto [low, high] = std::minmax_element(strain.begin(), strain.end());
+  constexpr double kLeastShare = 0.05;
+  const std::vector<std::size_t> points = turning_points(strain, kLeastShare * (*high - *low));
+  std::vector<LoadCycle> cycles;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    if (strain[points[k]] < strain[points[k - 1]]) {
+      if (!cycles.empty()) cycles.back().last = points[k];
+      continue;
+    }
+    cycles.push_back({points[k - 1], points[k], points[k]});
+  }
+  return cycles;
+}
+
+std::optional<double> softening(const LargeStrainTest& test, const std::vector<LoadCycle>& cycles) {
+  if (cycles.size() < 2) return std::nullopt;
+  const auto peak_of = [&](const LoadCycle& cycle) {
+    return std::abs(std::log(test.stretch[cycle.peak]));
+  };
+  const double strain = std::min(peak_of(cycles.front()), peak_of(cycles.back()));
+  const auto first = loading_stress(test, cycles.front(), strain);
+  const auto last = loading_stress(test, cycles.back(), strain);
+  if (!first || !last || *first == 0.0) return std::nullopt;
+  return 1.0 - *last / *first;
+}
+
+LargeStrainTest loading_of(const LargeStrainTest& test, const LoadCycle& cycle) {
+  LargeStrainTest out{test.name, test.deformation, {}, {}};
+  for (std::size_t i = cycle.first; i <= cycle.peak; ++i) {
+    out.stretch.push_back(test.stretch[i]);
+    out.nominal_stress_Pa.push_back(test.nominal_stress_Pa[i]);
+  }
+  return out;
+}
+
+}  // namespace viscard

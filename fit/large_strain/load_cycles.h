@@ -1,0 +1,28 @@
+#pragma once
+
+#include "fit/large_strain/large_strain_data.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace viscard {
+
+// One loading with the unloading after it: rows first to peak load, peak to last unload.
+struct LoadCycle {
+  std::size_t first = 0, peak = 0, last = 0;
+};
+
+// The cycles of a test by the turning points of its strain |ln s|; a change of direction counts if it
+// is more than a twentieth of the range. A record that begins with unloading has no cycle for it.
+std::vector<LoadCycle> load_cycles(const std::vector<double>& stretch);
+
+// Softening of a rubber by its first loading (Mullins, Rubber Chem. Technol. 42 (1969) 339): one minus
+// the ratio of the stresses of the last and the first cycle, while loading, at the smaller of their
+// peak stretches. Nothing for fewer than two cycles.
+std::optional<double> softening(const LargeStrainTest& test, const std::vector<LoadCycle>& cycles);
+
+// The test with only the loading rows of one cycle.
+LargeStrainTest loading_of(const LargeStrainTest& test, const LoadCycle& cycle);
+
+}  // namespace viscard

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "fit/large_strain/large_strain_data.h"
+#include "fit/large_strain/large_strain_result.h"
+
+namespace viscard {
+
+// Throws std::runtime_error for tests that cannot be fitted (fit_large_strain.h).
+void check_large_strain(const std::vector<LargeStrainTest>& tests,
+                        const LargeStrainOptions& options);
+
+// Judges a fitted law; adds its flags and is_trustworthy.
+void add_rubber_flags(const std::vector<LargeStrainTest>& tests, const LargeStrainOptions& options,
+                      bool is_converged, bool is_on_bound, FittedRubber& fitted);
+
+std::vector<RubberTestSummary> summaries_of(const std::vector<LargeStrainTest>& tests,
+                                            const HyperelasticLaw& law);
+
+// What the data cannot show by themselves.
+std::vector<MaterialFlag> notes_of(const std::vector<LargeStrainTest>& tests);
+
+}  // namespace viscard

@@ -1,0 +1,200 @@
+// Conventions of the solvers for the laws of models/hyperelastic/hyperelastic_law.h:
+//   abaqus    U as in the header, mu_i and alpha_i of its Ogden form the same; D_1 = 2/K, 0 is
+//             incompressible. Source: Abaqus Analysis User's Guide, Hyperelastic behavior of rubberlike
+//             materials; *HYPERELASTIC.
+//   calculix  the same numbers in the same order; D = 0 or below 1e-10 is replaced by 0.1/mu (nu 0.475).
+//             Source: hyperelastics.f, rubber.f of CalculiX 2.2x. Run by the tests in CalculiX 2.20.
+//   febio     Ogden: c_i/m_i^2 instead of 2 mu_i/alpha_i^2; Arruda-Boyce: N = s_m^2; bulk modulus k.
+//             Source: FEOgdenMaterial.cpp, FEMooneyRivlin.cpp, FEYeoh.cpp, FEArrudaBoyce.cpp of FEBio 4.
+//   ansys     Ogden's own mu_i/alpha_i; NEO takes the shear modulus 2 C10; d = 2/K, 0 is incompressible.
+//             Source: Mechanical APDL Structural Analysis Guide, TB,HYPER (OGDEN and NEO with examples);
+//             order of BOYCE, GENT and YEOH: Material Reference 4.6.
+#include "io/cards/hyperelastic/rubber_card.h"
+
+#include "io/cards/keyword_lines.h"
+#include "io/cards/unit_system.h"
+#include "models/maths/require.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace viscard {
+namespace {
+
+using Form = HyperelasticForm;
+using Numbers = std::vector<double>;
+
+bool is_ogden(Form form) {
+  return form == Form::kOgden1 || form == Form::kOgden2 || form == Form::kOgden3;
+}
+
+// Moduli in the stress unit of the card, shapes, and K (0: incompressible).
+struct RubberNumbers {
+  Form form = Form::kNeoHooke;
+  Numbers moduli, shapes;
+  double bulk = 0.0;
+
+  double d() const { return bulk > 0.0 ? 2.0 / bulk : 0.0; }
+};
+
+[[noreturn]] void refuse(const RubberNumbers& law, const std::string& target) {
+  throw std::invalid_argument(target + " has no " + name_of(law.form) +
+                              " law; fit another with viscard fit --model, such as arruda-boyce or "
+                              "yeoh");
+}
+
+std::string row(const Numbers& numbers) {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "" : ", ") + number_of_20(number);
+  return text + "\n";
+}
+
+// Rows of at most eight numbers.
+std::string rows_of_eight(const Numbers& numbers) {
+  constexpr std::size_t kMost = 8;
+  std::string text;
+  for (std::size_t first = 0; first < numbers.size(); first += kMost) {
+    const auto from = numbers.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto count = std::min(kMost, numbers.size() - first);
+    text += row({from, from + static_cast<std::ptrdiff_t>(count)});
+  }
+  return text;
+}
+
+Numbers pairs_of(const RubberNumbers& law) {
+  Numbers out;
+  for (std::size_t i = 0; i < law.moduli.size(); ++i) {
+    out.push_back(law.moduli[i]);
+    out.push_back(law.shapes[i]);
+  }
+  return out;
+}
+
+// abaqus and calculix.
+std::string keyword_card(const RubberNumbers& law, const std::string& target,
+                         const std::string& material) {
+  if (law.form == Form::kGent) refuse(law, target);
+  // calculix takes a smaller D for a missing one.
+  constexpr double kLeast = 1e-10;
+  require(target != "calculix" || law.d() >= kLeast,
+          "calculix replaces D = 2/K below 1e-10 by 0.1/mu, which is far softer; choose units with "
+          "smaller numbers (--units mm-t-s) or a smaller --bulk-modulus");
+  std::string keyword;
+  Numbers numbers = law.moduli;
+  if (is_ogden(law.form)) {
+    keyword = fmt::format("OGDEN, N={}", law.moduli.size());
+    numbers = pairs_of(law);
+  } else if (law.form == Form::kArrudaBoyce) {
+    keyword = "ARRUDA-BOYCE";
+    numbers.push_back(law.shapes[0]);
+  } else {
+    keyword = law.form == Form::kNeoHooke       ? "NEO HOOKE"
+              : law.form == Form::kMooneyRivlin ? "MOONEY-RIVLIN"
+                                                : "YEOH";
+  }
+  numbers.push_back(law.d());
+  // One D for each term of OGDEN and YEOH. The higher ones add the 4th and 6th power of J - 1:
+  // abaqus leaves them out for 0; calculix would replace a 0, and with D_1^i they count for nothing.
+  const std::size_t n_terms = is_ogden(law.form) || law.form == Form::kYeoh ? law.moduli.size() : 1;
+  for (std::size_t i = 1; i < n_terms; ++i) numbers.push_back(target == "calculix" ? 1e10 : 0.0);
+  return "*MATERIAL, NAME=" + material + "\n*HYPERELASTIC, " + keyword + "\n" +
+         rows_of_eight(numbers);
+}
+
+std::string tag(const std::string& name, double value) {
+  return fmt::format("  <{0}>{1}</{0}>\n", name, number_of_20(value));
+}
+
+std::string febio_card(const RubberNumbers& law, const std::string& material) {
+  std::string type, body;
+  const std::size_t n = law.moduli.size();
+  if (is_ogden(law.form)) {
+    type = "Ogden";
+    for (std::size_t i = 0; i < n; ++i) {
+      body += tag(fmt::format("c{}", i + 1), 2.0 * law.moduli[i]) +
+              tag(fmt::format("m{}", i + 1), law.shapes[i]);
+    }
+  } else if (law.form == Form::kArrudaBoyce) {
+    type = "Arruda-Boyce";
+    body = tag("mu", law.moduli[0]) + tag("N", law.shapes[0] * law.shapes[0]);
+  } else if (law.form == Form::kYeoh) {
+    type = "Yeoh";
+    for (std::size_t i = 0; i < n; ++i) body += tag(fmt::format("c{}", i + 1), law.moduli[i]);
+  } else if (law.form == Form::kGent) {
+    refuse(law, "febio");
+  } else {  // Neo-Hooke is Mooney-Rivlin without its second constant
+    type = "Mooney-Rivlin";
+    body = tag("c1", law.moduli[0]) + tag("c2", n > 1 ? law.moduli[1] : 0.0);
+  }
+  return fmt::format("<material id=\"1\" name=\"{}\" type=\"{}\">\n{}{}</material>\n", material,
+                     type, body, tag("k", law.bulk));
+}
+
+std::string ansys_card(const RubberNumbers& law) {
+  std::string option;
+  Numbers numbers = law.moduli;
+  std::size_t n_terms = 1;
+  if (is_ogden(law.form)) {
+    option = "OGDEN";
+    n_terms = law.moduli.size();
+    numbers = pairs_of(law);
+    for (std::size_t i = 0; i < n_terms; ++i) numbers[2 * i] *= 2.0 / law.shapes[i];
+  } else if (law.form == Form::kNeoHooke) {
+    option = "NEO";
+    numbers[0] *= 2.0;
+  } else if (law.form == Form::kMooneyRivlin) {
+    option = "MOONEY";
+    n_terms = 2;
+  } else if (law.form == Form::kYeoh) {
+    option = "YEOH";
+    n_terms = 3;
+  } else {
+    option = law.form == Form::kGent ? "GENT" : "BOYCE";
+    numbers.push_back(law.shapes[0]);
+  }
+  numbers.push_back(law.d());
+  const bool has_number = option == "OGDEN" || option == "MOONEY" || option == "YEOH";
+  std::string text =
+      fmt::format("TB,HYPER,1,1,{},{}\n", has_number ? std::to_string(n_terms) : "", option);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    text += fmt::format("TBDATA,{},{}\n", i + 1, number_of_20(numbers[i]));
+  }
+  return text;
+}
+
+RubberNumbers numbers_of(const HyperelasticLaw& law, const RubberCardOptions& options) {
+  const int exponent = unit_system(options.units).stress_exponent;
+  RubberNumbers out{law.form, {}, {law.shapes.begin(), law.shapes.end()}, 0.0};
+  for (const double modulus_Pa : law.moduli_Pa) out.moduli.push_back(to_card(modulus_Pa, exponent));
+  const bool may_be_incompressible = options.target == "abaqus" || options.target == "ansys";
+  constexpr double kUsual = 1000.0;
+  if (options.bulk_Pa) {
+    require_positive("the bulk modulus", *options.bulk_Pa, "Pa");
+    out.bulk = to_card(*options.bulk_Pa, exponent);
+  } else if (!may_be_incompressible) {
+    out.bulk = to_card(kUsual * youngs_modulus_Pa(law) / 3.0, exponent);
+  }
+  return out;
+}
+
+}  // namespace
+
+const std::vector<std::string>& rubber_card_targets() {
+  static const std::vector<std::string> kTargets{"abaqus", "ansys", "calculix", "febio"};
+  return kTargets;
+}
+
+std::string rubber_card(const HyperelasticLaw& law, const RubberCardOptions& options) {
+  validate(law);
+  const RubberNumbers numbers = numbers_of(law, options);
+  if (options.target == "abaqus" || options.target == "calculix") {
+    return keyword_card(numbers, options.target, options.material_name);
+  }
+  if (options.target == "febio") return febio_card(numbers, options.material_name);
+  if (options.target == "ansys") return ansys_card(numbers);
+  throw std::invalid_argument("there is no card of rubber for '" + options.target +
+                              "'; use abaqus, ansys, calculix or febio");
+}
+
+}  // namespace viscard

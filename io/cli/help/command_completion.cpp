@@ -1,0 +1,48 @@
+#include "io/basics/words.h"
+#include "io/cli/help/documents.h"
+#include "io/cli/words/json_output.h"
+
+#include <nlohmann/json.hpp>
+
+#include <ostream>
+
+namespace viscard {
+namespace {
+
+struct Shell {
+  const char* name;
+  std::string (*script)(const CommandDocuments& documents);
+};
+constexpr Shell kShells[] = {
+    {"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}};
+
+std::vector<std::string> shell_names() {
+  std::vector<std::string> names;
+  for (const Shell& shell : kShells) names.emplace_back(shell.name);
+  return names;
+}
+
+}  // namespace
+
+int run_completion(const Words& words, Streams& streams, const AskDocuments& documents) {
+  CommandSyntax syntax{"viscard completion SHELL [OPTIONS]",
+                       "Prints the script with which bash, zsh or fish complete commands, options "
+                       "and their values. For bash: source <(viscard completion bash)",
+                       "viscard completion bash"};
+  syntax.positional = {"shell"};
+  syntax.choices["shell"] = shell_names();
+  const auto values = parse_words(syntax, words, streams);
+  if (!values) return kDone;
+  const auto name = required(*values, "shell", syntax);
+  for (const Shell& shell : kShells) {
+    if (name != shell.name) continue;
+    const std::string script = shell.script(documents());
+    const nlohmann::ordered_json object{{"shell", name}, {"script", script}};
+    if (!print_json(*values, {"viscard-completion/1", {}}, object, streams)) streams.out << script;
+    return kDone;
+  }
+  throw UsageError("there is no completion for '" + name + "'" +
+                   did_you_mean(name, shell_names(), "") + " There are: " + listed(shell_names()));
+}
+
+}  // namespace viscard

@@ -1,0 +1,73 @@
+#include "io/basics/words.h"
+#include "io/cli/help/documents.h"
+#include "io/cli/words/help_text.h"
+#include "io/cli/words/json_output.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <ostream>
+
+namespace po = boost::program_options;
+
+namespace viscard {
+namespace {
+
+using nlohmann::ordered_json;
+
+CommandSyntax help_syntax(const Words& names) {
+  CommandSyntax syntax{"viscard help [COMMAND] [OPTIONS]",
+                       "Explains a command, as --help of the command does, or lists all commands. "
+                       "--man prints the source of the manual page instead.",
+                       "viscard help fit"};
+  syntax.options.add_options()("man", "print the manual page, for man -l -");
+  syntax.positional = {"command"};
+  syntax.choices["command"] = names;
+  return syntax;
+}
+
+const CommandDocument& named(const std::string& name, const CommandDocuments& documents) {
+  return *std::find_if(documents.begin(), documents.end(),
+                       [&](const CommandDocument& one) { return one.name == name; });
+}
+
+ordered_json json_of_list(const CommandDocuments& documents) {
+  ordered_json list = ordered_json::array();
+  for (const CommandDocument& one : documents) {
+    list.push_back({{"name", one.name}, {"summary", one.summary}});
+  }
+  return {{"commands", list}};
+}
+
+}  // namespace
+
+int run_help(const Words& words, Streams& streams, const Words& names,
+             const AskDocuments& ask_documents, const std::string& overview) {
+  CommandSyntax syntax = help_syntax(names);
+  const auto values = parse_words(syntax, words, streams);
+  if (!values) return kDone;
+  const auto name = given(*values, "command");
+  if (name && std::find(names.begin(), names.end(), *name) == names.end()) {
+    throw UsageError("there is no command '" + *name + "'" + did_you_mean(*name, names, "") +
+                     " 'viscard help' lists the commands");
+  }
+  const CommandDocuments documents = ask_documents();
+  const CommandDocument* one = name ? &named(*name, documents) : nullptr;
+  const std::string page = values->count("man") == 0 ? ""
+                           : one != nullptr          ? manual_page(*one)
+                                                     : manual_overview(documents);
+  if (values->count("json") > 0) {
+    ordered_json object = one != nullptr ? json_from_syntax(one->syntax) : json_of_list(documents);
+    if (!page.empty()) object["manual_page"] = page;
+    print_json({one != nullptr ? "viscard-help/1" : "viscard-commands/1", {}}, object, streams);
+  } else if (!page.empty()) {
+    streams.out << page;
+  } else if (one != nullptr) {
+    streams.out << help_text(one->syntax, streams.columns, streams.is_out_coloured);
+  } else {
+    streams.out << overview;
+  }
+  return kDone;
+}
+
+}  // namespace viscard

@@ -1,0 +1,81 @@
+#include "io/cli/words/json_output.h"
+
+#include "io/flow/command_error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace po = boost::program_options;
+
+namespace viscard {
+namespace {
+
+CommandError error_of(const std::exception& error) {
+  const bool is_usage = dynamic_cast<const UsageError*>(&error) != nullptr;
+  return is_usage ? command_error("usage", error.what()) : command_error(error);
+}
+
+// Messages and names may hold bytes that are not UTF-8.
+template <typename Json>
+void print_line(const Json& object, Streams& streams, int indent) {
+  streams.out << object.dump(indent, ' ', false, Json::error_handler_t::replace) << "\n";
+  streams.has_printed_json = true;
+}
+
+}  // namespace
+
+Words given_words(const po::variables_map& values, std::initializer_list<const char*> names) {
+  Words words;
+  for (const char* name : names) {
+    if (values.count(name) == 0) continue;
+    const boost::any& held = values[name].value();
+    if (const auto* text = boost::any_cast<std::string>(&held)) {
+      words.push_back(*text);
+    } else if (const auto* texts = boost::any_cast<std::vector<std::string>>(&held)) {
+      words.insert(words.end(), texts->begin(), texts->end());
+    }
+  }
+  return words;
+}
+
+template <typename Json>
+Json with_head(const JsonHead& head, Json object) {
+  Json out;
+  out["schema"] = head.schema;
+  out["version"] = VISCARD_VERSION;
+  out["inputs"] = head.inputs;
+  for (auto& [key, value] : object.items()) out[key] = std::move(value);
+  return out;
+}
+
+template <typename Json>
+void print_json(const JsonHead& head, Json object, Streams& streams, int indent) {
+  print_line(with_head(head, std::move(object)), streams, indent);
+}
+
+template nlohmann::json with_head(const JsonHead&, nlohmann::json);
+template nlohmann::ordered_json with_head(const JsonHead&, nlohmann::ordered_json);
+template void print_json(const JsonHead&, nlohmann::json, Streams&, int);
+template void print_json(const JsonHead&, nlohmann::ordered_json, Streams&, int);
+
+int with_json_errors(const Words& words, Streams& streams, const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const std::exception& error) {
+    const bool is_asked = std::find(words.begin(), words.end(), "--json") != words.end();
+    if (is_asked && !streams.has_printed_json) {
+      const nlohmann::ordered_json json = {{"schema", "viscard-error/1"},
+                                           {"version", VISCARD_VERSION},
+                                           {"error", json_from_error(error_of(error))}};
+      print_line(json, streams, -1);
+    }
+    throw;
+  }
+}
+
+}  // namespace viscard

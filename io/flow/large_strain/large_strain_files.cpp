@@ -1,0 +1,172 @@
+#include "io/flow/large_strain/large_strain_files.h"
+
+#include "fit/large_strain/load_cycles.h"
+#include "io/tables/column_proposal.h"
+#include "io/tables/csv_table.h"
+#include "models/maths/text_of_number.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+using Column = std::vector<double>;
+
+struct KindWord {
+  const char* word;
+  Deformation deformation;
+  bool is_compression = false;
+};
+constexpr KindWord kKindWords[] = {
+    {"uniaxial", Deformation::kUniaxial},          {"tension", Deformation::kUniaxial},
+    {"compression", Deformation::kUniaxial, true}, {"planar", Deformation::kPlanar},
+    {"pure-shear", Deformation::kPlanar},          {"equibiaxial", Deformation::kEquibiaxial},
+    {"biaxial", Deformation::kEquibiaxial}};
+
+std::optional<LargeStrainFile> large_strain_file(const std::string& word) {
+  const std::size_t sign = word.find('=');
+  std::error_code error;
+  if (sign == std::string::npos || std::filesystem::exists(word, error)) return std::nullopt;
+  const std::string kind = word.substr(0, sign), path = word.substr(sign + 1);
+  for (const KindWord& known : kKindWords) {
+    if (kind != known.word) continue;
+    if (path.empty()) throw std::invalid_argument(word + " names no file; write " + kind + "=FILE");
+    return LargeStrainFile{known.deformation, known.is_compression, path};
+  }
+  return std::nullopt;
+}
+
+// Stretches of a table, from a column of stretches or of nominal strains.
+Column stretches_of(const CsvTable& table, const ColumnMap& columns) {
+  if (find_column(table, "stretch", columns)) return column_SI(table, "stretch", columns);
+  if (!find_column(table, "strain", columns)) {
+    throw std::runtime_error(
+        table.file + ": has no column of the stretch or the nominal strain. The columns are " +
+        columns_with_values(table) +
+        ". Name one with --column stretch=\"HEADER\" or --column "
+        "strain=\"HEADER\"");
+  }
+  Column stretch = column_SI(table, "strain", columns);
+  for (double& value : stretch) value += 1.0;
+  return stretch;
+}
+
+Column stresses_of(const CsvTable& table, const ColumnMap& columns) {
+  for (const char* name : {"nominal_stress_Pa", "stress_Pa"}) {
+    if (find_column(table, name, columns)) return column_SI(table, name, columns);
+  }
+  throw std::runtime_error(
+      table.file +
+      ": has no column of the nominal stress (force over area at rest). The columns are " +
+      columns_with_values(table) + ". Name one with --column nominal_stress_Pa=\"HEADER\"");
+}
+
+// Strains and stresses of compression that are counted positive become stretches below 1.
+void turn_compression(LargeStrainTest& test, const std::string& file) {
+  const auto is_above = [](double stretch) { return stretch > 1.0; };
+  if (std::none_of(test.stretch.begin(), test.stretch.end(), is_above)) return;
+  const bool all_above = std::none_of(test.stretch.begin(), test.stretch.end(),
+                                      [](double stretch) { return stretch < 1.0; });
+  const bool is_full = std::any_of(test.stretch.begin(), test.stretch.end(),
+                                   [](double stretch) { return stretch >= 2.0; });
+  if (!all_above || is_full) {
+    throw std::runtime_error(file +
+                             ": a compression test has stretches below 1, or strains between 0 "
+                             "and 1 that are counted positive; these are neither");
+  }
+  for (double& stretch : test.stretch) stretch = 2.0 - stretch;
+  for (double& stress : test.nominal_stress_Pa) stress = -stress;
+}
+
+LargeStrainTest test_of_file(const LargeStrainFile& file, const LargeStrainRequest& request) {
+  const CsvTable table = read_csv(file.path, request.sheet);
+  LargeStrainTest test{file.is_compression ? "compression" : name_of(file.deformation),
+                       file.deformation, stretches_of(table, request.columns),
+                       stresses_of(table, request.columns)};
+  if (file.is_compression) turn_compression(test, file.path);
+  return test;
+}
+
+// Keeps the loading of one cycle, if the record has unloading.
+CycleChoice choose_cycle(LargeStrainTest& test, const std::string& file,
+                         const std::optional<int>& wanted) {
+  const std::vector<LoadCycle> cycles = load_cycles(test.stretch);
+  const bool is_one_loading =
+      cycles.empty() ||
+      (cycles.size() == 1 && cycles[0].last == cycles[0].peak && cycles[0].first == 0);
+  CycleChoice choice{cycles.size(), 0, 0, softening(test, cycles)};
+  if (wanted && *wanted > static_cast<int>(cycles.size())) {
+    throw std::runtime_error(file + ": has " + counted(cycles.size(), "cycle") +
+                             " of loading, so there is no --cycle " + std::to_string(*wanted));
+  }
+  if (is_one_loading || (wanted && *wanted == 0)) return choice;
+  choice.fitted = wanted ? static_cast<std::size_t>(*wanted) : cycles.size();
+  const std::size_t n_all = test.stretch.size();
+  test = loading_of(test, cycles[choice.fitted - 1]);
+  choice.n_left_out = n_all - test.stretch.size();
+  return choice;
+}
+
+void add_mullins_note(const std::string& name, const CycleChoice& choice,
+                      LargeStrainResult& result) {
+  constexpr double kLeast = 0.05;
+  if (!choice.softening || *choice.softening < kLeast) return;
+  result.notes.push_back({"mullins", 0,
+                          "the " + name + " test softens by " +
+                              text_of(100.0 * *choice.softening, 2) +
+                              " % from its first to its last cycle at equal stretch (Mullins "
+                              "effect): the law is that of " +
+                              (choice.fitted == 0 ? std::string("all rows together")
+                                                  : "cycle " + std::to_string(choice.fitted)) +
+                              "; choose another with --cycle"});
+}
+
+// "uniaxial", "uniaxial 2" ...
+void number_names(std::vector<LargeStrainTest>& tests) {
+  for (std::size_t i = tests.size(); i-- > 0;) {
+    const auto before =
+        std::count_if(tests.begin(), tests.begin() + static_cast<std::ptrdiff_t>(i),
+                      [&](const LargeStrainTest& other) { return other.name == tests[i].name; });
+    if (before > 0) tests[i].name += " " + std::to_string(before + 1);
+  }
+}
+
+}  // namespace
+
+std::vector<LargeStrainFile> large_strain_from_words(const std::vector<std::string>& words) {
+  std::vector<LargeStrainFile> files;
+  std::string other;
+  for (const std::string& word : words) {
+    if (auto file = large_strain_file(word)) {
+      files.push_back(std::move(*file));
+    } else if (other.empty()) {
+      other = word;
+    }
+  }
+  if (files.empty() || other.empty()) return files;
+  throw std::invalid_argument(
+      other +
+      " is no test at large strain, but others are; write uniaxial=FILE, compression=FILE, "
+      "planar=FILE or equibiaxial=FILE, or fit the files apart");
+}
+
+FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request) {
+  FittedLargeStrain fitted;
+  fitted.files = request.files;
+  for (const LargeStrainFile& file : request.files) {
+    fitted.tests.push_back(test_of_file(file, request));
+    fitted.cycles.push_back(choose_cycle(fitted.tests.back(), file.path, request.cycle));
+  }
+  number_names(fitted.tests);
+  fitted.result = fit_large_strain(fitted.tests, request.options);
+  for (std::size_t i = 0; i < fitted.tests.size(); ++i) {
+    add_mullins_note(fitted.tests[i].name, fitted.cycles[i], fitted.result);
+  }
+  return fitted;
+}
+
+}  // namespace viscard

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "fit/large_strain/fit_large_strain.h"
+#include "io/plots/plot.h"
+#include "io/tables/column_map.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// A file of one test at large strain.
+struct LargeStrainFile {
+  Deformation deformation = Deformation::kUniaxial;
+  bool is_compression = false;
+  std::string path;
+};
+
+// The words of a command that name tests at large strain: "planar=b.csv". Kinds: uniaxial (or
+// tension), compression, planar (or pure-shear), equibiaxial (or biaxial). Empty if no word does. A
+// word is a plain file if a file of that name exists. Throws std::invalid_argument for other files
+// beside tests at large strain, and for a test without a file.
+std::vector<LargeStrainFile> large_strain_from_words(const std::vector<std::string>& words);
+
+struct LargeStrainRequest {
+  std::vector<LargeStrainFile> files;
+  ColumnMap columns;
+  std::string sheet;  // of Excel workbooks
+  LargeStrainOptions options;
+  // Of records with unloading: fit the loading of this cycle, from 1; 0: all rows; none: of the last.
+  std::optional<int> cycle;
+};
+
+// What was taken of a record with cycles.
+struct CycleChoice {
+  std::size_t n_cycles = 0, n_left_out = 0;  // rows that are not fitted
+  std::size_t fitted = 0;                    // cycle, from 1; 0: all rows
+  std::optional<double> softening;           // fit/large_strain/load_cycles.h
+};
+
+struct FittedLargeStrain {
+  std::vector<LargeStrainFile> files;
+  std::vector<LargeStrainTest> tests;  // one for each file, with the fitted rows
+  std::vector<CycleChoice> cycles;     // of each test
+  LargeStrainResult result;
+};
+
+// Reads the tables and fits the laws. A table has the stretch (or nominal strain) and the nominal
+// stress: force over area at rest. The strains and stresses of a compression test may be counted
+// positive. Of a record with unloading one loading
+// is fitted; softening by more than 5 % gives the note mullins. Throws std::runtime_error with the name
+// of the file.
+FittedLargeStrain fit_large_strain_files(const LargeStrainRequest& request);
+
+// The object of `viscard fit --json` and of --out: laws with intervals, tests, flags.
+nlohmann::ordered_json json_from_large_strain(const FittedLargeStrain& fitted);
+
+// Stress against stretch: readings, the chosen law with its 95 % band, dashed where no test measured.
+Plot plot_of_large_strain(const FittedLargeStrain& fitted);
+
+}  // namespace viscard

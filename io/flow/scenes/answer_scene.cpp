@@ -1,0 +1,41 @@
+#include "io/flow/scenes/answer_scene.h"
+
+#include "io/flow/scenes/array_sweep.h"
+#include "io/flow/scenes/wanted_results.h"
+#include "models/scene/simulate.h"
+
+#include <stdexcept>
+
+namespace viscard {
+void set_tolerance(double tolerance, Scene& scene) {
+  const ToleranceRange& range = tolerances_of(scene);
+  if (!range.contains(tolerance)) {
+    throw std::invalid_argument(std::string("--tol must lie between ") + range.words);
+  }
+  common(scene).tolerance = tolerance;
+}
+
+SceneAnswer simulate_file(const Scene& scene, const std::string& path) {
+  try {
+    return simulate(scene);
+  } catch (const SceneMistake& mistake) {
+    throw std::runtime_error(text_with_line(path, mistake));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
+}
+
+SceneAnswer answer_scene(const SceneFile& file, const std::string& path,
+                         const std::function<void(double, const std::string&)>& progress) {
+  if (!file.sweep.is_empty()) {
+    SweepStore store("", "");
+    return solve_sweep(file, store, progress);
+  }
+  Scene scene = file.scene;
+  if (progress) common(scene).progress = [&](double done) { progress(done, ""); };
+  SceneAnswer answer = simulate_file(scene, path);
+  keep_wanted(common(scene).wanted, answer);
+  return answer;
+}
+
+}  // namespace viscard

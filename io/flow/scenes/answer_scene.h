@@ -1,0 +1,23 @@
+#pragma once
+
+#include "io/scenes/scene_file.h"
+#include "models/scene/common/scene_answer.h"
+
+#include <functional>
+#include <string>
+
+namespace viscard {
+
+// Answers what stands in a scene file, one scene or a sweep, and keeps the results that it wants. path:
+// of the file, for messages. progress: called with the fraction done and the point of a sweep; may be
+// empty. Throws std::runtime_error naming the file, and the line if the scene contradicts itself.
+SceneAnswer answer_scene(const SceneFile& file, const std::string& path,
+                         const std::function<void(double, const std::string&)>& progress);
+
+// simulate() of one scene with messages that name the file.
+SceneAnswer simulate_file(const Scene& scene, const std::string& path);
+
+// Sets the relative error allowed. Throws std::invalid_argument outside the limits of this kind of scene.
+void set_tolerance(double tolerance, Scene& scene);
+
+}  // namespace viscard

@@ -1,0 +1,219 @@
+#include "io/flow/words/fit_words.h"
+
+#include "fit/assembly/constraints.h"
+#include "fit/laws/law_values.h"
+#include "io/basics/atomic_file.h"
+#include "io/basics/timestamp.h"
+#include "io/basics/units.h"
+#include "io/basics/words.h"
+#include "io/config/config_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+using Names = std::vector<std::string>;
+
+// In SI of a number or a text with its unit. Throws OptionError naming the option.
+std::optional<double> quantity(const FitWords::Text& text, const char* name, const char* si_unit) {
+  if (!text) return std::nullopt;
+  try {
+    return si_from_text(*text, si_unit);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(std::string("--") + name + ": " + error.what());
+  }
+}
+
+FitKind kind_from_word(const std::string& word) {
+  static const std::vector<std::pair<std::string, FitKind>> kKinds{
+      {"indentation", FitKind::kIndentation},
+      {"relaxation", FitKind::kRelaxation},
+      {"creep", FitKind::kCreep},
+      {"dma", FitKind::kDma}};
+  Names names;
+  for (const auto& [name, kind] : kKinds) {
+    if (word == name) return kind;
+    names.push_back(name);
+  }
+  throw OptionError("--kind " + word + " is not known" + did_you_mean(word, names) +
+                    " Use indentation, relaxation, creep or dma");
+}
+
+VerticalShift vertical_shift_from_word(const std::string& word) {
+  if (word == "auto") return VerticalShift::kAuto;
+  if (word == "on") return VerticalShift::kOn;
+  if (word == "off") return VerticalShift::kOff;
+  throw OptionError("--vertical-shift " + word + " is not known; use auto, on or off");
+}
+
+// The constraints from --fix, --bound and the lines of the --constraints file.
+std::vector<ParameterConstraint> constraints_from(const FitWords& words) {
+  Names texts = words.fix;
+  texts.insert(texts.end(), words.bound.begin(), words.bound.end());
+  if (words.constraints) {
+    std::istringstream lines(read_file(*words.constraints));
+    for (std::string line; std::getline(lines, line);) {
+      line.resize(std::min(line.find('#'), line.size()));
+      std::erase_if(line, [](unsigned char c) { return std::isspace(c) != 0; });
+      if (!line.empty()) texts.push_back(line);
+    }
+  }
+  std::vector<ParameterConstraint> constraints;
+  try {
+    for (const std::string& text : texts) constraints.push_back(constraint_from_text(text));
+    validate(constraints, words.terms.value_or(1000), words.allow_negative);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
+  }
+  return constraints;
+}
+
+FitOptions options_from(const FitWords& words) {
+  FitOptions options;
+  constexpr int kMost = 100;
+  options.max_terms = words.max_terms.value_or(options.max_terms);
+  options.n_terms = words.terms;
+  const int wanted = options.n_terms.value_or(options.max_terms);
+  if (wanted < 0 || wanted > kMost) {
+    throw OptionError(std::string(options.n_terms ? "--terms " : "--max-terms ") +
+                      std::to_string(wanted) + " is outside 0 to " + std::to_string(kMost));
+  }
+  options.is_liquid = words.liquid;
+  options.is_solid = words.solid;
+  options.allow_negative = words.allow_negative;
+  options.full_data = words.full_data;
+  if (words.drift && words.no_drift) {
+    throw OptionError("--drift and --no-drift exclude each other; give one of them");
+  }
+  if (words.drift) options.drift = TableDrift::kFitted;
+  if (words.no_drift) options.drift = TableDrift::kNone;
+  options.with_profiles = words.profiles;
+  if (words.bootstrap) {
+    options.n_bootstrap = *words.bootstrap;
+    constexpr int kFewest = 20;  // fewer give no 95 % percentiles
+    constexpr int kMostResamples = 100000;
+    if (options.n_bootstrap < kFewest || options.n_bootstrap > kMostResamples) {
+      throw OptionError("--bootstrap " + std::to_string(options.n_bootstrap) +
+                        " is outside 20 to 100000");
+    }
+  }
+  const std::string noise = words.noise.value_or("auto");
+  if (noise != "auto" && noise != "white") {
+    throw OptionError("--noise " + noise + " is not known; use auto or white");
+  }
+  options.white_noise = noise == "white";
+  options.vertical_shift = vertical_shift_from_word(words.vertical_shift.value_or("auto"));
+  options.constraints = constraints_from(words);
+  if (!options.constraints.empty() && !options.n_terms) {
+    throw OptionError("--fix and --bound name terms by number, so they need --terms N");
+  }
+  if (options.is_liquid && options.is_solid) {
+    throw OptionError("--liquid and --solid exclude each other; without both, the data decide");
+  }
+  if (options.is_liquid && options.n_terms == 0) {
+    throw OptionError("--liquid needs at least one term, but --terms is 0; give at least 1");
+  }
+  return options;
+}
+
+std::optional<Specimen> specimen_from(const FitWords& words) {
+  std::optional<Specimen> specimen;
+  const auto layer_m = quantity(words.layer_thickness, "layer-thickness", "m");
+  const std::optional<double> nu = words.poisson_ratio;
+  if (words.specimen) specimen = read_specimen(*words.specimen);
+  if (const auto diameter_m = quantity(words.punch_diameter, "punch-diameter", "m")) {
+    if (!specimen) {
+      specimen.emplace();
+      specimen->contact.poisson_ratio = 0.495;
+    }
+    specimen->contact.punch_radius_m = 0.5 * *diameter_m;
+  } else if (!specimen && (layer_m || nu)) {
+    throw OptionError("--layer-thickness and --poisson-ratio need --punch-diameter or --specimen");
+  }
+  if (!specimen) return specimen;
+  if (layer_m) specimen->contact.layer_thickness_m = *layer_m;
+  if (nu) specimen->contact.poisson_ratio = *nu;
+  validate(specimen->contact);
+  return specimen;
+}
+
+// The options that choose rows, and the depth of a record of force.
+void add_chosen_part(const FitWords& words, FitRequest& request) {
+  request.from_s = quantity(words.from, "from", "s");
+  request.to_s = quantity(words.to, "to", "s");
+  if (request.from_s && request.to_s && !(*request.from_s < *request.to_s)) {
+    throw OptionError("--from must be before --to");
+  }
+  if (words.hold) {
+    request.hold = *words.hold;
+    if (request.hold < 1) throw OptionError("--hold counts from 1");
+  }
+  if (words.crop) {
+    if (*words.crop != "auto")
+      throw OptionError("--crop " + *words.crop + " is not known; use auto");
+    request.crop = true;
+    if (request.hold > 0) throw OptionError("--hold and --crop choose two parts; give one of them");
+  }
+  request.depth_m = quantity(words.depth, "depth", "m");
+  if (request.depth_m && !(*request.depth_m > 0.0)) {
+    throw OptionError("--depth must be positive, such as \"0.1 mm\"");
+  }
+}
+
+}  // namespace
+
+FitRequest fit_request(const FitWords& words) {
+  FitRequest request;
+  if (words.kind) request.kind = kind_from_word(*words.kind);
+  request.options = options_from(words);
+  request.diagnose = words.diagnose;
+  if (words.model) {
+    const std::vector<std::string>& names = law_names();
+    if (std::find(names.begin(), names.end(), *words.model) == names.end()) {
+      throw OptionError("--model " + *words.model + " is not known" +
+                        did_you_mean(*words.model, names) + " Use " + listed(names));
+    }
+    request.model = *words.model;
+    if (words.terms) {
+      throw OptionError("--terms does not belong to --model, because a law has no terms; omit it");
+    }
+  }
+  request.time_zero_s = quantity(words.time_zero, "time-zero", "s").value_or(0.0);
+  try {
+    request.columns = column_map_from_words(words.column);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
+  }
+  request.sheet = words.sheet.value_or("");
+  request.segments = words.segment;
+  if (const auto stiffness_N_m = quantity(words.frame_stiffness, "frame-stiffness", "N/m")) {
+    request.frame_stiffness_N_m = *stiffness_N_m;
+    if (!(*stiffness_N_m > 0.0)) {
+      throw OptionError("--frame-stiffness must be positive; omit it for a rigid frame");
+    }
+  }
+  add_chosen_part(words, request);
+  request.T_ref_C = quantity(words.reference_temperature, "reference-temperature", "degC");
+  request.specimen = specimen_from(words);
+  return request;
+}
+
+MaterialRequest material_request(const FitWords& words, const std::string& command) {
+  MaterialRequest request{
+      .nu = words.poisson_ratio, .command = command, .created_at = now_iso8601()};
+  request.rho_kg_m3 = quantity(words.density, "density", "kg/m3");
+  if (request.rho_kg_m3 && !(*request.rho_kg_m3 > 0.0)) {
+    throw OptionError("--density must be positive, such as \"965 kg/m3\"");
+  }
+  for (const double ratio : words.ratio) {
+    if (ratio > 0.0) continue;
+    throw OptionError("--ratio must be positive; give parts of base to one of curing agent");
+  }
+  return request;
+}
+
+}  // namespace viscard

@@ -1,0 +1,112 @@
+#include "io/flow/words/predict_words.h"
+
+#include "io/basics/units.h"
+#include "io/basics/words.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+std::optional<PredictedTest> predicted_test(const PredictWords::Text& word) {
+  if (!word) return std::nullopt;
+  const std::vector<std::string>& names = names_of_predicted_tests();
+  const auto found = std::find(names.begin(), names.end(), *word);
+  if (found != names.end()) return static_cast<PredictedTest>(found - names.begin());
+  throw OptionError("--test " + *word + " is not known" + did_you_mean(*word, names) + " Use " +
+                    listed(names));
+}
+
+// In SI of a number or a text with its unit. Throws OptionError naming the option.
+std::optional<double> size_of(const PredictWords::Text& text, const char* name, const char* unit) {
+  if (!text) return std::nullopt;
+  try {
+    return si_from_text(*text, unit);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(std::string("--") + name + ": " + error.what());
+  }
+}
+
+// A quantity that has to be positive if it is given.
+std::optional<double> positive(const PredictWords::Text& text, const char* name, const char* unit) {
+  const auto value = size_of(text, name, unit);
+  if (value && !(*value > 0.0)) {
+    throw OptionError(std::string("--") + name + " must be positive, such as \"1 " + unit + "\"");
+  }
+  return value;
+}
+
+PredictionRequest prediction_request(const PredictWords& words, bool is_sweep) {
+  PredictionRequest request;
+  request.strain = size_of(words.strain, "strain", "1");
+  request.stress_Pa = size_of(words.stress, "stress", "Pa");
+  if (request.strain && request.stress_Pa) {
+    throw OptionError("--strain and --stress exclude each other: one of them is the input");
+  }
+  request.ramp_s = positive(words.ramp, "ramp", "s").value_or(0.0);
+  request.hold_s = positive(words.hold, "hold", "s");
+  request.recovery_s = positive(words.recovery, "recovery", "s");
+  request.period_s = positive(words.period, "period", "s").value_or(1.0);
+  request.n_cycles = words.cycles.value_or(request.n_cycles);
+  request.from = positive(words.from, "from", is_sweep ? "Hz" : "s");
+  request.to = positive(words.to, "to", is_sweep ? "Hz" : "s");
+  request.points = words.points.value_or(request.points);
+  if (request.n_cycles < 1 || request.n_cycles > 10000) {
+    throw OptionError("--cycles must lie between 1 and 10000");
+  }
+  if (request.points < 2 || request.points > 100000) {
+    throw OptionError("--points must lie between 2 and 100000");
+  }
+  return request;
+}
+
+// Options that contradict the test.
+void check_test(const PredictFileRequest& request) {
+  if (!request.test) return;
+  const PredictedTest test = *request.test;
+  const std::string& name = names_of_predicted_tests()[static_cast<std::size_t>(test)];
+  const bool is_creep = test == PredictedTest::kCreep || test == PredictedTest::kRecovery;
+  if (request.prediction.strain && is_creep) {
+    throw OptionError("--strain does not belong to --test " + name +
+                      ", which holds a stress; give --stress");
+  }
+  if (request.prediction.stress_Pa && test == PredictedTest::kRelaxation) {
+    throw OptionError(
+        "--stress does not belong to --test relaxation, which holds a strain; give "
+        "--strain, or --test creep");
+  }
+  if (test == PredictedTest::kHistory && request.history.empty() && request.against.empty()) {
+    throw OptionError("--test history needs --history TABLE");
+  }
+  if (test != PredictedTest::kHistory && !request.history.empty()) {
+    throw OptionError("--history is a test of its own; omit --test " + name);
+  }
+}
+
+}  // namespace
+
+PredictFileRequest predict_request(const PredictWords& words, const std::string& material) {
+  PredictFileRequest request;
+  request.material = material;
+  request.test = predicted_test(words.test);
+  request.history = words.history.value_or("");
+  request.against = words.against.value_or("");
+  const std::string driver = words.driven_by.value_or("strain");
+  if (driver != "strain" && driver != "stress") {
+    throw OptionError("--driven-by " + driver + " is not known; use strain or stress");
+  }
+  request.is_driven_by_stress = driver == "stress";
+  try {
+    request.columns = column_map_from_words(words.column);
+  } catch (const std::invalid_argument& error) {
+    throw OptionError(error.what());
+  }
+  request.time_zero_s = size_of(words.time_zero, "time-zero", "s").value_or(0.0);
+  request.temperature_C = size_of(words.temperature, "temperature", "degC");
+  request.prediction = prediction_request(words, request.test == PredictedTest::kOscillation);
+  check_test(request);
+  return request;
+}
+
+}  // namespace viscard

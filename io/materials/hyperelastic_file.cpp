@@ -1,0 +1,92 @@
+#include "io/materials/hyperelastic_file.h"
+
+#include "io/basics/atomic_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace viscard {
+namespace {
+
+using RubberJson = nlohmann::json;
+
+constexpr const char* kHyperelasticSchema = "viscard-hyperelastic/1";
+
+template <typename Names>
+std::size_t index_in(const Names& names, const std::string& name, const char* what) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw std::runtime_error("there is no " + std::string(what) + " '" + name + "'");
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+const RubberJson& chosen_law(const RubberJson& json) {
+  const std::string name = json.at("law");
+  for (const RubberJson& law : json.at("laws")) {
+    if (law.at("name") == name) return law;
+  }
+  throw std::runtime_error("'laws' has no '" + name + "', which 'law' names");
+}
+
+HyperelasticLaw law_from(const RubberJson& json) {
+  HyperelasticLaw law;
+  law.form = hyperelastic_forms()[index_in(hyperelastic_names(), json.at("name"), "law")];
+  std::vector<std::string> names = modulus_names(law.form);
+  law.moduli_Pa.resize(n_moduli(law.form));
+  law.shapes.resize(n_shapes(law.form));
+  for (const std::string& name : shape_names(law.form)) names.push_back(name);
+  const RubberJson& parameters = json.at("parameters");
+  if (parameters.size() != names.size()) {
+    throw std::runtime_error("'parameters' must be " + std::to_string(names.size()) + " in number");
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (parameters[i].at("name") != names[i]) {
+      throw std::runtime_error("parameter " + std::to_string(i + 1) + " must be " + names[i]);
+    }
+    const double value = parameters[i].at("value");
+    const auto k = static_cast<Eigen::Index>(i);
+    (k < n_moduli(law.form) ? law.moduli_Pa[k] : law.shapes[k - n_moduli(law.form)]) = value;
+  }
+  validate(law);
+  return law;
+}
+
+void add_tests(const RubberJson& json, HyperelasticFile& file) {
+  for (const RubberJson& test : json.at("tests")) {
+    auto& range =
+        file.measured[index_in(deformation_names(), test.at("deformation"), "deformation")];
+    const double low = test.at("stretch").at(0), high = test.at("stretch").at(1);
+    range = range ? HyperelasticFile::Range{std::min(range->low, low), std::max(range->high, high)}
+                  : HyperelasticFile::Range{low, high};
+    file.raw_files.push_back({test.at("file"), test.at("sha256")});
+  }
+}
+
+}  // namespace
+
+bool looks_like_hyperelastic_file(const std::filesystem::path& path) {
+  const RubberJson json = RubberJson::parse(read_file(path), nullptr, /*allow_exceptions=*/false);
+  return json.is_object() && json.contains("schema") && json["schema"] == kHyperelasticSchema;
+}
+
+HyperelasticFile read_hyperelastic(const std::filesystem::path& path) {
+  try {
+    const RubberJson json = RubberJson::parse(read_file(path));
+    const RubberJson& law = chosen_law(json);
+    HyperelasticFile file;
+    file.law = law_from(law);
+    file.is_trustworthy = law.at("trustworthy");
+    for (const RubberJson& flag : law.at("flags")) file.defects.push_back(flag.at("text"));
+    add_tests(json, file);
+    return file;
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(path.string() +
+                             ": is not a law of rubber as viscard fit writes it: " + error.what());
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(path.string() + ": " + error.what());
+  }
+}
+
+}  // namespace viscard

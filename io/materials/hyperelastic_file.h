@@ -1,0 +1,36 @@
+#pragma once
+
+#include "models/hyperelastic/hyperelastic_law.h"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace viscard {
+
+// A law of rubber as `viscard fit uniaxial=a.csv ... --out FILE` writes it, schema
+// "viscard-hyperelastic/1".
+struct HyperelasticFile {
+  HyperelasticLaw law;  // the chosen one
+  bool is_trustworthy = true;
+  std::vector<std::string> defects;  // texts of its flags
+  // Measured stretches, in the order of Deformation; nothing where no test measured.
+  struct Range {
+    double low = 1.0, high = 1.0;
+  };
+  std::array<std::optional<Range>, 3> measured;
+  struct RawFile {
+    std::string file, sha256;
+  };
+  std::vector<RawFile> raw_files;
+};
+
+// True if the file says that it is one.
+bool looks_like_hyperelastic_file(const std::filesystem::path& path);
+
+// Throws std::runtime_error naming the file and the key.
+HyperelasticFile read_hyperelastic(const std::filesystem::path& path);
+
+}  // namespace viscard

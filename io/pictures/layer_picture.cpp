@@ -1,0 +1,83 @@
+#include "io/pictures/scene_drawing.h"
+#include "io/pictures/scene_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace viscard {
+namespace {
+
+constexpr double kLayerWidth_px = 760.0;
+constexpr int kOutlinePoints = 160;
+
+// Half of the section: the electrodes, the part under the shape, and the layer's thickness beside them.
+double half_width_m(const LayerScene& scene) {
+  const ShapePress& press = scene.press;
+  double half_m = 0.5 * scene.width_m;
+  const double depth_m = press.depth_m > 0.0 ? press.depth_m : 0.05 * scene.thickness_m;
+  if (press.shape.radius_m > 0.0) {
+    half_m = std::max(half_m,
+                      std::abs(press.shape.x_m) + std::sqrt(2.0 * press.shape.radius_m * depth_m));
+  }
+  for (const auto& [x_m, y_m] : scene.electrodes_m) {
+    half_m = std::max(half_m, std::abs(x_m) + scene.electrode_radius_m);
+  }
+  return half_m + 1.5 * scene.thickness_m;
+}
+
+// The shape where it is lower than the picture's top, as a band above its surface.
+void draw_shape(SceneDrawing& d, const LayerScene& scene, double half_m, double top_m) {
+  const ShapePress& press = scene.press;
+  const double depth_m = press.depth_m > 0.0 ? press.depth_m : 0.0;
+  const double end_m = scene.width_m > 0.0 ? 0.5 * scene.width_m : half_m;
+  std::vector<std::pair<double, double>> corners;
+  const auto close = [&] {
+    if (corners.size() > 1) {
+      corners.emplace_back(corners.back().first, top_m);
+      corners.emplace_back(corners.front().first, top_m);
+      d.outline(corners, R"(fill="#8a8f94" fill-opacity="0.8" stroke="#404448")");
+    }
+    corners.clear();
+  };
+  for (int i = 0; i <= kOutlinePoints; ++i) {
+    const double x_m = half_m * (2.0 * i / kOutlinePoints - 1.0);
+    const double z_m = scene.thickness_m - depth_m + height_m(press.shape, x_m, press.shape.y_m);
+    if (std::abs(x_m) > end_m || !(z_m < top_m)) {
+      close();
+    } else {
+      corners.emplace_back(x_m, std::max(z_m, 0.0));
+    }
+  }
+  close();
+}
+
+}  // namespace
+
+std::string svg_from_scene(const LayerScene& scene, const std::string& title) {
+  const double half_m = half_width_m(scene);
+  const double top_m = 1.6 * scene.thickness_m;
+  const double t_m = scene.film_thickness_m;
+  SceneDrawing d(-half_m, half_m, -t_m, top_m, kLayerWidth_px);
+  d.box(-half_m, half_m, 0.0, scene.thickness_m, R"(fill="#bcd4e6" stroke="#2b5d7d")");
+  d.film(-half_m, half_m, t_m);
+  const bool is_on_bottom = scene.grounded == FilmFace::kTop;
+  for (const auto& [x_m, y_m] : scene.electrodes_m) {
+    d.electrode(x_m - scene.electrode_radius_m, x_m + scene.electrode_radius_m, t_m,
+                is_on_bottom ? FilmFace::kBottom : FilmFace::kTop);
+  }
+  d.ground(-half_m, half_m, t_m, scene.grounded);
+  draw_shape(d, scene, half_m, top_m);
+  d.text(12.0, 40.0,
+         fmt::format("layer {} on film t {}", micrometres(scene.thickness_m), micrometres(t_m)));
+  d.text(12.0, 60.0, words_of_press(scene.press));
+  const char* const models[] = {"section along x of a layer in space", "plane strain",
+                                "plane stress"};
+  d.text(d.width_px() - 12.0, 20.0, models[static_cast<int>(scene.model)], "end");
+  return d.document(title);
+}
+
+}  // namespace viscard

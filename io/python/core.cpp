@@ -1,0 +1,56 @@
+// The compiled module viscard._core.
+#include "io/flow/command_error.h"
+#include "io/flow/words/option_error.h"
+#include "io/python/job.h"
+#include "io/python/parts.h"
+
+#include <new>
+#include <string>
+
+namespace viscard::python {
+namespace {
+
+namespace py = pybind11;
+
+void raise(const CommandError& error, const std::string& text) {
+  const py::object type = py::module_::import("viscard._error").attr("Error");
+  const py::object value = type(py::str(text), py::str(error.code), py::str(error.message),
+                                py::str(error.where), py::str(error.hint));
+  PyErr_SetObject(type.ptr(), value.ptr());
+}
+
+// Exceptions of viscard become viscard.Error; those of Python and pybind11 stay as they are.
+void translate(std::exception_ptr thrown) {
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (const py::error_already_set&) {
+    throw;
+  } catch (const py::builtin_exception&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const OptionError& error) {
+    raise(command_error("usage", error.what()), error.what());
+  } catch (const std::exception& error) {
+    raise(command_error(error), error.what());
+  }
+}
+
+}  // namespace
+
+void add_errors(py::module_& module) {
+  py::register_local_exception_translator(translate);
+  module.def("jobs_left", &jobs_left);
+  module.attr("version") = VISCARD_VERSION;
+}
+
+}  // namespace viscard::python
+
+PYBIND11_MODULE(_core, module) {
+  viscard::python::add_errors(module);
+  viscard::python::add_tables(module);
+  viscard::python::add_fits(module);
+  viscard::python::add_materials(module);
+  viscard::python::add_scenes(module);
+  viscard::python::add_rig(module);
+}

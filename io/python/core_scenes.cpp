@@ -1,0 +1,266 @@
+#include "io/basics/units.h"
+#include "io/cost/effect_savings.h"
+#include "io/cost/study_cost.h"
+#include "io/flow/scenes/answer_scene.h"
+#include "io/python/job.h"
+#include "io/python/keywords.h"
+#include "io/python/parts.h"
+#include "io/python/values.h"
+#include "models/scene/plan.h"
+#include "models/scene/simulate.h"
+
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <limits>
+
+namespace viscard::python {
+namespace {
+
+namespace py = pybind11;
+constexpr double kNoPillar = std::numeric_limits<double>::quiet_NaN();
+
+// A scene of a file, or from text that Python has composed of a dict.
+SceneFile scene_of(const std::optional<std::string>& text, const std::string& path,
+                   std::optional<double> tolerance) {
+  SceneFile file = text ? scene_from_toml(*text, path) : read_scene(path);
+  if (tolerance) set_tolerance(*tolerance, file.scene);
+  return file;
+}
+
+py::list effects_list(const std::vector<SceneEffect>& effects) {
+  py::list out;
+  for (const SceneEffect& effect : effects) {
+    py::dict one;
+    one["name"] = effect.name;
+    one["on"] = effect.on;
+    one["estimate"] = effect.estimate;
+    one["number"] = effect.number;
+    one["value"] = effect.value;
+    one["forced"] = effect.is_forced;
+    one["counted"] = effect.is_counted;
+    one["choice"] = effect.is_choice;
+    one["reason"] = effect.reason;
+    out.append(one);
+  }
+  return out;
+}
+
+py::list modes_list(const std::vector<SceneMode>& modes) {
+  py::list out;
+  for (const SceneMode& mode : modes) {
+    py::dict one;
+    one["family"] = mode.family;
+    one["harmonic"] = mode.harmonic;
+    one["frequency_Hz"] = mode.frequency_Hz;
+    one["error_estimate"] = mode.error_estimate;
+    one["damping_ratio"] = mode.damping_ratio;
+    out.append(one);
+  }
+  return out;
+}
+
+py::dict curves_dict_of(std::vector<SceneCurve>& curves) {
+  py::dict out;
+  for (SceneCurve& curve : curves) {
+    py::dict one;
+    one["unit"] = curve.unit;
+    one["x_name"] = curve.x_name;
+    one["x"] = array_of(std::move(curve.x));
+    one["value"] = array_of(std::move(curve.value));
+    one["error"] = array_of(std::move(curve.error));
+    out[py::str(curve.name)] = one;
+  }
+  return out;
+}
+
+// rows x columns, NaN where no pillar has a value.
+py::array matrix_of(const SceneArray& array, const SceneMap& map, const std::vector<double>& from) {
+  py::array_t<double> matrix({array.rows, array.columns});
+  for (int i = 0; i < array.rows; ++i) {
+    for (int j = 0; j < array.columns; ++j) matrix.mutable_at(i, j) = kNoPillar;
+  }
+  for (std::size_t at = 0; at < map.pillar.size() && at < from.size(); ++at) {
+    const ScenePillar& one = array.pillars[map.pillar[at]];
+    matrix.mutable_at(one.row - 1, one.column - 1) = from[at];
+  }
+  return matrix;
+}
+
+py::dict maps_dict(const SceneAnswer& answer) {
+  py::dict out;
+  for (const SceneMap& map : answer.maps) {
+    py::dict one;
+    one["unit"] = map.unit;
+    one["value"] = matrix_of(answer.array, map, map.value);
+    one["error"] = matrix_of(answer.array, map, map.error);
+    out[py::str(map.name)] = one;
+  }
+  return out;
+}
+
+// Points x components: three of a displacement (r, theta, z), one of a scalar.
+py::array field_matrix(const SectionField& field) {
+  const py::ssize_t n_components = field.is_vector ? 3 : 1;
+  const auto n_points = static_cast<py::ssize_t>(field.value.size());
+  py::array_t<double> matrix({n_points, n_components});
+  for (py::ssize_t i = 0; i < n_points; ++i) {
+    for (py::ssize_t j = 0; j < n_components; ++j) {
+      matrix.mutable_at(i, j) =
+          field.value[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    }
+  }
+  return matrix;
+}
+
+py::list fields_list(std::vector<SectionGrid> grids) {
+  py::list out;
+  for (SectionGrid& grid : grids) {
+    py::dict one;
+    one["name"] = grid.name;
+    one["harmonic"] = grid.harmonic;
+    py::array_t<int> quads({static_cast<py::ssize_t>(grid.quads.size()), py::ssize_t{4}});
+    for (std::size_t i = 0; i < grid.quads.size(); ++i) {
+      for (std::size_t j = 0; j < 4; ++j) {
+        quads.mutable_at(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(j)) =
+            grid.quads[i][j];
+      }
+    }
+    one["quads"] = quads;
+    py::dict fields;
+    for (const SectionField& field : grid.fields) {
+      py::dict values;
+      values["unit"] = field.unit;
+      values["value"] = field_matrix(field);
+      fields[py::str(field.name)] = values;
+    }
+    one["values"] = fields;
+    one["x_m"] = array_of(std::move(grid.x_m));
+    one["z_m"] = array_of(std::move(grid.z_m));
+    out.append(one);
+  }
+  return out;
+}
+
+struct SceneOutcome {
+  SceneAnswer answer;
+  std::vector<SectionGrid> fields;
+};
+
+py::dict simulate_scene(const std::optional<std::string>& text, const std::string& path,
+                        std::optional<double> tolerance, bool with_fields,
+                        const py::object& progress) {
+  SceneOutcome found = in_background({.progress = progress}, [=](Job& job) {
+    const SceneFile file = scene_of(text, path, tolerance);
+    SceneOutcome outcome;
+    outcome.answer = answer_scene(
+        file, path, [&](double done, const std::string& point) { job.report(done, point); });
+    if (with_fields && file.sweep.is_empty()) {
+      outcome.fields = solution_fields(file.scene, outcome.answer.discretisation);
+    }
+    return outcome;
+  });
+  SceneAnswer& answer = found.answer;
+  py::dict out, results;
+  for (const SceneResult& result : answer.results) {
+    results[py::str(result.name)] =
+        py::make_tuple(result.value, result.unit, result.error_estimate);
+  }
+  out["results"] = results;
+  out["modes"] = modes_list(answer.modes);
+  out["effects"] = effects_list(answer.effects);
+  out["maps"] = maps_dict(answer);
+  out["curves"] = curves_dict_of(answer.curves);
+  out["x_m"] = array_over(answer.array.pillars, [](const ScenePillar& p) { return p.x_m; });
+  out["y_m"] = array_over(answer.array.pillars, [](const ScenePillar& p) { return p.y_m; });
+  out["notes"] = answer.notes;
+  out["within_tolerance"] = answer.within_tolerance;
+  out["unknowns"] = answer.unknowns;
+  out["fields"] = fields_list(std::move(found.fields));
+  return out;
+}
+
+py::dict plan_scene(const std::optional<std::string>& text, const std::string& path,
+                    std::optional<double> tolerance) {
+  struct Planned {
+    ScenePlan plan;
+    std::vector<EffectSaving> savings;
+    double tolerance = 0.0;
+  };
+  const Planned found = in_background({}, [=](Job& job) {
+    const Scene scene = scene_of(text, path, tolerance).scene;
+    Planned planned{
+        with_lines_of(path, [&] { return checked_plan(scene); }), {}, common(scene).tolerance};
+    job.report(0.5, "plan");
+    try {
+      planned.savings = effect_savings(scene);
+    } catch (const std::runtime_error&) {  // the plan itself solves nothing and stands
+    }
+    return planned;
+  });
+  py::list savings;
+  for (const EffectSaving& one : found.savings) {
+    py::dict row;
+    row["effect"] = one.effect;
+    row["discretisation"] = one.discretisation;
+    row["cpu_s"] = one.cpu_s;
+    row["cpu_s_without"] = one.cpu_s_without;
+    row["unknowns"] = one.unknowns;
+    row["unknowns_without"] = one.unknowns_without;
+    savings.append(row);
+  }
+  py::dict out;
+  out["effects"] = effects_list(found.plan.effects);
+  out["savings"] = savings;
+  out["tolerance"] = found.tolerance;
+  out["left_out"] = found.plan.left_out;
+  out["mesh_tolerance"] = common(found.plan.reduced).tolerance;
+  return out;
+}
+
+py::dict cost_scene(const std::optional<std::string>& text, const std::string& path,
+                    const py::object& budget, const py::object& progress) {
+  const double budget_s = si_from_text(text_from("budget", budget).value_or("60"), "s");
+  if (!(budget_s > 0.0)) throw OptionError("--budget must be positive, such as 60s");
+  const CostStudy study = in_background({.progress = progress}, [=](Job& job) {
+    CostOptions options{.budget_s = budget_s};
+    options.progress = [&](double done, const std::string& row) { job.report(done, row); };
+    const Scene scene = scene_of(text, path, std::nullopt).scene;
+    return with_lines_of(path, [&] { return study_cost(scene, options); });
+  });
+  py::dict out;
+  const auto column = [&](const char* name, const auto& value) {
+    out[name] = array_over(study.rows, value);
+  };
+  py::list discretisation, effects, advice;
+  for (const CostRow& row : study.rows) {
+    discretisation.append(row.discretisation);
+    effects.append(row.effects);
+  }
+  for (const CostAdvice& one : study.advice) {
+    advice.append(py::make_tuple(one.tolerance, one.row, one.text));
+  }
+  out["discretisation"] = discretisation;
+  out["effects"] = effects;
+  column("unknowns", [](const CostRow& row) { return static_cast<double>(row.unknowns); });
+  column("cpu_s", [](const CostRow& row) { return row.cpu_s; });
+  column("wall_s", [](const CostRow& row) { return row.wall_s; });
+  column("memory_B", [](const CostRow& row) { return row.memory_B; });
+  column("error", [](const CostRow& row) { return row.error; });
+  column("pareto", [](const CostRow& row) { return row.is_on_front ? 1.0 : 0.0; });
+  out["recommendations"] = advice;
+  out["reference"] = study.reference;
+  out["reference_error"] = study.reference_error;
+  out["rows_left_out"] = study.left_out;
+  return out;
+}
+
+}  // namespace
+
+void add_scenes(py::module_& module) {
+  module.def("simulate", &simulate_scene);
+  module.def("plan", &plan_scene);
+  module.def("cost", &cost_scene);
+}
+
+}  // namespace viscard::python

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "io/flow/words/fit_words.h"
+#include "io/flow/words/predict_words.h"
+
+#include <pybind11/pybind11.h>
+
+#include <optional>
+#include <string>
+
+namespace viscard::python {
+
+// Keyword arguments as the options of commands. Quantities are texts or numbers in SI. All throw TypeError
+// naming the keyword if a value has another type.
+FitWords fit_words_from(const pybind11::dict& keywords);
+PredictWords predict_words_from(const pybind11::dict& keywords);
+
+// A number is written so that it reads back exactly; nothing for None.
+std::optional<std::string> text_from(const char* name, const pybind11::handle& value);
+
+}  // namespace viscard::python

@@ -1,0 +1,51 @@
+"""viscard: a soft polymer from a load cell to a validated simulation.
+
+>>> result = viscard.fit("data/demo/example_relaxation.csv")
+>>> result.material.card("calculix", "mm-t-s").text.splitlines()[0][:2]
+'**'
+
+Quantities are SI, with the unit in the name (E0_Pa, tau_s). A keyword takes a number in SI or a text with its unit
+("0.1 mm"). Mistakes are ``viscard.Error`` with the words of the command line.
+"""
+
+from __future__ import annotations
+
+from . import _core
+from ._capture import CaptureOutcome, capture
+from ._card import Card, card_targets
+from ._error import DoubtWarning, Error
+from ._fit import FitResult, Flag, JointFit, fit
+from ._material import Material, Prediction, predict
+from ._scene import Answer, Cost, Field, Plan, Value, cost, plan, simulate
+from ._table import Capture, Table, read_capture, read_table
+
+__version__: str = _core.version
+
+__all__ = ["Answer", "Capture", "CaptureOutcome", "Card", "Cost", "DoubtWarning", "Error", "Field", "FitResult",
+           "Flag", "JointFit", "Material", "Plan", "Prediction", "Table", "Value", "capture", "card_targets", "cost",
+           "fit", "plan", "predict", "read_capture", "read_table", "simulate"]
+
+
+def _end_jobs() -> None:
+    """At exit: a simulation that was interrupted may still be at work, and must not lose what it uses."""
+    import os
+    import signal
+    import sys
+    import time
+
+    while _core.jobs_left() > 0:
+        if getattr(sys, "last_type", None) is KeyboardInterrupt:  # as Python itself ends then
+            sys.stdout.flush()
+            sys.stderr.flush()
+            signal.signal(signal.SIGINT, signal.SIG_DFL)
+            os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(0.02)
+
+
+def _at_exit() -> None:
+    import atexit
+
+    atexit.register(_end_jobs)
+
+
+_at_exit()

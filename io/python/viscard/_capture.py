@@ -1,0 +1,99 @@
+"""Captures on a rig, or on an emulated one."""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Dict, Optional
+
+from . import _core
+from ._arrays import optional_path, path_of, whole
+from ._error import Error
+from ._table import Capture, read_capture
+
+
+class CaptureOutcome:
+    """How a run ended. ``outcome["key"]`` gives every key of ``viscard capture --json``.
+
+    Attributes
+    ----------
+    file, status : str
+        status: "finished", "interrupted" or "stopped".
+    json : dict
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> file = os.path.join(tempfile.mkdtemp(), "run.viscap")
+    >>> viscard.capture(file, test=short_test, emulate=True, speed=200).status    # short_test: a test file
+    'finished'
+    """
+
+    def __init__(self, found: Dict[str, Any], file: str) -> None:
+        self.json = found
+        self.file = file
+        self.status: str = found["status"]
+
+    def __getitem__(self, key: str) -> Any:
+        return self.json[key]
+
+    def read(self) -> Capture:
+        """The capture as arrays."""
+        return read_capture(self.file)
+
+    def __repr__(self) -> str:
+        return f"<viscard.CaptureOutcome {self.file}: {self.status}>"
+
+
+def capture(out, *, rig=None, test=None, specimen=None, emulate: bool = False, truth=None,
+            seed: Optional[int] = None, speed: float = 1.0, overwrite: bool = False,
+            uncalibrated: bool = False, lift: bool = False,
+            sample: Optional[Callable[[float, float, float], object]] = None,
+            progress: Optional[Callable[[float, str], object]] = None) -> CaptureOutcome:
+    """Run one indentation test on a rig and record every byte of it.
+
+    Ctrl-C, an exception of a callback, or a `sample` that returns False brakes the stage, lifts the punch and keeps
+    the record, whose status is then "interrupted"; a second Ctrl-C stops the stage at once.
+
+    Parameters
+    ----------
+    out : path
+        The capture file to write (\\*.viscap).
+    rig, test, specimen : path
+        TOML files; an emulated rig needs none of them.
+    emulate : bool
+        Use an emulated rig, with `truth` (file), `seed` and `speed` (up to 500; changes no result).
+    sample : function of (time_s, force_N, depth_m)
+        Called for every reading of the load cell, in this thread.
+    progress : function of (fraction, phase)
+
+    Raises
+    ------
+    Error
+        If the test could not begin, or did not finish; the record is kept.
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> readings = []
+    >>> outcome = viscard.capture(os.path.join(tempfile.mkdtemp(), "run.viscap"), test=short_test, emulate=True,
+    ...                           speed=200, sample=lambda *reading: readings.append(reading))
+    >>> time_s, force_N, depth_m = readings[-1]
+    """
+    words = {"rig": optional_path(rig, "rig"), "test": optional_path(test, "test"),
+             "specimen": optional_path(specimen, "specimen"), "truth": optional_path(truth, "truth"),
+             "emulate": bool(emulate), "seed": whole(seed, "seed", 0), "speed": float(speed), "overwrite": bool(overwrite),
+             "uncalibrated": bool(uncalibrated), "lift": bool(lift), "command": "viscard.capture()"}
+    file = path_of(out, "out")
+    was_enough = []
+
+    def watched(time_s, force_N, depth_m):
+        answer = sample(time_s, force_N, depth_m)
+        if answer is False:
+            was_enough.append(True)
+        return answer
+
+    found = _core.capture(file, words, watched if sample else None, progress)
+    if found["status"] != "finished" and not was_enough:
+        error = found.get("error") or {}
+        raise Error(found.get("reason") or "the run did not finish", error.get("code", "failed"),
+                    error.get("message"), error.get("where", ""), error.get("hint", ""))
+    return CaptureOutcome(found, file)

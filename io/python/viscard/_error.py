@@ -1,0 +1,67 @@
+"""Exceptions of viscard."""
+
+from __future__ import annotations
+
+import re
+
+_OPTION = re.compile(r"--([a-z]+(?:-[a-z]+)*)")
+_OTHER_NAMES = {"from": "from_", "emulate": "emulate=True", "force": "overwrite=True",
+                "joint": "joint=True", "uncalibrated": "uncalibrated=True",
+                "accept-flags": "accept_flags=True", "approximate": "approximate=True",
+                "temperature": "temperature"}
+
+
+def _keyword(match: "re.Match[str]") -> str:
+    name = match.group(1)
+    return _OTHER_NAMES.get(name, name.replace("-", "_"))
+
+
+def _in_python(text: str) -> str:
+    """The same words with keywords (max_terms) in the place of options (--max-terms)."""
+    return _OPTION.sub(_keyword, text)
+
+
+class Error(RuntimeError):
+    """What failed, where, and what to do: the same words as on the command line.
+
+    Attributes
+    ----------
+    code : str
+        Short and stable: "usage" (keywords that are not allowed), "input" (a file or value), "exists",
+        "file", "preflight", "device-lost" and others; io/cli/rig/README.md lists them.
+    message : str
+        What happened, with the value and its limit.
+    where : str
+        File with its line, keyword, port or phase of the run; may be empty.
+    hint : str
+        What to do next; may be empty.
+
+    Examples
+    --------
+    >>> try:
+    ...     viscard.fit("data/demo/example_relaxation.csv", max_terms=200)
+    ... except viscard.Error as error:
+    ...     print(error.code, "|", error.message)
+    usage | max_terms 200 is outside 0 to 100
+    """
+
+    def __init__(self, text: str, code: str = "failed", message: "str | None" = None,
+                 where: str = "", hint: str = "") -> None:
+        super().__init__(_in_python(text))
+        self.code = code
+        self.message = _in_python(text if message is None else message)
+        self.where = _in_python(where)
+        self.hint = _in_python(hint)
+
+    def __reduce__(self):
+        return (Error, (str(self), self.code, self.message, self.where, self.hint))
+
+
+class DoubtWarning(UserWarning):
+    """A result is not to be trusted; the text names the cause.
+
+    Examples
+    --------
+    >>> issubclass(viscard.DoubtWarning, UserWarning)
+    True
+    """

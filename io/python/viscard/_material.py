@@ -1,0 +1,281 @@
+"""Materials and what they do in a test."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _arrays, _core
+from ._arrays import path_of
+from ._card import Card
+from ._table import Texts
+
+Quantity = Union[str, float, None]
+
+
+class Material:
+    """A viscoelastic solid: E0, a Poisson ratio and a Prony series.
+
+    Parameters
+    ----------
+    E0_Pa : float
+        Instantaneous Young's modulus.
+    nu : float
+        Poisson ratio, constant while the modulus relaxes.
+    terms : list of (g, tau_s)
+        Shares of E0 that relax, and their times.
+    rho_kg_m3 : float
+        Density; 0: not given.
+    name : str
+
+    Examples
+    --------
+    >>> material = viscard.Material(2e6, 0.49, terms=[(0.2, 1.0)])
+    >>> material.relaxation([0, 1e3])
+    array([2000000., 1600000.])
+    >>> material.E_inf_Pa
+    1600000.0
+    """
+
+    def __init__(self, E0_Pa: float, nu: float, *, terms: Sequence[Tuple[float, float]] = (),
+                 rho_kg_m3: float = 0.0, name: str = "") -> None:
+        try:
+            rows = [{"g": float(g), "tau_s": float(tau_s)} for g, tau_s in terms]
+        except (TypeError, ValueError):
+            raise TypeError(f"terms must be a list of (g, tau_s), such as [(0.2, 1.5)], not {terms!r}") from None
+        text: Dict[str, Any] = {"schema": "viscard-material/1", "name": name, "E0_Pa": float(E0_Pa),
+                                "nu": float(nu), "terms": rows}
+        if rho_kg_m3:
+            text["rho_kg_m3"] = float(rho_kg_m3)
+        self._core = _core.material_from_json(json.dumps(text), name or "Material()")
+
+    @classmethod
+    def _of(cls, found) -> "Material":
+        material = cls.__new__(cls)
+        material._core = found
+        return material
+
+    @classmethod
+    def load(cls, path) -> "Material":
+        """Read a material file.
+
+        Examples
+        --------
+        >>> viscard.Material.load("data/materials/pdms_1to10_seed.json").nu
+        0.495
+        """
+        return cls._of(_core.read_material(path_of(path, "path")))
+
+    def save(self, path, *, overwrite: bool = False) -> None:
+        """Write the material file; an existing file is kept unless `overwrite` is True."""
+        _core.write_file(path_of(path, "path"), _core.json_from_material(self._core), overwrite)
+
+    @property
+    def json(self) -> Dict[str, Any]:
+        """The material file as a dict: terms, uncertainty, window, flags, provenance."""
+        return json.loads(_core.json_from_material(self._core))
+
+    @property
+    def moduli(self) -> Dict[str, Any]:
+        """Derived moduli in Pa: E0_Pa, E_inf_Pa, G0_Pa, G_inf_Pa, K0_Pa, K_inf_Pa, and arrays of shape (terms,)
+        of the branches, G_Pa and E_Pa."""
+        return _core.moduli(self._core)
+
+    @property
+    def name(self) -> str:
+        return self.json.get("name", "")
+
+    @property
+    def E0_Pa(self) -> float:
+        return self.moduli["E0_Pa"]
+
+    @property
+    def E_inf_Pa(self) -> float:
+        return self.moduli["E_inf_Pa"]
+
+    @property
+    def nu(self) -> float:
+        return self.json["nu"]
+
+    @property
+    def g(self) -> np.ndarray:
+        """Shares of E0 that relax, shape (terms,)."""
+        return _arrays.column(self.json["terms"], lambda term: term["g"])
+
+    @property
+    def tau_s(self) -> np.ndarray:
+        """Relaxation times in s, shape (terms,)."""
+        return _arrays.column(self.json["terms"], lambda term: term["tau_s"])
+
+    def _curve(self, kind: str, at, name: str, unit: str, band: bool):
+        array = _arrays.arguments(at, name, unit)
+        found = _core.curve(self._core, kind, array.ravel(), band)
+        value, low, high = [part.reshape(array.shape) if part.size else None for part in found]
+        if not band:
+            return value if array.ndim else float(value)
+        missing = np.full(array.shape, np.nan)
+        return value, missing if low is None else low, missing if high is None else high
+
+    def relaxation(self, time_s, *, band: bool = False):
+        """E(t) in Pa, in the shape of `time_s` (s).
+
+        band : bool
+            Return (value, low, high) with the 95 % band of the fit; NaN for a material without one.
+
+        Examples
+        --------
+        >>> material = viscard.Material.load("data/materials/pdms_1to10_seed.json")
+        >>> bool(material.relaxation(0.0) > material.relaxation(10.0))
+        True
+        """
+        return self._curve("relaxation", time_s, "time_s", "s", band)
+
+    def creep(self, time_s, *, band: bool = False):
+        """J(t) in 1/Pa, the exact inverse of E(t), in the shape of `time_s` (s).
+
+        Examples
+        --------
+        >>> viscard.Material(2e6, 0.49, terms=[(0.2, 1.0)]).creep(0.0)
+        5e-07
+        """
+        return self._curve("creep", time_s, "time_s", "s", band)
+
+    def storage(self, frequency_Hz, *, band: bool = False):
+        """Storage modulus E' in Pa, in the shape of `frequency_Hz` (Hz).
+
+        Examples
+        --------
+        >>> viscard.Material(2e6, 0.49, terms=[(0.2, 1.0)]).storage([1e-9, 1e9]).round()
+        array([1600000., 2000000.])
+        """
+        return self._curve("storage", frequency_Hz, "frequency_Hz", "Hz", band)
+
+    def loss(self, frequency_Hz, *, band: bool = False):
+        """Loss modulus E'' in Pa, in the shape of `frequency_Hz` (Hz).
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> round(viscard.Material(2e6, 0.49, terms=[(0.2, 1.0)]).loss(1 / (2 * np.pi)))
+        200000
+        """
+        return self._curve("loss", frequency_Hz, "frequency_Hz", "Hz", band)
+
+    def at_temperature(self, temperature_C: float) -> "Material":
+        """The material at another temperature, by its temperature shift (degrees Celsius)."""
+        return Material._of(_core.material_at_temperature(self._core, float(temperature_C)))
+
+    def card(self, target: str, units: str = "SI", *, terms: Optional[int] = None,
+             approximate: bool = False, accept_flags: bool = False, clamp_nu: Optional[float] = None,
+             bound: str = "", elastic_only: str = "", temperature_C: Optional[float] = None,
+             reproducible: bool = False) -> Card:
+        """Write a material card for a solver, read it back and compare.
+
+        Parameters
+        ----------
+        target : str
+            One of `card_targets()`.
+        units : str
+            Unit system of the card, such as "SI" or "mm-t-s".
+        terms, approximate, accept_flags, clamp_nu, bound, elastic_only, temperature_C, reproducible
+            As in ``viscard card --help``.
+
+        Examples
+        --------
+        >>> print(viscard.Material(2e6, 0.49, terms=[(0.2, 1.0)]).card("febio", "mm-t-s").n_terms)
+        1
+        """
+        words = {"terms": _arrays.whole(terms, "terms", 0), "approximate": approximate, "accept_flags": accept_flags,
+                 "clamp_nu": clamp_nu, "bound": bound, "elastic_only": elastic_only,
+                 "temperature_C": temperature_C, "reproducible": reproducible}
+        return Card(_core.card(self._core, target, units, words))
+
+    def predict(self, **options) -> "Prediction":
+        """What the material does in a test; the keywords are those of `viscard.predict`."""
+        return predict(self, **options)
+
+    def __reduce__(self):
+        return (_from_json, (_core.json_from_material(self._core),))
+
+    def __repr__(self) -> str:
+        n = len(self.g)
+        return f"<viscard.Material {self.name or 'without a name'}: E0 {self.E0_Pa:.4g} Pa, {n} term{'' if n == 1 else 's'}>"
+
+
+def _from_json(text: str) -> Material:
+    return Material._of(_core.material_from_json(text, "material"))
+
+
+class Prediction:
+    """A predicted test.
+
+    Attributes
+    ----------
+    at : array, shape (rows,)
+        `argument` names it: "time_s" or "frequency_Hz".
+    curves : dict of array, shape (rows,)
+        Input and answers by name with unit, such as "stress_Pa" and "strain"; `low` and `high` hold the 95 % band, if there is one.
+    inside : array of bool, shape (rows,)
+        The window of the fit.
+    agreement : list of dict
+        With measured values, from `against`.
+    notes : list of str
+    json : dict
+        As ``viscard predict --json``.
+
+    Examples
+    --------
+    >>> found = viscard.predict(viscard.Material(2e6, 0.49, terms=[(0.2, 1.0)]), test="creep", stress="1 kPa",
+    ...                         hold="10 s")
+    >>> found.at.shape == found.curves["strain"].shape
+    True
+    """
+
+    def __init__(self, found: Dict[str, Any]) -> None:
+        self.json = found
+        columns = {name: np.array(values, dtype=float) for name, values in found["curve"].items()}
+        self.inside = columns.pop("inside_window").astype(bool)
+        self.argument: str = next(iter(columns))
+        self.at = columns.pop(self.argument)
+        self.low = {n[:-7]: values for n, values in columns.items() if n.endswith("_low_95")}
+        self.high = {n[:-8]: values for n, values in columns.items() if n.endswith("_high_95")}
+        self.curves = {n: values for n, values in columns.items() if not n.endswith(("_low_95", "_high_95"))}
+        against = found.get("against") or {}
+        self.agreement: List[Dict[str, Any]] = against.get("quantities", [])
+        self.notes: List[str] = found["notes"]
+
+    def __repr__(self) -> str:
+        return f"<viscard.Prediction of {', '.join(self.curves)}: {len(self.at)} rows>"
+
+
+def predict(material, *, test: Optional[str] = None, strain: Quantity = None, stress: Quantity = None,
+            ramp: Quantity = None, hold: Quantity = None, recovery: Quantity = None,
+            period: Quantity = None, cycles: Optional[int] = None, from_: Quantity = None,
+            to: Quantity = None, points: Optional[int] = None, history=None,
+            driven_by: Optional[str] = None, against=None, column: Texts = None,
+            time_zero: Quantity = None, temperature: Quantity = None) -> Prediction:
+    """Predict what a material does in a test, with its 95 % band.
+
+    Parameters
+    ----------
+    material : Material or path
+    test : str
+        relaxation, creep, recovery, cycles, oscillation or history; default: relaxation, or what the columns of
+        `history` or `against` show.
+    history, against : path
+        Tables of the input and of measured values.
+    **options
+        Those of ``viscard predict``; quantities are texts with a unit or numbers in SI, from_ is --from.
+
+    Examples
+    --------
+    >>> found = viscard.predict("data/materials/pdms_1to10_seed.json", test="oscillation", from_=0.1, to=10)
+    >>> sorted(found.curves)
+    ['loss_modulus_Pa', 'storage_modulus_Pa', 'tan_delta']
+    """
+    given = dict(locals())
+    keywords = {name: value for name, value in given.items() if name != "material" and value is not None}
+    one = material if isinstance(material, Material) else Material.load(material)
+    return Prediction(_core.predict(one._core, keywords))

@@ -1,0 +1,311 @@
+"""Scenes: simulate, plan, cost."""
+
+from __future__ import annotations
+
+import os
+import re
+import tempfile
+from collections.abc import Mapping
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Union
+
+import numpy as np
+
+from . import _core
+from ._arrays import path_of
+from ._error import Error
+from ._material import Material
+
+Progress = Optional[Callable[[float, str], object]]
+
+
+class Value(NamedTuple):
+    """A result with its unit (SI) and error estimate (absolute, in the unit); ``float(value)`` is the number.
+
+    Examples
+    --------
+    >>> float(viscard.Value(1.5, "V", 1e-3))
+    1.5
+    """
+
+    value: float
+    unit: str
+    error: float
+
+    def __float__(self) -> float:
+        return self.value
+
+
+class Field(NamedTuple):
+    """Solution on the section of a pillar.
+
+    name : "static", or the family of a mode; harmonic: fields vary as cos(harmonic theta).
+    x_m, z_m : arrays, shape (points,); quads : int array, shape (quads, 4), indices of points.
+    values : dict of {"unit", "value"}; value has the shape (points, 3) for a displacement (r, theta, z),
+    (points, 1) for a scalar.
+
+    Examples
+    --------
+    >>> answer = viscard.simulate("data/scenes/pillar_press.toml", fields=True)
+    >>> field = answer.fields[0]
+    >>> field.values["displacement_m"]["value"].shape == (field.x_m.size, 3)
+    True
+    """
+
+    name: str
+    harmonic: int
+    x_m: np.ndarray
+    z_m: np.ndarray
+    quads: np.ndarray
+    values: Dict[str, Dict[str, Any]]
+
+
+class Answer:
+    """The answer of a scene. ``answer["name"]`` is a result in SI as a float.
+
+    Attributes
+    ----------
+    results : dict of Value
+    modes : list of dict
+        family, harmonic, frequency_Hz, error_estimate, damping_ratio (or None).
+    curves : dict of {"unit", "x_name", "x", "value", "error"}
+        Histories and responses; arrays of shape (points,).
+    maps : dict of {"unit", "value", "error"}
+        Of an array in the plane; arrays of shape (rows, columns), NaN where no pillar stands.
+    x_m, y_m : arrays, shape (pillars,)
+        Places of the pillars of maps, by row, then column.
+    fields : list of Field
+        With ``simulate(..., fields=True)``, of static and modal scenes of one pillar.
+    effects : list of dict
+        What the plan left out, and why.
+    notes : list of str
+    within_tolerance : bool
+    unknowns : int
+
+    Examples
+    --------
+    >>> answer = viscard.simulate("data/scenes/pillar_press.toml")
+    >>> sorted(answer.results)
+    ['electrode_capacitance', 'electrode_charge', 'electrode_voltage', 'top_force', 'top_stiffness']
+    >>> f"{answer['electrode_voltage'] * 1e3:.0f} mV"
+    '29 mV'
+    """
+
+    def __init__(self, found: Dict[str, Any]) -> None:
+        self.results = {name: Value(*row) for name, row in found["results"].items()}
+        self.modes: List[Dict[str, Any]] = found["modes"]
+        self.curves: Dict[str, Dict[str, Any]] = found["curves"]
+        self.maps: Dict[str, Dict[str, Any]] = found["maps"]
+        self.x_m: np.ndarray = found["x_m"]
+        self.y_m: np.ndarray = found["y_m"]
+        self.fields = [Field(f["name"], f["harmonic"], f["x_m"], f["z_m"], f["quads"], f["values"])
+                       for f in found["fields"]]
+        self.effects: List[Dict[str, Any]] = found["effects"]
+        self.notes: List[str] = found["notes"]
+        self.within_tolerance: bool = found["within_tolerance"]
+        self.unknowns: int = found["unknowns"]
+
+    def __getitem__(self, name: str) -> float:
+        if name not in self.results:
+            raise KeyError(f"the answer has no '{name}'; it has {', '.join(self.results) or 'no results'}")
+        return self.results[name].value
+
+    @property
+    def frequencies_Hz(self) -> np.ndarray:
+        """Of all modes, shape (modes,)."""
+        return np.array([mode["frequency_Hz"] for mode in self.modes])
+
+    def __repr__(self) -> str:
+        shown = [f"{name} {v.value:.4g} {v.unit}" for name, v in self.results.items()]
+        shown += [f"{m['family']} {m['frequency_Hz']:.4g} Hz" for m in self.modes]
+        return "<viscard.Answer " + ", ".join(shown[:4]) + (", ...>" if len(shown) > 4 else ">")
+
+
+class Plan:
+    """The effects that a scene needs at its tolerance.
+
+    Attributes
+    ----------
+    effects : list of dict
+        name, on, estimate (relative error of leaving it out), number, value, forced, counted, choice, reason.
+    savings : list of dict
+        What leaving an effect out saves: effect, cpu_s, cpu_s_without, unknowns, unknowns_without.
+    tolerance, mesh_tolerance, left_out : float
+
+    Examples
+    --------
+    >>> plan = viscard.plan("data/scenes/pillar_press.toml")
+    >>> plan.is_on("piezo_coupling") in (True, False)
+    True
+    """
+
+    def __init__(self, found: Dict[str, Any]) -> None:
+        self.effects: List[Dict[str, Any]] = found["effects"]
+        self.savings: List[Dict[str, Any]] = found["savings"]
+        self.tolerance: float = found["tolerance"]
+        self.mesh_tolerance: float = found["mesh_tolerance"]
+        self.left_out: float = found["left_out"]
+
+    def is_on(self, effect: str) -> bool:
+        for one in self.effects:
+            if one["name"] == effect:
+                return one["on"]
+        raise KeyError(f"no effect '{effect}'; there are {', '.join(e['name'] for e in self.effects)}")
+
+    def __repr__(self) -> str:
+        return "<viscard.Plan on: " + ", ".join(e["name"] for e in self.effects if e["on"]) + ">"
+
+
+class Cost:
+    """Error of a scene against processor time, over discretisations and effects.
+
+    Attributes
+    ----------
+    discretisation, effects : list of str
+    unknowns, cpu_s, wall_s, memory_B, error : arrays, shape (rows,)
+    pareto : array of bool
+        No other row takes less processor time and is as accurate.
+    recommendations : list of (tolerance, row or -1, text)
+    reference, reference_error, rows_left_out
+
+    Examples
+    --------
+    >>> cost = viscard.cost("data/scenes/pillar_press.toml", budget="1 s")
+    >>> cost.error.shape == cost.cpu_s.shape
+    True
+    """
+
+    def __init__(self, found: Dict[str, Any]) -> None:
+        for name, value in found.items():
+            setattr(self, name, value)
+        self.pareto = self.pareto.astype(bool)
+        self.unknowns = self.unknowns.astype(int)
+
+    def __repr__(self) -> str:
+        return f"<viscard.Cost: {len(self.error)} rows, {int(self.pareto.sum())} on the Pareto front>"
+
+
+def _toml(value: Any, key: str, folder: str) -> str:
+    """A value of a scene as TOML. A Material becomes a file in `folder`."""
+    if isinstance(value, Material):
+        number = len(os.listdir(folder))
+        file = os.path.join(folder, f"{number}.json")
+        value.save(file)
+        return _toml({"file": file}, key, folder)
+    if isinstance(value, Mapping):
+        inside = ", ".join(f"{_key(k)} = {_toml(v, str(k), folder)}" for k, v in value.items() if v is not None)
+        return "{ " + inside + " }"
+    if isinstance(value, (bool, np.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, (int, np.integer)):
+        return str(int(value))
+    if isinstance(value, (float, np.floating)):
+        if not np.isfinite(value):
+            raise Error(f"{key} is {value}; it must be finite", "input")
+        return repr(float(value))
+    if isinstance(value, (str, os.PathLike)):
+        text = os.fspath(value).replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
+        return f'"{text}"'
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return "[" + ", ".join(_toml(v, key, folder) for v in value) + "]"
+    raise TypeError(f"{key} is a {type(value).__name__}; a scene holds texts, numbers, lists, dicts and Materials")
+
+
+def _key(key: Any) -> str:
+    if not isinstance(key, str):
+        raise TypeError(f"a key of the scene is {key!r}; keys are texts")
+    return '"' + key.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def _scene_toml(scene: "Mapping[str, Any]", folder: str) -> str:
+    plain = [f"{_key(k)} = {_toml(v, str(k), folder)}" for k, v in scene.items()
+             if not isinstance(v, Mapping) and v is not None]
+    tables = [f"[{_key(k)}]\n" + "\n".join(f"{_key(a)} = {_toml(b, a, folder)}" for a, b in v.items() if b is not None)
+              for k, v in scene.items() if isinstance(v, Mapping)]
+    return "\n".join(plain + tables) + "\n"
+
+
+def _with_scene(scene, folder, work):
+    """Calls work(text, path) with text None for a file."""
+    if not isinstance(scene, Mapping):
+        if folder is not None:
+            raise Error("folder belongs to a scene that is a dict; a file has one", "usage")
+        return work(None, path_of(scene, "scene"))
+    with tempfile.TemporaryDirectory(prefix="viscard-") as own:
+        name = os.path.join(path_of(folder, "folder") if folder is not None else "", "scene")
+        try:
+            return work(_scene_toml(scene, own), name)
+        except Error as error:  # lines are those of our text, which nobody has seen
+            text, message, where = (re.sub(re.escape(name) + r":\d+", "scene", part)
+                                    for part in (str(error), error.message, error.where))
+            raise Error(text, error.code, message, where, error.hint) from None
+
+
+def simulate(scene, *, tol: Optional[float] = None, fields: bool = False, folder=None,
+             progress: Progress = None) -> Answer:
+    """Answer a scene; the mesh is refined until the estimated error meets the tolerance.
+
+    The GIL is released. Ctrl-C raises KeyboardInterrupt at once; the mesh that is being solved ends in the background.
+
+    Parameters
+    ----------
+    scene : path or dict
+        A scene file, or its contents: texts with units, numbers in SI, lists, dicts, and `Material` objects among
+        the materials.
+    tol : float
+        Relative error allowed, instead of the scene's.
+    fields : bool
+        Add the solution on the section (it is solved once more).
+    folder : path
+        Of a dict: where files that it names are looked for; default: the working folder.
+    progress : function of (fraction, point)
+
+    Examples
+    --------
+    >>> pdms = viscard.Material(1.8e6, 0.33, rho_kg_m3=965)
+    >>> answer = viscard.simulate({
+    ...     "geometry": {"diameter": "40 um", "length": "120 um",
+    ...                  "film": {"thickness": "25 um", "radius": "60 um", "material": "pvdf"},
+    ...                  "electrode": {"face": "top", "kind": "equipotential", "radius": "20 um"}},
+    ...     "materials": {"pillar": pdms, "pvdf": {"file": "data/materials/pvdf_film_manual.json"}},
+    ...     "analysis": {"kind": "static", "load": {"displacement": -1e-6, "on": "top"}}})
+    >>> f"{answer['electrode_voltage'] * 1e3:.0f} mV"
+    '29 mV'
+    """
+    tolerance = None if tol is None else float(tol)
+    return Answer(_with_scene(scene, folder, lambda text, path: _core.simulate(
+        text, path, tolerance, bool(fields), progress)))
+
+
+def plan(scene, *, tol: Optional[float] = None, folder=None) -> Plan:
+    """Which effects a scene needs at its tolerance, the error of leaving each out, and what that saves.
+
+    Parameters
+    ----------
+    scene, tol, folder
+        As in `simulate`.
+
+    Examples
+    --------
+    >>> viscard.plan("data/scenes/pillar_press.toml").tolerance
+    0.001
+    """
+    tolerance = None if tol is None else float(tol)
+    return Plan(_with_scene(scene, folder, lambda text, path: _core.plan(text, path, tolerance)))
+
+
+def cost(scene, *, budget: Union[str, float] = 60.0, folder=None, progress: Progress = None) -> Cost:
+    """What accuracy costs: error against processor time, memory and unknowns.
+
+    Parameters
+    ----------
+    scene, folder, progress
+        As in `simulate`.
+    budget : str or float
+        Wall time to spend, such as "20 s" or 20.
+
+    Examples
+    --------
+    >>> bool(viscard.cost("data/scenes/pillar_press.toml", budget=1).pareto.any())
+    True
+    """
+    return Cost(_with_scene(scene, folder, lambda text, path: _core.cost(text, path, budget, progress)))

@@ -1,0 +1,137 @@
+"""Tables and captures as arrays."""
+
+from __future__ import annotations
+
+from typing import Iterator, Mapping, Sequence, Union
+
+import numpy as np
+
+from . import _core
+from ._arrays import path_of
+
+Texts = Union[str, Sequence[str], None]
+
+
+class Table(Mapping):
+    """A table of a file. ``table["force_N"]`` is a quantity in SI, whatever the file's headers and units are.
+
+    It is a mapping of quantity to array of shape (rows,), float64; a cell that is no number is NaN.
+    "segment" and "specimen" are lists of texts.
+
+    Attributes
+    ----------
+    file : str
+    maker : str
+        Whose file it is ("JPK force curve"), if it was recognised; else empty.
+    columns : list of dict
+        All columns as the file writes them: header, name, unit, values (array), text (list or None).
+    preamble : list of str
+        Lines before the header.
+
+    Examples
+    --------
+    >>> table = viscard.read_table("data/demo/example_relaxation.csv")
+    >>> sorted(table)
+    ['modulus_Pa', 'time_s']
+    >>> table["modulus_Pa"].shape == table["time_s"].shape
+    True
+    """
+
+    def __init__(self, found: dict) -> None:
+        self.file: str = found["file"]
+        self.maker: str = found["maker"]
+        self.columns: "list[dict]" = found["columns"]
+        self.preamble: "list[str]" = found["preamble"]
+        self._quantities: "dict[str, np.ndarray]" = found["quantities"]
+
+    def __getitem__(self, quantity: str) -> np.ndarray:
+        if quantity not in self._quantities:
+            raise KeyError(f"{self.file} has no {quantity}; it has {', '.join(self) or 'none that is known'}; "
+                           "name its column with read_table(path, column='NAME=HEADER')")
+        return self._quantities[quantity]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._quantities)
+
+    def __len__(self) -> int:
+        return len(self._quantities)
+
+    def __repr__(self) -> str:
+        n_rows = len(self.columns[0]["values"]) if self.columns else 0
+        return f"<viscard.Table {self.file}: {n_rows} rows, {', '.join(self)}>"
+
+
+def read_table(path, *, column: Texts = None, sheet: str = "") -> Table:
+    """Read a table of numbers from any machine: CSV, text, Excel, JPK and others.
+
+    Parameters
+    ----------
+    path : str or path
+    column : str or list of str
+        "NAME=HEADER" or "NAME=2": the column of a quantity, if its header does not show it.
+    sheet : str
+        Of an Excel workbook; default: the one with most numbers.
+
+    Examples
+    --------
+    >>> table = viscard.read_table("data/demo/example_relaxation.csv")
+    >>> table["time_s"][:2]
+    array([0.01     , 0.0103912])
+    """
+    words = [column] if isinstance(column, str) else list(column or [])
+    return Table(_core.read_table(path_of(path, "path"), words, sheet))
+
+
+class Capture:
+    """A captured run (\\*.viscap) as arrays. Those of one record are views of it; nothing is copied.
+
+    Attributes
+    ----------
+    file, status, started_at, program, command, specimen_id : str
+    mixing_ratio : float
+        Parts of base to one of curing agent; 0: not given.
+    load : dict of arrays, shape (readings,)
+        index, time_s (host clock, since the run began), device_time_s, counts, volts_V, force_N,
+        is_saturated, is_glitch. What the cell does not give is NaN.
+    stage : dict
+        time_s, position_m (grows toward the specimen), state (list of str).
+    moves : dict
+        time_s, from_m, to_m, speed_m_s, acceleration_m_s2, purpose (list of str).
+    temperature : dict of arrays
+        time_s, temperature_C.
+    events : list of (time_s, name, value, text)
+
+    Examples
+    --------
+    >>> capture = viscard.read_capture(run)           # run: path of a capture
+    >>> capture.load["time_s"].shape == capture.load["counts"].shape
+    True
+    >>> sorted(capture.table())
+    ['depth_m', 'force_N', 'segment', 'time_s', 'volts_V']
+    """
+
+    def __init__(self, found: dict) -> None:
+        for name, value in found.items():
+            setattr(self, name, value)
+
+    def table(self) -> Table:
+        """Force and depth on the clock that the fit uses, as ``viscard export`` writes them."""
+        return Table(_core.table_of_capture(self.file))
+
+    def __repr__(self) -> str:
+        return f"<viscard.Capture {self.file}: {self.status}, {len(self.load['time_s'])} readings>"
+
+
+def read_capture(path) -> Capture:
+    """Read a captured run, also an unfinished one. The file is never changed.
+
+    Parameters
+    ----------
+    path : str or path
+
+    Examples
+    --------
+    >>> viscard.read_capture(run).status              # run: path of a capture
+    'finished'
+    """
+    return Capture(_core.read_capture(path_of(path, "path")))

@@ -1,0 +1,123 @@
+#include "models/array/layer/layer_scene.h"
+#include "models/maths/text_of_number.h"
+#include "models/pillar/mesh/scene_mistake.h"
+
+#include <cmath>
+#include <string>
+
+namespace viscard {
+namespace {
+
+// Thinner layers let through waves that are short beside the film, which would take too many elements.
+constexpr double kThinnest = 0.25;  // of the film's thickness
+constexpr double kThickest = 1e4;   // of the film's thickness
+constexpr double kWidestNu = 0.4999;
+constexpr std::size_t kMostElectrodes = 100;
+
+void check_material(const LayerScene& scene) {
+  at_key("materials.layer", [&] { validate(scene.pillar); });
+  if (scene.pillar.nu > kWidestNu) {
+    throw SceneMistake("materials.layer.nu", "is " + text_of(scene.pillar.nu) +
+                                                 "; a bonded layer needs a Poisson ratio up to "
+                                                 "0.4999, because it yields only as much as its "
+                                                 "volume can change");
+  }
+  if (!scene.film.has_permittivity() || !scene.film.is_piezoelectric()) {
+    throw SceneMistake("geometry.film.material",
+                       "a layer is read by its film, which must be piezoelectric; give a material "
+                       "from a file, such as pvdf_seed.json");
+  }
+}
+
+void check_sizes(const LayerScene& scene) {
+  if (!(scene.film_thickness_m > 0.0)) {
+    throw SceneMistake("geometry.film.thickness", "the film's thickness must be positive");
+  }
+  const double ratio = scene.thickness_m / scene.film_thickness_m;
+  if (!(ratio >= kThinnest && ratio <= kThickest)) {
+    throw SceneMistake("geometry.thickness", "the layer is " + text_of(ratio, 3) +
+                                                 " times as thick as the film; it must be 0.25 to "
+                                                 "10000 times");
+  }
+}
+
+void check_electrodes(const LayerScene& scene) {
+  if (scene.electrodes_m.empty() || scene.electrodes_m.size() > kMostElectrodes) {
+    throw SceneMistake("geometry.electrode.at", "needs 1 to 100 places");
+  }
+  if (!(scene.electrode_radius_m > 0.0)) {
+    throw SceneMistake("geometry.electrode.radius", "must be positive");
+  }
+  if (scene.is_plane() && scene.electrode != SpaceElectrode::kSampled) {
+    throw SceneMistake("geometry.electrode",
+                       "of a section is a strip that is sampled; quadrants and "
+                       "equipotential discs need model = \"space\"");
+  }
+  for (std::size_t i = 0; i < scene.electrodes_m.size(); ++i) {
+    const auto& [x_m, y_m] = scene.electrodes_m[i];
+    if (scene.is_plane() && y_m != 0.0) {
+      throw SceneMistake("geometry.electrode.at", "of a section have y = 0");
+    }
+    if (scene.electrode != SpaceElectrode::kEquipotential) continue;
+    for (std::size_t j = 0; j < i; ++j) {
+      const double apart_m =
+          std::hypot(x_m - scene.electrodes_m[j].first, y_m - scene.electrodes_m[j].second);
+      if (apart_m >= 2.0 * scene.electrode_radius_m) continue;
+      throw SceneMistake("geometry.electrode.at", "electrodes " + std::to_string(j + 1) + " and " +
+                                                      std::to_string(i + 1) + " overlap");
+    }
+  }
+}
+
+// Shapes that touch an endless layer along an endless line or half-plane.
+bool is_endless(const LayerScene& scene) {
+  const RigidShape& shape = scene.press.shape;
+  switch (shape.kind) {
+    case ShapeKind::kPlane:
+    case ShapeKind::kEdge:
+      return true;
+    case ShapeKind::kCylinder:
+      return !scene.is_plane();
+    case ShapeKind::kWedge:
+      return !scene.is_plane() || std::hypot(shape.tilt_x, shape.tilt_y) >= shape.slope;
+    default:
+      return false;
+  }
+}
+
+void check_layer_press(const LayerScene& scene) {
+  const ShapePress& press = scene.press;
+  at_key("shape", [&] { validate(press.shape); });
+  if ((press.depth_m > 0.0) == (press.force_N > 0.0)) {
+    throw SceneMistake("shape",
+                       "needs either a depth, such as depth = \"3 um\", or a force, such "
+                       "as force = \"5 mN\"");
+  }
+  if (press.depth_m >= scene.thickness_m) {
+    throw SceneMistake("shape.depth", "is not less than the layer's thickness of " +
+                                          micrometres(scene.thickness_m));
+  }
+  if (scene.is_plane() &&
+      (press.shape.tilt_y != 0.0 || press.shape.y_m != 0.0 || press.shape.direction_rad != 0.0)) {
+    throw SceneMistake("shape",
+                       "lies in the section of x and z: at and tilt along y must be 0, and "
+                       "there is no direction");
+  }
+  if (scene.width_m == 0.0 && (is_endless(scene) || !scene.feels_contact)) {
+    throw SceneMistake("geometry",
+                       "needs a width, such as width = \"500 um\": the shape has no end, and an "
+                       "endless layer under it would bear any force");
+  }
+}
+
+}  // namespace
+
+void validate(const LayerScene& scene) {
+  check_tolerance(scene.tolerance, LayerScene::kTolerances);
+  check_material(scene);
+  check_sizes(scene);
+  check_electrodes(scene);
+  check_layer_press(scene);
+}
+
+}  // namespace viscard

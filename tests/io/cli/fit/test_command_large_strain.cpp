@@ -1,0 +1,151 @@
+// Tests of rubber at large strain: viscard fit uniaxial=a.csv planar=b.csv equibiaxial=c.csv.
+#include "tests/io/cli/fit/table_folder.h"
+#include "tests/support/run_command.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <sstream>
+
+using namespace viscard;
+using namespace viscard::test;
+using Catch::Contains;
+
+namespace {
+
+std::string treloar(const std::string& name) {
+  return std::string(VISCARD_SOURCE_DIR) + "/data/reference/treloar_" + name + ".csv";
+}
+
+std::string text_of_file(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// A Neo-Hooke rubber of 0.4 MPa: nominal strain in %, stress in kPa, both counted positive.
+std::string compression_table() {
+  std::ostringstream table;
+  table << "strain [%],stress [kPa]\n";
+  for (int i = 0; i <= 20; ++i) {
+    const double s = 1.0 - 0.02 * i;
+    table << 2 * i << "," << 400.0 * (1.0 / (s * s) - s) << "\n";
+  }
+  return table.str();
+}
+
+}  // namespace
+
+TEST_CASE("three tests at large strain give laws, a file and a picture", "[cli]") {
+  const TableFolder folder;
+  const std::string out = folder.file("rubber.json"), svg = folder.file("rubber.svg");
+  const std::vector<std::string> words{"fit", "uniaxial=" + treloar("uniaxial"),
+                                       "planar=" + treloar("planar"),
+                                       "equibiaxial=" + treloar("equibiaxial")};
+  auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), words.begin(), words.end());
+    return run_command(more);
+  };
+  const auto text = with({"--out", out, "--svg", svg});
+  CHECK(text.status == 0);
+  CHECK_THAT(text.out, Contains("3 tests at large strain, 56 readings"));
+  CHECK_THAT(text.out, Contains("* ogden-3"));
+  CHECK_THAT(text_of_file(svg), Contains("<svg") && Contains("equibiaxial, measured"));
+
+  const auto printed = with({"--json"});
+  const auto json = nlohmann::json::parse(printed.out);
+  CHECK(json["law"] == "ogden-3");
+  CHECK(json["trustworthy"] == true);
+  REQUIRE(json["laws"].size() == 8);
+  CHECK(json["laws"][5]["rss_Pa2"].get<double>() == Approx(0.2048079328e12).epsilon(1e-6));
+  CHECK(json["laws"][5]["parameters"][0]["name"] == "mu_1_Pa");
+  CHECK(json["laws"][7]["stable_stretch"]["uniaxial"][0].is_null());
+  CHECK(json["laws"][7]["stable_stretch"]["uniaxial"][1].get<double>() > 7.6);
+  CHECK(json["tests"][1]["deformation"] == "planar");
+  CHECK(json["laws"] == nlohmann::json::parse(text_of_file(out))["laws"]);
+
+  CHECK_THAT(with({"--out", out}).err, Contains("exists"));
+
+  const auto card = run_command({"card", out, "--for", "abaqus", "--units", "mm-t-s"});
+  CHECK(card.status == 0);
+  CHECK_THAT(card.out, Contains("*HYPERELASTIC, OGDEN, N=3") &&
+                           Contains("** equibiaxial: stretches 1 to 4.45 measured") &&
+                           Contains("sha256"));
+  const auto other = run_command({"card", out, "--for", "comsol"});
+  CHECK(other.status == 2);
+  CHECK_THAT(other.err, Contains("has no card of rubber"));
+}
+
+TEST_CASE("compression that is counted positive, in percent, gives the modulus at rest", "[cli]") {
+  const TableFolder folder;
+  const std::string file = folder.write("press.csv", compression_table());
+  const auto run = run_command({"fit", "compression=" + file, "--model", "neo-hooke", "--json"});
+  INFO(run.err);
+  CHECK(run.status == 0);
+  const auto json = nlohmann::json::parse(run.out);
+  CHECK(json["laws"][0]["E0_Pa"].get<double>() == Approx(1.2e6).epsilon(1e-6));
+  CHECK(json["tests"][0]["stretch"][0].get<double>() == Approx(0.6));
+  CHECK(json["flags"][0]["name"] == "one-deformation");
+}
+
+TEST_CASE("a law that misses the data at large strain ends with status 1", "[cli]") {
+  const auto run = run_command({"fit", "uniaxial=" + treloar("uniaxial"),
+                                "equibiaxial=" + treloar("equibiaxial"), "--model", "neo-hooke"});
+  CHECK(run.status == 1);
+  CHECK_THAT(run.err, Contains("not to be trusted") && Contains("misses the stresses by"));
+}
+
+TEST_CASE("words that do not fit tests at large strain are refused", "[cli]") {
+  const std::string uniaxial = "uniaxial=" + treloar("uniaxial");
+  const auto refused = [&](std::vector<std::string> more, const std::string& reason) {
+    more.insert(more.begin(), {"fit", uniaxial});
+    const auto run = run_command(more);
+    CHECK(run.status == 2);
+    CHECK_THAT(run.err, Contains(reason));
+  };
+  refused({"--terms", "3"}, "--terms does not belong to tests at large strain");
+  refused({"--model", "ogden3"}, "did you mean 'ogden-3'");
+  refused({"--weight", "square"}, "use equal or relative");
+  refused({"--youngs-modulus", "3 N"}, "--youngs-modulus 3 N");
+  refused({"creep=b.csv"}, "is no test at large strain");
+  refused({"planar="}, "names no file");
+  const auto twice = run_command({"fit", uniaxial, "uniaxial=" + treloar("uniaxial")});
+  CHECK(twice.status == 1);
+  const auto svg = run_command({"fit", treloar("uniaxial"), "--svg", "a.svg"});
+  CHECK(svg.status == 2);
+  CHECK_THAT(svg.err, Contains("--svg is for tests at large strain"));
+}
+
+TEST_CASE("a table without stretch or stress is refused with its columns", "[cli]") {
+  const TableFolder folder;
+  const std::string file = folder.write("a.csv", "time_s,force_N\n0,0\n1,2\n2,3\n3,5\n");
+  const auto run = run_command({"fit", "planar=" + file});
+  CHECK(run.status == 1);
+  CHECK_THAT(run.err, Contains("no column of the stretch or the nominal strain") &&
+                          Contains("'force_N'") && Contains("--column stretch="));
+  const auto mixed = folder.write("b.csv", "strain,stress_Pa\n-0.2,1\n0.1,2\n0.3,3\n3,5\n");
+  CHECK_THAT(run_command({"fit", "compression=" + mixed}).err, Contains("stretches below 1"));
+}
+
+TEST_CASE("of a record with cycles at large strain one loading is fitted", "[cli]") {
+  const TableFolder folder;
+  std::ostringstream table;
+  table << "stretch,nominal_stress_Pa\n";
+  for (int cycle = 0; cycle < 2; ++cycle) {
+    for (int i = 0; i <= 40; ++i) {
+      const double s = 1.0 + 0.05 * (i <= 20 ? i : 40 - i);
+      table << s << "," << (cycle == 0 ? 2e5 : 1.6e5) * (s - 1.0 / (s * s)) << "\n";
+    }
+  }
+  const std::string word = "uniaxial=" + folder.write("cycles.csv", table.str());
+  const auto run = run_command({"fit", word, "--model", "neo-hooke"});
+  CHECK(run.status == 0);
+  CHECK_THAT(run.out, Contains("the loading of cycle 2 of 2 is fitted; 61 rows left out") &&
+                          Contains("softens by 20 %"));
+  const auto first = nlohmann::json::parse(
+      run_command({"fit", word, "--model", "neo-hooke", "--cycle", "1", "--json"}).out);
+  CHECK(first["laws"][0]["E0_Pa"].get<double>() == Approx(6e5).epsilon(1e-6));
+  CHECK(first["tests"][0]["softening"].get<double>() == Approx(0.2));
+  CHECK_THAT(run_command({"fit", word, "--cycle", "3"}).err, Contains("has 2 cycles of loading"));
+  CHECK(run_command({"fit", word, "--cycle", "0"}).status == 2);
+}

@@ -1,0 +1,34 @@
+"""Every example in a docstring runs, and every public name has one."""
+import doctest
+import importlib
+import pkgutil
+
+import pytest
+
+import viscard
+
+FINDER = doctest.DocTestFinder(exclude_empty=True)
+
+
+def all_examples():
+    modules = [viscard] + [importlib.import_module(f"viscard.{m.name}")
+                           for m in pkgutil.iter_modules(viscard.__path__) if m.name != "_core"]
+    return [test for module in modules for test in FINDER.find(module) if test.examples]
+
+
+@pytest.mark.parametrize("example", all_examples(), ids=lambda test: test.name)
+def test_example(example, short_test, run, ratio_files):
+    example.globs.update(viscard=viscard, short_test=short_test, run=run, files=ratio_files)
+    lines = []
+    doctest.DocTestRunner(verbose=False).run(example, out=lines.append)
+    assert not lines, "".join(lines)
+
+
+def test_every_public_name_has_an_example():
+    with_example = {name for test in all_examples() for name in test.name.split(".")}
+    assert set(viscard.__all__) <= with_example
+
+
+def test_public_names_are_all():
+    assert all(hasattr(viscard, name) for name in viscard.__all__)
+    assert viscard.__all__ == sorted(viscard.__all__, key=str)

@@ -1,0 +1,113 @@
+"""Wrong input: the words of the command line as exceptions."""
+import copy
+import pickle
+import subprocess
+
+import numpy as np
+import pytest
+
+import viscard
+from test_scene import PRESS
+
+EXAMPLE = "data/demo/example_relaxation.csv"
+
+
+def text_of(call, *words, **keywords):
+    with pytest.raises(viscard.Error) as caught:
+        call(*words, **keywords)
+    return caught.value
+
+
+def test_the_words_are_those_of_the_command_line(program):
+    for path in ("nothing.csv", "README.md"):
+        printed = subprocess.run([program, "fit", path], capture_output=True, text=True).stderr
+        assert str(text_of(viscard.fit, path)) == printed.removeprefix("viscard: ").rstrip("\n")
+
+
+def test_options_are_named_as_keywords():
+    error = text_of(viscard.fit, EXAMPLE, max_terms=200)
+    assert (error.code, str(error)) == ("usage", "max_terms 200 is outside 0 to 100")
+    assert "punch_diameter or specimen" in str(text_of(viscard.fit, EXAMPLE, poisson_ratio=0.4))
+    assert "exclude each other" in str(text_of(viscard.fit, EXAMPLE, liquid=True, solid=True))
+    assert "from_ must be before to" in str(text_of(viscard.fit, EXAMPLE, from_=2, to=1))
+    assert "relaxtion is not known; did you mean" in str(text_of(viscard.predict,
+                                                                 "data/materials/pdms_1to10_seed.json",
+                                                                 test="relaxtion"))
+    assert "share needs joint=True" in str(text_of(viscard.fit, EXAMPLE, share="g"))
+
+
+def test_errors_have_parts_and_can_be_pickled():
+    error = text_of(viscard.fit, "nothing.csv")
+    assert error.where == "nothing.csv" and error.code and error.message
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), again.code, again.hint) == (str(error), error.code, error.hint)
+
+
+def test_an_unknown_keyword_is_a_TypeError():
+    with pytest.raises(TypeError, match="max_term"):
+        viscard.fit(EXAMPLE, max_term=3)
+    with pytest.raises(TypeError, match="terms must be a whole number, not 'three'"):
+        viscard.fit(EXAMPLE, terms="three")
+    with pytest.raises(TypeError, match="terms must be a whole number, not 2.5"):
+        viscard.fit(EXAMPLE, terms=2.5)
+    with pytest.raises(TypeError, match="depth must be a text or a number, not"):
+        viscard.fit(EXAMPLE, depth=[1])
+    with pytest.raises(TypeError, match="path"):
+        viscard.read_table(5)
+
+
+def test_arrays_of_the_wrong_kind(relaxation):
+    time_s, modulus_Pa = relaxation
+    with pytest.raises(TypeError, match="modulus_Pa must hold real numbers, not <U"):
+        viscard.fit({"time_s": time_s, "modulus_Pa": modulus_Pa.astype(str)})
+    with pytest.raises(TypeError, match="complex128"):
+        viscard.fit({"time_s": time_s, "modulus_Pa": modulus_Pa * 1j})
+    assert "different lengths: time_s 400, modulus_Pa 399" in str(
+        text_of(viscard.fit, {"time_s": time_s, "modulus_Pa": modulus_Pa[1:]}))
+    assert "2 dimensions" in str(text_of(viscard.fit, {"time_s": time_s.reshape(2, -1), "modulus_Pa": modulus_Pa}))
+    assert "no rows" in str(text_of(viscard.fit, {}))
+    assert "modulus_Pa" in str(text_of(viscard.fit, {"t": time_s, "y": modulus_Pa}))
+    with pytest.raises(TypeError, match="a dict of arrays by header, a Capture or a list of paths, not ndarray"):
+        viscard.fit(np.column_stack([time_s, modulus_Pa]))
+    whole = viscard.fit({"time_s": time_s.astype(np.float32), "modulus_Pa": modulus_Pa.astype(int)})
+    assert whole.E0 == pytest.approx(1.5e6, rel=0.01)
+
+
+def test_NaN_in_arrays_names_its_place(relaxation):
+    time_s, modulus_Pa = relaxation
+    modulus_Pa[6] = np.nan
+    text = str(text_of(viscard.fit, {"time_s": time_s, "modulus_Pa": modulus_Pa}))
+    assert text.startswith("arrays:7: ") and "modulus_Pa" in text and "nan" in text
+    material = viscard.Material(1e6, 0.4)
+    assert "time_s holds nan" in str(text_of(material.relaxation, [1.0, np.nan]))
+    assert "frequency_Hz holds -1" in str(text_of(material.loss, -1.0))
+
+
+def test_mistakes_in_scenes_name_the_key():
+    scene = copy.deepcopy(PRESS)
+    scene["geometry"]["diametre"] = scene["geometry"].pop("diameter")
+    assert str(text_of(viscard.simulate, scene)).startswith("scene: ")
+    scene["geometry"]["diameter"] = "40 apples"
+    del scene["geometry"]["diametre"]
+    error = text_of(viscard.simulate, scene)
+    assert str(error).startswith("scene: geometry.diameter: 'apples'") and error.where == "scene"
+    scene = copy.deepcopy(PRESS)
+    scene["geometry"]["length"] = float("nan")
+    assert "length is nan" in str(text_of(viscard.simulate, scene))
+    scene["geometry"]["length"] = object()
+    with pytest.raises(TypeError, match="length is a object"):
+        viscard.simulate(scene)
+    assert "tol must lie between" in str(text_of(viscard.simulate, PRESS, tol=2.0))
+    assert "nothing.toml" in str(text_of(viscard.simulate, "nothing.toml"))
+    with pytest.raises(KeyError, match="no 'voltage'; it has"):
+        viscard.simulate(PRESS)["voltage"]
+
+
+def test_captures_are_refused_before_they_begin(tmp_path, short_test):
+    error = text_of(viscard.capture, tmp_path / "a.viscap")
+    assert error.code == "usage" and "emulate=True" in str(error)
+    assert "speed must be above 0" in str(text_of(viscard.capture, tmp_path / "a.viscap", emulate=True, speed=0))
+    assert "seed is -1" in str(text_of(viscard.capture, tmp_path / "a.viscap", emulate=True, seed=-1))
+    (tmp_path / "b.viscap").write_text("mine")
+    error = text_of(viscard.capture, tmp_path / "b.viscap", test=short_test, emulate=True, speed=200)
+    assert error.code == "exists" and (tmp_path / "b.viscap").read_text() == "mine"

@@ -1,0 +1,200 @@
+#!/usr/bin/python3
+"""Runs every command of viscard with --json and compares what it prints with io/schemas.
+
+check_output.py VISCARD SOURCE_FOLDER
+"""
+import copy
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+
+import jsonschema
+
+VISCARD, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+SCHEMAS = {}
+for path in sorted((SOURCE / "io/schemas").glob("*.schema.json")):
+    schema = json.loads(path.read_text())
+    jsonschema.Draft202012Validator.check_schema(schema)
+    SCHEMAS[schema["properties"]["schema"]["const"]] = schema
+BY_ID = {schema["$id"]: schema for schema in SCHEMAS.values()}
+
+mistakes = []
+seen = set()        # schemas of objects that were printed
+commands_run = set()
+
+
+def validator(schema):
+    resolver = jsonschema.RefResolver(schema["$id"], schema, store=BY_ID)
+    return jsonschema.Draft202012Validator(schema, resolver=resolver)
+
+
+def check_object(what, text, wanted):
+    try:
+        printed = json.loads(text)
+    except json.JSONDecodeError as error:
+        mistakes.append(f"{what}: stdout is no object: {error}: {text[:200]!r}")
+        return None
+    name = printed.get("schema", "(none)")
+    if wanted and name != wanted:
+        mistakes.append(f"{what}: schema is {name}, not {wanted}: {text[:300]}")
+    if name not in SCHEMAS:
+        mistakes.append(f"{what}: no schema describes {name}")
+        return printed
+    seen.add(name)
+    for error in validator(SCHEMAS[name]).iter_errors(printed):
+        where = "/".join(str(part) for part in error.absolute_path)
+        mistakes.append(f"{what}: {name}: {where}: {error.message[:300]}")
+    return printed
+
+
+def run(words, wanted=None, status=0):
+    """Runs `viscard WORDS... --json`; returns the object."""
+    words = [str(word) for word in words]
+    done = subprocess.run([VISCARD, *words, "--json"], capture_output=True, text=True, timeout=250)
+    what = "viscard " + " ".join(words)
+    commands_run.add(words[0])
+    if done.returncode != status:
+        mistakes.append(f"{what}: exit status {done.returncode}, not {status}: {done.stderr[-400:]}")
+    printed = check_object(what, done.stdout, wanted and f"viscard-{wanted}/1")
+    if wanted == "error" and not done.stderr.startswith("viscard: "):
+        mistakes.append(f"{what}: no message for people on stderr")
+    return printed
+
+
+def data(name):
+    return SOURCE / "data" / name
+
+
+def check_rig():
+    run(["rig", "list"], "rig-list")
+    run(["rig", "check", "--emulate", "--seconds", "1"], "rig-check")
+    run(["rig", "overshoot"], "rig-overshoot")
+    pathlib.Path("test.toml").write_text('[ramp]\ndepth = "0.13 mm"\nduration = "1 s"\nhold = "3 s"\n')
+    fast = ["--emulate", "--speed", "500", "--test", "test.toml"]
+    run(["capture", *fast, "--out", "run.viscap"], "capture")
+    run(["capture", *fast, "--repeat", "2", "--lift-wait", "1 s", "--out", "series"], "capture-series")
+    pathlib.Path("short.toml").write_text(
+        '[approach]\nspeed = "1 mm/s"\nlimit = "0.3 mm"\nbaseline = "1 s"\n'
+        '[ramp]\ndepth = "0.13 mm"\nduration = "1 s"\nhold = "3 s"\n')
+    run(["capture", "--emulate", "--speed", "500", "--test", "short.toml", "--out", "air.viscap"], "capture", 1)
+    run(["calibrate", "--emulate", "--speed", "500", "--out", "cell.toml"], "calibrate")
+    run(["calibrate", "--compliance", "--emulate", "--speed", "500", "--out", "frame.toml"], "calibrate-frame")
+    run(["export", "run.viscap", "--out", "run.csv"], "export")
+    run(["export", "run.viscap", "--verify"], "export-verify")
+
+
+def check_serve():
+    commands_run.add("serve")
+    page = subprocess.Popen([VISCARD, "serve", "page", "--emulate", "--json"], stdout=subprocess.PIPE, text=True)
+    text = ""
+    for line in page.stdout:
+        text += line
+        if line.rstrip() == "}":
+            break
+    page.send_signal(signal.SIGINT)
+    page.wait(60)
+    check_object("viscard serve", text, "viscard-serve/1")
+
+
+def check_fit():
+    relaxation = data("demo/example_relaxation.csv")
+    printed = run(["fit", relaxation, "--out", "material.json"], "fit")
+    if printed and printed["inputs"] != [str(relaxation)]:
+        mistakes.append("viscard fit: inputs are not the files as named")
+    run(["fit", relaxation, "--profiles", "--diagnose", "--bootstrap", "20"], "fit")
+    run(["fit", "run.viscap"], "fit")
+    run(["fit", relaxation, "missing.csv"], "fits", 1)
+    material = data("materials/pdms_1to10_seed.json")
+    for test in ("relaxation", "creep", "oscillation"):
+        run(["predict", material, "--test", test, "--csv", f"{test}.csv"], "predict")
+    run(["predict", "material.json", "--against", relaxation], "predict")
+    run(["fit", "relaxation=relaxation.csv", "creep=creep.csv", "--terms", "3"], "fit")
+    run(["fit", "--kind", "dma", "oscillation.csv", "--terms", "3"], "fit")
+    rubber = [f"{kind}={data(f'reference/treloar_{kind}.csv')}" for kind in ("uniaxial", "equibiaxial")]
+    run(["fit", *rubber, "--out", "rubber.json"], "hyperelastic")
+
+
+def check_card():
+    material = data("materials/pdms_1to10_seed.json")
+    write = ["card", material, "--for", "calculix", "--units", "mm-t-s"]
+    run(write, "card-write")
+    run([*write, "--out", "card.inp"], "card-write")
+    run(["card", "rubber.json", "--for", "calculix"], "card-rubber")
+    run(["card", "--list"], "card-list")
+    run(["card", "--check", "card.inp"], "card-check")
+    run(["card", material, "--check", "card.inp"], "card-check")
+    run(["card", material, "--for", "calculix", "--deck", "creep", "--out", "deck"], "card-deck")
+    run(["card", material, "--prove", "card.inp"], "card-prove")
+
+
+def check_scenes():
+    run(["validate", data("materials/pdms_1to10_seed.json")], "validate")
+    run(["scene", "check", data("scenes/pillar_sensor.toml")], "scene")
+    for name in ("pillar_modal", "pillar_creep", "pillar_buckling", "array_voltages", "pillar_touch", "space_quadrants"):
+        scene = data(f"scenes/{name}.toml")
+        run(["plan", scene], "plan")
+        run(["simulate", scene, "--out", name], "simulate")
+        check_object(f"{name}/results.json", pathlib.Path(name, "results.json").read_text(), "viscard-simulate/1")
+    run(["simulate", data("seed/table_7_1_modes.toml")], "simulate")
+    run(["design", "--out", "limits"], "design")
+    check_object("design.json", pathlib.Path("limits/design.json").read_text(), "viscard-design/1")
+    run(["cost", data("scenes/pillar_modal.toml"), "--budget", "1s"], "cost")
+
+
+def check_rest():
+    run(["report", data("materials/pdms_1to10_seed.json"), "--out", "page.html"], "report")
+    run(["demo", "--speed", "500", "--out", "demo"], "demo")
+    ratios = ["10", "13", "20"]
+    files = [f"demo/pdms_1to{ratio}.json" for ratio in ratios]
+    run(["fit", "--joint", *files, *[word for ratio in ratios for word in ("--ratio", ratio)]], "joint")
+    run(["completion", "bash"], "completion")
+    run(["--version"], "version")
+    for command in [one["name"] for one in run(["help"], "commands")["commands"]]:
+        shown = run(["help", command], "help")
+        if shown != run([command, "--help"], "help"):
+            mistakes.append(f"viscard help {command} and viscard {command} --help differ")
+        run([command, "--no-such-option"], "error", 2)
+        if command != "demo":
+            printed = subprocess.run([VISCARD, command, "/nowhere/no-such-file", "--json"], capture_output=True, text=True)
+            check_object(f"viscard {command} /nowhere/no-such-file", printed.stdout, "viscard-error/1")
+        if command not in commands_run:
+            mistakes.append(f"viscard {command} was not run")
+    run(["no-such-command"], "error", 2)
+    run(["export", "series", "--out", "/nowhere/run.csv"], "error", 1)
+
+
+def check_that_mistakes_are_found():
+    """A schema that accepted anything would find nothing wrong."""
+    good = json.loads(subprocess.run([VISCARD, "--version", "--json"], capture_output=True, text=True).stdout)
+    for change in ({"program": 3}, {"extra": 1}, {"version": None}):
+        bad = {**copy.deepcopy(good), **change}
+        if validator(SCHEMAS["viscard-version/1"]).is_valid(bad):
+            mistakes.append(f"the schema of --version accepts {change}")
+    del good["schema"]
+    if validator(SCHEMAS["viscard-version/1"]).is_valid(good):
+        mistakes.append("the schema of --version accepts an object without schema")
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        for part in (check_rig, check_serve, check_fit, check_card, check_scenes, check_rest,
+                     check_that_mistakes_are_found):
+            try:
+                part()
+            except Exception as error:  # what follows is still run
+                mistakes.append(f"{part.__name__}: {type(error).__name__}: {error}")
+        os.chdir("/")
+    for name in sorted(set(SCHEMAS) - seen):
+        mistakes.append(f"no command printed {name}")
+    for mistake in mistakes:
+        print(mistake)
+    print(f"{len(seen)} of {len(SCHEMAS)} schemas, {len(mistakes)} mistakes")
+    sys.exit(1 if mistakes else 0)
+
+
+main()
