@@ -188,7 +188,7 @@ TopPressure TopContact::follow(const Overlap& overlap) const {
   return pressure;
 }
 
-TopPressure TopContact::press(const Overlap& overlap) const {
+Eigen::MatrixXd TopContact::overlaps(const Overlap& overlap) const {
   const auto rings = static_cast<Eigen::Index>(compliance_.radius_m.size());
   Eigen::MatrixXd overlap_m(rings, compliance_.angles);
   for (Eigen::Index ring = 0; ring < rings; ++ring) {
@@ -199,23 +199,49 @@ TopPressure TopContact::press(const Overlap& overlap) const {
           std::max(overlap(r_m * std::cos(angle), r_m * std::sin(angle)), kAbove_m);
     }
   }
+  return overlap_m;
+}
+
+bool TopContact::is_full(const Eigen::MatrixXd& overlap_m, Eigen::MatrixXd& everywhere) const {
+  if (!(overlap_m.minCoeff() > -overlap_m.maxCoeff())) return false;
+  everywhere = forces(overlap_m);
+  return everywhere.minCoeff() >= 0.0;
+}
+
+Eigen::MatrixXd TopContact::pushing_forces(const Eigen::MatrixXd& overlap_m,
+                                           const Eigen::MatrixXd& guess) const {
+  if (!(overlap_m.maxCoeff() > 0.0)) {
+    return Eigen::MatrixXd::Zero(overlap_m.rows(), overlap_m.cols());
+  }
+  Eigen::MatrixXd everywhere;
+  if (is_full(overlap_m, everywhere)) return everywhere;
+  if (guess.size() > 0) return unilateral_forces(overlap_m, guess);
+  if (everywhere.size() > 0) return unilateral_forces(overlap_m, everywhere);
+  return unilateral_forces(overlap_m, overlap_m.cwiseMax(0.0) / compliance_.sinking_m_N() /
+                                          static_cast<double>(overlap_m.size()));
+}
+
+TopPressure TopContact::pressure_of(const Eigen::MatrixXd& forces_N) const {
+  TopPressure pressure;
+  add_resultants(forces_N, pressure);
+  pressure.is_partial = pressure.share > 0.0 && forces_N.minCoeff() == 0.0;
+  if (pressure.is_partial) {
+    pressure.share_error = std::sqrt(pressure.share) / static_cast<double>(forces_N.rows());
+  }
+  return pressure;
+}
+
+TopPressure TopContact::press(const Overlap& overlap) const {
+  const Eigen::MatrixXd overlap_m = overlaps(overlap);
   if (!(overlap_m.maxCoeff() > 0.0)) return {};
-  const bool may_be_full = overlap_m.minCoeff() > -overlap_m.maxCoeff();
-  const Eigen::MatrixXd everywhere =
-      may_be_full ? forces(overlap_m)
-                  : Eigen::MatrixXd(overlap_m.cwiseMax(0.0) / compliance_.sinking_m_N() /
-                                    static_cast<double>(overlap_m.size()));
-  if (may_be_full && everywhere.minCoeff() >= 0.0) {
-    TopPressure on_grid;
-    add_resultants(everywhere, on_grid);
+  Eigen::MatrixXd everywhere;
+  if (is_full(overlap_m, everywhere)) {
     TopPressure pressure = follow(overlap);
-    pressure.largest_Pa = on_grid.largest_Pa;
+    pressure.largest_Pa = pressure_of(everywhere).largest_Pa;
     return pressure;
   }
-  TopPressure pressure;
-  add_resultants(unilateral_forces(overlap_m, everywhere), pressure);
+  TopPressure pressure = pressure_of(pushing_forces(overlap_m, everywhere));
   pressure.is_partial = true;
-  pressure.share_error = std::sqrt(pressure.share) / static_cast<double>(rings);
   return pressure;
 }
 

@@ -194,8 +194,8 @@ TouchCourse settled_course(const SpaceScene& scene) {
 // For studies of meshes: the loads as for a tolerance, once more for each mesh.
 SceneAnswer touch_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
   const TouchCourse course = touch_course(scene, kShareOfContact * scene.tolerance);
-  SceneAnswer answer = voltages_on(scene, course.end.loads_Pa, mesh, &course);
-  add_contact(scene, course.end, answer);
+  SceneAnswer answer = voltages_on(scene, course.shown.loads_Pa, mesh, &course);
+  add_contact(scene, course.shown, answer);
   return answer;
 }
 
@@ -218,7 +218,7 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   std::optional<SpaceContact> contact;
   std::optional<TouchCourse> course;
   if (scene.touch) course = settled_course(scene);
-  if (scene.press) contact = course ? course->end : settled_contact(scene);
+  if (scene.press) contact = course ? course->shown : settled_contact(scene);
   const TopLoads loads_Pa = contact ? contact->loads_Pa : loads_of(scene);
   double of_contact = contact ? contact_error(*contact) : 0.0;
   if (course) of_contact = std::max(of_contact, course->relative_error);
@@ -240,7 +240,7 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   if (contact) add_contact(scene, *contact, answer);
   set_results(scene, answer);
   if (course) finish_curves(scene, *course, constant, answer);
-  if (contact) answer.notes = contact_notes(scene, course ? course->deepest : *contact);
+  if (contact) answer.notes = contact_notes(scene, course ? course->largest : *contact);
   return answer;
 }
 

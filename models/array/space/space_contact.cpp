@@ -36,6 +36,17 @@ double disc_m2(double radius_m) {
   return std::numbers::pi * radius_m * radius_m;
 }
 
+// A pressure and two tilts with the force and the moments of a top. Tilting tractions point up, pressures
+// down.
+Eigen::Matrix<double, 1, kTopLoads> load_of(const TopPressure& top, double R_m) {
+  Eigen::Matrix<double, 1, kTopLoads> load = Eigen::Matrix<double, 1, kTopLoads>::Zero();
+  load[static_cast<int>(TopLoad::kPressure)] = top.force_N / disc_m2(R_m);
+  const double of_moment = -1.0 / (0.25 * disc_m2(R_m) * R_m);
+  load[static_cast<int>(TopLoad::kTiltX)] = of_moment * top.moment_x_Nm;
+  load[static_cast<int>(TopLoad::kTiltY)] = of_moment * top.moment_y_Nm;
+  return load;
+}
+
 class Presser {
  public:
   explicit Presser(const SpaceScene& scene)
@@ -72,14 +83,25 @@ class Presser {
 
   SpaceContact pressed(const std::vector<TopContact>& classes, const ShapePress& press) const {
     const TopBond bond = scene_->feels_contact ? TopBond::kPushed : TopBond::kFollows;
-    SpaceContact contact;
-    contact.pressed = press.force_N > 0.0
+    return contact_of(press.force_N > 0.0
                           ? press_with_force(pillars_, classes, press.shape, press.force_N, bond)
-                          : press_to_depth(pillars_, classes, press.shape, press.depth_m, bond);
+                          : press_to_depth(pillars_, classes, press.shape, press.depth_m, bond));
+  }
+
+  SpaceContact contact_of(PressedArray pressed) const {
+    SpaceContact contact;
+    contact.pressed = std::move(pressed);
     set_loads(contact);
     contact.stiffness_error = error_;
     contact.settling_share = settling_share_;
     return contact;
+  }
+
+  RelaxingTops relaxing(const std::vector<TopContact>& classes,
+                        const std::vector<std::size_t>& which) const {
+    std::vector<TouchedPillar> some;
+    for (const std::size_t pillar : which) some.push_back(pillars_[pillar]);
+    return {some, classes, scene_->press->shape, scene_->pillar.terms.size()};
   }
 
  private:
@@ -91,15 +113,11 @@ class Presser {
     contact.share_change.assign(tops.size(), 0.0);
     for (std::size_t i = 0; i < tops.size(); ++i) {
       const auto of_class = static_cast<std::size_t>(pillars_[i].of_class);
-      const double R_m = 0.5 * array_.classes[of_class].geometry.diameter_m;
       auto load = contact.loads_Pa.row(static_cast<Eigen::Index>(i));
-      load[static_cast<int>(TopLoad::kPressure)] = tops[i].force_N / disc_m2(R_m);
-      // Tilting tractions point up, pressures down.
-      const double of_moment = -1.0 / (0.25 * disc_m2(R_m) * R_m);
-      load[static_cast<int>(TopLoad::kTiltX)] = of_moment * tops[i].moment_x_Nm;
-      load[static_cast<int>(TopLoad::kTiltY)] = of_moment * tops[i].moment_y_Nm;
-      contact.sideways_m.push_back(sideways_m_Pa_[of_class] * std::abs(of_moment) *
-                                   std::hypot(tops[i].moment_x_Nm, tops[i].moment_y_Nm));
+      load = load_of(tops[i], 0.5 * array_.classes[of_class].geometry.diameter_m);
+      contact.sideways_m.push_back(sideways_m_Pa_[of_class] *
+                                   std::hypot(load[static_cast<int>(TopLoad::kTiltX)],
+                                              load[static_cast<int>(TopLoad::kTiltY)]));
     }
   }
 
@@ -137,16 +155,44 @@ SpaceContact contact_on(const SpaceScene& scene, int grid) {
   return Presser(scene).on(std::clamp(grid, 0, kContactGrids - 1));
 }
 
-std::function<SpaceContact(double)> contact_at_depths(const SpaceScene& scene, int grid) {
-  struct Tops {
-    Presser presser;
-    std::vector<TopContact> classes;
-  };
-  const auto presser = Presser(scene);
-  const auto tops = std::make_shared<const Tops>(Tops{presser, presser.classes_on(grid)});
-  return [tops, shape = scene.press->shape](double depth_m) {
-    return tops->presser.pressed(tops->classes, {.shape = shape, .depth_m = depth_m});
-  };
+struct SpaceTops::Parts {
+  Presser presser;
+  std::vector<TopContact> classes;
+  RigidShape shape;
+  std::size_t pillars = 0;
+};
+
+SpaceTops::SpaceTops(const SpaceScene& scene, int grid) {
+  Presser presser(scene);
+  std::vector<TopContact> classes = presser.classes_on(std::clamp(grid, 0, kContactGrids - 1));
+  parts_ = std::make_shared<const Parts>(
+      Parts{std::move(presser), std::move(classes), scene.press->shape, scene.pillars.size()});
+}
+
+SpaceContact SpaceTops::at_depth(double depth_m) const {
+  return parts_->presser.pressed(parts_->classes, {.shape = parts_->shape, .depth_m = depth_m});
+}
+
+RelaxingTops SpaceTops::relaxing(const std::vector<std::size_t>& pillars) const {
+  return parts_->presser.relaxing(parts_->classes, pillars);
+}
+
+SpaceContact SpaceTops::contact_of(const PressedArray& some,
+                                   const std::vector<std::size_t>& pillars) const {
+  PressedArray all = some;
+  all.tops.assign(parts_->pillars, {});
+  for (std::size_t i = 0; i < pillars.size(); ++i) all.tops[pillars[i]] = some.tops[i];
+  return parts_->presser.contact_of(std::move(all));
+}
+
+TopLoads loads_of_tops(const SpaceScene& scene, const std::vector<TopPressure>& tops,
+                       const std::vector<std::size_t>& pillars) {
+  TopLoads loads(static_cast<Eigen::Index>(tops.size()), kTopLoads);
+  for (std::size_t i = 0; i < tops.size(); ++i) {
+    const double d_m = class_of(scene, scene.pillars[pillars[i]]).diameter_m;
+    loads.row(static_cast<Eigen::Index>(i)) = load_of(tops[i], 0.5 * d_m);
+  }
+  return loads;
 }
 
 SpaceContact contact_within(const SpaceScene& scene, double tolerance) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "models/array/contact/press_array.h"
+#include "models/array/contact/relaxing_tops.h"
 #include "models/array/space/space_scene.h"
 
-#include <functional>
+#include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace viscard {
@@ -32,8 +34,24 @@ constexpr int kContactGrids = 4;
 // On one of the grids, 0 to kContactGrids - 1; without changes.
 SpaceContact contact_on(const SpaceScene& scene, int grid);
 
-// The same at any depth, for many of them. The scene must outlive the function.
-std::function<SpaceContact(double depth_m)> contact_at_depths(const SpaceScene& scene, int grid);
+// The tops of a scene on one grid, for many states. The scene must outlive them.
+class SpaceTops {
+ public:
+  SpaceTops(const SpaceScene& scene, int grid);
+
+  SpaceContact at_depth(double depth_m) const;  // elastic
+  RelaxingTops relaxing(const std::vector<std::size_t>& pillars) const;
+  // Of all pillars; those that are not named bear nothing.
+  SpaceContact contact_of(const PressedArray& some, const std::vector<std::size_t>& pillars) const;
+
+ private:
+  struct Parts;
+  std::shared_ptr<const Parts> parts_;
+};
+
+// The loads of tops: those of the pillars, in their order.
+TopLoads loads_of_tops(const SpaceScene& scene, const std::vector<TopPressure>& tops,
+                       const std::vector<std::size_t>& pillars);
 
 // On grids of rising fineness until no force changes by more than the tolerance times the largest one, or
 // the last one is reached. Tops that are touched everywhere have no error.

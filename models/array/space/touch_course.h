@@ -10,14 +10,15 @@ namespace viscard {
 
 // A shape on pillars that relax, in time (eq. S10, S11). What one relative modulus e(t) gives to all pillars:
 // as long as no contact shrinks, the loads on the tops are those of elastic pillars at each depth, relaxed
-// like a strain. Ting, J. Appl. Mech. 33 (1966) 845; Lee & Radok, J. Appl. Mech. 27 (1960) 438.
+// like a strain. Ting, J. Appl. Mech. 33 (1966) 845; Lee & Radok, J. Appl. Mech. 27 (1960) 438. Where any
+// contact shrinks, the tops are followed step by step (models/array/contact, eq. T5).
 
 // Sets the history of a scene's shape, and its deepest state as the depth or force of the shape, which
 // estimates refer to. In creep that is the force which presses elastic pillars as deep.
 void press_in_time(SpaceScene& scene, SpaceTouch touch);
 
-// Throws SceneMistake for a history that does not start at 0 s or from which contact would shrink, with the
-// time at which that begins; for pillars that do not relax alike; for a readout without electrodes.
+// Throws SceneMistake for a history that does not start at 0 s, for pillars that do not relax alike, and
+// for a readout without electrodes.
 void check_touch(const SpaceScene& scene);
 
 // Share of the moduli that is lost at the end of the history, or of the compliance that is gained.
@@ -38,13 +39,14 @@ struct TouchCourse {
   double stiffness_error = 0.0;  // relative, of all loads
   // Largest change of a load relative to the largest load, and the part above.
   double relative_error = 0.0;
-  SpaceContact end;      // the last state
-  SpaceContact deepest;  // the last state without relaxation, for remarks
+  bool has_shrunk = false;   // some contact did, so that the course was found step by step
+  std::size_t shown_at = 0;  // in time_s
+  SpaceContact shown;    // for maps: the end of a contact that grows, otherwise the largest force
+  SpaceContact largest;  // for remarks; without relaxation where the contact grows
 };
 
 // With grids of the tops and time steps of rising fineness until the loads change by less than the
-// tolerance. Throws std::runtime_error with the time from which the contact of a top shrinks while the
-// shape is lowered.
+// tolerance.
 TouchCourse touch_course(const SpaceScene& scene, double tolerance);
 
 // The loads of one time, all pillars.

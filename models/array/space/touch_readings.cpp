@@ -156,7 +156,7 @@ std::vector<std::size_t> followed_pillars(const SpaceScene& scene, const TouchCo
     }
   }
   if (!pillars.empty()) return pillars;
-  const std::vector<TopPressure>& tops = course.end.pressed.tops;
+  const std::vector<TopPressure>& tops = course.shown.pressed.tops;
   const auto most = std::max_element(tops.begin(), tops.end(), [](const auto& a, const auto& b) {
     return std::abs(a.force_N) < std::abs(b.force_N) * (1.0 - 1e-9);  // of equal ones the first
   });

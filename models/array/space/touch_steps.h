@@ -1,5 +1,6 @@
 #pragma once
 
+#include "models/array/contact/relaxing_tops.h"
 #include "models/array/space/space_scene.h"
 
 #include <vector>
@@ -17,6 +18,14 @@ struct TouchSample {
 // Blocks that double in length after each corner of the history, from a quarter of the fastest time of the
 // material and the readout on, with the same number of steps each. A jump has two samples.
 std::vector<TouchSample> touch_samples(const SpaceScene& scene, int steps);
+
+// Contact grows or stays from sample to sample, as far as the shape alone shows.
+bool is_growing(const std::vector<TouchSample>& samples);
+
+// The elastic value at the end of a history that never falls, above the given one.
+double bound_on_elastic(const SpaceScene& scene, const std::vector<TouchSample>& samples);
+
+RelaxationStep relaxation_step(const std::vector<MaterialTerm>& terms, double dt_s);
 
 double largest_value(const std::vector<TouchSample>& samples);  // elastic
 
