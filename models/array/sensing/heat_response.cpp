@@ -30,12 +30,29 @@ Complex sech_of(Complex x) {
   return 2.0 * e / (1.0 + e * e);
 }
 
+// How heat enters the film over the foot: evenly, or as through a foot of one temperature. That of a pillar
+// lies between them.
+enum class Flux { kEven, kOneTemperature };
+
+double flux_transform(Flux flux, double kR) {
+  if (flux == Flux::kEven || kR < 1e-6) return disc_transform(kR);
+  return std::sin(kR) / kR;
+}
+
+// Mean temperature of the foot on a half-space times conductivity and radius, at 1 W: Carslaw & Jaeger,
+// Conduction of Heat in Solids (1959), 8.2.
+double half_space(Flux flux) {
+  return flux == Flux::kEven ? 8.0 / (3.0 * std::numbers::pi * std::numbers::pi) : 0.25;
+}
+
 // How finely the integrals over k are taken.
 struct Quadrature {
   int points = 10;
   double panel_1_R = 1.5;
+  Flux flux = Flux::kEven;
 };
 constexpr Quadrature kFine{10, 1.5}, kCoarse{6, 2.5};
+constexpr Quadrature kOneTemperature{10, 1.5, Flux::kOneTemperature};
 
 // Responses to 1 W through the foot at the complex rate s: the mean temperature of the foot and readings.
 struct FootResponse {
@@ -59,8 +76,7 @@ Complex potential(const HeatPath& path, double k_1_m, Complex q_1_m) {
          of_y * of_x / (sum * of_cosines);
 }
 
-// The mean temperature of the foot is that of a half-space, 8/(3 pi^2 k R) at 1 W over pi R^2 (Carslaw &
-// Jaeger, Conduction of Heat in Solids (1959), 8.2), and what the base and the time take away.
+// The mean temperature of the foot is that of a half-space, and what the base and the time take away.
 FootResponse foot_response(const HeatPath& path, const ElectrodeWeight& weight, double distance_m,
                            Complex s_1_s, const Quadrature& quadrature) {
   const double R_m = path.radius_m, t_m = path.thickness_m;
@@ -77,11 +93,12 @@ FootResponse foot_response(const HeatPath& path, const ElectrodeWeight& weight, 
       const double k = (panel + rule.points[i]) * largest / panels;
       const Complex q = std::sqrt(k * k + s_a);
       const double disc = disc_transform(k * R_m);
+      const double flux = flux_transform(quadrature.flux, k * R_m);
       const double part = rule.weights[i] * largest / panels / (2.0 * std::numbers::pi);
       sum.foot_K +=
-          part * disc * disc * (k * tanh_of(q * t_m) / q - 1.0) / path.film.conductivity_W_mK;
+          part * disc * flux * (k * tanh_of(q * t_m) / q - 1.0) / path.film.conductivity_W_mK;
       if (k * t_m > 40.0) continue;
-      const Complex reading = part * k * disc * weight(k) * potential(path, k, q);
+      const Complex reading = part * k * flux * weight(k) * potential(path, k, q);
       sum.own_V += reading;
       if (distance_m > 0.0) sum.away_V += reading * std::cyl_bessel_j(0.0, k * distance_m);
     }
@@ -137,13 +154,16 @@ std::vector<double> step_values(const HeatPath& path, const ElectrodeWeight& wei
 SteadyHeat steady_heat(const HeatPath& path, const ElectrodeWeight& weight) {
   const SteadyParts fine = steady_parts(path, weight, 0.0, kFine);
   const SteadyParts coarse = steady_parts(path, weight, 0.0, kCoarse);
+  const SteadyParts other = steady_parts(path, weight, 0.0, kOneTemperature);
   const double area_m2 = std::numbers::pi * path.radius_m * path.radius_m;
   return {.foot_K_W = fine.foot_K_W,
           .pillar_K_W = path.length_m / (path.pillar.conductivity_W_mK * area_m2),
           .foot_K = fine.foot_K,
           .own_V = fine.own_V,
-          .error = std::max(std::abs(coarse.foot_K / fine.foot_K - 1.0),
-                            std::abs(coarse.own_V / fine.own_V - 1.0))};
+          .quadrature_error = std::max(std::abs(coarse.foot_K / fine.foot_K - 1.0),
+                                       std::abs(coarse.own_V / fine.own_V - 1.0)),
+          .flux_error = std::max(std::abs(other.foot_K / fine.foot_K - 1.0),
+                                 std::abs(other.own_V / fine.own_V - 1.0))};
 }
 
 double heat_at_distance_V(const HeatPath& path, const ElectrodeWeight& weight, double distance_m) {

@@ -31,7 +31,9 @@ struct SteadyHeat {
          pillar_K_W = 0.0;  // thermal resistances: mean of the foot, and along the pillar
   double foot_K = 0.0;      // mean temperature of the foot
   double own_V = 0.0;       // reading under the pillar, per kelvin at its top
-  double error = 0.0;       // relative, of the numbers above: a coarser quadrature's change
+  // Relative, of the numbers above: the change from a coarser quadrature, and from heat that enters the film
+  // as through a foot of one temperature. That of a pillar lies between this and the even flux.
+  double quadrature_error = 0.0, flux_error = 0.0;
 };
 SteadyHeat steady_heat(const HeatPath& path, const ElectrodeWeight& weight);
 

@@ -156,25 +156,43 @@ SpaceContact contact_on(const SpaceScene& scene, int grid) {
 }
 
 struct SpaceTops::Parts {
-  Presser presser;
+  std::shared_ptr<const Presser> presser;
   std::vector<TopContact> classes;
-  RigidShape shape;
+  ShapePress press;
   std::size_t pillars = 0;
 };
 
+namespace {
+
+int known_grid(int grid) {
+  return std::clamp(grid, 0, kContactGrids - 1);
+}
+
+}  // namespace
+
 SpaceTops::SpaceTops(const SpaceScene& scene, int grid) {
-  Presser presser(scene);
-  std::vector<TopContact> classes = presser.classes_on(std::clamp(grid, 0, kContactGrids - 1));
+  const auto presser = std::make_shared<const Presser>(scene);
   parts_ = std::make_shared<const Parts>(
-      Parts{std::move(presser), std::move(classes), scene.press->shape, scene.pillars.size()});
+      Parts{presser, presser->classes_on(known_grid(grid)), *scene.press, scene.pillars.size()});
+}
+
+SpaceTops SpaceTops::on_grid(int grid) const {
+  return SpaceTops(std::make_shared<const Parts>(
+      Parts{parts_->presser, parts_->presser->classes_on(known_grid(grid)), parts_->press,
+            parts_->pillars}));
+}
+
+SpaceContact SpaceTops::at_rest() const {
+  return parts_->presser->pressed(parts_->classes, parts_->press);
 }
 
 SpaceContact SpaceTops::at_depth(double depth_m) const {
-  return parts_->presser.pressed(parts_->classes, {.shape = parts_->shape, .depth_m = depth_m});
+  return parts_->presser->pressed(parts_->classes,
+                                  {.shape = parts_->press.shape, .depth_m = depth_m});
 }
 
 RelaxingTops SpaceTops::relaxing(const std::vector<std::size_t>& pillars) const {
-  return parts_->presser.relaxing(parts_->classes, pillars);
+  return parts_->presser->relaxing(parts_->classes, pillars);
 }
 
 SpaceContact SpaceTops::contact_of(const PressedArray& some,
@@ -182,7 +200,7 @@ SpaceContact SpaceTops::contact_of(const PressedArray& some,
   PressedArray all = some;
   all.tops.assign(parts_->pillars, {});
   for (std::size_t i = 0; i < pillars.size(); ++i) all.tops[pillars[i]] = some.tops[i];
-  return parts_->presser.contact_of(std::move(all));
+  return parts_->presser->contact_of(std::move(all));
 }
 
 TopLoads loads_of_tops(const SpaceScene& scene, const std::vector<TopPressure>& tops,

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace viscard {
@@ -38,7 +39,9 @@ SpaceContact contact_on(const SpaceScene& scene, int grid);
 class SpaceTops {
  public:
   SpaceTops(const SpaceScene& scene, int grid);
+  SpaceTops on_grid(int grid) const;  // another one
 
+  SpaceContact at_rest() const;                 // under the shape as the scene has it
   SpaceContact at_depth(double depth_m) const;  // elastic
   RelaxingTops relaxing(const std::vector<std::size_t>& pillars) const;
   // Of all pillars; those that are not named bear nothing.
@@ -46,6 +49,8 @@ class SpaceTops {
 
  private:
   struct Parts;
+  explicit SpaceTops(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+
   std::shared_ptr<const Parts> parts_;
 };
 

@@ -12,16 +12,25 @@ namespace {
 
 constexpr double kNoLoad_Pa = 1e-300;
 
-// The finest grid that the deepest state needs, as contact_within() finds it for a scene at rest.
-int grid_for(const SpaceScene& scene, double tolerance) {
-  SpaceContact coarse = contact_on(scene, 0);
-  for (int grid = 1; grid < kContactGrids - 1; ++grid) {
-    SpaceContact fine = contact_on(scene, grid);
+// The grid that the deepest state needs, as contact_within() finds it for a scene at rest.
+struct FoundGrid {
+  SpaceTops fine, coarse;
+};
+FoundGrid grid_for(const SpaceScene& scene, double tolerance) {
+  const SpaceTops first(scene, 0);
+  FoundGrid found{first.on_grid(1), first};
+  SpaceContact coarse = found.coarse.at_rest();
+  for (int grid = 1; grid < kContactGrids; ++grid) {
+    if (grid > 1) {
+      found.coarse = found.fine;
+      found.fine = found.fine.on_grid(grid);
+    }
+    SpaceContact fine = found.fine.at_rest();
     const double change_Pa = (fine.loads_Pa - coarse.loads_Pa).cwiseAbs().maxCoeff();
-    if (change_Pa <= tolerance * fine.loads_Pa.cwiseAbs().maxCoeff()) return grid;
+    if (change_Pa <= tolerance * fine.loads_Pa.cwiseAbs().maxCoeff()) break;
     coarse = std::move(fine);
   }
-  return kContactGrids - 1;
+  return found;
 }
 
 double largest_of(const std::vector<TopLoads>& loads_Pa) {
@@ -89,9 +98,11 @@ class Courses {
   explicit Courses(const SpaceScene& scene) : scene_(&scene) {}
 
   GridCourse on(const SpaceTops& tops, const std::vector<TouchSample>& samples,
-                const std::vector<std::size_t>& touched) {
+                const std::vector<std::size_t>& touched, int steps) {
     if (!has_shrunk_) {
-      if (auto course = growing_course(*scene_, tops, samples, touched)) return *std::move(course);
+      if (auto course = growing_course(*scene_, tops, samples, touched, 2 * steps)) {
+        return *std::move(course);
+      }
       has_shrunk_ = true;
     }
     return stepped_course(*scene_, tops, samples, touched);
@@ -114,17 +125,18 @@ void set_times(const std::vector<TouchSample>& samples, TouchCourse& course) {
 
 TouchCourse touch_course(const SpaceScene& scene, double tolerance) {
   constexpr int kFirstSteps = 8, kMostSteps = 64;
-  const int grid = grid_for(scene, tolerance);
-  const SpaceTops tops(scene, grid);
+  const auto [tops, coarse_tops] = grid_for(scene, tolerance);
   TouchCourse course;
   Courses courses(scene);
   std::vector<TouchSample> samples = touch_samples(scene, kFirstSteps / 2);
   course.touched = touched_in(scene, tops, samples);
-  GridCourse fine = courses.on(tops, samples, course.touched);
+  GridCourse fine = courses.on(tops, samples, course.touched, kFirstSteps / 2);
+  int last_steps = kFirstSteps;
   for (int steps = kFirstSteps; steps <= kMostSteps; steps *= 2) {
+    last_steps = steps;
     const GridCourse coarse = std::move(fine);
     samples = touch_samples(scene, steps);
-    fine = courses.on(tops, samples, course.touched);
+    fine = courses.on(tops, samples, course.touched, steps);
     course.change_Pa.clear();
     course.depth_change_m.clear();
     course.force_change_N.clear();
@@ -133,7 +145,7 @@ TouchCourse touch_course(const SpaceScene& scene, double tolerance) {
         largest_of(course.change_Pa) / std::max(largest_of(fine.loads_Pa), kNoLoad_Pa);
     if (std::max(change, change_of_reading(scene, samples, fine.force_N)) <= 0.3 * tolerance) break;
   }
-  const GridCourse of_grid = courses.on(SpaceTops(scene, grid - 1), samples, course.touched);
+  const GridCourse of_grid = courses.on(coarse_tops, samples, course.touched, last_steps);
   add_grid_change(of_grid, fine, course);
   // The film under the feet does not relax with them.
   course.stiffness_error =

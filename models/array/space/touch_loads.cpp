@@ -12,50 +12,34 @@ namespace {
 
 constexpr double kOfForce = 1e-9;  // to which a force is met
 
-// Elastic states of a scene's tops, at depths that do not fall.
-class ElasticTops {
- public:
-  ElasticTops(const SpaceScene& scene, const SpaceTops& tops)
-      : tops_(&tops), reach_m_(first_reach_m(scene)) {}
-
-  SpaceContact at_depth(double depth_m) const { return tops_->at_depth(depth_m); }
-
-  // The state at which elastic tops bear the force, not less deep than `before`.
-  SpaceContact at_force(double force_N, const SpaceContact* before, double guess_m) const {
-    if (force_N == 0.0) return at_depth(reach_m_);
-    if (before != nullptr && before->pressed.force_N >= force_N * (1.0 - kOfForce)) return *before;
-    const double low_m = before == nullptr ? reach_m_ : before->pressed.depth_m;
-    const double first_m = std::max(guess_m, low_m + 1e-3 * (guess_m - reach_m_));
-    SpaceContact state;
-    depth_of_force(
-        [&](double depth_m) {
-          state = at_depth(depth_m);
-          return state.pressed.force_N;
-        },
-        {low_m, first_m, force_N, kOfForce});
-    return state;
+// At most the depth at which the shape reaches the first top.
+double first_reach_m(const SpaceScene& scene) {
+  const std::vector<SpaceClass> classes = classes_of(scene);
+  double first_m = HUGE_VAL;
+  for (const SpacePillar& one : scene.pillars) {
+    const SpaceClass& kind = classes[static_cast<std::size_t>(one.of_class)];
+    const double above_m = kind.length_m - scene.length_m;
+    first_m = std::min(
+        first_m,
+        least_height_m(scene.press->shape, one.x_m, one.y_m, 0.5 * kind.diameter_m) - above_m);
   }
+  return first_m;
+}
 
-  double reach_m() const { return reach_m_; }
-
- private:
-  // At most the depth at which the shape reaches the first top.
-  static double first_reach_m(const SpaceScene& scene) {
-    const std::vector<SpaceClass> classes = classes_of(scene);
-    double first_m = HUGE_VAL;
-    for (const SpacePillar& one : scene.pillars) {
-      const SpaceClass& kind = classes[static_cast<std::size_t>(one.of_class)];
-      const double above_m = kind.length_m - scene.length_m;
-      first_m = std::min(
-          first_m,
-          least_height_m(scene.press->shape, one.x_m, one.y_m, 0.5 * kind.diameter_m) - above_m);
-    }
-    return first_m;
-  }
-
-  const SpaceTops* tops_;
-  double reach_m_;
-};
+// The elastic state under a force, or at a depth.
+SpaceContact elastic_state(const SpaceScene& scene, const SpaceTops& tops, double value) {
+  if (!scene.touch->is_creep) return tops.at_depth(value);
+  const double reach_m = first_reach_m(scene);
+  if (value == 0.0) return tops.at_depth(reach_m);
+  SpaceContact state;
+  depth_of_force(
+      [&](double depth_m) {
+        state = tops.at_depth(depth_m);
+        return state.pressed.force_N;
+      },
+      {reach_m, std::max(foundation_press(scene).depth_m, reach_m + 1e-9), value, kOfForce});
+  return state;
+}
 
 TopLoads rows_of(const TopLoads& all, const std::vector<std::size_t>& rows) {
   TopLoads some(static_cast<Eigen::Index>(rows.size()), kTopLoads);
@@ -75,11 +59,64 @@ bool is_shrinking(const SpaceContact& before, const SpaceContact& after) {
   return false;
 }
 
-// The force of elastic pillars grows with less than the square of the depth.
-double guess_of_depth_m(const SpaceScene& scene, double reach_m, double share_of_force) {
-  const FoundationPress deepest = foundation_press(scene);
-  return reach_m + (deepest.depth_m - reach_m) * std::sqrt(share_of_force);
-}
+// Elastic states from the first touch to the deepest one, between which loads are linear in the depth.
+class ElasticTable {
+ public:
+  // Nothing if the contact of any top shrinks on the way.
+  static std::optional<ElasticTable> of(const SpaceScene& scene, const SpaceTops& tops,
+                                        const std::vector<std::size_t>& touched, double largest,
+                                        int parts) {
+    ElasticTable table;
+    table.is_creep_ = scene.touch->is_creep;
+    table.deepest_ = elastic_state(scene, tops, largest);
+    const double end_m = table.deepest_.pressed.depth_m;
+    const double start_m = std::min(first_reach_m(scene), end_m);
+    SpaceContact before = tops.at_depth(start_m);
+    table.add(before, touched);
+    for (int i = 1; i <= parts && start_m < end_m; ++i) {
+      SpaceContact next =
+          i == parts ? table.deepest_ : tops.at_depth(start_m + (end_m - start_m) * i / parts);
+      if (is_shrinking(before, next)) return {};
+      table.add(next, touched);
+      before = std::move(next);
+    }
+    return table;
+  }
+
+  // At a depth or force that does not lie beyond the largest one.
+  struct State {
+    double depth_m = 0.0;
+    int contacts = 0;
+    TopLoads loads_Pa;
+  };
+  State at(double value) const {
+    const std::vector<double>& of = is_creep_ ? force_N_ : depth_m_;
+    if (value <= of.front()) {
+      return {is_creep_ ? depth_m_.front() : value, contacts_.front(), loads_Pa_.front()};
+    }
+    const auto next = std::lower_bound(of.begin(), of.end() - 1, value) - of.begin();
+    const auto i = static_cast<std::size_t>(next);
+    const double share = std::min((value - of[i - 1]) / (of[i] - of[i - 1]), 1.0);
+    return {depth_m_[i - 1] + share * (depth_m_[i] - depth_m_[i - 1]),
+            share < 1.0 ? contacts_[i - 1] : contacts_[i],
+            loads_Pa_[i - 1] + share * (loads_Pa_[i] - loads_Pa_[i - 1])};
+  }
+  const SpaceContact& deepest() const { return deepest_; }
+
+ private:
+  void add(const SpaceContact& state, const std::vector<std::size_t>& touched) {
+    depth_m_.push_back(state.pressed.depth_m);
+    force_N_.push_back(state.pressed.force_N);
+    contacts_.push_back(state.pressed.contacts);
+    loads_Pa_.push_back(rows_of(state.loads_Pa, touched));
+  }
+
+  bool is_creep_ = false;
+  SpaceContact deepest_;
+  std::vector<double> depth_m_, force_N_;  // ascending
+  std::vector<int> contacts_;
+  std::vector<TopLoads> loads_Pa_;
+};
 
 double sum_N(const SpaceScene& scene, const std::vector<std::size_t>& touched,
              const TopLoads& loads) {
@@ -122,12 +159,9 @@ double area_of(const SpaceScene& scene, std::size_t pillar) {
 
 std::vector<std::size_t> touched_in(const SpaceScene& scene, const SpaceTops& tops,
                                     const std::vector<TouchSample>& samples) {
-  const ElasticTops elastic(scene, tops);
-  const double value = bound_on_elastic(scene, samples);
-  const SpaceContact deepest =
-      scene.touch->is_creep
-          ? elastic.at_force(value, nullptr, guess_of_depth_m(scene, elastic.reach_m(), 1.0))
-          : elastic.at_depth(largest_value(samples));
+  const double largest =
+      scene.touch->is_creep ? bound_on_elastic(scene, samples) : largest_value(samples);
+  const SpaceContact deepest = elastic_state(scene, tops, largest);
   std::vector<std::size_t> touched;
   for (std::size_t i = 0; i < deepest.pressed.tops.size(); ++i) {
     if (deepest.pressed.tops[i].share > 0.0) touched.push_back(i);
@@ -137,34 +171,25 @@ std::vector<std::size_t> touched_in(const SpaceScene& scene, const SpaceTops& to
 
 std::optional<GridCourse> growing_course(const SpaceScene& scene, const SpaceTops& tops,
                                          const std::vector<TouchSample>& samples,
-                                         const std::vector<std::size_t>& touched) {
+                                         const std::vector<std::size_t>& touched, int parts) {
   if (!is_growing(samples)) return {};
-  const ElasticTops elastic_tops(scene, tops);
+  const auto table = ElasticTable::of(scene, tops, touched, largest_value(samples), parts);
+  if (!table) return {};
   GridCourse course;
   std::vector<TopLoads> elastic;
-  SpaceContact state;
-  const double largest = largest_value(samples);
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    const double value = samples[k].elastic;
-    if (k == 0 || value != samples[k - 1].elastic) {
-      const double guess_m = guess_of_depth_m(scene, elastic_tops.reach_m(), value / largest);
-      SpaceContact next = scene.touch->is_creep
-                              ? elastic_tops.at_force(value, k == 0 ? nullptr : &state, guess_m)
-                              : elastic_tops.at_depth(value);
-      if (k > 0 && is_shrinking(state, next)) return {};
-      state = std::move(next);
-    }
-    course.depth_m.push_back(state.pressed.depth_m);
-    course.contacts.push_back(state.pressed.contacts);
-    elastic.push_back(rows_of(state.loads_Pa, touched));
+  for (const TouchSample& sample : samples) {
+    ElasticTable::State state = table->at(sample.elastic);
+    course.depth_m.push_back(state.depth_m);
+    course.contacts.push_back(state.contacts);
+    elastic.push_back(std::move(state.loads_Pa));
   }
   course.loads_Pa = relaxed(scene.pillar.terms, samples, elastic);
   for (const TopLoads& loads : course.loads_Pa) {
     course.force_N.push_back(sum_N(scene, touched, loads));
   }
   course.shown_at = samples.size() - 1;
-  course.shown = relaxed_state(scene, state, touched, course.loads_Pa.back());
-  course.largest = std::move(state);
+  course.shown = relaxed_state(scene, table->deepest(), touched, course.loads_Pa.back());
+  course.largest = table->deepest();
   return course;
 }
 
