@@ -1,5 +1,6 @@
 #include "io/scenes/pillar_positions.h"
 #include "io/scenes/scene_words.h"
+#include "io/scenes/sensing_section.h"
 #include "io/scenes/shape_section.h"
 #include "io/scenes/touch_section.h"
 #include "models/array/space/space_scene.h"
@@ -41,6 +42,7 @@ struct RawSpace {
   Pairs loaded;
   RawShape shape;
   RawDrive drive;  // history and readout
+  RawSensing sensing;
   std::map<std::string, std::string> effects;
   std::vector<std::string> quantities;
   std::vector<PrintedValue> printed;
@@ -118,6 +120,8 @@ void show_space(FieldVisitor& v, RawSpace& s) {
   });
   v.section("shape", [&](FieldVisitor& one) { show_shape(one, s.shape); });
   v.section("readout", [&](FieldVisitor& r) { show_readout(r, s.drive); });
+  v.section("heat", [&](FieldVisitor& h) { show_heat(h, s.sensing); });
+  v.section("noise", [&](FieldVisitor& n) { show_noise(n, s.sensing); });
   v.section("effects", [&](FieldVisitor& e) {
     for (const Effect& effect : effects()) e.text({effect.name, "auto"}, s.effects[effect.name]);
   });
@@ -267,6 +271,7 @@ SpaceScene scene_from(const RawSpace& raw, const std::filesystem::path& folder) 
   fill_load(raw, scene);
   const FilmExtent film = film_extent(scene);
   scene.press = press_from(raw.shape, folder, {film.left_m, film.right_m, film.low_m, film.high_m});
+  fill_sensing(raw.sensing, raw.drive, scene);
   fill_touch(raw.analysis, raw.drive, scene);
   scene.effects = choices_of(raw.effects);
   scene.wanted = raw.quantities;

@@ -9,16 +9,17 @@
 namespace viscard {
 namespace {
 
-void refuse_at_rest(const RawDrive& raw) {
+void refuse_at_rest(const RawDrive& raw, const SpaceScene& scene) {
   if (!raw.history.empty()) {
     throw SceneMistake(
         "analysis.history",
         "a load at rest has none; say kind = \"relaxation\" for the depth of a shape "
         "in time, or \"creep\" for its force");
   }
-  if (!raw.readout.empty()) {
+  if (!raw.readout.empty() && !scene.noise) {
     throw SceneMistake("readout",
-                       "charge leaks in time; say kind = \"relaxation\" or \"creep\", with a "
+                       "charge leaks in time, and [noise] is that of an amplifier; add [noise], or "
+                       "say kind = \"relaxation\" or \"creep\", with a "
                        "history and a shape");
   }
 }
@@ -43,6 +44,8 @@ void check_kind(const std::string& kind, const SpaceScene& scene) {
                      "\"creep\"");
 }
 
+}  // namespace
+
 Readout readout_from(const RawDrive& raw, const SpaceScene& scene) {
   Readout readout;
   readout.kind =
@@ -56,15 +59,13 @@ Readout readout_from(const RawDrive& raw, const SpaceScene& scene) {
   return readout;
 }
 
-}  // namespace
-
 void show_touch_history(FieldVisitor& v, const std::string& kind, RawDrive& drive) {
   v.quantity_pairs("history", "s", kind == "creep" ? "N" : "m", drive.history);
 }
 
 void fill_touch(const std::string& kind, const RawDrive& raw, SpaceScene& scene) {
   if (kind == "static") {
-    refuse_at_rest(raw);
+    refuse_at_rest(raw, scene);
     return;
   }
   check_kind(kind, scene);

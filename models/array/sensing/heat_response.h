@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace viscard {
@@ -20,6 +21,22 @@ struct HeatPath {
   HeatConductor film;
   double pyroelectric_C_m2K = 0.0;  // dD_z/dT
   double permittivity_F_m = 0.0;    // along z and across
+};
+
+// A dummy electrode beside, read against the sensor's: V = V_sensor - ratio V_dummy (eq. H4).
+struct DummyElectrode {
+  double ratio = 1.0;  // by which its voltage is multiplied
+  double mismatch =
+      0.0;  // relative difference of p t/eps of the two, which the ratio does not mend
+};
+
+// What a scene says of heat: tops that are warmer than the base, at rest or from time 0 on.
+struct HeatScene {
+  double temperature_K = 0.0;  // of the tops above the base
+  HeatConductor pillar, film;
+  double pyroelectric_C_m2K = 0.0;
+  std::optional<DummyElectrode> dummy;
+  double end_time_s = 0.0;  // of a curve after the top has become warm; 0: none
 };
 
 // How an electrode weighs the potential under it: 1 at wave number 0.
@@ -55,13 +72,7 @@ double uniform_heat_V(const HeatPath& path);
 double film_time_s(const HeatPath& path);
 double pillar_time_s(const HeatPath& path);
 
-// A dummy electrode beside, read against the sensor's: V = V_sensor - ratio V_dummy (eq. H4).
-struct DummyElectrode {
-  double ratio = 1.0;  // by which its voltage is multiplied
-  double mismatch =
-      0.0;  // relative difference of p t/eps of the two, which the ratio does not mend
-};
-// What is left of 1 K of everything, and of the touch's own heat if the dummy stands `distance_m` away.
+// What a dummy leaves of 1 K of everything, and of the touch's own heat if it stands `distance_m` away.
 double drift_left_V(const HeatPath& path, const DummyElectrode& dummy);
 double touch_left_V(const HeatPath& path, const ElectrodeWeight& weight,
                     const DummyElectrode& dummy, double distance_m);

@@ -146,6 +146,7 @@ void validate(const SpaceScene& scene) {
   if (!(scene.surface_energy_J_m2 > 0.0)) {
     throw SceneMistake("materials.surface_energy", "the surface energy must be positive");
   }
+  check_heat_and_noise(scene);
   if (scene.press) {
     check_press(scene);
     check_touch(scene);

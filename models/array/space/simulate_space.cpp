@@ -240,6 +240,7 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   if (contact) add_contact(scene, *contact, answer);
   set_results(scene, answer);
   if (course) finish_curves(scene, *course, constant, answer);
+  add_heat_and_noise(scene, answer);
   if (contact) answer.notes = contact_notes(scene, course ? course->largest : *contact);
   return answer;
 }
