@@ -85,9 +85,7 @@ FootResponse foot_response(const HeatPath& path, const ElectrodeWeight& weight, 
   const double step = quadrature.panel_1_R / std::max(R_m, distance_m);
   const int panels = static_cast<int>(std::ceil(largest / step));
   const QuadratureRule rule = gauss_legendre(quadrature.points);
-  FootResponse sum{
-      8.0 / (3.0 * std::numbers::pi * std::numbers::pi * R_m * path.film.conductivity_W_mK), 0.0,
-      0.0};
+  FootResponse sum{half_space(quadrature.flux) / (R_m * path.film.conductivity_W_mK), 0.0, 0.0};
   for (int panel = 0; panel < panels; ++panel) {
     for (std::size_t i = 0; i < rule.points.size(); ++i) {
       const double k = (panel + rule.points[i]) * largest / panels;
