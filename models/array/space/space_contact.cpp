@@ -47,6 +47,9 @@ Eigen::Matrix<double, 1, kTopLoads> load_of(const TopPressure& top, double R_m) 
   return load;
 }
 
+}  // namespace
+
+// Presses the shape of a scene on its array.
 class Presser {
  public:
   explicit Presser(const SpaceScene& scene)
@@ -128,6 +131,8 @@ class Presser {
   double settling_share_ = 0.0;
   std::vector<double> sinking_m_N_, turning_rad_Nm_, sideways_m_Pa_;  // by class
 };
+
+namespace {
 
 void compare(const SpaceContact& coarse, SpaceContact& fine) {
   fine.change_Pa = fine.loads_Pa - coarse.loads_Pa;
