@@ -21,7 +21,8 @@ void press_in_time(SpaceScene& scene, SpaceTouch touch);
 // for a readout without electrodes.
 void check_touch(const SpaceScene& scene);
 
-// Share of the moduli that is lost at the end of the history, or of the compliance that is gained.
+// Share of the moduli that is lost at the end of the history, or of the compliance that is gained, times what
+// the history goes up and down over its peak: at most what relaxation changes in a force or depth.
 double relaxed_share(const SpaceScene& scene);
 
 // The loads on the tops in time. Rows of loads: the pillars that are touched at the deepest state.

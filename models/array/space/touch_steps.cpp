@@ -228,10 +228,18 @@ void check_touch(const SpaceScene& scene) {
 
 double relaxed_share(const SpaceScene& scene) {
   const PronySeries series = relative_series(scene.pillar.terms);
-  const double end_s = scene.touch->history.back().time_s;
-  if (!scene.touch->is_creep) return 1.0 - relaxation_modulus_Pa(series, end_s);
+  const std::vector<HistoryPoint>& points = scene.touch->history;
+  double way = std::abs(points.front().value), largest = way;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    way += std::abs(points[i].value - points[i - 1].value);
+    largest = std::max(largest, points[i].value);
+  }
+  const double end_s = points.back().time_s;
+  if (!scene.touch->is_creep) {
+    return (1.0 - relaxation_modulus_Pa(series, end_s)) * way / largest;
+  }
   const LoadHistory step{true, {0.0, end_s}, {1.0, 1.0}};
-  return response(series, step).back() - 1.0;
+  return (response(series, step).back() - 1.0) * way / largest;
 }
 
 }  // namespace viscard
