@@ -191,6 +191,13 @@ TouchCourse settled_course(const SpaceScene& scene) {
   return course;
 }
 
+std::string note_of_shrinking(const TouchCourse& course) {
+  return "contact shrinks in this touch, which is followed step by step; maps and single values "
+         "are "
+         "those of the largest force, at " +
+         text_of(course.time_s[course.shown_at], 4) + " s";
+}
+
 // For studies of meshes: the loads as for a tolerance, once more for each mesh.
 SceneAnswer touch_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
   const TouchCourse course = touch_course(scene, kShareOfContact * scene.tolerance);
@@ -242,6 +249,7 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   if (course) finish_curves(scene, *course, constant, answer);
   add_heat_and_noise(scene, answer);
   if (contact) answer.notes = contact_notes(scene, course ? course->largest : *contact);
+  if (course && course->has_shrunk) answer.notes.push_back(note_of_shrinking(*course));
   return answer;
 }
 
