@@ -2,6 +2,8 @@
 
 #include "io/config/config_fields.h"
 #include "io/scenes/raw_drive.h"
+#include "models/array/sensing/heat_response.h"
+#include "models/array/sensing/thermal_noise.h"
 #include "models/array/space/space_scene.h"
 
 namespace viscard {

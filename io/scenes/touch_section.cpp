@@ -1,7 +1,7 @@
 #include "io/scenes/touch_section.h"
 
 #include "io/scenes/scene_words.h"
-#include "models/array/space/touch_course.h"
+#include "models/array/space/touch_steps.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
 #include <utility>

@@ -1,7 +1,7 @@
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_contact.h"
 #include "models/array/space/space_maps.h"
-#include "models/array/space/touch_course.h"
+#include "models/array/space/touch_steps.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/scene/scene_effects.h"

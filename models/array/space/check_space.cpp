@@ -1,6 +1,6 @@
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_contact.h"
-#include "models/array/space/touch_course.h"
+#include "models/array/space/touch_steps.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/mesh/scene_mistake.h"

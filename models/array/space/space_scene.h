@@ -72,7 +72,7 @@ struct SpaceScene : SceneCommon {
   std::vector<RowColumn> loaded;  // empty: all
 
   std::optional<ShapePress> press;  // instead of the loads above
-  std::optional<SpaceTouch> touch;  // of the press in time; see press_in_time(), touch_course.h
+  std::optional<SpaceTouch> touch;  // of the press in time; see press_in_time(), touch_steps.h
 
   std::optional<HeatScene> heat;   // results of one of the usual pillars, beside those of the loads
   std::optional<NoiseBand> noise;  // of an electrode with this amplifier

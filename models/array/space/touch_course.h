@@ -13,18 +13,6 @@ namespace viscard {
 // like a strain. Ting, J. Appl. Mech. 33 (1966) 845; Lee & Radok, J. Appl. Mech. 27 (1960) 438. Where any
 // contact shrinks, the tops are followed step by step (models/array/contact, eq. T5).
 
-// Sets the history of a scene's shape, and its deepest state as the depth or force of the shape, which
-// estimates refer to. In creep that is the force which presses elastic pillars as deep.
-void press_in_time(SpaceScene& scene, SpaceTouch touch);
-
-// Throws SceneMistake for a history that does not start at 0 s, for pillars that do not relax alike, and
-// for a readout without electrodes.
-void check_touch(const SpaceScene& scene);
-
-// Share of the moduli that is lost at the end of the history, or of the compliance that is gained, times what
-// the history goes up and down over its peak: at most what relaxation changes in a force or depth.
-double relaxed_share(const SpaceScene& scene);
-
 // The loads on the tops in time. Rows of loads: the pillars that are touched at the deepest state.
 struct TouchCourse {
   std::vector<double> time_s;  // a jump has the same time twice

@@ -1,7 +1,6 @@
 // Time steps of a touch, and what its history must be like.
 #include "models/array/space/touch_steps.h"
 
-#include "models/array/space/touch_course.h"
 #include "models/material/hereditary.h"
 #include "models/material/load_history.h"
 #include "models/maths/text_of_number.h"

@@ -7,6 +7,18 @@
 
 namespace viscard {
 
+// Sets the history of a scene's shape, and its deepest state as the depth or force of the shape, which
+// estimates refer to. In creep that is the force which presses elastic pillars as deep.
+void press_in_time(SpaceScene& scene, SpaceTouch touch);
+
+// Throws SceneMistake for a history that does not start at 0 s, for pillars that do not relax alike, and
+// for a readout without electrodes.
+void check_touch(const SpaceScene& scene);
+
+// Share of the moduli that is lost at the end of the history, or of the compliance that is gained, times what
+// the history goes up and down over its peak: at most what relaxation changes in a force or depth.
+double relaxed_share(const SpaceScene& scene);
+
 // The time steps of a shape's history, between which elastic loads are taken as linear.
 struct TouchSample {
   double time_s = 0.0;

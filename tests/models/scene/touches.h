@@ -1,7 +1,7 @@
 #pragma once
 
 // Scenes of shapes that press on arrays in time, and what their answers say.
-#include "models/array/space/touch_course.h"
+#include "models/array/space/touch_steps.h"
 #include "models/scene/simulate.h"
 #include "tests/models/array/space/film_of_the_thesis.h"
 
