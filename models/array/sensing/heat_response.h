@@ -20,7 +20,7 @@ struct HeatPath {
   double thickness_m = 0.0;  // of the film
   HeatConductor film;
   double pyroelectric_C_m2K = 0.0;  // dD_z/dT
-  double permittivity_F_m = 0.0;    // along z and across
+  double permittivity_F_m = 0.0;    // along z and across, at constant stress
 };
 
 // A dummy electrode beside, read against the sensor's: V = V_sensor - ratio V_dummy (eq. H4).

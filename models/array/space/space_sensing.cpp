@@ -1,6 +1,7 @@
 // Heat and noise of one pillar's electrode (models/array/sensing).
 #include "models/array/space/disc_charge.h"
 #include "models/array/space/simulate_space.h"
+#include "models/maths/dense.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
 #include <algorithm>
@@ -14,6 +15,13 @@ namespace {
 
 constexpr int kModes = 6, kFilmDegree = 10;
 
+// At constant stress, eps^S + e c^-1 e^t, as pyroelectric coefficients are measured too.
+double free_permittivity_F_m(const Medium& film) {
+  const Eigen::MatrixXd row = film.piezo_C_m2.row(2);
+  const Eigen::MatrixXd strain = Cholesky(film.stiffness_Pa).solve(row.transpose());
+  return film.permittivity_F_m(2, 2) + (row * strain)(0, 0);
+}
+
 HeatPath heat_path(const SpaceScene& scene) {
   const HeatScene& heat = *scene.heat;
   return {.radius_m = 0.5 * scene.diameter_m,
@@ -22,7 +30,7 @@ HeatPath heat_path(const SpaceScene& scene) {
           .thickness_m = scene.film_thickness_m,
           .film = heat.film,
           .pyroelectric_C_m2K = heat.pyroelectric_C_m2K,
-          .permittivity_F_m = scene.film.permittivity_F_m(2, 2)};
+          .permittivity_F_m = free_permittivity_F_m(scene.film)};
 }
 
 ElectrodeWeight weight_of(const SpaceScene& scene, const SpaceArray& array,

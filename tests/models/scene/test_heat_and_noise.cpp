@@ -153,6 +153,7 @@ TEST_CASE("a scene with heat and noise has their results", "[models][array][spac
   scene.heat.reset();
   scene.film = pvdf_of_the_thesis(23e-12, 23e-12, -33e-12);
   scene.electrode = SpaceElectrode::kEquipotential;
+  scene.grounded = FilmFace::kBottom;
   scene.noise = NoiseBand{300.0, 1.0, 100.0, 0.02, 20e-9};
   scene.noise_readout = Readout{ReadoutKind::kVoltage, 1e13, 0.1e-12};
   const SceneAnswer wired = simulate(scene);
