@@ -17,9 +17,9 @@ constexpr int kModes = 6, kFilmDegree = 10;
 
 // At constant stress, eps^S + e c^-1 e^t, as pyroelectric coefficients are measured too.
 double free_permittivity_F_m(const Medium& film) {
-  const Eigen::MatrixXd row = film.piezo_C_m2.row(2);
-  const Eigen::MatrixXd strain = Cholesky(film.stiffness_Pa).solve(row.transpose());
-  return film.permittivity_F_m(2, 2) + (row * strain)(0, 0);
+  const Eigen::VectorXd e = film.piezo_C_m2.row(2).transpose();
+  const Eigen::VectorXd strain = Cholesky(film.stiffness_Pa).solve(e);
+  return film.permittivity_F_m(2, 2) + e.dot(strain);
 }
 
 HeatPath heat_path(const SpaceScene& scene) {
