@@ -106,6 +106,7 @@ std::vector<std::string> result_names(const SpaceScene& scene) {
     names.push_back(reading + "_voltage");
   }
   if (has_crosstalk(scene)) names.emplace_back(kCrosstalk);
+  for (const std::string& of_sensing : sensing_results(scene)) names.push_back(of_sensing);
   if (!scene.press) return names;
   for (const auto& of_contact : {contact_maps(), contact_results()}) {
     names.insert(names.end(), of_contact.begin(), of_contact.end());

@@ -25,6 +25,9 @@ SceneArray array_of_answer(const SpaceScene& scene, const TopLoads& loads_Pa);
 std::vector<SceneMap> maps_of(const SpaceScene& scene, const SpaceResponse& response,
                               const TopLoads& loads_Pa);
 
+// Results of heat and noise that the scene may ask for by name.
+std::vector<std::string> sensing_results(const SpaceScene& scene);
+
 // Results name single pillars where there are at most this many.
 constexpr std::size_t kMostNamedPillars = 25;
 

@@ -1,6 +1,7 @@
 // Heat and noise of one pillar's electrode (models/array/sensing).
 #include "models/array/space/disc_charge.h"
 #include "models/array/space/simulate_space.h"
+#include "models/array/space/space_maps.h"
 #include "models/maths/dense.h"
 #include "models/pillar/mesh/scene_mistake.h"
 
@@ -151,6 +152,28 @@ void check_conductor(const std::string& key, const HeatConductor& one) {
 }
 
 }  // namespace
+
+std::vector<std::string> sensing_results(const SpaceScene& scene) {
+  std::vector<std::string> names;
+  if (scene.noise) {
+    names = {"electrode_capacitance", "noise_bias",       "noise_loss",
+             "noise_amplifier",       "noise_voltage",    "reading_per_pressure",
+             "resolution_pressure",   "resolution_force", "reset_noise",
+             "reset_pressure"};
+  }
+  if (!scene.heat) return names;
+  for (const char* common : {"foot_temperature", "uniform_voltage", "pillar_time", "film_time"}) {
+    names.push_back(std::string("heat_") + common);
+  }
+  for (const std::string& reading : reading_names(scene.electrode)) {
+    if (reading.starts_with("quadrant")) continue;
+    for (const char* what :
+         {"_voltage", "_pressure", "_crosstalk_percent", "_dummy_touch", "_dummy_drift", "_step"}) {
+      names.push_back("heat_" + reading + what);
+    }
+  }
+  return names;
+}
 
 void check_heat_and_noise(const SpaceScene& scene) {
   if (scene.heat) {
