@@ -105,7 +105,7 @@ FootResponse foot_response(const HeatPath& path, const ElectrodeWeight& weight, 
 }
 
 // Heat through the foot per kelvin at the top: a rod with the film at its end (eq. H3).
-Complex flow_W(const HeatPath& path, Complex foot_K_W, Complex s_1_s) {
+Complex heat_flow(const HeatPath& path, Complex foot_K_W, Complex s_1_s) {
   const double area_m2 = std::numbers::pi * path.radius_m * path.radius_m;
   const double kA = path.pillar.conductivity_W_mK * area_m2;
   if (s_1_s == 0.0) return 1.0 / (foot_K_W + path.length_m / kA);
@@ -120,7 +120,7 @@ struct SteadyParts {
 SteadyParts steady_parts(const HeatPath& path, const ElectrodeWeight& weight, double distance_m,
                          const Quadrature& quadrature) {
   const FootResponse foot = foot_response(path, weight, distance_m, 0.0, quadrature);
-  const double flow = flow_W(path, foot.foot_K, 0.0).real();
+  const double flow = heat_flow(path, foot.foot_K, 0.0).real();
   return {foot.foot_K.real(), flow * foot.foot_K.real(), flow * foot.own_V.real(),
           flow * foot.away_V.real()};
 }
@@ -138,7 +138,7 @@ std::vector<double> step_values(const HeatPath& path, const ElectrodeWeight& wei
       const double cot = j == 0 ? 0.0 : 1.0 / std::tan(theta);
       const Complex s = j == 0 ? Complex(r) : r * theta * Complex(cot, 1.0);
       const FootResponse foot = foot_response(path, weight, 0.0, s, quadrature);
-      const Complex answer = flow_W(path, foot.foot_K, s) * foot.own_V / s;
+      const Complex answer = heat_flow(path, foot.foot_K, s) * foot.own_V / s;
       const Complex turn = Complex(1.0, theta + (theta * cot - 1.0) * cot);
       sum += std::exp(s * t_s) * answer * (j == 0 ? Complex(0.5) : turn);
     }
