@@ -1,6 +1,8 @@
 #include "io/scenes/pillar_positions.h"
 #include "io/scenes/scene_words.h"
+#include "io/scenes/sensing_section.h"
 #include "io/scenes/shape_section.h"
+#include "io/scenes/touch_section.h"
 #include "models/array/space/space_scene.h"
 #include "models/scene/effects.h"
 #include "models/scene/plan.h"
@@ -40,6 +42,8 @@ struct RawSpace {
   double pressure_Pa = 0.0, shear_x_Pa = 0.0, shear_y_Pa = 0.0;
   Pairs loaded;
   RawShape shape;
+  RawDrive drive;  // history and readout
+  RawSensing sensing;
   std::map<std::string, std::string> effects;
   std::vector<std::string> quantities;
   std::vector<PrintedValue> printed;
@@ -110,6 +114,7 @@ void show_space(FieldVisitor& v, RawSpace& s) {
   v.section("materials", [&](FieldVisitor& m) { show_materials(m, s); });
   v.section("analysis", [&](FieldVisitor& a) {
     a.text({"kind", "static"}, s.analysis);
+    show_touch_history(a, s.analysis, s.drive);
     a.section("load", [&](FieldVisitor& l) {
       l.quantity({.key = "pressure", .unit = "Pa"}, s.pressure_Pa);
       l.quantity({.key = "shear_x", .unit = "Pa"}, s.shear_x_Pa);
@@ -119,6 +124,9 @@ void show_space(FieldVisitor& v, RawSpace& s) {
     });
   });
   v.section("shape", [&](FieldVisitor& one) { show_shape(one, s.shape); });
+  v.section("readout", [&](FieldVisitor& r) { show_readout(r, s.drive); });
+  v.section("heat", [&](FieldVisitor& h) { show_heat(h, s.sensing); });
+  v.section("noise", [&](FieldVisitor& n) { show_noise(n, s.sensing); });
   v.section("effects", [&](FieldVisitor& e) {
     for (const Effect& effect : effects()) e.text({effect.name, "auto"}, s.effects[effect.name]);
   });
@@ -226,13 +234,7 @@ void fill_electrode(const RawSpace& raw, SpaceScene& scene) {
   scene.electrode_radius_m = raw.electrode_radius_m;
 }
 
-void fill_analysis(const RawSpace& raw, SpaceScene& scene) {
-  if (raw.analysis != "static") {
-    throw SceneMistake("analysis.kind", "cannot be '" + raw.analysis +
-                                            "': arrays in the plane are answered for loads at "
-                                            "rest, kind = \"static\"; rows (model = "
-                                            "\"plane-stress\") have other analyses too");
-  }
+void fill_load(const RawSpace& raw, SpaceScene& scene) {
   choice<bool>("analysis.load.on", raw.load_on, {{"top", true}});
   scene.pressure_Pa = raw.pressure_Pa;
   scene.shear_x_Pa = raw.shear_x_Pa;
@@ -270,9 +272,11 @@ SpaceScene scene_from(const RawSpace& raw, const std::filesystem::path& folder) 
   scene.film_edge_m = raw.film_edge_m;
   fill_electrode(raw, scene);
   scene.surface_energy_J_m2 = raw.surface_energy_J_m2;
-  fill_analysis(raw, scene);
+  fill_load(raw, scene);
   const FilmExtent film = film_extent(scene);
   scene.press = press_from(raw.shape, folder, {film.left_m, film.right_m, film.low_m, film.high_m});
+  fill_sensing(raw.sensing, raw.drive, scene);
+  fill_touch(raw.analysis, raw.drive, scene);
   scene.effects = choices_of(raw.effects);
   scene.wanted = raw.quantities;
   return scene;

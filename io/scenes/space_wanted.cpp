@@ -37,7 +37,11 @@ void check_space_wanted(const SpaceScene& scene) {
       check_wanted({name}, maps);
       continue;
     }
-    if (name == *map + "_largest" || name == *map + "_smallest") continue;
+    if (name == *map + "_largest" || name == *map + "_smallest") {
+      if (*map != "reading") continue;
+      throw SceneMistake("want.quantities",
+                         "'" + name + "': a reading is that of one pillar, such as reading_1_1");
+    }
     const RowColumn place = place_in(name, *map);
     const std::optional<std::size_t> index = index_of(scene, place);
     if (!index) {

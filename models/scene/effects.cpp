@@ -17,7 +17,7 @@ const std::vector<Effect>& effects() {
        "moduli fall with time",
        "a vector per term, and time steps",
        {Pillar{relaxation_estimate, [](PillarScene& scene) { scene.pillar.terms.clear(); }},
-        Row{relaxation_estimate}, Space{relaxation_estimate}}},
+        Row{relaxation_estimate}, Space{relaxation_estimate, leave_out_relaxation}}},
       {"inertia",
        "mass resists",
        "a mass matrix",
@@ -57,9 +57,7 @@ const std::vector<Effect>& effects() {
        {Pillar{leakage_estimate}, Row{[](const ArrayScene&) -> EffectEstimate {
           return {.reason = "open electrodes, before charge leaks"};
         }},
-        Space{[](const SpaceScene&) -> EffectEstimate {
-          return {.reason = "faces without charge, before any leaks in"};
-        }}}},
+        Space{leakage_estimate}}},
       {"crosstalk",
        "neighbours load the film",
        "the neighbours",

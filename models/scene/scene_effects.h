@@ -41,6 +41,8 @@ EffectEstimate finite_strain_estimate(const ArrayScene& scene);
 EffectEstimate film_compliance_estimate(const SpaceScene& scene);
 EffectEstimate piezo_coupling_estimate(const SpaceScene& scene);
 EffectEstimate relaxation_estimate(const SpaceScene& scene);
+void leave_out_relaxation(SpaceScene& scene);
+EffectEstimate leakage_estimate(const SpaceScene& scene);
 EffectEstimate incompressibility_estimate(const SpaceScene& scene);
 EffectEstimate crosstalk_estimate(const SpaceScene& scene);
 EffectEstimate geometric_stiffness_estimate(const SpaceScene& scene);

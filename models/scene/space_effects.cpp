@@ -1,6 +1,7 @@
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_contact.h"
 #include "models/array/space/space_maps.h"
+#include "models/array/space/touch_steps.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/scene/scene_effects.h"
@@ -69,7 +70,25 @@ EffectEstimate piezo_coupling_estimate(const SpaceScene& scene) {
 
 EffectEstimate relaxation_estimate(const SpaceScene& scene) {
   if (!is_viscoelastic(scene)) return {.reason = "the material is elastic"};
+  if (scene.touch) {
+    const double share = relaxed_share(scene);
+    return {EffectRole::kOptional, share, "relaxed share at the end", share,
+            scene.touch->is_creep ? "the shape sinks in under its force"
+                                  : "the force under the shape falls"};
+  }
   return {.reason = "answers right after loading, with the instantaneous moduli"};
+}
+
+void leave_out_relaxation(SpaceScene& scene) {
+  scene.pillar.terms.clear();
+  for (SpaceClass& one : scene.others) one.material.terms.clear();
+}
+
+EffectEstimate leakage_estimate(const SpaceScene& scene) {
+  if (!scene.touch || !scene.touch->readout) {
+    return {.reason = "faces without charge, before any leaks in"};
+  }
+  return {EffectRole::kNeeded, 1.0, "", 0.0, "the reading of an amplifier is asked for"};
 }
 
 EffectEstimate incompressibility_estimate(const SpaceScene& scene) {
@@ -169,6 +188,10 @@ EffectEstimate contact_estimate(const SpaceScene& scene) {
   EffectEstimate estimate{EffectRole::kOptional, pressed.lift, "largest gap over overlap",
                           pressed.lift, "tops that the shape does not touch are not pulled"};
   if (!pressed.covers_all || scene.backing) estimate.role = EffectRole::kNeeded;
+  if (scene.touch) {
+    estimate.role = EffectRole::kNeeded;
+    estimate.reason = "the contact grows in time";
+  }
   return estimate;
 }
 

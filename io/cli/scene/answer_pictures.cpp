@@ -88,6 +88,45 @@ const SceneCurve* find(const SceneAnswer& answer, const std::string& name) {
   return nullptr;
 }
 
+// A shape on an array in time: its depth and force, how many pillars it touches, and what electrodes read,
+// one above the other.
+void draw_touch(const SceneAnswer& answer, Pictures& pictures) {
+  Plot plot;
+  plot.title = "the touch in time";
+  PlotPanel read;
+  for (const SceneCurve& curve : answer.curves) {
+    if (curve.x_name != "time_s") return;
+    const bool is_of_shape =
+        curve.name == "depth" || curve.name == "contact_force" || curve.name == "contacts";
+    PlotPanel panel = panel_of(curve);
+    if (is_of_shape) {
+      panel.shares_x_with_below = true;
+      plot.panels.push_back(std::move(panel));
+      continue;
+    }
+    if (curve.unit != "V") continue;
+    const std::size_t index = read.series.size();
+    PlotSeries line = std::move(panel.series.back());
+    const double of_V = shown_unit("V", curve.value).per_si;
+    if (index == 0) {
+      read.x = panel.x;
+      read.y = {.label = "voltage (V)"};
+    }
+    line.y = times(std::move(line.y), 1.0 / of_V);
+    line.label = curve.name;
+    std::replace(line.label.begin(), line.label.end(), '_', ' ');
+    line.ink = ink_of_series(index);
+    line.pattern = static_cast<int>(index);
+    read.series.push_back(std::move(line));
+  }
+  if (plot.panels.empty() || read.series.empty()) return;
+  read.height_share = 1.5;
+  plot.panels.push_back(std::move(read));
+  plot.description = "depth and force of the shape and voltages against time";
+  plot.height_px = 220 * static_cast<int>(plot.panels.size());
+  draw("touch", plot, "touch", pictures);
+}
+
 }  // namespace
 
 Pictures pictures_of(const SceneAnswer& answer) {
@@ -109,6 +148,7 @@ Pictures pictures_of(const SceneAnswer& answer) {
     }
     if (!draw(curve.name, plot, "curve", pictures)) return {};
   }
+  draw_touch(answer, pictures);
   return pictures;
 }
 

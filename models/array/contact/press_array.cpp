@@ -65,53 +65,61 @@ PressedArray press_to_depth(const std::vector<TouchedPillar>& pillars,
   return array;
 }
 
+// Secant between the bounds, halved at the end that stays (Illinois method: Dowell & Jarratt, BIT 11
+// (1971) 168).
+void depth_of_force(const std::function<double(double)>& force_N_at, const DepthSearch& search) {
+  constexpr int kMostDoublings = 200, kMostSteps = 100;
+  double low_m = search.low_m, high_m = search.guess_m;
+  double below_N = force_N_at(low_m) - search.force_N;
+  double found_N = force_N_at(high_m) - search.force_N;
+  double step_m = high_m - low_m;
+  for (int step = 0; step < kMostDoublings && found_N < 0.0; ++step) {
+    low_m = high_m;
+    below_N = found_N;
+    step_m *= 2.0;
+    high_m += step_m;
+    found_N = force_N_at(high_m) - search.force_N;
+  }
+  double above_N = found_N;
+  int side = 0;  // of the last point: 1 above, -1 below
+  for (int step = 0; step < kMostSteps && std::abs(found_N) > search.accuracy * search.force_N;
+       ++step) {
+    const double at_m = (low_m * above_N - high_m * below_N) / (above_N - below_N);
+    if (!(at_m > low_m && at_m < high_m)) break;  // rounding
+    found_N = force_N_at(at_m) - search.force_N;
+    if (found_N > 0.0) {
+      high_m = at_m;
+      above_N = found_N;
+      if (side == 1) below_N *= 0.5;
+      side = 1;
+    } else {
+      low_m = at_m;
+      below_N = found_N;
+      if (side == -1) above_N *= 0.5;
+      side = -1;
+    }
+  }
+}
+
 PressedArray press_with_force(const std::vector<TouchedPillar>& pillars,
                               const std::vector<TopContact>& classes, const RigidShape& shape,
                               double force_N, TopBond bond) {
   require(force_N > 0.0, "the force on a shape must be positive");
-  double low_m = first_touch_m(pillars, classes, shape);
+  const double low_m = first_touch_m(pillars, classes, shape);
   require(std::isfinite(low_m), "there is no pillar under the shape");
   // One pillar alone would bear the force at this depth.
   double step_m = 0.0;
   for (const TopContact& one : classes) {
     step_m = std::max(step_m, force_N * one.compliance().sinking_m_N());
   }
-  double low_N = press_to_depth(pillars, classes, shape, low_m, bond).force_N;
-  double high_m = low_m + step_m;
-  PressedArray high = press_to_depth(pillars, classes, shape, high_m, bond);
-  while (high.force_N < force_N) {
-    low_m = high_m;
-    low_N = high.force_N;
-    step_m *= 2.0;
-    high_m += step_m;
-    high = press_to_depth(pillars, classes, shape, high_m, bond);
-  }
-  // Secant between the bounds, halved at the end that stays (Illinois method: Dowell & Jarratt, BIT 11
-  // (1971) 168).
-  double above_N = high.force_N - force_N;
-  double below_N = low_N - force_N;
-  PressedArray best = high;
-  constexpr int kMostSteps = 100;
-  int side = 0;  // of the last point: 1 above, -1 below
-  for (int step = 0; step < kMostSteps && std::abs(best.force_N - force_N) > 1e-13 * force_N;
-       ++step) {
-    const double at_m = (low_m * above_N - high_m * below_N) / (above_N - below_N);
-    if (!(at_m > low_m && at_m < high_m)) break;  // rounding
-    best = press_to_depth(pillars, classes, shape, at_m, bond);
-    const double beyond_N = best.force_N - force_N;
-    if (beyond_N > 0.0) {
-      high_m = at_m;
-      above_N = beyond_N;
-      if (side == 1) below_N *= 0.5;
-      side = 1;
-    } else {
-      low_m = at_m;
-      below_N = beyond_N;
-      if (side == -1) above_N *= 0.5;
-      side = -1;
-    }
-  }
-  return best;
+  PressedArray array;
+  depth_of_force(
+      [&](double depth_m) {
+        array = press_to_depth(pillars, classes, shape, depth_m, bond);
+        return array.force_N;
+      },
+      {.low_m = low_m, .guess_m = low_m + step_m, .force_N = force_N});
+  return array;
 }
 
 }  // namespace viscard

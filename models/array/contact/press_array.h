@@ -3,6 +3,7 @@
 #include "models/array/contact/rigid_shape.h"
 #include "models/array/contact/top_contact.h"
 
+#include <functional>
 #include <vector>
 
 namespace viscard {
@@ -37,5 +38,15 @@ PressedArray press_to_depth(const std::vector<TouchedPillar>& pillars,
 PressedArray press_with_force(const std::vector<TouchedPillar>& pillars,
                               const std::vector<TopContact>& classes, const RigidShape& shape,
                               double force_N, TopBond bond = TopBond::kPushed);
+
+// A search for the depth of a force, from a depth at which it is less.
+struct DepthSearch {
+  double low_m = 0.0, guess_m = 0.0;  // guess_m > low_m
+  double force_N = 0.0;
+  double accuracy = 1e-13;  // relative, of the force
+};
+// Calls force_N_at() until the last call has met the force: it grows with the depth. Stops at rounding.
+void depth_of_force(const std::function<double(double depth_m)>& force_N_at,
+                    const DepthSearch& search);
 
 }  // namespace viscard

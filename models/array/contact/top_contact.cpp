@@ -29,6 +29,34 @@ double dot(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.cwiseProduct(b).sum();
 }
 
+// Which of the points that pull or overlap change sides: all, as long as their number has fallen within
+// the last sets, otherwise the last one alone. All at once may go round in a circle; one by one ends.
+// Judice & Pires, Computers & Operations Research 21 (1994) 587 (block pivoting); Murty's rule.
+class Exchange {
+ public:
+  Mask next(const Mask& wrong) {
+    const Eigen::Index count = wrong.count();
+    if (fewest_ == 0 || count < fewest_) {
+      fewest_ = count;
+      left_ = kChances;
+      return wrong;
+    }
+    if (left_-- > 0) return wrong;
+    Mask last = Mask::Constant(wrong.rows(), wrong.cols(), false);
+    for (Eigen::Index i = wrong.size() - 1; i >= 0; --i) {
+      if (!wrong.data()[i]) continue;
+      last.data()[i] = true;
+      break;
+    }
+    return last;
+  }
+
+ private:
+  static constexpr int kChances = 10;
+  Eigen::Index fewest_ = 0;
+  int left_ = kChances;
+};
+
 }  // namespace
 
 TopContact::TopContact(TopCompliance compliance) : compliance_(std::move(compliance)) {
@@ -78,10 +106,10 @@ Eigen::MatrixXd TopContact::forces(const Eigen::MatrixXd& motion_m) const {
 }
 
 // Conjugate gradients on the points that touch; points that pull are let go, points that overlap are
-// taken in, until neither happens. The energy falls from set to set, so that none comes twice.
+// taken in, until neither happens.
 Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
                                               const Eigen::MatrixXd& start) const {
-  constexpr int kMostSets = 200, kMostSteps = 2000;
+  constexpr int kMostSets = 2000, kMostSteps = 2000;
   constexpr double kResidual = 1e-13;
   const double size_m = std::max(overlap_m.maxCoeff(), 0.0);
   Eigen::MatrixXd f = start.cwiseMax(0.0);
@@ -89,6 +117,7 @@ Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
   Mask touches = f.array() > 0.0;
   if (!touches.any()) touches = overlap_m.array() > 0.0;
   f = masked(f, touches);
+  Exchange exchange;
   for (int set = 0; set < kMostSets; ++set) {
     Eigen::MatrixXd residual = masked(overlap_m - motion(f), touches);
     Eigen::MatrixXd direction = residual;
@@ -107,8 +136,10 @@ Eigen::MatrixXd TopContact::unilateral_forces(const Eigen::MatrixXd& overlap_m,
     const Mask pulls = touches && f.array() < -pull_N;
     const Eigen::MatrixXd left_m = overlap_m - motion(masked(f.cwiseMax(0.0), touches));
     const Mask overlaps = !touches && left_m.array() > 1e-9 * size_m;
-    if (!pulls.any() && !overlaps.any()) return f.cwiseMax(0.0);
-    touches = (touches && !pulls) || overlaps;
+    const Mask wrong = pulls || overlaps;
+    if (!wrong.any()) return f.cwiseMax(0.0);
+    const Mask changes = exchange.next(wrong);
+    touches = (touches && !changes) || (overlaps && changes);
     f = masked(f.cwiseMax(0.0), touches);
   }
   throw std::runtime_error(
@@ -157,7 +188,7 @@ TopPressure TopContact::follow(const Overlap& overlap) const {
   return pressure;
 }
 
-TopPressure TopContact::press(const Overlap& overlap) const {
+Eigen::MatrixXd TopContact::overlaps(const Overlap& overlap) const {
   const auto rings = static_cast<Eigen::Index>(compliance_.radius_m.size());
   Eigen::MatrixXd overlap_m(rings, compliance_.angles);
   for (Eigen::Index ring = 0; ring < rings; ++ring) {
@@ -168,23 +199,49 @@ TopPressure TopContact::press(const Overlap& overlap) const {
           std::max(overlap(r_m * std::cos(angle), r_m * std::sin(angle)), kAbove_m);
     }
   }
+  return overlap_m;
+}
+
+bool TopContact::is_full(const Eigen::MatrixXd& overlap_m, Eigen::MatrixXd& everywhere) const {
+  if (!(overlap_m.minCoeff() > -overlap_m.maxCoeff())) return false;
+  everywhere = forces(overlap_m);
+  return everywhere.minCoeff() >= 0.0;
+}
+
+Eigen::MatrixXd TopContact::pushing_forces(const Eigen::MatrixXd& overlap_m,
+                                           const Eigen::MatrixXd& guess) const {
+  if (!(overlap_m.maxCoeff() > 0.0)) {
+    return Eigen::MatrixXd::Zero(overlap_m.rows(), overlap_m.cols());
+  }
+  Eigen::MatrixXd everywhere;
+  if (is_full(overlap_m, everywhere)) return everywhere;
+  if (guess.size() > 0) return unilateral_forces(overlap_m, guess);
+  if (everywhere.size() > 0) return unilateral_forces(overlap_m, everywhere);
+  return unilateral_forces(overlap_m, overlap_m.cwiseMax(0.0) / compliance_.sinking_m_N() /
+                                          static_cast<double>(overlap_m.size()));
+}
+
+TopPressure TopContact::pressure_of(const Eigen::MatrixXd& forces_N) const {
+  TopPressure pressure;
+  add_resultants(forces_N, pressure);
+  pressure.is_partial = pressure.share > 0.0 && forces_N.minCoeff() == 0.0;
+  if (pressure.is_partial) {
+    pressure.share_error = std::sqrt(pressure.share) / static_cast<double>(forces_N.rows());
+  }
+  return pressure;
+}
+
+TopPressure TopContact::press(const Overlap& overlap) const {
+  const Eigen::MatrixXd overlap_m = overlaps(overlap);
   if (!(overlap_m.maxCoeff() > 0.0)) return {};
-  const bool may_be_full = overlap_m.minCoeff() > -overlap_m.maxCoeff();
-  const Eigen::MatrixXd everywhere =
-      may_be_full ? forces(overlap_m)
-                  : Eigen::MatrixXd(overlap_m.cwiseMax(0.0) / compliance_.sinking_m_N() /
-                                    static_cast<double>(overlap_m.size()));
-  if (may_be_full && everywhere.minCoeff() >= 0.0) {
-    TopPressure on_grid;
-    add_resultants(everywhere, on_grid);
+  Eigen::MatrixXd everywhere;
+  if (is_full(overlap_m, everywhere)) {
     TopPressure pressure = follow(overlap);
-    pressure.largest_Pa = on_grid.largest_Pa;
+    pressure.largest_Pa = pressure_of(everywhere).largest_Pa;
     return pressure;
   }
-  TopPressure pressure;
-  add_resultants(unilateral_forces(overlap_m, everywhere), pressure);
+  TopPressure pressure = pressure_of(pushing_forces(overlap_m, everywhere));
   pressure.is_partial = true;
-  pressure.share_error = std::sqrt(pressure.share) / static_cast<double>(rings);
   return pressure;
 }
 

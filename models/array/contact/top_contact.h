@@ -43,7 +43,15 @@ class TopContact {
   Eigen::MatrixXd unilateral_forces(const Eigen::MatrixXd& overlap_m,
                                     const Eigen::MatrixXd& start) const;
 
+  // The overlap at the points, and the forces that it causes there; without a guess if that is empty.
+  Eigen::MatrixXd overlaps(const Overlap& overlap) const;
+  Eigen::MatrixXd pushing_forces(const Eigen::MatrixXd& overlap_m,
+                                 const Eigen::MatrixXd& guess) const;
+  TopPressure pressure_of(const Eigen::MatrixXd& forces_N) const;
+
  private:
+  // True, with the forces, if all points push when they all follow the overlap.
+  bool is_full(const Eigen::MatrixXd& overlap_m, Eigen::MatrixXd& everywhere) const;
   void add_resultants(const Eigen::MatrixXd& forces_N, TopPressure& pressure) const;
   Eigen::MatrixXd in_harmonics(const Eigen::MatrixXd& values,
                                const std::vector<Eigen::MatrixXd>& blocks) const;

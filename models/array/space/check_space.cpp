@@ -1,6 +1,7 @@
 #include "models/array/space/neighbours.h"
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_contact.h"
+#include "models/array/space/touch_steps.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/buckling_limit.h"
 #include "models/pillar/mesh/scene_mistake.h"
@@ -221,8 +222,10 @@ void validate(const SpaceScene& scene) {
   if (!(scene.surface_energy_J_m2 > 0.0)) {
     throw SceneMistake("materials.surface_energy", "the surface energy must be positive");
   }
+  check_heat_and_noise(scene);
   if (scene.press) {
     check_press(scene);
+    check_touch(scene);
     return;
   }
   check_size(scene);

@@ -2,6 +2,7 @@
 
 #include "models/array/space/contact_maps.h"
 #include "models/array/space/space_maps.h"
+#include "models/array/space/touch_curves.h"
 #include "models/maths/text_of_number.h"
 #include "models/pillar/analyses/analysis.h"
 #include "models/pillar/mesh/scene_mistake.h"
@@ -134,10 +135,12 @@ std::vector<std::string> result_names(const SpaceScene& scene) {
   if (square_pitch_m(scene) > 0.0 && !scene.backing) {
     names.insert(names.end(), {"voltage_per_pressure", "voltage_per_height"});
   }
+  for (const std::string& of_sensing : sensing_results(scene)) names.push_back(of_sensing);
   if (!scene.press) return names;
   for (const auto& of_contact : {contact_maps(), contact_results()}) {
     names.insert(names.end(), of_contact.begin(), of_contact.end());
   }
+  for (const std::string& of_touch : touch_results(scene)) names.push_back(of_touch);
   return names;
 }
 
@@ -166,7 +169,7 @@ double beyond_reach(const SpaceScene& scene, const SpaceResponse& response,
 }
 
 SceneAnswer voltages_on(const SpaceScene& scene, const TopLoads& loads_Pa,
-                        const Discretisation& mesh) {
+                        const Discretisation& mesh, const TouchCourse* course = nullptr) {
   const SpaceArray array = array_of(scene);
   const SpaceAccuracy accuracy = accuracy_for(scene, array, mesh);
   const SpaceResponse response(array, accuracy);
@@ -175,6 +178,7 @@ SceneAnswer voltages_on(const SpaceScene& scene, const TopLoads& loads_Pa,
   answer.unknowns = response.unknowns();
   answer.array = array_of_answer(scene, loads_Pa);
   answer.maps = maps_of(scene, response, loads_Pa);
+  if (course != nullptr) add_voltage_curves(scene, response, *course, answer);
   if (scene.feels_neighbours) answer.step_error = beyond_reach(scene, response, loads_Pa, answer);
   set_results(scene, answer);
   add_transfer(scene, response, accuracy.potential.reach_m, answer);
@@ -197,10 +201,8 @@ void add_change_of_loads(const SpaceScene& scene, const SpaceContact& contact,
 constexpr double kShareOfContact = 0.25;
 constexpr double kMostOfContact = 0.7;
 
-SpaceContact settled_contact(const SpaceScene& scene) {
-  SpaceContact contact = contact_within(scene, kShareOfContact * scene.tolerance);
-  const double error = contact_error(contact);
-  if (error <= kMostOfContact * scene.tolerance) return contact;
+void refuse_coarse_tops(const SpaceScene& scene, double error) {
+  if (error <= kMostOfContact * scene.tolerance) return;
   throw std::runtime_error("the finest grid of the tops leaves a relative error of about " +
                            text_of(error, 2) +
                            " in the forces and moments, where a top is touched in part; ask for a "
@@ -208,10 +210,38 @@ SpaceContact settled_contact(const SpaceScene& scene) {
                            text_of(1.1 * error / kMostOfContact, 2) + " or more");
 }
 
+SpaceContact settled_contact(const SpaceScene& scene) {
+  SpaceContact contact = contact_within(scene, kShareOfContact * scene.tolerance);
+  refuse_coarse_tops(scene, contact_error(contact));
+  return contact;
+}
+
+TouchCourse settled_course(const SpaceScene& scene) {
+  TouchCourse course = touch_course(scene, kShareOfContact * scene.tolerance);
+  refuse_coarse_tops(scene, course.relative_error);
+  return course;
+}
+
+std::string note_of_shrinking(const TouchCourse& course) {
+  return "contact shrinks in this touch, which is followed step by step; maps and single values "
+         "are "
+         "those of the largest force, at " +
+         text_of(course.time_s[course.shown_at], 4) + " s";
+}
+
+// For studies of meshes: the loads as for a tolerance, once more for each mesh.
+SceneAnswer touch_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
+  const TouchCourse course = touch_course(scene, kShareOfContact * scene.tolerance);
+  SceneAnswer answer = voltages_on(scene, course.shown.loads_Pa, mesh, &course);
+  add_contact(scene, course.shown, answer);
+  return answer;
+}
+
 }  // namespace
 
 SceneAnswer space_answer_on(const SpaceScene& scene, const Discretisation& mesh) {
   if (!scene.press) return voltages_on(scene, loads_of(scene), mesh);
+  if (scene.touch) return touch_answer_on(scene, mesh);
   const SpaceContact contact = contact_on(scene, (mesh.degree - 3) / 2);
   SceneAnswer answer = voltages_on(scene, contact.loads_Pa, mesh);
   add_contact(scene, contact, answer);
@@ -224,20 +254,22 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   const double constant = largest_constant_error(scene, parts);
   if (constant > (1.0 - kShareOfAccuracy) * scene.tolerance) refuse(scene, constant, parts);
   std::optional<SpaceContact> contact;
-  if (scene.press) {
-    if (scene.progress) scene.progress(0.0, "which tops touch");
-    contact = settled_contact(scene);
-  }
+  std::optional<TouchCourse> course;
+  if (scene.press && scene.progress) scene.progress(0.0, "which tops touch");
+  if (scene.touch) course = settled_course(scene);
+  if (scene.press) contact = course ? course->shown : settled_contact(scene);
   const TopLoads loads_Pa = contact ? contact->loads_Pa : loads_of(scene);
-  const double of_contact = contact ? contact_error(*contact) : 0.0;
+  double of_contact = contact ? contact_error(*contact) : 0.0;
+  if (course) of_contact = std::max(of_contact, course->relative_error);
   BackingEffect backing;
   if (scene.backing && scene.feels_backing) backing = backing_effect(scene, loads_Pa);
   check_edge(scene, backing, constant);
   const double left = std::max(scene.tolerance - constant - of_contact - backing.edge,
                                0.5 * kShareOfAccuracy * scene.tolerance);
   SceneAnswer answer =
-      answer_within({left, space_meshes(scene), scene.progress},
-                    [&](const Discretisation& mesh) { return voltages_on(scene, loads_Pa, mesh); });
+      answer_within({left, space_meshes(scene), scene.progress}, [&](const Discretisation& mesh) {
+        return voltages_on(scene, loads_Pa, mesh, course ? &*course : nullptr);
+      });
   if (contact) add_change_of_loads(scene, *contact, answer);
   for (SceneMap& map : answer.maps) {
     const double of_all = common_error_of(map, parts) + backing.edge * edge_size_of(map);
@@ -249,7 +281,10 @@ SceneAnswer simulate_space(const SpaceScene& scene) {
   answer.largest_relative_error += constant + of_contact + backing.edge;
   if (contact) add_contact(scene, *contact, answer);
   set_results(scene, answer);
-  if (contact) answer.notes = contact_notes(scene, *contact);
+  if (course) finish_curves(scene, *course, constant, answer);
+  add_heat_and_noise(scene, answer);
+  if (contact) answer.notes = contact_notes(scene, course ? course->largest : *contact);
+  if (course && course->has_shrunk) answer.notes.push_back(note_of_shrinking(*course));
   if (std::abs(backing.voltage_V - backing.rigid_V) > kStretchingFrom * std::abs(backing.rigid_V)) {
     answer.notes.push_back(stretching_note(scene, backing));
   }

@@ -30,6 +30,10 @@ std::vector<Discretisation> space_meshes(const SpaceScene& scene);
 // Throws SceneMistake naming what is missing or contradictory.
 void validate(const SpaceScene& scene);
 
+// Heat and noise that the scene names, as results and curves of one of the usual pillars.
+void check_heat_and_noise(const SpaceScene& scene);  // throws SceneMistake
+void add_heat_and_noise(const SpaceScene& scene, SceneAnswer& answer);
+
 // The maps that a scene may ask for.
 std::vector<std::string> result_names(const SpaceScene& scene);
 

@@ -86,6 +86,7 @@ class SpaceResponse {
   // Forces at the feet of the pillars of a class.
   const FootForces& foot(int of_class) const { return feet_[static_cast<std::size_t>(of_class)]; }
   double capacitance_F() const { return capacitance_F_; }  // of one electrode; 0 if sampled
+  double reach_m() const { return reach_m_; }  // between axes, beyond which nothing is felt
   int unknowns() const { return unknowns_; }
 
  private:

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -37,6 +38,20 @@ double disc_m2(double radius_m) {
   return std::numbers::pi * radius_m * radius_m;
 }
 
+// A pressure and two tilts with the force and the moments of a top. Tilting tractions point up, pressures
+// down.
+Eigen::Matrix<double, 1, kTopLoads> load_of(const TopPressure& top, double R_m) {
+  Eigen::Matrix<double, 1, kTopLoads> load = Eigen::Matrix<double, 1, kTopLoads>::Zero();
+  load[static_cast<int>(TopLoad::kPressure)] = top.force_N / disc_m2(R_m);
+  const double of_moment = -1.0 / (0.25 * disc_m2(R_m) * R_m);
+  load[static_cast<int>(TopLoad::kTiltX)] = of_moment * top.moment_x_Nm;
+  load[static_cast<int>(TopLoad::kTiltY)] = of_moment * top.moment_y_Nm;
+  return load;
+}
+
+}  // namespace
+
+// Presses the shape of a scene on its array.
 class Presser {
  public:
   explicit Presser(const SpaceScene& scene)
@@ -56,6 +71,7 @@ class Presser {
       error_ = std::max(error_,
                         (std::abs(foot.sinking_m_Pa - coarser_m_Pa) + kOfSettling * settling_m_Pa) /
                             foot.sinking_m_Pa);
+      settling_share_ = std::max(settling_share_, settling_m_Pa / foot.sinking_m_Pa);
       turning_rad_Nm_.push_back(foot.tilt_by_tilt_1_Pa / (0.25 * area_m2 * R_m));
       sideways_m_Pa_.push_back(std::abs(foot.sideways_by_tilt_m_Pa));
     }
@@ -68,7 +84,7 @@ class Presser {
   Presser(const Presser&) = delete;
   Presser& operator=(const Presser&) = delete;
 
-  SpaceContact on(int grid) {
+  std::vector<TopContact> classes_on(int grid) const {
     std::vector<TopContact> classes;
     for (std::size_t i = 0; i < array_.classes.size(); ++i) {
       const PillarClass& one = array_.classes[i];
@@ -77,22 +93,36 @@ class Presser {
       top.adjust(sinking_m_N_[i], turning_rad_Nm_[i]);
       classes.emplace_back(std::move(top));
     }
-    const ShapePress& press = *scene_->press;
+    return classes;
+  }
+
+  SpaceContact on(int grid) const { return pressed(classes_on(grid), *scene_->press); }
+
+  SpaceContact pressed(const std::vector<TopContact>& classes, const ShapePress& press) const {
     const TopBond bond = scene_->feels_contact ? TopBond::kPushed : TopBond::kFollows;
-    SpaceContact contact;
     if (on_base_) {
-      contact.pressed = press.force_N > 0.0 ? on_base_->with_force(classes, press.force_N)
-                                            : on_base_->to_depth(classes, press.depth_m);
-      set_loads(contact);
-      contact.stiffness_error = error_;
-      return contact;
+      return contact_of(press.force_N > 0.0 ? on_base_->with_force(classes, press.force_N)
+                                            : on_base_->to_depth(classes, press.depth_m));
     }
-    contact.pressed = press.force_N > 0.0
+    return contact_of(press.force_N > 0.0
                           ? press_with_force(pillars_, classes, press.shape, press.force_N, bond)
-                          : press_to_depth(pillars_, classes, press.shape, press.depth_m, bond);
+                          : press_to_depth(pillars_, classes, press.shape, press.depth_m, bond));
+  }
+
+  SpaceContact contact_of(PressedArray pressed) const {
+    SpaceContact contact;
+    contact.pressed = std::move(pressed);
     set_loads(contact);
     contact.stiffness_error = error_;
+    contact.settling_share = settling_share_;
     return contact;
+  }
+
+  RelaxingTops relaxing(const std::vector<TopContact>& classes,
+                        const std::vector<std::size_t>& which) const {
+    std::vector<TouchedPillar> some;
+    for (const std::size_t pillar : which) some.push_back(pillars_[pillar]);
+    return {some, classes, scene_->press->shape, scene_->pillar.terms.size()};
   }
 
  private:
@@ -104,15 +134,11 @@ class Presser {
     contact.share_change.assign(tops.size(), 0.0);
     for (std::size_t i = 0; i < tops.size(); ++i) {
       const auto of_class = static_cast<std::size_t>(pillars_[i].of_class);
-      const double R_m = 0.5 * array_.classes[of_class].geometry.diameter_m;
       auto load = contact.loads_Pa.row(static_cast<Eigen::Index>(i));
-      load[static_cast<int>(TopLoad::kPressure)] = tops[i].force_N / disc_m2(R_m);
-      // Tilting tractions point up, pressures down.
-      const double of_moment = -1.0 / (0.25 * disc_m2(R_m) * R_m);
-      load[static_cast<int>(TopLoad::kTiltX)] = of_moment * tops[i].moment_x_Nm;
-      load[static_cast<int>(TopLoad::kTiltY)] = of_moment * tops[i].moment_y_Nm;
-      contact.sideways_m.push_back(sideways_m_Pa_[of_class] * std::abs(of_moment) *
-                                   std::hypot(tops[i].moment_x_Nm, tops[i].moment_y_Nm));
+      load = load_of(tops[i], 0.5 * array_.classes[of_class].geometry.diameter_m);
+      contact.sideways_m.push_back(sideways_m_Pa_[of_class] *
+                                   std::hypot(load[static_cast<int>(TopLoad::kTiltX)],
+                                              load[static_cast<int>(TopLoad::kTiltY)]));
     }
   }
 
@@ -120,10 +146,13 @@ class Presser {
   SpaceArray array_;
   std::vector<TouchedPillar> pillars_;
   std::optional<FootMotion> base_;  // of a film on a backing
-  std::optional<PressOnBase> on_base_;
-  double error_ = 0.0;                                                // relative, of the stiffness
+  mutable std::optional<PressOnBase> on_base_;  // keeps what it has computed
+  double error_ = 0.0;  // relative, of the stiffness
+  double settling_share_ = 0.0;
   std::vector<double> sinking_m_N_, turning_rad_Nm_, sideways_m_Pa_;  // by class
 };
+
+namespace {
 
 void compare(const SpaceContact& coarse, SpaceContact& fine) {
   fine.change_Pa = fine.loads_Pa - coarse.loads_Pa;
@@ -149,6 +178,64 @@ double SpaceContact::largest_force_N() const {
 
 SpaceContact contact_on(const SpaceScene& scene, int grid) {
   return Presser(scene).on(std::clamp(grid, 0, kContactGrids - 1));
+}
+
+struct SpaceTops::Parts {
+  std::shared_ptr<const Presser> presser;
+  std::vector<TopContact> classes;
+  ShapePress press;
+  std::size_t pillars = 0;
+};
+
+namespace {
+
+int known_grid(int grid) {
+  return std::clamp(grid, 0, kContactGrids - 1);
+}
+
+}  // namespace
+
+SpaceTops::SpaceTops(const SpaceScene& scene, int grid) {
+  const auto presser = std::make_shared<const Presser>(scene);
+  parts_ = std::make_shared<const Parts>(
+      Parts{presser, presser->classes_on(known_grid(grid)), *scene.press, scene.pillars.size()});
+}
+
+SpaceTops SpaceTops::on_grid(int grid) const {
+  return SpaceTops(std::make_shared<const Parts>(
+      Parts{parts_->presser, parts_->presser->classes_on(known_grid(grid)), parts_->press,
+            parts_->pillars}));
+}
+
+SpaceContact SpaceTops::at_rest() const {
+  return parts_->presser->pressed(parts_->classes, parts_->press);
+}
+
+SpaceContact SpaceTops::at_depth(double depth_m) const {
+  return parts_->presser->pressed(parts_->classes,
+                                  {.shape = parts_->press.shape, .depth_m = depth_m});
+}
+
+RelaxingTops SpaceTops::relaxing(const std::vector<std::size_t>& pillars) const {
+  return parts_->presser->relaxing(parts_->classes, pillars);
+}
+
+SpaceContact SpaceTops::contact_of(const PressedArray& some,
+                                   const std::vector<std::size_t>& pillars) const {
+  PressedArray all = some;
+  all.tops.assign(parts_->pillars, {});
+  for (std::size_t i = 0; i < pillars.size(); ++i) all.tops[pillars[i]] = some.tops[i];
+  return parts_->presser->contact_of(std::move(all));
+}
+
+TopLoads loads_of_tops(const SpaceScene& scene, const std::vector<TopPressure>& tops,
+                       const std::vector<std::size_t>& pillars) {
+  TopLoads loads(static_cast<Eigen::Index>(tops.size()), kTopLoads);
+  for (std::size_t i = 0; i < tops.size(); ++i) {
+    const double d_m = class_of(scene, scene.pillars[pillars[i]]).diameter_m;
+    loads.row(static_cast<Eigen::Index>(i)) = load_of(tops[i], 0.5 * d_m);
+  }
+  return loads;
 }
 
 SpaceContact contact_within(const SpaceScene& scene, double tolerance) {

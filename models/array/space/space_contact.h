@@ -1,8 +1,12 @@
 #pragma once
 
 #include "models/array/contact/press_array.h"
+#include "models/array/contact/relaxing_tops.h"
 #include "models/array/space/space_scene.h"
 
+#include <cstddef>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace viscard {
@@ -20,6 +24,7 @@ struct SpaceContact {
   double depth_change_m = 0.0;
   int contact_change = 0;
   double stiffness_error = 0.0;  // relative, of every force at a depth, or of the depth of a force
+  double settling_share = 0.0;   // of the film in the way of a pressed top
 
   double largest_force_N() const;
 };
@@ -29,6 +34,29 @@ constexpr int kContactGrids = 4;
 
 // On one of the grids, 0 to kContactGrids - 1; without changes.
 SpaceContact contact_on(const SpaceScene& scene, int grid);
+
+// The tops of a scene on one grid, for many states. The scene must outlive them.
+class SpaceTops {
+ public:
+  SpaceTops(const SpaceScene& scene, int grid);
+  SpaceTops on_grid(int grid) const;  // another one
+
+  SpaceContact at_rest() const;                 // under the shape as the scene has it
+  SpaceContact at_depth(double depth_m) const;  // elastic
+  RelaxingTops relaxing(const std::vector<std::size_t>& pillars) const;
+  // Of all pillars; those that are not named bear nothing.
+  SpaceContact contact_of(const PressedArray& some, const std::vector<std::size_t>& pillars) const;
+
+ private:
+  struct Parts;
+  explicit SpaceTops(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+
+  std::shared_ptr<const Parts> parts_;
+};
+
+// The loads of tops: those of the pillars, in their order.
+TopLoads loads_of_tops(const SpaceScene& scene, const std::vector<TopPressure>& tops,
+                       const std::vector<std::size_t>& pillars);
 
 // On grids of rising fineness until no force changes by more than the tolerance times the largest one, or
 // the last one is reached. Tops that are touched everywhere have no error.

@@ -34,6 +34,8 @@ double square_pitch_m(const SpaceScene& scene);
 // `reach_m` away.
 void add_transfer(const SpaceScene& scene, const SpaceResponse& response, double reach_m,
                   SceneAnswer& answer);
+// Results of heat and noise that the scene may ask for by name.
+std::vector<std::string> sensing_results(const SpaceScene& scene);
 
 // Results name single pillars where there are at most this many.
 constexpr std::size_t kMostNamedPillars = 25;

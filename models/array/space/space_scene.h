@@ -1,7 +1,10 @@
 #pragma once
 
 #include "models/array/contact/rigid_shape.h"
+#include "models/array/sensing/heat_response.h"
+#include "models/array/sensing/thermal_noise.h"
 #include "models/array/space/space_array.h"
+#include "models/array/space/touch_drive.h"
 #include "models/pillar/scene/pillar_scene.h"
 #include "models/scene/common/scene_common.h"
 
@@ -71,6 +74,11 @@ struct SpaceScene : SceneCommon {
   std::vector<RowColumn> loaded;  // empty: all
 
   std::optional<ShapePress> press;  // instead of the loads above
+  std::optional<SpaceTouch> touch;  // of the press in time; see press_in_time(), touch_steps.h
+
+  std::optional<HeatScene> heat;   // results of one of the usual pillars, beside those of the loads
+  std::optional<NoiseBand> noise;  // of an electrode with this amplifier
+  std::optional<Readout> noise_readout;
 
   double surface_energy_J_m2 = 0.02;  // of the pillars, which may stick together; PDMS
 

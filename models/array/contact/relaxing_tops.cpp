@@ -1,0 +1,129 @@
+#include "models/array/contact/relaxing_tops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr double kForceIsMet = 1e-9;  // relative
+
+}  // namespace
+
+RelaxingTops::RelaxingTops(std::vector<TouchedPillar> pillars, std::vector<TopContact> classes,
+                           RigidShape shape, std::size_t terms)
+    : classes_(std::move(classes)) {
+  for (const TouchedPillar& one : pillars) {
+    Top top;
+    top.contact = &classes_[static_cast<std::size_t>(one.of_class)];
+    top.reach_m = top.contact->overlaps([&](double x_m, double y_m) {
+      return one.above_m - height_m(shape, one.x_m + x_m, one.y_m + y_m);
+    });
+    top.largest_reach_m = top.reach_m.maxCoeff();
+    top.branch_m.resize(terms);
+    tops_.push_back(std::move(top));
+  }
+}
+
+PressedArray RelaxingTops::to_depth(const RelaxationStep& step, double depth_m) {
+  begin(step);
+  PressedArray array = pressed_at(depth_m);
+  accept(step);
+  return array;
+}
+
+PressedArray RelaxingTops::with_force(const RelaxationStep& step, double force_N,
+                                      double first_guess_m) {
+  begin(step);
+  const double rest_m = resting_m();
+  PressedArray array;
+  const auto force_at = [&](double depth_m) {
+    array = pressed_at(depth_m);
+    return array.force_N;
+  };
+  if (force_N > 0.0) {
+    const double guess_m = is_first_ ? first_guess_m : last_m_;
+    const double first_m = std::max(guess_m - rest_m, 1e-3 * std::abs(first_guess_m));
+    depth_of_force(force_at, {rest_m, rest_m + first_m, force_N, kForceIsMet});
+  } else {
+    force_at(rest_m);
+  }
+  accept(step);
+  return array;
+}
+
+// Forces at the end are K (now u + carried): the part of the branches that does not depend on u.
+void RelaxingTops::begin(const RelaxationStep& step) {
+  now_ = step.equilibrium;
+  double gained = 0.0;
+  for (const double one : step.gained) gained += one;
+  now_ += gained;
+  for (Top& top : tops_) {
+    if (!top.is_touched) continue;
+    top.carried_m = -gained * top.motion_m;
+    for (std::size_t i = 0; i < step.kept.size(); ++i) {
+      top.carried_m += step.kept[i] * top.branch_m[i];
+    }
+  }
+}
+
+void RelaxingTops::press(Top& top, double depth_m) const {
+  if (!top.is_touched && !(depth_m + top.largest_reach_m > 0.0)) {
+    top.force_N.resize(0, 0);
+    return;
+  }
+  Eigen::MatrixXd overlap_m = now_ * (top.reach_m.array() + depth_m).matrix();
+  if (top.is_touched) overlap_m += top.carried_m;
+  top.force_N = top.contact->pushing_forces(overlap_m, top.force_N);
+}
+
+PressedArray RelaxingTops::pressed_at(double depth_m) {
+  PressedArray array;
+  array.depth_m = depth_m;
+  for (Top& top : tops_) {
+    press(top, depth_m);
+    const TopPressure pressure =
+        top.force_N.size() > 0 ? top.contact->pressure_of(top.force_N) : TopPressure{};
+    array.force_N += pressure.force_N;
+    array.contacts += pressure.share > 0.0 ? 1 : 0;
+    array.has_partial = array.has_partial || pressure.is_partial;
+    array.tops.push_back(pressure);
+  }
+  last_m_ = depth_m;
+  return array;
+}
+
+void RelaxingTops::accept(const RelaxationStep& step) {
+  is_first_ = false;
+  for (Top& top : tops_) {
+    if (top.force_N.size() == 0) continue;
+    Eigen::MatrixXd motion_m = top.contact->motion(top.force_N);
+    if (!top.is_touched) {
+      top.motion_m = Eigen::MatrixXd::Zero(motion_m.rows(), motion_m.cols());
+      top.carried_m = top.motion_m;
+      for (Eigen::MatrixXd& branch : top.branch_m) branch = top.motion_m;
+      top.is_touched = true;
+    }
+    motion_m = ((motion_m - top.carried_m) / now_).eval();
+    for (std::size_t i = 0; i < step.kept.size(); ++i) {
+      top.branch_m[i] = step.kept[i] * top.branch_m[i] + step.gained[i] * (motion_m - top.motion_m);
+    }
+    top.motion_m = std::move(motion_m);
+  }
+}
+
+// Where the shape leaves a top alone, it moves to -carried/now.
+double RelaxingTops::resting_m() const {
+  double rest_m = std::numeric_limits<double>::infinity();
+  for (const Top& top : tops_) {
+    const double reach_m =
+        top.is_touched ? (top.reach_m + top.carried_m / now_).maxCoeff() : top.largest_reach_m;
+    rest_m = std::min(rest_m, -reach_m);
+  }
+  return rest_m;
+}
+
+}  // namespace viscard

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace viscard {
+
+// What conducts heat. Axis 3 of the film is z; it conducts alike in all directions.
+struct HeatConductor {
+  double conductivity_W_mK = 0.0;
+  double capacity_J_m3K = 0.0;  // density times specific heat
+};
+
+// One pillar on a pyroelectric film on a base that stays cold; its sides and the film beside it lose no heat.
+// The face of the film under the pillar is grounded, the other one carries no charge (eq. H1 to H3).
+struct HeatPath {
+  double radius_m = 0.0, length_m = 0.0;  // of the pillar
+  HeatConductor pillar;
+  double thickness_m = 0.0;  // of the film
+  HeatConductor film;
+  double pyroelectric_C_m2K = 0.0;  // dD_z/dT
+  double permittivity_F_m = 0.0;    // along z and across, at constant stress
+};
+
+// A dummy electrode beside, read against the sensor's: V = V_sensor - ratio V_dummy (eq. H4).
+struct DummyElectrode {
+  double ratio = 1.0;  // by which its voltage is multiplied
+  double mismatch =
+      0.0;  // relative difference of p t/eps of the two, which the ratio does not mend
+};
+
+// What a scene says of heat: tops that are warmer than the base, at rest or from time 0 on.
+struct HeatScene {
+  double temperature_K = 0.0;  // of the tops above the base
+  HeatConductor pillar, film;
+  double pyroelectric_C_m2K = 0.0;
+  std::optional<DummyElectrode> dummy;
+  double end_time_s = 0.0;  // of a curve after the top has become warm; 0: none
+};
+
+// How an electrode weighs the potential under it: 1 at wave number 0.
+using ElectrodeWeight = std::function<double(double k_1_m)>;
+
+// The steady state per kelvin at the top.
+struct SteadyHeat {
+  double foot_K_W = 0.0,
+         pillar_K_W = 0.0;  // thermal resistances: mean of the foot, and along the pillar
+  double foot_K = 0.0;      // mean temperature of the foot
+  double own_V = 0.0;       // reading under the pillar, per kelvin at its top
+  // Relative, of the numbers above: the change from a coarser quadrature, and from heat that enters the film
+  // as through a foot of one temperature. That of a pillar lies between this and the even flux.
+  double quadrature_error = 0.0, flux_error = 0.0;
+};
+SteadyHeat steady_heat(const HeatPath& path, const ElectrodeWeight& weight);
+
+// Steady reading at a distance from the axis of a warm pillar, V/K.
+double heat_at_distance_V(const HeatPath& path, const ElectrodeWeight& weight, double distance_m);
+
+// Reading after the top's temperature has jumped by 1 K at time 0; times above 0. And its largest error.
+struct HeatCurve {
+  std::vector<double> value_V;
+  double error_V = 0.0;
+};
+HeatCurve heat_step(const HeatPath& path, const ElectrodeWeight& weight,
+                    const std::vector<double>& time_s);
+
+// Reading when pillar, film and base are all 1 K warmer: p t/eps.
+double uniform_heat_V(const HeatPath& path);
+
+// Times after which heat has gone through: t^2/(pi^2 a) with a face that is insulated four times that.
+double film_time_s(const HeatPath& path);
+double pillar_time_s(const HeatPath& path);
+
+// What a dummy leaves of 1 K of everything, and of the touch's own heat if it stands `distance_m` away.
+double drift_left_V(const HeatPath& path, const DummyElectrode& dummy);
+double touch_left_V(const HeatPath& path, const ElectrodeWeight& weight,
+                    const DummyElectrode& dummy, double distance_m);
+
+}  // namespace viscard

@@ -1,0 +1,221 @@
+// The loads of a touch on one grid of the tops, with given steps.
+#include "models/array/space/touch_loads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+constexpr double kOfForce = 1e-9;  // to which a force is met
+
+// At most the depth at which the shape reaches the first top.
+double first_reach_m(const SpaceScene& scene) {
+  const std::vector<SpaceClass> classes = classes_of(scene);
+  double first_m = HUGE_VAL;
+  for (const SpacePillar& one : scene.pillars) {
+    const SpaceClass& kind = classes[static_cast<std::size_t>(one.of_class)];
+    const double above_m = kind.length_m - scene.length_m;
+    first_m = std::min(
+        first_m,
+        least_height_m(scene.press->shape, one.x_m, one.y_m, 0.5 * kind.diameter_m) - above_m);
+  }
+  return first_m;
+}
+
+// The elastic state under a force, or at a depth.
+SpaceContact elastic_state(const SpaceScene& scene, const SpaceTops& tops, double value) {
+  if (!scene.touch->is_creep) return tops.at_depth(value);
+  const double reach_m = first_reach_m(scene);
+  if (value == 0.0) return tops.at_depth(reach_m);
+  SpaceContact state;
+  depth_of_force(
+      [&](double depth_m) {
+        state = tops.at_depth(depth_m);
+        return state.pressed.force_N;
+      },
+      {reach_m, std::max(foundation_press(scene).depth_m, reach_m + 1e-9), value, kOfForce});
+  return state;
+}
+
+TopLoads rows_of(const TopLoads& all, const std::vector<std::size_t>& rows) {
+  TopLoads some(static_cast<Eigen::Index>(rows.size()), kTopLoads);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    some.row(static_cast<Eigen::Index>(i)) = all.row(static_cast<Eigen::Index>(rows[i]));
+  }
+  return some;
+}
+
+// A top that the shape has turned may be left on one side while the shape is lowered.
+bool is_shrinking(const SpaceContact& before, const SpaceContact& after) {
+  for (std::size_t i = 0; i < before.pressed.tops.size(); ++i) {
+    const TopPressure& a = before.pressed.tops[i];
+    const TopPressure& b = after.pressed.tops[i];
+    if (b.share < a.share - a.share_error - b.share_error - 1e-9) return true;
+  }
+  return false;
+}
+
+// Elastic states from the first touch to the deepest one, between which loads are linear in the depth.
+class ElasticTable {
+ public:
+  // Nothing if the contact of any top shrinks on the way.
+  static std::optional<ElasticTable> of(const SpaceScene& scene, const SpaceTops& tops,
+                                        const std::vector<std::size_t>& touched, double largest,
+                                        int parts) {
+    ElasticTable table;
+    table.is_creep_ = scene.touch->is_creep;
+    table.deepest_ = elastic_state(scene, tops, largest);
+    const double end_m = table.deepest_.pressed.depth_m;
+    const double start_m = std::min(first_reach_m(scene), end_m);
+    SpaceContact before = tops.at_depth(start_m);
+    table.add(before, touched);
+    for (int i = 1; i <= parts && start_m < end_m; ++i) {
+      SpaceContact next =
+          i == parts ? table.deepest_ : tops.at_depth(start_m + (end_m - start_m) * i / parts);
+      if (is_shrinking(before, next)) return {};
+      table.add(next, touched);
+      before = std::move(next);
+    }
+    return table;
+  }
+
+  // At a depth or force that does not lie beyond the largest one.
+  struct State {
+    double depth_m = 0.0;
+    int contacts = 0;
+    TopLoads loads_Pa;
+  };
+  State at(double value) const {
+    const std::vector<double>& of = is_creep_ ? force_N_ : depth_m_;
+    if (value <= of.front()) {
+      return {is_creep_ ? depth_m_.front() : value, contacts_.front(), loads_Pa_.front()};
+    }
+    const auto next = std::lower_bound(of.begin(), of.end() - 1, value) - of.begin();
+    const auto i = static_cast<std::size_t>(next);
+    const double share = std::min((value - of[i - 1]) / (of[i] - of[i - 1]), 1.0);
+    return {depth_m_[i - 1] + share * (depth_m_[i] - depth_m_[i - 1]),
+            share < 1.0 ? contacts_[i - 1] : contacts_[i],
+            loads_Pa_[i - 1] + share * (loads_Pa_[i] - loads_Pa_[i - 1])};
+  }
+  const SpaceContact& deepest() const { return deepest_; }
+
+ private:
+  void add(const SpaceContact& state, const std::vector<std::size_t>& touched) {
+    depth_m_.push_back(state.pressed.depth_m);
+    force_N_.push_back(state.pressed.force_N);
+    contacts_.push_back(state.pressed.contacts);
+    loads_Pa_.push_back(rows_of(state.loads_Pa, touched));
+  }
+
+  bool is_creep_ = false;
+  SpaceContact deepest_;
+  std::vector<double> depth_m_, force_N_;  // ascending
+  std::vector<int> contacts_;
+  std::vector<TopLoads> loads_Pa_;
+};
+
+double sum_N(const SpaceScene& scene, const std::vector<std::size_t>& touched,
+             const TopLoads& loads) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    sum += area_of(scene, touched[i]) *
+           loads(static_cast<Eigen::Index>(i), static_cast<int>(TopLoad::kPressure));
+  }
+  return sum;
+}
+
+// The last elastic state under its loads as they are then.
+SpaceContact relaxed_state(const SpaceScene& scene, const SpaceContact& elastic,
+                           const std::vector<std::size_t>& touched, const TopLoads& loads) {
+  SpaceContact state = elastic;
+  state.pressed.force_N = sum_N(scene, touched, loads);
+  state.loads_Pa.setZero();
+  for (std::size_t j = 0; j < touched.size(); ++j) {
+    const std::size_t i = touched[j];
+    TopPressure& top = state.pressed.tops[i];
+    const auto load = loads.row(static_cast<Eigen::Index>(j));
+    state.loads_Pa.row(static_cast<Eigen::Index>(i)) = load;
+    const double area_m2 = area_of(scene, i);
+    const double R_m = std::sqrt(area_m2 / std::numbers::pi);
+    const double whole_N = top.force_N;
+    top.force_N = area_m2 * load[static_cast<int>(TopLoad::kPressure)];
+    top.moment_x_Nm = -0.25 * area_m2 * R_m * load[static_cast<int>(TopLoad::kTiltX)];
+    top.moment_y_Nm = -0.25 * area_m2 * R_m * load[static_cast<int>(TopLoad::kTiltY)];
+    if (whole_N > 0.0) top.largest_Pa *= top.force_N / whole_N;
+  }
+  return state;
+}
+
+}  // namespace
+
+double area_of(const SpaceScene& scene, std::size_t pillar) {
+  const double d_m = class_of(scene, scene.pillars[pillar]).diameter_m;
+  return 0.25 * std::numbers::pi * d_m * d_m;
+}
+
+std::vector<std::size_t> touched_in(const SpaceScene& scene, const SpaceTops& tops,
+                                    const std::vector<TouchSample>& samples) {
+  const double largest =
+      scene.touch->is_creep ? bound_on_elastic(scene, samples) : largest_value(samples);
+  const SpaceContact deepest = elastic_state(scene, tops, largest);
+  std::vector<std::size_t> touched;
+  for (std::size_t i = 0; i < deepest.pressed.tops.size(); ++i) {
+    if (deepest.pressed.tops[i].share > 0.0) touched.push_back(i);
+  }
+  return touched;
+}
+
+std::optional<GridCourse> growing_course(const SpaceScene& scene, const SpaceTops& tops,
+                                         const std::vector<TouchSample>& samples,
+                                         const std::vector<std::size_t>& touched, int parts) {
+  if (!is_growing(samples)) return {};
+  const auto table = ElasticTable::of(scene, tops, touched, largest_value(samples), parts);
+  if (!table) return {};
+  GridCourse course;
+  std::vector<TopLoads> elastic;
+  for (const TouchSample& sample : samples) {
+    ElasticTable::State state = table->at(sample.elastic);
+    course.depth_m.push_back(state.depth_m);
+    course.contacts.push_back(state.contacts);
+    elastic.push_back(std::move(state.loads_Pa));
+  }
+  course.loads_Pa = relaxed(scene.pillar.terms, samples, elastic);
+  for (const TopLoads& loads : course.loads_Pa) {
+    course.force_N.push_back(sum_N(scene, touched, loads));
+  }
+  course.shown_at = samples.size() - 1;
+  course.shown = relaxed_state(scene, table->deepest(), touched, course.loads_Pa.back());
+  course.largest = table->deepest();
+  return course;
+}
+
+GridCourse stepped_course(const SpaceScene& scene, const SpaceTops& tops,
+                          const std::vector<TouchSample>& samples,
+                          const std::vector<std::size_t>& touched) {
+  RelaxingTops relaxing = tops.relaxing(touched);
+  const double guess_m = foundation_press(scene).depth_m;
+  GridCourse course;
+  PressedArray shown;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const RelaxationStep step = relaxation_step(
+        scene.pillar.terms, k == 0 ? 0.0 : samples[k].time_s - samples[k - 1].time_s);
+    PressedArray now = scene.touch->is_creep ? relaxing.with_force(step, samples[k].value, guess_m)
+                                             : relaxing.to_depth(step, samples[k].value);
+    course.depth_m.push_back(now.depth_m);
+    course.force_N.push_back(now.force_N);
+    course.contacts.push_back(now.contacts);
+    course.loads_Pa.push_back(loads_of_tops(scene, now.tops, touched));
+    if (now.force_N >= (1.0 - 1e-6) * shown.force_N) {
+      course.shown_at = k;
+      shown = std::move(now);
+    }
+  }
+  course.shown = course.largest = tops.contact_of(shown, touched);
+  return course;
+}
+
+}  // namespace viscard

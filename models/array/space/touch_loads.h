@@ -1,0 +1,41 @@
+#pragma once
+
+#include "models/array/space/space_contact.h"
+#include "models/array/space/space_scene.h"
+#include "models/array/space/touch_steps.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace viscard {
+
+// What a shape does to the tops in time, on one grid of them and with one set of steps.
+struct GridCourse {
+  std::vector<double> depth_m, force_N;  // by sample
+  std::vector<int> contacts;
+  std::vector<TopLoads> loads_Pa;  // of the touched pillars
+  // For maps: the end of a contact that grows, otherwise the largest force.
+  std::size_t shown_at = 0;
+  SpaceContact shown;
+  SpaceContact largest;  // for remarks; without relaxation where the contact grows
+};
+
+double area_of(const SpaceScene& scene, std::size_t pillar);  // of its top
+
+// All pillars that the shape may reach, ascending.
+std::vector<std::size_t> touched_in(const SpaceScene& scene, const SpaceTops& tops,
+                                    const std::vector<TouchSample>& samples);
+
+// By correspondence (eq. S10, S11), with elastic states at so many equal parts of the depth. Nothing if any
+// contact shrinks.
+std::optional<GridCourse> growing_course(const SpaceScene& scene, const SpaceTops& tops,
+                                         const std::vector<TouchSample>& samples,
+                                         const std::vector<std::size_t>& touched, int parts);
+
+// Step by step, for any history (eq. T5).
+GridCourse stepped_course(const SpaceScene& scene, const SpaceTops& tops,
+                          const std::vector<TouchSample>& samples,
+                          const std::vector<std::size_t>& touched);
+
+}  // namespace viscard

@@ -1,0 +1,211 @@
+// Voltages and readings of single pillars in time.
+#include "models/array/space/touch_readings.h"
+
+#include "models/array/space/disc_charge.h"
+#include "models/array/space/neighbours.h"
+#include "models/array/space/simulate_space.h"
+#include "models/array/space/space_maps.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+// Readings of single pillars under loads in time: rows are times.
+class Voltages {
+ public:
+  Voltages(const SpaceScene& scene, const SpaceResponse& response, const TouchCourse& course)
+      : scene_(&scene), response_(&response), course_(&course) {}
+
+  Eigen::MatrixXd of(std::size_t pillar, const std::vector<TopLoads>& loads_Pa,
+                     bool is_size = false) const {
+    const SpacePillar& one = scene_->pillars[pillar];
+    const auto readings = static_cast<Eigen::Index>(reading_names(scene_->electrode).size());
+    Eigen::MatrixXd voltages =
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(loads_Pa.size()), readings);
+    for (std::size_t j = 0; j < course_->touched.size(); ++j) {
+      const SpacePillar& other = scene_->pillars[course_->touched[j]];
+      const double x_m = one.x_m - other.x_m, y_m = one.y_m - other.y_m;
+      if (std::hypot(x_m, y_m) > response_->reach_m()) continue;
+      Eigen::MatrixXd kernel = response_->kernel(other.of_class, x_m, y_m);
+      if (is_size) kernel = kernel.cwiseAbs().eval();
+      for (std::size_t k = 0; k < loads_Pa.size(); ++k) {
+        voltages.row(static_cast<Eigen::Index>(k)) +=
+            (kernel * loads_Pa[k].row(static_cast<Eigen::Index>(j)).transpose()).transpose();
+      }
+    }
+    return voltages;
+  }
+
+ private:
+  const SpaceScene* scene_;
+  const SpaceResponse* response_;
+  const TouchCourse* course_;
+};
+
+// How much electrodes near one influence each other, p12/p11 by distance (eq. S12).
+class Influence {
+ public:
+  Influence(const SpaceScene& scene, const SpaceArray& array)
+      : scene_(&scene),
+        accuracy_(space_accuracies(array)[1].potential),
+        film_(array.film),
+        charge_(array.film, array.electrode_radius_m, 1, 4, accuracy_.film_degree),
+        reach_m_(1.6 * smallest_pitch_m(scene)),
+        near_(scene.pillars, reach_m_) {}
+
+  // Calls found(other, p12/p11) for the neighbours that matter.
+  template <typename Found>
+  void visit(std::size_t pillar, const Found& found) {
+    const SpacePillar& one = scene_->pillars[pillar];
+    near_.visit(one.x_m, one.y_m, [&](std::size_t other) {
+      if (other == pillar) return;
+      const SpacePillar& there = scene_->pillars[other];
+      found(other, at(std::hypot(there.x_m - one.x_m, there.y_m - one.y_m)));
+    });
+  }
+
+ private:
+  double at(double distance_m) {
+    const long key = std::lround(distance_m / (1e-6 * reach_m_));
+    const auto found = known_.find(key);
+    if (found != known_.end()) return found->second;
+    return known_[key] = mutual_influence(film_, charge_, distance_m, accuracy_);
+  }
+
+  const SpaceScene* scene_;
+  PotentialAccuracy accuracy_;
+  LayeredFilm film_;
+  DiscCharge charge_;
+  double reach_m_;
+  Neighbours near_;
+  std::map<long, double> known_;
+};
+
+// What drives an electrode's circuit: its own open voltage, and the sum of its neighbours' times p12/p11.
+struct Driven {
+  std::vector<double> open_V, mixed_V;
+};
+
+// The electrodes are wired alike. In the reading of one stands what the charges of its neighbours bring,
+// to first order in p12/p11 (eq. S12).
+std::vector<double> reading_from(const Readout& readout, const ReadoutFilter& filter,
+                                 const std::vector<double>& time_s, const Driven& driven) {
+  std::vector<double> source_V = driven.open_V;
+  for (std::size_t k = 0; k < source_V.size(); ++k) source_V[k] -= driven.mixed_V[k];
+  if (readout.kind == ReadoutKind::kVoltage) {
+    const std::vector<double> read_V = reading_of(filter, time_s, driven.mixed_V);
+    double leaked_Vs = 0.0;
+    for (std::size_t k = 0; k < source_V.size(); ++k) {
+      if (k > 0) leaked_Vs += 0.5 * (read_V[k] + read_V[k - 1]) * (time_s[k] - time_s[k - 1]);
+      source_V[k] += read_V[k] + leaked_Vs / readout.film_leakage_s;
+    }
+  }
+  return reading_of(filter, time_s, source_V);
+}
+
+// The samples that half as many steps have too.
+std::vector<double> without_new(const TouchCourse& course, const std::vector<double>& values) {
+  std::vector<double> kept;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (!course.is_new[k]) kept.push_back(values[k]);
+  }
+  return kept;
+}
+
+// With the change from half as many steps, between which the voltage is taken as linear.
+void set_reading(const SpaceScene& scene, const TouchCourse& course, const ReadoutFilter& filter,
+                 const Driven& driven, PillarCurve& curve) {
+  const Readout& readout = *scene.touch->readout;
+  curve.value = reading_from(readout, filter, course.time_s, driven);
+  const std::vector<double> coarse_V =
+      reading_from(readout, filter, without_new(course, course.time_s),
+                   {without_new(course, driven.open_V), without_new(course, driven.mixed_V)});
+  const std::vector<double> fine_V = without_new(course, curve.value);
+  std::size_t next = 0;  // kept samples up to here
+  for (std::size_t k = 0; k < curve.value.size(); ++k) {
+    if (!course.is_new[k]) ++next;
+    double change_V = std::abs(fine_V[next - 1] - coarse_V[next - 1]);
+    if (course.is_new[k]) change_V = std::max(change_V, std::abs(fine_V[next] - coarse_V[next]));
+    curve.step_change.push_back(change_V);
+  }
+}
+
+}  // namespace
+
+std::string place_ending(const SpacePillar& one) {
+  return "_" + std::to_string(one.row) + "_" + std::to_string(one.column);
+}
+
+// Those that the scene names, or the one that bears most at the end.
+std::vector<std::size_t> followed_pillars(const SpaceScene& scene, const TouchCourse& course) {
+  std::vector<std::size_t> pillars;
+  for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
+    const std::string ending = place_ending(scene.pillars[i]);
+    if (std::any_of(scene.wanted.begin(), scene.wanted.end(), [&](const std::string& name) {
+          return name.ends_with(ending) &&
+                 std::isdigit(static_cast<unsigned char>(name[name.size() - ending.size() - 1])) ==
+                     0;
+        })) {
+      pillars.push_back(i);
+    }
+  }
+  if (!pillars.empty()) return pillars;
+  const std::vector<TopPressure>& tops = course.shown.pressed.tops;
+  const auto most = std::max_element(tops.begin(), tops.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.force_N) < std::abs(b.force_N) * (1.0 - 1e-9);  // of equal ones the first
+  });
+  return {static_cast<std::size_t>(most - tops.begin())};
+}
+
+std::vector<PillarCurve> curves_of(const SpaceScene& scene, const SpaceResponse& response,
+                                   const TouchCourse& course, const std::vector<TopLoads>& loads_Pa,
+                                   bool is_size) {
+  const Voltages voltages(scene, response, course);
+  const std::vector<std::string> names = reading_names(scene.electrode);
+  const bool is_read = scene.touch->readout && asks_for_map(scene, kTouchReading);
+  std::optional<Influence> influence;
+  if (is_read) influence.emplace(scene, array_of(scene));
+  std::vector<PillarCurve> curves;
+  for (const std::size_t pillar : followed_pillars(scene, course)) {
+    const Eigen::MatrixXd own_V = voltages.of(pillar, loads_Pa, is_size);
+    const auto column = [](const Eigen::MatrixXd& all, Eigen::Index c) {
+      return std::vector<double>(all.col(c).begin(), all.col(c).end());
+    };
+    for (std::size_t r = 0; r < names.size(); ++r) {
+      const std::string map = names[r] + "_voltage";
+      if (!asks_for_map(scene, map)) continue;
+      curves.push_back({map, pillar, column(own_V, static_cast<Eigen::Index>(r)), {}});
+    }
+    if (!is_read) continue;
+    Eigen::VectorXd mixed_V = Eigen::VectorXd::Zero(own_V.rows());
+    influence->visit(pillar, [&](std::size_t other, double share) {
+      if (scene.feels_neighbours) mixed_V += share * voltages.of(other, loads_Pa, is_size).col(0);
+    });
+    const ReadoutFilter filter = readout_filter(*scene.touch->readout, response.capacitance_F());
+    PillarCurve reading{kTouchReading, pillar, {}, {}};
+    if (is_size) {
+      // A high-pass passes at most twice the largest value.
+      const double largest_V = (own_V.col(0) + mixed_V).maxCoeff();
+      reading.value.assign(course.time_s.size(), 2.0 * filter.gain * largest_V);
+    } else {
+      set_reading(scene, course, filter, {column(own_V, 0), {mixed_V.begin(), mixed_V.end()}},
+                  reading);
+    }
+    curves.push_back(std::move(reading));
+  }
+  return curves;
+}
+
+double influence_of_neighbours(const SpaceScene& scene, std::size_t pillar) {
+  double sum = 0.0;
+  Influence(scene, array_of(scene)).visit(pillar, [&](std::size_t, double share) { sum += share; });
+  return sum;
+}
+
+}  // namespace viscard

@@ -1,0 +1,244 @@
+// Time steps of a touch, and what its history must be like.
+#include "models/array/space/touch_steps.h"
+
+#include "models/material/hereditary.h"
+#include "models/material/load_history.h"
+#include "models/maths/text_of_number.h"
+#include "models/pillar/mesh/scene_mistake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace viscard {
+namespace {
+
+PronySeries relative_series(const std::vector<MaterialTerm>& terms) {
+  PronySeries series{1.0, {}};
+  for (const MaterialTerm& term : terms) {
+    if (term.g == 0.0) continue;
+    series.equilibrium_modulus_Pa -= term.g;
+    series.terms.push_back({term.g, term.tau_s});
+  }
+  return series;
+}
+
+// Of a plate condenser as wide as the electrode, less than what the electrode has.
+ReadoutFilter plate_filter(const SpaceScene& scene) {
+  const double a_m = electrode_radius_m(scene);
+  const double plate_F =
+      scene.film.permittivity_F_m(2, 2) * std::numbers::pi * a_m * a_m / scene.film_thickness_m;
+  return readout_filter(*scene.touch->readout, plate_F);
+}
+
+double first_block_s(const SpaceScene& scene) {
+  double fastest_s = scene.touch->readout ? plate_filter(scene).time_constant_s : HUGE_VAL;
+  for (const MaterialTerm& term : scene.pillar.terms) fastest_s = std::min(fastest_s, term.tau_s);
+  return std::max(0.25 * fastest_s, 1e-9 * scene.touch->history.back().time_s);
+}
+
+void add_segment(const HistoryPoint& from, const HistoryPoint& to, double first_s, int steps,
+                 std::vector<TouchSample>& samples) {
+  const double length_s = to.time_s - from.time_s;
+  double start_s = 0.0;
+  for (double end_s = std::min(first_s, length_s); start_s < length_s;
+       end_s = 2.0 * end_s < length_s ? 2.0 * end_s : length_s) {
+    for (int i = 1; i <= steps; ++i) {
+      const double at_s = start_s + (end_s - start_s) * i / steps;
+      const double value = from.value + (to.value - from.value) * at_s / length_s;
+      const bool is_last = end_s == length_s && i == steps;
+      samples.push_back(
+          {is_last ? to.time_s : from.time_s + at_s, is_last ? to.value : value, 0.0, i % 2 == 1});
+    }
+    start_s = end_s;
+  }
+}
+
+// Elastic pillars are as deep under the force int j(t - s) dF(s), j the relative creep compliance.
+void set_elastic(const SpaceScene& scene, std::vector<TouchSample>& samples) {
+  LoadHistory history{true, {}, {}};
+  for (TouchSample& sample : samples) {
+    sample.elastic = sample.value;
+    history.time_s.push_back(sample.time_s);
+    history.value.push_back(sample.value);
+  }
+  if (!scene.touch->is_creep) return;
+  const std::vector<double> forces_N = response(relative_series(scene.pillar.terms), history);
+  for (std::size_t k = 0; k < samples.size(); ++k) samples[k].elastic = forces_N[k];
+}
+
+bool has_same_terms(const Material& a, const Material& b) {
+  return std::equal(a.terms.begin(), a.terms.end(), b.terms.begin(), b.terms.end(),
+                    [](const MaterialTerm& x, const MaterialTerm& y) {
+                      return x.g == y.g && x.tau_s == y.tau_s;
+                    });
+}
+
+void check_materials(const SpaceScene& scene) {
+  for (const SpaceClass& one : classes_of(scene)) {
+    if (!has_constant_poisson_ratio(one.material)) {
+      throw SceneMistake("materials.pillar",
+                         "pillars under a shape relax with one modulus: give each term k = g, a "
+                         "Poisson ratio that stays");
+    }
+    if (!has_same_terms(one.material, scene.pillar)) {
+      throw SceneMistake("geometry.classes",
+                         "pillars under a shape relax alike: the materials of all classes need the "
+                         "same terms g and tau; their moduli may differ");
+    }
+  }
+}
+
+void check_history(const std::vector<HistoryPoint>& points) {
+  validate(points);
+  if (points.size() < 2 || points.front().time_s != 0.0 || !(points.back().time_s > 0.0)) {
+    throw SceneMistake("analysis.history",
+                       "needs at least two points, the first at 0 s, the last later, such as [[\"0 "
+                       "s\", \"0 um\"], [\"10 ms\", \"3 um\"], [\"1 s\", \"3 um\"]]");
+  }
+  double largest = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    largest = std::max(largest, points[i].value);
+    if (points[i].value >= 0.0) continue;
+    throw SceneMistake("analysis.history." + std::to_string(i + 1), "a shape does not pull");
+  }
+  if (largest > 0.0) return;
+  throw SceneMistake("analysis.history", "nothing happens: every value of the history is zero");
+}
+
+void check_readout(const SpaceScene& scene) {
+  at_key("readout", [&] { validate(*scene.touch->readout); });
+  if (scene.electrode == SpaceElectrode::kEquipotential) return;
+  throw SceneMistake("readout",
+                     "needs electrodes to be wired to; say electrode = { kind = \"equipotential\", "
+                     "... }");
+}
+
+}  // namespace
+
+std::vector<TouchSample> touch_samples(const SpaceScene& scene, int steps) {
+  const std::vector<HistoryPoint>& points = scene.touch->history;
+  const double first_s = first_block_s(scene);
+  std::vector<TouchSample> samples = {{points.front().time_s}};
+  if (points.front().value != 0.0) samples.push_back({points.front().time_s, points.front().value});
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].time_s == points[i - 1].time_s) {
+      samples.push_back({points[i].time_s, points[i].value});
+    } else {
+      add_segment(points[i - 1], points[i], first_s, steps, samples);
+    }
+  }
+  set_elastic(scene, samples);
+  return samples;
+}
+
+double largest_value(const std::vector<TouchSample>& samples) {
+  double largest = 0.0;
+  for (const TouchSample& one : samples) largest = std::max(largest, one.elastic);
+  return largest;
+}
+
+bool is_growing(const std::vector<TouchSample>& samples) {
+  for (std::size_t k = 1; k < samples.size(); ++k) {
+    if (samples[k].elastic < samples[k - 1].elastic * (1.0 - 1e-12)) return false;
+  }
+  return true;
+}
+
+double bound_on_elastic(const SpaceScene& scene, const std::vector<TouchSample>& samples) {
+  std::vector<TouchSample> rising = samples;
+  for (std::size_t k = 1; k < rising.size(); ++k) {
+    rising[k].value = std::max(rising[k].value, rising[k - 1].value);
+  }
+  set_elastic(scene, rising);
+  return rising.back().elastic;
+}
+
+RelaxationStep relaxation_step(const std::vector<MaterialTerm>& terms, double dt_s) {
+  const PronySeries series = relative_series(terms);
+  RelaxationStep step{series.equilibrium_modulus_Pa, {}, {}};
+  for (const MaxwellTerm& term : series.terms) {
+    const double x = dt_s / term.relaxation_time_s;
+    step.kept.push_back(std::exp(-x));
+    step.gained.push_back(term.modulus_Pa * phi1(x));
+  }
+  return step;
+}
+
+std::vector<TopLoads> relaxed(const std::vector<MaterialTerm>& terms,
+                              const std::vector<TouchSample>& samples,
+                              const std::vector<TopLoads>& elastic) {
+  std::vector<TopLoads> branches, loads;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const RelaxationStep step =
+        relaxation_step(terms, k == 0 ? 0.0 : samples[k].time_s - samples[k - 1].time_s);
+    branches.resize(step.kept.size(), TopLoads::Zero(elastic.front().rows(), kTopLoads));
+    TopLoads moved = elastic[k];
+    if (k > 0) moved -= elastic[k - 1];
+    TopLoads sum = step.equilibrium * elastic[k];
+    for (std::size_t i = 0; i < branches.size(); ++i) {
+      branches[i] = step.kept[i] * branches[i] + step.gained[i] * moved;
+      sum += branches[i];
+    }
+    loads.push_back(std::move(sum));
+  }
+  return loads;
+}
+
+double change_of_reading(const SpaceScene& scene, const std::vector<TouchSample>& samples,
+                         const std::vector<double>& force_N) {
+  if (!scene.touch->readout) return 0.0;
+  const ReadoutFilter filter = plate_filter(scene);
+  std::vector<double> time_s, kept_s, kept_N;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    time_s.push_back(samples[k].time_s);
+    if (samples[k].is_new) continue;
+    kept_s.push_back(samples[k].time_s);
+    kept_N.push_back(force_N[k]);
+  }
+  const std::vector<double> fine = reading_of(filter, time_s, force_N);
+  const std::vector<double> coarse = reading_of(filter, kept_s, kept_N);
+  double change = 0.0, largest = 0.0;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    largest = std::max(largest, std::abs(fine[k]));
+    if (!samples[k].is_new) change = std::max(change, std::abs(fine[k] - coarse[next++]));
+  }
+  return largest > 0.0 ? change / largest : 0.0;
+}
+
+void press_in_time(SpaceScene& scene, SpaceTouch touch) {
+  scene.touch = std::move(touch);
+  check_history(scene.touch->history);
+  if (scene.touch->readout) at_key("readout", [&] { validate(*scene.touch->readout); });
+  const double largest = largest_value(touch_samples(scene, 2));
+  scene.press->depth_m = scene.touch->is_creep ? 0.0 : largest;
+  scene.press->force_N = scene.touch->is_creep ? largest : 0.0;
+}
+
+void check_touch(const SpaceScene& scene) {
+  if (!scene.touch) return;
+  check_history(scene.touch->history);
+  check_materials(scene);
+  if (scene.touch->readout) check_readout(scene);
+}
+
+double relaxed_share(const SpaceScene& scene) {
+  const PronySeries series = relative_series(scene.pillar.terms);
+  const std::vector<HistoryPoint>& points = scene.touch->history;
+  double way = std::abs(points.front().value), largest = way;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    way += std::abs(points[i].value - points[i - 1].value);
+    largest = std::max(largest, points[i].value);
+  }
+  const double end_s = points.back().time_s;
+  if (!scene.touch->is_creep) {
+    return (1.0 - relaxation_modulus_Pa(series, end_s)) * way / largest;
+  }
+  const LoadHistory step{true, {0.0, end_s}, {1.0, 1.0}};
+  return (response(series, step).back() - 1.0) * way / largest;
+}
+
+}  // namespace viscard

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "models/array/contact/relaxing_tops.h"
+#include "models/array/space/space_scene.h"
+
+#include <vector>
+
+namespace viscard {
+
+// Sets the history of a scene's shape, and its deepest state as the depth or force of the shape, which
+// estimates refer to. In creep that is the force which presses elastic pillars as deep.
+void press_in_time(SpaceScene& scene, SpaceTouch touch);
+
+// Throws SceneMistake for a history that does not start at 0 s, for pillars that do not relax alike, and
+// for a readout without electrodes.
+void check_touch(const SpaceScene& scene);
+
+// Share of the moduli that is lost at the end of the history, or of the compliance that is gained, times what
+// the history goes up and down over its peak: at most what relaxation changes in a force or depth.
+double relaxed_share(const SpaceScene& scene);
+
+// The time steps of a shape's history, between which elastic loads are taken as linear.
+struct TouchSample {
+  double time_s = 0.0;
+  double value = 0.0;    // of the history, m or N
+  double elastic = 0.0;  // depth, or the force that presses elastic pillars as deep (eq. S11)
+  bool is_new = false;   // halves a step of the samples with half as many steps
+};
+
+// Blocks that double in length after each corner of the history, from a quarter of the fastest time of the
+// material and the readout on, with the same number of steps each. A jump has two samples.
+std::vector<TouchSample> touch_samples(const SpaceScene& scene, int steps);
+
+// Contact grows or stays from sample to sample, as far as the shape alone shows.
+bool is_growing(const std::vector<TouchSample>& samples);
+
+// The elastic value at the end of a history that never falls, above the given one.
+double bound_on_elastic(const SpaceScene& scene, const std::vector<TouchSample>& samples);
+
+RelaxationStep relaxation_step(const std::vector<MaterialTerm>& terms, double dt_s);
+
+double largest_value(const std::vector<TouchSample>& samples);  // elastic
+
+// Loads that are linear between the samples, relaxed (eq. 5, exact for any steps).
+std::vector<TopLoads> relaxed(const std::vector<MaterialTerm>& terms,
+                              const std::vector<TouchSample>& samples,
+                              const std::vector<TopLoads>& elastic);
+
+// What half as many steps would change in the reading of a voltage that goes as the force, relative to its
+// largest; 0 without a readout.
+double change_of_reading(const SpaceScene& scene, const std::vector<TouchSample>& samples,
+                         const std::vector<double>& force_N);
+
+}  // namespace viscard
