@@ -13,8 +13,9 @@ constexpr double kForceIsMet = 1e-9;  // relative
 
 }  // namespace
 
-RelaxingTops::RelaxingTops(std::vector<TouchedPillar> pillars, std::vector<TopContact> classes,
-                           RigidShape shape, std::size_t terms)
+RelaxingTops::RelaxingTops(const std::vector<TouchedPillar>& pillars,
+                           std::vector<TopContact> classes, const RigidShape& shape,
+                           std::size_t terms)
     : classes_(std::move(classes)) {
   for (const TouchedPillar& one : pillars) {
     Top top;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace viscard {
@@ -21,8 +22,8 @@ struct RelaxationStep {
 class RelaxingTops {
  public:
   // Branches of all steps: `terms` of them.
-  RelaxingTops(std::vector<TouchedPillar> pillars, std::vector<TopContact> classes,
-               RigidShape shape, std::size_t terms);
+  RelaxingTops(const std::vector<TouchedPillar>& pillars, std::vector<TopContact> classes,
+               const RigidShape& shape, std::size_t terms);
 
   // The end of the next step, by the depth of the shape or by its force. All steps are from rest on.
   PressedArray to_depth(const RelaxationStep& step, double depth_m);

@@ -3,7 +3,6 @@
 
 #include "models/array/space/disc_charge.h"
 #include "models/array/space/neighbours.h"
-#include "models/array/space/simulate_space.h"
 #include "models/array/space/space_maps.h"
 
 #include <algorithm>
