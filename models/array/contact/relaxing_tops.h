@@ -18,7 +18,7 @@ struct RelaxationStep {
 };
 
 // The tops of pillars that relax under a shape, step by step: contact may grow, shrink and come back.
-// A top forgets nothing: where the shape leaves it, it goes on moving towards its rest (eq. T5).
+// A top forgets nothing: where the shape leaves it, it goes on moving towards its rest (eq. T6).
 class RelaxingTops {
  public:
   // Branches of all steps: `terms` of them.

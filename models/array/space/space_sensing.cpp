@@ -1,5 +1,5 @@
 // Heat and noise of one pillar's electrode (models/array/sensing).
-#include "models/array/space/disc_charge.h"
+#include "models/array/film/disc_charge.h"
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_maps.h"
 #include "models/maths/dense.h"

@@ -8,10 +8,10 @@
 
 namespace viscard {
 
-// A shape on pillars that relax, in time (eq. S10, S11). What one relative modulus e(t) gives to all pillars:
+// A shape on pillars that relax, in time (eq. S14, S15). What one relative modulus e(t) gives to all pillars:
 // as long as no contact shrinks, the loads on the tops are those of elastic pillars at each depth, relaxed
 // like a strain. Ting, J. Appl. Mech. 33 (1966) 845; Lee & Radok, J. Appl. Mech. 27 (1960) 438. Where any
-// contact shrinks, the tops are followed step by step (models/array/contact, eq. T5).
+// contact shrinks, the tops are followed step by step (models/array/contact, eq. T6).
 
 // The loads on the tops in time. Rows of loads: the pillars that are touched at the deepest state.
 struct TouchCourse {

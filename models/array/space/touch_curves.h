@@ -13,7 +13,7 @@ namespace viscard {
 std::vector<std::string> touch_results(const SpaceScene& scene);
 
 // Adds the curves of the pillars that the scene names, or of the one that bears most: their voltages and
-// readings ("mean_voltage_3_4", "reading_3_4"; eq. S12) without errors.
+// readings ("mean_voltage_3_4", "reading_3_4"; eq. S16) without errors.
 void add_voltage_curves(const SpaceScene& scene, const SpaceResponse& response,
                         const TouchCourse& course, SceneAnswer& answer);
 

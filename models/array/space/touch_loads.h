@@ -27,13 +27,13 @@ double area_of(const SpaceScene& scene, std::size_t pillar);  // of its top
 std::vector<std::size_t> touched_in(const SpaceScene& scene, const SpaceTops& tops,
                                     const std::vector<TouchSample>& samples);
 
-// By correspondence (eq. S10, S11), with elastic states at so many equal parts of the depth. Nothing if any
+// By correspondence (eq. S14, S15), with elastic states at so many equal parts of the depth. Nothing if any
 // contact shrinks.
 std::optional<GridCourse> growing_course(const SpaceScene& scene, const SpaceTops& tops,
                                          const std::vector<TouchSample>& samples,
                                          const std::vector<std::size_t>& touched, int parts);
 
-// Step by step, for any history (eq. T5).
+// Step by step, for any history (eq. T6).
 GridCourse stepped_course(const SpaceScene& scene, const SpaceTops& tops,
                           const std::vector<TouchSample>& samples,
                           const std::vector<std::size_t>& touched);

@@ -1,7 +1,7 @@
 // Voltages and readings of single pillars in time.
 #include "models/array/space/touch_readings.h"
 
-#include "models/array/space/disc_charge.h"
+#include "models/array/film/disc_charge.h"
 #include "models/array/space/neighbours.h"
 #include "models/array/space/space_maps.h"
 
@@ -47,7 +47,7 @@ class Voltages {
   const TouchCourse* course_;
 };
 
-// How much electrodes near one influence each other, p12/p11 by distance (eq. S12).
+// How much electrodes near one influence each other, p12/p11 by distance (eq. S16).
 class Influence {
  public:
   Influence(const SpaceScene& scene, const SpaceArray& array)
@@ -92,7 +92,7 @@ struct Driven {
 };
 
 // The electrodes are wired alike. In the reading of one stands what the charges of its neighbours bring,
-// to first order in p12/p11 (eq. S12).
+// to first order in p12/p11 (eq. S16).
 std::vector<double> reading_from(const Readout& readout, const ReadoutFilter& filter,
                                  const std::vector<double>& time_s, const Driven& driven) {
   std::vector<double> source_V = driven.open_V;

@@ -30,7 +30,7 @@ std::vector<PillarCurve> curves_of(const SpaceScene& scene, const SpaceResponse&
                                    const TouchCourse& course, const std::vector<TopLoads>& loads_Pa,
                                    bool is_size);
 
-// Sum of p12/p11 over the neighbours of an electrode (eq. S12).
+// Sum of p12/p11 over the neighbours of an electrode (eq. S16).
 double influence_of_neighbours(const SpaceScene& scene, std::size_t pillar);
 
 }  // namespace viscard

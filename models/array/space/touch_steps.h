@@ -23,7 +23,7 @@ double relaxed_share(const SpaceScene& scene);
 struct TouchSample {
   double time_s = 0.0;
   double value = 0.0;    // of the history, m or N
-  double elastic = 0.0;  // depth, or the force that presses elastic pillars as deep (eq. S11)
+  double elastic = 0.0;  // depth, or the force that presses elastic pillars as deep (eq. S15)
   bool is_new = false;   // halves a step of the samples with half as many steps
 };
 

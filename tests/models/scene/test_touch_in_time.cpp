@@ -1,5 +1,5 @@
 // Shapes that press on arrays of pillars that relax, in time.
-#include "models/array/space/disc_charge.h"
+#include "models/array/film/disc_charge.h"
 #include "models/array/space/potential_spectrum.h"
 #include "models/array/space/simulate_space.h"
 #include "models/array/space/space_contact.h"
